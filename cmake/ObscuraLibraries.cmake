@@ -1,0 +1,43 @@
+# Finds every library and works round what distributions' packages get wrong (third_party/README.md).
+# SPDX-License-Identifier: Apache-2.0
+
+find_package(Threads REQUIRED)
+find_package(TBB REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(xsimd REQUIRED)
+# Debian 12's xsimd target links xtl, which it neither needs nor depends on.
+set_target_properties(xsimd PROPERTIES INTERFACE_LINK_LIBRARIES "")
+find_package(CLI11 REQUIRED)
+find_package(fmt REQUIRED)
+find_package(PkgConfig REQUIRED)
+
+# Embree 4 where it exists, 3.13 otherwise; src/accel/embree.h hides the difference.
+find_package(embree 4 CONFIG QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3.13 CONFIG REQUIRED)
+endif()
+message(STATUS "Embree ${embree_VERSION}")
+
+# Debian's OpenImageIO target names an OpenCV folder that does not exist.
+find_package(OpenEXR CONFIG REQUIRED)
+find_package(Imath CONFIG REQUIRED)
+find_package(OpenImageIO CONFIG REQUIRED)
+get_target_property(oiio_folders OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
+set(oiio_existing)
+foreach(folder IN LISTS oiio_folders)
+  if(folder MATCHES "^\\$<" OR EXISTS "${folder}")
+    list(APPEND oiio_existing "${folder}")
+  endif()
+endforeach()
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+  INTERFACE_INCLUDE_DIRECTORIES "${oiio_existing}")
+
+# Debian's OpenColorIO config file is in an unsearched place with a wrong prefix: take pkg-config.
+find_package(OpenColorIO CONFIG QUIET)
+if(NOT TARGET OpenColorIO::OpenColorIO)
+  pkg_check_modules(OCIO REQUIRED IMPORTED_TARGET OpenColorIO)
+  add_library(OpenColorIO::OpenColorIO ALIAS PkgConfig::OCIO)
+endif()
+
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpdemux)

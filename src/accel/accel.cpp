@@ -1,0 +1,164 @@
+// accel/accel.cpp - builds Embree scenes from a Scene: world-space primitives and instances.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/accel_impl.h"
+
+#include <new>
+
+namespace obscura {
+
+namespace {
+
+/// Keeps the first error text that Embree reports.
+void note_error(void* user, RTCError code, const char* text) {
+    auto* first = static_cast<EmbreeErrors*>(user);
+    const std::lock_guard lock(first->mutex);
+    if (first->code == RTC_ERROR_NONE) {
+        first->code = code;
+        first->text = text != nullptr ? text : "";
+    }
+}
+
+bool note_memory(void* user, ssize_t bytes, bool) {
+    static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
+    return true;
+}
+
+RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_VERTEX,
+                               0,
+                               RTC_FORMAT_FLOAT3,
+                               scene.positions.data(),
+                               0,
+                               3 * sizeof(float),
+                               (scene.positions.size() - 4) / 3);
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_INDEX,
+                               0,
+                               RTC_FORMAT_UINT3,
+                               scene.indices.data(),
+                               static_cast<size_t>(primitive.first_triangle) * 3 * sizeof(uint32_t),
+                               3 * sizeof(uint32_t),
+                               static_cast<size_t>(primitive.triangle_count));
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    if (needs_alpha_filter(scene, primitive)) {
+        AlphaGeometry& alpha = impl.alpha[static_cast<size_t>(primitive_index)];
+        alpha = {impl.scene, impl.textures, primitive_index};
+        rtcSetGeometryUserData(geometry, &alpha);
+        rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
+    }
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
+RTCScene new_scene(const Accel::Impl& impl) {
+    RTCScene scene = rtcNewScene(impl.device);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
+    return scene;
+}
+
+void attach_triangles(Accel::Impl& impl, RTCScene target, Mesh range) {
+    for (int32_t i = 0; i < range.primitive_count; ++i) {
+        RTCGeometry geometry = make_triangles(impl, range.first_primitive + i);
+        rtcAttachGeometryByID(target, geometry, static_cast<unsigned>(i));
+        rtcReleaseGeometry(geometry);
+    }
+}
+
+void attach_instance(Accel::Impl& impl, size_t index) {
+    const Instance& instance = impl.scene->instances[index];
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(geometry, impl.mesh_scenes[static_cast<size_t>(instance.mesh)]);
+    rtcSetGeometryTransform(
+        geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, &instance.world_from_object.m[0][0]);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    rtcCommitGeometry(geometry);
+    const auto id = static_cast<unsigned>(impl.scene->world_primitive_count) +
+                    static_cast<unsigned>(index);
+    rtcAttachGeometryByID(impl.top, geometry, id);
+    rtcReleaseGeometry(geometry);
+}
+
+tl::unexpected<Error> embree_failure(const EmbreeErrors& errors) {
+    const bool memory = errors.code == RTC_ERROR_OUT_OF_MEMORY;
+    return fail(memory ? ExitCode::out_of_memory : ExitCode::internal,
+                memory ? "E-MEM" : "E-EMBREE",
+                "BVH build",
+                "Embree reports: " + errors.text);
+}
+
+}  // namespace
+
+Accel::Impl::~Impl() {
+    for (RTCScene mesh : mesh_scenes) rtcReleaseScene(mesh);
+    if (top != nullptr) rtcReleaseScene(top);
+    if (device != nullptr) rtcReleaseDevice(device);
+}
+
+Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
+    auto impl = std::make_unique<Impl>();
+    impl->scene = &scene;
+    impl->textures = {scene.textures.texels.data(),
+                      reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
+    const std::string config = embree_isa.empty() ? "" : "isa=" + embree_isa;
+    impl->device = rtcNewDevice(config.c_str());
+    if (impl->device == nullptr) {
+        return fail(ExitCode::internal, "E-EMBREE", "rtcNewDevice", "no Embree device: " + config);
+    }
+    rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
+    rtcSetDeviceMemoryMonitorFunction(impl->device, note_memory, &impl->memory);
+
+    impl->alpha.resize(scene.primitives.size());
+    impl->fill_primitive_tables();
+    for (const Mesh& mesh : scene.meshes) {
+        RTCScene target = new_scene(*impl);
+        attach_triangles(*impl, target, mesh);
+        rtcCommitScene(target);
+        impl->mesh_scenes.push_back(target);
+    }
+    impl->top = new_scene(*impl);
+    attach_triangles(*impl, impl->top, {0, scene.world_primitive_count});
+    for (size_t i = 0; i < scene.instances.size(); ++i) attach_instance(*impl, i);
+    rtcCommitScene(impl->top);
+    if (impl->errors.code != RTC_ERROR_NONE) return embree_failure(impl->errors);
+    return Accel(std::move(impl));
+}
+
+void Accel::Impl::fill_primitive_tables() {
+    single_sided.resize(scene->primitives.size());
+    for (size_t i = 0; i < single_sided.size(); ++i) {
+        const auto material = static_cast<size_t>(scene->primitives[i].material);
+        single_sided[i] = (scene->materials[material].flags & material_double_sided) == 0;
+    }
+    for (const Instance& instance : scene->instances) {
+        const Mesh& mesh = scene->meshes[static_cast<size_t>(instance.mesh)];
+        instance_first_primitive.push_back(mesh.first_primitive);
+    }
+}
+
+Accel::Accel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Accel::Accel(Accel&&) noexcept = default;
+Accel& Accel::operator=(Accel&&) noexcept = default;
+Accel::~Accel() = default;
+
+size_t Accel::memory_bytes() const {
+    const int64_t bytes = impl_->memory.load();
+    return bytes > 0 ? static_cast<size_t>(bytes) : 0;
+}
+
+std::string Accel::embree_version() const {
+    const auto part = [&](RTCDeviceProperty property) {
+        return std::to_string(rtcGetDeviceProperty(impl_->device, property));
+    };
+    return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." +
+           part(RTC_DEVICE_PROPERTY_VERSION_MINOR) + "." +
+           part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+}
+
+}  // namespace obscura

@@ -1,0 +1,62 @@
+// accel/accel.h - a scene's bounding volume hierarchy and the ray queries that the stages ask.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "accel/columns.h"
+#include "base/error.h"
+#include "scene/scene.h"
+#include "surface/texture.h"
+
+namespace obscura {
+
+enum class Coherence { coherent, incoherent };
+
+/// How rays treat surfaces that a picture can see through.
+struct SeeThrough {
+    bool culls_back_faces = false;  ///< camera rays pass single-sided back faces
+    bool fixed_alpha = false;       ///< alpha BLEND is a cut at one half, not a random choice
+    /// Another number for every segment of a path, so that its alpha decisions are independent.
+    uint32_t segment = 0;
+};
+
+class Accel {
+public:
+    /// Builds on all threads.
+    ///
+    /// In      scene: outlives this object; its vertex and index arrays are shared, not copied
+    ///         embree_isa: "" or an Embree isa name such as "avx2"
+    /// Errors  33 E-MEM; 70 E-EMBREE
+    static Result<Accel> build(const Scene& scene, const std::string& embree_isa);
+
+    Accel(Accel&&) noexcept;
+    Accel& operator=(Accel&&) noexcept;
+    ~Accel();
+
+    /// Nearest hit of every ray. Rays that are not finite are refused: a miss, and counted.
+    /// Returns how many were refused. Thread-safe.
+    int intersect(const RayColumns& rays,
+                  const HitColumns& hits,
+                  Coherence coherence,
+                  SeeThrough see_through) const;
+
+    /// occluded[i] = 1 when anything lies in (0, tfar), else 0; refused rays count as occluded.
+    int occluded(const RayColumns& rays,
+                 uint8_t* occluded,
+                 Coherence coherence,
+                 uint32_t segment) const;
+
+    size_t memory_bytes() const;        ///< as Embree's allocation monitor counts it
+    std::string embree_version() const;
+
+    struct Impl;
+
+private:
+    explicit Accel(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace obscura

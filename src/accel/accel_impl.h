@@ -1,0 +1,42 @@
+// accel/accel_impl.h - the Embree handles and tables behind Accel.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "accel/accel.h"
+#include "accel/alpha_filter.h"
+#include "accel/embree.h"
+
+namespace obscura {
+
+struct EmbreeErrors {
+    std::mutex mutex;
+    RTCError code = RTC_ERROR_NONE;
+    std::string text;
+};
+
+struct Accel::Impl {
+    Impl() = default;
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
+    ~Impl();
+
+    void fill_primitive_tables();
+
+    const Scene* scene = nullptr;
+    TextureView textures;
+    EmbreeErrors errors;
+    std::atomic<int64_t> memory = 0;
+    RTCDevice device = nullptr;
+    RTCScene top = nullptr;  ///< geometry ids: world primitives, then instances
+    std::vector<RTCScene> mesh_scenes;
+    std::vector<AlphaGeometry> alpha;               ///< by primitive; filled where there is a filter
+    std::vector<uint8_t> single_sided;              ///< by primitive
+    std::vector<int32_t> instance_first_primitive;  ///< by instance
+};
+
+}  // namespace obscura

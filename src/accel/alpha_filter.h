@@ -1,0 +1,26 @@
+// accel/alpha_filter.h - lets rays pass where a texture's alpha says that there is nothing.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "accel/embree.h"
+#include "scene/scene.h"
+#include "surface/texture.h"
+
+namespace obscura {
+
+/// What an Embree geometry knows of its primitive; the geometry's user pointer.
+struct AlphaGeometry {
+    const Scene* scene = nullptr;
+    TextureView textures;
+    int32_t primitive = 0;
+};
+
+/// False where every point of the primitive is opaque, so that no filter is needed at all.
+bool needs_alpha_filter(const Scene& scene, const Primitive& primitive);
+
+/// Embree filter for intersection and occlusion alike. A BLEND hit counts with probability alpha,
+/// decided by a hash of (ray key, instance, geometry, triangle): the same answer however often and
+/// in whatever order Embree asks.
+void alpha_filter(const RTCFilterFunctionNArguments* args);
+
+}  // namespace obscura

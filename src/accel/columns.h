@@ -1,0 +1,26 @@
+// accel/columns.h - rays and hits as columns of plain numbers.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace obscura {
+
+/// Rays as columns, padded to whole blocks of 16 rows.
+struct RayColumns {
+    const float *ox, *oy, *oz;  ///< origin, metres
+    const float *dx, *dy, *dz;  ///< unit direction
+    const float* tfar;          ///< null: unlimited
+    const uint32_t* key;        ///< random key for alpha decisions
+    int count;
+};
+
+/// Hits as columns. primitive -1 is a miss; the other columns then hold nothing of use.
+struct HitColumns {
+    float *t, *u, *v;
+    int32_t* instance;   ///< row in Scene::instances, -1 for world-space primitives
+    int32_t* primitive;  ///< row in Scene::primitives
+    int32_t* triangle;   ///< within the primitive
+};
+
+}  // namespace obscura

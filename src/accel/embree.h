@@ -1,0 +1,78 @@
+// accel/embree.h - one source for Embree 3.13 and 4: the calls whose shape differs.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#define OBSCURA_EMBREE 4
+#else
+#include <embree3/rtcore.h>
+#define OBSCURA_EMBREE 3
+#endif
+
+namespace obscura {
+
+/// What travels with a query to the filter functions. The Embree part must come first: filters get
+/// its address.
+struct QueryContext {
+#if OBSCURA_EMBREE == 4
+    RTCRayQueryContext embree;
+#else
+    RTCIntersectContext embree;
+#endif
+    const unsigned* keys = nullptr;  ///< random key of each ray, indexed by the ray's id
+    unsigned segment = 0;            ///< mixed into the key
+    bool fixed_threshold = false;    ///< alpha BLEND counts as MASK at one half
+};
+
+/// One set of query settings: the context and whether rays start and go alike.
+class Query {
+public:
+    Query(QueryContext& context, bool coherent) : context_(context) {
+#if OBSCURA_EMBREE == 4
+        rtcInitRayQueryContext(&context.embree);
+        const auto flags = coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+        rtcInitIntersectArguments(&intersect_);
+        intersect_.flags = flags;
+        intersect_.context = &context.embree;
+        rtcInitOccludedArguments(&occluded_);
+        occluded_.flags = flags;
+        occluded_.context = &context.embree;
+#else
+        rtcInitIntersectContext(&context.embree);
+        context.embree.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                        : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+#endif
+    }
+
+#if OBSCURA_EMBREE == 4
+    void intersect1(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, ray, &intersect_); }
+    void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays) {
+        rtcIntersect16(valid, scene, rays, &intersect_);
+    }
+    void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, ray, &occluded_); }
+    void occluded16(const int* valid, RTCScene scene, RTCRay16* rays) {
+        rtcOccluded16(valid, scene, rays, &occluded_);
+    }
+#else
+    void intersect1(RTCScene scene, RTCRayHit* ray) {
+        rtcIntersect1(scene, &context_.embree, ray);
+    }
+    void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays) {
+        rtcIntersect16(valid, scene, &context_.embree, rays);
+    }
+    void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, &context_.embree, ray); }
+    void occluded16(const int* valid, RTCScene scene, RTCRay16* rays) {
+        rtcOccluded16(valid, scene, &context_.embree, rays);
+    }
+#endif
+
+private:
+    QueryContext& context_;
+#if OBSCURA_EMBREE == 4
+    RTCIntersectArguments intersect_;
+    RTCOccludedArguments occluded_;
+#endif
+};
+
+}  // namespace obscura

@@ -1,0 +1,240 @@
+// accel/queries.cpp - columns of rays through Embree, in packets of 16 or one at a time.
+// SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "accel/accel_impl.h"
+
+namespace obscura {
+
+namespace {
+
+constexpr int packet = 16;
+/// Embree's assertions refuse components of 1e30; its boxes hold up to 1.8e18.
+constexpr float largest_component = 1.8e18f;
+constexpr float unlimited = 3.0e38f;
+
+struct alignas(64) ValidMask {
+    int lane[packet];
+};
+
+/// True when Embree may see the ray: finite, in range, and with a direction.
+bool is_safe(const RayColumns& rays, int i) {
+    const float origin =
+        std::fabs(rays.ox[i]) + std::fabs(rays.oy[i]) + std::fabs(rays.oz[i]);
+    const float direction =
+        std::fabs(rays.dx[i]) + std::fabs(rays.dy[i]) + std::fabs(rays.dz[i]);
+    const bool far_ok = rays.tfar == nullptr || rays.tfar[i] >= 0.0f;
+    return origin <= largest_component && direction <= largest_component && direction > 0.0f &&
+           far_ok;
+}
+
+/// Marks the rows [first, first + 16) that exist and are safe; counts the refused ones.
+int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {
+    int refused = 0;
+    for (int i = 0; i < packet; ++i) {
+        const int row = first + i;
+        const bool exists = row < rays.count;
+        const bool safe = exists && is_safe(rays, row);
+        valid.lane[i] = safe ? -1 : 0;
+        refused += exists && !safe ? 1 : 0;
+    }
+    return refused;
+}
+
+void load_packet(const RayColumns& rays, int first, RTCRay16& out) {
+    const size_t bytes = packet * sizeof(float);
+    std::memcpy(out.org_x, rays.ox + first, bytes);
+    std::memcpy(out.org_y, rays.oy + first, bytes);
+    std::memcpy(out.org_z, rays.oz + first, bytes);
+    std::memcpy(out.dir_x, rays.dx + first, bytes);
+    std::memcpy(out.dir_y, rays.dy + first, bytes);
+    std::memcpy(out.dir_z, rays.dz + first, bytes);
+    if (rays.tfar != nullptr) std::memcpy(out.tfar, rays.tfar + first, bytes);
+    for (int i = 0; i < packet; ++i) {
+        out.tnear[i] = 0.0f;
+        if (rays.tfar == nullptr) out.tfar[i] = unlimited;
+        out.time[i] = 0.0f;
+        out.mask[i] = 0xFFFFFFFFU;
+        out.id[i] = static_cast<unsigned>(first + i);
+        out.flags[i] = 0;
+    }
+}
+
+void load_ray(const RayColumns& rays, int row, RTCRay& out) {
+    out.org_x = rays.ox[row];
+    out.org_y = rays.oy[row];
+    out.org_z = rays.oz[row];
+    out.dir_x = rays.dx[row];
+    out.dir_y = rays.dy[row];
+    out.dir_z = rays.dz[row];
+    out.tnear = 0.0f;
+    out.tfar = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
+    out.time = 0.0f;
+    out.mask = 0xFFFFFFFFU;
+    out.id = static_cast<unsigned>(row);
+    out.flags = 0;
+}
+
+/// Writes one row from what Embree found.
+void store_hit(const Accel::Impl& impl, const RTCRayHit& ray, const HitColumns& hits, int row) {
+    const unsigned geometry = ray.hit.geomID;
+    if (geometry == RTC_INVALID_GEOMETRY_ID) {
+        hits.primitive[row] = -1;
+        return;
+    }
+    const unsigned instance_id = ray.hit.instID[0];
+    int32_t instance = -1;
+    int32_t primitive = static_cast<int32_t>(geometry);
+    if (instance_id != RTC_INVALID_GEOMETRY_ID) {
+        instance = static_cast<int32_t>(instance_id) - impl.scene->world_primitive_count;
+        primitive += impl.instance_first_primitive[static_cast<size_t>(instance)];
+    }
+    hits.t[row] = ray.ray.tfar;
+    hits.u[row] = ray.hit.u;
+    hits.v[row] = ray.hit.v;
+    hits.instance[row] = instance;
+    hits.primitive[row] = primitive;
+    hits.triangle[row] = static_cast<int32_t>(ray.hit.primID);
+}
+
+/// True when the hit is the back of a single-sided surface. Embree's Ng is in object space, and a
+/// mirroring instance turns both the winding and glTF's rule: only the object-space sign matters.
+bool is_hidden_back(const Accel::Impl& impl,
+                    const RayColumns& rays,
+                    const HitColumns& hits,
+                    int row,
+                    const Vec3f& ng) {
+    if (impl.single_sided[static_cast<size_t>(hits.primitive[row])] == 0) return false;
+    Vec3f direction{rays.dx[row], rays.dy[row], rays.dz[row]};
+    if (hits.instance[row] >= 0) {
+        const Instance& instance = impl.scene->instances[static_cast<size_t>(hits.instance[row])];
+        direction = transform_vector(instance.object_from_world, direction);
+    }
+    return dot(ng, direction) > 0.0f;
+}
+
+/// Follows a camera ray through single-sided back faces to the first surface that it may see.
+void look_behind(const Accel::Impl& impl,
+                 Query& query,
+                 const RayColumns& rays,
+                 const HitColumns& hits,
+                 int row) {
+    constexpr int most_layers = 1024;
+    for (int layer = 0; layer < most_layers; ++layer) {
+        RTCRayHit ray;
+        load_ray(rays, row, ray.ray);
+        ray.ray.tnear = std::nextafter(hits.t[row], unlimited);
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        query.intersect1(impl.top, &ray);
+        store_hit(impl, ray, hits, row);
+        if (hits.primitive[row] < 0) return;
+        if (!is_hidden_back(impl, rays, hits, row, {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z})) {
+            return;
+        }
+    }
+    hits.primitive[row] = -1;
+}
+
+void intersect_packets(const Accel::Impl& impl,
+                       Query& query,
+                       const RayColumns& rays,
+                       const HitColumns& hits,
+                       bool culls_back_faces,
+                       int& refused) {
+    for (int first = 0; first < rays.count; first += packet) {
+        ValidMask valid;
+        RTCRayHit16 block;
+        refused += mark_valid(rays, first, valid);
+        load_packet(rays, first, block.ray);
+        for (int i = 0; i < packet; ++i) {
+            block.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+            block.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        }
+        query.intersect16(valid.lane, impl.top, &block);
+        const int count = std::min(packet, rays.count - first);
+        for (int i = 0; i < count; ++i) {
+            RTCRayHit one;
+            one.ray.tfar = block.ray.tfar[i];
+            one.hit.u = block.hit.u[i];
+            one.hit.v = block.hit.v[i];
+            one.hit.primID = block.hit.primID[i];
+            one.hit.geomID = block.hit.geomID[i];
+            one.hit.instID[0] = block.hit.instID[0][i];
+            const int row = first + i;
+            store_hit(impl, one, hits, row);
+            if (!culls_back_faces || hits.primitive[row] < 0) continue;
+            const Vec3f ng{block.hit.Ng_x[i], block.hit.Ng_y[i], block.hit.Ng_z[i]};
+            if (is_hidden_back(impl, rays, hits, row, ng)) {
+                look_behind(impl, query, rays, hits, row);
+            }
+        }
+    }
+}
+
+void intersect_single(const Accel::Impl& impl,
+                      Query& query,
+                      const RayColumns& rays,
+                      const HitColumns& hits,
+                      int& refused) {
+    for (int row = 0; row < rays.count; ++row) {
+        if (!is_safe(rays, row)) {
+            ++refused;
+            hits.primitive[row] = -1;
+            continue;
+        }
+        RTCRayHit ray;
+        load_ray(rays, row, ray.ray);
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+        query.intersect1(impl.top, &ray);
+        store_hit(impl, ray, hits, row);
+    }
+}
+
+}  // namespace
+
+int Accel::intersect(const RayColumns& rays,
+                     const HitColumns& hits,
+                     Coherence coherence,
+                     SeeThrough see_through) const {
+    QueryContext context;
+    Query query(context, coherence == Coherence::coherent);
+    context.keys = rays.key;
+    context.fixed_threshold = see_through.fixed_alpha;
+    context.segment = see_through.segment;
+    int refused = 0;
+    if (coherence == Coherence::coherent) {
+        intersect_packets(*impl_, query, rays, hits, see_through.culls_back_faces, refused);
+    } else {
+        intersect_single(*impl_, query, rays, hits, refused);
+    }
+    return refused;
+}
+
+int Accel::occluded(const RayColumns& rays,
+                    uint8_t* occluded,
+                    Coherence coherence,
+                    uint32_t segment) const {
+    QueryContext context;
+    Query query(context, coherence == Coherence::coherent);
+    context.keys = rays.key;
+    context.segment = segment;
+    int refused = 0;
+    for (int first = 0; first < rays.count; first += packet) {
+        ValidMask valid;
+        RTCRay16 block;
+        refused += mark_valid(rays, first, valid);
+        load_packet(rays, first, block);
+        query.occluded16(valid.lane, impl_->top, &block);
+        const int count = std::min(packet, rays.count - first);
+        for (int i = 0; i < count; ++i) {
+            occluded[first + i] = valid.lane[i] == 0 || block.tfar[i] < 0.0f ? 1 : 0;
+        }
+    }
+    return refused;
+}
+
+}  // namespace obscura

@@ -1,0 +1,67 @@
+// app/info_command.cpp - the subcommand `obscura info`.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/info_command.h"
+
+#include "app/info_report.h"
+#include "app/outcome.h"
+#include "app/scene_choice.h"
+#include "gltf/load.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace obscura {
+
+namespace {
+
+constexpr const char* examples = R"(
+Reads the whole file and checks it, but decodes no image; see `obscura render --help` for
+the exit codes.
+
+Examples:
+  obscura info helmet.glb
+  obscura info helmet.glb --json | jq .triangles_in_world
+      warnings and the closing RESULT line go to standard error, never into the JSON)";
+
+/// A closed pipe is the reader's wish; a full disk is an error.
+Result<void> print(const std::string& text) {
+    const bool written =
+        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (written || errno == EPIPE) return {};
+    return fail(ExitCode::io_error, "E-OUT-WRITE", "standard output", std::strerror(errno));
+}
+
+}  // namespace
+
+void add_info_options(CLI::App& command, InfoArguments& arguments) {
+    command.add_option("SCENE", arguments.scene_file, "glTF 2.0 file, .gltf or .glb")
+        ->type_name("")
+        ->required();
+    command.add_flag("--json", arguments.json, "Print JSON instead of a table");
+    const auto store = [&arguments](const std::string& given) { arguments.scene = given; };
+    command
+        .add_option_function<std::string>(
+            "--scene", store, "Scene of a file that holds several [the file's default]")
+        ->type_name("NAME|INDEX");
+    command.add_flag("--quiet", arguments.quiet, "Print no warnings");
+    command.footer(examples);
+}
+
+int run_info(const InfoArguments& arguments) {
+    Log log(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
+    Result<LoadOptions> options = choose_scene(arguments.scene);
+    if (!options) return report_failure(options.error(), log);
+    options->info_only = true;
+    const Result<Scene> scene = load_gltf(arguments.scene_file, *options, log);
+    if (!scene) return report_failure(scene.error(), log);
+    const Result<void> printed =
+        print(arguments.json ? info_json(*scene, log.warnings()) : info_table(*scene));
+    if (!printed) return report_failure(printed.error(), log);
+    return report_success(arguments.scene_file, log);
+}
+
+}  // namespace obscura

@@ -1,0 +1,27 @@
+// app/info_command.h - the subcommand `obscura info`.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace CLI {
+class App;
+}
+
+namespace obscura {
+
+struct InfoArguments {
+    std::string scene_file;
+    std::optional<std::string> scene;
+    bool json = false;
+    bool quiet = false;
+};
+
+/// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.
+void add_info_options(CLI::App& command, InfoArguments& arguments);
+
+/// Prints what is in the file, as a table or as JSON. Returns the exit code.
+int run_info(const InfoArguments& arguments);
+
+}  // namespace obscura

@@ -1,0 +1,189 @@
+// app/numbers.cpp - the strict reading of numbers, sizes and points from command-line text.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/numbers.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace obscura {
+
+namespace {
+
+constexpr int64_t max_side = 65536;
+constexpr int64_t max_pixels = int64_t{1} << 29;
+
+std::string option_name(std::string_view option) {
+    return "option " + std::string(option);
+}
+
+tl::unexpected<Error> not_a_number(std::string_view text,
+                                   std::string_view option,
+                                   const std::string& accepted) {
+    return fail(ExitCode::usage,
+                "E-USAGE-NUMBER",
+                option_name(option),
+                "'" + std::string(text) + "' is not accepted; expected " + accepted);
+}
+
+tl::unexpected<Error> out_of_range(std::string_view text,
+                                   std::string_view option,
+                                   const std::string& accepted) {
+    return fail(ExitCode::usage,
+                "E-USAGE-RANGE",
+                option_name(option),
+                "'" + std::string(text) + "' is out of range; expected " + accepted);
+}
+
+enum class Reading { good, garbage, overflow };
+
+/// Reads all of the text as one number; a single leading plus is allowed.
+template <typename T>
+Reading read_all(std::string_view text, T& number) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+') {
+        text.remove_prefix(1);
+    }
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (end != text.data() + text.size() || error == std::errc::invalid_argument) {
+        return Reading::garbage;
+    }
+    return error == std::errc() ? Reading::good : Reading::overflow;
+}
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+    std::vector<std::string_view> parts;
+    size_t begin = 0;
+    for (size_t i = 0; i <= text.size(); ++i) {
+        if (i == text.size() || text[i] == separator) {
+            parts.push_back(text.substr(begin, i - begin));
+            begin = i + 1;
+        }
+    }
+    return parts;
+}
+
+/// `count` comma-separated numbers in [low, high].
+Result<std::vector<double>> parse_list(std::string_view text,
+                                       std::string_view option,
+                                       const std::string& accepted,
+                                       std::array<double, 2> range) {
+    std::vector<double> numbers;
+    for (const std::string_view part : split(text, ',')) {
+        double number = 0;
+        const Reading reading = read_all(part, number);
+        if (reading == Reading::garbage) return not_a_number(text, option, accepted);
+        if (reading == Reading::overflow || !(number >= range[0] && number <= range[1])) {
+            return out_of_range(text, option, accepted);
+        }
+        numbers.push_back(number);
+    }
+    if (numbers.size() != 3) return not_a_number(text, option, accepted);
+    return numbers;
+}
+
+}  // namespace
+
+Result<int64_t> parse_integer(std::string_view text,
+                              std::string_view option,
+                              int64_t low,
+                              int64_t high) {
+    const std::string accepted =
+        "a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+    int64_t number = 0;
+    const Reading reading = read_all(text, number);
+    if (reading == Reading::garbage) return not_a_number(text, option, accepted);
+    if (reading == Reading::overflow || number < low || number > high) {
+        return out_of_range(text, option, accepted);
+    }
+    return number;
+}
+
+Result<uint64_t> parse_unsigned(std::string_view text, std::string_view option) {
+    const std::string accepted = "a whole number from 0 to 18446744073709551615";
+    uint64_t number = 0;
+    const Reading reading = read_all(text, number);
+    if (reading == Reading::garbage) return not_a_number(text, option, accepted);
+    if (reading == Reading::overflow) return out_of_range(text, option, accepted);
+    return number;
+}
+
+Result<double> parse_real(std::string_view text, std::string_view option, double low, double high) {
+    const std::string accepted = "a number from " + shortest(low) + " to " + shortest(high);
+    double number = 0;
+    const Reading reading = read_all(text, number);
+    if (reading == Reading::garbage || std::isnan(number)) {
+        return not_a_number(text, option, accepted);
+    }
+    if (reading == Reading::overflow || number < low || number > high) {
+        return out_of_range(text, option, accepted);
+    }
+    return number;
+}
+
+Result<std::array<int, 2>> parse_size(std::string_view text, std::string_view option) {
+    const std::string accepted =
+        "WIDTHxHEIGHT in pixels, such as 1280x720, each from 1 to 65536, at most 536870912 pixels "
+        "in all";
+    const std::vector<std::string_view> parts = split(text, 'x');
+    if (parts.size() != 2) return not_a_number(text, option, accepted);
+    std::array<int64_t, 2> sides = {};
+    for (size_t i = 0; i < 2; ++i) {
+        const Reading reading = read_all(parts[i], sides[i]);
+        if (reading == Reading::garbage) return not_a_number(text, option, accepted);
+        if (reading == Reading::overflow || sides[i] < 1 || sides[i] > max_side) {
+            return out_of_range(text, option, accepted);
+        }
+    }
+    if (sides[0] * sides[1] > max_pixels) return out_of_range(text, option, accepted);
+    return std::array<int, 2>{static_cast<int>(sides[0]), static_cast<int>(sides[1])};
+}
+
+Result<Vec3d> parse_point(std::string_view text, std::string_view option) {
+    const Result<std::vector<double>> list =
+        parse_list(text, option, "x,y,z in metres without blanks, such as 0,1.5,-3", {-1e18, 1e18});
+    if (!list) return fail(list.error());
+    return Vec3d{(*list)[0], (*list)[1], (*list)[2]};
+}
+
+Result<std::array<float, 3>> parse_color(std::string_view text, std::string_view option) {
+    const Result<std::vector<double>> list =
+        parse_list(text,
+                   option,
+                   "env, transparent, or linear R,G,B without blanks, each from 0 to 1e9",
+                   {0, 1e9});
+    if (!list) return fail(list.error());
+    return std::array<float, 3>{static_cast<float>((*list)[0]),
+                                static_cast<float>((*list)[1]),
+                                static_cast<float>((*list)[2])};
+}
+
+Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_view option) {
+    const std::string accepted =
+        "X,Y,WIDTH,HEIGHT in pixels from the top left corner, such as 0,0,64,64";
+    const std::vector<std::string_view> parts = split(text, ',');
+    if (parts.size() != 4) return not_a_number(text, option, accepted);
+    std::array<int, 4> numbers = {};
+    for (size_t i = 0; i < 4; ++i) {
+        const Reading reading = read_all(parts[i], numbers[i]);
+        if (reading == Reading::garbage) return not_a_number(text, option, accepted);
+        const int low = i < 2 ? 0 : 1;
+        if (reading == Reading::overflow || numbers[i] < low || numbers[i] > max_side) {
+            return out_of_range(text, option, accepted);
+        }
+    }
+    return numbers;
+}
+
+bool is_index(std::string_view text) {
+    return !text.empty() &&
+           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::string shortest(double number) {
+    char buffer[32];
+    const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
+    return {buffer, end};
+}
+
+}  // namespace obscura

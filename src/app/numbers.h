@@ -1,0 +1,46 @@
+// app/numbers.h - the strict reading of numbers, sizes and points from command-line text.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "math/vec.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace obscura {
+
+/// Numbers are read alike in every locale: a point, no grouping, no blanks, nothing behind them.
+///
+/// In      option: the name for messages, such as "--spp"; low, high: inclusive
+/// Errors  64 E-USAGE-NUMBER not a number, 64 E-USAGE-RANGE outside [low, high]; both say what
+///         would be accepted
+Result<int64_t> parse_integer(std::string_view text,
+                              std::string_view option,
+                              int64_t low,
+                              int64_t high);
+Result<uint64_t> parse_unsigned(std::string_view text, std::string_view option);
+Result<double> parse_real(std::string_view text, std::string_view option, double low, double high);
+
+/// "1280x720": width and height in pixels, each in [1, 65536], at most 2^29 pixels in all.
+Result<std::array<int, 2>> parse_size(std::string_view text, std::string_view option);
+
+/// "x,y,z" with finite components of magnitude up to 1e18.
+Result<Vec3d> parse_point(std::string_view text, std::string_view option);
+
+/// "r,g,b", each in [0, 1e9].
+Result<std::array<float, 3>> parse_color(std::string_view text, std::string_view option);
+
+/// "X,Y,W,H" of integers; width and height at least 1, corner at least 0.
+Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_view option);
+
+/// True when the text consists of decimal digits only: an index rather than a name.
+bool is_index(std::string_view text);
+
+/// A number in its shortest form, for messages.
+std::string shortest(double number);
+
+}  // namespace obscura

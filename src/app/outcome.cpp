@@ -1,0 +1,67 @@
+// app/outcome.cpp - how a command ends.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/outcome.h"
+
+#include "app/signals.h"
+
+#include <csignal>
+#include <cstdio>
+
+namespace obscura {
+
+namespace {
+
+std::string one_word(const std::string& text) {
+    std::string out;
+    for (const char c : escape_control(text)) {
+        if (c == ' ') {
+            out += "\\x20";
+        } else {
+            out += c;
+        }
+    }
+    return out.empty() ? "-" : out;
+}
+
+/// Whole lines in one call each, so that they do not mix with other threads' lines.
+void print_error_line(const std::string& line) {
+    std::fflush(stdout);
+    std::fputs((line + "\n").c_str(), stderr);
+}
+
+}  // namespace
+
+std::string result_line(int code,
+                        const std::string& id,
+                        const std::string& where,
+                        size_t warnings) {
+    return "RESULT code=" + std::to_string(code) + " id=" + one_word(id) +
+           " where=" + one_word(where) + " warnings=" + std::to_string(warnings);
+}
+
+int report_failure(const Error& error, const Log& log) {
+    const int code = static_cast<int>(error.code);
+    const std::string where = error.where.empty() ? "" : escape_control(error.where) + ": ";
+    print_error_line("ERROR " + where + escape_control(error.message));
+    print_error_line(result_line(code, error.id, error.where, log.warnings().size()));
+    return code;
+}
+
+int report_success(const std::string& where, const Log& log) {
+    if (log.verbosity() != Verbosity::quiet) {
+        print_error_line(result_line(0, "OK", where, log.warnings().size()));
+    }
+    return 0;
+}
+
+int report_stop(int signal, const std::string& where, const Log& log) {
+    const char* const name = signal == SIGINT ? "SIGINT" : "SIGTERM";
+    print_error_line("ERROR " + escape_control(where) + ": stopped by " + name +
+                     "; no further output was written and existing files are as they were");
+    print_error_line(result_line(128 + signal, "E-STOPPED", where, log.warnings().size()));
+    std::fflush(nullptr);
+    end_by_signal(signal);
+    return 128 + signal;
+}
+
+}  // namespace obscura

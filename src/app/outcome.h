@@ -1,0 +1,26 @@
+// app/outcome.h - how a command ends: the message for people, the line for scripts, the exit code.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "base/log.h"
+
+#include <string>
+
+namespace obscura {
+
+/// "RESULT code=65 id=E-ACC-TOOLONG where=scene.glb#/accessors/12 warnings=3". `where` is one word:
+/// blanks and control characters are written as \xNN, an empty one as "-".
+std::string result_line(int code, const std::string& id, const std::string& where, size_t warnings);
+
+/// Prints "ERROR where: message" and the result line to standard error; returns the exit code.
+int report_failure(const Error& error, const Log& log);
+
+/// Prints the result line with code 0 unless quiet; returns 0.
+int report_success(const std::string& where, const Log& log);
+
+/// Prints what ended the command and the result line with code 128 + signal, then lets the signal
+/// end the process.
+int report_stop(int signal, const std::string& where, const Log& log);
+
+}  // namespace obscura

@@ -1,0 +1,45 @@
+// app/outputs.h - the files that a rendering leaves: checked before, described, written after.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/render_request.h"
+#include "app/signals.h"
+#include "render/render.h"
+
+#include <optional>
+
+namespace obscura {
+
+/// Finds out what can be known before the costly work starts: every output and the statistics file
+/// can be created, and every extension is known.
+///
+/// Errors  64 E-OUT-FORMAT; 73 E-OUT-CREATE
+Result<void> check_outputs(const RenderRequest& request);
+
+/// The display transform, where a PNG or JPEG of colours needs one.
+///
+/// Errors  78 E-OCIO-*
+Result<std::optional<DisplayTransform>> make_display(const RenderRequest& request, Log& log);
+
+/// What the pictures say about themselves.
+PictureMetadata make_metadata(const RenderRequest& request,
+                              const PreparedScene& prepared,
+                              const ChosenCamera& chosen,
+                              double render_seconds,
+                              const Log& log);
+
+/// What write_outputs puts into every file.
+struct FinishedPicture {
+    Picture picture;
+    PictureMetadata metadata;
+};
+
+/// Writes every output, each whole or not at all; stops between two when a signal came.
+///
+/// Errors  73, 74 of write_picture; 75 E-STOPPED
+Result<void> write_outputs(const RenderRequest& request,
+                           const FinishedPicture& finished,
+                           const std::optional<DisplayTransform>& display,
+                           const std::atomic<bool>& stop);
+
+}  // namespace obscura

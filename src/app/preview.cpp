@@ -1,0 +1,137 @@
+// app/preview.cpp - readable 8-bit pictures of quantities that are not colours.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/preview.h"
+
+#include "surface/srgb.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+constexpr float farthest_grey = 0.15f;
+
+using Rgb = std::array<float, 3>;
+
+/// Where the values of one pixel stand: up to three channels besides alpha.
+struct Layout {
+    size_t stride = 0;
+    std::vector<size_t> values;
+};
+
+Layout layout_of(const Picture& picture) {
+    Layout layout;
+    layout.stride = picture.channels.size();
+    for (size_t i = 0; i < layout.stride && layout.values.size() < 3; ++i) {
+        if (picture.channels[i] != "A") layout.values.push_back(i);
+    }
+    return layout;
+}
+
+Rgb values_at(const Picture& picture, const Layout& layout, size_t pixel) {
+    Rgb values = {0, 0, 0};
+    for (size_t i = 0; i < layout.values.size(); ++i) {
+        const float value = picture.pixels[pixel * layout.stride + layout.values[i]];
+        values[i] = std::isfinite(value) ? value : 0.0f;
+    }
+    return values;
+}
+
+/// Depths that count: 0 is where nothing was hit.
+std::array<float, 2> depth_range(const Picture& picture, const Layout& layout, size_t pixels) {
+    float nearest = INFINITY;
+    float farthest = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        const float depth = values_at(picture, layout, i)[0];
+        if (depth <= 0) continue;
+        nearest = std::min(nearest, depth);
+        farthest = std::max(farthest, depth);
+    }
+    return {nearest, farthest};
+}
+
+Rgb depth_color(float depth, const std::array<float, 2>& range) {
+    if (depth <= 0) return {0, 0, 0};
+    const float span = range[1] - range[0];
+    const float share = span > 0 ? (depth - range[0]) / span : 0.0f;
+    const float grey = 1.0f - (1.0f - farthest_grey) * share;
+    return {grey, grey, grey};
+}
+
+Rgb normal_color(const Rgb& n) {
+    if (n[0] == 0 && n[1] == 0 && n[2] == 0) return {0, 0, 0};
+    return {0.5f * n[0] + 0.5f, 0.5f * n[1] + 0.5f, 0.5f * n[2] + 0.5f};
+}
+
+/// Finaliser of SplitMix64: every input bit moves every output bit.
+/// Source: Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014
+uint64_t mix_bits(uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31);
+}
+
+Rgb id_color(const Rgb& ids) {
+    uint64_t hash = 0;
+    bool any = false;
+    for (const float id : ids) {
+        any = any || id != 0;
+        hash = mix_bits(hash + 0x9e3779b97f4a7c15U + std::bit_cast<uint32_t>(id));
+    }
+    if (!any) return {0, 0, 0};
+    const auto bright = [&](int shift) {
+        return 0.2f + 0.8f * static_cast<float>((hash >> shift) & 0xFF) / 255.0f;
+    };
+    return {bright(0), bright(20), bright(40)};
+}
+
+}  // namespace
+
+bool needs_preview(Integrator integrator) {
+    return integrator != Integrator::path && integrator != Integrator::direct;
+}
+
+bool is_quantity(Integrator integrator) {
+    return needs_preview(integrator) && integrator != Integrator::ao;
+}
+
+Picture preview_picture(const Picture& picture, Integrator integrator) {
+    const Layout layout = layout_of(picture);
+    const size_t pixels = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height);
+    const std::array<float, 2> range = integrator == Integrator::depth
+                                           ? depth_range(picture, layout, pixels)
+                                           : std::array<float, 2>{0, 0};
+    Picture out;
+    out.width = picture.width;
+    out.height = picture.height;
+    out.channels = {"R", "G", "B"};
+    out.pixels.resize(3 * pixels);
+    for (size_t i = 0; i < pixels; ++i) {
+        const Rgb values = values_at(picture, layout, i);
+        Rgb color = {};
+        switch (integrator) {
+            case Integrator::normal:
+                color = normal_color(values);
+                break;
+            case Integrator::depth:
+                color = depth_color(values[0], range);
+                break;
+            case Integrator::id:
+                color = id_color(values);
+                break;
+            default:
+                for (size_t c = 0; c < 3; ++c) {
+                    const float value = values[layout.values.size() == 3 ? c : 0];
+                    color[c] = srgb_from_linear(std::clamp(value, 0.0f, 1.0f));
+                }
+        }
+        std::copy(color.begin(), color.end(), out.pixels.begin() + static_cast<long>(3 * i));
+    }
+    return out;
+}
+
+}  // namespace obscura

@@ -1,0 +1,25 @@
+// app/preview.h - readable 8-bit pictures of quantities that are not colours.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "image/write.h"
+#include "render/render.h"
+
+namespace obscura {
+
+/// True for pictures that a display transform would spoil: all but path and direct.
+bool needs_preview(Integrator integrator);
+
+/// True when the integrator takes one ray through each pixel's centre, whatever --spp says.
+bool is_quantity(Integrator integrator);
+
+/// Code values in [0, 1], three channels, for PNG and JPEG:
+///  normal  0.5 n + 0.5; where nothing is, black
+///  depth   nearest white to farthest dark grey; where nothing is, black
+///  id      a colour drawn from all numbers of the pixel; where nothing is, black
+///  albedo, ao  encoded by the sRGB curve, without tone mapping; ao as grey
+///
+/// In      picture: what the integrator delivered, with or without a channel "A"
+Picture preview_picture(const Picture& picture, Integrator integrator);
+
+}  // namespace obscura

@@ -1,0 +1,67 @@
+// app/progress.h - how far the work is: a bar for people, lines for render farms.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/log.h"
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+namespace obscura {
+
+/// Decides when a `Progress:` line is due: at once, then at most once a second when the percentage
+/// has risen, and at least every 30 seconds. Time is any clock in seconds that does not go back.
+class ProgressPacer {
+public:
+    /// The percentage to print now, if one is due. 100 is kept for finish().
+    std::optional<int> due(double now_s, double share);
+
+private:
+    std::optional<double> last_time_s_;
+    int last_percent_ = -1;
+};
+
+/// One line of at most `columns` characters: percentage, bar and the time left.
+std::string progress_bar(double share, double elapsed_s, int columns);
+
+/// Shows progress from a thread of its own for as long as it lives: a bar on standard error when
+/// that is a terminal, else `Progress: 42%` lines on standard output; nothing when quiet.
+class Progress {
+public:
+    explicit Progress(Verbosity verbosity);
+    /// Stops without a last line: the work did not end well.
+    ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
+
+    /// The measured work starts now: the bar appears, and its time left counts from here.
+    void begin();
+    /// share: finished part in [0, 1]; from any thread, never goes back.
+    void update(double share);
+    /// The work is done: shows 100 % and stops.
+    void finish();
+
+private:
+    enum class Style { none, bar, lines };
+    void run();
+    void show_now();
+    double seconds() const;
+    void stop();
+
+    Style style_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    std::atomic<double> begin_s_{-1.0};  ///< since start_; negative before begin()
+    std::atomic<double> share_{0.0};
+    ProgressPacer pacer_;  ///< used by one thread at a time
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    bool stopping_ = false;
+    std::thread thread_;
+};
+
+}  // namespace obscura

@@ -1,0 +1,178 @@
+// app/render_command.cpp - the subcommand `obscura render`: load, prepare, render, write.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_command.h"
+
+#include "app/outcome.h"
+#include "app/outputs.h"
+#include "app/progress.h"
+#include "app/signals.h"
+#include "app/statistics.h"
+#include "base/atomic_file.h"
+#include "base/parallel.h"
+#include "gltf/load.h"
+#include "image/decode.h"
+
+#include <chrono>
+#include <fmt/format.h>
+#include <span>
+
+namespace obscura {
+
+namespace {
+
+class Stopwatch {
+public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Result<LightingOptions> load_lighting(const RenderRequest& request, Log& log) {
+    LightingOptions lighting;
+    lighting.environment_intensity = request.environment_intensity;
+    lighting.environment_rotation_deg = request.environment_rotation_deg;
+    if (request.environment) {
+        Result<ImageRgb32f> environment = read_environment(*request.environment, log);
+        if (!environment) return fail(environment.error());
+        lighting.environment = std::move(*environment);
+    }
+    return lighting;
+}
+
+size_t geometry_bytes(const Scene& scene) {
+    return scene.positions.size() * sizeof(float) + scene.attributes.size() * sizeof(float) +
+           scene.indices.size() * sizeof(uint32_t) + scene.primitives.size() * sizeof(Primitive) +
+           scene.instances.size() * sizeof(Instance) + scene.materials.size() * sizeof(Material);
+}
+
+/// Loads and builds everything that rendering reads.
+Result<PreparedScene> prepare(const RenderRequest& request,
+                              Log& log,
+                              RenderStatistics& statistics) {
+    const Stopwatch loading;
+    Result<Scene> scene = load_gltf(request.scene, request.load, log);
+    if (!scene) return fail(scene.error());
+    Result<LightingOptions> lighting = load_lighting(request, log);
+    if (!lighting) return fail(lighting.error());
+    statistics.load_s = loading.seconds();
+    statistics.parse_s = scene->info.parse_seconds;
+    statistics.decode_s = scene->info.decode_seconds;
+    statistics.geometry_bytes = geometry_bytes(*scene);
+    statistics.texture_bytes = scene->textures.texels.size() * sizeof(uint32_t);
+
+    Result<PreparedScene> prepared =
+        PreparedScene::create(std::move(*scene), std::move(*lighting), request.isa, log);
+    if (!prepared) return prepared;
+    statistics.build_s = prepared->build_seconds();
+    statistics.bvh_bytes = prepared->bvh_bytes();
+    statistics.isa = prepared->isa_name();
+    statistics.embree = prepared->embree_version();
+    return prepared;
+}
+
+/// Renders, then writes the pictures; a signal stops it between two tiles or two files.
+Result<void> render_and_write(const RenderRequest& request,
+                              const PreparedScene& prepared,
+                              Log& log,
+                              Progress& progress,
+                              RenderStatistics& statistics) {
+    const RenderOptions& options = request.options;
+    const Result<ChosenCamera> chosen =
+        choose_camera(prepared.scene(), request.camera, options.width, options.height, log);
+    if (!chosen) return fail(chosen.error());
+    Result<std::optional<DisplayTransform>> display = make_display(request, log);
+    if (!display) return fail(display.error());
+
+    const StopOnSignal stop;
+    progress.begin();
+    const auto on_progress = [&](double share) { progress.update(share); };
+    Result<RenderResult> result =
+        render(prepared, chosen->camera, options, on_progress, stop.flag());
+    if (!result) return fail(result.error());
+    statistics.render_s = result->render_seconds;
+    statistics.counters = result->counters;
+    statistics.film_bytes = result->film.pixels.size() * sizeof(float);
+
+    const Stopwatch writing;
+    FinishedPicture finished;
+    finished.metadata = make_metadata(request, prepared, *chosen, result->render_seconds, log);
+    Film& film = result->film;
+    finished.picture = {film.width, film.height, std::move(film.channels), std::move(film.pixels)};
+    const Result<void> written = write_outputs(request, finished, *display, stop.flag());
+    statistics.write_s = writing.seconds();
+    if (!written) return written;
+    progress.finish();
+    return {};
+}
+
+void log_summary(const RenderRequest& request, const RenderStatistics& statistics, Log& log) {
+    std::string names;
+    for (const std::filesystem::path& output : request.outputs) {
+        names += (names.empty() ? "" : ", ") + output.string();
+    }
+    const double seconds = std::max(statistics.render_s, 1e-9);
+    const auto millions = [&](uint64_t count) {
+        return static_cast<double>(count) / seconds * 1e-6;
+    };
+    log.info(fmt::format("rendered in {:.2f} s: {:.2f} M paths/s, {:.2f} M rays/s; wrote {}",
+                         statistics.render_s,
+                         millions(statistics.counters.paths),
+                         millions(total_rays(statistics.counters)),
+                         names));
+}
+
+Result<void> write_statistics(const RenderRequest& request, const RenderStatistics& statistics) {
+    if (!request.statistics) return {};
+    const std::string text = statistics_json(request, statistics);
+    return write_file_atomically(*request.statistics, std::as_bytes(std::span(text)));
+}
+
+Result<void> check_counters(const RenderCounters& counters, const RenderRequest& request) {
+    if (!too_many_nonfinite(counters)) return {};
+    return fail(ExitCode::too_many_nonfinite,
+                "E-NONFINITE",
+                request.scene.string(),
+                fmt::format("{} of {} samples were not finite and count as zero; the pictures were "
+                            "written; expected at most one in a million",
+                            counters.nonfinite_samples,
+                            counters.paths));
+}
+
+Result<void> execute(const RenderRequest& request, Log& log) {
+    const Stopwatch total;
+    if (auto writable = check_outputs(request); !writable) return writable;
+    const ThreadLimit threads(request.threads);
+    RenderStatistics statistics;
+    statistics.threads = threads.threads();
+    Progress progress(request.verbosity);
+    const Result<PreparedScene> prepared = prepare(request, log, statistics);
+    if (!prepared) return fail(prepared.error());
+    const Result<void> done = render_and_write(request, *prepared, log, progress, statistics);
+    if (!done) return done;
+    statistics.total_s = total.seconds();
+    statistics.warnings = log.warnings();
+    if (auto written = write_statistics(request, statistics); !written) return written;
+    log_summary(request, statistics, log);
+    return check_counters(statistics.counters, request);
+}
+
+}  // namespace
+
+int run_render(const RenderArguments& arguments) {
+    Log log(arguments.quiet     ? Verbosity::quiet
+            : arguments.verbose ? Verbosity::verbose
+                                : Verbosity::normal);
+    const Result<RenderRequest> request = make_render_request(arguments);
+    if (!request) return report_failure(request.error(), log);
+    const Result<void> done = execute(*request, log);
+    if (done) return report_success(request->scene.string(), log);
+    if (done.error().id == "E-STOPPED" && received_stop_signal() != 0) {
+        return report_stop(received_stop_signal(), request->scene.string(), log);
+    }
+    return report_failure(done.error(), log);
+}
+
+}  // namespace obscura

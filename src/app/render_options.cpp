@@ -1,0 +1,179 @@
+// app/render_options.cpp - the options of `obscura render` and the help a person can work from.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_options.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+
+namespace obscura {
+
+namespace {
+
+/// Options of one heading in the help.
+class Group {
+public:
+    Group(CLI::App& command, const char* heading) : command_(command), heading_(heading) {}
+
+    /// An option with one argument; `type` stands for it in the help.
+    void text(const char* name,
+              std::optional<std::string>& target,
+              const char* type,
+              const char* help) {
+        const auto store = [&target](const std::string& given) { target = given; };
+        command_.add_option_function<std::string>(name, store, help)
+            ->type_name(type)
+            ->group(heading_);
+    }
+    void flag(const char* name, bool& target, const char* help) {
+        command_.add_flag(name, target, help)->group(heading_);
+    }
+
+private:
+    CLI::App& command_;
+    const char* heading_;
+};
+
+constexpr const char* examples = R"(
+Examples:
+  obscura render helmet.glb
+      writes helmet.exr, framed by the file's first camera or as a whole
+  obscura render helmet.glb --env sky.hdr --spp 256 -o helmet.exr -o helmet.png
+      one rendering, two files: scene-linear data and a picture to look at
+  obscura render room.gltf --camera Door --size 1920x1080 --exposure 1.5 -o room.jpg
+  obscura render part.glb --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
+
+Exit codes: 0 done, 33 out of memory, 64 usage, 65 bad scene data, 66 scene missing,
+67 referenced file missing or corrupt, 69 unsupported, 70 internal error, 73 output
+cannot be created, 74 I/O error, 76 too many non-finite samples, 77 refused by a limit
+or a policy, 78 colour configuration, 128+N stopped by signal N.
+Names that begin with a dash: obscura render -o ./-out.exr -- -scene.glb)";
+
+void add_picture_options(CLI::App& command, RenderArguments& arguments) {
+    command
+        .add_option("-o,--output",
+                    arguments.outputs,
+                    "File to write: .exr scene-linear, .png or .jpg for a display.\n"
+                    "May be given several times [SCENE's name with .exr, here]")
+        ->type_name("FILE")
+        ->allow_extra_args(false)
+        ->group("Picture");
+    Group group(command, "Picture");
+    group.text("--size", arguments.size, "WxH", "Width and height in pixels [1280x720]");
+    group.text("--crop",
+               arguments.crop,
+               "X,Y,W,H",
+               "Render only this part, in pixels from the top left;\n"
+               "the rest of the picture stays zero");
+    group.flag("--float", arguments.float32, "Store EXR colours as 32-bit floats [16-bit half]");
+    group.text("--background",
+               arguments.background,
+               "KIND",
+               "What rays that hit nothing see: env, transparent, or\n"
+               "a linear colour R,G,B [env]");
+    group.text(
+        "--filter", arguments.filter, "NAME", "Pixel filter: box, gaussian, blackman-harris [box]");
+}
+
+void add_sampling_options(CLI::App& command, RenderArguments& arguments) {
+    Group group(command, "Sampling");
+    group.text("--spp", arguments.spp, "N", "Samples per pixel, 1 to 1048576 [64]");
+    group.text("--depth", arguments.depth, "N", "Most bounces of a path, 0 to 1000 [8]");
+    group.text("--seed", arguments.seed, "N", "Random numbers; equal seeds, equal pictures [0]");
+    group.text("--integrator",
+               arguments.integrator,
+               "NAME",
+               "path: full light transport; direct: no indirect light;\n"
+               "ao: ambient occlusion; or a quantity, one ray through\n"
+               "each pixel's centre: normal, depth, albedo, id [path]");
+    group.text("--ao-distance",
+               arguments.ao_distance,
+               "METRES",
+               "How far ao looks [a fifth of the scene's diagonal]");
+}
+
+void add_camera_options(CLI::App& command, RenderArguments& arguments) {
+    Group group(command, "Camera");
+    group.text("--camera",
+               arguments.camera,
+               "NAME|INDEX",
+               "A camera of the file [the first; without any, the whole\n"
+               "scene is framed from the front, right and above]");
+    group.text("--eye",
+               arguments.eye,
+               "X,Y,Z",
+               "Place the camera by hand, in metres, +Y up. What is not\n"
+               "given of eye, target and up comes from the framing");
+    group.text("--target", arguments.target, "X,Y,Z", "Point that the camera looks at");
+    group.text("--up", arguments.up, "X,Y,Z", "Direction that is up in the picture [0,1,0]");
+    group.text(
+        "--fov", arguments.fov, "DEG", "Vertical angle of view, 0.01 to 179 [the camera's, or 35]");
+    group.text("--camera-model",
+               arguments.camera_model,
+               "NAME",
+               "pinhole or orthographic [the camera's, or pinhole];\n"
+               "orthographic shows what the angle shows at the target");
+}
+
+void add_light_options(CLI::App& command, RenderArguments& arguments) {
+    Group group(command, "Light");
+    group.text("--env",
+               arguments.env,
+               "FILE",
+               "Latitude-longitude environment, .hdr or .exr\n"
+               "[a neutral studio if the scene has no light, else none]");
+    group.text("--env-intensity", arguments.env_intensity, "X", "Multiplies the environment [1]");
+    group.text("--env-rotation",
+               arguments.env_rotation,
+               "DEG",
+               "Turns it about +Y, counter-clockwise from above [0]");
+}
+
+void add_display_options(CLI::App& command, RenderArguments& arguments) {
+    Group group(command, "Display (PNG and JPEG only)");
+    group.text("--exposure", arguments.exposure, "EV", "Brighter by this many stops [0]");
+    group.text("--view",
+               arguments.view,
+               "NAME",
+               "View of the OpenColorIO display. Built in: \"ACES 1.0 SDR\",\n"
+               "\"Un-tone-mapped\", \"Khronos PBR Neutral\", Raw [ACES 1.0 SDR]");
+    group.text("--display", arguments.display, "NAME", "OpenColorIO display [sRGB]");
+    group.text("--ocio", arguments.ocio, "FILE", "OpenColorIO config [$OCIO, else built in]");
+}
+
+void add_program_options(CLI::App& command, RenderArguments& arguments) {
+    Group group(command, "Program");
+    group.text("--scene",
+               arguments.scene,
+               "NAME|INDEX",
+               "Scene of a file that holds several [the file's default]");
+    group.text("--threads", arguments.threads, "N", "Threads, 0 to 1024; 0 is every core [0]");
+    group.text(
+        "--isa", arguments.isa, "NAME", "Instruction set: auto, baseline, avx2, avx512 [auto]");
+    group.text("--tile-size",
+               arguments.tile_size,
+               "N",
+               "Side of a tile in pixels, 1 to 256; does not change\n"
+               "the picture [16]");
+    group.text(
+        "--stats", arguments.stats, "FILE.json", "Write times, rays, memory and warnings as JSON");
+    group.flag("--quiet", arguments.quiet, "Print errors only");
+    group.flag("--verbose", arguments.verbose, "Print more notes");
+}
+
+}  // namespace
+
+void add_render_options(CLI::App& command, RenderArguments& arguments) {
+    command.add_option("SCENE", arguments.scene_file, "glTF 2.0 file, .gltf or .glb")
+        ->type_name("")
+        ->required();
+    add_picture_options(command, arguments);
+    add_sampling_options(command, arguments);
+    add_camera_options(command, arguments);
+    add_light_options(command, arguments);
+    add_display_options(command, arguments);
+    add_program_options(command, arguments);
+    command.footer(examples);
+}
+
+}  // namespace obscura

@@ -1,0 +1,16 @@
+// app/render_options.h - the options of `obscura render` and the help a person can work from.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/render_request.h"
+
+namespace CLI {
+class App;
+}
+
+namespace obscura {
+
+/// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.
+void add_render_options(CLI::App& command, RenderArguments& arguments);
+
+}  // namespace obscura

@@ -1,0 +1,312 @@
+// app/render_request.cpp - from the texts of the command line to a checked request.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_request.h"
+
+#include "app/numbers.h"
+#include "app/scene_choice.h"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+
+namespace obscura {
+
+namespace {
+
+using Text = std::optional<std::string>;
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+tl::unexpected<Error> usage(const char* id, const std::string& where, const std::string& message) {
+    return fail(ExitCode::usage, id, where, message);
+}
+
+/// Runs each step in turn and stops at the first that fails.
+class Steps {
+public:
+    template <typename T, typename Use>
+    void take(const Result<T>& result, Use use) {
+        if (error_) return;
+        if (result) {
+            use(*result);
+        } else {
+            error_ = result.error();
+        }
+    }
+    /// Reads an option only if it was given.
+    template <typename Parse, typename Use>
+    void option(const Text& text, Parse parse, Use use) {
+        if (!error_ && text) take(parse(*text), use);
+    }
+    void refuse(bool condition, const std::string& where, const std::string& message) {
+        if (!error_ && condition) {
+            error_ = Error{ExitCode::usage, "E-USAGE-CONFLICT", where, message};
+        }
+    }
+    Result<void> done() const {
+        if (error_) return fail(*error_);
+        return {};
+    }
+
+private:
+    std::optional<Error> error_;
+};
+
+template <typename T>
+struct Choice {
+    const char* name;
+    T value;
+};
+
+template <typename T, size_t N>
+Result<T> choose(const std::string& text,
+                 const std::string& option,
+                 const std::array<Choice<T>, N>& choices) {
+    std::string names;
+    for (const Choice<T>& choice : choices) {
+        if (text == choice.name) return choice.value;
+        names += (names.empty() ? "" : ", ") + std::string(choice.name);
+    }
+    return usage("E-USAGE-CHOICE",
+                 "option " + option,
+                 "'" + text + "' is not accepted; expected one of: " + names);
+}
+
+constexpr std::array<Choice<Integrator>, 7> integrators = {{{"path", Integrator::path},
+                                                            {"direct", Integrator::direct},
+                                                            {"ao", Integrator::ao},
+                                                            {"normal", Integrator::normal},
+                                                            {"depth", Integrator::depth},
+                                                            {"albedo", Integrator::albedo},
+                                                            {"id", Integrator::id}}};
+constexpr std::array<Choice<PixelFilter>, 3> filters = {
+    {{"box", PixelFilter::box},
+     {"gaussian", PixelFilter::gaussian},
+     {"blackman-harris", PixelFilter::blackman_harris}}};
+constexpr std::array<Choice<Isa>, 4> instruction_sets = {{{"auto", Isa::automatic},
+                                                          {"baseline", Isa::baseline},
+                                                          {"avx2", Isa::avx2},
+                                                          {"avx512", Isa::avx512}}};
+
+Result<CameraModel> parse_camera_model(const std::string& text) {
+    if (text == "thinlens" || text == "fisheye" || text == "environment") {
+        return usage("E-CAM-MODEL",
+                     "option --camera-model",
+                     "'" + text + "' is not there yet; expected one of: pinhole, orthographic");
+    }
+    constexpr std::array<Choice<CameraModel>, 2> models = {
+        {{"pinhole", CameraModel::pinhole}, {"orthographic", CameraModel::orthographic}}};
+    return choose(text, "--camera-model", models);
+}
+
+void parse_picture(const RenderArguments& arguments, RenderOptions& options, Steps& steps) {
+    const auto integer = [](const char* name, int64_t low, int64_t high) {
+        return [=](const std::string& text) { return parse_integer(text, name, low, high); };
+    };
+    const auto into = [](int& target) {
+        return [&target](int64_t number) { target = static_cast<int>(number); };
+    };
+    steps.option(
+        arguments.size,
+        [](const std::string& text) { return parse_size(text, "--size"); },
+        [&](const std::array<int, 2>& size) {
+            options.width = size[0];
+            options.height = size[1];
+        });
+    steps.option(
+        arguments.spp, integer("--spp", 1, int64_t{1} << 20), into(options.samples_per_pixel));
+    steps.option(arguments.depth, integer("--depth", 0, 1000), into(options.max_bounces));
+    steps.option(arguments.tile_size, integer("--tile-size", 1, 256), into(options.tile_size));
+    steps.option(
+        arguments.seed,
+        [](const std::string& text) { return parse_unsigned(text, "--seed"); },
+        [&](uint64_t seed) { options.seed = seed; });
+    steps.option(
+        arguments.crop,
+        [](const std::string& text) { return parse_rectangle(text, "--crop"); },
+        [&](const std::array<int, 4>& r) {
+            options.crop = PixelRect{r[0], r[1], r[2], r[3]};
+        });
+    const PixelRect crop = options.crop.value_or(PixelRect{});
+    steps.refuse(crop.x + crop.width > options.width || crop.y + crop.height > options.height,
+                 "option --crop",
+                 "the part reaches beyond the picture; expected one within " +
+                     std::to_string(options.width) + "x" + std::to_string(options.height));
+}
+
+Result<RenderOptions> parse_background(const std::string& text, RenderOptions options) {
+    if (text == "env") {
+        options.background = BackgroundKind::environment;
+    } else if (text == "transparent") {
+        options.background = BackgroundKind::transparent;
+    } else {
+        const Result<std::array<float, 3>> color = parse_color(text, "--background");
+        if (!color) return fail(color.error());
+        options.background = BackgroundKind::color;
+        std::copy(color->begin(), color->end(), options.background_color);
+    }
+    return options;
+}
+
+void parse_transport(const RenderArguments& arguments, RenderOptions& options, Steps& steps) {
+    steps.option(
+        arguments.integrator,
+        [](const std::string& text) { return choose(text, "--integrator", integrators); },
+        [&](Integrator integrator) { options.integrator = integrator; });
+    steps.option(
+        arguments.filter,
+        [](const std::string& text) { return choose(text, "--filter", filters); },
+        [&](PixelFilter filter) { options.filter = filter; });
+    steps.option(
+        arguments.background,
+        [&](const std::string& text) { return parse_background(text, options); },
+        [&](const RenderOptions& changed) { options = changed; });
+    steps.option(
+        arguments.ao_distance,
+        [](const std::string& text) { return parse_real(text, "--ao-distance", 1e-9, 1e12); },
+        [&](double distance) { options.ao_distance_m = distance; });
+    steps.refuse(arguments.ao_distance && options.integrator != Integrator::ao,
+                 "option --ao-distance",
+                 "it is for --integrator ao; leave it out or add that");
+}
+
+void parse_camera(const RenderArguments& arguments, CameraRequest& camera, Steps& steps) {
+    const auto point = [](const char* name) {
+        return [=](const std::string& text) { return parse_point(text, name); };
+    };
+    const auto into = [](std::optional<Vec3d>& target) {
+        return [&target](const Vec3d& value) { target = value; };
+    };
+    camera.choice = arguments.camera.value_or("");
+    steps.option(arguments.eye, point("--eye"), into(camera.eye_m));
+    steps.option(arguments.target, point("--target"), into(camera.target_m));
+    steps.option(arguments.up, point("--up"), into(camera.up));
+    steps.option(
+        arguments.fov,
+        [](const std::string& text) { return parse_real(text, "--fov", 0.01, 179); },
+        [&](double degrees) { camera.yfov_rad = degrees * degree; });
+    steps.option(arguments.camera_model, parse_camera_model, [&](CameraModel model) {
+        camera.model = model;
+    });
+    steps.refuse(arguments.camera && (arguments.eye || arguments.target || arguments.up),
+                 "option --camera",
+                 "it cannot go together with --eye, --target or --up; give one or the other");
+}
+
+void parse_light_and_display(const RenderArguments& arguments,
+                             RenderRequest& request,
+                             Steps& steps) {
+    if (arguments.env) request.environment = *arguments.env;
+    steps.option(
+        arguments.env_intensity,
+        [](const std::string& text) { return parse_real(text, "--env-intensity", 0, 1e9); },
+        [&](double intensity) { request.environment_intensity = intensity; });
+    steps.option(
+        arguments.env_rotation,
+        [](const std::string& text) { return parse_real(text, "--env-rotation", -36000, 36000); },
+        [&](double degrees) { request.environment_rotation_deg = degrees; });
+    steps.option(
+        arguments.exposure,
+        [](const std::string& text) { return parse_real(text, "--exposure", -50, 50); },
+        [&](double ev) { request.display.exposure_ev = ev; });
+    request.display.ocio_file = arguments.ocio.value_or("");
+    request.display.display = arguments.display.value_or("");
+    request.display.view = arguments.view.value_or("");
+}
+
+void parse_program(const RenderArguments& arguments, RenderRequest& request, Steps& steps) {
+    steps.option(
+        arguments.threads,
+        [](const std::string& text) { return parse_integer(text, "--threads", 0, 1024); },
+        [&](int64_t threads) { request.threads = static_cast<int>(threads); });
+    steps.option(
+        arguments.isa,
+        [](const std::string& text) { return choose(text, "--isa", instruction_sets); },
+        [&](Isa isa) { request.isa = isa; });
+    steps.refuse(arguments.quiet && arguments.verbose,
+                 "option --quiet",
+                 "it cannot go together with --verbose; give one or the other");
+    request.verbosity = arguments.quiet     ? Verbosity::quiet
+                        : arguments.verbose ? Verbosity::verbose
+                                            : Verbosity::normal;
+}
+
+/// Names of things and files; an empty one is most likely an unset variable of a script.
+void refuse_empty_names(const RenderArguments& arguments, Steps& steps) {
+    const std::array<std::pair<const char*, const Text*>, 6> names = {
+        {{"--camera", &arguments.camera},
+         {"--env", &arguments.env},
+         {"--view", &arguments.view},
+         {"--display", &arguments.display},
+         {"--ocio", &arguments.ocio},
+         {"--stats", &arguments.stats}}};
+    const std::string message = "the name is empty; give one or leave out the option";
+    for (const auto& [name, text] : names) {
+        steps.refuse(*text && (*text)->empty(), "option " + std::string(name), message);
+    }
+    for (const std::string& output : arguments.outputs) {
+        steps.refuse(output.empty(), "option --output", message);
+    }
+    steps.refuse(arguments.scene_file.empty(), "SCENE", "the name is empty; expected a glTF file");
+}
+
+/// No output may replace something that is read, nor another output.
+Result<void> check_distinct_files(const RenderRequest& request) {
+    std::vector<std::filesystem::path> written = request.outputs;
+    if (request.statistics) written.push_back(*request.statistics);
+    std::vector<std::filesystem::path> read = {request.scene};
+    if (request.environment) read.push_back(*request.environment);
+    if (!request.display.ocio_file.empty()) read.push_back(request.display.ocio_file);
+    for (size_t i = 0; i < written.size(); ++i) {
+        const auto clashes = [&](const auto& other) { return same_file(written[i], other); };
+        if (std::any_of(read.begin(), read.end(), clashes)) {
+            return usage("E-USAGE-SAMEFILE",
+                         written[i].string(),
+                         "this output would replace a file that is read; give another name");
+        }
+        if (std::any_of(written.begin(), written.begin() + static_cast<long>(i), clashes)) {
+            return usage("E-USAGE-SAMEFILE",
+                         written[i].string(),
+                         "two outputs are the same file; give different names");
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
+    std::error_code error;
+    if (std::filesystem::equivalent(a, b, error) && !error) return true;
+    const std::filesystem::path real_a = std::filesystem::weakly_canonical(a, error);
+    if (error) return false;
+    const std::filesystem::path real_b = std::filesystem::weakly_canonical(b, error);
+    return !error && real_a == real_b;
+}
+
+Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
+    RenderRequest request;
+    Steps steps;
+    request.scene = arguments.scene_file;
+    refuse_empty_names(arguments, steps);
+    request.outputs.assign(arguments.outputs.begin(), arguments.outputs.end());
+    if (request.outputs.empty()) {
+        request.outputs.push_back(request.scene.stem().concat(".exr"));
+    }
+    steps.take(choose_scene(arguments.scene),
+               [&](const LoadOptions& load) { request.load = load; });
+    request.exr_depth = arguments.float32 ? ExrDepth::float32 : ExrDepth::half;
+    if (arguments.stats) request.statistics = *arguments.stats;
+    parse_picture(arguments, request.options, steps);
+    parse_transport(arguments, request.options, steps);
+    parse_camera(arguments, request.camera, steps);
+    parse_light_and_display(arguments, request, steps);
+    parse_program(arguments, request, steps);
+    const Result<void> parsed = steps.done();
+    if (!parsed) return fail(parsed.error());
+    const Result<void> distinct = check_distinct_files(request);
+    if (!distinct) return fail(distinct.error());
+    return request;
+}
+
+}  // namespace obscura

@@ -1,0 +1,59 @@
+// app/render_request.h - everything that `obscura render` was asked for, checked and ready to use.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/camera_choice.h"
+#include "base/log.h"
+#include "gltf/load.h"
+#include "image/display.h"
+#include "image/write.h"
+#include "render/render.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+struct RenderRequest {
+    std::filesystem::path scene;
+    std::vector<std::filesystem::path> outputs;  ///< at least one
+    LoadOptions load;                            ///< --scene
+    CameraRequest camera;
+    RenderOptions options;
+    std::optional<std::filesystem::path> environment;
+    double environment_intensity = 1;
+    double environment_rotation_deg = 0;
+    int threads = 0;  ///< 0: every core
+    Isa isa = Isa::automatic;
+    DisplayOptions display;
+    ExrDepth exr_depth = ExrDepth::half;
+    std::optional<std::filesystem::path> statistics;
+    Verbosity verbosity = Verbosity::normal;
+};
+
+/// The texts of the options as they stood on the command line; an empty optional was not given.
+struct RenderArguments {
+    std::string scene_file;
+    std::vector<std::string> outputs;
+    std::optional<std::string> size, spp, depth, seed, threads, isa, tile_size, crop;
+    std::optional<std::string> scene, camera, camera_model, eye, target, up, fov;
+    std::optional<std::string> env, env_intensity, env_rotation, background;
+    std::optional<std::string> integrator, ao_distance, filter;
+    std::optional<std::string> view, display, ocio, exposure, stats;
+    bool float32 = false;
+    bool quiet = false;
+    bool verbose = false;
+};
+
+/// Reads the texts; touches no file but to find out whether two names mean the same one.
+///
+/// Errors  64, each with the option and what it accepts: E-USAGE-NUMBER, E-USAGE-RANGE,
+///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE, E-CAM-MODEL
+Result<RenderRequest> make_render_request(const RenderArguments& arguments);
+
+/// True when both names lead to one file, through links too, also when it does not exist yet.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+}  // namespace obscura

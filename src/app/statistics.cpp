@@ -1,0 +1,125 @@
+// app/statistics.cpp - the --stats file: what a rendering took and what it met.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/statistics.h"
+
+#include "app/preview.h"
+#include "base/json_writer.h"
+
+#include <sys/resource.h>
+
+namespace obscura {
+
+namespace {
+
+double per_second(uint64_t count, double seconds) {
+    return seconds > 0 ? static_cast<double>(count) / seconds : 0;
+}
+
+void write_phases(const RenderStatistics& statistics, JsonWriter& json) {
+    json.key("phases").begin_object();
+    json.member("load_s", statistics.load_s);
+    json.member("parse_s", statistics.parse_s);
+    json.member("decode_s", statistics.decode_s);
+    json.member("build_s", statistics.build_s);
+    json.member("render_s", statistics.render_s);
+    json.member("write_s", statistics.write_s);
+    json.member("total_s", statistics.total_s);
+    json.end_object();
+}
+
+void write_rays(const RenderStatistics& statistics, JsonWriter& json) {
+    const RenderCounters& counters = statistics.counters;
+    json.key("rays").begin_object();
+    json.member("camera", counters.camera_rays);
+    json.member("bounce", counters.bounce_rays);
+    json.member("shadow", counters.shadow_rays);
+    json.member("total", total_rays(counters));
+    json.end_object();
+    json.member("paths", counters.paths);
+    json.member("rays_per_second", per_second(total_rays(counters), statistics.render_s));
+    json.member("paths_per_second", per_second(counters.paths, statistics.render_s));
+}
+
+void write_memory(const RenderStatistics& statistics, JsonWriter& json) {
+    json.member("peak_memory_bytes", peak_memory_bytes());
+    json.key("memory").begin_object();
+    json.member("bvh", statistics.bvh_bytes);
+    json.member("geometry", statistics.geometry_bytes);
+    json.member("textures", statistics.texture_bytes);
+    json.member("film", statistics.film_bytes);
+    json.end_object();
+}
+
+}  // namespace
+
+uint64_t total_rays(const RenderCounters& counters) {
+    return counters.camera_rays + counters.bounce_rays + counters.shadow_rays;
+}
+
+std::string statistics_json(const RenderRequest& request, const RenderStatistics& statistics) {
+    const RenderOptions& options = request.options;
+    const bool quantity = is_quantity(options.integrator);
+    JsonWriter json;
+    json.begin_object();
+    json.member("version", OBSCURA_VERSION);
+    json.member("scene", request.scene.string());
+    json.key("outputs").begin_array();
+    for (const std::filesystem::path& output : request.outputs)
+        json.value(output.string());
+    json.end_array();
+    json.member("width", options.width);
+    json.member("height", options.height);
+    json.member("spp", quantity ? 1 : options.samples_per_pixel);
+    json.member("seed", options.seed);
+    json.member("depth", options.max_bounces);
+    json.member("integrator", integrator_name(options.integrator));
+    json.member("threads", statistics.threads);
+    json.member("isa", statistics.isa);
+    json.member("embree", statistics.embree);
+    write_phases(statistics, json);
+    write_rays(statistics, json);
+    write_memory(statistics, json);
+    json.key("counters").begin_object();
+    json.member("refused_rays", statistics.counters.refused_rays);
+    json.member("nonfinite_samples", statistics.counters.nonfinite_samples);
+    json.end_object();
+    json.key("warnings").begin_array();
+    for (const std::string& warning : statistics.warnings)
+        json.value(warning);
+    json.end_array();
+    json.end_object();
+    return std::move(json).take();
+}
+
+size_t peak_memory_bytes() {
+    rusage usage = {};
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return static_cast<size_t>(usage.ru_maxrss) * 1024;
+}
+
+bool too_many_nonfinite(const RenderCounters& counters) {
+    return static_cast<double>(counters.nonfinite_samples) >
+           1e-6 * static_cast<double>(counters.paths);
+}
+
+std::string integrator_name(Integrator integrator) {
+    switch (integrator) {
+        case Integrator::path:
+            return "path";
+        case Integrator::direct:
+            return "direct";
+        case Integrator::ao:
+            return "ao";
+        case Integrator::normal:
+            return "normal";
+        case Integrator::depth:
+            return "depth";
+        case Integrator::albedo:
+            return "albedo";
+        case Integrator::id:
+            return "id";
+    }
+    return "unknown";
+}
+
+}  // namespace obscura

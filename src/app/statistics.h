@@ -1,0 +1,50 @@
+// app/statistics.h - the --stats file: what a rendering took and what it met.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/render_request.h"
+#include "render/render.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// Everything that --stats writes beside the request.
+struct RenderStatistics {
+    std::string isa;
+    std::string embree;
+    int threads = 0;
+    double load_s = 0;  ///< the whole file, with parse_s and decode_s
+    double parse_s = 0;
+    double decode_s = 0;  ///< images
+    double build_s = 0;
+    double render_s = 0;
+    double write_s = 0;
+    double total_s = 0;
+    RenderCounters counters;
+    size_t bvh_bytes = 0;
+    size_t geometry_bytes = 0;
+    size_t texture_bytes = 0;
+    size_t film_bytes = 0;
+    std::vector<std::string> warnings;
+};
+
+/// Rays of every kind.
+uint64_t total_rays(const RenderCounters& counters);
+
+/// The JSON document; docs/cli.md explains the keys.
+std::string statistics_json(const RenderRequest& request, const RenderStatistics& statistics);
+
+/// Largest resident memory of this process so far.
+size_t peak_memory_bytes();
+
+/// True when more than one sample in a million was not finite: exit code 76.
+bool too_many_nonfinite(const RenderCounters& counters);
+
+/// "path", "ao" ... as on the command line.
+std::string integrator_name(Integrator integrator);
+
+}  // namespace obscura

@@ -1,0 +1,36 @@
+// base/atomic_file.h - output files that appear whole or not at all.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+
+namespace obscura {
+
+/// Replaces `target` by `bytes`: a temporary file "<name>.<pid>.<n>.part" beside it is written,
+/// synced and renamed, then the folder is synced. After a failure the temporary file is gone and
+/// an existing target is as it was. A symbolic link is followed, so that its target is replaced.
+/// An existing file's permissions are kept.
+///
+/// Errors  73 E-OUT-CREATE the folder is missing or not writable, the name is too long, the
+///         target is a folder, a device or a write-protected file;
+///         74 E-OUT-WRITE disk full, quota, file size limit, I/O error
+Result<void> write_file_atomically(const std::filesystem::path& target,
+                                   std::span<const std::byte> bytes);
+
+/// Finds out whether write_file_atomically(target, ...) could start, by creating its temporary
+/// file and removing it again. Touches nothing else. Same errors.
+Result<void> check_file_can_be_written(const std::filesystem::path& target);
+
+/// Writes all bytes to an open descriptor: goes on after an interruption or a short write, and
+/// turns the file size limit's signal (SIGXFSZ) into an error.
+///
+/// Errors  74 E-OUT-WRITE with the system's reason
+Result<void> write_fully(int descriptor,
+                         std::span<const std::byte> bytes,
+                         const std::filesystem::path& target);
+
+}  // namespace obscura

@@ -1,0 +1,48 @@
+// gltf/accessors.h - accessors as flat arrays of float or uint32.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gltf/buffers.h"
+#include "gltf/document.h"
+
+namespace obscura {
+
+/// Bytes of one element; columns of matrices start at multiples of 4.
+uint64_t element_size(const GltfAccessor& accessor);
+
+/// Numbers in one element: 1 for a scalar, 16 for a 4x4 matrix.
+size_t component_count(const GltfAccessor& accessor);
+
+/// Checks an accessor against its views by arithmetic alone; empty: it is well formed.
+std::string accessor_problem(const Document& document, const GltfAccessor& accessor);
+
+bool accessor_is_misaligned(const Document& document, const GltfAccessor& accessor);
+
+/// Reads elements as floats, component by component; normalised integers become [0,1] or [-1,1].
+///
+/// In      elements: which ones, each below the count; an empty span with `all` reads every one
+/// Out     component_count floats an element
+/// Errors  65 E-ACC-SPARSE a sparse index is not below the count, E-ACC-RANGE the buffer lacks data;
+///         69 E-DRACO-DATA and E-MESHOPT-DATA never: see load_buffers and meshes.cpp
+struct ElementChoice {
+    bool all = true;
+    std::span<const uint32_t> elements = {};
+};
+Result<std::vector<float>> read_floats(const Document& document,
+                                       const BufferStore& store,
+                                       int accessor,
+                                       const ElementChoice& choice);
+
+/// Reads a scalar accessor of unsigned integers.
+///
+/// Errors  as read_floats; 65 E-ACC-TYPE when it is not one
+Result<std::vector<uint32_t>> read_indices(const Document& document,
+                                           const BufferStore& store,
+                                           int accessor);
+
+}  // namespace obscura

@@ -1,0 +1,143 @@
+// gltf/document.cpp - a glTF file as plain structs: every index checked, nothing converted yet.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/document.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "gltf/document_parts.h"
+#include "gltf/extensions.h"
+#include "gltf/node_graph.h"
+
+namespace obscura {
+
+namespace {
+
+struct Version {
+    int major = -1;
+    int minor = -1;
+};
+
+/// "2.0" -> 2, 0; -1, -1 when it is not of this form.
+Version parse_version(const std::string& text) {
+    const size_t dot = text.find('.');
+    const auto digits = [](const std::string& part) {
+        return !part.empty() && part.size() <= 4 &&
+               part.find_first_not_of("0123456789") == std::string::npos;
+    };
+    if (dot == std::string::npos) return {};
+    const std::string major = text.substr(0, dot);
+    const std::string minor = text.substr(dot + 1);
+    if (!digits(major) || !digits(minor)) return {};
+    return {std::atoi(major.c_str()), std::atoi(minor.c_str())};
+}
+
+Result<void> read_asset(const JsonReader& root, Document& document) {
+    root.require("asset");
+    const JsonReader asset = root.child("asset");
+    if (!root.failed()) asset.require("version");
+    document.version = asset.text("version");
+    document.generator = asset.text("generator");
+    document.copyright = asset.text("copyright");
+    const std::string least = asset.text("minVersion", "2.0");
+    if (root.failed()) return {};
+
+    const Version version = parse_version(document.version);
+    const Version minimum = parse_version(least);
+    if (version.major < 0) {
+        asset.fault("version", "E-DOC-VERSION", "the version must look like \"2.0\"");
+    } else if (minimum.major < 0) {
+        asset.fault("minVersion", "E-DOC-VERSION", "the version must look like \"2.0\"");
+    } else if (version.major != 2 || minimum.major != 2 || minimum.minor > 0) {
+        return fail(ExitCode::unsupported,
+                    "E-VERSION",
+                    document.at("/asset"),
+                    "this is glTF " + document.version + " (at least " + least +
+                        " is needed to read it); accepted is 2.x with a minVersion of at most 2.0");
+    }
+    return {};
+}
+
+void warn_clamped(const DocumentReading& reading) {
+    if (reading.clamped.empty()) return;
+    std::string text = "these numbers were out of range and are clamped: " + reading.clamped[0];
+    constexpr size_t most = 8;
+    for (size_t i = 1; i < std::min(reading.clamped.size(), most); ++i) {
+        text += ", " + reading.clamped[i];
+    }
+    if (reading.clamped.size() > most) {
+        text += " and " + std::to_string(reading.clamped.size() - most) + " more";
+    }
+    reading.log.warn(reading.document.file, text);
+}
+
+void read_parts(DocumentReading& reading) {
+    read_buffers(reading);
+    read_views(reading);
+    read_accessors(reading);
+    read_images(reading);
+    read_samplers(reading);
+    read_textures(reading);
+    read_materials(reading);
+    read_meshes(reading);
+    read_animations(reading);
+    read_cameras(reading);
+    read_lights(reading);
+    read_nodes(reading);
+    read_scenes(reading);
+}
+
+}  // namespace
+
+double clamped_number(DocumentReading& reading,
+                      const JsonReader& object,
+                      std::string_view key,
+                      const NumberRange& range) {
+    const double value = object.number(key, range.fallback);
+    if (value >= range.low && value <= range.high) return value;
+    reading.clamped.push_back(object.pointer() + "/" + std::string(key));
+    return std::clamp(value, range.low, range.high);
+}
+
+void clamped_numbers(DocumentReading& reading,
+                     const JsonReader& object,
+                     std::string_view key,
+                     std::span<double> out,
+                     const NumberRange& range) {
+    if (!object.numbers(key, out)) return;
+    bool noted = false;
+    for (double& value : out) {
+        const double inside = std::clamp(value, range.low, range.high);
+        if (inside != value && !noted) {
+            reading.clamped.push_back(object.pointer() + "/" + std::string(key));
+            noted = true;
+        }
+        value = inside;
+    }
+}
+
+Result<Document> read_document(const nlohmann::json& tree, const std::string& file, Log& log) {
+    JsonFault fault;
+    fault.file = file;
+    Document document;
+    document.file = file;
+    const JsonReader root(tree, "", fault);
+
+    const Result<void> version = read_asset(root, document);
+    if (!version) return fail(version.error());
+    if (!fault.error) {
+        const Result<void> extensions = read_extensions(root, tree, document, log);
+        if (!extensions) return fail(extensions.error());
+    }
+    DocumentReading reading{root, document, log};
+    if (!fault.error) read_parts(reading);
+    if (fault.error) return fail(std::move(*fault.error));
+
+    const Result<void> graph = check_node_graph(document);
+    if (!graph) return fail(graph.error());
+    warn_clamped(reading);
+    return document;
+}
+
+}  // namespace obscura

@@ -1,0 +1,188 @@
+// gltf/document.h - a glTF file as plain structs: every index checked, nothing converted yet.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "math/transform.h"
+#include "scene/asset_info.h"
+#include "surface/material.h"
+
+namespace obscura {
+
+enum class ComponentType : uint16_t {
+    int8 = 5120,
+    uint8 = 5121,
+    int16 = 5122,
+    uint16 = 5123,
+    uint32 = 5125,
+    float32 = 5126
+};
+
+size_t component_size(ComponentType type);
+
+struct GltfBuffer {
+    std::string name;
+    std::optional<std::string> uri;
+    uint64_t byte_length = 0;
+    bool meshopt_fallback = false;  ///< may lack data: decompression fills it
+};
+
+struct GltfBufferView {
+    int buffer = 0;
+    uint64_t byte_offset = 0;
+    uint64_t byte_length = 0;
+    uint64_t byte_stride = 0;  ///< 0: tightly packed
+    bool meshopt = false;      ///< compressed data exist beside these
+};
+
+struct GltfSparse {
+    uint64_t count = 0;  ///< 0: the accessor is not sparse
+    int index_view = 0;
+    uint64_t index_offset = 0;
+    ComponentType index_type = ComponentType::uint32;
+    int value_view = 0;
+    uint64_t value_offset = 0;
+};
+
+struct GltfAccessor {
+    int view = -1;  ///< -1: zeros
+    uint64_t byte_offset = 0;
+    ComponentType component = ComponentType::float32;
+    bool normalized = false;
+    uint64_t count = 0;
+    int rows = 1;
+    int columns = 1;  ///< 2 to 4 for matrices
+    GltfSparse sparse;
+    bool has_bounds = false;  ///< the first three of min and max
+    std::array<double, 3> low = {};
+    std::array<double, 3> high = {};
+};
+
+struct GltfImage {
+    std::string name;
+    std::optional<std::string> uri;
+    int view = -1;
+    std::string mime;
+};
+
+struct GltfSampler {
+    int mag_filter = 9729;  ///< LINEAR
+    int min_filter = 9987;  ///< LINEAR_MIPMAP_LINEAR
+    int wrap_s = 10497;     ///< REPEAT
+    int wrap_t = 10497;
+};
+
+struct GltfTexture {
+    int sampler = -1;
+    int image = -1;           ///< after EXT_texture_webp's choice; -1: none that can be read
+    bool needs_basisu = false;  ///< the only image is KTX2
+};
+
+/// Factors are final; the slots' `texture` is still a glTF texture.
+struct GltfMaterial {
+    std::string name;
+    Material values;
+};
+
+struct GltfPrimitive {
+    int position = -1;
+    int normal = -1;
+    int tangent = -1;
+    int color = -1;
+    std::array<int, max_uv_sets> uv = {-1, -1, -1, -1, -1, -1, -1, -1};
+    int indices = -1;
+    int material = -1;
+    int mode = 4;
+    bool draco = false;
+};
+
+struct GltfMesh {
+    std::string name;
+    std::vector<GltfPrimitive> primitives;
+};
+
+struct GltfNode {
+    std::string name;
+    Affined parent_from_node;
+    int mesh = -1;
+    int camera = -1;
+    int light = -1;
+    int skin = -1;
+    std::vector<int> children;
+};
+
+struct GltfScene {
+    std::string name;
+    std::vector<int> nodes;
+};
+
+struct GltfCamera {
+    std::string name;
+    bool orthographic = false;
+    double yfov_rad = 0;
+    double aspect = 0;
+    double xmag_m = 0;
+    double ymag_m = 0;
+    double znear_m = 0;
+    double zfar_m = 0;
+};
+
+enum class GltfLightType { point, spot, directional };
+
+struct GltfLight {
+    std::string name;
+    GltfLightType type = GltfLightType::point;
+    std::array<double, 3> color = {1, 1, 1};
+    double intensity = 1;
+    double range = 0;
+    double inner_cone_rad = 0;
+    double outer_cone_rad = 0.785398163397448;
+};
+
+struct Document {
+    std::string file;  ///< as the user named it, for messages
+    std::string version;
+    std::string generator;
+    std::string copyright;
+    std::vector<GltfBuffer> buffers;
+    std::vector<GltfBufferView> views;
+    std::vector<GltfAccessor> accessors;
+    std::vector<GltfImage> images;
+    std::vector<GltfSampler> samplers;
+    std::vector<GltfTexture> textures;
+    std::vector<GltfMaterial> materials;
+    std::vector<GltfMesh> meshes;
+    std::vector<GltfNode> nodes;
+    std::vector<GltfScene> scenes;
+    int scene = -1;  ///< the file's own choice
+    std::vector<GltfCamera> cameras;
+    std::vector<GltfLight> lights;
+    std::vector<NamedCount> animations;
+    size_t skin_count = 0;
+    size_t morphed_mesh_count = 0;
+    std::vector<ExtensionInfo> extensions;
+
+    /// "scene.glb#/accessors/12", for messages.
+    std::string at(std::string_view pointer) const { return file + "#" + std::string(pointer); }
+    std::string at(std::string_view array, size_t index) const {
+        return file + "#/" + std::string(array) + "/" + std::to_string(index);
+    }
+};
+
+/// Reads and checks a whole asset: types, ranges, indices, version, required extensions, the node
+/// graph. Says once what is ignored.
+///
+/// Errors  65 E-JSON-TYPE, E-DOC-*, E-NODE-*; 69 E-VERSION, E-EXT-REQUIRED
+Result<Document> read_document(const nlohmann::json& root, const std::string& file, Log& log);
+
+}  // namespace obscura

@@ -1,0 +1,99 @@
+// gltf/document_meshes.cpp - reads meshes, and counts the animations that are not played.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/document_parts.h"
+
+namespace obscura {
+
+namespace {
+
+/// The number behind "TEXCOORD_"; -1 when the name is another one or the number is not plain.
+int uv_set_of(const std::string& attribute) {
+    constexpr std::string_view prefix = "TEXCOORD_";
+    if (attribute.rfind(prefix, 0) != 0) return -1;
+    const std::string digits = attribute.substr(prefix.size());
+    if (digits.size() != 1 || digits[0] < '0' || digits[0] > '9') return -1;
+    const int set = digits[0] - '0';
+    return set < max_uv_sets ? set : -1;
+}
+
+/// Where the accessor of an attribute is kept; nullptr: it is not used.
+int* slot_of(GltfPrimitive& primitive, const std::string& attribute) {
+    if (attribute == "POSITION") return &primitive.position;
+    if (attribute == "NORMAL") return &primitive.normal;
+    if (attribute == "TANGENT") return &primitive.tangent;
+    if (attribute == "COLOR_0") return &primitive.color;
+    const int set = uv_set_of(attribute);
+    return set < 0 ? nullptr : &primitive.uv[static_cast<size_t>(set)];
+}
+
+GltfPrimitive read_primitive(DocumentReading& reading, const JsonReader& object) {
+    object.require("attributes");
+    const size_t accessor_count = reading.root.count("accessors");
+    GltfPrimitive out;
+    const JsonReader attributes = object.child("attributes");
+    attributes.each_key([&](const std::string& name) {
+        const int accessor = attributes.index(name, accessor_count, "accessor");
+        int* slot = slot_of(out, name);
+        if (slot != nullptr) *slot = accessor;
+    });
+    out.indices = object.index("indices", accessor_count, "accessor");
+    out.material = object.index("material", reading.root.count("materials"), "material");
+    const uint64_t mode = object.size("mode", 4);
+    if (mode > 6) {
+        object.fault("mode",
+                     "E-MESH-MODE",
+                     std::to_string(mode) + " is not a primitive mode; accepted are 0 to 6");
+    }
+    out.mode = static_cast<int>(mode);
+    out.draco = object.has_extension("KHR_draco_mesh_compression");
+    return out;
+}
+
+}  // namespace
+
+void read_meshes(DocumentReading& reading) {
+    Document& document = reading.document;
+    reading.root.each("meshes", [&](const JsonReader& mesh, size_t index) {
+        mesh.require("primitives");
+        GltfMesh out;
+        out.name = mesh.text("name");
+        if (out.name.empty()) out.name = "mesh " + std::to_string(index);
+        bool morphed = false;
+        mesh.each("primitives", [&](const JsonReader& primitive, size_t) {
+            out.primitives.push_back(read_primitive(reading, primitive));
+            morphed = morphed || primitive.count("targets") != 0;
+        });
+        if (morphed) ++document.morphed_mesh_count;
+        document.meshes.push_back(std::move(out));
+    });
+    if (document.morphed_mesh_count != 0) {
+        reading.log.warn(document.file,
+                         std::to_string(document.morphed_mesh_count) +
+                             " meshes have morph targets, which are not supported: the base "
+                             "shapes are drawn");
+    }
+}
+
+void read_animations(DocumentReading& reading) {
+    Document& document = reading.document;
+    reading.root.each("animations", [&](const JsonReader& animation, size_t index) {
+        const std::string name = animation.text("name");
+        document.animations.push_back(
+            {name.empty() ? "animation " + std::to_string(index) : name,
+             animation.count("channels")});
+    });
+    if (!document.animations.empty()) {
+        reading.log.warn(document.file,
+                         std::to_string(document.animations.size()) +
+                             " animations are not supported: the pose of the nodes is drawn");
+    }
+    document.skin_count = reading.root.count("skins");
+    if (document.skin_count != 0) {
+        reading.log.warn(document.file,
+                         std::to_string(document.skin_count) +
+                             " skins are not supported: meshes are drawn unposed, placed by their "
+                             "nodes");
+    }
+}
+
+}  // namespace obscura

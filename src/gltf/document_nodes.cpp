@@ -1,0 +1,221 @@
+// gltf/document_nodes.cpp - reads nodes, scenes, cameras and lights.
+// SPDX-License-Identifier: Apache-2.0
+#include <cmath>
+
+#include "gltf/document_parts.h"
+#include "math/warp.h"
+
+namespace obscura {
+
+namespace {
+
+constexpr const char* punctual_name = "KHR_lights_punctual";
+
+Affined affine_from_columns(const std::array<double, 16>& columns) {
+    Affined out;
+    for (size_t r = 0; r < 3; ++r) {
+        for (size_t c = 0; c < 4; ++c) out.m[r][c] = columns[c * 4 + r];
+    }
+    return out;
+}
+
+Affined affine_from_trs(const std::array<double, 3>& t,
+                        const std::array<double, 4>& q,
+                        const std::array<double, 3>& s) {
+    const auto [x, y, z, w] = q;
+    const double rotation[3][3] = {
+        {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+        {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+        {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+    Affined out;
+    for (size_t r = 0; r < 3; ++r) {
+        for (size_t c = 0; c < 3; ++c) out.m[r][c] = rotation[r][c] * s[c];
+        out.m[r][3] = t[r];
+    }
+    return out;
+}
+
+/// Brings a quaternion to length 1; returns false when it has none.
+bool normalize_quaternion(std::array<double, 4>& q) {
+    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
+    if (!(length > 0) || !std::isfinite(length)) return false;
+    for (double& component : q) component /= length;
+    return true;
+}
+
+Affined read_transform(DocumentReading& reading, const JsonReader& node) {
+    std::array<double, 16> columns = {};
+    std::array<double, 3> translation = {0, 0, 0};
+    std::array<double, 4> rotation = {0, 0, 0, 1};
+    std::array<double, 3> scale = {1, 1, 1};
+    const bool t = node.numbers("translation", translation);
+    const bool r = node.numbers("rotation", rotation);
+    const bool s = node.numbers("scale", scale);
+    if (node.numbers("matrix", columns)) {
+        if (t || r || s) {
+            reading.log.warn(reading.document.at(node.pointer()),
+                             "the node has a matrix and a translation, rotation or scale; the "
+                             "matrix counts");
+        }
+        if (columns[3] != 0 || columns[7] != 0 || columns[11] != 0 || columns[15] != 1) {
+            reading.log.warn(reading.document.at(node.pointer()),
+                             "the matrix's last row is not 0 0 0 1; it is ignored");
+        }
+        return affine_from_columns(columns);
+    }
+    if (!normalize_quaternion(rotation)) {
+        node.fault("rotation", "E-NODE-ROTATION", "the quaternion has no length");
+    }
+    return affine_from_trs(translation, rotation, scale);
+}
+
+GltfCamera read_perspective(const JsonReader& object) {
+    GltfCamera out;
+    object.require("yfov");
+    object.require("znear");
+    out.yfov_rad = object.number("yfov", 1);
+    out.aspect = object.number("aspectRatio", 0);
+    out.znear_m = object.number("znear", 1);
+    out.zfar_m = object.number("zfar", 0);
+    if (!(out.yfov_rad > 0 && out.yfov_rad < pi_d)) {
+        object.fault("yfov", "E-CAM-FOV", "the vertical angle must lie between 0 and pi");
+    }
+    if (object.has("aspectRatio") && !(out.aspect > 0)) {
+        object.fault("aspectRatio", "E-CAM-ASPECT", "the aspect ratio must be above 0");
+    }
+    if (!(out.znear_m > 0)) object.fault("znear", "E-CAM-CLIP", "znear must be above 0");
+    if (object.has("zfar") && !(out.zfar_m > out.znear_m)) {
+        object.fault("zfar", "E-CAM-CLIP", "zfar must be larger than znear");
+    }
+    return out;
+}
+
+GltfCamera read_orthographic(DocumentReading& reading, const JsonReader& object) {
+    GltfCamera out;
+    out.orthographic = true;
+    for (const char* key : {"xmag", "ymag", "znear", "zfar"}) object.require(key);
+    out.xmag_m = object.number("xmag", 1);
+    out.ymag_m = object.number("ymag", 1);
+    out.znear_m = object.number("znear", 0);
+    out.zfar_m = object.number("zfar", 1);
+    if (out.xmag_m == 0) object.fault("xmag", "E-CAM-MAG", "the magnification must not be 0");
+    if (out.ymag_m == 0) object.fault("ymag", "E-CAM-MAG", "the magnification must not be 0");
+    if (out.xmag_m < 0 || out.ymag_m < 0) {
+        reading.log.warn(reading.document.at(object.pointer()),
+                         "a magnification is negative; its absolute value is used");
+    }
+    out.xmag_m = std::abs(out.xmag_m);
+    out.ymag_m = std::abs(out.ymag_m);
+    if (!(out.znear_m >= 0)) object.fault("znear", "E-CAM-CLIP", "znear must be 0 or more");
+    if (!(out.zfar_m > out.znear_m)) {
+        object.fault("zfar", "E-CAM-CLIP", "zfar must be larger than znear");
+    }
+    return out;
+}
+
+void read_spot(DocumentReading& reading, const JsonReader& light, GltfLight& out) {
+    const JsonReader spot = light.child("spot");
+    constexpr double narrowest = 1e-4;
+    out.outer_cone_rad =
+        clamped_number(reading, spot, "outerConeAngle", {pi_d / 4, narrowest, pi_d / 2});
+    out.inner_cone_rad = clamped_number(reading, spot, "innerConeAngle", {0, 0, pi_d / 2});
+    if (out.inner_cone_rad >= out.outer_cone_rad) {
+        reading.log.warn(reading.document.at(spot.pointer()),
+                         "innerConeAngle must be smaller than outerConeAngle; the cone gets a "
+                         "sharp edge");
+        out.inner_cone_rad = out.outer_cone_rad;
+    }
+}
+
+GltfLight read_light(DocumentReading& reading, const JsonReader& light, size_t index) {
+    constexpr double brightest = 1e30;
+    GltfLight out;
+    out.name = light.text("name");
+    if (out.name.empty()) out.name = "light " + std::to_string(index);
+    light.require("type");
+    const std::string type = light.text("type");
+    if (type == "point") {
+        out.type = GltfLightType::point;
+    } else if (type == "spot") {
+        out.type = GltfLightType::spot;
+        read_spot(reading, light, out);
+    } else if (type == "directional") {
+        out.type = GltfLightType::directional;
+    } else {
+        light.fault("type", "E-LIGHT-TYPE", "accepted are point, spot and directional");
+    }
+    clamped_numbers(reading, light, "color", out.color, {1, 0, brightest});
+    out.intensity = clamped_number(reading, light, "intensity", {1, 0, brightest});
+    out.range = light.number("range", 0);
+    if (light.has("range") && !(out.range > 0 && out.range <= brightest)) {
+        reading.log.warn(reading.document.at(light.pointer()),
+                         "the range must be above 0; it is taken as unlimited");
+        out.range = 0;
+    }
+    return out;
+}
+
+}  // namespace
+
+void read_nodes(DocumentReading& reading) {
+    const JsonReader& root = reading.root;
+    const size_t node_count = root.count("nodes");
+    const size_t mesh_count = root.count("meshes");
+    const size_t camera_count = root.count("cameras");
+    const size_t light_count = reading.document.lights.size();
+    reading.document.nodes.reserve(node_count);
+    root.each("nodes", [&](const JsonReader& node, size_t) {
+        GltfNode out;
+        out.name = node.text("name");
+        out.parent_from_node = read_transform(reading, node);
+        out.mesh = node.index("mesh", mesh_count, "mesh");
+        out.camera = node.index("camera", camera_count, "camera");
+        out.skin = node.index("skin", reading.document.skin_count, "skin");
+        out.children = node.indices("children", node_count, "node");
+        if (node.has_extension(punctual_name)) {
+            out.light = node.extension(punctual_name).index("light", light_count, "light");
+        }
+        reading.document.nodes.push_back(std::move(out));
+    });
+}
+
+void read_scenes(DocumentReading& reading) {
+    const size_t node_count = reading.root.count("nodes");
+    reading.root.each("scenes", [&](const JsonReader& scene, size_t index) {
+        GltfScene out;
+        out.name = scene.text("name");
+        if (out.name.empty()) out.name = "scene " + std::to_string(index);
+        out.nodes = scene.indices("nodes", node_count, "node");
+        reading.document.scenes.push_back(std::move(out));
+    });
+    reading.document.scene = reading.root.index("scene", reading.root.count("scenes"), "scene");
+}
+
+void read_cameras(DocumentReading& reading) {
+    reading.root.each("cameras", [&](const JsonReader& camera, size_t) {
+        camera.require("type");
+        const std::string type = camera.text("type");
+        GltfCamera out;
+        if (type == "perspective") {
+            camera.require("perspective");
+            out = read_perspective(camera.child("perspective"));
+        } else if (type == "orthographic") {
+            camera.require("orthographic");
+            out = read_orthographic(reading, camera.child("orthographic"));
+        } else {
+            camera.fault("type", "E-CAM-TYPE", "accepted are perspective and orthographic");
+        }
+        out.name = camera.text("name");
+        reading.document.cameras.push_back(std::move(out));
+    });
+}
+
+void read_lights(DocumentReading& reading) {
+    if (!reading.root.has_extension(punctual_name)) return;
+    const JsonReader punctual = reading.root.extension(punctual_name);
+    punctual.each("lights", [&](const JsonReader& light, size_t index) {
+        reading.document.lights.push_back(read_light(reading, light, index));
+    });
+}
+
+}  // namespace obscura

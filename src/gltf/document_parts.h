@@ -1,0 +1,52 @@
+// gltf/document_parts.h - the parts of read_document, one for each group of JSON arrays.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/document.h"
+#include "gltf/json_read.h"
+
+namespace obscura {
+
+/// What the parts share. Faults go to the reader's JsonFault; the array lengths that indices are
+/// checked against come from `root`.
+struct DocumentReading {
+    const JsonReader& root;
+    Document& document;
+    Log& log;
+    std::vector<std::string> clamped = {};  ///< places of numbers outside their range
+};
+
+struct NumberRange {
+    double fallback;
+    double low;
+    double high;
+};
+
+/// A number brought into its range; leaving it is noted in `clamped`.
+double clamped_number(DocumentReading& reading,
+                      const JsonReader& object,
+                      std::string_view key,
+                      const NumberRange& range);
+
+/// An array of numbers, all in one range; `out` holds the fallback.
+void clamped_numbers(DocumentReading& reading,
+                     const JsonReader& object,
+                     std::string_view key,
+                     std::span<double> out,
+                     const NumberRange& range);
+
+void read_buffers(DocumentReading& reading);     // document_buffers.cpp
+void read_views(DocumentReading& reading);
+void read_accessors(DocumentReading& reading);
+void read_images(DocumentReading& reading);      // document_materials.cpp
+void read_samplers(DocumentReading& reading);
+void read_textures(DocumentReading& reading);
+void read_materials(DocumentReading& reading);
+void read_meshes(DocumentReading& reading);      // document_meshes.cpp
+void read_animations(DocumentReading& reading);
+void read_nodes(DocumentReading& reading);       // document_nodes.cpp
+void read_scenes(DocumentReading& reading);
+void read_cameras(DocumentReading& reading);
+void read_lights(DocumentReading& reading);
+
+}  // namespace obscura

@@ -1,0 +1,196 @@
+// gltf/extensions.cpp - which extensions are understood, and what is said about the others.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/extensions.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace obscura {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array extension_rows = {
+    ExtensionRow{"EXT_texture_webp", true, ""},
+    ExtensionRow{"KHR_lights_punctual", true, ""},
+    ExtensionRow{"KHR_materials_emissive_strength", true, ""},
+    ExtensionRow{"KHR_materials_unlit", true, ""},
+    ExtensionRow{"KHR_mesh_quantization", true, ""},
+    ExtensionRow{"KHR_texture_transform", true, ""},
+    ExtensionRow{"EXT_mesh_gpu_instancing", false, "one copy is drawn instead of all"},
+    ExtensionRow{"EXT_meshopt_compression", false, "the uncompressed copy is read"},
+    ExtensionRow{"KHR_meshopt_compression", false, "the uncompressed copy is read"},
+    ExtensionRow{"KHR_draco_mesh_compression", false, "the uncompressed copy is read"},
+    ExtensionRow{"KHR_animation_pointer", false, "animations are not played"},
+    ExtensionRow{"KHR_materials_anisotropy", false, "highlights are round"},
+    ExtensionRow{"KHR_materials_clearcoat", false, "there is no coat"},
+    ExtensionRow{"KHR_materials_diffuse_transmission", false, "no light shines through"},
+    ExtensionRow{"KHR_materials_dispersion", false, "refraction has no colours"},
+    ExtensionRow{"KHR_materials_ior", false, "the index of refraction is 1.5"},
+    ExtensionRow{"KHR_materials_iridescence", false, "there is no thin film"},
+    ExtensionRow{"KHR_materials_pbrSpecularGlossiness", false, "the core material is used"},
+    ExtensionRow{"KHR_materials_sheen", false, "there is no sheen"},
+    ExtensionRow{"KHR_materials_specular", false, "reflection has its default strength"},
+    ExtensionRow{"KHR_materials_transmission", false, "the surface is opaque"},
+    ExtensionRow{"KHR_materials_variants", false, "the default variant is drawn"},
+    ExtensionRow{"KHR_materials_volume", false, "the surface has no inside"},
+    ExtensionRow{"KHR_node_visibility", false, "hidden nodes are drawn"},
+    ExtensionRow{"KHR_texture_basisu", false, "the PNG, JPEG or WebP fallback is read"},
+    ExtensionRow{"KHR_xmp", false, "metadata are not copied"},
+    ExtensionRow{"KHR_xmp_json_ld", false, "metadata are not copied"},
+};
+
+/// Where one extension occurs.
+struct Uses {
+    std::vector<std::string> materials;
+    std::vector<std::string> others;
+};
+
+using UseMap = std::map<std::string, Uses, std::less<>>;
+
+/// Name of an object for people: "Glass", else "material 3".
+std::string object_name(const json& object, std::string_view kind, size_t index) {
+    const auto name = object.is_object() ? object.find("name") : object.end();
+    if (object.is_object() && name != object.end() && name->is_string()) {
+        const std::string& text = name->get_ref<const std::string&>();
+        if (!text.empty()) return text;
+    }
+    return std::string(kind) + " " + std::to_string(index);
+}
+
+/// Collects the extension names anywhere inside one object. The depth of JSON is limited, so the
+/// stack stays small.
+void collect_names(const json& object, std::vector<std::string>& names) {
+    std::vector<const json*> open = {&object};
+    while (!open.empty()) {
+        const json* value = open.back();
+        open.pop_back();
+        if (value->is_array()) {
+            for (const json& element : *value) open.push_back(&element);
+        }
+        if (!value->is_object()) continue;
+        for (const auto& [key, member] : value->items()) {
+            if (key == "extras") continue;
+            if (key == "extensions" && member.is_object()) {
+                for (const auto& extension : member.items()) names.push_back(extension.key());
+            }
+            if (member.is_structured()) open.push_back(&member);
+        }
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+}
+
+/// Notes every use in one top-level array.
+void collect_uses(const json& tree, const char* array, std::string_view kind, UseMap& uses) {
+    const auto found = tree.find(array);
+    if (found == tree.end() || !found->is_array()) return;
+    size_t index = 0;
+    std::vector<std::string> names;
+    for (const json& object : *found) {
+        names.clear();
+        collect_names(object, names);
+        for (const std::string& name : names) {
+            Uses& use = uses[name];
+            const bool material = kind == "material";
+            std::vector<std::string>& list = material ? use.materials : use.others;
+            std::string label = object_name(object, kind, index);
+            if (!material && label.rfind(kind, 0) != 0) label = std::string(kind) + " " + label;
+            list.push_back(std::move(label));
+        }
+        ++index;
+    }
+}
+
+UseMap all_uses(const json& tree) {
+    UseMap uses;
+    collect_uses(tree, "materials", "material", uses);
+    collect_uses(tree, "meshes", "mesh", uses);
+    collect_uses(tree, "textures", "texture", uses);
+    collect_uses(tree, "nodes", "node", uses);
+    collect_uses(tree, "bufferViews", "buffer view", uses);
+    collect_uses(tree, "buffers", "buffer", uses);
+    collect_uses(tree, "images", "image", uses);
+    collect_uses(tree, "scenes", "scene", uses);
+    collect_uses(tree, "cameras", "camera", uses);
+    collect_uses(tree, "animations", "animation", uses);
+    const auto top = tree.find("extensions");
+    if (top != tree.end() && top->is_object()) {
+        for (const auto& extension : top->items()) uses[extension.key()];
+    }
+    return uses;
+}
+
+const ExtensionRow* find_row(std::string_view name) {
+    for (const ExtensionRow& row : extension_rows) {
+        if (row.name == name) return &row;
+    }
+    return nullptr;
+}
+
+/// "a, b, c and 7 more".
+std::string join(const std::vector<std::string>& names) {
+    constexpr size_t most = 8;
+    std::string out;
+    for (size_t i = 0; i < std::min(names.size(), most); ++i) {
+        out += (i == 0 ? "" : ", ") + names[i];
+    }
+    if (names.size() > most) out += " and " + std::to_string(names.size() - most) + " more";
+    return out;
+}
+
+void warn_ignored(const ExtensionInfo& info, const Uses& uses, const Document& document, Log& log) {
+    const ExtensionRow* row = find_row(info.name);
+    std::string text = info.name + " is not supported";
+    if (row != nullptr) text += ": " + std::string(row->without);
+    if (!uses.materials.empty()) text += "; materials: " + join(uses.materials);
+    if (!uses.others.empty()) text += "; used by " + join(uses.others);
+    log.warn(document.file, text);
+}
+
+bool contains(const std::vector<std::string>& names, const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::span<const ExtensionRow> extension_table() { return extension_rows; }
+
+Result<void> read_extensions(const JsonReader& root,
+                             const json& tree,
+                             Document& document,
+                             Log& log) {
+    std::vector<std::string> names = root.texts("extensionsUsed");
+    const std::vector<std::string> required = root.texts("extensionsRequired");
+    UseMap uses = all_uses(tree);
+    for (const auto& entry : uses) names.push_back(entry.first);
+    names.insert(names.end(), required.begin(), required.end());
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+
+    std::vector<std::string> missing;
+    for (const std::string& name : names) {
+        const ExtensionRow* row = find_row(name);
+        ExtensionInfo info;
+        info.name = name;
+        info.required = contains(required, name);
+        info.supported = row != nullptr && row->supported;
+        info.materials = uses[name].materials;
+        if (info.required && !info.supported) missing.push_back(name);
+        document.extensions.push_back(std::move(info));
+    }
+    if (!missing.empty()) {
+        return fail(ExitCode::unsupported,
+                    "E-EXT-REQUIRED",
+                    document.at("/extensionsRequired"),
+                    "the asset requires " + join(missing) + ", which is not supported");
+    }
+    for (const ExtensionInfo& info : document.extensions) {
+        if (!info.supported) warn_ignored(info, uses[info.name], document, log);
+    }
+    return {};
+}
+
+}  // namespace obscura

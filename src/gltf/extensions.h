@@ -1,0 +1,32 @@
+// gltf/extensions.h - which extensions are understood, and what is said about the others.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "gltf/document.h"
+#include "gltf/json_read.h"
+
+namespace obscura {
+
+/// To support one more: set `supported` in the table in extensions.cpp and read it where its object
+/// is read. An extension that is not in the table is ignored like any other.
+struct ExtensionRow {
+    std::string_view name;
+    bool supported;
+    std::string_view without;  ///< what a picture lacks when it is ignored
+};
+
+std::span<const ExtensionRow> extension_table();
+
+/// Fills document.extensions from extensionsUsed, extensionsRequired and the objects themselves, and
+/// warns once about each that is ignored, naming the materials and other objects that use it.
+///
+/// Errors  69 E-EXT-REQUIRED, listing all that are missing
+Result<void> read_extensions(const JsonReader& root,
+                             const nlohmann::json& tree,
+                             Document& document,
+                             Log& log);
+
+}  // namespace obscura

@@ -1,0 +1,360 @@
+// gltf/mesh_part.cpp - one glTF primitive as a plain indexed triangle list with its attributes.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/mesh_part.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+constexpr float farthest_position = 1e18f;  // Embree drops triangles beyond 1.8e18
+constexpr uint64_t most_vertices = (1U << 29) - 1;
+
+constexpr uint32_t type_bit(ComponentType type) {
+    return 1U << (static_cast<uint32_t>(type) - 5120U);
+}
+
+constexpr uint32_t float_type = type_bit(ComponentType::float32);
+constexpr uint32_t unsigned_types = type_bit(ComponentType::uint8) | type_bit(ComponentType::uint16);
+constexpr uint32_t signed_types = type_bit(ComponentType::int8) | type_bit(ComponentType::int16);
+
+/// What a vertex attribute may be made of, in the core and with KHR_mesh_quantization.
+struct AttributeRule {
+    const char* name;
+    int least_rows;
+    int most_rows;
+    uint32_t normalized;            ///< component types that may be normalized
+    uint32_t quantized_normalized;  ///< the same with the extension
+    uint32_t quantized_plain;       ///< integers as they are, with the extension
+};
+
+constexpr AttributeRule position_rule = {
+    "POSITION", 3, 3, 0, unsigned_types | signed_types, unsigned_types | signed_types};
+constexpr AttributeRule normal_rule = {"NORMAL", 3, 3, 0, signed_types, 0};
+constexpr AttributeRule tangent_rule = {"TANGENT", 4, 4, 0, signed_types, 0};
+constexpr AttributeRule uv_rule = {"TEXCOORD",
+                                   2,
+                                   2,
+                                   unsigned_types,
+                                   unsigned_types | signed_types,
+                                   unsigned_types | signed_types};
+constexpr AttributeRule color_rule = {"COLOR_0", 3, 4, unsigned_types, unsigned_types, 0};
+
+/// Reads the attributes of one primitive.
+struct PartReader {
+    const Document& document;
+    const BufferStore& store;
+    PartName name;
+    uint64_t vertex_count = 0;  ///< as in the file
+    ElementChoice choice = {};
+
+    const GltfPrimitive& primitive() const {
+        return document.meshes[static_cast<size_t>(name.mesh)]
+            .primitives[static_cast<size_t>(name.primitive)];
+    }
+    std::string where() const {
+        return document.at("meshes", static_cast<size_t>(name.mesh)) + "/primitives/" +
+               std::to_string(name.primitive);
+    }
+    tl::unexpected<Error> bad(const char* id, std::string message) const {
+        return fail(ExitCode::bad_data, id, where(), std::move(message));
+    }
+};
+
+bool has_quantization(const Document& document) {
+    const auto is_it = [](const ExtensionInfo& info) {
+        return info.name == "KHR_mesh_quantization";
+    };
+    return std::any_of(document.extensions.begin(), document.extensions.end(), is_it);
+}
+
+bool rule_allows(const AttributeRule& rule, const GltfAccessor& accessor, bool quantization) {
+    if (accessor.columns != 1) return false;
+    if (accessor.rows < rule.least_rows || accessor.rows > rule.most_rows) return false;
+    const uint32_t type = type_bit(accessor.component);
+    if (type == float_type) return !accessor.normalized;
+    const uint32_t normalized =
+        rule.normalized | (quantization ? rule.quantized_normalized : 0U);
+    const uint32_t plain = quantization ? rule.quantized_plain : 0U;
+    return ((accessor.normalized ? normalized : plain) & type) != 0;
+}
+
+Result<std::vector<float>> read_attribute(const PartReader& reader,
+                                          int accessor,
+                                          const AttributeRule& rule) {
+    if (accessor < 0) return std::vector<float>{};
+    const GltfAccessor& row = reader.document.accessors[static_cast<size_t>(accessor)];
+    if (!rule_allows(rule, row, has_quantization(reader.document))) {
+        return reader.bad("E-MESH-ATTRIBUTE",
+                          std::string(rule.name) + " is accessor " + std::to_string(accessor) +
+                              ", whose type, component type or normalization glTF does not allow "
+                              "there (other integers need KHR_mesh_quantization)");
+    }
+    if (row.count != reader.vertex_count) {
+        return reader.bad("E-MESH-COUNT",
+                          std::string(rule.name) + " has " + std::to_string(row.count) +
+                              " elements and POSITION " + std::to_string(reader.vertex_count) +
+                              "; they must agree");
+    }
+    return read_floats(reader.document, reader.store, accessor, reader.choice);
+}
+
+/// The vertex order of a primitive: its indices, or 0, 1, 2...
+Result<std::vector<uint32_t>> read_vertex_order(const PartReader& reader) {
+    const GltfPrimitive& primitive = reader.primitive();
+    if (primitive.indices < 0) {
+        std::vector<uint32_t> order(reader.vertex_count);
+        std::iota(order.begin(), order.end(), 0U);
+        return order;
+    }
+    Result<std::vector<uint32_t>> order =
+        read_indices(reader.document, reader.store, primitive.indices);
+    if (!order) return order;
+    for (size_t i = 0; i < order->size(); ++i) {
+        if ((*order)[i] < reader.vertex_count) continue;
+        return reader.bad("E-MESH-INDEX",
+                          "index " + std::to_string(i) + " is vertex " +
+                              std::to_string((*order)[i]) + ", but there are only " +
+                              std::to_string(reader.vertex_count));
+    }
+    return order;
+}
+
+/// Lists, strips and fans as a list. In strips and fans, triangles with a repeated vertex only
+/// turn corners and are left out.
+std::vector<uint32_t> triangle_list(std::vector<uint32_t> order, int mode, uint32_t& issues) {
+    const size_t triangles = triangle_count(mode, order.size());
+    if (mode == 4) {
+        if (order.size() % 3 != 0) issues |= issue_bit(MeshIssue::leftover_vertices);
+        order.resize(triangles * 3);
+        return order;
+    }
+    if (triangles == 0) issues |= issue_bit(MeshIssue::leftover_vertices);
+    std::vector<uint32_t> out;
+    out.reserve(triangles * 3);
+    for (size_t i = 0; i < triangles; ++i) {
+        uint32_t a = mode == 5 ? order[i] : order[0];
+        uint32_t b = order[i + 1];
+        uint32_t c = order[i + 2];
+        if (mode == 5 && i % 2 == 1) std::swap(b, c);  // glTF 2.0 section 3.7.2.1: i, i+2, i+1
+        if (a == b || b == c || a == c) continue;
+        out.insert(out.end(), {a, b, c});
+    }
+    return out;
+}
+
+/// Keeps the vertices that triangles use, where they are few: many primitives may share one long
+/// accessor. Returns the kept ones in order; empty: all are kept.
+std::vector<uint32_t> compact_vertices(std::vector<uint32_t>& indices, uint64_t vertex_count) {
+    if (indices.size() >= vertex_count / 2) return {};
+    std::vector<uint32_t> kept = indices;
+    std::sort(kept.begin(), kept.end());
+    kept.erase(std::unique(kept.begin(), kept.end()), kept.end());
+    for (uint32_t& index : indices) {
+        const auto found = std::lower_bound(kept.begin(), kept.end(), index);
+        index = static_cast<uint32_t>(found - kept.begin());
+    }
+    return kept;
+}
+
+/// Finite and not too far away, where triangles use them; others are set to 0.
+Result<void> check_positions(const PartReader& reader, MeshPart& part) {
+    const auto is_good = [&](size_t vertex) {
+        const float* p = &part.positions[3 * vertex];
+        return std::abs(p[0]) <= farthest_position && std::abs(p[1]) <= farthest_position &&
+               std::abs(p[2]) <= farthest_position;
+    };
+    for (const uint32_t vertex : part.indices) {
+        if (is_good(vertex)) continue;
+        return reader.bad("E-MESH-POSITION",
+                          "a triangle uses a position that is not finite or beyond 1e18 (vertex " +
+                              std::to_string(vertex) + ")");
+    }
+    for (size_t vertex = 0; vertex < part.positions.size() / 3; ++vertex) {
+        if (!is_good(vertex)) std::fill_n(&part.positions[3 * vertex], 3, 0.0f);
+    }
+    return {};
+}
+
+/// Compares POSITION's min and max with the data; ours are used in any case.
+void check_declared_bounds(const PartReader& reader, MeshPart& part) {
+    const GltfAccessor& accessor =
+        reader.document.accessors[static_cast<size_t>(reader.primitive().position)];
+    if (!accessor.has_bounds) part.issues |= issue_bit(MeshIssue::missing_bounds);
+    if (!accessor.has_bounds || accessor.component != ComponentType::float32) return;
+    for (size_t axis = 0; axis < 3; ++axis) {
+        const double low = accessor.low[axis];
+        const double high = accessor.high[axis];
+        const double slack = 1e-4 * (std::abs(low) + std::abs(high)) + 1e-30;
+        for (const uint32_t vertex : part.indices) {
+            const double x = part.positions[3 * static_cast<size_t>(vertex) + axis];
+            if (x >= low - slack && x <= high + slack) continue;
+            part.issues |= issue_bit(MeshIssue::wrong_bounds);
+            return;
+        }
+    }
+}
+
+/// Makes four floats of three, and brings each into [0, largest].
+void finish_colors(MeshPart& part, size_t rows) {
+    if (part.colors.empty()) return;
+    std::vector<float> out;
+    out.reserve(part.colors.size() / rows * 4);
+    bool bad = false;
+    for (size_t i = 0; i < part.colors.size(); ++i) {
+        float value = part.colors[i];
+        if (!(value >= 0 && value <= 1e30f)) {
+            bad = true;
+            value = value < 0 ? 0.0f : 1.0f;
+        }
+        out.push_back(value);
+        if (rows == 3 && i % 3 == 2) out.push_back(1);
+    }
+    if (bad) part.issues |= issue_bit(MeshIssue::bad_colors);
+    part.colors = std::move(out);
+}
+
+void finish_uvs(MeshPart& part) {
+    for (std::vector<float>& set : part.uvs) {
+        for (float& value : set) {
+            if (std::isfinite(value)) continue;
+            part.issues |= issue_bit(MeshIssue::bad_uvs);
+            value = 0;
+        }
+    }
+}
+
+/// Reads what the material needs beside positions.
+Result<void> read_attributes(const PartReader& reader, MeshPart& part, const MaterialNeeds& needs) {
+    const GltfPrimitive& primitive = reader.primitive();
+    const auto read = [&](int accessor, const AttributeRule& rule, std::vector<float>& out) {
+        Result<std::vector<float>> values = read_attribute(reader, accessor, rule);
+        if (values) out = std::move(*values);
+        return values ? Result<void>{} : Result<void>(fail(std::move(values.error())));
+    };
+    Result<void> done = read(primitive.normal, normal_rule, part.normals);
+    if (done) done = read(primitive.color, color_rule, part.colors);
+    for (size_t set = 0; set < part.uvs.size() && done; ++set) {
+        if ((needs.uv_sets >> set & 1U) != 0) done = read(primitive.uv[set], uv_rule, part.uvs[set]);
+    }
+    const bool tangents_count = needs.normal_map.texture >= 0 && !part.normals.empty();
+    if (done && tangents_count) done = read(primitive.tangent, tangent_rule, part.tangents);
+    if (!done) return done;
+    if (primitive.tangent >= 0 && primitive.normal < 0) {
+        part.issues |= issue_bit(MeshIssue::lone_tangents);
+    }
+    if (primitive.color >= 0) {
+        const GltfAccessor& color =
+            reader.document.accessors[static_cast<size_t>(primitive.color)];
+        finish_colors(part, static_cast<size_t>(color.rows));
+    }
+    finish_uvs(part);
+    return {};
+}
+
+Result<void> check_data_exists(const PartReader& reader) {
+    const GltfPrimitive& primitive = reader.primitive();
+    const GltfAccessor& position =
+        reader.document.accessors[static_cast<size_t>(primitive.position)];
+    if (primitive.draco && position.view < 0 && position.sparse.count == 0) {
+        return fail(ExitCode::unsupported,
+                    "E-DRACO-DATA",
+                    reader.where(),
+                    "the primitive has only Draco-compressed data, which are not supported; save "
+                    "the asset without compression");
+    }
+    if (position.count > most_vertices) {
+        return fail(ExitCode::refused,
+                    "E-LIMIT-VERTICES",
+                    reader.where(),
+                    std::to_string(position.count) + " vertices; at most " +
+                        std::to_string(most_vertices) + " are accepted");
+    }
+    return {};
+}
+
+}  // namespace
+
+std::string_view mesh_issue_text(MeshIssue issue) {
+    switch (issue) {
+        case MeshIssue::no_position: return "primitives without POSITION are not drawn";
+        case MeshIssue::leftover_vertices: return "the last vertices do not make a triangle";
+        case MeshIssue::bad_normals:
+            return "normals without length or not finite are replaced by the triangles' own";
+        case MeshIssue::bad_tangents: return "tangents that cannot be used are made anew";
+        case MeshIssue::bad_uvs: return "texture coordinates that are not finite become 0";
+        case MeshIssue::bad_colors: return "vertex colours below 0 or not finite are clamped";
+        case MeshIssue::wrong_bounds: return "min and max of POSITION do not hold the vertices";
+        case MeshIssue::missing_bounds: return "POSITION has no min and max";
+        case MeshIssue::unsorted_sparse: return "sparse indices are not in increasing order";
+        case MeshIssue::lone_tangents: return "TANGENT without NORMAL is ignored";
+        case MeshIssue::count: break;
+    }
+    return {};
+}
+
+MaterialNeeds material_needs(const Document& document, int material) {
+    MaterialNeeds needs;
+    if (material < 0) return needs;
+    const Material& values = document.materials[static_cast<size_t>(material)].values;
+    for (const TextureSlot* slot : {&values.base_color_texture,
+                                    &values.metallic_roughness_texture,
+                                    &values.normal_texture,
+                                    &values.emissive_texture}) {
+        if (slot->texture >= 0) needs.uv_sets |= 1U << slot->uv_set;
+    }
+    needs.normal_map = values.normal_texture;
+    return needs;
+}
+
+uint64_t triangle_count(int mode, uint64_t vertex_count) {
+    if (mode == 4) return vertex_count / 3;
+    return mode > 4 && vertex_count > 2 ? vertex_count - 2 : 0;
+}
+
+uint64_t primitive_triangles(const Document& document, const GltfPrimitive& primitive) {
+    const int order = primitive.indices >= 0 ? primitive.indices : primitive.position;
+    if (order < 0) return 0;
+    return triangle_count(primitive.mode, document.accessors[static_cast<size_t>(order)].count);
+}
+
+Result<MeshPart> read_mesh_part(const Document& document,
+                                const BufferStore& store,
+                                PartName name) {
+    PartReader reader{document, store, name};
+    const GltfPrimitive& primitive = reader.primitive();
+    MeshPart part;
+    if (primitive.position < 0) {
+        part.issues |= issue_bit(MeshIssue::no_position);
+        return part;
+    }
+    Result<void> done = check_data_exists(reader);
+    if (!done) return fail(std::move(done.error()));
+    const GltfAccessor& position = document.accessors[static_cast<size_t>(primitive.position)];
+    reader.vertex_count = position.count;
+
+    Result<std::vector<uint32_t>> order = read_vertex_order(reader);
+    if (!order) return fail(std::move(order.error()));
+    part.indices = triangle_list(std::move(*order), primitive.mode, part.issues);
+    const std::vector<uint32_t> kept = compact_vertices(part.indices, reader.vertex_count);
+    reader.choice = {kept.empty(), kept};
+    if (part.indices.empty()) return part;
+
+    Result<std::vector<float>> positions =
+        read_attribute(reader, primitive.position, position_rule);
+    if (!positions) return fail(std::move(positions.error()));
+    part.positions = std::move(*positions);
+    const MaterialNeeds needs = material_needs(document, primitive.material);
+    done = check_positions(reader, part);
+    if (done) done = read_attributes(reader, part, needs);
+    if (!done) return fail(std::move(done.error()));
+    check_declared_bounds(reader, part);
+    finish_shading(part, needs);
+    return part;
+}
+
+}  // namespace obscura

@@ -1,0 +1,28 @@
+// gltf/node_graph.h - the tree of nodes: checked, and flattened to world transforms.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "gltf/document.h"
+
+namespace obscura {
+
+/// A node of the chosen scene, in depth-first order.
+struct PlacedNode {
+    int node = 0;
+    Affined world_from_node;
+};
+
+/// Every node has at most one parent and none is its own ancestor. Linear in the file's size.
+///
+/// Errors  65 E-NODE-PARENTS, E-NODE-CYCLE, both naming the nodes
+Result<void> check_node_graph(const Document& document);
+
+/// The nodes that a scene reaches. scene -1: the file has no scenes, all root nodes are taken.
+std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& log);
+
+/// True when a transform squashes space to a plane, a line or a point, or is not finite.
+bool is_singular(const Affined& transform);
+
+}  // namespace obscura

@@ -1,0 +1,124 @@
+// image/decode.cpp - PNG, JPEG and WebP in memory become straight-alpha RGBA8.
+// SPDX-License-Identifier: Apache-2.0
+#include "image/decode.h"
+
+#include "image/image_header.h"
+#include "image/oiio_input.h"
+#include "image/strip_metadata.h"
+
+#include <bit>
+#include <cstring>
+#include <memory>
+#include <new>
+#include <webp/decode.h>
+#include <webp/demux.h>
+
+namespace obscura {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "texels keep R in the lowest byte");
+
+using Bytes = std::span<const std::byte>;
+
+tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
+    return fail(ExitCode::bad_resource, "E-IMG-CORRUPT", where, why);
+}
+
+/// Spreads 1 (grey) or 2 (grey, alpha) channels, as read into 4-byte texels, over all four.
+void spread_grey(std::vector<uint32_t>& texels, bool has_alpha) {
+    for (uint32_t& texel : texels) {
+        const uint32_t grey = texel & 0xFF;
+        const uint32_t alpha = has_alpha ? texel >> 8 & 0xFF : 0xFF;
+        texel = grey | grey << 8 | grey << 16 | alpha << 24;
+    }
+}
+
+/// Cut-off or undecodable data are an error. Anything else that the JPEG library complains about
+/// and survives, such as stray bytes after the pixels, is a warning.
+bool means_missing_pixels(const std::string& complaint) {
+    const auto says = [&](const char* text) { return complaint.find(text) != std::string::npos; };
+    return says("remature end") || (says("Corrupt JPEG data") && !says("xtraneous bytes"));
+}
+
+Result<void> decode_with_oiio(
+    Bytes bytes, ImageFormat format, ImageRgba8& image, const std::string& where, Log& log) {
+    const std::vector<std::byte> pixels_only = without_metadata(bytes, format);
+    OiioInput input(pixels_only, image.format.c_str());
+    if (!input.error().empty()) return corrupt(where, input.error());
+    const OIIO::ImageSpec& spec = input.spec();
+    if (spec.width != image.width || spec.height != image.height || spec.nchannels < 1 ||
+        spec.nchannels > 4) {
+        return corrupt(where, "the size or the number of channels contradicts the header");
+    }
+    const int channels = spec.nchannels;
+    const bool read = input.read(OIIO::TypeDesc::UINT8, image.texels.data(), sizeof(uint32_t));
+    const std::string complaint = input.errors();
+    if (!read || means_missing_pixels(complaint)) {
+        return corrupt(where, complaint.empty() ? "cut off or broken" : complaint);
+    }
+    if (!complaint.empty()) log.warn(where, complaint);
+    if (channels <= 2) spread_grey(image.texels, channels == 2);
+    return {};
+}
+
+Result<void> decode_webp(Bytes bytes, ImageRgba8& image, const std::string& where) {
+    const auto* out = WebPDecodeRGBAInto(reinterpret_cast<const uint8_t*>(bytes.data()),
+                                         bytes.size(),
+                                         reinterpret_cast<uint8_t*>(image.texels.data()),
+                                         image.texels.size() * sizeof(uint32_t),
+                                         image.width * int{sizeof(uint32_t)});
+    if (!out) return corrupt(where, "the WebP data are cut off or broken");
+    return {};
+}
+
+Result<void> decode_first_webp_frame(Bytes bytes, ImageRgba8& image, const std::string& where) {
+    WebPAnimDecoderOptions options;
+    if (!WebPAnimDecoderOptionsInit(&options)) return corrupt(where, "libwebp does not fit");
+    options.color_mode = MODE_RGBA;
+    const WebPData data{reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
+    const std::unique_ptr<WebPAnimDecoder, void (*)(WebPAnimDecoder*)> decoder(
+        WebPAnimDecoderNew(&data, &options), WebPAnimDecoderDelete);
+    uint8_t* canvas = nullptr;
+    int time = 0;
+    if (!decoder || !WebPAnimDecoderGetNext(decoder.get(), &canvas, &time)) {
+        return corrupt(where, "the animated WebP's data are cut off or broken");
+    }
+    std::memcpy(image.texels.data(), canvas, image.texels.size() * sizeof(uint32_t));
+    return {};
+}
+
+}  // namespace
+
+Result<ImageRgba8> probe_image(Bytes bytes, const std::string& where) {
+    const Result<ImageHeader> header = read_image_header(bytes, where);
+    if (!header) return fail(header.error());
+    return ImageRgba8{header->width, header->height, {}, format_name(header->format)};
+}
+
+Result<ImageRgba8> decode_image(Bytes bytes, const std::string& where, Log& log) {
+    const Result<ImageHeader> header = read_image_header(bytes, where);
+    if (!header) return fail(header.error());
+    ImageRgba8 image{header->width, header->height, {}, format_name(header->format)};
+    if (header->animated) log.warn(where, "animated: only its first frame is used");
+    try {
+        const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+        image.texels.assign(count, 0xFF000000U);  // opaque, when the picture has no alpha
+        Result<void> decoded = header->format != ImageFormat::webp
+                                   ? decode_with_oiio(bytes, header->format, image, where, log)
+                               : header->animated ? decode_first_webp_frame(bytes, image, where)
+                                                  : decode_webp(bytes, image, where);
+        if (!decoded) return fail(std::move(decoded.error()));
+    } catch (const std::bad_alloc&) {
+        return fail(ExitCode::out_of_memory,
+                    "E-IMG-MEMORY",
+                    where,
+                    "no memory for " + std::to_string(image.width) + " x " +
+                        std::to_string(image.height) + " pixels");
+    } catch (const std::exception& error) {
+        return corrupt(where, error.what());
+    }
+    return image;
+}
+
+}  // namespace obscura

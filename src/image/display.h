@@ -1,0 +1,41 @@
+// image/display.h - from scene-linear values to a display, by an OpenColorIO display and view.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "base/log.h"
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+namespace obscura {
+
+struct DisplayOptions {
+    std::string ocio_file;   ///< --ocio; empty: $OCIO, else the built-in config
+    std::string display;     ///< --display; empty: the config's default
+    std::string view;        ///< --view; empty: the config's default for that display
+    double exposure_ev = 0;  ///< scene values are multiplied by 2^EV first
+};
+
+/// Scene-linear Rec.709 to display code values in [0, 1].
+class DisplayTransform {
+public:
+    /// Errors  78 E-OCIO-FILE unreadable or bad config, E-OCIO-DISPLAY / E-OCIO-VIEW unknown name
+    ///         (the message lists what there is)
+    static Result<DisplayTransform> create(const DisplayOptions& options, Log& log);
+
+    DisplayTransform(DisplayTransform&&) noexcept;
+    DisplayTransform& operator=(DisplayTransform&&) noexcept;
+    ~DisplayTransform();
+
+    /// Converts `count` RGB triples in place. Thread-safe.
+    void apply(float* rgb, size_t count) const;
+
+private:
+    struct Impl;
+    explicit DisplayTransform(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace obscura

@@ -1,0 +1,120 @@
+// image/encode_exr.cpp - finished pictures become OpenEXR files in memory.
+// SPDX-License-Identifier: Apache-2.0
+#include "base/log.h"
+#include "base/parallel.h"
+#include "image/encode.h"
+#include "image/exr_stream.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticities.h>
+#include <OpenEXR/ImfFloatAttribute.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfThreading.h>
+
+#include <Imath/ImathMatrix.h>
+#include <Imath/half.h>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace obscura {
+
+namespace {
+
+Imath::M44f matrix_from(const float values[16]) {
+    Imath::M44f matrix;
+    std::memcpy(matrix.getValue(), values, 16 * sizeof(float));
+    return matrix;
+}
+
+/// Names from an asset may hold control characters, which a terminal would obey when they are
+/// shown.
+void insert_text(Imf::Header& header, const std::string& name, const std::string& text) {
+    if (!text.empty()) header.insert(name, Imf::StringAttribute(escape_control(text)));
+}
+
+Imf::Header header_of(const Picture& picture, const PictureMetadata& metadata, ExrDepth depth) {
+    Imf::Header header(picture.width, picture.height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    const Imf::PixelType type = depth == ExrDepth::half ? Imf::HALF : Imf::FLOAT;
+    for (const std::string& name : picture.channels) {
+        header.channels().insert(name, Imf::Channel(type));
+    }
+    // First, so that they cannot take the place of an attribute below.
+    for (const auto& [name, text] : metadata.extra)
+        insert_text(header, name, text);
+    if (metadata.is_color) Imf::addChromaticities(header, Imf::Chromaticities());  // Rec.709
+    insert_text(header, "colorInteropID", metadata.is_color ? "lin_rec709_scene" : "data");
+    Imf::addWorldToCamera(header, matrix_from(metadata.world_to_camera));
+    Imf::addWorldToNDC(header, matrix_from(metadata.world_to_ndc));
+    insert_text(header, "Software", metadata.software);
+    insert_text(header, "asset", metadata.asset);
+    insert_text(header, "copyright", metadata.copyright);
+    insert_text(header, "seed", std::to_string(metadata.seed));
+    header.insert("samplesPerPixel", Imf::IntAttribute(metadata.samples_per_pixel));
+    header.insert("renderSeconds",
+                  Imf::FloatAttribute(static_cast<float>(metadata.render_seconds)));
+    return header;
+}
+
+std::vector<half> halves_of(const std::vector<float>& values) {
+    constexpr float largest = 65504;
+    constexpr size_t grain = 1 << 16;
+    std::vector<half> halves(values.size());
+    parallel_ranges(values.size(), grain, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const float value = values[i];
+            halves[i] = half(std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest));
+        }
+    });
+    return halves;
+}
+
+/// Large pictures are compressed on several threads; small ones are not worth starting them.
+int compression_threads(const Picture& picture) {
+    constexpr size_t large = 1 << 20;
+    constexpr size_t most = 16;
+    if (picture.pixels.size() < large) return 0;
+    const int threads = static_cast<int>(std::min(max_thread_index(), most));
+    if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
+    return threads;
+}
+
+}  // namespace
+
+std::vector<std::byte> encode_exr(const Picture& picture,
+                                  const PictureMetadata& metadata,
+                                  ExrDepth depth,
+                                  const std::string& name) {
+    const bool is_half = depth == ExrDepth::half;
+    const std::vector<half> halves = is_half ? halves_of(picture.pixels) : std::vector<half>();
+    const size_t value_bytes = is_half ? sizeof(half) : sizeof(float);
+    const size_t pixel_bytes = value_bytes * picture.channels.size();
+    const void* data = is_half ? static_cast<const void*>(halves.data())
+                               : static_cast<const void*>(picture.pixels.data());
+    // OpenEXR's frame buffers serve reading too and are never const; writing does not change them.
+    char* base = const_cast<char*>(static_cast<const char*>(data));
+    Imf::FrameBuffer buffer;
+    for (size_t i = 0; i < picture.channels.size(); ++i) {
+        buffer.insert(picture.channels[i],
+                      Imf::Slice(is_half ? Imf::HALF : Imf::FLOAT,
+                                 base + i * value_bytes,
+                                 pixel_bytes,
+                                 pixel_bytes * static_cast<size_t>(picture.width)));
+    }
+    ExrMemoryWriter stream(name.c_str());
+    {
+        Imf::OutputFile file(
+            stream, header_of(picture, metadata, depth), compression_threads(picture));
+        file.setFrameBuffer(buffer);
+        file.writePixels(picture.height);
+    }  // the table of offsets is written here
+    return stream.take();
+}
+
+}  // namespace obscura

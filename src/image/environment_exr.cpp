@@ -1,0 +1,176 @@
+// image/environment_exr.cpp - an OpenEXR file in memory becomes linear RGB.
+// SPDX-License-Identifier: Apache-2.0
+#include "image/environment_exr.h"
+
+#include "image/exr_stream.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfChromaticities.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <mutex>
+#include <string_view>
+
+namespace obscura {
+
+namespace {
+
+using Bytes = std::span<const std::byte>;
+using Names = std::array<std::string, 3>;
+
+tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
+    return fail(ExitCode::bad_resource, "E-ENV-CORRUPT", where, why);
+}
+
+/// Walks over the bytes of a header; everything is empty or 0 after the end.
+struct HeaderReader {
+    Bytes rest;
+
+    std::string_view text() {
+        const auto* begin = reinterpret_cast<const char*>(rest.data());
+        const std::string_view all(begin, rest.size());
+        const std::string_view found = all.substr(0, all.find('\0'));
+        rest = rest.subspan(std::min(found.size() + 1, rest.size()));
+        return found;
+    }
+    int32_t number() {
+        int32_t value = 0;
+        if (rest.size() >= sizeof value) std::memcpy(&value, rest.data(), sizeof value);
+        skip(sizeof value);
+        return value;
+    }
+    void skip(size_t count) { rest = rest.subspan(std::min(count, rest.size())); }
+};
+
+/// OpenEXR allocates tables in proportion to the size as soon as it opens a file: look at the
+/// first part's data window before.
+Result<void> check_data_window(Bytes bytes, const std::string& where) {
+    constexpr size_t magic_and_version = 8;
+    HeaderReader reader{bytes};
+    reader.skip(magic_and_version);
+    while (!reader.rest.empty()) {
+        const std::string_view name = reader.text();
+        if (name.empty()) break;
+        const std::string_view type = reader.text();
+        const int32_t size = reader.number();
+        if (size < 0) break;
+        if (static_cast<size_t>(size) > reader.rest.size()) break;
+        if (name == "dataWindow" && type == "box2i" && size == 16) {
+            const int64_t left = reader.number();
+            const int64_t top = reader.number();
+            const int64_t right = reader.number();
+            const int64_t bottom = reader.number();
+            return check_environment_size(right - left + 1, bottom - top + 1, where);
+        }
+        reader.skip(static_cast<size_t>(size));
+    }
+    return corrupt(where, "the OpenEXR header is cut off or has no data window");
+}
+
+/// The channels of red, green and blue; all the same for a luminance picture; empty if none.
+Names color_channels(const Imf::ChannelList& channels) {
+    const auto has = [&](const std::string& name) { return channels.findChannel(name) != nullptr; };
+    if (has("R") && has("G") && has("B")) return {"R", "G", "B"};
+    for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+        const std::string name = channel.name();
+        const size_t dot = name.rfind('.');
+        if (dot == std::string::npos || name.substr(dot) != ".R") continue;
+        const std::string layer = name.substr(0, dot);
+        if (has(layer + ".G") && has(layer + ".B")) return {name, layer + ".G", layer + ".B"};
+    }
+    if (has("Y") && !has("RY") && !has("BY")) return {"Y", "Y", "Y"};
+    return {};
+}
+
+std::string channel_list(const Imf::ChannelList& channels) {
+    std::string list;
+    for (auto channel = channels.begin(); channel != channels.end() && list.size() < 200;
+         ++channel) {
+        if (!list.empty()) list += ", ";
+        list += channel.name();
+    }
+    return list.empty() ? "none" : list;
+}
+
+void warn_about_primaries(const Imf::Header& header, const std::string& where, Log& log) {
+    if (!Imf::hasChromaticities(header)) return;
+    const Imf::Chromaticities rec709;
+    const Imf::Chromaticities& found = Imf::chromaticities(header);
+    const auto differ = [](const Imath::V2f& a, const Imath::V2f& b) {
+        return !((a - b).length() < 0.005f);
+    };
+    if (differ(found.red, rec709.red) || differ(found.green, rec709.green) ||
+        differ(found.blue, rec709.blue) || differ(found.white, rec709.white)) {
+        log.warn(where, "its primaries are not Rec.709; its values are taken as if they were");
+    }
+}
+
+Result<ImageRgb32f> read_pixels(Imf::InputFile& file, const std::string& where) {
+    const Imf::ChannelList& channels = file.header().channels();
+    const Names names = color_channels(channels);
+    if (names[0].empty()) {
+        return corrupt(where, "needs channels R, G, B or Y; it has " + channel_list(channels));
+    }
+    for (const std::string& name : names) {
+        const Imf::Channel& channel = *channels.findChannel(name);
+        if (channel.xSampling != 1 || channel.ySampling != 1) {
+            return corrupt(where, "channel " + name + " is subsampled; save it at full resolution");
+        }
+    }
+    const Imath::Box2i window = file.header().dataWindow();
+    ImageRgb32f image{window.max.x - window.min.x + 1, window.max.y - window.min.y + 1, {}};
+    const auto width = static_cast<size_t>(image.width);
+    image.pixels.resize(3 * width * static_cast<size_t>(image.height));
+    Imf::FrameBuffer buffer;
+    const bool is_grey = names[0] == names[1];
+    for (size_t i = 0; i < (is_grey ? 1 : 3); ++i) {
+        buffer.insert(names[i],
+                      Imf::Slice::Make(Imf::FLOAT,
+                                       image.pixels.data() + i,
+                                       window.min,
+                                       image.width,
+                                       image.height,
+                                       3 * sizeof(float),
+                                       3 * sizeof(float) * width));
+    }
+    file.setFrameBuffer(buffer);
+    file.readPixels(window.min.y, window.max.y);
+    for (size_t i = 0; is_grey && i < image.pixels.size(); i += 3) {
+        image.pixels[i + 1] = image.pixels[i + 2] = image.pixels[i];
+    }
+    return image;
+}
+
+}  // namespace
+
+bool is_exr(Bytes bytes) {
+    constexpr unsigned char magic[] = {0x76, 0x2F, 0x31, 0x01};
+    return bytes.size() >= sizeof magic && std::memcmp(bytes.data(), magic, sizeof magic) == 0;
+}
+
+Result<ImageRgb32f> read_exr(Bytes bytes, const std::string& where, Log& log) {
+    if (auto fits = check_data_window(bytes, where); !fits) return fail(std::move(fits.error()));
+    try {
+        static std::once_flag once;
+        std::call_once(once, [] {  // for tiles and for the parts after the first
+            Imf::Header::setMaxImageSize(65536, 65536);
+            Imf::Header::setMaxTileSize(65536, 65536);
+        });
+        ExrMemoryReader stream(bytes, where.c_str());
+        Imf::InputFile file(stream);
+        warn_about_primaries(file.header(), where, log);
+        return read_pixels(file, where);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        return corrupt(where, error.what());
+    }
+}
+
+}  // namespace obscura

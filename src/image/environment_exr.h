@@ -1,0 +1,27 @@
+// image/environment_exr.h - an OpenEXR file in memory becomes linear RGB.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "base/log.h"
+#include "image/pixels.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace obscura {
+
+/// True when the bytes begin like an OpenEXR file.
+bool is_exr(std::span<const std::byte> bytes);
+
+/// Reads R, G, B (of the file itself, else of its first layer that has them) or Y of the first
+/// part's data window. Values are as they are in the file.
+///
+/// Errors  67 E-ENV-CORRUPT, 65 E-ENV-ASPECT, 77 E-ENV-LIMIT (before allocating)
+Result<ImageRgb32f> read_exr(std::span<const std::byte> bytes, const std::string& where, Log& log);
+
+/// 65 E-ENV-ASPECT unless width is 2 * height, 77 E-ENV-LIMIT when it is too large.
+Result<void> check_environment_size(int64_t width, int64_t height, const std::string& where);
+
+}  // namespace obscura

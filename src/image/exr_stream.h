@@ -1,0 +1,62 @@
+// image/exr_stream.h - OpenEXR files in memory.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <OpenEXR/Iex.h>
+#include <OpenEXR/ImfIO.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace obscura {
+
+/// Reads from bytes that outlive it.
+class ExrMemoryReader final : public Imf::IStream {
+public:
+    ExrMemoryReader(std::span<const std::byte> bytes, const char* name)
+        : Imf::IStream(name), bytes_(bytes) {}
+
+    bool read(char out[], int count) override {
+        const auto wanted = static_cast<uint64_t>(std::max(count, 0));
+        if (position_ > bytes_.size() || wanted > bytes_.size() - position_) {
+            throw Iex::InputExc("the file is cut off");
+        }
+        std::memcpy(out, bytes_.data() + position_, wanted);
+        position_ += wanted;
+        return position_ < bytes_.size();
+    }
+    uint64_t tellg() override { return position_; }
+    void seekg(uint64_t position) override { position_ = position; }
+
+private:
+    std::span<const std::byte> bytes_;
+    uint64_t position_ = 0;
+};
+
+/// Collects what is written; OpenEXR goes back once, to fill in its table of offsets.
+class ExrMemoryWriter final : public Imf::OStream {
+public:
+    explicit ExrMemoryWriter(const char* name) : Imf::OStream(name) {}
+
+    void write(const char in[], int count) override {
+        const auto size = static_cast<uint64_t>(std::max(count, 0));
+        if (position_ + size > bytes_.size()) bytes_.resize(position_ + size);
+        std::memcpy(bytes_.data() + position_, in, size);
+        position_ += size;
+    }
+    uint64_t tellp() override { return position_; }
+    void seekp(uint64_t position) override { position_ = position; }
+
+    std::vector<std::byte> take() { return std::move(bytes_); }
+
+private:
+    std::vector<std::byte> bytes_;
+    uint64_t position_ = 0;
+};
+
+}  // namespace obscura

@@ -1,0 +1,46 @@
+// image/image_header.h - what an encoded picture says about itself, read without decoding it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace obscura {
+
+enum class ImageFormat { png, jpeg, webp };
+
+struct ImageHeader {
+    ImageFormat format = ImageFormat::png;
+    int width = 0;
+    int height = 0;
+    bool animated = false;
+};
+
+/// "png", "jpeg" or "webp".
+const char* format_name(ImageFormat format);
+
+/// Tells PNG, JPEG and WebP apart by their first bytes and reads the size. No library is touched
+/// and nothing is allocated, so that a header that promises too much costs nothing.
+///
+/// Errors  67 E-IMG-FORMAT none of the three (says what it looks like), 67 E-IMG-CORRUPT the
+///         header is cut off or broken, 69 E-IMG-FEATURE a JPEG process that is not read
+///         (12 bits, lossless, hierarchical), 77 E-IMG-LIMIT a side over 65536, over 2^29 pixels,
+///         or a JPEG of more than 1000 scans
+Result<ImageHeader> read_image_header(std::span<const std::byte> bytes, const std::string& where);
+
+/// Refuses pictures that are too large to decode, before anything is allocated.
+///
+/// In      family: first part of the error's name, such as "E-IMG"
+/// Errors  77 "<family>-LIMIT" a side over 65536 or more than 2 GiB when decoded,
+///         67 "<family>-CORRUPT" no pixel at all
+Result<void> check_image_size(int64_t width,
+                              int64_t height,
+                              int bytes_per_pixel,
+                              const std::string& family,
+                              const std::string& where);
+
+}  // namespace obscura

@@ -1,0 +1,26 @@
+// image/pixels.h - decoded pictures in memory.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// 8 bits a channel, rows from the top, alpha not premultiplied; R in the lowest byte of a texel.
+struct ImageRgba8 {
+    int width = 0;
+    int height = 0;
+    std::vector<uint32_t> texels;
+    std::string format;  ///< "png", "jpeg", "webp"
+};
+
+/// Linear Rec.709 RGB, 3 floats a pixel, rows from the top.
+struct ImageRgb32f {
+    int width = 0;
+    int height = 0;
+    std::vector<float> pixels;
+};
+
+}  // namespace obscura

@@ -1,0 +1,174 @@
+// light/environment_table.cpp - copies an environment map and builds the tables that sample it.
+// SPDX-License-Identifier: Apache-2.0
+#include "light/environment_table.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace obscura {
+namespace {
+
+constexpr int64_t max_pixels = int64_t{1} << 28;
+
+struct Repaired {
+    float value;
+    bool changed;
+};
+
+Repaired repaired(float value, double scale) {
+    const double scaled = static_cast<double>(value) * scale;
+    if (!(scaled >= 0)) return {0.0F, true};  // NaN too
+    if (scaled > max_environment_radiance) return {max_environment_radiance, true};
+    return {static_cast<float>(scaled), false};
+}
+
+double luminance_of(const float* rgb) {
+    return luminance(Vec3d{rgb[0], rgb[1], rgb[2]});
+}
+
+/// Half luminance, half the strongest channel: a deep blue light is sampled well too.
+double importance_of(const float* rgb) {
+    return 0.5 * (luminance_of(rgb) + std::max({rgb[0], rgb[1], rgb[2]}));
+}
+
+/// Mean over each pixel of row y of what bilinear interpolation makes of a measure: in each
+/// direction an eighth, six eighths and an eighth of the neighbours.
+template <typename Measure>
+std::vector<double> filtered_row(
+    const std::vector<float>& pixels, int width, int height, int y, const Measure& measure) {
+    const auto row = [&](int at) {
+        const auto clamped = static_cast<size_t>(std::clamp(at, 0, height - 1));
+        return pixels.data() + clamped * static_cast<size_t>(width) * 3;
+    };
+    const float* above = row(y - 1);
+    const float* here = row(y);
+    const float* below = row(y + 1);
+    const auto size = static_cast<size_t>(width);
+    std::vector<double> column(size);
+    for (size_t x = 0; x < size; ++x) {
+        column[x] =
+            (measure(above + 3 * x) + 6 * measure(here + 3 * x) + measure(below + 3 * x)) / 8;
+    }
+    std::vector<double> result(size);
+    for (size_t x = 0; x < size; ++x) {
+        const double left = column[(x + size - 1) % size];
+        const double right = column[(x + 1) % size];
+        result[x] = (left + 6 * column[x] + right) / 8;
+    }
+    return result;
+}
+
+/// Solid angle of one pixel of row y.
+double pixel_steradians(int width, int height, int y) {
+    const double top = std::cos(pi_d * y / height);
+    const double bottom = std::cos(pi_d * (y + 1) / height);
+    return 2 * pi_d / width * (top - bottom);
+}
+
+double sum_of(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double value : values)
+        sum += value;
+    return sum;
+}
+
+Result<void> check(const EnvironmentImage& image, double intensity, double rotation_deg) {
+    const bool fits = image.width >= 1 && image.width <= max_environment_side &&
+                      image.height >= 1 && image.height <= max_environment_side &&
+                      int64_t{image.width} * image.height <= max_pixels;
+    if (!fits || image.rgb == nullptr) {
+        return fail(ExitCode::bad_resource,
+                    "E-ENV-SIZE",
+                    "environment map",
+                    "it has " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                        " pixels; accepted are sides from 1 to " +
+                        std::to_string(max_environment_side));
+    }
+    if (!(intensity >= 0) || !std::isfinite(intensity) || !std::isfinite(rotation_deg)) {
+        return fail(ExitCode::usage,
+                    "E-ENV-OPTION",
+                    "environment map",
+                    "intensity must be a finite number of at least 0 and rotation a finite number "
+                    "of degrees; they are " +
+                        std::to_string(intensity) + " and " + std::to_string(rotation_deg));
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<EnvironmentTable> EnvironmentTable::create(const EnvironmentImage& image,
+                                                  double intensity,
+                                                  double rotation_deg) {
+    if (Result<void> checked = check(image, intensity, rotation_deg); !checked) {
+        return fail(std::move(checked.error()));
+    }
+    EnvironmentTable table;
+    table.width_ = image.width;
+    table.height_ = image.height;
+    const double rotation_rad = std::remainder(rotation_deg, 360.0) * pi_d / 180.0;
+    table.cos_rotation_ = std::cos(rotation_rad);
+    table.sin_rotation_ = std::sin(rotation_rad);
+    table.copy_pixels(image.rgb, intensity);
+    table.build_tables();
+    return table;
+}
+
+void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {
+    pixels_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_) * 3);
+    for (size_t i = 0; i < pixels_.size(); ++i) {
+        const Repaired pixel = repaired(rgb[i], intensity);
+        pixels_[i] = pixel.value;
+        repaired_values_ += pixel.changed ? 1 : 0;
+    }
+}
+
+void EnvironmentTable::build_tables() {
+    const auto width = static_cast<size_t>(width_);
+    const auto height = static_cast<size_t>(height_);
+    columns_.resize(width * height);
+    density_.resize(width * height);
+    std::vector<double> row_weight(height);
+    std::vector<double> row_power(height);
+    parallel_for(height, [&](size_t y) {
+        const int at = static_cast<int>(y);
+        const double steradians = pixel_steradians(width_, height_, at);
+        const auto light = filtered_row(pixels_, width_, height_, at, luminance_of);
+        row_power[y] = sum_of(light) * steradians;
+        const auto weights = filtered_row(pixels_, width_, height_, at, importance_of);
+        row_weight[y] = sum_of(weights) * steradians;
+        const auto entries = build_alias_table(std::span<const double>(weights));
+        std::copy(entries.begin(), entries.end(), columns_.data() + y * width);
+        const auto shares = alias_probabilities(entries);
+        std::copy(shares.begin(), shares.end(), density_.data() + y * width);
+    });
+    power_ = sum_of(row_power);
+    black_ = !(sum_of(row_weight) > 0);
+    rows_ = build_alias_table(std::span<const double>(row_weight));
+
+    // In (u, v) a pixel's share is spread over 1 / (width height); d omega = 2 pi^2 sin du dv.
+    const auto row_shares = alias_probabilities(rows_);
+    const double spread = static_cast<double>(width * height) / (2 * pi_d * pi_d);
+    parallel_for(height, [&](size_t y) {
+        const double scale = black_ ? 0.0 : row_shares[y] * spread;
+        for (size_t i = y * width; i < (y + 1) * width; ++i) {
+            density_[i] = static_cast<float>(density_[i] * scale);
+        }
+    });
+}
+
+EnvironmentView EnvironmentTable::view() const {
+    return {pixels_.data(),
+            rows_.data(),
+            columns_.data(),
+            density_.data(),
+            width_,
+            height_,
+            static_cast<float>(cos_rotation_),
+            static_cast<float>(sin_rotation_)};
+}
+
+}  // namespace obscura

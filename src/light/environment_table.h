@@ -1,0 +1,69 @@
+// light/environment_table.h - owns an environment map and the tables that sample it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "light/environment.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace obscura {
+
+/// A latitude-longitude map in someone else's memory: 3 floats a pixel, linear, rows from the top.
+struct EnvironmentImage {
+    int width = 0;
+    int height = 0;
+    const float* rgb = nullptr;
+};
+
+/// Sides an environment map may have.
+inline constexpr int max_environment_side = 16384;
+
+/// Radiance of a pixel after scaling never exceeds this, so that sums of squares stay finite.
+inline constexpr float max_environment_radiance = 1e12f;
+
+class EnvironmentTable {
+public:
+    /// Copies the map, scaled by `intensity`, and builds its tables.
+    ///
+    /// In      rotation_deg: about +Y, counter-clockwise seen from above
+    /// Out     negative and non-finite values count as 0 (infinite ones as the limit); see
+    ///         repaired_values()
+    /// Errors  67 E-ENV-SIZE sides not in [1, 16384] or more than 2^28 pixels;
+    ///         64 E-ENV-OPTION intensity negative or not finite, rotation not finite
+    static Result<EnvironmentTable> create(const EnvironmentImage& image,
+                                           double intensity,
+                                           double rotation_deg);
+
+    /// Valid for as long as the table lives, wherever it is moved.
+    EnvironmentView view() const;
+
+    /// Integral of the luminance over the sphere; 0 when the map is black.
+    double power() const { return power_; }
+
+    /// No light comes from it: leave it out of light selection.
+    bool black() const { return black_; }
+
+    /// How many of the map's values had to be replaced; worth a warning when not 0.
+    int64_t repaired_values() const { return repaired_values_; }
+
+private:
+    EnvironmentTable() = default;
+    void copy_pixels(const float* rgb, double intensity);
+    void build_tables();
+
+    std::vector<float> pixels_;
+    std::vector<AliasEntry> rows_;
+    std::vector<AliasEntry> columns_;
+    std::vector<float> density_;
+    int width_ = 0;
+    int height_ = 0;
+    double cos_rotation_ = 1;
+    double sin_rotation_ = 0;
+    double power_ = 0;
+    bool black_ = true;
+    int64_t repaired_values_ = 0;
+};
+
+}  // namespace obscura

@@ -1,0 +1,25 @@
+// light/light_view.h - all lights of a scene in one numbered list, as raw pointers for gathers.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace obscura {
+
+struct AliasEntry;
+struct PunctualLight;
+struct TriangleLight;
+
+/// Lights are numbered: punctual ones first, then emissive triangles, then the environment.
+struct LightView {
+    const AliasEntry* alias = nullptr;  ///< chooses a light with probability select_pdf
+    const float* select_pdf = nullptr;  ///< by light number
+    int32_t count = 0;                  ///< of all lights
+    int32_t punctual_count = 0;
+    int32_t triangle_count = 0;
+    const PunctualLight* punctual = nullptr;
+    const TriangleLight* triangles = nullptr;
+    float environment_select = 0;  ///< probability of choosing the environment
+};
+
+}  // namespace obscura

@@ -1,0 +1,25 @@
+// light/punctual.h - KHR_lights_punctual: point, spot and directional lights.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace obscura {
+
+enum class PunctualType : int32_t { point = 0, spot = 1, directional = 2 };
+
+/// One light in world space, 32-bit words only.
+struct PunctualLight {
+    int32_t type = 0;  ///< PunctualType
+    float position[3] = {0, 0, 0};
+    float direction[3] = {0, 0, -1};  ///< unit, the way the light shines
+    /// colour * intensity: candela (point, spot) or lux (directional)
+    float intensity[3] = {1, 1, 1};
+    float range = 0;        ///< metres; 0 is unlimited
+    float spot_scale = 0;   ///< lightAngleScale of the extension's formula
+    float spot_offset = 1;  ///< lightAngleOffset; scale 0, offset 1 is no cone
+};
+
+static_assert(sizeof(PunctualLight) == 13 * 4, "read as 32-bit words: no padding");
+
+}  // namespace obscura

@@ -1,0 +1,87 @@
+// math/sampler.h - the random numbers of a path: Owen-scrambled Sobol points, padded in pairs.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/vec.h"
+
+namespace obscura {
+
+/// What each pair of random numbers is for. A path's pair number is `bounce * pairs_per_bounce +
+/// use`; bounce 0 is the camera's own.
+///
+/// To add a use: append it before `count`. Every picture's noise (not its mean) then changes.
+enum class RandomUse : uint32_t { film, bsdf, lobe, light, light_choice, texture, count };
+
+inline constexpr uint32_t pairs_per_bounce = static_cast<uint32_t>(RandomUse::count);
+
+inline namespace OBSCURA_ISA {
+
+/// A bijection of 32-bit words in which every output bit depends on every input bit.
+/// Source  the "lowbias32" finalizer found by search, C. Wellons, "Hash Function Prospector", 2018
+template <typename U>
+OBSCURA_INLINE U hash_word(U x) {
+    x = x ^ (x >> 16);
+    x = x * U(0x7FEB352DU);
+    x = x ^ (x >> 15);
+    x = x * U(0x846CA68BU);
+    return x ^ (x >> 16);
+}
+
+/// Key of a pixel's random numbers: depends on seed and absolute pixel coordinates only.
+template <typename U>
+OBSCURA_INLINE U pixel_key(const U& x, const U& y, uint32_t seed_low, uint32_t seed_high) {
+    U key = hash_word(U(x + U(seed_low)));
+    key = hash_word(U(key ^ (y * U(0x9E3779B9U))));
+    return hash_word(U(key + U(seed_high)));
+}
+
+/// Owen scrambling of a number given with its bits reversed; so is the result.
+/// Source  Laine and Karras, "Stratified Sampling for Stochastic Transparency", 2011; constants of
+///         N. Vegdahl, "Building a Better LK Hash", 2021
+template <typename U>
+OBSCURA_INLINE U owen_scramble_reversed(U x, const U& seed) {
+    x = x ^ (x * U(0x3D20ADEAU));
+    x = x + seed;
+    x = x * ((seed >> 16) | U(1U));
+    x = x ^ (x * U(0x05526C56U));
+    return x ^ (x * U(0x53A22864U));
+}
+
+/// Second Sobol dimension of an index, bits reversed: the Pascal triangle modulo 2 as matrix.
+/// Source  Ahmed, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact", 2024
+template <typename U>
+OBSCURA_INLINE U sobol_second_reversed(U x) {
+    x = x ^ ((x >> 1) & U(0x55555555U));
+    x = x ^ ((x >> 2) & U(0x33333333U));
+    x = x ^ ((x >> 4) & U(0x0F0F0F0FU));
+    x = x ^ ((x >> 8) & U(0x00FF00FFU));
+    return x ^ (x >> 16);
+}
+
+/// One two-dimensional point, each number a full 32-bit fraction.
+///
+/// In      key: pixel_key; index_reversed: reverse_bits(sample number); pair: see RandomUse
+/// Source  Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020: shuffled, padded points
+template <typename U>
+OBSCURA_INLINE Vec2<U> sobol_pair(const U& key, const U& index_reversed, uint32_t pair) {
+    const U seed = hash_word(U(key + U(pair * 0x9E3779B9U)));
+    const U index = reverse_bits(owen_scramble_reversed(index_reversed, seed));
+    const U first = owen_scramble_reversed(index, U(seed * U(0x9E6C63D3U) + U(0x68BC21EBU)));
+    const U second = owen_scramble_reversed(sobol_second_reversed(index),
+                                            U(seed * U(0xC2B2AE35U) + U(0x02E5BE93U)));
+    return {reverse_bits(first), reverse_bits(second)};
+}
+
+/// The number in [0, 1) that a 32-bit fraction stands for; 24 bits are kept.
+template <typename F>
+OBSCURA_INLINE F unit_float(const UintOf<F>& bits) {
+    return from_int<F>(as_int(bits >> 8)) * F(1.0f / 16777216.0f);
+}
+
+template <typename F>
+OBSCURA_INLINE Vec2<F> unit_pair(const Vec2<UintOf<F>>& bits) {
+    return {unit_float<F>(bits.x), unit_float<F>(bits.y)};
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

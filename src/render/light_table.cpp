@@ -1,0 +1,235 @@
+// render/light_table.cpp - gathers every light of a scene into one numbered, samplable list.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/light_table.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "math/warp.h"
+#include "surface/texture.h"
+
+namespace obscura {
+
+namespace {
+
+double scene_radius(const Bounds& bounds) {
+    if (bounds.empty()) return 1.0;
+    const Vec3f size = bounds.high - bounds.low;
+    return std::max(0.5 * static_cast<double>(length(size)), 1e-6);
+}
+
+double punctual_power(const PunctualLight& light, double radius) {
+    const double intensity = static_cast<double>(
+        luminance(Vec3f{light.intensity[0], light.intensity[1], light.intensity[2]}));
+    const bool directional = light.type == static_cast<int32_t>(PunctualType::directional);
+    return directional ? pi_d * radius * radius * intensity : 4.0 * pi_d * intensity;
+}
+
+bool emits(const Material& material) {
+    return (material.flags & material_unlit) == 0 &&
+           std::max({material.emission[0], material.emission[1], material.emission[2]}) > 0;
+}
+
+/// What the rows of one emissive primitive have in common.
+struct Emitter {
+    const Scene& scene;
+    const Primitive& primitive;
+    const Material& material;
+    const Instance* instance;
+};
+
+Vec2f corner_uv(const Emitter& e, uint32_t vertex) {
+    const TextureSlot& slot = e.material.emissive_texture;
+    const int32_t base = e.primitive.uv_base[slot.uv_set];
+    if (base == no_attribute) return {0, 0};
+    const auto word = static_cast<size_t>(base + static_cast<int64_t>(vertex) * 2);
+    const float u = e.scene.attributes[word];
+    const float v = e.scene.attributes[word + 1];
+    const float* m = slot.uv_from_mesh;
+    return {m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]};
+}
+
+/// Mean emission of a triangle's texture, by a small grid of look-ups at a fitting mip level.
+Vec3f mean_texture(const Scene& scene, const TriangleLight& row) {
+    const TextureView view{scene.textures.texels.data(),
+                           reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
+    constexpr int side = 4;
+    const float area =
+        0.5f * std::fabs((row.uv1[0] - row.uv0[0]) * (row.uv2[1] - row.uv0[1]) -
+                         (row.uv1[1] - row.uv0[1]) * (row.uv2[0] - row.uv0[0]));
+    Vec3f sum{0, 0, 0};
+    for (int i = 0; i < side * side; ++i) {
+        const Vec2f u{(static_cast<float>(i % side) + 0.5f) / side,
+                      (static_cast<float>(i / side) + 0.5f) / side};
+        const Vec2f b = triangle_from_square(u);
+        const Vec2f uv{row.uv0[0] + (row.uv1[0] - row.uv0[0]) * b.x +
+                           (row.uv2[0] - row.uv0[0]) * b.y,
+                       row.uv0[1] + (row.uv1[1] - row.uv0[1]) * b.x +
+                           (row.uv2[1] - row.uv0[1]) * b.y};
+        sum = sum + sample_texture_bilinear<float>(
+                        view, row.texture, uv, area / (side * side)).rgb;
+    }
+    return sum * (1.0f / (side * side));
+}
+
+TriangleLight light_row(const Emitter& e, int32_t triangle) {
+    const uint32_t* corners =
+        &e.scene.indices[3 * static_cast<size_t>(e.primitive.first_triangle + triangle)];
+    Vec3f p[3];
+    for (int k = 0; k < 3; ++k) {
+        const float* at = &e.scene.positions[3 * static_cast<size_t>(corners[k])];
+        p[k] = {at[0], at[1], at[2]};
+        if (e.instance != nullptr) p[k] = transform_point(e.instance->world_from_object, p[k]);
+    }
+    const bool mirrored = e.instance != nullptr && e.instance->mirrored != 0;
+    TriangleLight row = mirrored ? make_triangle_light(p[0], p[2], p[1])
+                                 : make_triangle_light(p[0], p[1], p[2]);
+    std::copy_n(e.material.emission, 3, row.emission);
+    row.two_sided = (e.material.flags & material_double_sided) != 0 ? 1 : 0;
+    const TextureSlot& slot = e.material.emissive_texture;
+    const bool has_uv = e.primitive.uv_base[slot.uv_set] != no_attribute;
+    row.texture = has_uv ? slot.texture : -1;
+    if (row.texture >= 0) {
+        const Vec2f uv[3] = {corner_uv(e, corners[0]),
+                             corner_uv(e, corners[mirrored ? 2 : 1]),
+                             corner_uv(e, corners[mirrored ? 1 : 2])};
+        std::copy_n(&uv[0].x, 2, row.uv0);
+        std::copy_n(&uv[1].x, 2, row.uv1);
+        std::copy_n(&uv[2].x, 2, row.uv2);
+    }
+    return row;
+}
+
+double triangle_power(const Scene& scene, const TriangleLight& row) {
+    Vec3f emission{row.emission[0], row.emission[1], row.emission[2]};
+    // A dark texel grid must not hide a bright spot: every triangle keeps a little.
+    if (row.texture >= 0) {
+        emission = emission * (mean_texture(scene, row) + splat3(1e-3f));
+    }
+    const double sides = row.two_sided != 0 ? 2.0 : 1.0;
+    return sides * pi_d * static_cast<double>(row.area) *
+           static_cast<double>(max_component(emission));
+}
+
+/// Rows of one placing of a primitive, appended.
+void append_rows(const Emitter& e, std::vector<TriangleLight>& rows) {
+    const size_t first = rows.size();
+    rows.resize(first + static_cast<size_t>(e.primitive.triangle_count));
+    parallel_ranges(static_cast<size_t>(e.primitive.triangle_count),
+                    1024,
+                    [&](size_t begin, size_t end) {
+                        for (size_t i = begin; i < end; ++i) {
+                            rows[first + i] = light_row(e, static_cast<int32_t>(i));
+                        }
+                    });
+}
+
+void collect_world_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
+    for (int32_t i = 0; i < scene.world_primitive_count; ++i) {
+        Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
+        const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+        if (!emits(material)) continue;
+        primitive.light_base = static_cast<int32_t>(rows.size());
+        append_rows({scene, primitive, material, nullptr}, rows);
+    }
+}
+
+/// A mesh's emissive primitives are numbered within the mesh; an instance adds where it starts.
+void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
+    for (const Mesh& mesh : scene.meshes) {
+        int32_t within = 0;
+        for (int32_t i = 0; i < mesh.primitive_count; ++i) {
+            Primitive& primitive =
+                scene.primitives[static_cast<size_t>(mesh.first_primitive + i)];
+            const bool glows = emits(scene.materials[static_cast<size_t>(primitive.material)]);
+            primitive.light_base = glows ? within : -1;
+            within += glows ? primitive.triangle_count : 0;
+        }
+    }
+    for (Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+        instance.light_base = static_cast<int32_t>(rows.size());
+        for (int32_t i = 0; i < mesh.primitive_count; ++i) {
+            const Primitive& primitive =
+                scene.primitives[static_cast<size_t>(mesh.first_primitive + i)];
+            if (primitive.light_base < 0) continue;
+            const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+            append_rows({scene, primitive, material, &instance}, rows);
+        }
+    }
+}
+
+/// Power shares, with a floor for each kind of light that is present: power says nothing of how
+/// near a light is, and a dim lamp beside a bright sky still lights its corner.
+std::vector<double> choice_weights(const std::vector<double>& punctual,
+                                   const std::vector<double>& triangles,
+                                   double environment) {
+    const auto sum = [](const std::vector<double>& v) {
+        double total = 0;
+        for (const double x : v) total += x;
+        return total;
+    };
+    const double kinds[3] = {sum(punctual), sum(triangles), environment};
+    const double total = kinds[0] + kinds[1] + kinds[2];
+    double scale[3] = {0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+        if (kinds[k] > 0) scale[k] = std::max(kinds[k] / total, 0.2) / kinds[k];
+    }
+    std::vector<double> weights;
+    weights.reserve(punctual.size() + triangles.size() + 1);
+    for (const double w : punctual) weights.push_back(w * scale[0]);
+    for (const double w : triangles) weights.push_back(w * scale[1]);
+    if (environment > 0) weights.push_back(environment * scale[2]);
+    return weights;
+}
+
+}  // namespace
+
+LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
+    LightTable table;
+    table.punctual = scene.lights;
+    collect_world_emitters(scene, table.triangles);
+    collect_instance_emitters(scene, table.triangles);
+
+    const double radius = scene_radius(scene.bounds);
+    std::vector<double> punctual;
+    for (const PunctualLight& light : table.punctual) {
+        punctual.push_back(punctual_power(light, radius));
+    }
+    std::vector<double> triangles(table.triangles.size());
+    parallel_ranges(triangles.size(), 1024, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            triangles[i] = triangle_power(scene, table.triangles[i]);
+        }
+    });
+    const bool has_environment = environment != nullptr && !environment->black();
+    const double environment_power =
+        has_environment ? pi_d * radius * radius * environment->power() : 0.0;
+    const std::vector<double> weights = choice_weights(punctual, triangles, environment_power);
+    if (weights.empty()) return table;
+
+    table.alias = build_alias_table(std::span<const double>(weights));
+    const std::vector<double> pdf = alias_probabilities(table.alias);
+    table.select_pdf.assign(pdf.begin(), pdf.end());
+    for (size_t i = 0; i < table.triangles.size(); ++i) {
+        TriangleLight& row = table.triangles[i];
+        const double area = static_cast<double>(row.area);
+        row.pdf_area = area > 0 ? static_cast<float>(pdf[punctual.size() + i] / area) : 0.0f;
+    }
+    if (has_environment) table.environment_select = table.select_pdf.back();
+    return table;
+}
+
+LightView LightTable::view() const {
+    return {alias.data(),
+            select_pdf.data(),
+            static_cast<int32_t>(alias.size()),
+            static_cast<int32_t>(punctual.size()),
+            static_cast<int32_t>(triangles.size()),
+            punctual.data(),
+            triangles.data(),
+            environment_select};
+}
+
+}  // namespace obscura

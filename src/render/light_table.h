@@ -1,0 +1,33 @@
+// render/light_table.h - gathers every light of a scene into one numbered, samplable list.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "light/alias_table.h"
+#include "light/environment_table.h"
+#include "light/light_view.h"
+#include "light/triangle_light.h"
+#include "scene/scene.h"
+
+namespace obscura {
+
+/// Owns what LightView points to.
+struct LightTable {
+    std::vector<PunctualLight> punctual;
+    std::vector<TriangleLight> triangles;
+    std::vector<float> select_pdf;
+    std::vector<AliasEntry> alias;
+    float environment_select = 0;
+
+    LightView view() const;
+};
+
+/// Collects the lights and the probabilities of choosing them, in proportion to the power that they
+/// send into the scene. Writes Primitive::light_base and Instance::light_base.
+///
+/// In      environment: null or black: none
+LightTable make_light_table(Scene& scene, const EnvironmentTable* environment);
+
+}  // namespace obscura

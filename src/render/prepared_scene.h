@@ -1,0 +1,25 @@
+// render/prepared_scene.h - what a PreparedScene owns.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "accel/accel.h"
+#include "render/light_table.h"
+#include "render/render.h"
+
+namespace obscura {
+
+struct PreparedScene::Impl {
+    Scene scene;
+    std::optional<EnvironmentTable> environment;
+    LightTable lights;
+    std::optional<Accel> accel;
+    const StageTable* stages = nullptr;
+    double build_seconds = 0;
+    bool studio = false;
+
+    SceneView view() const;
+};
+
+}  // namespace obscura

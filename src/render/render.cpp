@@ -1,0 +1,217 @@
+// render/render.cpp - cuts the film into tiles, one task each, and walks their batches.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/render.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <new>
+
+#include "base/parallel.h"
+#include "render/filter_table.h"
+#include "render/prepared_scene.h"
+#include "stages/walk.h"
+
+namespace obscura {
+
+namespace {
+
+/// What the film of an integrator holds: channel names, and how many of RGBA they take.
+std::vector<std::string> film_channels(Integrator integrator) {
+    switch (integrator) {
+        case Integrator::normal: return {"N.X", "N.Y", "N.Z"};
+        case Integrator::depth: return {"Z"};
+        case Integrator::id: return {"id.node", "id.material", "id.triangle"};
+        case Integrator::albedo:
+        case Integrator::path:
+        case Integrator::direct:
+        case Integrator::ao: break;
+    }
+    return {"R", "G", "B", "A"};
+}
+
+/// The walk that an integrator is.
+void choose_walk(Integrator integrator, WalkInput& walk) {
+    const auto quantity = [&](Quantity q) {
+        walk.kind = WalkKind::quantity;
+        walk.quantity = q;
+        walk.batch.pixel_centres = true;
+    };
+    switch (integrator) {
+        case Integrator::path: break;
+        case Integrator::direct: walk.batch.max_bounces = 0; break;
+        case Integrator::ao: walk.kind = WalkKind::ao; break;
+        case Integrator::normal: quantity(Quantity::normal); break;
+        case Integrator::depth: quantity(Quantity::depth); break;
+        case Integrator::albedo: quantity(Quantity::albedo); break;
+        case Integrator::id: quantity(Quantity::id); break;
+    }
+}
+
+WalkInput make_walk(const PreparedScene::Impl& scene,
+                    const Camera& camera,
+                    const RenderOptions& options) {
+    WalkInput walk{};
+    walk.stages = scene.stages;
+    walk.accel = &*scene.accel;
+    walk.scene = scene.view();
+    BatchSettings& batch = walk.batch;
+    batch.camera = camera;
+    batch.width = options.width;
+    batch.height = options.height;
+    batch.seed_low = static_cast<uint32_t>(options.seed);
+    batch.seed_high = static_cast<uint32_t>(options.seed >> 32);
+    batch.max_bounces = options.max_bounces;
+    batch.strategies = options.strategies;
+    batch.background_visible = options.background == BackgroundKind::environment;
+    if (options.background == BackgroundKind::color) {
+        std::copy_n(options.background_color, 3, batch.background);
+        batch.background[3] = 1.0f;
+    } else if (batch.background_visible) {
+        batch.background[3] = walk.scene.has_environment ? 1.0f : 0.0f;
+    }
+    const Bounds& bounds = scene.scene.bounds;
+    const float diagonal = bounds.empty() ? 1.0f : length(bounds.high - bounds.low);
+    batch.ao_distance = options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m)
+                                                  : 0.2f * diagonal;
+    choose_walk(options.integrator, walk);
+    return walk;
+}
+
+/// One square of the film and its pixels, in an order that keeps neighbours together.
+struct Tile {
+    int x, y, width, height;
+};
+
+std::vector<Tile> cut_tiles(const PixelRect& area, int size) {
+    std::vector<Tile> tiles;
+    for (int y = 0; y < area.height; y += size) {
+        for (int x = 0; x < area.width; x += size) {
+            tiles.push_back({area.x + x,
+                             area.y + y,
+                             std::min(size, area.width - x),
+                             std::min(size, area.height - y)});
+        }
+    }
+    return tiles;
+}
+
+/// Pixel coordinates of a tile in 4x4 blocks, row by row inside a block: packets of 16 are square.
+void list_pixels(const Tile& tile, std::vector<int32_t>& xs, std::vector<int32_t>& ys) {
+    xs.clear();
+    ys.clear();
+    for (int block_y = 0; block_y < tile.height; block_y += 4) {
+        for (int block_x = 0; block_x < tile.width; block_x += 4) {
+            for (int y = block_y; y < std::min(block_y + 4, tile.height); ++y) {
+                for (int x = block_x; x < std::min(block_x + 4, tile.width); ++x) {
+                    xs.push_back(tile.x + x);
+                    ys.push_back(tile.y + y);
+                }
+            }
+        }
+    }
+}
+
+/// What one thread keeps from tile to tile.
+struct ThreadState {
+    Workspace work;
+    std::vector<int32_t> xs, ys;
+    std::vector<float> sums;
+    WalkCounters counters;
+};
+
+/// Renders all samples of one tile into state.sums.
+void render_tile(const WalkInput& walk_input, int samples, const Tile& tile, ThreadState& state) {
+    list_pixels(tile, state.xs, state.ys);
+    const int pixels = static_cast<int>(state.xs.size());
+    state.sums.assign(static_cast<size_t>(pixels) * 4, 0.0f);
+    WalkInput in = walk_input;
+    const int per_batch = std::max(1, batch_rows / pixels);
+    const int pixels_per_batch = std::min(pixels, batch_rows);
+    for (int first = 0; first < pixels; first += pixels_per_batch) {
+        in.batch.pixel_x = state.xs.data() + first;
+        in.batch.pixel_y = state.ys.data() + first;
+        for (int sample = 0; sample < samples; sample += per_batch) {
+            in.batch.first_sample = static_cast<uint32_t>(sample);
+            in.batch.samples = std::min(per_batch, samples - sample);
+            walk(in,
+                 std::min(pixels_per_batch, pixels - first),
+                 state.work,
+                 state.sums.data() + 4 * static_cast<size_t>(first),
+                 state.counters);
+        }
+    }
+}
+
+/// Writes a tile's means into the film.
+void store_tile(const ThreadState& state, int samples, Film& film) {
+    const size_t channels = film.channels.size();
+    const float scale = 1.0f / static_cast<float>(samples);
+    for (size_t i = 0; i < state.xs.size(); ++i) {
+        const size_t pixel = static_cast<size_t>(state.ys[i]) * static_cast<size_t>(film.width) +
+                             static_cast<size_t>(state.xs[i]);
+        for (size_t c = 0; c < channels; ++c) {
+            film.pixels[pixel * channels + c] = state.sums[4 * i + c] * scale;
+        }
+    }
+}
+
+RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& states) {
+    RenderCounters total;
+    for (const auto& state : states) {
+        if (!state) continue;
+        total.paths += state->counters.paths;
+        total.camera_rays += state->counters.camera_rays;
+        total.bounce_rays += state->counters.bounce_rays;
+        total.shadow_rays += state->counters.shadow_rays;
+        total.refused_rays += state->counters.refused_rays;
+        total.nonfinite_samples += state->counters.nonfinite_samples;
+    }
+    return total;
+}
+
+}  // namespace
+
+Result<RenderResult> render(const PreparedScene& scene,
+                            const Camera& camera,
+                            const RenderOptions& options,
+                            const ProgressFunction& progress,
+                            const std::atomic<bool>& stop) {
+    const auto start = std::chrono::steady_clock::now();
+    RenderResult result;
+    result.film.width = options.width;
+    result.film.height = options.height;
+    result.film.channels = film_channels(options.integrator);
+    result.film.pixels.assign(static_cast<size_t>(options.width) *
+                                  static_cast<size_t>(options.height) *
+                                  result.film.channels.size(),
+                              0.0f);
+
+    const std::vector<float> filter = make_filter_table(options.filter);
+    WalkInput walk_input = make_walk(scene.impl(), camera, options);
+    walk_input.batch.filter = filter.empty() ? nullptr : filter.data();
+    const int samples = walk_input.batch.pixel_centres ? 1 : options.samples_per_pixel;
+    const PixelRect whole{0, 0, options.width, options.height};
+    const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), options.tile_size);
+
+    std::vector<std::unique_ptr<ThreadState>> states(max_thread_index());
+    std::atomic<size_t> finished = 0;
+    parallel_for(tiles.size(), [&](size_t i) {
+        if (stop.load(std::memory_order_relaxed)) return;
+        std::unique_ptr<ThreadState>& state = states[thread_index()];
+        if (!state) state = std::make_unique<ThreadState>();
+        render_tile(walk_input, samples, tiles[i], *state);
+        store_tile(*state, samples, result.film);
+        const size_t done = ++finished;
+        if (progress) progress(static_cast<double>(done) / static_cast<double>(tiles.size()));
+    });
+    if (stop.load()) {
+        return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
+    }
+    result.counters = sum_counters(states);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    result.render_seconds = elapsed.count();
+    return result;
+}
+
+}  // namespace obscura

@@ -1,0 +1,125 @@
+// render/render.h - from a scene, a camera and options to a film; what every command calls.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "base/log.h"
+#include "camera/camera.h"
+#include "image/pixels.h"
+#include "scene/scene.h"
+#include "stages/dispatch.h"
+
+namespace obscura {
+
+/// To add one: append it here, give it a channel list in render/film.cpp and a row function in
+/// stages/3_aov.h (quantities) or a case in stages/walk.cpp (light transport).
+enum class Integrator { path, direct, ao, normal, depth, albedo, id };
+
+enum class PixelFilter { box, gaussian, blackman_harris };
+
+enum class BackgroundKind { environment, transparent, color };
+
+struct PixelRect {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+struct LightingOptions {
+    std::optional<ImageRgb32f> environment;  ///< none: the scene's lights, else the studio
+    double environment_intensity = 1;
+    double environment_rotation_deg = 0;  ///< about +Y, counter-clockwise seen from above
+};
+
+struct RenderOptions {
+    int width = 1280;
+    int height = 720;
+    int samples_per_pixel = 64;
+    int max_bounces = 8;
+    uint64_t seed = 0;
+    int tile_size = 16;                 ///< pixels; any value gives the same picture
+    std::optional<PixelRect> crop;      ///< renders only this part; the rest of the film is zero
+    Integrator integrator = Integrator::path;
+    PixelFilter filter = PixelFilter::box;
+    BackgroundKind background = BackgroundKind::environment;
+    float background_color[3] = {0, 0, 0};
+    double ao_distance_m = 0;           ///< 0: a fifth of the scene's diagonal
+    /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
+    int strategies = 3;                 ///< bit 0 light sampling, bit 1 BSDF sampling
+};
+
+/// Rays and faults, summed over all threads.
+struct RenderCounters {
+    uint64_t paths = 0;
+    uint64_t camera_rays = 0;
+    uint64_t bounce_rays = 0;
+    uint64_t shadow_rays = 0;
+    uint64_t refused_rays = 0;       ///< not finite: never handed to Embree
+    uint64_t nonfinite_samples = 0;  ///< written as zero
+};
+
+/// A finished film, float32, rows from the top.
+struct Film {
+    int width = 0;
+    int height = 0;
+    std::vector<std::string> channels;  ///< R G B A; or e.g. Z; N.X N.Y N.Z
+    std::vector<float> pixels;
+};
+
+struct RenderResult {
+    Film film;
+    RenderCounters counters;
+    double render_seconds = 0;
+};
+
+/// A scene with its BVH, light tables and environment: rendered any number of times.
+class PreparedScene {
+public:
+    /// Builds the BVH on all threads. A scene without any light and environment gets a neutral
+    /// studio, and says so in the log.
+    ///
+    /// Errors  33 E-MEM out of memory; 69 E-ISA the CPU lacks `isa`; 70 E-EMBREE
+    static Result<PreparedScene> create(Scene scene,
+                                        LightingOptions lighting,
+                                        Isa isa,
+                                        Log& log);
+    PreparedScene(PreparedScene&&) noexcept;
+    PreparedScene& operator=(PreparedScene&&) noexcept;
+    ~PreparedScene();
+
+    const Scene& scene() const;
+    double build_seconds() const;
+    size_t bvh_bytes() const;
+    bool uses_studio() const;
+    std::string isa_name() const;      ///< "avx512"
+    std::string embree_version() const;
+
+    struct Impl;
+    const Impl& impl() const { return *impl_; }
+
+private:
+    explicit PreparedScene(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+/// Called from any thread, at most every 50 ms or so, with the finished share in [0, 1].
+using ProgressFunction = std::function<void(double)>;
+
+/// Renders one picture on all threads. The same arguments give the same bits for any number of
+/// threads, any tile size and any crop.
+///
+/// In      stop: when it becomes true, tiles not yet begun are left out
+/// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM
+Result<RenderResult> render(const PreparedScene& scene,
+                            const Camera& camera,
+                            const RenderOptions& options,
+                            const ProgressFunction& progress,
+                            const std::atomic<bool>& stop);
+
+}  // namespace obscura

@@ -1,0 +1,53 @@
+// scene/asset_info.h - what `obscura info` and a picture's metadata say about the file.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+struct ExtensionInfo {
+    std::string name;
+    bool required = false;
+    bool supported = false;               ///< false: ignored, with a warning
+    std::vector<std::string> materials;   ///< names of the materials that use it, if any
+};
+
+struct ImageInfo {
+    std::string name;  ///< its name, URI or "image 3"
+    std::string format;  ///< "png", "jpeg", "webp"
+    int width = 0;
+    int height = 0;
+    bool used_as_color = false;
+    bool used_as_data = false;
+};
+
+struct NamedCount {
+    std::string name;
+    size_t count = 0;  ///< triangles of a mesh, channels of an animation
+};
+
+/// Counts and names from the file, in file order.
+struct AssetInfo {
+    std::string file_name;  ///< without folder
+    std::string version;
+    std::string generator;
+    std::string copyright;
+    std::vector<std::string> scenes;  ///< names; unnamed ones are "scene 0"
+    int scene = 0;                    ///< the one that was loaded
+    std::vector<NamedCount> meshes;   ///< as in the file, triangles counted once
+    std::vector<NamedCount> animations;
+    std::vector<std::string> node_names;   ///< by glTF node index
+    std::vector<std::string> light_names;  ///< beside Scene::lights
+    std::vector<ImageInfo> images;
+    std::vector<ExtensionInfo> extensions;
+    size_t triangles_in_world = 0;  ///< with every instance counted
+    size_t skipped_points = 0;      ///< primitives of points and lines that are not drawn
+    size_t skipped_lines = 0;
+    double parse_seconds = 0;
+    double decode_seconds = 0;  ///< images
+};
+
+}  // namespace obscura

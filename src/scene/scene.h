@@ -1,0 +1,99 @@
+// scene/scene.h - a scene as plain arrays joined by indices; what every later room reads.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "light/punctual.h"
+#include "math/transform.h"
+#include "scene/asset_info.h"
+#include "scene/texture_arena.h"
+#include "surface/material.h"
+
+namespace obscura {
+
+inline constexpr int32_t no_attribute = INT32_MIN;
+
+/// A run of triangles with one material. Attribute bases are float offsets such that vertex v
+/// (an absolute vertex number, as stored in Scene::indices) starts at base + v * components;
+/// a base may be negative, no_attribute means that the attribute is absent.
+struct Primitive {
+    int32_t first_triangle = 0;
+    int32_t triangle_count = 0;
+    int32_t material = 0;
+    int32_t normal_base = no_attribute;   ///< 3 floats a vertex, unit; absent: flat shading
+    int32_t tangent_base = no_attribute;  ///< 4 floats a vertex, w = handedness
+    int32_t color_base = no_attribute;    ///< 4 floats a vertex, linear, multiplies base colour
+    int32_t uv_base[max_uv_sets] = {no_attribute, no_attribute, no_attribute, no_attribute,
+                                    no_attribute, no_attribute, no_attribute, no_attribute};
+    int32_t node = -1;  ///< glTF node, for primitives in world space; -1 when reached by instances
+    int32_t light_base = -1;  ///< first row in the light table when it emits; set by render
+};
+
+static_assert(sizeof(Primitive) == 16 * 4, "read as 32-bit words: no padding");
+
+/// A run of primitives that share one object space.
+struct Mesh {
+    int32_t first_primitive = 0;
+    int32_t primitive_count = 0;
+};
+
+/// One placing of a mesh in the world.
+struct Instance {
+    Affinef world_from_object;
+    Affinef object_from_world;
+    int32_t mesh = 0;
+    int32_t node = -1;      ///< glTF node
+    int32_t mirrored = 0;   ///< 1 when the determinant is negative: front faces are clockwise
+    int32_t light_base = 0; ///< added to Primitive::light_base for this instance; set by render
+};
+
+static_assert(sizeof(Instance) == 28 * 4, "read as 32-bit words: no padding");
+
+enum class SceneCameraType { perspective, orthographic };
+
+/// A glTF camera placed in the world by a node.
+struct SceneCamera {
+    std::string name;  ///< the camera's, else the node's name
+    SceneCameraType type = SceneCameraType::perspective;
+    Affined world_from_camera;
+    double yfov_rad = 0.785398;
+    double aspect = 0;  ///< width / height; 0: not given, use the picture's
+    double xmag_m = 1;
+    double ymag_m = 1;
+    double znear_m = 0;
+    double zfar_m = 0;  ///< 0: infinite
+};
+
+struct Bounds {
+    Vec3f low = {INFINITY, INFINITY, INFINITY};
+    Vec3f high = {-INFINITY, -INFINITY, -INFINITY};
+    bool empty() const { return !(low.x <= high.x); }
+};
+
+/// Everything that a picture needs but the environment and the camera's choice.
+///
+/// Primitives [0, world_primitive_count) lie in world space and appear once; the others belong to
+/// `meshes` and appear through `instances` only.
+struct Scene {
+    /// 3 floats a vertex, metres, and 4 floats of padding at the end (Embree reads 16 bytes).
+    std::vector<float> positions;
+    /// 3 absolute vertex numbers a triangle, counter-clockwise from the front (before mirroring).
+    std::vector<uint32_t> indices;
+    std::vector<float> attributes;  ///< normals, tangents, UVs and colours; see Primitive
+    std::vector<Primitive> primitives;
+    int32_t world_primitive_count = 0;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::vector<Material> materials;  ///< never empty: row 0 exists for primitives without one
+    std::vector<std::string> material_names;
+    TextureArena textures;
+    std::vector<PunctualLight> lights;
+    std::vector<SceneCamera> cameras;
+    Bounds bounds;  ///< world space, of all triangles
+    AssetInfo info;
+};
+
+}  // namespace obscura

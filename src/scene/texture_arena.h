@@ -1,0 +1,31 @@
+// scene/texture_arena.h - all texels of a scene in one block, with mip chains.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "surface/texture_row.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace obscura {
+
+/// RGBA8 texels of all textures and the table of where they are.
+struct TextureArena {
+    std::vector<uint32_t> texels;  ///< at most 2^31 - 1; see TextureRow
+    std::vector<TextureRow> rows;
+};
+
+/// Number of mip levels of an image: down to 1x1.
+int mip_level_count(int width, int height);
+
+/// Texels of the whole mip chain.
+size_t mip_chain_texels(int width, int height);
+
+/// Writes levels 1.. behind level 0, which is already at `base`: each texel is the area-weighted
+/// mean of the texels it covers. Where `srgb`, colour is averaged in linear light and weighted by
+/// alpha, so that hidden colours of clear texels do not bleed in; data (not `srgb`) have no alpha
+/// in glTF, so their four bytes are averaged independently.
+void build_mip_chain(uint32_t* base, int width, int height, bool srgb);
+
+}  // namespace obscura

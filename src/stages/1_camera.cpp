@@ -1,0 +1,68 @@
+// stages/1_camera.cpp - stage 1: film points become rays.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/1_camera.h"
+
+#include "math/sampler.h"
+#include "stages/rows.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+/// Offset from the pixel's centre, in pixels, drawn from the reconstruction filter.
+/// Source  Ernst et al., "Filter Importance Sampling", IEEE RT 2006
+OBSCURA_INLINE Lanes filter_offset(const float* inverse_cdf, Lanes u) {
+    if (inverse_cdf == nullptr) return u - Lanes(0.5f);
+    const Lanes x = u * Lanes(static_cast<float>(filter_entries));
+    const LanesI i = min(to_int(x), LanesI(filter_entries - 1));
+    const Lanes low = gather<Lanes>(inverse_cdf, i);
+    const Lanes high = gather<Lanes>(inverse_cdf + 1, i);
+    return lerp(low, high, x - from_int<Lanes>(i));
+}
+
+}  // namespace
+
+void make_camera_rays(const BatchSettings& batch,
+                      int count,
+                      const PathRows& out,
+                      const SampleRows& samples) {
+    const float inverse_samples = 1.0f / static_cast<float>(batch.samples);
+    const Vec2<Lanes> inverse_size{Lanes(1.0f / static_cast<float>(batch.width)),
+                                   Lanes(1.0f / static_cast<float>(batch.height))};
+    for (int i = 0; i < count; i += lane_count) {
+        const LanesI slot = min(LanesI(i) + lane_numbers(), LanesI(count - 1));
+        // Exact: slots are far below 2^23 and the half keeps the quotient off whole numbers.
+        const LanesI pixel =
+            to_int((from_int<Lanes>(slot) + Lanes(0.5f)) * Lanes(inverse_samples));
+        const LanesI sample = slot - pixel * LanesI(batch.samples);
+        const LanesI x = gather<Lanes>(batch.pixel_x, pixel);
+        const LanesI y = gather<Lanes>(batch.pixel_y, pixel);
+        const LanesU key =
+            pixel_key(as_uint(x), as_uint(y), batch.seed_low, batch.seed_high);
+        const LanesU index = reverse_bits(as_uint(sample) + LanesU(batch.first_sample));
+        Vec2<Lanes> offset{Lanes(0.0f), Lanes(0.0f)};
+        if (!batch.pixel_centres) {
+            const auto u = unit_pair<Lanes>(
+                sobol_pair(key, index, static_cast<uint32_t>(RandomUse::film)));
+            offset = {filter_offset(batch.filter, u.x), filter_offset(batch.filter, u.y)};
+        }
+        const Vec2<Lanes> film{(from_int<Lanes>(x) + Lanes(0.5f) + offset.x) * inverse_size.x,
+                               (from_int<Lanes>(y) + Lanes(0.5f) + offset.y) * inverse_size.y};
+        const CameraRay<Lanes> ray = generate_ray(batch.camera, film);
+        store3(out.ox, out.oy, out.oz, i, ray.origin);
+        store3(out.dx, out.dy, out.dz, i, ray.direction);
+        store3(out.tr, out.tg, out.tb, i, splat3(Lanes(1.0f)));
+        store(out.pdf + i, Lanes(0.0f));
+        store(out.cone_width + i, ray.cone_width);
+        store(out.cone_spread + i, ray.cone_spread);
+        store(out.slot + i, as_uint(slot));
+        store(out.key + i, key);
+        store(out.sample + i, index);
+        store3(samples.r, samples.g, samples.b, i, splat3(Lanes(0.0f)));
+        store(samples.a + i, Lanes(0.0f));
+    }
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,129 @@
+// stages/3_lights.h - next-event estimation: one light a shading point, weighted against the BSDF.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "light/alias_table.h"
+#include "light/environment.h"
+#include "light/punctual_sample.h"
+#include "light/triangle_light.h"
+#include "stages/3_surface.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+/// Weight of a strategy of density `own` against one of density `other`; 1 where the other has
+/// none.
+/// Source  Veach, PhD thesis, 1997, section 9.2.4: the power heuristic, exponent 2
+OBSCURA_INLINE Lanes mis_weight(Lanes own, Lanes other) {
+    const Lanes ratio = other / max(own, Lanes(1e-30f));
+    return Lanes(1.0f) / (Lanes(1.0f) + ratio * ratio);
+}
+
+/// Light from one chosen direction.
+struct LightLanes {
+    Vec3<Lanes> direction;
+    Lanes distance;
+    Vec3<Lanes> radiance_over_pdf;  ///< estimate before BSDF, cosine and MIS
+    Lanes pdf;                      ///< 1/sr, choice included; 0: the light has no extent
+    Mask valid;
+};
+
+OBSCURA_INLINE void choose(LightLanes& out, Mask m, const LightLanes& in) {
+    out.direction = select(m, in.direction, out.direction);
+    out.distance = select(m, in.distance, out.distance);
+    out.radiance_over_pdf = select(m, in.radiance_over_pdf, out.radiance_over_pdf);
+    out.pdf = select(m, in.pdf, out.pdf);
+    out.valid = (m & in.valid) | ((!m) & out.valid);
+}
+
+OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
+                                                 LanesI index,
+                                                 const Vec2<Lanes>& u,
+                                                 const ShadingPoint& point,
+                                                 const Vec3<Lanes>& random) {
+    const TriangleLightSample<Lanes> s =
+        sample_triangle_light<Lanes>(scene.lights.triangles, index, u, point.position);
+    Vec3<Lanes> emission = s.emission;
+    const Mask textured = s.texture >= LanesI(0);
+    if (any(textured)) {
+        const LanesI texture = select(textured, s.texture, LanesI(0));
+        const Rgba<Lanes> texel = sample_texture_stochastic<Lanes>(
+            scene.textures, texture, s.uv, Lanes(0.0f), random);
+        emission = select(textured, emission * texel.rgb, emission);
+    }
+    // End just before the light's own triangle.
+    const Lanes distance = s.distance * Lanes(1.0f - 1e-4f);
+    return {s.direction,
+            distance,
+            emission * (Lanes(1.0f) / max(s.pdf, Lanes(1e-30f))),
+            s.pdf,
+            s.pdf > Lanes(0.0f)};
+}
+
+/// Chooses one light for every lane and a place on it.
+OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
+                                       const ShadingPoint& point,
+                                       const Vec2<LanesU>& random,
+                                       LanesU choice,
+                                       const Vec3<Lanes>& texture_random) {
+    const LightView& lights = scene.lights;
+    LightLanes out{splat3(Lanes(0.0f)), Lanes(0.0f), splat3(Lanes(0.0f)), Lanes(0.0f), Mask(false)};
+    LanesI index(lights.count - 1);
+    if (lights.count > 1) index = sample_alias<Lanes>(lights.alias, lights.count, choice).index;
+    const Mask punctual = index < LanesI(lights.punctual_count);
+    const LanesI triangle_index = index - LanesI(lights.punctual_count);
+    const Mask triangle = (!punctual) & (triangle_index < LanesI(lights.triangle_count));
+    const Mask environment = !(punctual | triangle);
+    if (scene.has_environment && any(environment)) {
+        const EnvironmentSample<Lanes> s = sample_environment<Lanes>(scene.environment, random);
+        const Lanes pdf = s.pdf * Lanes(lights.environment_select);
+        choose(out,
+               environment,
+               {s.direction,
+                Lanes(directional_distance_m),
+                s.radiance * (Lanes(1.0f) / max(pdf, Lanes(1e-30f))),
+                pdf,
+                pdf > Lanes(0.0f)});
+    }
+    if (any(triangle)) {
+        choose(out,
+               triangle,
+               sample_triangle_lights(scene,
+                                      select(triangle, triangle_index, LanesI(0)),
+                                      unit_pair<Lanes>(random),
+                                      point,
+                                      texture_random));
+    }
+    if (any(punctual)) {
+        const LanesI row = select(punctual, index, LanesI(0));
+        const PunctualSample<Lanes> s =
+            sample_punctual<Lanes>(lights.punctual, row, point.position);
+        const Lanes select_pdf = gather<Lanes>(lights.select_pdf, row);
+        choose(out,
+               punctual,
+               {s.direction,
+                s.distance,
+                s.irradiance * (Lanes(1.0f) / select_pdf),
+                Lanes(0.0f),
+                max_component(s.irradiance) > Lanes(0.0f)});
+    }
+    return out;
+}
+
+/// Density with which sample_light would have chosen the emitter that a BSDF ray hit.
+OBSCURA_INLINE Lanes light_pdf(const SceneView& scene,
+                               LanesI light,
+                               const Vec3<Lanes>& ng,
+                               const Vec3<Lanes>& direction,
+                               Lanes distance) {
+    const Mask known = light >= LanesI(0);
+    if (none(known) || scene.lights.triangle_count == 0) return Lanes(0.0f);
+    constexpr int words = static_cast<int>(sizeof(TriangleLight) / 4);
+    const LanesI word = select(known, light * LanesI(words), LanesI(0));
+    const Lanes pdf_area = gather<Lanes>(&scene.lights.triangles->pdf_area, word);
+    const Lanes pdf = solid_angle_pdf<Lanes>(pdf_area, distance, abs(dot(ng, direction)));
+    return select(known, pdf, Lanes(0.0f));
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

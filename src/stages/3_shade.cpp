@@ -1,0 +1,248 @@
+// stages/3_shade.cpp - stage 3: hits become radiance, shadow rays and the next rays.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/3_shade.h"
+
+#include "math/sampler.h"
+#include "stages/3_lights.h"
+#include "stages/3_surface.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+/// The random numbers of one bounce.
+struct BounceRandom {
+    Vec2<Lanes> bsdf, lobe;
+    Vec2<LanesU> light, choice;
+    Vec3<Lanes> texture;
+};
+
+OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path, int bounce) {
+    const auto pair = [&](RandomUse use) {
+        const uint32_t number =
+            static_cast<uint32_t>(bounce) * pairs_per_bounce + static_cast<uint32_t>(use);
+        return sobol_pair(path.key, path.sample, number);
+    };
+    BounceRandom r;
+    r.bsdf = unit_pair<Lanes>(pair(RandomUse::bsdf));
+    r.lobe = unit_pair<Lanes>(pair(RandomUse::lobe));
+    r.light = pair(RandomUse::light);
+    r.choice = pair(RandomUse::light_choice);
+    const Vec2<Lanes> texel = unit_pair<Lanes>(pair(RandomUse::texture));
+    r.texture = {texel.x, texel.y, unit_float<Lanes>(r.choice.y)};
+    return r;
+}
+
+/// Start of a ray that leaves the surface on the side of ng.
+OBSCURA_INLINE Vec3<Lanes> leave_surface(const ShadingPoint& s) {
+    return s.position + s.ng * s.offset;
+}
+
+/// Light that the hit surfaces send towards the viewer themselves.
+OBSCURA_INLINE void add_emission(const SceneView& scene,
+                                 const BatchSettings& batch,
+                                 const ShadeRows& rows,
+                                 Mask active,
+                                 const PathLanes& path,
+                                 const ShadingPoint& s,
+                                 Lanes distance) {
+    const Mask glows = active & (max_component(s.emission) > Lanes(0.0f));
+    Vec3<Lanes> light = splat3(Lanes(0.0f));
+    if (any(glows)) {
+        const Mask chosen_by_bsdf = path.pdf > Lanes(0.0f);
+        Lanes weight(1.0f);
+        if (batch.strategies == (sample_lights | sample_bsdfs)) {
+            const Lanes other = light_pdf(scene, s.light, s.ng, path.direction, distance);
+            weight = select(chosen_by_bsdf, mis_weight(path.pdf, other), weight);
+        } else if (batch.strategies == sample_lights) {
+            weight = select(chosen_by_bsdf & (s.light >= LanesI(0)), Lanes(0.0f), weight);
+        }
+        light = select(glows, s.emission * weight, light);
+    }
+    const Mask unlit = active & s.unlit;
+    light = select(unlit, s.bsdf.base_color, light);
+    const Mask any_light = glows | unlit;
+    if (any(any_light)) add_radiance(rows.samples, any_light, path.slot, path.throughput * light);
+}
+
+/// Writes the shadow rays of one group; returns the new number of rows.
+OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
+                                   const BatchSettings& batch,
+                                   const ShadowRows& rows,
+                                   int at,
+                                   Mask active,
+                                   const PathLanes& path,
+                                   const ShadingPoint& s,
+                                   const BounceRandom& random) {
+    const LightLanes light =
+        sample_light(scene, s, random.light, random.choice.x, random.texture);
+    const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
+    const Vec3<Lanes> wi = to_local(s.frame, light.direction);
+    Mask useful = active & light.valid & (dot(light.direction, s.ng) > Lanes(0.0f));
+    if (none(useful)) return at;
+    const BsdfValue<Lanes> bsdf = evaluate_bsdf(s.bsdf, wo, wi);
+    const bool both = batch.strategies == (sample_lights | sample_bsdfs);
+    const Lanes weight = both ? select(light.pdf > Lanes(0.0f),
+                                       mis_weight(light.pdf, bsdf.pdf),
+                                       Lanes(1.0f))
+                              : Lanes(1.0f);
+    const Vec3<Lanes> radiance =
+        path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
+    useful = useful & (max_component(radiance) > Lanes(0.0f));
+    if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
+    const Vec3<Lanes> start = leave_surface(s) + s.smooth_shift;
+    return append_shadows(rows,
+                          at,
+                          useful,
+                          {start, light.direction, light.distance, radiance, path.slot, path.key});
+}
+
+/// Probability of going on after a bounce; the survivors are divided by it.
+OBSCURA_INLINE Lanes survival(const Vec3<Lanes>& throughput, int bounce) {
+    if (bounce < 1) return Lanes(1.0f);
+    return clamp(max_component(throughput), Lanes(0.05f), Lanes(1.0f));
+}
+
+/// Writes the next rays of one group; returns the new number of rows.
+OBSCURA_INLINE int add_next_rays(const PathRows& rows,
+                                 int at,
+                                 Mask active,
+                                 const PathLanes& path,
+                                 const ShadingPoint& s,
+                                 const BounceRandom& random,
+                                 int bounce,
+                                 Lanes distance) {
+    const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
+    const BsdfSample<Lanes> sample = sample_bsdf(s.bsdf, wo, random.bsdf, random.lobe.x);
+    const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
+    Mask goes_on =
+        active & (sample.at.pdf > Lanes(0.0f)) & (dot(direction, s.ng) > Lanes(0.0f));
+    if (none(goes_on)) return at;
+    const Vec3<Lanes> weight =
+        sample.at.value_cos * (Lanes(1.0f) / max(sample.at.pdf, Lanes(1e-30f)));
+    const Vec3<Lanes> throughput = path.throughput * weight;
+    const Lanes survives = survival(throughput, bounce);
+    goes_on = goes_on & (random.lobe.y < survives) & (max_component(throughput) > Lanes(0.0f));
+    PathLanes next;
+    next.origin = leave_surface(s);
+    next.direction = direction;
+    next.throughput = throughput * (Lanes(1.0f) / survives);
+    next.pdf = sample.at.pdf;
+    next.cone_width = path.cone_width + path.cone_spread * distance;
+    next.cone_spread = path.cone_spread + sample.spread;
+    next.slot = path.slot;
+    next.key = path.key;
+    next.sample = path.sample;
+    return append_paths(rows, at, goes_on, next);
+}
+
+/// Environment light of the paths that left the scene.
+void shade_misses(const SceneView& scene,
+                  const BatchSettings& batch,
+                  int bounce,
+                  int count_in,
+                  const ShadeRows& rows) {
+    if (!scene.has_environment || (bounce == 0 && !batch.background_visible)) return;
+    for (int i = 0; i < count_in; i += lane_count) {
+        const Mask exists = rows_in_range(i, count_in);
+        const MissRows& m = rows.misses;
+        const Vec3<Lanes> direction =
+            select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
+        Vec3<Lanes> light;
+        if (bounce == 0) {
+            light = environment_radiance(scene.environment, direction);
+        } else {
+            const EnvironmentSample<Lanes> seen =
+                look_up_environment(scene.environment, direction);
+            Lanes weight(1.0f);
+            if (batch.strategies == (sample_lights | sample_bsdfs)) {
+                weight = mis_weight(load(m.pdf + i),
+                                    seen.pdf * Lanes(scene.lights.environment_select));
+            } else if (batch.strategies == sample_lights) {
+                weight = select(seen.pdf > Lanes(0.0f), Lanes(0.0f), weight);
+            }
+            light = seen.radiance * weight;
+        }
+        add_radiance(
+            rows.samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
+    }
+}
+
+/// Camera rays that miss take the background colour, if there is one; those that hit are opaque.
+void set_camera_alpha(const BatchSettings& batch,
+                      SortedCounts sorted,
+                      const ShadeRows& rows) {
+    for (int i = 0; i < sorted.hits; ++i) rows.samples.a[rows.paths.slot[i]] = 1.0f;
+    for (int i = 0; i < sorted.misses; ++i) {
+        const uint32_t slot = rows.misses.slot[i];
+        rows.samples.r[slot] += batch.background[0];
+        rows.samples.g[slot] += batch.background[1];
+        rows.samples.b[slot] += batch.background[2];
+        rows.samples.a[slot] = batch.background[3];
+    }
+}
+
+}  // namespace
+
+ShadeCounts shade(const SceneView& scene,
+                  const BatchSettings& batch,
+                  int bounce,
+                  int count_in,
+                  const ShadeRows& rows) {
+    const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
+    if (bounce == 0) set_camera_alpha(batch, sorted, rows);
+    shade_misses(scene, batch, bounce, sorted.misses, rows);
+    ShadeCounts out;
+    for (int i = 0; i < sorted.hits; i += lane_count) {
+        const Mask exists = rows_in_range(i, sorted.hits);
+        const PathLanes path = load_paths(rows.paths, i);
+        const HitLanes hit = hits_or_first(rows.hits, i, exists);
+        const BounceRandom random = bounce_random(path, bounce);
+        const ShadingPoint s =
+            shading_point(scene, hit, path, random.texture, Filtering::stochastic);
+        add_emission(scene, batch, rows, exists, path, s, hit.t);
+        const Mask scatters = exists & (!s.unlit);
+        if (bounce > batch.max_bounces || none(scatters)) continue;
+        if (scene.lights.count > 0) {
+            out.shadow = add_shadow_rays(
+                scene, batch, rows.shadows, out.shadow, scatters, path, s, random);
+        }
+        out.next =
+            add_next_rays(rows.next, out.next, scatters, path, s, random, bounce, hit.t);
+    }
+    return out;
+}
+
+int shade_ao(const SceneView& scene,
+             const BatchSettings& batch,
+             int count_in,
+             const ShadeRows& rows) {
+    const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
+    set_camera_alpha(batch, sorted, rows);
+    int shadows = 0;
+    for (int i = 0; i < sorted.hits; i += lane_count) {
+        const Mask exists = rows_in_range(i, sorted.hits);
+        const PathLanes path = load_paths(rows.paths, i);
+        const HitLanes hit = hits_or_first(rows.hits, i, exists);
+        const BounceRandom random = bounce_random(path, 0);
+        const ShadingPoint s =
+            shading_point(scene, hit, path, random.texture, Filtering::stochastic);
+        const Vec3<Lanes> direction =
+            normalize(to_world(s.frame, cosine_hemisphere(random.bsdf)));
+        const Mask useful = exists & (dot(direction, s.ng) > Lanes(0.0f));
+        shadows = append_shadows(rows.shadows,
+                                 shadows,
+                                 useful,
+                                 {leave_surface(s),
+                                  direction,
+                                  Lanes(batch.ao_distance),
+                                  splat3(Lanes(1.0f)),
+                                  path.slot,
+                                  path.key});
+    }
+    return shadows;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,47 @@
+// stages/3_shade.h - stage 3: hits become radiance, shadow rays and the next rays.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/lanes.h"
+#include "stages/stages.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+/// One bounce of path tracing.
+///
+/// In      rows.paths, rows.hits: `count` rows of this bounce; bounce: 0 for camera rays
+/// Out     rows.next, rows.shadows: at most `count` rows each, packed, in slot order;
+///         rows.samples: emission and environment light are added
+/// Units   radiance; distance m; pdf 1/sr
+/// Errors  none
+/// Source  Veach, PhD thesis, 1997, ch. 9 (multiple importance sampling), ch. 10.4 (roulette)
+ShadeCounts shade(const SceneView& scene,
+                  const BatchSettings& batch,
+                  int bounce,
+                  int count,
+                  const ShadeRows& rows);
+
+/// Ambient occlusion: one cosine-distributed ray of limited length a hit.
+/// Returns the number of shadow rows.
+int shade_ao(const SceneView& scene,
+             const BatchSettings& batch,
+             int count,
+             const ShadeRows& rows);
+
+/// Quantities of the first hit (see Quantity), without light. Misses leave zero.
+void write_quantity(const SceneView& scene,
+                    const BatchSettings& batch,
+                    Quantity quantity,
+                    int count,
+                    const ShadeRows& rows);
+
+/// Moves the hits together at the front of their columns and the misses to rows.misses.
+struct SortedCounts {
+    int hits = 0;
+    int misses = 0;
+};
+SortedCounts sort_hits_from_misses(int count, const ShadeRows& rows);
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

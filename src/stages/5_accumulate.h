@@ -1,0 +1,25 @@
+// stages/5_accumulate.h - stage 5: contributions become samples, samples become pixel sums.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/lanes.h"
+#include "stages/stages.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+/// Adds the shadow rows that nothing occludes to their slots.
+void add_shadow_light(int count,
+                      const ShadowRows& rows,
+                      const uint8_t* occluded,
+                      const SampleRows& samples);
+
+/// Adds every pixel's samples to its sum, one by one in sample order, so that the sum does not
+/// depend on how a pixel's samples were cut into batches.
+///
+/// In      samples: pixels * per_pixel slots; sums: 4 floats (RGBA) a pixel
+/// Out     number of samples that were not finite; each counts as zero, all four channels
+uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums);
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

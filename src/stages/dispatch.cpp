@@ -1,0 +1,40 @@
+// stages/dispatch.cpp - picks the instruction set that the stages run on.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/dispatch.h"
+
+namespace obscura {
+
+bool has_isa(Isa isa) {
+#if defined(__x86_64__)
+    if (isa == Isa::avx2) return __builtin_cpu_supports("x86-64-v3");
+    if (isa == Isa::avx512) return __builtin_cpu_supports("x86-64-v4");
+    return true;
+#else
+    return isa == Isa::automatic || isa == Isa::baseline;
+#endif
+}
+
+const StageTable& stage_table_for(Isa isa) {
+#if defined(__x86_64__)
+    if (isa == Isa::avx512 || (isa == Isa::automatic && has_isa(Isa::avx512))) {
+        return isa_avx512::stage_table;
+    }
+    if (isa == Isa::avx2 || (isa == Isa::automatic && has_isa(Isa::avx2))) {
+        return isa_avx2::stage_table;
+    }
+#endif
+    (void)isa;
+    return isa_baseline::stage_table;
+}
+
+const char* embree_isa_for(Isa isa) {
+    switch (isa) {
+        case Isa::baseline: return "sse4.2";
+        case Isa::avx2: return "avx2";
+        case Isa::avx512: return "avx512";
+        case Isa::automatic: break;
+    }
+    return "";
+}
+
+}  // namespace obscura

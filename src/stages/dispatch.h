@@ -1,0 +1,31 @@
+// stages/dispatch.h - picks the instruction set that the stages run on.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/stages.h"
+
+namespace obscura {
+
+namespace isa_baseline {
+extern const StageTable stage_table;
+}
+namespace isa_avx2 {
+extern const StageTable stage_table;
+}
+namespace isa_avx512 {
+extern const StageTable stage_table;
+}
+
+/// Which lanes the stages run on.
+enum class Isa { automatic, baseline, avx2, avx512 };
+
+/// True when this program and this CPU have it.
+bool has_isa(Isa isa);
+
+/// The stages for `isa`; automatic takes the widest that there is. In: has_isa(isa).
+const StageTable& stage_table_for(Isa isa);
+
+/// The isa that Embree is pinned to so that results do not depend on the CPU; "" leaves the choice.
+const char* embree_isa_for(Isa isa);
+
+}  // namespace obscura

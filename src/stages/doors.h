@@ -1,0 +1,113 @@
+// stages/doors.h - what passes between stages: columns of plain numbers, and read-only scene tables.
+// SPDX-License-Identifier: Apache-2.0
+//
+//   door         bytes/row  written by        read by
+//   PathRows            60  camera, shade     intersect, shade
+//   HitRows             24  intersect         shade
+//   MissRows            32  shade (sort)      shade (miss)
+//   ShadowRows          48  shade             shadow, accumulate
+//   SampleRows          16  camera, shade,    accumulate
+//                           accumulate
+//
+// A row is one path; a slot is a path's fixed place in its batch. Columns are 64-byte aligned and
+// padded by 16 rows, so that a stage may read and write whole registers past the last row.
+#pragma once
+
+#include <cstdint>
+
+#include "accel/columns.h"
+#include "camera/camera.h"
+#include "light/environment.h"
+#include "light/light_view.h"
+#include "surface/texture.h"
+
+namespace obscura {
+
+/// Paths that still travel, packed.
+struct PathRows {
+    float *ox, *oy, *oz;     ///< ray origin, metres
+    float *dx, *dy, *dz;     ///< unit direction
+    float *tr, *tg, *tb;     ///< throughput
+    float* pdf;              ///< density of this direction, 1/sr; 0: chosen without one (camera)
+    float* cone_width;       ///< footprint at the origin, metres
+    float* cone_spread;      ///< growth of the footprint, metres per metre
+    uint32_t* slot;
+    uint32_t* key;           ///< of the pixel's random numbers
+    uint32_t* sample;        ///< sample number, bits reversed
+};
+
+using HitRows = HitColumns;
+
+/// Paths that left the scene.
+struct MissRows {
+    float *dx, *dy, *dz;
+    float *tr, *tg, *tb;
+    float* pdf;
+    uint32_t* slot;
+};
+
+/// Light that arrives if nothing is in the way.
+struct ShadowRows {
+    float *ox, *oy, *oz;
+    float *dx, *dy, *dz;
+    float* tfar;
+    float *r, *g, *b;        ///< contribution to the slot's radiance
+    uint32_t* slot;
+    uint32_t* key;
+};
+
+/// One radiance a slot.
+struct SampleRows {
+    float *r, *g, *b, *a;
+};
+
+inline constexpr int words_per_path = 15, words_per_hit = 6, words_per_miss = 8,
+                     words_per_shadow = 12, words_per_sample = 4;
+static_assert(sizeof(PathRows) == words_per_path * sizeof(void*));
+static_assert(sizeof(HitRows) == words_per_hit * sizeof(void*));
+static_assert(sizeof(MissRows) == words_per_miss * sizeof(void*));
+static_assert(sizeof(ShadowRows) == words_per_shadow * sizeof(void*));
+static_assert(sizeof(SampleRows) == words_per_sample * sizeof(void*));
+
+/// The scene as the stages see it: raw tables, all read by gathers.
+struct SceneView {
+    const float* positions = nullptr;
+    const int32_t* indices = nullptr;
+    const float* attributes = nullptr;
+    const int32_t* primitives = nullptr;  ///< Primitive as words
+    const float* instances = nullptr;     ///< Instance as words
+    const float* materials = nullptr;     ///< Material as words
+    TextureView textures;
+    LightView lights;
+    EnvironmentView environment;
+    bool has_environment = false;
+};
+
+/// Which light transport strategies count; bit 0 light sampling, bit 1 BSDF sampling.
+inline constexpr int sample_lights = 1, sample_bsdfs = 2;
+
+/// What a whole batch shares.
+struct BatchSettings {
+    Camera camera;
+    int width = 0, height = 0;         ///< film, pixels
+    const int32_t* pixel_x = nullptr;  ///< by pixel of the tile
+    const int32_t* pixel_y = nullptr;
+    int samples = 1;                   ///< per pixel in this batch; slot = pixel * samples + i
+    uint32_t first_sample = 0;
+    uint32_t seed_low = 0, seed_high = 0;
+    const float* filter = nullptr;     ///< inverse CDF, filter_entries + 1 offsets; null: box
+    bool pixel_centres = false;        ///< no jitter: one ray through each pixel's centre
+    int max_bounces = 8;
+    int strategies = sample_lights | sample_bsdfs;
+    bool background_visible = true;    ///< camera rays that miss see the environment
+    float background[4] = {0, 0, 0, 0};  ///< added where camera rays miss; premultiplied RGBA
+    float ao_distance = 0;
+};
+
+inline constexpr int filter_entries = 256;
+
+struct BatchCounters {
+    uint64_t nonfinite = 0;
+};
+
+}  // namespace obscura

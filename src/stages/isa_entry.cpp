@@ -1,0 +1,26 @@
+// stages/isa_entry.cpp - the table of one instruction set; compiled once for each.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/1_camera.h"
+#include "stages/3_shade.h"
+#include "stages/5_accumulate.h"
+#include "stages/dispatch.h"
+
+#define OBSCURA_TEXT_OF(name) #name
+#define OBSCURA_TEXT(name) OBSCURA_TEXT_OF(name)
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+const StageTable stage_table = {
+    OBSCURA_TEXT(OBSCURA_ISA) + 4,  // without "isa_"
+    lane_count,
+    make_camera_rays,
+    shade,
+    shade_ao,
+    write_quantity,
+    add_shadow_light,
+    accumulate,
+};
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,147 @@
+// stages/rows.h - moves rows between columns and lanes, and packs the lanes that go on.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/vec.h"
+#include "stages/doors.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+OBSCURA_INLINE Vec3<Lanes> load3(const float* x, const float* y, const float* z, int i) {
+    return {load(x + i), load(y + i), load(z + i)};
+}
+
+OBSCURA_INLINE void store3(float* x, float* y, float* z, int i, const Vec3<Lanes>& v) {
+    store(x + i, v.x);
+    store(y + i, v.y);
+    store(z + i, v.z);
+}
+
+/// The lanes of the group that starts at row `first` and exist in a column of `count` rows.
+OBSCURA_INLINE Mask rows_in_range(int first, int count) {
+    return lane_numbers() < LanesI(count - first);
+}
+
+/// One group of travelling paths in registers.
+struct PathLanes {
+    Vec3<Lanes> origin, direction, throughput;
+    Lanes pdf, cone_width, cone_spread;
+    LanesU slot, key, sample;
+};
+
+OBSCURA_INLINE PathLanes load_paths(const PathRows& rows, int i) {
+    return {load3(rows.ox, rows.oy, rows.oz, i),
+            load3(rows.dx, rows.dy, rows.dz, i),
+            load3(rows.tr, rows.tg, rows.tb, i),
+            load(rows.pdf + i),
+            load(rows.cone_width + i),
+            load(rows.cone_spread + i),
+            load(rows.slot + i),
+            load(rows.key + i),
+            load(rows.sample + i)};
+}
+
+OBSCURA_INLINE Vec3<Lanes> pack(const Packer& packer, const Vec3<Lanes>& v) {
+    return {packer(v.x), packer(v.y), packer(v.z)};
+}
+
+OBSCURA_INLINE LanesI pack(const Packer& packer, LanesI v) {
+    return float_bits(packer(bits_float(v)));
+}
+
+OBSCURA_INLINE LanesU pack(const Packer& packer, LanesU v) {
+    return as_uint(pack(packer, as_int(v)));
+}
+
+/// Appends the lanes of `mask` at row `count`; returns the new count.
+OBSCURA_INLINE int append_paths(const PathRows& rows, int at, Mask mask, const PathLanes& p) {
+    const Packer packer(mask);
+    store3(rows.ox, rows.oy, rows.oz, at, pack(packer, p.origin));
+    store3(rows.dx, rows.dy, rows.dz, at, pack(packer, p.direction));
+    store3(rows.tr, rows.tg, rows.tb, at, pack(packer, p.throughput));
+    store(rows.pdf + at, packer(p.pdf));
+    store(rows.cone_width + at, packer(p.cone_width));
+    store(rows.cone_spread + at, packer(p.cone_spread));
+    store(rows.slot + at, pack(packer, p.slot));
+    store(rows.key + at, pack(packer, p.key));
+    store(rows.sample + at, pack(packer, p.sample));
+    return at + count(mask);
+}
+
+struct HitLanes {
+    Lanes t, u, v;
+    LanesI instance, primitive, triangle;
+};
+
+OBSCURA_INLINE HitLanes load_hits(const HitRows& rows, int i) {
+    return {load(rows.t + i),
+            load(rows.u + i),
+            load(rows.v + i),
+            load(rows.instance + i),
+            load(rows.primitive + i),
+            load(rows.triangle + i)};
+}
+
+/// Hits of one group; lanes that do not exist get a harmless one, so that gathers stay in range.
+OBSCURA_INLINE HitLanes hits_or_first(const HitRows& rows, int i, Mask exists) {
+    const HitLanes hit = load_hits(rows, i);
+    return {select(exists, hit.t, Lanes(1.0f)),
+            select(exists, hit.u, Lanes(0.25f)),
+            select(exists, hit.v, Lanes(0.25f)),
+            select(exists, hit.instance, LanesI(-1)),
+            select(exists, hit.primitive, LanesI(0)),
+            select(exists, hit.triangle, LanesI(0))};
+}
+
+OBSCURA_INLINE void append_hits(const HitRows& rows, int at, Mask mask, const HitLanes& h) {
+    const Packer packer(mask);
+    store(rows.t + at, packer(h.t));
+    store(rows.u + at, packer(h.u));
+    store(rows.v + at, packer(h.v));
+    store(rows.instance + at, pack(packer, h.instance));
+    store(rows.primitive + at, pack(packer, h.primitive));
+    store(rows.triangle + at, pack(packer, h.triangle));
+}
+
+struct ShadowLanes {
+    Vec3<Lanes> origin, direction;
+    Lanes tfar;
+    Vec3<Lanes> radiance;
+    LanesU slot, key;
+};
+
+OBSCURA_INLINE int append_shadows(const ShadowRows& rows, int at, Mask mask, const ShadowLanes& s) {
+    const Packer packer(mask);
+    store3(rows.ox, rows.oy, rows.oz, at, pack(packer, s.origin));
+    store3(rows.dx, rows.dy, rows.dz, at, pack(packer, s.direction));
+    store(rows.tfar + at, packer(s.tfar));
+    store3(rows.r, rows.g, rows.b, at, pack(packer, s.radiance));
+    store(rows.slot + at, pack(packer, s.slot));
+    store(rows.key + at, pack(packer, s.key));
+    return at + count(mask);
+}
+
+/// Adds radiance to the slots of the lanes in `mask`. No slot appears twice in one group.
+OBSCURA_INLINE void add_radiance(const SampleRows& samples,
+                                 Mask mask,
+                                 LanesU slot,
+                                 const Vec3<Lanes>& rgb) {
+    alignas(64) uint32_t slots[lane_count];
+    alignas(64) float r[lane_count];
+    alignas(64) float g[lane_count];
+    alignas(64) float b[lane_count];
+    store(slots, slot);
+    store(r, rgb.x);
+    store(g, rgb.y);
+    store(b, rgb.z);
+    for (uint32_t bits = mask_bits(mask); bits != 0; bits &= bits - 1) {
+        const int lane = __builtin_ctz(bits);
+        samples.r[slots[lane]] += r[lane];
+        samples.g[slots[lane]] += g[lane];
+        samples.b[slots[lane]] += b[lane];
+    }
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,58 @@
+// stages/stages.h - the numeric stages as one table of functions per instruction set.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/doors.h"
+
+namespace obscura {
+
+/// What --integrator normal, depth, albedo and id write.
+enum class Quantity : int { normal, depth, albedo, id };
+
+/// What shade writes besides the samples.
+struct ShadeCounts {
+    int next = 0;    ///< rows in the next paths
+    int shadow = 0;  ///< rows in the shadow rays
+};
+
+/// The columns that shading one bounce touches.
+struct ShadeRows {
+    PathRows paths;      ///< in: this bounce's rays; they are overwritten (packed in place)
+    HitRows hits;        ///< in: what they hit; overwritten likewise
+    MissRows misses;     ///< scratch
+    PathRows next;       ///< out
+    ShadowRows shadows;  ///< out
+    SampleRows samples;  ///< in and out
+};
+
+/// One instruction set's stages. To add a stage: declare it here, define it in its own numbered
+/// file, list it in isa_entry.cpp and call it from walk.cpp.
+struct StageTable {
+    const char* isa;
+    int lanes;
+
+    /// Stage 1: one camera ray a slot; samples are cleared.
+    void (*camera)(const BatchSettings&, int count, const PathRows&, const SampleRows&);
+
+    /// Stage 3: hits become radiance, shadow rays and next rays; misses see the environment.
+    ShadeCounts (*shade)(const SceneView&,
+                         const BatchSettings&,
+                         int bounce,
+                         int count,
+                         const ShadeRows&);
+
+    /// Stage 3 for --integrator ao: one occlusion ray a hit.
+    int (*shade_ao)(const SceneView&, const BatchSettings&, int count, const ShadeRows&);
+
+    /// Stage 3 for quantities: written to the samples, without light.
+    void (*quantity)(
+        const SceneView&, const BatchSettings&, Quantity, int count, const ShadeRows&);
+
+    /// Stage 5a: unoccluded shadow rows are added to their samples.
+    void (*add_shadows)(int count, const ShadowRows&, const uint8_t* occluded, const SampleRows&);
+
+    /// Stage 5b: adds each pixel's samples to its sum, in sample order. sums: RGBA per pixel.
+    uint64_t (*accumulate)(int pixels, int samples, const SampleRows&, float* sums);
+};
+
+}  // namespace obscura

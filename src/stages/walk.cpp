@@ -1,0 +1,130 @@
+// stages/walk.cpp - the corridor: the only place that calls stages.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/walk.h"
+
+#include <memory>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+constexpr size_t alignment = 64;
+constexpr size_t padded_rows = batch_rows + 16;
+
+/// Hands out aligned columns from one block of memory.
+class Carver {
+public:
+    explicit Carver(std::byte* memory) : next_(memory) {}
+
+    template <typename T>
+    void operator()(T*& column) {
+        column = reinterpret_cast<T*>(next_);
+        next_ += (padded_rows * sizeof(T) + alignment - 1) / alignment * alignment;
+    }
+    template <typename... T>
+    void all(T*&... columns) {
+        ((*this)(columns), ...);
+    }
+
+private:
+    std::byte* next_;
+};
+
+void carve_paths(Carver& carve, PathRows& p) {
+    carve.all(p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, p.tr, p.tg, p.tb);
+    carve.all(p.pdf, p.cone_width, p.cone_spread, p.slot, p.key, p.sample);
+}
+
+RayColumns rays_of(const PathRows& p, int count) {
+    return {p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, nullptr, p.key, count};
+}
+
+RayColumns rays_of(const ShadowRows& s, int count) {
+    return {s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.key, count};
+}
+
+void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, WalkCounters& c) {
+    const auto segment = 2U * static_cast<uint32_t>(bounce) + 1U;
+    c.shadow_rays += static_cast<uint64_t>(count);
+    c.refused_rays += static_cast<uint64_t>(in.accel->occluded(rays_of(work.shadows, count),
+                                                               work.occluded.data(),
+                                                               Coherence::incoherent,
+                                                               segment));
+    in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
+}
+
+ShadeRows shade_rows(const Workspace& work) {
+    return {work.paths[0], work.hits, work.misses, work.paths[1], work.shadows, work.samples};
+}
+
+void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
+    // One more segment than there are bounces: the last one only collects emitted light.
+    for (int bounce = 0; count > 0 && bounce <= in.batch.max_bounces + 1; ++bounce) {
+        const bool camera = bounce == 0;
+        const SeeThrough see_through{camera, false, 2U * static_cast<uint32_t>(bounce)};
+        (camera ? c.camera_rays : c.bounce_rays) += static_cast<uint64_t>(count);
+        c.refused_rays += static_cast<uint64_t>(
+            in.accel->intersect(rays_of(work.paths[0], count),
+                                work.hits,
+                                camera ? Coherence::coherent : Coherence::incoherent,
+                                see_through));
+        const ShadeCounts out =
+            in.stages->shade(in.scene, in.batch, bounce, count, shade_rows(work));
+        if (out.shadow > 0) trace_shadows(in, out.shadow, bounce, work, c);
+        std::swap(work.paths[0], work.paths[1]);
+        count = out.next;
+    }
+}
+
+void trace_camera(const WalkInput& in, int count, bool fixed_alpha, Workspace& work, WalkCounters& c) {
+    c.camera_rays += static_cast<uint64_t>(count);
+    c.refused_rays += static_cast<uint64_t>(in.accel->intersect(rays_of(work.paths[0], count),
+                                                                work.hits,
+                                                                Coherence::coherent,
+                                                                {true, fixed_alpha, 0}));
+}
+
+}  // namespace
+
+Workspace::Workspace() {
+    constexpr size_t words = 2 * words_per_path + words_per_hit + words_per_miss +
+                             words_per_shadow + words_per_sample;
+    memory_.resize(words * (padded_rows * 4 + alignment) + alignment);
+    void* start = memory_.data();
+    size_t space = memory_.size();
+    Carver carve(static_cast<std::byte*>(
+        std::align(alignment, memory_.size() - alignment, start, space)));
+    for (PathRows& p : paths) carve_paths(carve, p);
+    carve.all(hits.t, hits.u, hits.v, hits.instance, hits.primitive, hits.triangle);
+    carve.all(misses.dx, misses.dy, misses.dz, misses.tr, misses.tg, misses.tb);
+    carve.all(misses.pdf, misses.slot);
+    carve.all(shadows.ox, shadows.oy, shadows.oz, shadows.dx, shadows.dy, shadows.dz);
+    carve.all(shadows.tfar, shadows.r, shadows.g, shadows.b, shadows.slot, shadows.key);
+    carve.all(samples.r, samples.g, samples.b, samples.a);
+    occluded.resize(padded_rows);
+}
+
+void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {
+    const int count = pixels * in.batch.samples;
+    in.stages->camera(in.batch, count, work.paths[0], work.samples);
+    counters.paths += static_cast<uint64_t>(count);
+    switch (in.kind) {
+        case WalkKind::path: walk_paths(in, count, work, counters); break;
+        case WalkKind::ao: {
+            trace_camera(in, count, false, work, counters);
+            const int shadows =
+                in.stages->shade_ao(in.scene, in.batch, count, shade_rows(work));
+            if (shadows > 0) trace_shadows(in, shadows, 0, work, counters);
+            break;
+        }
+        case WalkKind::quantity:
+            trace_camera(in, count, true, work, counters);
+            in.stages->quantity(in.scene, in.batch, in.quantity, count, shade_rows(work));
+            break;
+    }
+    counters.nonfinite_samples +=
+        in.stages->accumulate(pixels, in.batch.samples, work.samples, sums);
+}
+
+}  // namespace obscura

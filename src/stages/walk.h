@@ -1,0 +1,59 @@
+// stages/walk.h - walks a batch of paths through the stages, bounce by bounce.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "accel/accel.h"
+#include "stages/stages.h"
+
+namespace obscura {
+
+/// What a walk computes. To add a quantity: stages/3_quantity.cpp; a transport: a case in walk().
+enum class WalkKind { path, ao, quantity };
+
+struct WalkCounters {
+    uint64_t paths = 0;
+    uint64_t camera_rays = 0;
+    uint64_t bounce_rays = 0;
+    uint64_t shadow_rays = 0;
+    uint64_t refused_rays = 0;
+    uint64_t nonfinite_samples = 0;
+};
+
+/// Rows in a batch: its columns (about 340 bytes a row) stay within a core's second-level cache.
+inline constexpr int batch_rows = 1024;
+
+/// The columns of one batch, reused from batch to batch. One per thread.
+class Workspace {
+public:
+    Workspace();
+
+    PathRows paths[2];
+    HitRows hits;
+    MissRows misses;
+    ShadowRows shadows;
+    SampleRows samples;
+    std::vector<uint8_t> occluded;
+
+private:
+    std::vector<std::byte> memory_;
+};
+
+/// Everything a walk reads.
+struct WalkInput {
+    const StageTable* stages;
+    const Accel* accel;
+    SceneView scene;
+    BatchSettings batch;
+    WalkKind kind = WalkKind::path;
+    Quantity quantity = Quantity::normal;
+};
+
+/// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_rows) and adds them
+/// to sums (RGBA per pixel).
+void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters);
+
+}  // namespace obscura

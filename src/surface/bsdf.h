@@ -1,0 +1,133 @@
+// surface/bsdf.h - the glTF metallic-roughness BRDF: value, density and sampling.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/warp.h"
+
+namespace obscura {
+
+/// Roughness below this is rendered as this: narrower lobes leave float's range.
+inline constexpr float min_ggx_alpha = 1e-3f;
+/// Normal-incidence reflectance of a dielectric with index of refraction 1.5.
+inline constexpr float dielectric_f0 = 0.04f;
+
+/// A surface point's material, all textures applied.
+template <typename F>
+struct BsdfParams {
+    Vec3<F> base_color;
+    F metallic;
+    F alpha;  ///< GGX width, square of the perceptual roughness, >= min_ggx_alpha
+};
+
+/// Directions are in the shading frame (z is the normal) and point away from the surface.
+template <typename F>
+struct BsdfValue {
+    Vec3<F> value_cos;  ///< f(wo, wi) * cos(theta_i), 1/sr
+    F pdf;              ///< of sample_bsdf choosing wi, 1/sr
+};
+
+template <typename F>
+struct BsdfSample {
+    Vec3<F> direction;
+    BsdfValue<F> at;
+    F spread;  ///< how much the footprint widens: metres per metre
+};
+
+inline namespace OBSCURA_ISA {
+
+/// GGX distribution from the half vector's components: stable for narrow lobes, where the usual
+/// (n.h)^2 (a^2 - 1) + 1 cancels.
+/// Source  Walter et al., "Microfacet Models for Refraction", EGSR 2007, eq. 33
+template <typename F>
+OBSCURA_INLINE F ggx_distribution(const Vec3<F>& h, const F& alpha) {
+    const F a2 = alpha * alpha;
+    const F t = (h.x * h.x + h.y * h.y) / a2 + h.z * h.z;
+    return F(1.0f) / (F(pi_f) * a2 * t * t);
+}
+
+/// cos + sqrt(a^2 + (1 - a^2) cos^2): Smith's G1 is 2 cos divided by this.
+template <typename F>
+OBSCURA_INLINE F smith_denominator(const F& cosine, const F& alpha) {
+    const F a2 = alpha * alpha;
+    return cosine + sqrt(a2 + (F(1.0f) - a2) * cosine * cosine);
+}
+
+/// Schlick's (1 - cos)^5.
+template <typename F>
+OBSCURA_INLINE F schlick_weight(const F& cosine) {
+    const F m = clamp(F(1.0f) - cosine, F(0.0f), F(1.0f));
+    const F m2 = m * m;
+    return m2 * m2 * m;
+}
+
+/// Probability that sample_bsdf picks the specular lobe: its share of the reflected light,
+/// estimated from Fresnel at the normal.
+template <typename F>
+OBSCURA_INLINE F specular_probability(const BsdfParams<F>& p, const F& cos_o) {
+    const F weight = schlick_weight(cos_o);
+    const F fd = F(dielectric_f0) + F(1.0f - dielectric_f0) * weight;
+    const F base = luminance(p.base_color);
+    const F fm = base + (F(1.0f) - base) * weight;
+    const F specular = lerp(fd, fm, p.metallic);
+    const F diffuse = (F(1.0f) - p.metallic) * (F(1.0f) - fd) * base;
+    const F share = specular / max(specular + diffuse, F(1e-6f));
+    return select(diffuse > F(0.0f), clamp(share, F(0.1f), F(0.9f)), F(1.0f));
+}
+
+/// The BRDF times cosine, and the density of sample_bsdf; both zero below either horizon.
+///
+/// Source  glTF 2.0, Appendix B: mix(dielectric, metal, metallic) with Schlick's Fresnel on the
+///         half vector, Lambert below the dielectric's Fresnel, GGX with separable Smith shadowing
+template <typename F>
+OBSCURA_INLINE BsdfValue<F> evaluate_bsdf(const BsdfParams<F>& p,
+                                          const Vec3<F>& wo,
+                                          const Vec3<F>& wi) {
+    const auto above = (wo.z > F(0.0f)) & (wi.z > F(0.0f));
+    const Vec3<F> h = normalize(wo + wi);
+    const F weight = schlick_weight(dot(wo, h));
+    const F fd = F(dielectric_f0) + F(1.0f - dielectric_f0) * weight;
+    const F distribution = ggx_distribution(h, p.alpha);
+    const F denominator_o = smith_denominator(wo.z, p.alpha);
+    const F denominator_i = smith_denominator(wi.z, p.alpha);
+    const F specular = distribution / (denominator_o * denominator_i);  // D * V
+    const F diffuse = (F(1.0f) - p.metallic) * (F(1.0f) - fd) * F(1.0f / pi_f);
+    const F dielectric = (F(1.0f) - p.metallic) * fd;
+    const Vec3<F> metal = (p.base_color + (splat3(F(1.0f)) - p.base_color) * weight) * p.metallic;
+    const Vec3<F> f = p.base_color * diffuse + (splat3(dielectric) + metal) * specular;
+    const F p_specular = specular_probability(p, wo.z);
+    const F pdf = p_specular * distribution / (F(2.0f) * denominator_o) +
+                  (F(1.0f) - p_specular) * wi.z * F(1.0f / pi_f);
+    const F zero = F(0.0f);
+    return {select(above, f * wi.z, splat3(zero)), select(above, pdf, zero)};
+}
+
+/// A microfacet normal as seen from wo.
+/// Source  Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023
+template <typename F>
+OBSCURA_INLINE Vec3<F> sample_visible_normal(const Vec3<F>& wo, const F& alpha, const Vec2<F>& u) {
+    const Vec3<F> stretched = normalize(Vec3<F>{wo.x * alpha, wo.y * alpha, wo.z});
+    const SinCos<F> turn = sin_cos_turn(u.x);
+    const F z = (F(1.0f) - u.y) * (F(1.0f) + stretched.z) - stretched.z;
+    const F radius = sqrt(max(F(1.0f) - z * z, F(0.0f)));
+    const Vec3<F> cap{radius * turn.cos, radius * turn.sin, z};
+    const Vec3<F> h = cap + stretched;
+    return normalize(Vec3<F>{h.x * alpha, h.y * alpha, max(h.z, F(0.0f))});
+}
+
+/// Chooses wi for a given wo (wo.z > 0). pdf 0 means that the path ends: below the horizon.
+///
+/// In      u: the direction; choice: which lobe, in [0,1)
+template <typename F>
+OBSCURA_INLINE BsdfSample<F> sample_bsdf(const BsdfParams<F>& p,
+                                         const Vec3<F>& wo,
+                                         const Vec2<F>& u,
+                                         const F& choice) {
+    const auto specular = choice < specular_probability(p, wo.z);
+    const Vec3<F> h = sample_visible_normal(wo, p.alpha, u);
+    const Vec3<F> mirrored = h * (F(2.0f) * dot(wo, h)) - wo;
+    const Vec3<F> wi = select(specular, mirrored, cosine_hemisphere(u));
+    return {wi, evaluate_bsdf(p, wo, wi), select(specular, F(0.5f) * p.alpha, F(0.4f))};
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

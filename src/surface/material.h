@@ -1,0 +1,47 @@
+// surface/material.h - the glTF metallic-roughness material as plain 32-bit words, ready for gathers.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+namespace obscura {
+
+/// One texture use in a material: which texture, which UV set, and KHR_texture_transform.
+struct TextureSlot {
+    int32_t texture = -1;  ///< row in TextureArena::rows, -1 is none
+    int32_t uv_set = 0;    ///< TEXCOORD_n, below max_uv_sets
+    /// Rows of the 2x3 matrix that maps mesh UV to texture UV.
+    float uv_from_mesh[6] = {1, 0, 0, 0, 1, 0};
+};
+
+inline constexpr int max_uv_sets = 8;
+
+enum MaterialFlag : uint32_t {
+    material_alpha_mask = 1U << 0,   ///< alphaMode MASK: hit where alpha >= alpha_cutoff
+    material_alpha_blend = 1U << 1,  ///< alphaMode BLEND: hit with probability alpha
+    material_double_sided = 1U << 2,
+    material_unlit = 1U << 3,  ///< KHR_materials_unlit: base colour is the radiance
+};
+
+/// One glTF material. A table of these is read word by word by the shading lanes, so every member
+/// is 32 bits wide and there is no padding.
+///
+/// To add a lobe: append its factors here, its texture slots below the others, read them in
+/// gltf/materials.cpp, and evaluate them in surface/bsdf.h.
+struct Material {
+    float base_color[4] = {1, 1, 1, 1};  ///< linear Rec.709 and alpha
+    float metallic = 1;
+    float roughness = 1;  ///< perceptual; GGX alpha is its square
+    float normal_scale = 1;
+    float alpha_cutoff = 0.5f;
+    float emission[3] = {0, 0, 0};  ///< nits: emissiveFactor * emissiveStrength
+    uint32_t flags = 0;             ///< MaterialFlag bits
+    TextureSlot base_color_texture;          ///< sRGB, alpha linear
+    TextureSlot metallic_roughness_texture;  ///< G roughness, B metallic
+    TextureSlot normal_texture;              ///< tangent space, +Y up
+    TextureSlot emissive_texture;            ///< sRGB
+};
+
+static_assert(sizeof(Material) == (12 + 4 * 8) * 4, "gathered as 32-bit words: no padding");
+
+}  // namespace obscura

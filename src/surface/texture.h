@@ -1,0 +1,221 @@
+// surface/texture.h - texture look-ups from the arena: wrap, filter, decode; one path or many.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/vec.h"
+#include "surface/srgb.h"
+#include "surface/texture_row.h"
+
+namespace obscura {
+
+/// All textures of a scene, as raw pointers for gathers.
+struct TextureView {
+    const uint32_t* texels = nullptr;
+    const int32_t* rows = nullptr;  ///< TextureRow as words
+};
+
+inline constexpr int texture_row_words = static_cast<int>(sizeof(TextureRow) / 4);
+
+template <typename F>
+struct Rgba {
+    Vec3<F> rgb;
+    F alpha;
+};
+
+inline namespace OBSCURA_ISA {
+
+/// One texture's row, read for every lane.
+template <typename F>
+struct TextureInfo {
+    IntOf<F> row;  ///< first word of the row
+    IntOf<F> width, height, levels;
+    IntOf<F> sampler;
+};
+
+template <typename F>
+OBSCURA_INLINE TextureInfo<F> texture_info(const TextureView& view, const IntOf<F>& texture) {
+    const IntOf<F> row = texture * IntOf<F>(texture_row_words);
+    return {row,
+            gather<F>(view.rows, row),
+            gather<F>(view.rows + 1, row),
+            gather<F>(view.rows + 2, row),
+            gather<F>(view.rows + 3, row)};
+}
+
+/// log2 of the side, in texels of level 0, of a footprint given as an area in UV space.
+template <typename F>
+OBSCURA_INLINE F level_of_detail(const TextureInfo<F>& info, const F& footprint) {
+    const F texels = footprint * from_int<F>(info.width) * from_int<F>(info.height);
+    return F(0.5f) * log2(clamp(texels, F(1e-12f), F(1e12f)));
+}
+
+/// True where (bits & flag) is set.
+template <typename F>
+OBSCURA_INLINE MaskOf<F> has_bits(const IntOf<F>& bits, uint32_t flag) {
+    return (bits & IntOf<F>(static_cast<int32_t>(flag))) != IntOf<F>(0);
+}
+
+/// Folds a texture coordinate to [0, 1) by the sampler's wrap mode: repeat, clamp or mirror.
+template <typename F>
+OBSCURA_INLINE F wrap_unit(const F& coordinate, const IntOf<F>& mode) {
+    const F repeated = coordinate - floor(coordinate);
+    const F half = coordinate * F(0.5f);
+    const F two = (half - floor(half)) * F(2.0f);
+    const F mirrored = select(two > F(1.0f), F(2.0f) - two, two);
+    const F clamped = clamp(coordinate, F(0.0f), F(1.0f));
+    F out = select(mode == IntOf<F>(1), clamped, repeated);
+    out = select(mode == IntOf<F>(2), mirrored, out);
+    return select(out == out, out, F(0.0f));  // infinite UV: inf - inf
+}
+
+/// Brings a texel index that is at most one period outside back into [0, size).
+template <typename F>
+OBSCURA_INLINE IntOf<F> wrap_texel(const IntOf<F>& i, const IntOf<F>& size, const IntOf<F>& mode) {
+    const IntOf<F> last = size - IntOf<F>(1);
+    const IntOf<F> clamped = max(min(i, last), IntOf<F>(0));  // mirror: the edge texel repeats
+    const IntOf<F> wrapped =
+        select(i < IntOf<F>(0), IntOf<F>(i + size), select(i > last, IntOf<F>(i - size), i));
+    return select(mode == IntOf<F>(0), max(min(wrapped, last), IntOf<F>(0)), clamped);
+}
+
+/// Unpacks one RGBA8 texel; sRGB-encoded where the sampler says so.
+template <typename F>
+OBSCURA_INLINE Rgba<F> decode_texel(const UintOf<F>& texel, const MaskOf<F>& srgb) {
+    using U = UintOf<F>;
+    const IntOf<F> r = as_int(texel & U(255U));
+    const IntOf<F> g = as_int((texel >> 8) & U(255U));
+    const IntOf<F> b = as_int((texel >> 16) & U(255U));
+    const F scale = F(1.0f / 255.0f);
+    Vec3<F> rgb{from_int<F>(r) * scale, from_int<F>(g) * scale, from_int<F>(b) * scale};
+    if (any(srgb)) {
+        const Vec3<F> linear{gather<F>(srgb_to_linear_table, r),
+                             gather<F>(srgb_to_linear_table, g),
+                             gather<F>(srgb_to_linear_table, b)};
+        rgb = select(srgb, linear, rgb);
+    }
+    return {rgb, from_int<F>(as_int(texel >> 24)) * scale};
+}
+
+/// A mip level with its size, chosen for each lane.
+template <typename F>
+struct MipLevel {
+    IntOf<F> offset, width, height;
+};
+
+template <typename F>
+OBSCURA_INLINE MipLevel<F> mip_level(const TextureView& view,
+                                     const TextureInfo<F>& info,
+                                     const IntOf<F>& level) {
+    const IntOf<F> offset = gather<F>(view.rows + 4, IntOf<F>(info.row + level));
+    // Sides halve, rounding down: exact in float for sides up to 65536.
+    const F scale = power_of_two<F>(IntOf<F>(IntOf<F>(127) - level));
+    return {offset,
+            max(to_int(from_int<F>(info.width) * scale), IntOf<F>(1)),
+            max(to_int(from_int<F>(info.height) * scale), IntOf<F>(1))};
+}
+
+/// Which level a look-up reads: the sampler's mip mode, `pick` in [0,1) decides between two levels
+/// in proportion (0.5: the nearest one).
+template <typename F>
+OBSCURA_INLINE IntOf<F> choose_level(const TextureInfo<F>& info, const F& lod, const F& pick) {
+    const IntOf<F> mode = IntOf<F>(as_int(as_uint(info.sampler) >> 6)) & IntOf<F>(3);
+    const F top = from_int<F>(info.levels - IntOf<F>(1));
+    const F bounded = clamp(lod, F(0.0f), top);
+    const F threshold = select(mode == IntOf<F>(2), pick, F(0.5f));
+    const IntOf<F> level = to_int(min(bounded + threshold, top));
+    return select(mode == IntOf<F>(0), IntOf<F>(0), level);
+}
+
+/// Texel position of a look-up before filtering, and whether this lane takes the nearest texel.
+template <typename F>
+struct TexelPosition {
+    MipLevel<F> level;
+    F x, y;  ///< in texels, texel centres at +0.5
+    MaskOf<F> nearest;
+    IntOf<F> wrap_u, wrap_v;
+};
+
+template <typename F>
+OBSCURA_INLINE TexelPosition<F> texel_position(const TextureView& view,
+                                               const TextureInfo<F>& info,
+                                               const Vec2<F>& uv,
+                                               const F& lod,
+                                               const F& pick) {
+    const IntOf<F> wrap_u = info.sampler & IntOf<F>(3);
+    const IntOf<F> wrap_v = IntOf<F>(as_int(as_uint(info.sampler) >> 2)) & IntOf<F>(3);
+    const MipLevel<F> level = mip_level<F>(view, info, choose_level<F>(info, lod, pick));
+    const MaskOf<F> magnified = lod <= F(0.0f);
+    const MaskOf<F> nearest =
+        (magnified & has_bits<F>(info.sampler, sampler_mag_nearest)) |
+        ((!magnified) & has_bits<F>(info.sampler, sampler_min_nearest));
+    return {level,
+            wrap_unit<F>(uv.x, wrap_u) * from_int<F>(level.width),
+            wrap_unit<F>(uv.y, wrap_v) * from_int<F>(level.height),
+            nearest,
+            wrap_u,
+            wrap_v};
+}
+
+template <typename F>
+OBSCURA_INLINE UintOf<F> fetch_texel(const TextureView& view,
+                                     const TexelPosition<F>& at,
+                                     const IntOf<F>& x,
+                                     const IntOf<F>& y) {
+    const IntOf<F> column = wrap_texel<F>(x, at.level.width, at.wrap_u);
+    const IntOf<F> row = wrap_texel<F>(y, at.level.height, at.wrap_v);
+    return gather<F>(view.texels, IntOf<F>(at.level.offset + row * at.level.width + column));
+}
+
+/// Reads one texel, chosen at random with the weights of the bilinear (and mip) filter: right on
+/// average, a quarter or an eighth of the memory traffic.
+///
+/// In      texture: row number of every lane, all valid; footprint: area in UV space that the look-up
+///         stands for; random: three numbers in [0,1)
+/// Source  Pharr et al., "Filtering After Shading With Stochastic Texture Filtering", I3D 2024
+template <typename F>
+OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
+                                                 const IntOf<F>& texture,
+                                                 const Vec2<F>& uv,
+                                                 const F& footprint,
+                                                 const Vec3<F>& random) {
+    const TextureInfo<F> info = texture_info<F>(view, texture);
+    const F lod = level_of_detail<F>(info, footprint);
+    const TexelPosition<F> at = texel_position<F>(view, info, uv, lod, random.z);
+    const F jitter_x = select(at.nearest, F(0.0f), random.x - F(0.5f));
+    const F jitter_y = select(at.nearest, F(0.0f), random.y - F(0.5f));
+    const UintOf<F> texel = fetch_texel<F>(
+        view, at, to_int(floor(at.x + jitter_x)), to_int(floor(at.y + jitter_y)));
+    return decode_texel<F>(texel, has_bits<F>(info.sampler, sampler_srgb));
+}
+
+/// Reads the bilinearly filtered value of the nearest mip level: no randomness, four texels.
+template <typename F>
+OBSCURA_INLINE Rgba<F> sample_texture_bilinear(const TextureView& view,
+                                               const IntOf<F>& texture,
+                                               const Vec2<F>& uv,
+                                               const F& footprint) {
+    const TextureInfo<F> info = texture_info<F>(view, texture);
+    const F lod = level_of_detail<F>(info, footprint);
+    const TexelPosition<F> at = texel_position<F>(view, info, uv, lod, F(0.5f));
+    const F x = select(at.nearest, floor(at.x), at.x - F(0.5f));
+    const F y = select(at.nearest, floor(at.y), at.y - F(0.5f));
+    const F fx = x - floor(x);
+    const F fy = y - floor(y);
+    const IntOf<F> x0 = to_int(floor(x));
+    const IntOf<F> y0 = to_int(floor(y));
+    const MaskOf<F> srgb = has_bits<F>(info.sampler, sampler_srgb);
+    Rgba<F> sum{splat3(F(0.0f)), F(0.0f)};
+    for (int corner = 0; corner < 4; ++corner) {
+        const IntOf<F> cx = x0 + IntOf<F>(corner & 1);
+        const IntOf<F> cy = y0 + IntOf<F>(corner >> 1);
+        const F wx = (corner & 1) != 0 ? fx : F(1.0f) - fx;
+        const F wy = (corner >> 1) != 0 ? fy : F(1.0f) - fy;
+        const Rgba<F> value = decode_texel<F>(fetch_texel<F>(view, at, cx, cy), srgb);
+        sum.rgb = sum.rgb + value.rgb * (wx * wy);
+        sum.alpha = sum.alpha + value.alpha * (wx * wy);
+    }
+    return sum;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,179 @@
+// tests/light/alias_table_test.cpp - alias tables: probabilities, leftovers, limits, lanes.
+// SPDX-License-Identifier: Apache-2.0
+#include "light/alias_table.h"
+
+#include <gtest/gtest.h>
+
+#include "support/chi_square.h"
+#include "support/random.h"
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace obscura {
+namespace {
+
+std::vector<double> random_weights(size_t count, uint64_t seed) {
+    Pcg32 random(seed);
+    std::vector<double> weights(count);
+    for (double& weight : weights) {
+        const double u = random.next_double();
+        weight = u < 0.2 ? 0.0 : std::exp2(20 * u);
+    }
+    return weights;
+}
+
+std::vector<AliasEntry> table_for(const std::vector<double>& weights) {
+    return build_alias_table(std::span<const double>(weights));
+}
+
+double sum_of(const std::vector<double>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(AliasTable, MultiplyHighIsTheUpperHalfOfTheProduct) {
+    Pcg32 random(3);
+    for (int i = 0; i < 10000; ++i) {
+        const uint32_t a = i == 0 ? 0xFFFFFFFFU : random.next_uint();
+        const uint32_t b = i < 2 ? 0xFFFFFFFFU : random.next_uint() >> (i % 32);
+        EXPECT_EQ(multiply_high(a, b), static_cast<uint32_t>(uint64_t{a} * b >> 32));
+    }
+}
+
+TEST(AliasTable, ProbabilitiesFollowTheWeights) {
+    for (const size_t count : {1, 2, 3, 7, 64, 1000, 16384}) {
+        std::vector<double> weights = random_weights(count, count);
+        weights[0] += 1;
+        const std::vector<double> got = alias_probabilities(table_for(weights));
+        const double sum = sum_of(weights);
+        EXPECT_DOUBLE_EQ(sum_of(got), 1.0);
+        const double grain = static_cast<double>(count) * 0x1p-32;
+        for (size_t i = 0; i < count; ++i) {
+            EXPECT_NEAR(got[i], weights[i] / sum, grain) << count << " entries, index " << i;
+            EXPECT_EQ(got[i] > 0, weights[i] > 0) << count << " entries, index " << i;
+        }
+    }
+}
+
+TEST(AliasTable, AMillionEntriesKeepTheirShares) {
+    const size_t count = 1 << 20;
+    std::vector<double> weights(count, 1.0);
+    weights[12345] = static_cast<double>(count);  // half of everything
+    const std::vector<double> got = alias_probabilities(table_for(weights));
+    EXPECT_NEAR(got[12345], 0.5, 1e-6 + 0x1p-12);
+    EXPECT_NEAR(sum_of(got), 1.0, 1e-9);
+    for (size_t i = 0; i < count; i += 997) {
+        EXPECT_NEAR(got[i] * 2 * static_cast<double>(count), 1.0, 1e-3) << i;
+    }
+}
+
+TEST(AliasTable, TheFaintestEntryIsStillReached) {
+    std::vector<double> weights(1000, 1.0);
+    weights[500] = 1e30;
+    const std::vector<double> got = alias_probabilities(table_for(weights));
+    for (size_t i = 0; i < weights.size(); ++i)
+        EXPECT_GE(got[i], 0x1p-32) << i;
+}
+
+TEST(AliasTable, WeightsThatAreAllZeroMeanUniform) {
+    const std::vector<float> weights(5, 0.0F);
+    const std::vector<AliasEntry> table = build_alias_table(std::span<const float>(weights));
+    for (const double got : alias_probabilities(table))
+        EXPECT_NEAR(got, 0.2, 1e-8);
+}
+
+TEST(AliasTable, BrokenWeightsCountAsZero) {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const double infinity = std::numeric_limits<double>::infinity();
+    const std::vector<double> got = alias_probabilities(table_for({-1, 2, nan, infinity, 6}));
+    const std::vector<double> expected = {0, 0.25, 0, 0, 0.75};
+    for (size_t i = 0; i < got.size(); ++i)
+        EXPECT_NEAR(got[i], expected[i], 1e-8) << i;
+}
+
+TEST(AliasTable, HugeWeightsDoNotOverflow) {
+    const std::vector<double> got = alias_probabilities(table_for({1.7e308, 1.7e308, 1.7e308}));
+    for (const double share : got)
+        EXPECT_NEAR(share, 1.0 / 3, 1e-8);
+}
+
+/// Counts of (index, sixteenth of the remaining bits).
+std::vector<double> draw(const std::vector<AliasEntry>& table, int samples) {
+    std::vector<double> observed(table.size() * 16, 0.0);
+    Pcg32 random(11);
+    for (int i = 0; i < samples; ++i) {
+        const auto count = static_cast<int>(table.size());
+        const auto sample = sample_alias<float>(table.data(), count, random.next_uint());
+        observed[static_cast<size_t>(sample.index) * 16 + (sample.remaining >> 28)] += 1;
+    }
+    return observed;
+}
+
+TEST(AliasTable, IndexAndRemainderAreIndependentAndRight) {
+    constexpr int samples = 1000000;
+    std::vector<double> weights = random_weights(100, 7);
+    for (double& weight : weights)
+        weight = std::sqrt(weight);  // most bins get samples
+    const std::vector<AliasEntry> table = table_for(weights);
+    const std::vector<double> shares = alias_probabilities(table);
+    std::vector<double> expected(shares.size() * 16);
+    for (size_t i = 0; i < expected.size(); ++i)
+        expected[i] = shares[i / 16] * samples / 16;
+    const std::vector<double> observed = draw(table, samples);
+    const ChiSquareOutcome right = chi_square(observed, expected);
+    EXPECT_TRUE(right.passes(0.01)) << right;
+
+    for (size_t i = 0; i < 16; ++i)
+        std::swap(expected[16 * 50 + i], expected[16 * 99 + i]);
+    const ChiSquareOutcome wrong = chi_square(observed, expected);
+    EXPECT_FALSE(wrong.passes(0.01)) << wrong;
+}
+
+/// Sampler and alias_probabilities agree to the single random number, at every cell's turns.
+TEST(AliasTable, ProbabilitiesCountEveryRandomNumber) {
+    const std::vector<AliasEntry> table = table_for(random_weights(7, 5));
+    const auto index_of = [&](uint32_t random) {
+        return sample_alias<float>(table.data(), 7, random).index;
+    };
+    std::vector<double> counted(7, 0.0);
+    uint64_t begin = 0;
+    while (begin < 0x100000000U) {  // the runs of equal index, each end found by halving
+        const int32_t index = index_of(static_cast<uint32_t>(begin));
+        uint64_t step = uint64_t{1} << 32;
+        uint64_t last = begin;
+        for (; step > 0; step /= 2) {
+            const uint64_t next = last + step;
+            const bool same_cell = next < 0x100000000U && next * 7 >> 32 == begin * 7 >> 32;
+            if (same_cell && index_of(static_cast<uint32_t>(next)) == index) last = next;
+        }
+        counted[static_cast<size_t>(index)] += static_cast<double>(last - begin + 1) * 0x1p-32;
+        begin = last + 1;
+    }
+    const std::vector<double> told = alias_probabilities(table);
+    for (size_t i = 0; i < 7; ++i)
+        EXPECT_DOUBLE_EQ(counted[i], told[i]) << i;
+}
+
+TEST(AliasTable, LanesEqualScalars) {
+    const std::vector<AliasEntry> table = table_for(random_weights(5000, 9));
+    Pcg32 random(1);
+    for (int round = 0; round < 1000; ++round) {
+        uint32_t bits[lane_count];
+        for (uint32_t& word : bits)
+            word = random.next_uint();
+        const LanesU in(BatchU::load_unaligned(bits));
+        const AliasSample<Lanes> got = sample_alias<Lanes>(table.data(), 5000, in);
+        int32_t index[lane_count];
+        uint32_t remaining[lane_count];
+        got.index.v.store_unaligned(index);
+        got.remaining.v.store_unaligned(remaining);
+        for (int i = 0; i < lane_count; ++i) {
+            const auto one = sample_alias<float>(table.data(), 5000, bits[i]);
+            EXPECT_EQ(index[i], one.index);
+            EXPECT_EQ(remaining[i], one.remaining);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace obscura
