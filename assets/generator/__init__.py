@@ -1,2 +1,2 @@
-# assets/generator/__init__.py - marks the folder as the package that makes the project's own scenes.
+# assets/generator/__init__.py - the package that makes the project's own scenes.
 # SPDX-License-Identifier: Apache-2.0

@@ -62,7 +62,7 @@ class GltfFile:
         """Stores a shapes.Mesh once and returns a glTF primitive that uses it."""
         attributes = {'POSITION': self._floats(mesh.positions, bounds=True),
                       'NORMAL': self._floats(mesh.normals)}
-        if mesh.uvs:
+        if mesh.uvs and 'exture' in json.dumps(self.json['materials'][material]):
             attributes['TEXCOORD_0'] = self._floats(mesh.uvs)
         if mesh.colors:
             attributes['COLOR_0'] = self._floats(mesh.colors)

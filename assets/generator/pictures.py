@@ -13,7 +13,6 @@ def png(rows, channels):
     """
     width, height = len(rows[0]) // channels, len(rows)
     color_type = {1: 0, 3: 2, 4: 6}[channels]
-    streams = []
     left, up = bytearray(), bytearray()
     above = bytes(len(rows[0]))
     for row in rows:

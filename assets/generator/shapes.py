@@ -135,7 +135,7 @@ def stem(curve, radius, columns, rows):
     def point(u, v):
         tangent = normalize(sub(curve(v + step), curve(v - step)))
         first = normalize(cross(tangent, (0.3, 0.1, 1.0)))
-        second = cross(first, tangent)
+        second = cross(tangent, first)
         angle = 2.0 * math.pi * u
         side = add(scale(first, math.cos(angle)), scale(second, math.sin(angle)))
         return add(curve(v), scale(side, radius(v)))

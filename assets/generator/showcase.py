@@ -8,7 +8,7 @@ from generator import shapes, textures
 from generator.gltf import GltfFile
 from generator.noise import hash01
 from generator.vectors import (add, clamp, look_at, mix, normalize, quaternion, quaternion_product,
-                               scale)
+                               scale, sub)
 
 BOARD_RADIUS = 0.56
 BOARD_THICKNESS = 0.032
@@ -37,14 +37,16 @@ def _backdrop(gltf):
             y, z = floor + bend + (s - run - arc), wall
         return ((2.0 * u - 1.0) * half_width, y, z)
 
-    material = gltf.material('Backdrop', color=(0.070, 0.135, 0.150), roughness=0.85)
+    material = gltf.material('Backdrop', color=(0.085, 0.165, 0.180), roughness=0.85)
     _add(gltf, 'Backdrop', shapes.surface(point, 2, 220), material)
 
 
 def _board(gltf):
     profile = shapes.spline([
-        (0.0, 0.0), (0.0, 0.0), (0.3, 0.0), (0.52, 0.0), (0.545, -0.001), (0.556, -0.007),
-        (BOARD_RADIUS, -0.016), (0.556, -0.025), (0.545, -0.0315), (0.52, -BOARD_THICKNESS)])
+        (0.0, 0.0), (0.15, 0.0), (0.3, 0.0), (0.42, 0.0), (0.49, 0.0), (0.525, 0.0),
+        (0.545, -0.001), (0.556, -0.007),
+        (BOARD_RADIUS, -0.016), (0.556, -0.025), (0.545, -0.031), (0.525, -BOARD_THICKNESS),
+        (0.49, -BOARD_THICKNESS)])
     mesh = shapes.lathe(lambda v: profile(1.0 - v), 160, 72)
     turn = math.radians(24.0)
     for i, (x, _, z) in enumerate(mesh.positions):  # the picture lies flat on the board
@@ -73,9 +75,9 @@ def _pedestal_and_knot(gltf):
     def knot(t):
         a = 2.0 * math.pi * t
         reach = 0.098 + 0.042 * math.cos(3.0 * a)
-        return (reach * math.cos(2.0 * a), reach * math.sin(2.0 * a), 0.050 * math.sin(3.0 * a))
+        return (reach * math.cos(2.0 * a), reach * math.sin(2.0 * a), 0.060 * math.sin(3.0 * a))
 
-    mesh = shapes.tube(knot, 0.0235, 400, 40)
+    mesh = shapes.tube(knot, 0.0215, 400, 40)
     turn = quaternion_product(quaternion((0, 1, 0), -18), quaternion((0, 0, 1), 90))
     mesh.moved(turn=turn).standing_on(0.0895).moved((0.02, 0, -0.06))
     gold = gltf.material('Gold', color=(1.0, 0.71, 0.29), metallic=1.0, roughness=0.14)
@@ -111,15 +113,18 @@ def _leaf(at, direction, size, droop):
 
 def _branch(gltf):
     foot = (-0.27, 0.10, -0.12)
-    shoots = (((0.02, 0.24, 0.02), (0.00, 0.40, 0.02), (-0.10, 0.56, 0.03)),
-              ((-0.015, 0.22, 0.01), (0.045, 0.36, 0.03), (0.13, 0.47, 0.06)),
-              ((0.0, 0.22, -0.01), (-0.09, 0.35, 0.04), (-0.20, 0.41, 0.08)))
+    shoots = (((0.02, 0.24, 0.02), (0.00, 0.34, 0.02), (-0.06, 0.44, 0.03)),
+              ((-0.015, 0.22, 0.01), (0.035, 0.31, 0.03), (0.11, 0.38, 0.05)),
+              ((0.0, 0.22, -0.01), (-0.07, 0.31, 0.04), (-0.16, 0.34, 0.08)))
     wood, leaves = shapes.Mesh(), shapes.Mesh()
     for s, offsets in enumerate(shoots):
         curve_at = shapes.spline([foot] + [add(foot, o) for o in offsets])
 
         def curve(t, curve_at=curve_at):
-            return add(curve_at(clamp(t)), scale((0.0, 1.0, 0.0), t - clamp(t)))
+            near = clamp(t, 0.01, 0.99)  # beyond its ends the curve goes on straight
+            slope = scale(sub(curve_at(near + 0.01), curve_at(near - 0.01)), 50.0)
+            return add(curve_at(near), scale(slope, t - near))
+
         wood.append(shapes.stem(curve, lambda v: 0.0042 - 0.0028 * clamp(v), 10, 40))
         for k in range(7):
             t = 0.52 + 0.08 * k
@@ -127,8 +132,8 @@ def _branch(gltf):
             lift = 0.35 + 0.5 * hash01(s, k, 7)
             aim = (math.cos(angle), lift, math.sin(angle))
             if k == 6:
-                aim = add(curve(1.0), scale(curve(0.9), -1.0))
-            size = 0.125 * (1.0 - 0.06 * k) * (0.85 + 0.3 * hash01(s, k, 9))
+                aim = sub(curve(1.0), curve(0.9))
+            size = 0.135 * (1.0 - 0.06 * k) * (0.85 + 0.3 * hash01(s, k, 9))
             leaves.append(_leaf(curve(t), aim, size, 0.25 + 0.35 * hash01(s, k, 8)))
     bark = gltf.material('Bark', color=(0.13, 0.085, 0.05), roughness=0.8)
     blade = gltf.material('Leaf', roughness=0.5, alpha_mode='MASK', alpha_cutoff=0.5,
@@ -232,7 +237,7 @@ def _lights(gltf):
     hoop = shapes.torus(0.235, 0.0055, 200, 20).moved((0.02, 0.2405, -0.20),
                                                       quaternion((0, 1, 0), 8))
     _add(gltf, 'Hoop', hoop, gltf.material('Hoop', color=(0, 0, 0),
-                                           emission=(15.0, 5.2, 1.6)))
+                                           emission=(8.0, 2.7, 0.8)))
     foot = shapes.lathe(shapes.spline([
         (0.0, 0.001), (0.02, 0.0), (0.034, 0.0), (0.037, 0.003), (0.034, 0.008), (0.012, 0.014),
         (0.007, 0.030), (0.010, 0.046), (0.024, 0.056), (0.0265, 0.063), (0.025, 0.064),
@@ -243,7 +248,7 @@ def _lights(gltf):
     _add(gltf, 'Lantern foot', foot.moved(at), brass)
     globe = shapes.sphere(0.046, 64, 32).moved(add(at, (0.0, 0.099, 0.0)))
     _add(gltf, 'Lantern', globe, gltf.material('Lantern', color=(0, 0, 0),
-                                               emission=(11.0, 8.2, 5.4)))
+                                               emission=(6.0, 4.4, 2.8)))
     eye = (0.95, 0.85, 0.55)
     accent = gltf.light(type='spot', name='Accent', color=[1.0, 0.86, 0.70], intensity=1.1,
                         spot={'innerConeAngle': 0.2, 'outerConeAngle': 0.6})
@@ -263,7 +268,7 @@ def write_showcase(folder):
     _bowl(gltf)
     _lights(gltf)
     eye = (0.16, 0.44, 1.27)
-    camera = gltf.perspective_camera('Camera', math.radians(33.0))
+    camera = gltf.perspective_camera('Camera', math.radians(35.0))
     gltf.node(name='Camera', camera=camera, translation=eye,
-              rotation=look_at(eye, (0.0, 0.195, 0.0)))
+              rotation=look_at(eye, (0.0, 0.205, 0.0)))
     gltf.write_gltf(os.path.join(folder, 'showcase'), 'showcase')

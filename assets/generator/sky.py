@@ -16,9 +16,10 @@ from generator.vectors import clamp, dot, normalize, scale, smoothstep
 WIDTH, HEIGHT = 512, 256
 TURBIDITY = 3.0
 SUN = normalize((-0.62, 0.62, 0.52))
-SUN_RADIUS_DEG = 1.2     # wider than the real 0.27, so that shadow edges are soft; power is the same
+# Wider than the real 0.27, so that shadow edges are soft; the power is the same.
+SUN_RADIUS_DEG = 1.2
 SUN_IRRADIANCE = (3.3, 2.9, 2.35)  # on a plane that faces the sun
-SKY_IRRADIANCE = 1.1     # luminance, on a horizontal plane
+SKY_IRRADIANCE = 1.1  # luminance, on a horizontal plane
 GROUND_ALBEDO = (0.30, 0.28, 0.25)
 
 # Rows: A to E of the Perez function as (slope, offset) in turbidity (the paper's appendix A.2).

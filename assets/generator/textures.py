@@ -50,6 +50,10 @@ def normal_png(height, strength):
     return png(rows, 3)
 
 
+_OAK = ((0.40, 0.215, 0.095), (0.155, 0.066, 0.026))  # early wood, late wood
+_WALNUT = ((0.29, 0.135, 0.056), (0.10, 0.04, 0.016))
+
+
 def wood(size=1024, staves=8):
     """Boards of walnut and oak side by side along x, each with its own grain along y."""
     warp = fractal_noise(size, size, 4, 2, 4, 11)
@@ -68,9 +72,7 @@ def wood(size=1024, staves=8):
             late = smoothstep(0.25, 0.95, ring) * (1.0 - smoothstep(0.95, 1.0, ring))
             dark = clamp(0.55 * late + 0.35 * fibre[y][x] - 0.1)
             pore = smoothstep(0.72, 0.9, pores[y][x]) * (0.3 + 0.7 * late)
-            light_tone, dark_tone = (((0.40, 0.215, 0.095), (0.155, 0.066, 0.026))
-                                     if pick < 0.45 else ((0.29, 0.135, 0.056), (0.10, 0.04, 0.016)))
-            tone = mix(light_tone, dark_tone, dark)
+            tone = mix(*(_OAK if pick < 0.45 else _WALNUT), dark)
             gap = 1.0 - smoothstep(0.0, 0.018, min(across, 1.0 - across))
             shade = (1.0 - 0.35 * pore) * (1.0 - 0.75 * gap)
             color_row.append(tuple(c * shade for c in tone))
@@ -192,7 +194,7 @@ def chequer(size=256, fields=8, first=(0.75, 0.75, 0.72), second=(0.08, 0.09, 0.
 def alpha_probe(size=256):
     """Alpha as it is met in practice: a disk that fades outwards, hard-edged stripes and dots.
 
-    The colour of clear texels is magenta, which must never be seen in a right picture of MASK.
+    Clear texels are magenta: OPAQUE shows it, and a filter that lets it bleed betrays itself.
     """
     pixels = []
     for y in range(size):

@@ -49,7 +49,7 @@ Result<size_t> find_camera(const std::vector<SceneCamera>& cameras, const std::s
     if (named > 1) {
         return fail(ExitCode::usage,
                     "E-CAM-AMBIGUOUS",
-                    "option --camera",
+                    "--camera",
                     "several cameras are called '" + choice +
                         "'; give one of the indices: " + list_cameras(cameras));
     }
@@ -58,7 +58,7 @@ Result<size_t> find_camera(const std::vector<SceneCamera>& cameras, const std::s
     }
     return fail(ExitCode::usage,
                 "E-CAM-UNKNOWN",
-                "option --camera",
+                "--camera",
                 "there is no camera '" + choice + "'; " +
                     (cameras.empty() ? "the scene has none: leave out --camera to frame it all"
                                      : "the scene has: " + list_cameras(cameras)));

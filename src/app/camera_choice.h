@@ -14,12 +14,12 @@ namespace obscura {
 
 /// The camera options of the command line; what was not asked for is empty.
 struct CameraRequest {
-    std::string choice;                ///< --camera: an exact name, else an index
-    std::optional<CameraModel> model;  ///< --camera-model
-    std::optional<Vec3d> eye_m;
-    std::optional<Vec3d> target_m;
-    std::optional<Vec3d> up;
-    std::optional<double> yfov_rad;  ///< --fov
+    std::string choice = {};                ///< --camera: an exact name, else an index
+    std::optional<CameraModel> model = {};  ///< --camera-model
+    std::optional<Vec3d> eye_m = {};
+    std::optional<Vec3d> target_m = {};
+    std::optional<Vec3d> up = {};
+    std::optional<double> yfov_rad = {};  ///< --fov
 };
 
 struct ChosenCamera {

@@ -125,7 +125,7 @@ Result<Affined> look_at(const Viewpoint& view) {
     if (!(distance > 1e-12 * scale)) {
         return fail(ExitCode::usage,
                     "E-CAM-VIEW",
-                    "option --eye",
+                    "--eye",
                     "the eye and the target are the same point; give an --eye that differs from "
                     "--target");
     }
@@ -136,7 +136,7 @@ Result<Affined> look_at(const Viewpoint& view) {
     if (!(up_length > 0) || !(right_length > 1e-6 * up_length)) {
         return fail(ExitCode::usage,
                     "E-CAM-VIEW",
-                    "option --up",
+                    "--up",
                     "the up direction is zero or parallel to the view; give an --up that is not");
     }
     const Vec3d x = right * (1 / right_length);

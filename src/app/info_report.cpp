@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/info_report.h"
 
+#include "app/numbers.h"
 #include "base/log.h"
 
 #include <fmt/format.h>
@@ -34,7 +35,7 @@ std::string title(const char* heading) {
 }
 
 std::string quoted_name(const std::string& name) {
-    return "'" + escape_control(name) + "'";
+    return in_quotes(escape_control(name));
 }
 
 void append_meshes(const Scene& scene, std::string& text) {

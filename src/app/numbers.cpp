@@ -14,17 +14,13 @@ namespace {
 constexpr int64_t max_side = 65536;
 constexpr int64_t max_pixels = int64_t{1} << 29;
 
-std::string option_name(std::string_view option) {
-    return "option " + std::string(option);
-}
-
 tl::unexpected<Error> not_a_number(std::string_view text,
                                    std::string_view option,
                                    const std::string& accepted) {
     return fail(ExitCode::usage,
                 "E-USAGE-NUMBER",
-                option_name(option),
-                "'" + std::string(text) + "' is not accepted; expected " + accepted);
+                std::string(option),
+                in_quotes(text) + " is not accepted; expected " + accepted);
 }
 
 tl::unexpected<Error> out_of_range(std::string_view text,
@@ -32,8 +28,8 @@ tl::unexpected<Error> out_of_range(std::string_view text,
                                    const std::string& accepted) {
     return fail(ExitCode::usage,
                 "E-USAGE-RANGE",
-                option_name(option),
-                "'" + std::string(text) + "' is out of range; expected " + accepted);
+                std::string(option),
+                in_quotes(text) + " is out of range; expected " + accepted);
 }
 
 enum class Reading { good, garbage, overflow };
@@ -178,6 +174,10 @@ Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_vi
 bool is_index(std::string_view text) {
     return !text.empty() &&
            std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+std::string in_quotes(std::string_view text) {
+    return std::string("'").append(text).append("'");
 }
 
 std::string shortest(double number) {

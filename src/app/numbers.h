@@ -40,6 +40,9 @@ Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_vi
 /// True when the text consists of decimal digits only: an index rather than a name.
 bool is_index(std::string_view text);
 
+/// The text between single quotes, for messages.
+std::string in_quotes(std::string_view text);
+
 /// A number in its shortest form, for messages.
 std::string shortest(double number);
 

@@ -3,6 +3,7 @@
 #include "app/program.h"
 
 #include "app/info_command.h"
+#include "app/numbers.h"
 #include "app/outcome.h"
 #include "app/render_command.h"
 #include "app/render_options.h"
@@ -76,14 +77,22 @@ int report_usage(const std::string& where, const std::string& message) {
     return report_failure(Error{ExitCode::usage, "E-USAGE", where, message}, log);
 }
 
+/// The option that has too few or too many values, "" for any other complaint. The parser's text
+/// begins with its name.
+std::string option_of(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    const bool counts = error.get_name() == "ArgumentMismatch";
+    return counts ? text.substr(0, text.find_first_of(": ")) : "";
+}
+
 /// Words a parser's complaint about the command line.
 int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
     const std::vector<CLI::App*> chosen = app.get_subcommands();
     if (chosen.empty()) {
         const std::vector<std::string> extras = app.remaining();
         const std::string got =
-            extras.empty() ? "no command was given" : "'" + extras.front() + "' is no command";
-        return report_usage("command line",
+            extras.empty() ? "no command was given" : in_quotes(extras.front()) + " is no command";
+        return report_usage("command-line",
                             got +
                                 "; expected `obscura render SCENE` or `obscura info SCENE`, see "
                                 "`obscura --help`");
@@ -91,13 +100,16 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
     const CLI::App& command = *chosen.front();
     const std::string hint = "; `obscura " + command.get_name() + " --help` lists what is accepted";
     const std::vector<std::string> extras = command.remaining();
-    if (extras.empty()) return report_usage("command line", error.what() + hint);
+    if (extras.empty()) {
+        const std::string option = option_of(error);
+        if (option.empty()) return report_usage("command-line", error.what() + hint);
+        return report_usage(option, "expected the option once, with one value" + hint);
+    }
     const std::string& first = extras.front();
     if (first.size() > 1 && first[0] == '-') {
-        return report_usage("option " + first,
-                            "there is no such option" + suggestion(command, first) + hint);
+        return report_usage(first, "there is no such option" + suggestion(command, first) + hint);
     }
-    return report_usage("command line", "'" + first + "' is one argument too many" + hint);
+    return report_usage("command-line", in_quotes(first) + " is one argument too many" + hint);
 }
 
 }  // namespace

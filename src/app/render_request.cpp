@@ -67,9 +67,8 @@ Result<T> choose(const std::string& text,
         if (text == choice.name) return choice.value;
         names += (names.empty() ? "" : ", ") + std::string(choice.name);
     }
-    return usage("E-USAGE-CHOICE",
-                 "option " + option,
-                 "'" + text + "' is not accepted; expected one of: " + names);
+    return usage(
+        "E-USAGE-CHOICE", option, in_quotes(text) + " is not accepted; expected one of: " + names);
 }
 
 constexpr std::array<Choice<Integrator>, 7> integrators = {{{"path", Integrator::path},
@@ -91,8 +90,8 @@ constexpr std::array<Choice<Isa>, 4> instruction_sets = {{{"auto", Isa::automati
 Result<CameraModel> parse_camera_model(const std::string& text) {
     if (text == "thinlens" || text == "fisheye" || text == "environment") {
         return usage("E-CAM-MODEL",
-                     "option --camera-model",
-                     "'" + text + "' is not there yet; expected one of: pinhole, orthographic");
+                     "--camera-model",
+                     in_quotes(text) + " is not there yet; expected one of: pinhole, orthographic");
     }
     constexpr std::array<Choice<CameraModel>, 2> models = {
         {{"pinhole", CameraModel::pinhole}, {"orthographic", CameraModel::orthographic}}};
@@ -129,7 +128,7 @@ void parse_picture(const RenderArguments& arguments, RenderOptions& options, Ste
         });
     const PixelRect crop = options.crop.value_or(PixelRect{});
     steps.refuse(crop.x + crop.width > options.width || crop.y + crop.height > options.height,
-                 "option --crop",
+                 "--crop",
                  "the part reaches beyond the picture; expected one within " +
                      std::to_string(options.width) + "x" + std::to_string(options.height));
 }
@@ -166,7 +165,7 @@ void parse_transport(const RenderArguments& arguments, RenderOptions& options, S
         [](const std::string& text) { return parse_real(text, "--ao-distance", 1e-9, 1e12); },
         [&](double distance) { options.ao_distance_m = distance; });
     steps.refuse(arguments.ao_distance && options.integrator != Integrator::ao,
-                 "option --ao-distance",
+                 "--ao-distance",
                  "it is for --integrator ao; leave it out or add that");
 }
 
@@ -189,7 +188,7 @@ void parse_camera(const RenderArguments& arguments, CameraRequest& camera, Steps
         camera.model = model;
     });
     steps.refuse(arguments.camera && (arguments.eye || arguments.target || arguments.up),
-                 "option --camera",
+                 "--camera",
                  "it cannot go together with --eye, --target or --up; give one or the other");
 }
 
@@ -224,7 +223,7 @@ void parse_program(const RenderArguments& arguments, RenderRequest& request, Ste
         [](const std::string& text) { return choose(text, "--isa", instruction_sets); },
         [&](Isa isa) { request.isa = isa; });
     steps.refuse(arguments.quiet && arguments.verbose,
-                 "option --quiet",
+                 "--quiet",
                  "it cannot go together with --verbose; give one or the other");
     request.verbosity = arguments.quiet     ? Verbosity::quiet
                         : arguments.verbose ? Verbosity::verbose
@@ -242,10 +241,10 @@ void refuse_empty_names(const RenderArguments& arguments, Steps& steps) {
          {"--stats", &arguments.stats}}};
     const std::string message = "the name is empty; give one or leave out the option";
     for (const auto& [name, text] : names) {
-        steps.refuse(*text && (*text)->empty(), "option " + std::string(name), message);
+        steps.refuse(*text && (*text)->empty(), name, message);
     }
     for (const std::string& output : arguments.outputs) {
-        steps.refuse(output.empty(), "option --output", message);
+        steps.refuse(output.empty(), "--output", message);
     }
     steps.refuse(arguments.scene_file.empty(), "SCENE", "the name is empty; expected a glTF file");
 }

@@ -12,7 +12,7 @@ Result<LoadOptions> choose_scene(const std::optional<std::string>& text) {
     if (text->empty()) {
         return fail(ExitCode::usage,
                     "E-USAGE-CONFLICT",
-                    "option --scene",
+                    "--scene",
                     "the name is empty; expected a scene's name or index");
     }
     if (!is_index(*text)) {

@@ -15,7 +15,8 @@ namespace {
 constexpr uint64_t largest_count_of_zeros = 1U << 26;
 
 uint64_t column_size(const GltfAccessor& accessor) {
-    const uint64_t bytes = component_size(accessor.component) * static_cast<uint64_t>(accessor.rows);
+    const uint64_t bytes =
+        component_size(accessor.component) * static_cast<uint64_t>(accessor.rows);
     return accessor.columns == 1 ? bytes : (bytes + 3) / 4 * 4;
 }
 
@@ -53,8 +54,8 @@ float to_float(T value) {
     if constexpr (!normalized || std::is_floating_point_v<T>) {
         return static_cast<float>(value);
     } else if constexpr (std::is_signed_v<T>) {
-        return std::max(static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max()),
-                        -1.0f);
+        return std::max(
+            static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max()), -1.0f);
     } else {
         return static_cast<float>(value) / static_cast<float>(std::numeric_limits<T>::max());
     }
@@ -81,7 +82,10 @@ void convert_element(const Elements& from, uint64_t element, float* out) {
 }
 
 template <typename T, bool normalized>
-void convert_elements(const Elements& from, uint64_t count, const ElementChoice& choice, float* out) {
+void convert_elements(const Elements& from,
+                      uint64_t count,
+                      const ElementChoice& choice,
+                      float* out) {
     const size_t width = static_cast<size_t>(from.rows) * static_cast<size_t>(from.columns);
     if (!choice.all) {
         for (const uint32_t element : choice.elements) {
@@ -100,7 +104,10 @@ void convert_elements(const Elements& from, uint64_t count, const ElementChoice&
 }
 
 template <typename T>
-void convert_as(const Elements& from, const GltfAccessor& accessor, const ElementChoice& choice, float* out) {
+void convert_as(const Elements& from,
+                const GltfAccessor& accessor,
+                const ElementChoice& choice,
+                float* out) {
     if (accessor.normalized) {
         convert_elements<T, true>(from, accessor.count, choice, out);
     } else {
@@ -108,22 +115,34 @@ void convert_as(const Elements& from, const GltfAccessor& accessor, const Elemen
     }
 }
 
-void convert(const Elements& from, const GltfAccessor& accessor, const ElementChoice& choice, float* out) {
+void convert(const Elements& from,
+             const GltfAccessor& accessor,
+             const ElementChoice& choice,
+             float* out) {
     switch (accessor.component) {
-        case ComponentType::int8: return convert_as<int8_t>(from, accessor, choice, out);
-        case ComponentType::uint8: return convert_as<uint8_t>(from, accessor, choice, out);
-        case ComponentType::int16: return convert_as<int16_t>(from, accessor, choice, out);
-        case ComponentType::uint16: return convert_as<uint16_t>(from, accessor, choice, out);
-        case ComponentType::uint32: return convert_as<uint32_t>(from, accessor, choice, out);
-        case ComponentType::float32: return convert_as<float>(from, accessor, choice, out);
+        case ComponentType::int8:
+            return convert_as<int8_t>(from, accessor, choice, out);
+        case ComponentType::uint8:
+            return convert_as<uint8_t>(from, accessor, choice, out);
+        case ComponentType::int16:
+            return convert_as<int16_t>(from, accessor, choice, out);
+        case ComponentType::uint16:
+            return convert_as<uint16_t>(from, accessor, choice, out);
+        case ComponentType::uint32:
+            return convert_as<uint32_t>(from, accessor, choice, out);
+        case ComponentType::float32:
+            return convert_as<float>(from, accessor, choice, out);
     }
 }
 
 uint32_t load_unsigned(const std::byte* from, ComponentType type) {
     switch (type) {
-        case ComponentType::uint8: return load<uint8_t>(from);
-        case ComponentType::uint16: return load<uint16_t>(from);
-        default: return load<uint32_t>(from);
+        case ComponentType::uint8:
+            return load<uint8_t>(from);
+        case ComponentType::uint16:
+            return load<uint16_t>(from);
+        default:
+            return load<uint32_t>(from);
     }
 }
 
@@ -183,7 +202,8 @@ Result<Replacements> read_replacements(const Document& document,
     return out;
 }
 
-/// Overwrites the chosen elements that a sparse accessor replaces; the last of equal indices counts.
+/// Overwrites the chosen elements that a sparse accessor replaces; the last of equal indices
+/// counts.
 void apply_replacements(const Replacements& replacements,
                         const GltfAccessor& accessor,
                         const ElementChoice& choice,
@@ -201,7 +221,8 @@ void apply_replacements(const Replacements& replacements,
     };
     const std::vector<uint32_t>& elements = replacements.elements;
     if (choice.all) {
-        for (size_t i = 0; i < elements.size(); ++i) write(i, elements[i]);
+        for (size_t i = 0; i < elements.size(); ++i)
+            write(i, elements[i]);
         return;
     }
     for (size_t target = 0; target < choice.elements.size(); ++target) {
@@ -246,8 +267,10 @@ std::string accessor_problem(const Document& document, const GltfAccessor& acces
         packed_range(sparse.value_offset, sparse.count, element_size(accessor));
     const uint64_t index_total = view_of(document, sparse.index_view).byte_length;
     const uint64_t value_total = view_of(document, sparse.value_view).byte_length;
-    if (!range_extent(indices, index_total)) return "sparse indices: " + range_text(indices, index_total);
-    if (!range_extent(values, value_total)) return "sparse values: " + range_text(values, value_total);
+    if (!range_extent(indices, index_total))
+        return "sparse indices: " + range_text(indices, index_total);
+    if (!range_extent(values, value_total))
+        return "sparse values: " + range_text(values, value_total);
     return {};
 }
 
@@ -255,6 +278,21 @@ bool accessor_is_misaligned(const Document& document, const GltfAccessor& access
     if (accessor.view < 0) return false;
     const uint64_t start = view_of(document, accessor.view).byte_offset + accessor.byte_offset;
     return start % component_size(accessor.component) != 0;
+}
+
+bool sparse_indices_increase(const Document& document, const BufferStore& store, int accessor) {
+    const GltfSparse& sparse = document.accessors[static_cast<size_t>(accessor)].sparse;
+    const uint64_t size = component_size(sparse.index_type);
+    const auto bytes = checked_span(view_bytes(document, store, sparse.index_view),
+                                    packed_range(sparse.index_offset, sparse.count, size));
+    if (!bytes) return true;  // read_floats reports it
+    for (uint64_t i = 1; i < sparse.count; ++i) {
+        const std::byte* at = bytes->data() + i * size;
+        if (load_unsigned(at - size, sparse.index_type) >= load_unsigned(at, sparse.index_type)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 Result<std::vector<float>> read_floats(const Document& document,
@@ -278,8 +316,7 @@ Result<std::vector<float>> read_floats(const Document& document,
             return bad_accessor(document, accessor, "E-ACC-RANGE", "the buffer has too few data");
         }
         out.resize(count * component_count(row));
-        const Elements from{
-            bytes->data(), range.stride, column_size(row), row.rows, row.columns};
+        const Elements from{bytes->data(), range.stride, column_size(row), row.rows, row.columns};
         convert(from, row, choice, out.data());
     } else {
         out.resize(count * component_count(row));

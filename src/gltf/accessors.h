@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gltf/buffers.h"
+#include "gltf/document.h"
+
 #include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
-
-#include "gltf/buffers.h"
-#include "gltf/document.h"
 
 namespace obscura {
 
@@ -23,16 +23,21 @@ std::string accessor_problem(const Document& document, const GltfAccessor& acces
 
 bool accessor_is_misaligned(const Document& document, const GltfAccessor& accessor);
 
-/// Reads elements as floats, component by component; normalised integers become [0,1] or [-1,1].
-///
-/// In      elements: which ones, each below the count; an empty span with `all` reads every one
-/// Out     component_count floats an element
-/// Errors  65 E-ACC-SPARSE a sparse index is not below the count, E-ACC-RANGE the buffer lacks data;
-///         69 E-DRACO-DATA and E-MESHOPT-DATA never: see load_buffers and meshes.cpp
+/// False when a sparse accessor's indices do not increase, which glTF forbids; they are read all
+/// the same, the last of equal ones counts.
+bool sparse_indices_increase(const Document& document, const BufferStore& store, int accessor);
+
+/// Which elements of an accessor are read.
 struct ElementChoice {
     bool all = true;
-    std::span<const uint32_t> elements = {};
+    std::span<const uint32_t> elements = {};  ///< unless all: each below the count
 };
+
+/// Reads elements as floats, component by component; normalised integers become [0,1] or [-1,1].
+///
+/// Out     component_count floats an element
+/// Errors  65 E-ACC-SPARSE a sparse index is not below the count, E-ACC-RANGE data are missing;
+///         77 E-LIMIT-COUNT too many elements that no data stand for
 Result<std::vector<float>> read_floats(const Document& document,
                                        const BufferStore& store,
                                        int accessor,

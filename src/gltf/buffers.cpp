@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/buffers.h"
 
-#include <utility>
-
 #include "gltf/uri.h"
+
+#include <utility>
 
 namespace obscura {
 
@@ -15,8 +15,7 @@ std::string bytes_text(uint64_t have, uint64_t need) {
 }
 
 bool accepted_buffer_mime(const std::string& mime) {
-    return mime.empty() || mime == "application/octet-stream" ||
-           mime == "application/gltf-buffer";
+    return mime.empty() || mime == "application/octet-stream" || mime == "application/gltf-buffer";
 }
 
 Result<Bytes> load_from_uri(const GltfBuffer& buffer,
@@ -127,6 +126,19 @@ std::span<const std::byte> view_bytes(const Document& document,
     const std::span<const std::byte> buffer = store.buffers[static_cast<size_t>(row.buffer)];
     const auto bytes = checked_span(buffer, {row.byte_offset, 1, row.byte_length, 1});
     return bytes.value_or(std::span<const std::byte>());
+}
+
+void release_geometry(const Document& document, BufferStore& store) {
+    std::vector<char> needed(store.buffers.size(), 0);
+    for (const GltfImage& image : document.images) {
+        if (image.view < 0) continue;
+        needed[static_cast<size_t>(document.views[static_cast<size_t>(image.view)].buffer)] = 1;
+    }
+    for (size_t i = 0; i < needed.size(); ++i) {
+        if (needed[i] != 0) continue;
+        store.owned[i] = Bytes();
+        store.buffers[i] = {};
+    }
 }
 
 }  // namespace obscura

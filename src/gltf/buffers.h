@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gltf/document.h"
+#include "gltf/file_bytes.h"
+
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <vector>
-
-#include "gltf/document.h"
-#include "gltf/file_bytes.h"
 
 namespace obscura {
 
@@ -47,9 +47,10 @@ std::optional<uint64_t> range_extent(const ElementRange& range, uint64_t total);
 std::optional<std::span<const std::byte>> checked_span(std::span<const std::byte> bytes,
                                                        const ElementRange& range);
 
+/// Frees the buffers that no image lies in, once the geometry has been read.
+void release_geometry(const Document& document, BufferStore& store);
+
 /// The bytes of a buffer view; empty when its buffer has no data.
-std::span<const std::byte> view_bytes(const Document& document,
-                                      const BufferStore& store,
-                                      int view);
+std::span<const std::byte> view_bytes(const Document& document, const BufferStore& store, int view);
 
 }  // namespace obscura

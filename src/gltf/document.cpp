@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/document.h"
 
+#include "gltf/document_parts.h"
+#include "gltf/extensions.h"
+#include "gltf/list_text.h"
+#include "gltf/node_graph.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-
-#include "gltf/document_parts.h"
-#include "gltf/extensions.h"
-#include "gltf/node_graph.h"
 
 namespace obscura {
 
@@ -59,17 +60,12 @@ Result<void> read_asset(const JsonReader& root, Document& document) {
     return {};
 }
 
-void warn_clamped(const DocumentReading& reading) {
-    if (reading.clamped.empty()) return;
-    std::string text = "these numbers were out of range and are clamped: " + reading.clamped[0];
-    constexpr size_t most = 8;
-    for (size_t i = 1; i < std::min(reading.clamped.size(), most); ++i) {
-        text += ", " + reading.clamped[i];
-    }
-    if (reading.clamped.size() > most) {
-        text += " and " + std::to_string(reading.clamped.size() - most) + " more";
-    }
-    reading.log.warn(reading.document.file, text);
+/// One warning for many places.
+void warn_places(const DocumentReading& reading,
+                 const std::vector<std::string>& places,
+                 const char* text) {
+    if (places.empty()) return;
+    reading.log.warn(reading.document.file, text + list_text(places));
 }
 
 void read_parts(DocumentReading& reading) {
@@ -136,7 +132,9 @@ Result<Document> read_document(const nlohmann::json& tree, const std::string& fi
 
     const Result<void> graph = check_node_graph(document);
     if (!graph) return fail(graph.error());
-    warn_clamped(reading);
+    warn_places(reading, reading.clamped, "numbers out of range are clamped: ");
+    warn_places(
+        reading, reading.misaligned, "data do not start at a multiple of their component's size: ");
     return document;
 }
 

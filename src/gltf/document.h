@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <nlohmann/json_fwd.hpp>
-
 #include "base/error.h"
 #include "base/log.h"
 #include "math/transform.h"
 #include "scene/asset_info.h"
 #include "surface/material.h"
+
+#include <array>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace obscura {
 
@@ -84,7 +83,7 @@ struct GltfSampler {
 
 struct GltfTexture {
     int sampler = -1;
-    int image = -1;           ///< after EXT_texture_webp's choice; -1: none that can be read
+    int image = -1;             ///< after EXT_texture_webp's choice; -1: none that can be read
     bool needs_basisu = false;  ///< the only image is KTX2
 };
 

@@ -71,9 +71,10 @@ void read_shape(const JsonReader& accessor, GltfAccessor& out) {
         out.columns = shape.columns;
         return;
     }
-    accessor.fault("type",
-                   "E-ACC-TYPE",
-                   "this is not an accessor type; accepted are SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4");
+    accessor.fault(
+        "type",
+        "E-ACC-TYPE",
+        "this is not an accessor type; accepted are SCALAR, VEC2, VEC3, VEC4, MAT2, MAT3, MAT4");
 }
 
 void read_accessor(DocumentReading& reading, const JsonReader& accessor) {
@@ -91,13 +92,13 @@ void read_accessor(DocumentReading& reading, const JsonReader& accessor) {
     if (out.count == 0) accessor.fault("count", "E-ACC-COUNT", "the count must be 1 or more");
     read_sparse(reading, accessor, out);
     const bool vector3 = out.rows == 3 && out.columns == 1;
-    out.has_bounds = vector3 && accessor.numbers("min", out.low) && accessor.numbers("max", out.high);
+    out.has_bounds =
+        vector3 && accessor.numbers("min", out.low) && accessor.numbers("max", out.high);
     if (reading.root.failed()) return;
     const std::string problem = accessor_problem(reading.document, out);
     if (!problem.empty()) accessor.fault("", "E-ACC-RANGE", problem);
     if (accessor_is_misaligned(reading.document, out)) {
-        reading.log.warn(reading.document.at(accessor.pointer()),
-                         "the data do not start at a multiple of their component's size");
+        reading.misaligned.push_back(accessor.pointer());
     }
     reading.document.accessors.push_back(out);
 }
@@ -107,10 +108,13 @@ void read_accessor(DocumentReading& reading, const JsonReader& accessor) {
 size_t component_size(ComponentType type) {
     switch (type) {
         case ComponentType::int8:
-        case ComponentType::uint8: return 1;
+        case ComponentType::uint8:
+            return 1;
         case ComponentType::int16:
-        case ComponentType::uint16: return 2;
-        default: return 4;
+        case ComponentType::uint16:
+            return 2;
+        default:
+            return 4;
     }
 }
 
@@ -144,7 +148,8 @@ void read_views(DocumentReading& reading) {
         out.byte_offset = view.size("byteOffset", 0);
         out.byte_length = view.size("byteLength", 1);
         out.byte_stride = view.size("byteStride", 0);
-        for (const char* name : meshopt_names) out.meshopt = out.meshopt || view.has_extension(name);
+        for (const char* name : meshopt_names)
+            out.meshopt = out.meshopt || view.has_extension(name);
         if (reading.root.failed()) return;
         const uint64_t room = reading.document.buffers[static_cast<size_t>(out.buffer)].byte_length;
         if (out.byte_offset > room || out.byte_length > room - out.byte_offset) {
@@ -170,9 +175,8 @@ void read_views(DocumentReading& reading) {
 }
 
 void read_accessors(DocumentReading& reading) {
-    reading.root.each("accessors", [&](const JsonReader& accessor, size_t) {
-        read_accessor(reading, accessor);
-    });
+    reading.root.each(
+        "accessors", [&](const JsonReader& accessor, size_t) { read_accessor(reading, accessor); });
 }
 
 }  // namespace obscura

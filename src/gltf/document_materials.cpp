@@ -1,9 +1,9 @@
 // gltf/document_materials.cpp - reads images, samplers, textures and materials.
 // SPDX-License-Identifier: Apache-2.0
+#include "gltf/document_parts.h"
+
 #include <algorithm>
 #include <cmath>
-
-#include "gltf/document_parts.h"
 
 namespace obscura {
 
@@ -25,11 +25,13 @@ void read_texture_transform(DocumentReading& reading, const JsonReader& info, Te
     const double angle = clamped_number(reading, object, "rotation", range);
     const double c = std::cos(angle);
     const double s = std::sin(angle);
-    const double matrix[6] = {c * scale[0], s * scale[1], offset[0],
-                              -s * scale[0], c * scale[1], offset[1]};
-    for (size_t i = 0; i < 6; ++i) slot.uv_from_mesh[i] = static_cast<float>(matrix[i]);
+    const double matrix[6] = {
+        c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
+    for (size_t i = 0; i < 6; ++i)
+        slot.uv_from_mesh[i] = static_cast<float>(matrix[i]);
     if (object.has("texCoord")) {
-        slot.uv_set = static_cast<int32_t>(std::min<uint64_t>(object.size("texCoord", 0), 1U << 20));
+        slot.uv_set =
+            static_cast<int32_t>(std::min<uint64_t>(object.size("texCoord", 0), 1U << 20));
     }
 }
 
@@ -82,7 +84,8 @@ Material read_material_values(DocumentReading& reading, const JsonReader& object
     const JsonReader pbr = object.child("pbrMetallicRoughness");
     std::array<double, 4> base = {1, 1, 1, 1};
     clamped_numbers(reading, pbr, "baseColorFactor", base, unit);
-    for (size_t i = 0; i < 4; ++i) out.base_color[i] = static_cast<float>(base[i]);
+    for (size_t i = 0; i < 4; ++i)
+        out.base_color[i] = static_cast<float>(base[i]);
     out.metallic = static_cast<float>(clamped_number(reading, pbr, "metallicFactor", unit));
     out.roughness = static_cast<float>(clamped_number(reading, pbr, "roughnessFactor", unit));
     out.base_color_texture = read_slot(reading, pbr, "baseColorTexture");
@@ -90,20 +93,18 @@ Material read_material_values(DocumentReading& reading, const JsonReader& object
 
     out.normal_texture = read_slot(reading, object, "normalTexture");
     const JsonReader normal = object.child("normalTexture");
-    out.normal_scale =
-        static_cast<float>(clamped_number(reading, normal, "scale", {1, -1e4, 1e4}));
+    out.normal_scale = static_cast<float>(clamped_number(reading, normal, "scale", {1, -1e4, 1e4}));
 
     std::array<double, 3> emission = {0, 0, 0};
     clamped_numbers(reading, object, "emissiveFactor", emission, unit);
     double strength = 1;
     constexpr const char* strength_name = "KHR_materials_emissive_strength";
     if (object.has_extension(strength_name)) {
-        strength = clamped_number(reading,
-                                  object.extension(strength_name),
-                                  "emissiveStrength",
-                                  {1, 0, largest_factor});
+        strength = clamped_number(
+            reading, object.extension(strength_name), "emissiveStrength", {1, 0, largest_factor});
     }
-    for (size_t i = 0; i < 3; ++i) out.emission[i] = static_cast<float>(emission[i] * strength);
+    for (size_t i = 0; i < 3; ++i)
+        out.emission[i] = static_cast<float>(emission[i] * strength);
     out.emissive_texture = read_slot(reading, object, "emissiveTexture");
 
     out.alpha_cutoff = static_cast<float>(
@@ -133,20 +134,20 @@ void read_images(DocumentReading& reading) {
 
 void read_samplers(DocumentReading& reading) {
     reading.root.each("samplers", [&](const JsonReader& sampler, size_t) {
-        const auto choice = [&](const char* key, int fallback, std::initializer_list<int> accepted) {
-            const uint64_t value = sampler.size(key, static_cast<uint64_t>(fallback));
-            for (const int option : accepted) {
-                if (value == static_cast<uint64_t>(option)) return option;
-            }
-            sampler.fault(key,
-                          "E-DOC-SAMPLER",
-                          std::to_string(value) + " is not one of the values that glTF lists");
-            return fallback;
-        };
+        const auto choice =
+            [&](const char* key, int fallback, std::initializer_list<int> accepted) {
+                const uint64_t value = sampler.size(key, static_cast<uint64_t>(fallback));
+                for (const int option : accepted) {
+                    if (value == static_cast<uint64_t>(option)) return option;
+                }
+                sampler.fault(key,
+                              "E-DOC-SAMPLER",
+                              std::to_string(value) + " is not one of the values that glTF lists");
+                return fallback;
+            };
         GltfSampler out;
         out.mag_filter = choice("magFilter", out.mag_filter, {9728, 9729});
-        out.min_filter =
-            choice("minFilter", out.min_filter, {9728, 9729, 9984, 9985, 9986, 9987});
+        out.min_filter = choice("minFilter", out.min_filter, {9728, 9729, 9984, 9985, 9986, 9987});
         out.wrap_s = choice("wrapS", out.wrap_s, {33071, 33648, 10497});
         out.wrap_t = choice("wrapT", out.wrap_t, {33071, 33648, 10497});
         reading.document.samplers.push_back(out);

@@ -68,9 +68,8 @@ void read_meshes(DocumentReading& reading) {
     });
     if (document.morphed_mesh_count != 0) {
         reading.log.warn(document.file,
-                         std::to_string(document.morphed_mesh_count) +
-                             " meshes have morph targets, which are not supported: the base "
-                             "shapes are drawn");
+                         "morph targets are not supported: base shapes are drawn (meshes: " +
+                             std::to_string(document.morphed_mesh_count) + ")");
     }
 }
 
@@ -78,21 +77,21 @@ void read_animations(DocumentReading& reading) {
     Document& document = reading.document;
     reading.root.each("animations", [&](const JsonReader& animation, size_t index) {
         const std::string name = animation.text("name");
-        document.animations.push_back(
-            {name.empty() ? "animation " + std::to_string(index) : name,
-             animation.count("channels")});
+        document.animations.push_back({name.empty() ? "animation " + std::to_string(index) : name,
+                                       animation.count("channels")});
     });
     if (!document.animations.empty()) {
-        reading.log.warn(document.file,
-                         std::to_string(document.animations.size()) +
-                             " animations are not supported: the pose of the nodes is drawn");
+        reading.log.warn(
+            document.file,
+            "animations are not supported: the pose of the nodes is drawn (animations: " +
+                std::to_string(document.animations.size()) + ")");
     }
     document.skin_count = reading.root.count("skins");
     if (document.skin_count != 0) {
-        reading.log.warn(document.file,
-                         std::to_string(document.skin_count) +
-                             " skins are not supported: meshes are drawn unposed, placed by their "
-                             "nodes");
+        reading.log.warn(
+            document.file,
+            "skins are not supported: meshes are drawn unposed, placed by their nodes (skins: " +
+                std::to_string(document.skin_count) + ")");
     }
 }
 

@@ -1,9 +1,9 @@
 // gltf/document_nodes.cpp - reads nodes, scenes, cameras and lights.
 // SPDX-License-Identifier: Apache-2.0
-#include <cmath>
-
 #include "gltf/document_parts.h"
 #include "math/warp.h"
+
+#include <cmath>
 
 namespace obscura {
 
@@ -14,7 +14,8 @@ constexpr const char* punctual_name = "KHR_lights_punctual";
 Affined affine_from_columns(const std::array<double, 16>& columns) {
     Affined out;
     for (size_t r = 0; r < 3; ++r) {
-        for (size_t c = 0; c < 4; ++c) out.m[r][c] = columns[c * 4 + r];
+        for (size_t c = 0; c < 4; ++c)
+            out.m[r][c] = columns[c * 4 + r];
     }
     return out;
 }
@@ -29,7 +30,8 @@ Affined affine_from_trs(const std::array<double, 3>& t,
         {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
     Affined out;
     for (size_t r = 0; r < 3; ++r) {
-        for (size_t c = 0; c < 3; ++c) out.m[r][c] = rotation[r][c] * s[c];
+        for (size_t c = 0; c < 3; ++c)
+            out.m[r][c] = rotation[r][c] * s[c];
         out.m[r][3] = t[r];
     }
     return out;
@@ -39,7 +41,8 @@ Affined affine_from_trs(const std::array<double, 3>& t,
 bool normalize_quaternion(std::array<double, 4>& q) {
     const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
     if (!(length > 0) || !std::isfinite(length)) return false;
-    for (double& component : q) component /= length;
+    for (double& component : q)
+        component /= length;
     return true;
 }
 
@@ -93,7 +96,8 @@ GltfCamera read_perspective(const JsonReader& object) {
 GltfCamera read_orthographic(DocumentReading& reading, const JsonReader& object) {
     GltfCamera out;
     out.orthographic = true;
-    for (const char* key : {"xmag", "ymag", "znear", "zfar"}) object.require(key);
+    for (const char* key : {"xmag", "ymag", "znear", "zfar"})
+        object.require(key);
     out.xmag_m = object.number("xmag", 1);
     out.ymag_m = object.number("ymag", 1);
     out.znear_m = object.number("znear", 0);

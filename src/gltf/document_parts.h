@@ -13,7 +13,8 @@ struct DocumentReading {
     const JsonReader& root;
     Document& document;
     Log& log;
-    std::vector<std::string> clamped = {};  ///< places of numbers outside their range
+    std::vector<std::string> clamped = {};     ///< places of numbers outside their range
+    std::vector<std::string> misaligned = {};  ///< places of accessors
 };
 
 struct NumberRange {
@@ -35,16 +36,16 @@ void clamped_numbers(DocumentReading& reading,
                      std::span<double> out,
                      const NumberRange& range);
 
-void read_buffers(DocumentReading& reading);     // document_buffers.cpp
+void read_buffers(DocumentReading& reading);  // document_buffers.cpp
 void read_views(DocumentReading& reading);
 void read_accessors(DocumentReading& reading);
-void read_images(DocumentReading& reading);      // document_materials.cpp
+void read_images(DocumentReading& reading);  // document_materials.cpp
 void read_samplers(DocumentReading& reading);
 void read_textures(DocumentReading& reading);
 void read_materials(DocumentReading& reading);
-void read_meshes(DocumentReading& reading);      // document_meshes.cpp
+void read_meshes(DocumentReading& reading);  // document_meshes.cpp
 void read_animations(DocumentReading& reading);
-void read_nodes(DocumentReading& reading);       // document_nodes.cpp
+void read_nodes(DocumentReading& reading);  // document_nodes.cpp
 void read_scenes(DocumentReading& reading);
 void read_cameras(DocumentReading& reading);
 void read_lights(DocumentReading& reading);

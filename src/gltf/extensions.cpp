@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/extensions.h"
 
+#include "gltf/list_text.h"
+
 #include <algorithm>
 #include <array>
 #include <map>
@@ -68,13 +70,16 @@ void collect_names(const json& object, std::vector<std::string>& names) {
         const json* value = open.back();
         open.pop_back();
         if (value->is_array()) {
-            for (const json& element : *value) open.push_back(&element);
+            for (const json& element : *value) {
+                if (element.is_structured()) open.push_back(&element);
+            }
         }
         if (!value->is_object()) continue;
         for (const auto& [key, member] : value->items()) {
             if (key == "extras") continue;
             if (key == "extensions" && member.is_object()) {
-                for (const auto& extension : member.items()) names.push_back(extension.key());
+                for (const auto& extension : member.items())
+                    names.push_back(extension.key());
             }
             if (member.is_structured()) open.push_back(&member);
         }
@@ -118,7 +123,8 @@ UseMap all_uses(const json& tree) {
     collect_uses(tree, "animations", "animation", uses);
     const auto top = tree.find("extensions");
     if (top != tree.end() && top->is_object()) {
-        for (const auto& extension : top->items()) uses[extension.key()];
+        for (const auto& extension : top->items())
+            uses[extension.key()];
     }
     return uses;
 }
@@ -130,23 +136,12 @@ const ExtensionRow* find_row(std::string_view name) {
     return nullptr;
 }
 
-/// "a, b, c and 7 more".
-std::string join(const std::vector<std::string>& names) {
-    constexpr size_t most = 8;
-    std::string out;
-    for (size_t i = 0; i < std::min(names.size(), most); ++i) {
-        out += (i == 0 ? "" : ", ") + names[i];
-    }
-    if (names.size() > most) out += " and " + std::to_string(names.size() - most) + " more";
-    return out;
-}
-
 void warn_ignored(const ExtensionInfo& info, const Uses& uses, const Document& document, Log& log) {
     const ExtensionRow* row = find_row(info.name);
     std::string text = info.name + " is not supported";
     if (row != nullptr) text += ": " + std::string(row->without);
-    if (!uses.materials.empty()) text += "; materials: " + join(uses.materials);
-    if (!uses.others.empty()) text += "; used by " + join(uses.others);
+    if (!uses.materials.empty()) text += "; materials: " + list_text(uses.materials);
+    if (!uses.others.empty()) text += "; used by " + list_text(uses.others);
     log.warn(document.file, text);
 }
 
@@ -156,7 +151,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-std::span<const ExtensionRow> extension_table() { return extension_rows; }
+std::span<const ExtensionRow> extension_table() {
+    return extension_rows;
+}
 
 Result<void> read_extensions(const JsonReader& root,
                              const json& tree,
@@ -165,7 +162,8 @@ Result<void> read_extensions(const JsonReader& root,
     std::vector<std::string> names = root.texts("extensionsUsed");
     const std::vector<std::string> required = root.texts("extensionsRequired");
     UseMap uses = all_uses(tree);
-    for (const auto& entry : uses) names.push_back(entry.first);
+    for (const auto& entry : uses)
+        names.push_back(entry.first);
     names.insert(names.end(), required.begin(), required.end());
     std::sort(names.begin(), names.end());
     names.erase(std::unique(names.begin(), names.end()), names.end());
@@ -185,7 +183,7 @@ Result<void> read_extensions(const JsonReader& root,
         return fail(ExitCode::unsupported,
                     "E-EXT-REQUIRED",
                     document.at("/extensionsRequired"),
-                    "the asset requires " + join(missing) + ", which is not supported");
+                    "the asset requires " + list_text(missing) + ", which is not supported");
     }
     for (const ExtensionInfo& info : document.extensions) {
         if (!info.supported) warn_ignored(info, uses[info.name], document, log);

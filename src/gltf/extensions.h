@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <span>
-#include <string_view>
-
 #include "gltf/document.h"
 #include "gltf/json_read.h"
+
+#include <span>
+#include <string_view>
 
 namespace obscura {
 
@@ -20,8 +20,8 @@ struct ExtensionRow {
 
 std::span<const ExtensionRow> extension_table();
 
-/// Fills document.extensions from extensionsUsed, extensionsRequired and the objects themselves, and
-/// warns once about each that is ignored, naming the materials and other objects that use it.
+/// Fills document.extensions from extensionsUsed, extensionsRequired and the objects themselves,
+/// and warns once about each that is ignored, naming the materials and other objects that use it.
 ///
 /// Errors  69 E-EXT-REQUIRED, listing all that are missing
 Result<void> read_extensions(const JsonReader& root,

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/file_bytes.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace obscura {
 
@@ -41,14 +40,18 @@ FileBytes failed_from_errno(int code) {
     const std::string reason = std::generic_category().message(code);
     switch (code) {
         case EACCES:
-        case EPERM: return failed(FileFault::denied, reason);
+        case EPERM:
+            return failed(FileFault::denied, reason);
         case ENXIO:  // a socket, or a device without a driver
-        case EISDIR: return failed(FileFault::not_a_file, reason);
+        case EISDIR:
+            return failed(FileFault::not_a_file, reason);
         case ENOENT:
         case ENOTDIR:
         case ELOOP:
-        case ENAMETOOLONG: return failed(FileFault::missing, reason);
-        default: return failed(FileFault::unreadable, reason);
+        case ENAMETOOLONG:
+            return failed(FileFault::missing, reason);
+        default:
+            return failed(FileFault::unreadable, reason);
     }
 }
 

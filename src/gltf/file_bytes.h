@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/error.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
-
-#include "base/error.h"
 
 namespace obscura {
 
@@ -17,8 +17,8 @@ enum class FileFault { none, missing, denied, not_a_file, too_large, unreadable 
 
 struct FileBytes {
     FileFault fault = FileFault::none;
-    std::string reason;   ///< the system's words, when fault is not none
-    uint64_t size = 0;    ///< of the file; `bytes` may hold less
+    std::string reason;  ///< the system's words, when fault is not none
+    uint64_t size = 0;   ///< of the file; `bytes` may hold less
     Bytes bytes;
 };
 

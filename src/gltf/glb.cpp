@@ -35,7 +35,9 @@ struct Chunk {
     size_t end = 0;  ///< offset of the next chunk
 };
 
-Result<Chunk> read_chunk(std::span<const std::byte> bytes, size_t offset, const std::string& where) {
+Result<Chunk> read_chunk(std::span<const std::byte> bytes,
+                         size_t offset,
+                         const std::string& where) {
     const std::string place = "the chunk at byte " + std::to_string(offset);
     if (bytes.size() - offset < chunk_header_size) {
         return broken("E-GLB-TRUNCATED",
@@ -124,7 +126,8 @@ Result<GlbParts> split_glb(std::span<const std::byte> bytes, const std::string& 
     }
     if (unaligned) log.warn(where, "a chunk's length is not a multiple of 4");
     // Some writers pad the text with zeros instead of spaces.
-    while (!out.json.empty() && out.json.back() == '\0') out.json.remove_suffix(1);
+    while (!out.json.empty() && out.json.back() == '\0')
+        out.json.remove_suffix(1);
     return out;
 }
 

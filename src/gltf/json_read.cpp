@@ -20,9 +20,12 @@ const json& empty_object() {
 std::string pointer_part(std::string_view key) {
     std::string out = "/";
     for (const char c : key) {
-        if (c == '~') out += "~0";
-        else if (c == '/') out += "~1";
-        else out += c;
+        if (c == '~')
+            out += "~0";
+        else if (c == '/')
+            out += "~1";
+        else
+            out += c;
     }
     return out;
 }
@@ -53,8 +56,7 @@ const json* JsonReader::find(std::string_view key) const {
 void JsonReader::fault(std::string_view key, const char* id, std::string message) const {
     if (fault_->error) return;
     const std::string place = key.empty() ? pointer_ : pointer_ + pointer_part(key);
-    fault_->error =
-        Error{ExitCode::bad_data, id, fault_->file + "#" + place, std::move(message)};
+    fault_->error = Error{ExitCode::bad_data, id, fault_->file + "#" + place, std::move(message)};
 }
 
 void JsonReader::wrong_type(std::string_view key, const json& value, const char* wanted) const {
@@ -143,7 +145,8 @@ bool JsonReader::numbers(std::string_view key, std::span<double> out) const {
             return false;
         }
     }
-    for (size_t i = 0; i < out.size(); ++i) out[i] = (*value)[i].get<double>();
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i] = (*value)[i].get<double>();
     return true;
 }
 
@@ -191,9 +194,8 @@ std::vector<std::string> JsonReader::texts(std::string_view key) const {
 
 JsonReader JsonReader::child(std::string_view key) const {
     const json* value = find(key);
-    return JsonReader(value == nullptr ? empty_object() : *value,
-                      pointer_ + pointer_part(key),
-                      *fault_);
+    return JsonReader(
+        value == nullptr ? empty_object() : *value, pointer_ + pointer_part(key), *fault_);
 }
 
 JsonReader JsonReader::extension(std::string_view name) const {
@@ -223,7 +225,8 @@ void JsonReader::each(std::string_view key,
 }
 
 void JsonReader::each_key(const std::function<void(const std::string&)>& body) const {
-    for (const auto& item : object_->items()) body(item.key());
+    for (const auto& item : object_->items())
+        body(item.key());
 }
 
 }  // namespace obscura

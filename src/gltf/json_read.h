@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/error.h"
+
 #include <cstdint>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include <nlohmann/json.hpp>
-
-#include "base/error.h"
 
 namespace obscura {
 
@@ -22,9 +21,9 @@ struct JsonFault {
     std::optional<Error> error;
 };
 
-/// One JSON object with its place. Getters return the fallback when the member is absent; when it is
-/// wrong they record the fault (unless there is one already) and return the fallback too, so that
-/// readers go on without branching and the caller looks at the fault once.
+/// One JSON object with its place. Getters return the fallback when the member is absent; when it
+/// is wrong they record the fault (unless there is one already) and return the fallback too, so
+/// that readers go on without branching and the caller looks at the fault once.
 class JsonReader {
 public:
     JsonReader(const nlohmann::json& object, std::string pointer, JsonFault& fault);

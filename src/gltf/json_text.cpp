@@ -91,8 +91,10 @@ std::string line_and_column(std::string_view text, size_t position) {
     const std::string_view before = text.substr(0, std::min(position, text.size()));
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
     const size_t newline = before.rfind('\n');
-    const size_t column = newline == std::string_view::npos ? before.size() : before.size() - newline - 1;
-    return "line " + std::to_string(line) + ", column " + std::to_string(std::max<size_t>(column, 1));
+    const size_t column =
+        newline == std::string_view::npos ? before.size() : before.size() - newline - 1;
+    return "line " + std::to_string(line) + ", column " +
+           std::to_string(std::max<size_t>(column, 1));
 }
 
 tl::unexpected<Error> syntax_error(std::string_view text,
@@ -126,11 +128,11 @@ Result<nlohmann::json> parse_json_text(std::string_view text, const std::string&
     TreeBuilder tree;
     const bool complete = json::sax_parse(text.begin(), text.end(), &tree);
     if (tree.too_deep) {
-        return fail(ExitCode::bad_data,
-                    "E-JSON-DEPTH",
-                    where,
-                    "the JSON text is nested deeper than " + std::to_string(max_json_depth) +
-                        " levels");
+        return fail(
+            ExitCode::bad_data,
+            "E-JSON-DEPTH",
+            where,
+            "the JSON text is nested deeper than " + std::to_string(max_json_depth) + " levels");
     }
     if (!complete && tree.error_position) return syntax_error(text, tree, where);
     if (!complete || !tree.root.is_object()) {

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-#include <string_view>
-
-#include <nlohmann/json.hpp>
-
 #include "base/error.h"
 #include "base/log.h"
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
 
 namespace obscura {
 

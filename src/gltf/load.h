@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <string>
-
 #include "base/error.h"
 #include "base/log.h"
 #include "scene/scene.h"
 
+#include <filesystem>
+#include <string>
+
 namespace obscura {
 
 struct LoadOptions {
-    int scene = -1;          ///< number of the scene in the file; -1: scene_name, else the file's own
+    int scene = -1;  ///< number of the scene in the file; -1: scene_name, else the file's own
     std::string scene_name;  ///< used when not empty and `scene` is -1
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
 };
@@ -24,8 +24,8 @@ struct LoadOptions {
 /// chosen scene does not use keep their factors and lose their textures.
 ///
 /// Errors  64 E-SCENE-UNKNOWN; 65 E-GLB-*, E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*, E-MESH-*, E-NODE-*;
-///         66 E-SCENE-MISSING; 67 E-RES-MISSING, E-RES-SHORT, E-IMG-*; 69 E-VERSION, E-EXT-REQUIRED,
-///         E-MESHOPT-DATA, E-DRACO-DATA; 77 E-URI-REFUSED, E-LIMIT-*; 33 E-MEMORY
+///         66 E-SCENE-MISSING; 67 E-RES-MISSING, E-RES-SHORT, E-IMG-*; 69 E-VERSION,
+///         E-EXT-REQUIRED, E-MESHOPT-DATA, E-DRACO-DATA; 77 E-URI-REFUSED, E-LIMIT-*; 33 E-MEMORY
 Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& options, Log& log);
 
 }  // namespace obscura

@@ -19,7 +19,8 @@ constexpr uint32_t type_bit(ComponentType type) {
 }
 
 constexpr uint32_t float_type = type_bit(ComponentType::float32);
-constexpr uint32_t unsigned_types = type_bit(ComponentType::uint8) | type_bit(ComponentType::uint16);
+constexpr uint32_t unsigned_types =
+    type_bit(ComponentType::uint8) | type_bit(ComponentType::uint16);
 constexpr uint32_t signed_types = type_bit(ComponentType::int8) | type_bit(ComponentType::int16);
 
 /// What a vertex attribute may be made of, in the core and with KHR_mesh_quantization.
@@ -36,12 +37,8 @@ constexpr AttributeRule position_rule = {
     "POSITION", 3, 3, 0, unsigned_types | signed_types, unsigned_types | signed_types};
 constexpr AttributeRule normal_rule = {"NORMAL", 3, 3, 0, signed_types, 0};
 constexpr AttributeRule tangent_rule = {"TANGENT", 4, 4, 0, signed_types, 0};
-constexpr AttributeRule uv_rule = {"TEXCOORD",
-                                   2,
-                                   2,
-                                   unsigned_types,
-                                   unsigned_types | signed_types,
-                                   unsigned_types | signed_types};
+constexpr AttributeRule uv_rule = {
+    "TEXCOORD", 2, 2, unsigned_types, unsigned_types | signed_types, unsigned_types | signed_types};
 constexpr AttributeRule color_rule = {"COLOR_0", 3, 4, unsigned_types, unsigned_types, 0};
 
 /// Reads the attributes of one primitive.
@@ -51,6 +48,7 @@ struct PartReader {
     PartName name;
     uint64_t vertex_count = 0;  ///< as in the file
     ElementChoice choice = {};
+    uint32_t issues = 0;  ///< found while reading attributes
 
     const GltfPrimitive& primitive() const {
         return document.meshes[static_cast<size_t>(name.mesh)]
@@ -77,13 +75,12 @@ bool rule_allows(const AttributeRule& rule, const GltfAccessor& accessor, bool q
     if (accessor.rows < rule.least_rows || accessor.rows > rule.most_rows) return false;
     const uint32_t type = type_bit(accessor.component);
     if (type == float_type) return !accessor.normalized;
-    const uint32_t normalized =
-        rule.normalized | (quantization ? rule.quantized_normalized : 0U);
+    const uint32_t normalized = rule.normalized | (quantization ? rule.quantized_normalized : 0U);
     const uint32_t plain = quantization ? rule.quantized_plain : 0U;
     return ((accessor.normalized ? normalized : plain) & type) != 0;
 }
 
-Result<std::vector<float>> read_attribute(const PartReader& reader,
+Result<std::vector<float>> read_attribute(PartReader& reader,
                                           int accessor,
                                           const AttributeRule& rule) {
     if (accessor < 0) return std::vector<float>{};
@@ -99,6 +96,10 @@ Result<std::vector<float>> read_attribute(const PartReader& reader,
                           std::string(rule.name) + " has " + std::to_string(row.count) +
                               " elements and POSITION " + std::to_string(reader.vertex_count) +
                               "; they must agree");
+    }
+    if (row.sparse.count != 0 &&
+        !sparse_indices_increase(reader.document, reader.store, accessor)) {
+        reader.issues |= issue_bit(MeshIssue::unsorted_sparse);
     }
     return read_floats(reader.document, reader.store, accessor, reader.choice);
 }
@@ -171,8 +172,7 @@ Result<void> check_positions(const PartReader& reader, MeshPart& part) {
     for (const uint32_t vertex : part.indices) {
         if (is_good(vertex)) continue;
         return reader.bad("E-MESH-POSITION",
-                          "a triangle uses a position that is not finite or beyond 1e18 (vertex " +
-                              std::to_string(vertex) + ")");
+                          "a triangle uses a position that is not finite or beyond 1e18");
     }
     for (size_t vertex = 0; vertex < part.positions.size() / 3; ++vertex) {
         if (!is_good(vertex)) std::fill_n(&part.positions[3 * vertex], 3, 0.0f);
@@ -229,7 +229,7 @@ void finish_uvs(MeshPart& part) {
 }
 
 /// Reads what the material needs beside positions.
-Result<void> read_attributes(const PartReader& reader, MeshPart& part, const MaterialNeeds& needs) {
+Result<void> read_attributes(PartReader& reader, MeshPart& part, const MaterialNeeds& needs) {
     const GltfPrimitive& primitive = reader.primitive();
     const auto read = [&](int accessor, const AttributeRule& rule, std::vector<float>& out) {
         Result<std::vector<float>> values = read_attribute(reader, accessor, rule);
@@ -239,7 +239,8 @@ Result<void> read_attributes(const PartReader& reader, MeshPart& part, const Mat
     Result<void> done = read(primitive.normal, normal_rule, part.normals);
     if (done) done = read(primitive.color, color_rule, part.colors);
     for (size_t set = 0; set < part.uvs.size() && done; ++set) {
-        if ((needs.uv_sets >> set & 1U) != 0) done = read(primitive.uv[set], uv_rule, part.uvs[set]);
+        if ((needs.uv_sets >> set & 1U) != 0)
+            done = read(primitive.uv[set], uv_rule, part.uvs[set]);
     }
     const bool tangents_count = needs.normal_map.texture >= 0 && !part.normals.empty();
     if (done && tangents_count) done = read(primitive.tangent, tangent_rule, part.tangents);
@@ -248,8 +249,7 @@ Result<void> read_attributes(const PartReader& reader, MeshPart& part, const Mat
         part.issues |= issue_bit(MeshIssue::lone_tangents);
     }
     if (primitive.color >= 0) {
-        const GltfAccessor& color =
-            reader.document.accessors[static_cast<size_t>(primitive.color)];
+        const GltfAccessor& color = reader.document.accessors[static_cast<size_t>(primitive.color)];
         finish_colors(part, static_cast<size_t>(color.rows));
     }
     finish_uvs(part);
@@ -281,18 +281,28 @@ Result<void> check_data_exists(const PartReader& reader) {
 
 std::string_view mesh_issue_text(MeshIssue issue) {
     switch (issue) {
-        case MeshIssue::no_position: return "primitives without POSITION are not drawn";
-        case MeshIssue::leftover_vertices: return "the last vertices do not make a triangle";
+        case MeshIssue::no_position:
+            return "primitives without POSITION are not drawn";
+        case MeshIssue::leftover_vertices:
+            return "the last vertices do not make a triangle";
         case MeshIssue::bad_normals:
             return "normals without length or not finite are replaced by the triangles' own";
-        case MeshIssue::bad_tangents: return "tangents that cannot be used are made anew";
-        case MeshIssue::bad_uvs: return "texture coordinates that are not finite become 0";
-        case MeshIssue::bad_colors: return "vertex colours below 0 or not finite are clamped";
-        case MeshIssue::wrong_bounds: return "min and max of POSITION do not hold the vertices";
-        case MeshIssue::missing_bounds: return "POSITION has no min and max";
-        case MeshIssue::unsorted_sparse: return "sparse indices are not in increasing order";
-        case MeshIssue::lone_tangents: return "TANGENT without NORMAL is ignored";
-        case MeshIssue::count: break;
+        case MeshIssue::bad_tangents:
+            return "tangents that cannot be used are made anew";
+        case MeshIssue::bad_uvs:
+            return "texture coordinates that are not finite become 0";
+        case MeshIssue::bad_colors:
+            return "vertex colours below 0 or not finite are clamped";
+        case MeshIssue::wrong_bounds:
+            return "min and max of POSITION do not hold the vertices";
+        case MeshIssue::missing_bounds:
+            return "POSITION has no min and max";
+        case MeshIssue::unsorted_sparse:
+            return "sparse indices are not in increasing order";
+        case MeshIssue::lone_tangents:
+            return "TANGENT without NORMAL is ignored";
+        case MeshIssue::count:
+            break;
     }
     return {};
 }
@@ -322,9 +332,7 @@ uint64_t primitive_triangles(const Document& document, const GltfPrimitive& prim
     return triangle_count(primitive.mode, document.accessors[static_cast<size_t>(order)].count);
 }
 
-Result<MeshPart> read_mesh_part(const Document& document,
-                                const BufferStore& store,
-                                PartName name) {
+Result<MeshPart> read_mesh_part(const Document& document, const BufferStore& store, PartName name) {
     PartReader reader{document, store, name};
     const GltfPrimitive& primitive = reader.primitive();
     MeshPart part;
@@ -353,6 +361,7 @@ Result<MeshPart> read_mesh_part(const Document& document,
     if (done) done = read_attributes(reader, part, needs);
     if (!done) return fail(std::move(done.error()));
     check_declared_bounds(reader, part);
+    part.issues |= reader.issues;
     finish_shading(part, needs);
     return part;
 }

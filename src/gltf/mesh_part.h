@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gltf/accessors.h"
+
 #include <array>
 #include <cstdint>
 #include <string_view>
 #include <vector>
-
-#include "gltf/accessors.h"
 
 namespace obscura {
 
@@ -30,25 +30,27 @@ enum class MeshIssue : uint32_t {
 
 std::string_view mesh_issue_text(MeshIssue issue);
 
-constexpr uint32_t issue_bit(MeshIssue issue) { return 1U << static_cast<uint32_t>(issue); }
+constexpr uint32_t issue_bit(MeshIssue issue) {
+    return 1U << static_cast<uint32_t>(issue);
+}
 
 /// Which optional attributes a material needs.
 struct MaterialNeeds {
-    uint32_t uv_sets = 0;      ///< bit n: TEXCOORD_n is looked up
-    TextureSlot normal_map;    ///< texture -1: no tangents are needed
+    uint32_t uv_sets = 0;    ///< bit n: TEXCOORD_n is looked up
+    TextureSlot normal_map;  ///< texture -1: no tangents are needed
 };
 
 MaterialNeeds material_needs(const Document& document, int material);
 
 /// Arrays are empty where the attribute is absent. No vertex that is not in a triangle matters.
 struct MeshPart {
-    std::vector<uint32_t> indices;   ///< 3 a triangle
-    std::vector<float> positions;    ///< 3 a vertex, finite
-    std::vector<float> normals;      ///< 3, unit
-    std::vector<float> tangents;     ///< 4, unit and handedness
-    std::vector<float> colors;       ///< 4
+    std::vector<uint32_t> indices;                    ///< 3 a triangle
+    std::vector<float> positions;                     ///< 3 a vertex, finite
+    std::vector<float> normals;                       ///< 3, unit
+    std::vector<float> tangents;                      ///< 4, unit and handedness
+    std::vector<float> colors;                        ///< 4
     std::array<std::vector<float>, max_uv_sets> uvs;  ///< 2
-    uint32_t issues = 0;             ///< issue_bit
+    uint32_t issues = 0;                              ///< issue_bit
 };
 
 /// Names one primitive of the document.
@@ -66,9 +68,7 @@ uint64_t primitive_triangles(const Document& document, const GltfPrimitive& prim
 /// Reads one primitive in its mesh's space. Without POSITION the part is empty.
 ///
 /// Errors  65 E-MESH-*, E-ACC-*; 69 E-DRACO-DATA; 77 E-LIMIT-COUNT
-Result<MeshPart> read_mesh_part(const Document& document,
-                                const BufferStore& store,
-                                PartName name);
+Result<MeshPart> read_mesh_part(const Document& document, const BufferStore& store, PartName name);
 
 /// Makes normals unit (bad ones become the mean of their triangles') and makes or repairs the
 /// tangents that the material needs. mesh_shading.cpp

@@ -1,11 +1,11 @@
 // gltf/mesh_shading.cpp - normals and tangents of one primitive: checked, repaired or made.
 // SPDX-License-Identifier: Apache-2.0
+#include "gltf/mesh_part.h"
+#include "gltf/tangents.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
-
-#include "gltf/mesh_part.h"
-#include "gltf/tangents.h"
 
 namespace obscura {
 
@@ -96,7 +96,8 @@ uint32_t append_vertex(MeshPart& part, size_t vertex) {
     append_copy(part.positions, vertex, 3);
     append_copy(part.normals, vertex, 3);
     append_copy(part.colors, vertex, 4);
-    for (std::vector<float>& set : part.uvs) append_copy(set, vertex, 2);
+    for (std::vector<float>& set : part.uvs)
+        append_copy(set, vertex, 2);
     return static_cast<uint32_t>(part.positions.size() / 3 - 1);
 }
 
@@ -114,8 +115,10 @@ void unweld(MeshPart& part) {
     };
     spread(part.positions, 3);
     spread(part.colors, 4);
-    for (std::vector<float>& set : part.uvs) spread(set, 2);
-    for (size_t i = 0; i < part.indices.size(); ++i) part.indices[i] = static_cast<uint32_t>(i);
+    for (std::vector<float>& set : part.uvs)
+        spread(set, 2);
+    for (size_t i = 0; i < part.indices.size(); ++i)
+        part.indices[i] = static_cast<uint32_t>(i);
     part.normals.resize(part.positions.size());
     for (size_t i = 0; i < part.indices.size(); ++i) {
         store3(part.normals, i, unit_or_z(triangle_normal(part, i / 3)));
@@ -126,14 +129,15 @@ void unweld(MeshPart& part) {
 void weld_tangents(MeshPart& part, const std::vector<float>& corners) {
     constexpr uint32_t none = UINT32_MAX;
     constexpr int longest_search = 64;  // beyond it, vertices are doubled without looking
-    size_t vertices = part.positions.size() / 3;
+    const size_t vertices = part.positions.size() / 3;
     std::vector<uint32_t> next(vertices, none);  // other copies of the same vertex
     std::vector<char> taken(vertices, 0);
     part.tangents.assign(vertices * 4, 0.0f);
     for (size_t corner = 0; corner < part.indices.size(); ++corner) {
         const float* tangent = &corners[4 * corner];
         const auto agrees = [&](uint32_t vertex) {
-            return taken[vertex] == 0 || std::equal(tangent, tangent + 4, &part.tangents[4 * vertex]);
+            return taken[vertex] == 0 ||
+                   std::equal(tangent, tangent + 4, &part.tangents[4 * vertex]);
         };
         const uint32_t first = part.indices[corner];
         uint32_t vertex = first;
@@ -179,8 +183,8 @@ void finish_shading(MeshPart& part, const MaterialNeeds& needs) {
         part.issues |= issue_bit(MeshIssue::bad_tangents);
     }
     if (part.normals.empty()) unweld(part);
-    const std::vector<float> uvs = transformed_uvs(
-        part.uvs[static_cast<size_t>(needs.normal_map.uv_set)], needs.normal_map);
+    const std::vector<float> uvs =
+        transformed_uvs(part.uvs[static_cast<size_t>(needs.normal_map.uv_set)], needs.normal_map);
     const TangentMesh mesh{part.positions, part.normals, uvs, part.indices};
     weld_tangents(part, make_tangents(mesh));
 }

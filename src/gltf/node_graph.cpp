@@ -63,7 +63,8 @@ Result<std::vector<int>> find_parents(const Document& document) {
 std::vector<int> scene_roots(const Document& document, int scene, Log& log) {
     std::vector<char> is_child(document.nodes.size(), 0);
     for (const GltfNode& node : document.nodes) {
-        for (const int child : node.children) is_child[static_cast<size_t>(child)] = 1;
+        for (const int child : node.children)
+            is_child[static_cast<size_t>(child)] = 1;
     }
     std::vector<int> roots;
     if (scene < 0) {

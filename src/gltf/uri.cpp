@@ -21,7 +21,8 @@ constexpr std::array<int8_t, 256> make_base64_values() {
     constexpr std::string_view alphabet =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<int8_t, 256> out{};
-    for (int8_t& value : out) value = -1;
+    for (int8_t& value : out)
+        value = -1;
     for (size_t i = 0; i < alphabet.size(); ++i) {
         out[static_cast<unsigned char>(alphabet[i])] = static_cast<int8_t>(i);
     }
@@ -33,8 +34,10 @@ constexpr std::array<int8_t, 256> base64_values = make_base64_values();
 /// URIs of data may be megabytes: messages show the beginning only.
 std::string shown(std::string_view uri) {
     constexpr size_t longest = 120;
-    if (uri.size() <= longest) return "\"" + std::string(uri) + "\"";
-    return "\"" + std::string(uri.substr(0, longest)) + "...\"";
+    std::string out(1, '"');
+    out += uri.substr(0, longest);
+    out += uri.size() <= longest ? "\"" : "...\"";
+    return out;
 }
 
 /// Length of a leading "scheme" before a colon, 0 if there is none.
@@ -82,8 +85,7 @@ Result<UriBytes> read_data_uri(std::string_view uri, const std::string& where) {
     if (comma == std::string_view::npos) return broken("has no comma");
     const std::string_view header = uri.substr(5, comma - 5);
     constexpr std::string_view base64 = ";base64";
-    if (header.size() < base64.size() ||
-        header.substr(header.size() - base64.size()) != base64) {
+    if (header.size() < base64.size() || header.substr(header.size() - base64.size()) != base64) {
         return broken("is not base64-encoded");
     }
     UriBytes out;
@@ -96,7 +98,9 @@ Result<UriBytes> read_data_uri(std::string_view uri, const std::string& where) {
 
 }  // namespace
 
-bool is_data_uri(std::string_view uri) { return uri.substr(0, 5) == "data:"; }
+bool is_data_uri(std::string_view uri) {
+    return uri.substr(0, 5) == "data:";
+}
 
 std::string percent_decode(std::string_view text) {
     std::string out;
@@ -188,14 +192,17 @@ Result<UriBytes> read_uri(std::string_view uri,
 
     FileBytes file = read_file_bytes(path, limits);
     switch (file.fault) {
-        case FileFault::none: break;
-        case FileFault::not_a_file: return refuse(uri, context.where, "is not a regular file");
+        case FileFault::none:
+            break;
+        case FileFault::not_a_file:
+            return refuse(uri, context.where, "is not a regular file");
         case FileFault::too_large:
             return fail(ExitCode::refused,
                         "E-LIMIT-FILE",
                         context.where,
                         "the file " + shown(uri) + " has " + file.reason);
-        default: return missing(uri, context.where, file.reason);
+        default:
+            return missing(uri, context.where, file.reason);
     }
     return UriBytes{std::move(file.bytes), {}, file.size};
 }

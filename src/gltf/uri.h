@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/error.h"
+#include "gltf/file_bytes.h"
+
 #include <filesystem>
 #include <string>
 #include <string_view>
-
-#include "base/error.h"
-#include "gltf/file_bytes.h"
 
 namespace obscura {
 
@@ -19,8 +19,8 @@ struct UriContext {
 
 struct UriBytes {
     Bytes bytes;
-    std::string mime;  ///< of a data URI, else empty
-    uint64_t size = 0; ///< of the file; `bytes` may hold less
+    std::string mime;   ///< of a data URI, else empty
+    uint64_t size = 0;  ///< of the file; `bytes` may hold less
 };
 
 bool is_data_uri(std::string_view uri);
@@ -41,6 +41,8 @@ Result<std::filesystem::path> relative_path_from_uri(std::string_view uri,
 /// Reads what a URI names. Symbolic links are followed as long as they stay inside the folder.
 ///
 /// Errors  77 E-URI-REFUSED, E-LIMIT-FILE; 67 E-RES-MISSING; 65 E-URI-DATA
-Result<UriBytes> read_uri(std::string_view uri, const UriContext& context, const ReadLimits& limits);
+Result<UriBytes> read_uri(std::string_view uri,
+                          const UriContext& context,
+                          const ReadLimits& limits);
 
 }  // namespace obscura

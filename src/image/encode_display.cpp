@@ -75,7 +75,7 @@ Result<std::vector<std::byte>> encode_for_display(const Picture& picture,
     if (!metadata.copyright.empty()) {
         spec.attribute("Copyright", escape_control(metadata.copyright));
     }
-    spec.attribute("compression", is_png ? "zip" : "jpeg:95");
+    spec.attribute("compression", is_png ? "zip:4" : "jpeg:95");
     if (!is_png) spec.attribute("jpeg:subsampling", "4:4:4");
     std::vector<unsigned char> encoded;
     OIIO::Filesystem::IOVecOutput stream(encoded);

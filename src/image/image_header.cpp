@@ -107,10 +107,15 @@ Result<ImageHeader> read_png(Bytes bytes, const std::string& where) {
     }
     header.width = static_cast<int>(width);
     header.height = static_cast<int>(height);
-    for (size_t at = signature; at + 12 <= bytes.size();) {
-        if (starts_with(bytes, "IDAT", at + 4)) break;
+    for (size_t at = signature; !starts_with(bytes, "IEND", at + 4);) {
+        constexpr size_t length_type_checksum = 12;
+        const size_t left = bytes.size() - at;
+        const size_t length = left < length_type_checksum ? left : big_endian_32(bytes, at);
+        if (length + length_type_checksum > left) {
+            return corrupt(where, "the PNG is cut off: its last chunk, IEND, is not there");
+        }
         if (starts_with(bytes, "acTL", at + 4)) header.animated = true;
-        at += 12 + size_t{big_endian_32(bytes, at)};
+        at += length + length_type_checksum;
     }
     return header;
 }

@@ -30,7 +30,7 @@ OBSCURA_INLINE U hash_word(U x) {
 /// Key of a pixel's random numbers: depends on seed and absolute pixel coordinates only.
 template <typename U>
 OBSCURA_INLINE U pixel_key(const U& x, const U& y, uint32_t seed_low, uint32_t seed_high) {
-    U key = hash_word(U(x + U(seed_low)));
+    U key = hash_word(U(x + U(hash_word(seed_low))));  // seeds must not move the picture
     key = hash_word(U(key ^ (y * U(0x9E3779B9U))));
     return hash_word(U(key + U(seed_high)));
 }

@@ -42,7 +42,7 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
                                                  const ShadingPoint& point,
                                                  const Vec3<Lanes>& random) {
     const TriangleLightSample<Lanes> s =
-        sample_triangle_light<Lanes>(scene.lights.triangles, index, u, point.position);
+        sample_triangle_light<Lanes>(scene.lights.triangles, index, u, point.start);
     Vec3<Lanes> emission = s.emission;
     const Mask textured = s.texture >= LanesI(0);
     if (any(textured)) {
@@ -97,7 +97,7 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     if (any(punctual)) {
         const LanesI row = select(punctual, index, LanesI(0));
         const PunctualSample<Lanes> s =
-            sample_punctual<Lanes>(lights.punctual, row, point.position);
+            sample_punctual<Lanes>(lights.punctual, row, point.start);
         const Lanes select_pdf = gather<Lanes>(lights.select_pdf, row);
         choose(out,
                punctual,

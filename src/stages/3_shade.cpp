@@ -34,11 +34,6 @@ OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path, int bounce) {
     return r;
 }
 
-/// Start of a ray that leaves the surface on the side of ng.
-OBSCURA_INLINE Vec3<Lanes> leave_surface(const ShadingPoint& s) {
-    return s.position + s.ng * s.offset;
-}
-
 /// Light that the hit surfaces send towards the viewer themselves.
 OBSCURA_INLINE void add_emission(const SceneView& scene,
                                  const BatchSettings& batch,
@@ -81,7 +76,7 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
     Mask useful = active & light.valid & (dot(light.direction, s.ng) > Lanes(0.0f));
     if (none(useful)) return at;
-    const BsdfValue<Lanes> bsdf = evaluate_bsdf(s.bsdf, wo, wi);
+    const BsdfValue<Lanes> bsdf = evaluate_bsdf(s.bsdf, s.lobes, wo, wi);
     const bool both = batch.strategies == (sample_lights | sample_bsdfs);
     const Lanes weight = both ? select(light.pdf > Lanes(0.0f),
                                        mis_weight(light.pdf, bsdf.pdf),
@@ -91,11 +86,10 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
         path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
-    const Vec3<Lanes> start = leave_surface(s) + s.smooth_shift;
     return append_shadows(rows,
                           at,
                           useful,
-                          {start, light.direction, light.distance, radiance, path.slot, path.key});
+                          {s.start, light.direction, light.distance, radiance, path.slot, path.key});
 }
 
 /// Probability of going on after a bounce; the survivors are divided by it.
@@ -114,7 +108,7 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
                                  int bounce,
                                  Lanes distance) {
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
-    const BsdfSample<Lanes> sample = sample_bsdf(s.bsdf, wo, random.bsdf, random.lobe.x);
+    const BsdfSample<Lanes> sample = sample_bsdf(s.bsdf, s.lobes, wo, random.bsdf, random.lobe.x);
     const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
     Mask goes_on =
         active & (sample.at.pdf > Lanes(0.0f)) & (dot(direction, s.ng) > Lanes(0.0f));
@@ -125,7 +119,7 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
     const Lanes survives = survival(throughput, bounce);
     goes_on = goes_on & (random.lobe.y < survives) & (max_component(throughput) > Lanes(0.0f));
     PathLanes next;
-    next.origin = leave_surface(s);
+    next.origin = s.start;
     next.direction = direction;
     next.throughput = throughput * (Lanes(1.0f) / survives);
     next.pdf = sample.at.pdf;
@@ -234,7 +228,7 @@ int shade_ao(const SceneView& scene,
         shadows = append_shadows(rows.shadows,
                                  shadows,
                                  useful,
-                                 {leave_surface(s),
+                                 {s.start,
                                   direction,
                                   Lanes(batch.ao_distance),
                                   splat3(Lanes(1.0f)),

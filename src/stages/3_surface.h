@@ -41,16 +41,15 @@ struct HitGeometry {
 
 /// A point ready for shading. Normals face the viewer.
 struct ShadingPoint {
-    Vec3<Lanes> position, ng;
+    Vec3<Lanes> start;  ///< of rays that leave on the viewer's side: clear of the surface itself
+    Vec3<Lanes> ng;
     Vec3<Lanes> normal;  ///< shading normal as the asset says
     Frame<Lanes> frame;  ///< around the shading normal, bent where it must be
-    Lanes offset;
-    Vec3<Lanes> smooth_shift;
     BsdfParams<Lanes> bsdf;
+    LobeWeights<Lanes> lobes;
     Vec3<Lanes> emission;
     Mask unlit;
     LanesI light;  ///< row in the triangle light table, -1: none
-    LanesI material_word;
 };
 
 OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
@@ -79,11 +78,14 @@ OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
                                                 const Vec3<Lanes>& position) {
     Vec3<Lanes> shift = splat3(Lanes(0.0f));
     for (int k = 0; k < 3; ++k) {
+        const Vec3<Lanes> up = select(dot(n[k], g.ng) < Lanes(0.0f), -n[k], n[k]);
         // Only outwards: a corner whose tangent plane lies above the point.
-        const Lanes below = min(dot(position - p[k], n[k]), Lanes(0.0f));
-        shift = shift - n[k] * (below * g.weight[k]);
+        const Lanes below = min(dot(position - p[k], up), Lanes(0.0f));
+        shift = shift - up * (below * g.weight[k]);
     }
-    return shift;
+    // A box with averaged normals is no sphere: never far from the triangle.
+    const Lanes most = Lanes(0.05f) * sqrt(g.area2);
+    return shift * min(Lanes(1.0f), most / max(length(shift), Lanes(1e-30f)));
 }
 
 OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& hit) {
@@ -311,18 +313,16 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     const LookUp look{width * width / max(abs(cos_front), Lanes(0.05f)), random, filtering};
 
     ShadingPoint s;
-    s.material_word = g.material_word;
-    s.position = g.position;
-    s.offset = g.offset;
     const int32_t* words = reinterpret_cast<const int32_t*>(scene.materials);
     const LanesI flags = gather<Lanes>(words + 11, g.material_word);
     const Mask front = cos_front >= Lanes(0.0f);
     s.ng = select(front, g.ng, -g.ng);
-    s.smooth_shift = select(front, g.smooth_shift, splat3(Lanes(0.0f)));
+    s.start = g.position + s.ng * g.offset + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
     const Vec3<Lanes> n = apply_normal_map(scene, hit, g, look);
     s.normal = select(dot(n, s.ng) < Lanes(0.0f), -n, n);
     s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, wo));
     s.bsdf = bsdf_params(scene, g, look);
+    s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, wo));
     s.unlit = has_bits<Lanes>(flags, material_unlit);
 
     s.emission = gather3(scene.materials + 8, g.material_word);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/warp.h"
+#include "surface/albedo_table.h"
 
 namespace obscura {
 
@@ -17,6 +18,12 @@ struct BsdfParams {
     Vec3<F> base_color;
     F metallic;
     F alpha;  ///< GGX width, square of the perceptual roughness, >= min_ggx_alpha
+};
+
+template <typename F>
+struct LobeWeights {
+    F diffuse;               ///< scales base_color / pi
+    F specular_probability;  ///< that sample_bsdf picks the specular lobe
 };
 
 /// Directions are in the shading frame (z is the normal) and point away from the surface.
@@ -60,26 +67,31 @@ OBSCURA_INLINE F schlick_weight(const F& cosine) {
     return m2 * m2 * m;
 }
 
-/// Probability that sample_bsdf picks the specular lobe: its share of the reflected light,
-/// estimated from Fresnel at the normal.
+/// How the lobes share the light, for one view direction.
 template <typename F>
-OBSCURA_INLINE F specular_probability(const BsdfParams<F>& p, const F& cos_o) {
-    const F weight = schlick_weight(cos_o);
-    const F fd = F(dielectric_f0) + F(1.0f - dielectric_f0) * weight;
+OBSCURA_INLINE LobeWeights<F> lobe_weights(const BsdfParams<F>& p, const F& cos_o) {
+    const F dielectric = specular_albedo(F(dielectric_f0), cos_o, p.alpha);
+    const F diffuse = (F(1.0f) - p.metallic) * (F(1.0f) - dielectric);
     const F base = luminance(p.base_color);
-    const F fm = base + (F(1.0f) - base) * weight;
-    const F specular = lerp(fd, fm, p.metallic);
-    const F diffuse = (F(1.0f) - p.metallic) * (F(1.0f) - fd) * base;
-    const F share = specular / max(specular + diffuse, F(1e-6f));
-    return select(diffuse > F(0.0f), clamp(share, F(0.1f), F(0.9f)), F(1.0f));
+    const F metal = base + (F(1.0f) - base) * schlick_weight(cos_o);
+    const F specular_share = lerp(dielectric, metal, p.metallic);
+    const F diffuse_share = diffuse * base;
+    const F share = specular_share / max(specular_share + diffuse_share, F(1e-6f));
+    return {diffuse, select(diffuse_share > F(0.0f), clamp(share, F(0.1f), F(0.9f)), F(1.0f))};
 }
 
 /// The BRDF times cosine, and the density of sample_bsdf; both zero below either horizon.
 ///
+/// The dielectric's diffuse part is what its specular lobe leaves over, by directional albedo: the
+/// two together never reflect more light than arrives, and all of it when the base is white.
+///
 /// Source  glTF 2.0, Appendix B: mix(dielectric, metal, metallic) with Schlick's Fresnel on the
-///         half vector, Lambert below the dielectric's Fresnel, GGX with separable Smith shadowing
+///         half vector, Lambert under the dielectric's specular lobe, GGX with separable Smith
+///         shadowing; Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", 2017
+///         (albedo scaling)
 template <typename F>
 OBSCURA_INLINE BsdfValue<F> evaluate_bsdf(const BsdfParams<F>& p,
+                                          const LobeWeights<F>& lobes,
                                           const Vec3<F>& wo,
                                           const Vec3<F>& wi) {
     const auto above = (wo.z > F(0.0f)) & (wi.z > F(0.0f));
@@ -90,15 +102,21 @@ OBSCURA_INLINE BsdfValue<F> evaluate_bsdf(const BsdfParams<F>& p,
     const F denominator_o = smith_denominator(wo.z, p.alpha);
     const F denominator_i = smith_denominator(wi.z, p.alpha);
     const F specular = distribution / (denominator_o * denominator_i);  // D * V
-    const F diffuse = (F(1.0f) - p.metallic) * (F(1.0f) - fd) * F(1.0f / pi_f);
     const F dielectric = (F(1.0f) - p.metallic) * fd;
     const Vec3<F> metal = (p.base_color + (splat3(F(1.0f)) - p.base_color) * weight) * p.metallic;
-    const Vec3<F> f = p.base_color * diffuse + (splat3(dielectric) + metal) * specular;
-    const F p_specular = specular_probability(p, wo.z);
-    const F pdf = p_specular * distribution / (F(2.0f) * denominator_o) +
-                  (F(1.0f) - p_specular) * wi.z * F(1.0f / pi_f);
+    const Vec3<F> f = p.base_color * (lobes.diffuse * F(1.0f / pi_f)) +
+                      (splat3(dielectric) + metal) * specular;
+    const F pdf = lobes.specular_probability * distribution / (F(2.0f) * denominator_o) +
+                  (F(1.0f) - lobes.specular_probability) * wi.z * F(1.0f / pi_f);
     const F zero = F(0.0f);
     return {select(above, f * wi.z, splat3(zero)), select(above, pdf, zero)};
+}
+
+template <typename F>
+OBSCURA_INLINE BsdfValue<F> evaluate_bsdf(const BsdfParams<F>& p,
+                                          const Vec3<F>& wo,
+                                          const Vec3<F>& wi) {
+    return evaluate_bsdf(p, lobe_weights(p, wo.z), wo, wi);
 }
 
 /// A microfacet normal as seen from wo.
@@ -119,14 +137,25 @@ OBSCURA_INLINE Vec3<F> sample_visible_normal(const Vec3<F>& wo, const F& alpha, 
 /// In      u: the direction; choice: which lobe, in [0,1)
 template <typename F>
 OBSCURA_INLINE BsdfSample<F> sample_bsdf(const BsdfParams<F>& p,
+                                         const LobeWeights<F>& lobes,
                                          const Vec3<F>& wo,
                                          const Vec2<F>& u,
                                          const F& choice) {
-    const auto specular = choice < specular_probability(p, wo.z);
+    const auto specular = choice < lobes.specular_probability;
     const Vec3<F> h = sample_visible_normal(wo, p.alpha, u);
     const Vec3<F> mirrored = h * (F(2.0f) * dot(wo, h)) - wo;
     const Vec3<F> wi = select(specular, mirrored, cosine_hemisphere(u));
-    return {wi, evaluate_bsdf(p, wo, wi), select(specular, F(0.5f) * p.alpha, F(0.4f))};
+    return {wi,
+            evaluate_bsdf(p, lobes, wo, wi),
+            select(specular, F(0.5f) * p.alpha, F(0.4f))};
+}
+
+template <typename F>
+OBSCURA_INLINE BsdfSample<F> sample_bsdf(const BsdfParams<F>& p,
+                                         const Vec3<F>& wo,
+                                         const Vec2<F>& u,
+                                         const F& choice) {
+    return sample_bsdf(p, lobe_weights(p, wo.z), wo, u, choice);
 }
 
 }  // namespace OBSCURA_ISA

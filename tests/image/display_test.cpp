@@ -311,7 +311,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(AcesConfig{"cg-config-v1.0.0_aces-v1.3_ocio-v2.1.ocio", 0x02010000},
                     AcesConfig{"studio-config-v2.1.0_aces-v1.3_ocio-v2.3.ocio", 0x02030000},
                     AcesConfig{"cg-config-v2.2.0_aces-v1.3_ocio-v2.4.ocio", 0x02040000}),
-    [](const auto& info) { return "Config" + std::to_string(info.index); });
+    [](const auto& config) { return "Config" + std::to_string(config.index); });
 
 }  // namespace
 }  // namespace obscura

@@ -41,7 +41,7 @@ TEST(AliasTable, MultiplyHighIsTheUpperHalfOfTheProduct) {
 }
 
 TEST(AliasTable, ProbabilitiesFollowTheWeights) {
-    for (const size_t count : {1, 2, 3, 7, 64, 1000, 16384}) {
+    for (const size_t count : {1U, 2U, 3U, 7U, 64U, 1000U, 16384U}) {
         std::vector<double> weights = random_weights(count, count);
         weights[0] += 1;
         const std::vector<double> got = alias_probabilities(table_for(weights));

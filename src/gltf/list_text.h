@@ -1,0 +1,23 @@
+// gltf/list_text.h - many names in one message.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// "a, b, c and 7 more".
+inline std::string list_text(const std::vector<std::string>& names) {
+    constexpr size_t most = 8;
+    std::string out;
+    for (size_t i = 0; i < std::min(names.size(), most); ++i) {
+        if (i != 0) out += ", ";
+        out += names[i];
+    }
+    if (names.size() > most) out += " and " + std::to_string(names.size() - most) + " more";
+    return out;
+}
+
+}  // namespace obscura

@@ -1,0 +1,130 @@
+// gltf/mesh_append.cpp - moves one primitive to the world and adds it to the scene's arrays.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/meshes.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+constexpr size_t most_vertices = (1U << 29) - 1;  // four floats a vertex stay below 2^31
+constexpr size_t most_words = (1U << 31) - 1;     // what an int32 offset reaches
+constexpr float farthest_position = 1e18f;
+
+/// Adjugate transposed: determinant times the inverse transpose, without a division.
+Affined cofactors(const Affined& a) {
+    const auto& m = a.m;
+    Affined out;
+    for (size_t r = 0; r < 3; ++r) {
+        const size_t r1 = (r + 1) % 3;
+        const size_t r2 = (r + 2) % 3;
+        for (size_t c = 0; c < 3; ++c) {
+            const size_t c1 = (c + 1) % 3;
+            const size_t c2 = (c + 2) % 3;
+            out.m[r][c] = m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
+        }
+    }
+    return out;
+}
+
+/// Transforms a direction in place and makes it unit; the zero vector stays.
+void turn(float* v, const Affined& map, double sign) {
+    const Vec3d turned = transform_vector(map, Vec3d{v[0], v[1], v[2]});
+    const double length = std::hypot(turned.x, turned.y, turned.z);
+    if (!(length > 0) || !std::isfinite(length)) return;
+    const double scale = sign / length;
+    v[0] = static_cast<float>(turned.x * scale);
+    v[1] = static_cast<float>(turned.y * scale);
+    v[2] = static_cast<float>(turned.z * scale);
+}
+
+/// Appends a block and returns the base that an absolute vertex number is added to.
+int32_t append_block(std::vector<float>& attributes,
+                     const std::vector<float>& block,
+                     size_t first_vertex,
+                     size_t width) {
+    if (block.empty()) return no_attribute;
+    const auto base =
+        static_cast<int64_t>(attributes.size()) - static_cast<int64_t>(first_vertex * width);
+    attributes.insert(attributes.end(), block.begin(), block.end());
+    return static_cast<int32_t>(base);
+}
+
+size_t attribute_floats(const MeshPart& part) {
+    size_t out = part.normals.size() + part.tangents.size() + part.colors.size();
+    for (const std::vector<float>& set : part.uvs)
+        out += set.size();
+    return out;
+}
+
+tl::unexpected<Error> over_limit(const char* id, const std::string& where, const char* what) {
+    return fail(ExitCode::refused,
+                id,
+                where,
+                std::string("the scene has too many ") + what +
+                    " for 32-bit numbers; accepted are "
+                    "2^29 - 1 vertices, 2^31 - 1 triangle corners and 2^31 - 1 attribute floats");
+}
+
+}  // namespace
+
+bool bake_part(MeshPart& part, const Affined& world_from_mesh) {
+    const double volume = determinant(world_from_mesh);
+    const double sign = volume < 0 ? -1 : 1;
+    const Affined normal_map = cofactors(world_from_mesh);
+    for (size_t i = 0; i < part.positions.size(); i += 3) {
+        float* p = &part.positions[i];
+        const Vec3d moved = transform_point(world_from_mesh, Vec3d{p[0], p[1], p[2]});
+        p[0] = static_cast<float>(moved.x);
+        p[1] = static_cast<float>(moved.y);
+        p[2] = static_cast<float>(moved.z);
+        const bool near = std::abs(p[0]) <= farthest_position &&
+                          std::abs(p[1]) <= farthest_position &&
+                          std::abs(p[2]) <= farthest_position;
+        if (!near) return false;
+    }
+    for (size_t i = 0; i < part.normals.size(); i += 3)
+        turn(&part.normals[i], normal_map, sign);
+    for (size_t i = 0; i < part.tangents.size(); i += 4) {
+        turn(&part.tangents[i], world_from_mesh, 1);
+        part.tangents[i + 3] *= static_cast<float>(sign);
+    }
+    if (sign < 0) {
+        for (size_t i = 0; i < part.indices.size(); i += 3) {
+            std::swap(part.indices[i + 1], part.indices[i + 2]);
+        }
+    }
+    return true;
+}
+
+Result<Primitive> append_part(Scene& scene, const MeshPart& part, const std::string& where) {
+    const size_t first_vertex = scene.positions.size() / 3;
+    if (first_vertex + part.positions.size() / 3 > most_vertices) {
+        return over_limit("E-LIMIT-VERTICES", where, "vertices");
+    }
+    if (scene.indices.size() + part.indices.size() > most_words) {
+        return over_limit("E-LIMIT-TRIANGLES", where, "triangles");
+    }
+    if (scene.attributes.size() + attribute_floats(part) > most_words) {
+        return over_limit("E-LIMIT-ATTRIBUTES", where, "vertex attributes");
+    }
+    Primitive out;
+    out.first_triangle = static_cast<int32_t>(scene.indices.size() / 3);
+    out.triangle_count = static_cast<int32_t>(part.indices.size() / 3);
+    out.normal_base = append_block(scene.attributes, part.normals, first_vertex, 3);
+    out.tangent_base = append_block(scene.attributes, part.tangents, first_vertex, 4);
+    out.color_base = append_block(scene.attributes, part.colors, first_vertex, 4);
+    for (size_t set = 0; set < part.uvs.size(); ++set) {
+        out.uv_base[set] = append_block(scene.attributes, part.uvs[set], first_vertex, 2);
+    }
+    scene.positions.insert(scene.positions.end(), part.positions.begin(), part.positions.end());
+    for (const uint32_t index : part.indices) {
+        scene.indices.push_back(static_cast<uint32_t>(first_vertex) + index);
+    }
+    return out;
+}
+
+}  // namespace obscura

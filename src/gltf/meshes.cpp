@@ -1,0 +1,334 @@
+// gltf/meshes.cpp - the meshes of the chosen scene become arrays, baked to the world or instanced.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/meshes.h"
+
+#include "base/parallel.h"
+#include "gltf/list_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+constexpr double farthest_position = 1e18;
+
+/// One primitive to be read; baked to the world when `placed` is not -1.
+struct PartJob {
+    PartName name;
+    int placed = -1;
+};
+
+/// Names in the order they came, neighbours once, for one warning of many.
+class NameList {
+public:
+    void add(const std::string& name) {
+        if (names_.empty() || names_.back() != name) names_.push_back(name);
+    }
+    bool empty() const { return names_.empty(); }
+    std::string text() const { return list_text(names_); }
+
+private:
+    std::vector<std::string> names_;
+};
+
+class MeshBuilder {
+public:
+    MeshBuilder(const MeshSources& sources, MaterialTable& materials, Scene& scene, Log& log)
+        : sources_(sources), materials_(materials), scene_(scene), log_(log) {}
+
+    Result<void> build();
+
+private:
+    const Document& document() const { return sources_.document; }
+    const PlacedNode& placed(int index) const {
+        return sources_.placed[static_cast<size_t>(index)];
+    }
+    const GltfMesh& mesh(int index) const { return document().meshes[static_cast<size_t>(index)]; }
+
+    void find_uses();
+    void add_jobs(int mesh_index, int placed_index, std::vector<PartJob>& jobs);
+    void reserve(const std::vector<PartJob>& jobs);
+    size_t batch_end(const std::vector<PartJob>& jobs, size_t begin) const;
+    Result<void> run(const std::vector<PartJob>& jobs);
+    Result<MeshPart> read_job(const PartJob& job) const;
+    Result<void> append(const PartJob& job, const MeshPart& part);
+    Result<void> build_shared(int mesh_index);
+    Result<void> add_instance(int mesh_row, int placed_index, const Bounds& box, size_t triangles);
+    void note_issues(const PartJob& job, const MeshPart& part);
+    void warn();
+
+    const MeshSources& sources_;
+    MaterialTable& materials_;
+    Scene& scene_;
+    Log& log_;
+    std::vector<std::vector<int>> uses_;  ///< placed nodes of each mesh
+    std::vector<int> order_;              ///< used meshes in the order they are met
+    Bounds part_bounds_;                  ///< grows while parts are appended
+    std::map<MeshIssue, NameList> issues_;
+    NameList flat_nodes_, lined_meshes_;
+};
+
+void grow(Bounds& bounds, const Vec3f& p) {
+    bounds.low = {
+        std::min(bounds.low.x, p.x), std::min(bounds.low.y, p.y), std::min(bounds.low.z, p.z)};
+    bounds.high = {
+        std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y), std::max(bounds.high.z, p.z)};
+}
+
+void MeshBuilder::find_uses() {
+    uses_.resize(document().meshes.size());
+    for (size_t i = 0; i < sources_.placed.size(); ++i) {
+        const PlacedNode& place = sources_.placed[i];
+        const GltfNode& node = document().nodes[static_cast<size_t>(place.node)];
+        if (node.mesh < 0) continue;
+        if (is_singular(place.world_from_node)) {
+            flat_nodes_.add(node.name.empty() ? "node " + std::to_string(place.node) : node.name);
+            continue;
+        }
+        std::vector<int>& uses = uses_[static_cast<size_t>(node.mesh)];
+        if (uses.empty()) order_.push_back(node.mesh);
+        uses.push_back(static_cast<int>(i));
+    }
+}
+
+void MeshBuilder::add_jobs(int mesh_index, int placed_index, std::vector<PartJob>& jobs) {
+    const std::vector<GltfPrimitive>& primitives = mesh(mesh_index).primitives;
+    for (size_t i = 0; i < primitives.size(); ++i) {
+        if (primitives[i].mode >= 4) {
+            jobs.push_back({{mesh_index, static_cast<int>(i)}, placed_index});
+            continue;
+        }
+        ++(primitives[i].mode == 0 ? scene_.info.skipped_points : scene_.info.skipped_lines);
+        lined_meshes_.add(mesh(mesh_index).name);
+    }
+}
+
+/// Room for what the jobs will add, as far as the accessors' counts tell.
+void MeshBuilder::reserve(const std::vector<PartJob>& jobs) {
+    size_t vertices = 0;
+    size_t corners = 0;
+    size_t floats = 0;
+    for (const PartJob& job : jobs) {
+        const GltfPrimitive& primitive =
+            mesh(job.name.mesh).primitives[static_cast<size_t>(job.name.primitive)];
+        if (primitive.position < 0) continue;
+        const size_t triangles = primitive_triangles(document(), primitive);
+        const size_t count = std::min(
+            document().accessors[static_cast<size_t>(primitive.position)].count, triangles * 3);
+        const MaterialNeeds needs = material_needs(document(), primitive.material);
+        const int sets = __builtin_popcount(needs.uv_sets);
+        const int tangents = needs.normal_map.texture >= 0 ? 4 : 0;
+        const int width =
+            2 * sets + tangents + (primitive.normal >= 0 ? 3 : 0) + (primitive.color >= 0 ? 4 : 0);
+        vertices += count;
+        corners += triangles * 3;
+        floats += count * static_cast<size_t>(width);
+    }
+    constexpr size_t most = 1U << 31;
+    scene_.positions.reserve(std::min(most, scene_.positions.size() + vertices * 3 + 4));
+    scene_.indices.reserve(std::min(most, scene_.indices.size() + corners));
+    scene_.attributes.reserve(std::min(most, scene_.attributes.size() + floats));
+}
+
+/// Parts are read in batches: together on all cores, but never all in memory twice.
+size_t MeshBuilder::batch_end(const std::vector<PartJob>& jobs, size_t begin) const {
+    constexpr uint64_t batch_corners = 3U << 20;
+    uint64_t corners = 0;
+    size_t end = begin;
+    while (end < jobs.size() && (end == begin || corners < batch_corners)) {
+        const PartName& name = jobs[end].name;
+        corners +=
+            3 * primitive_triangles(
+                    document(), mesh(name.mesh).primitives[static_cast<size_t>(name.primitive)]);
+        ++end;
+    }
+    return end;
+}
+
+Result<MeshPart> MeshBuilder::read_job(const PartJob& job) const {
+    Result<MeshPart> part = read_mesh_part(document(), sources_.buffers, job.name);
+    if (!part || job.placed < 0) return part;
+    const PlacedNode& place = placed(job.placed);
+    if (!bake_part(*part, place.world_from_node)) {
+        return fail(ExitCode::bad_data,
+                    "E-NODE-RANGE",
+                    document().at("nodes", static_cast<size_t>(place.node)),
+                    "the node moves vertices of its mesh beyond 1e18");
+    }
+    return part;
+}
+
+Result<void> MeshBuilder::run(const std::vector<PartJob>& jobs) {
+    std::vector<std::optional<Result<MeshPart>>> parts;
+    for (size_t begin = 0; begin < jobs.size();) {
+        const size_t end = batch_end(jobs, begin);
+        parts.clear();
+        parts.resize(end - begin);
+        parallel_for(end - begin, [&](size_t i) { parts[i] = read_job(jobs[begin + i]); });
+        for (size_t i = 0; i < parts.size(); ++i) {
+            Result<MeshPart>& part = *parts[i];
+            if (!part) return fail(std::move(part.error()));
+            const Result<void> done = append(jobs[begin + i], *part);
+            if (!done) return done;
+            parts[i].reset();
+        }
+        begin = end;
+    }
+    return {};
+}
+
+Result<void> MeshBuilder::append(const PartJob& job, const MeshPart& part) {
+    note_issues(job, part);
+    if (part.indices.empty()) return {};
+    const std::string where = document().at("meshes", static_cast<size_t>(job.name.mesh)) +
+                              "/primitives/" + std::to_string(job.name.primitive);
+    Result<Primitive> primitive = append_part(scene_, part, where);
+    if (!primitive) return fail(std::move(primitive.error()));
+    uint32_t uv_sets = 0;
+    for (size_t set = 0; set < part.uvs.size(); ++set) {
+        if (!part.uvs[set].empty()) uv_sets |= 1U << set;
+    }
+    const int material =
+        mesh(job.name.mesh).primitives[static_cast<size_t>(job.name.primitive)].material;
+    primitive->material = material_row(materials_, document(), material, uv_sets, log_);
+    primitive->node = job.placed < 0 ? -1 : placed(job.placed).node;
+    scene_.primitives.push_back(*primitive);
+    for (const uint32_t vertex : part.indices) {
+        const float* p = &part.positions[3 * static_cast<size_t>(vertex)];
+        grow(part_bounds_, {p[0], p[1], p[2]});
+    }
+    return {};
+}
+
+Result<void> MeshBuilder::build_shared(int mesh_index) {
+    std::vector<PartJob> jobs;
+    add_jobs(mesh_index, -1, jobs);
+    Mesh row;
+    row.first_primitive = static_cast<int32_t>(scene_.primitives.size());
+    const size_t corners = scene_.indices.size();
+    part_bounds_ = {};
+    const Result<void> done = run(jobs);
+    if (!done) return done;
+    row.primitive_count = static_cast<int32_t>(scene_.primitives.size()) - row.first_primitive;
+    if (row.primitive_count == 0) return {};
+    const int mesh_row = static_cast<int>(scene_.meshes.size());
+    scene_.meshes.push_back(row);
+    const size_t triangles = (scene_.indices.size() - corners) / 3;
+    for (const int use : uses_[static_cast<size_t>(mesh_index)]) {
+        const Result<void> added = add_instance(mesh_row, use, part_bounds_, triangles);
+        if (!added) return added;
+    }
+    return {};
+}
+
+Result<void> MeshBuilder::add_instance(int mesh_row,
+                                       int placed_index,
+                                       const Bounds& box,
+                                       size_t triangles) {
+    const PlacedNode& place = placed(placed_index);
+    Instance instance;
+    instance.world_from_object = affine_cast<float>(place.world_from_node);
+    instance.object_from_world = affine_cast<float>(inverse(place.world_from_node));
+    instance.mesh = mesh_row;
+    instance.node = place.node;
+    instance.mirrored = determinant(place.world_from_node) < 0 ? 1 : 0;
+    bool in_range = true;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c) {
+            in_range = in_range && std::isfinite(instance.world_from_object.m[r][c]) &&
+                       std::isfinite(instance.object_from_world.m[r][c]);
+        }
+    }
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d p = {(corner & 1) != 0 ? box.high.x : box.low.x,
+                         (corner & 2) != 0 ? box.high.y : box.low.y,
+                         (corner & 4) != 0 ? box.high.z : box.low.z};
+        const Vec3d moved = transform_point(place.world_from_node, p);
+        in_range = in_range && max_component(abs(moved)) <= farthest_position;
+        grow(scene_.bounds,
+             {static_cast<float>(moved.x),
+              static_cast<float>(moved.y),
+              static_cast<float>(moved.z)});
+    }
+    if (!in_range) {
+        return fail(ExitCode::bad_data,
+                    "E-NODE-RANGE",
+                    document().at("nodes", static_cast<size_t>(place.node)),
+                    "the node moves vertices of its mesh beyond 1e18, or its scale is beyond what "
+                    "single precision can invert");
+    }
+    scene_.instances.push_back(instance);
+    scene_.info.triangles_in_world += triangles;
+    return {};
+}
+
+void MeshBuilder::note_issues(const PartJob& job, const MeshPart& part) {
+    for (uint32_t i = 0; i < static_cast<uint32_t>(MeshIssue::count); ++i) {
+        const MeshIssue issue = static_cast<MeshIssue>(i);
+        if ((part.issues & issue_bit(issue)) != 0) issues_[issue].add(mesh(job.name.mesh).name);
+    }
+}
+
+void MeshBuilder::warn() {
+    for (const auto& [issue, list] : issues_) {
+        log_.warn(document().file,
+                  std::string(mesh_issue_text(issue)) + "; meshes: " + list.text());
+    }
+    if (!flat_nodes_.empty()) {
+        log_.warn(document().file,
+                  "nodes whose scale is zero or whose matrix is singular are not drawn: " +
+                      flat_nodes_.text());
+    }
+    if (!lined_meshes_.empty()) {
+        log_.warn(document().file,
+                  "points and lines are not supported and not drawn (" +
+                      std::to_string(scene_.info.skipped_points) + " and " +
+                      std::to_string(scene_.info.skipped_lines) +
+                      " primitives); meshes: " + lined_meshes_.text());
+    }
+}
+
+Result<void> MeshBuilder::build() {
+    find_uses();
+    std::vector<PartJob> world;
+    for (const int used : order_) {
+        const std::vector<int>& uses = uses_[static_cast<size_t>(used)];
+        if (uses.size() == 1) add_jobs(used, uses[0], world);
+    }
+    std::vector<PartJob> all = world;
+    for (const int used : order_) {
+        if (uses_[static_cast<size_t>(used)].size() == 1) continue;
+        for (size_t i = 0; i < mesh(used).primitives.size(); ++i) {
+            all.push_back({{used, static_cast<int>(i)}, -1});
+        }
+    }
+    reserve(all);
+    Result<void> done = run(world);
+    if (!done) return done;
+    scene_.world_primitive_count = static_cast<int32_t>(scene_.primitives.size());
+    scene_.info.triangles_in_world = scene_.indices.size() / 3;
+    scene_.bounds = part_bounds_;
+    for (const int used : order_) {
+        if (uses_[static_cast<size_t>(used)].size() == 1) continue;
+        done = build_shared(used);
+        if (!done) return done;
+    }
+    scene_.positions.insert(scene_.positions.end(), 4, 0.0f);
+    warn();
+    return {};
+}
+
+}  // namespace
+
+Result<void> add_meshes(const MeshSources& sources,
+                        MaterialTable& materials,
+                        Scene& scene,
+                        Log& log) {
+    return MeshBuilder(sources, materials, scene, log).build();
+}
+
+}  // namespace obscura

@@ -1,0 +1,42 @@
+// gltf/meshes.h - the meshes of the chosen scene become arrays, baked to the world or instanced.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/buffers.h"
+#include "gltf/materials.h"
+#include "gltf/mesh_part.h"
+#include "gltf/node_graph.h"
+#include "scene/scene.h"
+
+#include <vector>
+
+namespace obscura {
+
+/// What add_meshes reads.
+struct MeshSources {
+    const Document& document;
+    const BufferStore& buffers;
+    const std::vector<PlacedNode>& placed;
+};
+
+/// Fills the scene's geometry: positions, indices, attributes, primitives, meshes, instances and
+/// bounds; counts what is skipped in Scene::info. A mesh that one node places lies in world space,
+/// one that several place becomes a Mesh with Instances.
+///
+/// Errors  as read_mesh_part; 65 E-NODE-RANGE a node moves vertices beyond 1e18;
+///         77 E-LIMIT-VERTICES, E-LIMIT-TRIANGLES, E-LIMIT-ATTRIBUTES
+Result<void> add_meshes(const MeshSources& sources,
+                        MaterialTable& materials,
+                        Scene& scene,
+                        Log& log);
+
+/// Moves a part to another space: positions by the matrix, normals by its inverse transpose,
+/// tangents along; a mirror turns triangles round. False: a position is no longer in range.
+bool bake_part(MeshPart& part, const Affined& world_from_mesh);
+
+/// Adds a part behind the scene's arrays as a Primitive; material and node are the caller's.
+///
+/// Errors  77 E-LIMIT-*
+Result<Primitive> append_part(Scene& scene, const MeshPart& part, const std::string& where);
+
+}  // namespace obscura

@@ -1,0 +1,286 @@
+// gltf/textures.cpp - images that materials use become texels in the arena, decoded on all cores.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/textures.h"
+
+#include "base/parallel.h"
+#include "gltf/uri.h"
+#include "image/decode.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+constexpr size_t most_texels = (1U << 31) - 1;
+constexpr uint64_t largest_image_file = 1U << 30;
+
+/// An image's encoded bytes: owned, or inside a buffer.
+struct EncodedImage {
+    Bytes owned;
+    std::span<const std::byte> bytes;
+    std::string mime;  ///< what the asset says it is
+};
+
+/// One image as colour (1) or as data (0).
+struct ImageUse {
+    bool used = false;
+    size_t base = 0;  ///< first texel in the arena
+};
+
+struct ImageState {
+    std::array<ImageUse, 2> uses;  ///< by srgb
+    int width = 0;
+    int height = 0;
+
+    bool used() const { return uses[0].used || uses[1].used; }
+};
+
+class TextureBuilder {
+public:
+    TextureBuilder(const TextureSources& sources, MaterialTable& materials, Scene& scene, Log& log)
+        : sources_(sources), materials_(materials), scene_(scene), log_(log) {}
+
+    Result<void> build();
+
+private:
+    const Document& document() const { return sources_.document; }
+    const GltfTexture& texture(int index) const {
+        return document().textures[static_cast<size_t>(index)];
+    }
+
+    void find_uses();
+    Result<EncodedImage> load_encoded(size_t image) const;
+    Result<ImageRgba8> probe(size_t image) const;
+    Result<void> probe_all();
+    void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
+    Result<void> lay_out();
+    int row_for(const TextureSlot& slot, bool srgb);
+    void resolve_slots();
+    Result<void> decode(size_t image);
+    Result<void> decode_all();
+
+    const TextureSources& sources_;
+    MaterialTable& materials_;
+    Scene& scene_;
+    Log& log_;
+    std::vector<ImageState> images_;
+    std::map<std::pair<int, uint32_t>, int> rows_;  ///< (image, packed sampler) -> arena row
+};
+
+Wrap wrap_of(int mode) {
+    return mode == 33071 ? Wrap::clamp : mode == 33648 ? Wrap::mirror : Wrap::repeat;
+}
+
+uint32_t packed_sampler(const GltfSampler& sampler, bool srgb) {
+    const int min = sampler.min_filter;
+    const bool min_nearest = min == 9728 || min == 9984 || min == 9986;
+    const MipMode mip = min < 9984   ? MipMode::none
+                        : min < 9986 ? MipMode::nearest
+                                     : MipMode::linear;
+    return pack_sampler(wrap_of(sampler.wrap_s),
+                        wrap_of(sampler.wrap_t),
+                        sampler.mag_filter == 9728,
+                        min_nearest,
+                        mip,
+                        srgb);
+}
+
+/// Who uses which image: drawn materials decide what is decoded, all materials what is told.
+void TextureBuilder::find_uses() {
+    images_.resize(document().images.size());
+    scene_.info.images.resize(document().images.size());
+    for (size_t i = 0; i < document().images.size(); ++i) {
+        scene_.info.images[i].name = document().images[i].name;
+    }
+    for (size_t row = 0; row < materials_.rows.size(); ++row) {
+        const auto slots = slots_of(std::as_const(materials_.rows[row]));
+        for (size_t slot = 0; slot < slot_count; ++slot) {
+            if (slots[slot]->texture < 0) continue;
+            const size_t image = static_cast<size_t>(texture(slots[slot]->texture).image);
+            const bool color = slot_is_color(slot);
+            ImageInfo& info = scene_.info.images[image];
+            (color ? info.used_as_color : info.used_as_data) = true;
+            if (materials_.used[row] != 0) images_[image].uses[color ? 1 : 0].used = true;
+        }
+    }
+}
+
+Result<EncodedImage> TextureBuilder::load_encoded(size_t image) const {
+    const GltfImage& row = document().images[image];
+    const std::string where = document().at("images", image);
+    EncodedImage out;
+    out.mime = row.mime;
+    if (!row.uri) {
+        out.bytes = view_bytes(document(), sources_.buffers, row.view);
+        return out;
+    }
+    const UriContext context{sources_.folder, where + "/uri"};
+    Result<UriBytes> read = read_uri(*row.uri, context, {largest_image_file, UINT64_MAX});
+    if (!read) return fail(std::move(read.error()));
+    if (is_data_uri(*row.uri)) {
+        if (read->mime.rfind("image/", 0) != 0) {
+            return fail(ExitCode::bad_data,
+                        "E-URI-DATA",
+                        where + "/uri",
+                        "the media type \"" + read->mime +
+                            "\" is not an image's; accepted are image/png, image/jpeg, image/webp");
+        }
+        out.mime = read->mime;
+    }
+    out.owned = std::move(read->bytes);
+    out.bytes = out.owned;
+    return out;
+}
+
+void TextureBuilder::warn_wrong_mime(size_t image,
+                                     const std::string& mime,
+                                     const std::string& format) const {
+    if (mime.empty() || mime == "image/" + format) return;
+    log_.warn(document().at("images", image),
+              "the media type is \"" + mime + "\" but the data are " + format + "; the data count");
+}
+
+Result<ImageRgba8> TextureBuilder::probe(size_t image) const {
+    Result<EncodedImage> encoded = load_encoded(image);
+    if (!encoded) return fail(std::move(encoded.error()));
+    Result<ImageRgba8> header = probe_image(encoded->bytes, document().at("images", image));
+    if (header) warn_wrong_mime(image, encoded->mime, header->format);
+    return header;
+}
+
+/// Measures every image, so that the arena can be laid out before anything is decoded.
+Result<void> TextureBuilder::probe_all() {
+    std::vector<std::optional<Result<ImageRgba8>>> headers(images_.size());
+    parallel_for(images_.size(), [&](size_t i) { headers[i] = probe(i); });
+    for (size_t i = 0; i < images_.size(); ++i) {
+        Result<ImageRgba8>& header = *headers[i];
+        if (!header) {
+            if (images_[i].used()) return fail(std::move(header.error()));
+            log_.warn(header.error().where,
+                      header.error().message + "; no drawn material uses the image");
+            continue;
+        }
+        images_[i].width = header->width;
+        images_[i].height = header->height;
+        ImageInfo& info = scene_.info.images[i];
+        info.format = header->format;
+        info.width = header->width;
+        info.height = header->height;
+    }
+    return {};
+}
+
+Result<void> TextureBuilder::lay_out() {
+    size_t total = 0;
+    for (size_t i = 0; i < images_.size(); ++i) {
+        for (ImageUse& use : images_[i].uses) {
+            if (!use.used) continue;
+            use.base = total;
+            total += mip_chain_texels(images_[i].width, images_[i].height);
+            if (total <= most_texels) continue;
+            return fail(ExitCode::refused,
+                        "E-LIMIT-TEXELS",
+                        document().at("images", i),
+                        "the images used have more than 2^31 - 1 texels with their mip chains; "
+                        "make them smaller");
+        }
+    }
+    if (!sources_.measure_only) scene_.textures.texels.resize(total);
+    return {};
+}
+
+int TextureBuilder::row_for(const TextureSlot& slot, bool srgb) {
+    const GltfTexture& from = texture(slot.texture);
+    const GltfSampler sampler =
+        from.sampler < 0 ? GltfSampler{} : document().samplers[static_cast<size_t>(from.sampler)];
+    const uint32_t packed = packed_sampler(sampler, srgb);
+    std::vector<TextureRow>& rows = scene_.textures.rows;
+    const auto [entry, is_new] =
+        rows_.try_emplace({from.image, packed}, static_cast<int>(rows.size()));
+    if (!is_new) return entry->second;
+
+    const ImageState& image = images_[static_cast<size_t>(from.image)];
+    TextureRow row;
+    row.width = image.width;
+    row.height = image.height;
+    row.levels = mip_level_count(image.width, image.height);
+    row.sampler = packed;
+    size_t offset = image.uses[srgb ? 1 : 0].base;
+    for (int level = 0; level < row.levels; ++level) {
+        row.level_offset[level] = static_cast<int32_t>(offset);
+        offset += static_cast<size_t>(std::max(1, image.width >> level)) *
+                  static_cast<size_t>(std::max(1, image.height >> level));
+    }
+    rows.push_back(row);
+    return entry->second;
+}
+
+void TextureBuilder::resolve_slots() {
+    for (size_t row = 0; row < materials_.rows.size(); ++row) {
+        const auto slots = slots_of(materials_.rows[row]);
+        for (size_t slot = 0; slot < slot_count; ++slot) {
+            if (materials_.used[row] == 0) *slots[slot] = TextureSlot{};
+            if (slots[slot]->texture < 0) continue;
+            slots[slot]->texture = row_for(*slots[slot], slot_is_color(slot));
+        }
+    }
+}
+
+Result<void> TextureBuilder::decode(size_t image) {
+    const ImageState& state = images_[image];
+    if (!state.used()) return {};
+    const std::string where = document().at("images", image);
+    Result<EncodedImage> encoded = load_encoded(image);
+    if (!encoded) return fail(std::move(encoded.error()));
+    Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_);
+    if (!decoded) return fail(std::move(decoded.error()));
+    encoded->owned = Bytes();
+    const size_t texels = static_cast<size_t>(state.width) * static_cast<size_t>(state.height);
+    if (decoded->width != state.width || decoded->height != state.height ||
+        decoded->texels.size() != texels) {
+        return fail(ExitCode::bad_resource,
+                    "E-IMG-CHANGED",
+                    where,
+                    "the image's size is not what its header said a moment ago");
+    }
+    for (size_t srgb = 0; srgb < 2; ++srgb) {
+        if (!state.uses[srgb].used) continue;
+        uint32_t* base = scene_.textures.texels.data() + state.uses[srgb].base;
+        std::copy(decoded->texels.begin(), decoded->texels.end(), base);
+        build_mip_chain(base, state.width, state.height, srgb == 1);
+    }
+    return {};
+}
+
+Result<void> TextureBuilder::decode_all() {
+    std::vector<Result<void>> done(images_.size());
+    parallel_for(images_.size(), [&](size_t i) { done[i] = decode(i); });
+    for (Result<void>& result : done) {
+        if (!result) return fail(std::move(result.error()));
+    }
+    return {};
+}
+
+Result<void> TextureBuilder::build() {
+    find_uses();
+    Result<void> done = probe_all();
+    if (done) done = lay_out();
+    if (!done) return done;
+    resolve_slots();
+    return sources_.measure_only ? Result<void>{} : decode_all();
+}
+
+}  // namespace
+
+Result<void> add_textures(const TextureSources& sources,
+                          MaterialTable& materials,
+                          Scene& scene,
+                          Log& log) {
+    return TextureBuilder(sources, materials, scene, log).build();
+}
+
+}  // namespace obscura

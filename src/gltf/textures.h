@@ -1,0 +1,34 @@
+// gltf/textures.h - images that materials use become texels in the arena, decoded on all cores.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/buffers.h"
+#include "gltf/materials.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+
+namespace obscura {
+
+/// What add_textures reads.
+struct TextureSources {
+    const Document& document;
+    const BufferStore& buffers;
+    std::filesystem::path folder;  ///< the asset's
+    bool measure_only = false;     ///< rows are made, texels are not decoded
+};
+
+/// Fills Scene::textures and Scene::info.images, and turns the texture numbers in the slots of used
+/// materials into rows of the arena; slots of unused materials become empty.
+///
+/// An image that is used as colour and as data is stored twice, with different mip chains. Rows
+/// that differ only in their sampler share texels.
+///
+/// Errors  67 E-RES-MISSING, E-IMG-*; 65 E-URI-DATA, E-ACC-RANGE; 77 E-LIMIT-TEXELS, E-IMG-LIMIT,
+///         E-URI-REFUSED. Images that no drawn material uses only warn.
+Result<void> add_textures(const TextureSources& sources,
+                          MaterialTable& materials,
+                          Scene& scene,
+                          Log& log);
+
+}  // namespace obscura

@@ -1,0 +1,69 @@
+#!/usr/bin/env python3
+# tools/make_albedo_table.py - computes src/surface/albedo_table.cpp: how much light the GGX lobe reflects.
+# SPDX-License-Identifier: Apache-2.0
+"""Usage: python3 tools/make_albedo_table.py > src/surface/albedo_table.cpp
+
+For a view angle and a roughness, the share of a white sky that the specular lobe of surface/bsdf.h
+sends back is f0 * A + B (Schlick's Fresnel is linear in f0). A and B are means over a regular grid of
+visible normals (Dupuy and Benyoub, 2023), for which BRDF * cosine / density is Fresnel * G1(wi).
+"""
+import math
+
+COSINES, ROUGHNESSES, GRID = 32, 16, 96
+MIN_ALPHA = 1e-3
+
+
+def g1(cosine, alpha):
+    return 2 * cosine / (cosine + math.sqrt(alpha**2 + (1 - alpha**2) * cosine**2))
+
+
+def entry(cosine, roughness):
+    alpha = max(roughness**2, MIN_ALPHA)
+    wo = (math.sqrt(1 - cosine**2), 0.0, cosine)
+    length = math.hypot(wo[0] * alpha, wo[2])
+    stretched = (wo[0] * alpha / length, 0.0, wo[2] / length)
+    sum_a = sum_b = 0.0
+    for i in range(GRID):
+        turn = 2 * math.pi * (i + 0.5) / GRID
+        for j in range(GRID):
+            z = (1 - (j + 0.5) / GRID) * (1 + stretched[2]) - stretched[2]
+            radius = math.sqrt(max(0.0, 1 - z * z))
+            hx = (radius * math.cos(turn) + stretched[0]) * alpha
+            hy = radius * math.sin(turn) * alpha
+            hz = z + stretched[2]
+            n = math.sqrt(hx * hx + hy * hy + hz * hz)
+            hx, hy, hz = hx / n, hy / n, hz / n
+            d = wo[0] * hx + wo[2] * hz
+            wi_z = 2 * d * hz - wo[2]
+            if wi_z <= 0:
+                continue
+            weight = (1 - min(max(d, 0.0), 1.0)) ** 5
+            shadowing = g1(wi_z, alpha)
+            sum_a += (1 - weight) * shadowing
+            sum_b += weight * shadowing
+    return sum_a / GRID**2, sum_b / GRID**2
+
+
+def rows(values):
+    for i in range(0, len(values), 8):
+        print("    " + " ".join(f"{v:.6f}f," for v in values[i : i + 8]))
+
+
+def main():
+    table = [
+        entry(max(c / (COSINES - 1), 1e-3), r / (ROUGHNESSES - 1))
+        for r in range(ROUGHNESSES)
+        for c in range(COSINES)
+    ]
+    print("// surface/albedo_table.cpp - written by tools/make_albedo_table.py; do not edit.")
+    print("// SPDX-License-Identifier: Apache-2.0")
+    print('#include "surface/albedo_table.h"\n\nnamespace obscura {\n')
+    print("// clang-format off")
+    for name, column in (("scale", 0), ("bias", 1)):
+        print(f"const float specular_albedo_{name}[albedo_cosines * albedo_roughnesses] = {{")
+        rows([row[column] for row in table])
+        print("};\n")
+    print("// clang-format on\n\n}  // namespace obscura")
+
+
+main()
