@@ -9,7 +9,7 @@ visible normals (Dupuy and Benyoub, 2023), for which BRDF * cosine / density is 
 """
 import math
 
-COSINES, ROUGHNESSES, GRID = 32, 16, 96
+COSINES, ROUGHNESSES, GRID = 32, 32, 96
 MIN_ALPHA = 1e-3
 
 
@@ -51,7 +51,7 @@ def rows(values):
 
 def main():
     table = [
-        entry(max(c / (COSINES - 1), 1e-3), r / (ROUGHNESSES - 1))
+        entry(max((c / (COSINES - 1)) ** 2, 1e-4), r / (ROUGHNESSES - 1))
         for r in range(ROUGHNESSES)
         for c in range(COSINES)
     ]

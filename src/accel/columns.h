@@ -11,7 +11,7 @@ struct RayColumns {
     const float *ox, *oy, *oz;  ///< origin, metres
     const float *dx, *dy, *dz;  ///< unit direction
     const float* tfar;          ///< null: unlimited
-    const uint32_t* key;        ///< random key for alpha decisions
+    const uint32_t* key;        ///< random key for alpha decisions, another for every path
     int count;
 };
 

@@ -27,7 +27,7 @@ inline namespace OBSCURA_ISA {
 /// In      film: [0,1]^2 over the picture, (0,0) is the top left corner
 /// Out     unit direction; footprint of one pixel for texture filtering
 template <typename F>
-CameraRay<F> generate_ray(const Camera& camera, const Vec2<F>& film) {
+OBSCURA_INLINE CameraRay<F> generate_ray(const Camera& camera, const Vec2<F>& film) {
     const CameraRay<F> local = camera.model == CameraModel::orthographic
                                    ? generate_ray(camera.orthographic, film)
                                    : generate_ray(camera.pinhole, film);

@@ -19,7 +19,7 @@ inline namespace OBSCURA_ISA {
 /// In      film: [0,1]^2, (0,0) top left
 /// Source  glTF 2.0, section 3.10.3.4 (orthographic projection)
 template <typename F>
-CameraRay<F> generate_ray(const OrthographicCamera& camera, const Vec2<F>& film) {
+OBSCURA_INLINE CameraRay<F> generate_ray(const OrthographicCamera& camera, const Vec2<F>& film) {
     const Vec3<F> origin{(F(2.0f) * film.x - F(1.0f)) * F(camera.half_width_m),
                          (F(1.0f) - F(2.0f) * film.y) * F(camera.half_height_m),
                          F(0.0f)};

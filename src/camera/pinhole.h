@@ -28,7 +28,7 @@ inline namespace OBSCURA_ISA {
 /// In      film: [0,1]^2, (0,0) top left
 /// Source  Glassner (ed.), "An Introduction to Ray Tracing", 1989, ch. 2
 template <typename F>
-CameraRay<F> generate_ray(const PinholeCamera& camera, const Vec2<F>& film) {
+OBSCURA_INLINE CameraRay<F> generate_ray(const PinholeCamera& camera, const Vec2<F>& film) {
     const F half_height = F(camera.tan_half_yfov);
     const Vec3<F> through{(F(2.0f) * film.x - F(1.0f)) * half_height * F(camera.aspect),
                           (F(1.0f) - F(2.0f) * film.y) * half_height,

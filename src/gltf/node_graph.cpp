@@ -131,15 +131,14 @@ std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& lo
 
 bool is_singular(const Affined& transform) {
     double lengths = 1;
-    double largest_translation = 0;
+    double translation = 0;
     for (int c = 0; c < 3; ++c) {
         lengths *= std::hypot(transform.m[0][c], transform.m[1][c], transform.m[2][c]);
-        largest_translation = std::max(largest_translation, std::abs(transform.m[c][3]));
+        translation += std::abs(transform.m[c][3]);
     }
     const double volume = std::abs(determinant(transform));
     constexpr double flattest = 1e-12;  // volume of a unit parallelepiped that counts as flat
-    return !std::isfinite(lengths) || !std::isfinite(largest_translation) ||
-           !(volume > flattest * lengths);
+    return !std::isfinite(lengths) || !std::isfinite(translation) || !(volume > flattest * lengths);
 }
 
 }  // namespace obscura

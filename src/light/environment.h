@@ -15,10 +15,11 @@ namespace obscura {
 ///
 /// The map is latitude-longitude: u = atan2(z, x) / 2 pi + 0.5, v = acos(y) / pi; +Y is row 0.
 struct EnvironmentView {
-    const float* pixels = nullptr;        ///< 3 floats a pixel, radiance
+    /// 4 floats a pixel, so that one cache line holds what a look-up needs: the radiance, and the
+    /// density per solid angle with which the pixel is sampled, times sin(theta)
+    const float* pixels = nullptr;
     const AliasEntry* rows = nullptr;     ///< chooses a row
     const AliasEntry* columns = nullptr;  ///< height tables of width entries: chooses a pixel
-    const float* density = nullptr;       ///< per pixel: sin(theta) * pdf per solid angle
     int32_t width = 1;
     int32_t height = 1;
     float cos_rotation = 1;  ///< of the angle by which the map is turned about +Y,
@@ -79,7 +80,7 @@ template <typename F>
 OBSCURA_INLINE F environment_density(const EnvironmentView& view,
                                      const IntOf<F>& pixel,
                                      const F& sin_theta) {
-    return gather<F>(view.density, pixel) / max(sin_theta, F(1e-7f));
+    return gather<F>(view.pixels + 3, pixel * IntOf<F>(4)) / max(sin_theta, F(1e-7f));
 }
 
 /// Bilinear interpolation between pixel centres; wraps around in x, stops at the first and last
@@ -101,7 +102,7 @@ OBSCURA_INLINE Vec3<F> environment_pixel(const EnvironmentView& view, const F& x
 
     Vec3<F> sum = splat3(F(0.0f));
     const auto add = [&](const I& row, const I& column_at, const F& weight) {
-        const I word = (row * I(view.width) + column_at) * I(3);
+        const I word = (row * I(view.width) + column_at) * I(4);
         sum = sum + weight * Vec3<F>{gather<F>(view.pixels, word),
                                      gather<F>(view.pixels + 1, word),
                                      gather<F>(view.pixels + 2, word)};

@@ -41,7 +41,7 @@ std::vector<double> filtered_row(
     const std::vector<float>& pixels, int width, int height, int y, const Measure& measure) {
     const auto row = [&](int at) {
         const auto clamped = static_cast<size_t>(std::clamp(at, 0, height - 1));
-        return pixels.data() + clamped * static_cast<size_t>(width) * 3;
+        return pixels.data() + clamped * static_cast<size_t>(width) * 4;
     };
     const float* above = row(y - 1);
     const float* here = row(y);
@@ -50,7 +50,7 @@ std::vector<double> filtered_row(
     std::vector<double> column(size);
     for (size_t x = 0; x < size; ++x) {
         column[x] =
-            (measure(above + 3 * x) + 6 * measure(here + 3 * x) + measure(below + 3 * x)) / 8;
+            (measure(above + 4 * x) + 6 * measure(here + 4 * x) + measure(below + 4 * x)) / 8;
     }
     std::vector<double> result(size);
     for (size_t x = 0; x < size; ++x) {
@@ -118,11 +118,14 @@ Result<EnvironmentTable> EnvironmentTable::create(const EnvironmentImage& image,
 }
 
 void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {
-    pixels_.resize(static_cast<size_t>(width_) * static_cast<size_t>(height_) * 3);
-    for (size_t i = 0; i < pixels_.size(); ++i) {
-        const Repaired pixel = repaired(rgb[i], intensity);
-        pixels_[i] = pixel.value;
-        repaired_values_ += pixel.changed ? 1 : 0;
+    const size_t count = static_cast<size_t>(width_) * static_cast<size_t>(height_);
+    pixels_.resize(count * 4);
+    for (size_t i = 0; i < count; ++i) {
+        for (size_t channel = 0; channel < 3; ++channel) {
+            const Repaired value = repaired(rgb[3 * i + channel], intensity);
+            pixels_[4 * i + channel] = value.value;
+            repaired_values_ += value.changed ? 1 : 0;
+        }
     }
 }
 
@@ -130,7 +133,6 @@ void EnvironmentTable::build_tables() {
     const auto width = static_cast<size_t>(width_);
     const auto height = static_cast<size_t>(height_);
     columns_.resize(width * height);
-    density_.resize(width * height);
     std::vector<double> row_weight(height);
     std::vector<double> row_power(height);
     parallel_for(height, [&](size_t y) {
@@ -143,7 +145,9 @@ void EnvironmentTable::build_tables() {
         const auto entries = build_alias_table(std::span<const double>(weights));
         std::copy(entries.begin(), entries.end(), columns_.data() + y * width);
         const auto shares = alias_probabilities(entries);
-        std::copy(shares.begin(), shares.end(), density_.data() + y * width);
+        for (size_t x = 0; x < width; ++x) {
+            pixels_[4 * (y * width + x) + 3] = static_cast<float>(shares[x]);
+        }
     });
     power_ = sum_of(row_power);
     black_ = !(sum_of(row_weight) > 0);
@@ -155,7 +159,7 @@ void EnvironmentTable::build_tables() {
     parallel_for(height, [&](size_t y) {
         const double scale = black_ ? 0.0 : row_shares[y] * spread;
         for (size_t i = y * width; i < (y + 1) * width; ++i) {
-            density_[i] = static_cast<float>(density_[i] * scale);
+            pixels_[4 * i + 3] = static_cast<float>(pixels_[4 * i + 3] * scale);
         }
     });
 }
@@ -164,7 +168,6 @@ EnvironmentView EnvironmentTable::view() const {
     return {pixels_.data(),
             rows_.data(),
             columns_.data(),
-            density_.data(),
             width_,
             height_,
             static_cast<float>(cos_rotation_),

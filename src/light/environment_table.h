@@ -53,10 +53,9 @@ private:
     void copy_pixels(const float* rgb, double intensity);
     void build_tables();
 
-    std::vector<float> pixels_;
+    std::vector<float> pixels_;  ///< see EnvironmentView
     std::vector<AliasEntry> rows_;
     std::vector<AliasEntry> columns_;
-    std::vector<float> density_;
     int width_ = 0;
     int height_ = 0;
     double cos_rotation_ = 1;

@@ -38,7 +38,11 @@ struct Mask {
     xs::batch_bool<float> v;
     Mask() = default;
     OBSCURA_INLINE Mask(xs::batch_bool<float> b) : v(b) {}  // NOLINT(google-explicit-constructor)
+#if defined(__AVX512F__)  // xsimd 8 would go through memory, here and in operator!
+    OBSCURA_INLINE explicit Mask(bool b) : v(static_cast<__mmask16>(b ? 0xFFFF : 0)) {}
+#else
     OBSCURA_INLINE explicit Mask(bool b) : v(b) {}
+#endif
 #if XSIMD_VERSION_MAJOR >= 9
     template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) { return {xs::batch_bool_cast<float>(b)}; }
     template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const { return xs::batch_bool_cast<T>(v); }
@@ -59,7 +63,11 @@ struct Mask {
 
 OBSCURA_INLINE Mask operator&(Mask a, Mask b) { return a.v & b.v; }
 OBSCURA_INLINE Mask operator|(Mask a, Mask b) { return a.v | b.v; }
+#if defined(__AVX512F__)
+OBSCURA_INLINE Mask operator!(Mask a) { return xs::batch_bool<float>(static_cast<__mmask16>(~static_cast<__mmask16>(a.v.data))); }
+#else
 OBSCURA_INLINE Mask operator!(Mask a) { return ~a.v; }
+#endif
 
 /// Bit i is lane i.
 OBSCURA_INLINE uint32_t mask_bits(Mask m) {
@@ -126,7 +134,7 @@ OBSCURA_INLINE Mask operator>(LanesI a, LanesI b) { return Mask::from(a.v > b.v)
 OBSCURA_INLINE Mask operator<=(LanesI a, LanesI b) { return Mask::from(a.v <= b.v); }
 OBSCURA_INLINE Mask operator>=(LanesI a, LanesI b) { return Mask::from(a.v >= b.v); }
 OBSCURA_INLINE Mask operator==(LanesI a, LanesI b) { return Mask::from(a.v == b.v); }
-OBSCURA_INLINE Mask operator!=(LanesI a, LanesI b) { return Mask::from(a.v != b.v); }
+OBSCURA_INLINE Mask operator!=(LanesI a, LanesI b) { return !(a == b); }
 
 OBSCURA_INLINE LanesU operator+(LanesU a, LanesU b) { return a.v + b.v; }
 OBSCURA_INLINE LanesU operator-(LanesU a, LanesU b) { return a.v - b.v; }
@@ -137,7 +145,7 @@ OBSCURA_INLINE LanesU operator^(LanesU a, LanesU b) { return a.v ^ b.v; }
 OBSCURA_INLINE LanesU operator>>(LanesU a, int s) { return a.v >> s; }
 OBSCURA_INLINE LanesU operator<<(LanesU a, int s) { return a.v << s; }
 OBSCURA_INLINE Mask operator==(LanesU a, LanesU b) { return Mask::from(a.v == b.v); }
-OBSCURA_INLINE Mask operator!=(LanesU a, LanesU b) { return Mask::from(a.v != b.v); }
+OBSCURA_INLINE Mask operator!=(LanesU a, LanesU b) { return !(a == b); }
 OBSCURA_INLINE Mask operator<(LanesU a, LanesU b) { return Mask::from(a.v < b.v); }
 
 OBSCURA_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return xs::select(m.v, a.v, b.v); }
@@ -260,7 +268,17 @@ struct LaneTypes<Lanes> {
     using Uint = LanesU;
     using Bool = Mask;
     static constexpr int size = lane_count;
-#if defined(__AVX2__) && !defined(__AVX512F__)  // xsimd 8 would extract the indices one by one
+#if defined(__AVX512F__)  // xsimd 8 would extract the indices one by one
+    static OBSCURA_INLINE Lanes gather(const float* base, LanesI i) {
+        return BatchF(_mm512_i32gather_ps(i.v, base, 4));
+    }
+    static OBSCURA_INLINE LanesI gather(const int32_t* base, LanesI i) {
+        return BatchI(_mm512_i32gather_epi32(i.v, base, 4));
+    }
+    static OBSCURA_INLINE LanesU gather(const uint32_t* base, LanesI i) {
+        return as_uint(gather(reinterpret_cast<const int32_t*>(base), i));
+    }
+#elif defined(__AVX2__)
     static OBSCURA_INLINE Lanes gather(const float* base, LanesI i) {
         return BatchF(_mm256_i32gather_ps(base, i.v, 4));
     }

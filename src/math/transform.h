@@ -19,14 +19,14 @@ using Affined = Affine<double>;
 inline namespace OBSCURA_ISA {
 
 template <typename F>
-Vec3<F> transform_point(const Affine<F>& a, const Vec3<F>& p) {
+OBSCURA_INLINE Vec3<F> transform_point(const Affine<F>& a, const Vec3<F>& p) {
     return {a.m[0][0] * p.x + a.m[0][1] * p.y + a.m[0][2] * p.z + a.m[0][3],
             a.m[1][0] * p.x + a.m[1][1] * p.y + a.m[1][2] * p.z + a.m[1][3],
             a.m[2][0] * p.x + a.m[2][1] * p.y + a.m[2][2] * p.z + a.m[2][3]};
 }
 
 template <typename F>
-Vec3<F> transform_vector(const Affine<F>& a, const Vec3<F>& v) {
+OBSCURA_INLINE Vec3<F> transform_vector(const Affine<F>& a, const Vec3<F>& v) {
     return {a.m[0][0] * v.x + a.m[0][1] * v.y + a.m[0][2] * v.z,
             a.m[1][0] * v.x + a.m[1][1] * v.y + a.m[1][2] * v.z,
             a.m[2][0] * v.x + a.m[2][1] * v.y + a.m[2][2] * v.z};
@@ -35,7 +35,7 @@ Vec3<F> transform_vector(const Affine<F>& a, const Vec3<F>& v) {
 /// Maps a normal, given the INVERSE of the map that moves points: n' = transpose(inverse) * n.
 /// Not normalised.
 template <typename F>
-Vec3<F> transform_normal(const Affine<F>& inverse, const Vec3<F>& n) {
+OBSCURA_INLINE Vec3<F> transform_normal(const Affine<F>& inverse, const Vec3<F>& n) {
     return {inverse.m[0][0] * n.x + inverse.m[1][0] * n.y + inverse.m[2][0] * n.z,
             inverse.m[0][1] * n.x + inverse.m[1][1] * n.y + inverse.m[2][1] * n.z,
             inverse.m[0][2] * n.x + inverse.m[1][2] * n.y + inverse.m[2][2] * n.z};
@@ -43,7 +43,7 @@ Vec3<F> transform_normal(const Affine<F>& inverse, const Vec3<F>& n) {
 
 /// The map that applies b first, then a.
 template <typename F>
-Affine<F> compose(const Affine<F>& a, const Affine<F>& b) {
+OBSCURA_INLINE Affine<F> compose(const Affine<F>& a, const Affine<F>& b) {
     Affine<F> out;
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 4; ++c) {
@@ -56,7 +56,7 @@ Affine<F> compose(const Affine<F>& a, const Affine<F>& b) {
 
 /// Determinant of the linear part; negative for a mirror.
 template <typename F>
-F determinant(const Affine<F>& a) {
+OBSCURA_INLINE F determinant(const Affine<F>& a) {
     const auto& m = a.m;
     return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
            m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
@@ -65,7 +65,7 @@ F determinant(const Affine<F>& a) {
 
 /// Inverse map; the caller has checked that determinant(a) is not zero.
 template <typename F>
-Affine<F> inverse(const Affine<F>& a) {
+OBSCURA_INLINE Affine<F> inverse(const Affine<F>& a) {
     const auto& m = a.m;
     const F s = F(1) / determinant(a);
     Affine<F> out;

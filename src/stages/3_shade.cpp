@@ -89,7 +89,12 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
     return append_shadows(rows,
                           at,
                           useful,
-                          {s.start, light.direction, light.distance, radiance, path.slot, path.key});
+                          {s.start,
+                           light.direction,
+                           light.distance,
+                           radiance,
+                           path.slot,
+                           path.path_key});
 }
 
 /// Probability of going on after a bounce; the survivors are divided by it.
@@ -128,6 +133,7 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
     next.slot = path.slot;
     next.key = path.key;
     next.sample = path.sample;
+    next.path_key = path.path_key;
     return append_paths(rows, at, goes_on, next);
 }
 
@@ -233,7 +239,7 @@ int shade_ao(const SceneView& scene,
                                   Lanes(batch.ao_distance),
                                   splat3(Lanes(1.0f)),
                                   path.slot,
-                                  path.key});
+                                  path.path_key});
     }
     return shadows;
 }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 //   door         bytes/row  written by        read by
-//   PathRows            60  camera, shade     intersect, shade
+//   PathRows            64  camera, shade     intersect, shade
 //   HitRows             24  intersect         shade
 //   MissRows            32  shade (sort)      shade (miss)
 //   ShadowRows          48  shade             shadow, accumulate
@@ -34,6 +34,7 @@ struct PathRows {
     uint32_t* slot;
     uint32_t* key;           ///< of the pixel's random numbers
     uint32_t* sample;        ///< sample number, bits reversed
+    uint32_t* path_key;      ///< of the path: decides at alpha BLEND surfaces
 };
 
 using HitRows = HitColumns;
@@ -53,7 +54,7 @@ struct ShadowRows {
     float* tfar;
     float *r, *g, *b;        ///< contribution to the slot's radiance
     uint32_t* slot;
-    uint32_t* key;
+    uint32_t* path_key;
 };
 
 /// One radiance a slot.
@@ -61,7 +62,7 @@ struct SampleRows {
     float *r, *g, *b, *a;
 };
 
-inline constexpr int words_per_path = 15, words_per_hit = 6, words_per_miss = 8,
+inline constexpr int words_per_path = 16, words_per_hit = 6, words_per_miss = 8,
                      words_per_shadow = 12, words_per_sample = 4;
 static_assert(sizeof(PathRows) == words_per_path * sizeof(void*));
 static_assert(sizeof(HitRows) == words_per_hit * sizeof(void*));

@@ -11,6 +11,8 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
+static_assert(lane_count == OBSCURA_LANES, "compiled for another instruction set than intended");
+
 const StageTable stage_table = {
     OBSCURA_TEXT(OBSCURA_ISA) + 4,  // without "isa_"
     lane_count,

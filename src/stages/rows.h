@@ -27,7 +27,7 @@ OBSCURA_INLINE Mask rows_in_range(int first, int count) {
 struct PathLanes {
     Vec3<Lanes> origin, direction, throughput;
     Lanes pdf, cone_width, cone_spread;
-    LanesU slot, key, sample;
+    LanesU slot, key, sample, path_key;
 };
 
 OBSCURA_INLINE PathLanes load_paths(const PathRows& rows, int i) {
@@ -39,7 +39,8 @@ OBSCURA_INLINE PathLanes load_paths(const PathRows& rows, int i) {
             load(rows.cone_spread + i),
             load(rows.slot + i),
             load(rows.key + i),
-            load(rows.sample + i)};
+            load(rows.sample + i),
+            load(rows.path_key + i)};
 }
 
 OBSCURA_INLINE Vec3<Lanes> pack(const Packer& packer, const Vec3<Lanes>& v) {
@@ -66,6 +67,7 @@ OBSCURA_INLINE int append_paths(const PathRows& rows, int at, Mask mask, const P
     store(rows.slot + at, pack(packer, p.slot));
     store(rows.key + at, pack(packer, p.key));
     store(rows.sample + at, pack(packer, p.sample));
+    store(rows.path_key + at, pack(packer, p.path_key));
     return at + count(mask);
 }
 
@@ -108,7 +110,7 @@ struct ShadowLanes {
     Vec3<Lanes> origin, direction;
     Lanes tfar;
     Vec3<Lanes> radiance;
-    LanesU slot, key;
+    LanesU slot, path_key;
 };
 
 OBSCURA_INLINE int append_shadows(const ShadowRows& rows, int at, Mask mask, const ShadowLanes& s) {
@@ -118,7 +120,7 @@ OBSCURA_INLINE int append_shadows(const ShadowRows& rows, int at, Mask mask, con
     store(rows.tfar + at, packer(s.tfar));
     store3(rows.r, rows.g, rows.b, at, pack(packer, s.radiance));
     store(rows.slot + at, pack(packer, s.slot));
-    store(rows.key + at, pack(packer, s.key));
+    store(rows.path_key + at, pack(packer, s.path_key));
     return at + count(mask);
 }
 

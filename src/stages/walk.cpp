@@ -33,15 +33,15 @@ private:
 
 void carve_paths(Carver& carve, PathRows& p) {
     carve.all(p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, p.tr, p.tg, p.tb);
-    carve.all(p.pdf, p.cone_width, p.cone_spread, p.slot, p.key, p.sample);
+    carve.all(p.pdf, p.cone_width, p.cone_spread, p.slot, p.key, p.sample, p.path_key);
 }
 
 RayColumns rays_of(const PathRows& p, int count) {
-    return {p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, nullptr, p.key, count};
+    return {p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, nullptr, p.path_key, count};
 }
 
 RayColumns rays_of(const ShadowRows& s, int count) {
-    return {s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.key, count};
+    return {s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.path_key, count};
 }
 
 void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, WalkCounters& c) {
@@ -100,7 +100,7 @@ Workspace::Workspace() {
     carve.all(misses.dx, misses.dy, misses.dz, misses.tr, misses.tg, misses.tb);
     carve.all(misses.pdf, misses.slot);
     carve.all(shadows.ox, shadows.oy, shadows.oz, shadows.dx, shadows.dy, shadows.dz);
-    carve.all(shadows.tfar, shadows.r, shadows.g, shadows.b, shadows.slot, shadows.key);
+    carve.all(shadows.tfar, shadows.r, shadows.g, shadows.b, shadows.slot, shadows.path_key);
     carve.all(samples.r, samples.g, samples.b, samples.a);
     occluded.resize(padded_rows);
 }

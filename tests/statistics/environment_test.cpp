@@ -25,7 +25,7 @@ ChiSquareOutcome outcome_of(const EnvironmentView& sampled,
         return Vec3d{s.direction.x, s.direction.y, s.direction.z};
     };
     const auto pdf = [&](const Vec3d& d) { return environment_pdf(claimed, d); };
-    return chi_square_on_sphere(sample, pdf, {.samples = samples, .seed = 1, .axis = axis});
+    return chi_square_on_sphere(sample, pdf, {.samples = samples, .axis = axis});
 }
 
 void expect_right(const TestMap& map, double rotation_deg, int axis) {

@@ -1,0 +1,128 @@
+// tests/app/render_request_test.cpp - what the option texts become; mistakes are in tests/cli.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_request.h"
+
+#include <gtest/gtest.h>
+
+#include "support/temp_folder.h"
+#include <cmath>
+
+namespace obscura {
+namespace {
+
+TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
+    RenderArguments arguments;
+    arguments.scene_file = "folder/My.Scene.glb";
+    const Result<RenderRequest> request = make_render_request(arguments);
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->outputs, std::vector<std::filesystem::path>{"My.Scene.exr"});
+    EXPECT_EQ(request->options.width, 1280);
+    EXPECT_EQ(request->options.height, 720);
+    EXPECT_EQ(request->options.samples_per_pixel, 64);
+    EXPECT_EQ(request->options.max_bounces, 8);
+    EXPECT_EQ(request->options.seed, 0U);
+    EXPECT_EQ(request->options.integrator, Integrator::path);
+    EXPECT_EQ(request->options.filter, PixelFilter::box);
+    EXPECT_EQ(request->options.background, BackgroundKind::environment);
+    EXPECT_EQ(request->options.tile_size, 16);
+    EXPECT_FALSE(request->options.crop);
+    EXPECT_EQ(request->threads, 0);
+    EXPECT_EQ(request->isa, Isa::automatic);
+    EXPECT_EQ(request->exr_depth, ExrDepth::half);
+    EXPECT_EQ(request->load.scene, -1);
+    EXPECT_EQ(request->verbosity, Verbosity::normal);
+    EXPECT_FALSE(request->camera.yfov_rad || request->camera.eye_m || request->camera.model);
+}
+
+TEST(RenderRequest, EveryOptionArrives) {
+    RenderArguments a;
+    a.scene_file = "s.glb";
+    a.outputs = {"b.png", "c.exr"};
+    a.size = "64x32";
+    a.crop = "1,2,3,4";
+    a.spp = "5";
+    a.depth = "6";
+    a.seed = "7";
+    a.threads = "8";
+    a.isa = "avx2";
+    a.tile_size = "9";
+    a.scene = "3";
+    a.camera_model = "orthographic";
+    a.eye = "1,2,3";
+    a.target = "4,5,6";
+    a.up = "0,0,1";
+    a.fov = "90";
+    a.env = "sky.hdr";
+    a.env_intensity = "2";
+    a.env_rotation = "-45";
+    a.background = "0.5,0.25,1";
+    a.integrator = "ao";
+    a.ao_distance = "0.5";
+    a.filter = "gaussian";
+    a.view = "V";
+    a.display = "D";
+    a.ocio = "o.ocio";
+    a.exposure = "-1.5";
+    a.stats = "s.json";
+    a.float32 = true;
+    a.verbose = true;
+    const Result<RenderRequest> request = make_render_request(a);
+    ASSERT_TRUE(request) << request.error().message;
+    const RenderOptions& options = request->options;
+    EXPECT_EQ(request->outputs.size(), 2U);
+    EXPECT_EQ(options.width, 64);
+    EXPECT_EQ(options.height, 32);
+    ASSERT_TRUE(options.crop);
+    EXPECT_EQ(options.crop->y, 2);
+    EXPECT_EQ(options.crop->height, 4);
+    EXPECT_EQ(options.samples_per_pixel, 5);
+    EXPECT_EQ(options.max_bounces, 6);
+    EXPECT_EQ(options.seed, 7U);
+    EXPECT_EQ(request->threads, 8);
+    EXPECT_EQ(request->isa, Isa::avx2);
+    EXPECT_EQ(options.tile_size, 9);
+    EXPECT_EQ(request->load.scene, 3);
+    EXPECT_EQ(request->camera.model, CameraModel::orthographic);
+    EXPECT_EQ(request->camera.eye_m->z, 3);
+    EXPECT_EQ(request->camera.target_m->x, 4);
+    EXPECT_EQ(request->camera.up->z, 1);
+    EXPECT_NEAR(*request->camera.yfov_rad, M_PI / 2, 1e-12);
+    EXPECT_EQ(request->environment, std::filesystem::path("sky.hdr"));
+    EXPECT_EQ(request->environment_intensity, 2);
+    EXPECT_EQ(request->environment_rotation_deg, -45);
+    EXPECT_EQ(options.background, BackgroundKind::color);
+    EXPECT_EQ(options.background_color[1], 0.25f);
+    EXPECT_EQ(options.integrator, Integrator::ao);
+    EXPECT_EQ(options.ao_distance_m, 0.5);
+    EXPECT_EQ(options.filter, PixelFilter::gaussian);
+    EXPECT_EQ(request->display.view, "V");
+    EXPECT_EQ(request->display.display, "D");
+    EXPECT_EQ(request->display.ocio_file, "o.ocio");
+    EXPECT_EQ(request->display.exposure_ev, -1.5);
+    EXPECT_EQ(request->statistics, std::filesystem::path("s.json"));
+    EXPECT_EQ(request->exr_depth, ExrDepth::float32);
+    EXPECT_EQ(request->verbosity, Verbosity::verbose);
+}
+
+TEST(RenderRequest, ASceneIsAnIndexOrAName) {
+    RenderArguments arguments;
+    arguments.scene_file = "s.glb";
+    arguments.scene = "Night 2";
+    EXPECT_EQ(make_render_request(arguments)->load.scene_name, "Night 2");
+    arguments.scene = "99999999999";
+    EXPECT_EQ(make_render_request(arguments).error().id, "E-USAGE-RANGE");
+}
+
+TEST(SameFile, SeesThroughLinksAndMissingFiles) {
+    const TempFolder folder;
+    folder.write("a", "a");
+    std::filesystem::create_symlink("a", folder / "link");
+    EXPECT_TRUE(same_file(folder / "a", folder.path() / "." / "a"));
+    EXPECT_TRUE(same_file(folder / "a", folder / "link"));
+    EXPECT_TRUE(same_file(folder / "new", folder.path() / ".." / folder.path().filename() / "new"));
+    EXPECT_FALSE(same_file(folder / "new", folder / "other"));
+    EXPECT_FALSE(same_file(folder / "a", folder / "new"));
+}
+
+}  // namespace
+}  // namespace obscura

@@ -1,0 +1,107 @@
+// tests/cli/cli.h - runs the built program on small scenes in a folder of its own.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+
+#include "support/run_program.h"
+#include "support/small_scenes.h"
+#include "support/temp_folder.h"
+#include <gmock/gmock.h>
+#include <memory>
+#include <optional>
+#include <regex>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// The fields of the closing line "RESULT code=65 id=E-X where=a#/b warnings=3".
+struct ResultLine {
+    int code = -1;
+    std::string id;
+    std::string where;
+    int warnings = -1;
+};
+
+/// The last line of standard error, if it is a result line.
+inline std::optional<ResultLine> result_of(const ProgramRun& run) {
+    static const std::regex form(R"(RESULT code=(\d+) id=(\S+) where=(\S+) warnings=(\d+))");
+    const std::vector<std::string> lines = lines_of(run.err);
+    std::smatch match;
+    if (lines.empty() || !std::regex_match(lines.back(), match, form)) return std::nullopt;
+    return ResultLine{std::stoi(match[1]), match[2], match[3], std::stoi(match[4])};
+}
+
+/// A picture as OpenImageIO reads it.
+struct ReadPicture {
+    int width = 0;
+    int height = 0;
+    std::vector<std::string> channels;
+    std::vector<float> pixels;
+    OIIO::ImageSpec spec;
+};
+
+inline std::optional<ReadPicture> read_picture(const std::filesystem::path& file) {
+    const auto input = OIIO::ImageInput::open(file.string());
+    if (!input) return std::nullopt;
+    ReadPicture picture;
+    picture.spec = input->spec();
+    picture.width = picture.spec.width;
+    picture.height = picture.spec.height;
+    picture.channels = picture.spec.channelnames;
+    picture.pixels.resize(picture.spec.image_pixels() *
+                          static_cast<size_t>(picture.spec.nchannels));
+    if (!input->read_image(
+            0, 0, 0, picture.spec.nchannels, OIIO::TypeFloat, picture.pixels.data())) {
+        return std::nullopt;
+    }
+    return picture;
+}
+
+/// Every test gets a folder with three scenes: triangle.gltf, quad.gltf, box.gltf.
+class Cli : public testing::Test {
+protected:
+    void SetUp() override {
+        folder_.write("triangle.gltf", gltf_text(triangle_scene()));
+        folder_.write("quad.gltf", gltf_text(lit_quad_scene()));
+        folder_.write("box.gltf", gltf_text(box_scene()));
+    }
+
+    static ProgramSetup setup(std::vector<std::string> arguments, const TempFolder& folder) {
+        ProgramSetup out;
+        out.arguments = std::move(arguments);
+        out.arguments.insert(out.arguments.begin(), OBSCURA_BINARY_DIR "/bin/obscura");
+        out.folder = folder.path();
+        out.environment = {"OCIO=", "LC_ALL=C"};
+        return out;
+    }
+    ProgramRun run(std::vector<std::string> arguments) const {
+        return run_program_with(setup(std::move(arguments), folder_));
+    }
+    /// `obscura render` of few pixels and samples.
+    static std::vector<std::string> small_render(const std::string& scene,
+                                                 const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {"render", "--size", "24x16", "--spp", "2"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        arguments.insert(arguments.end(), {"--", scene});
+        return arguments;
+    }
+    ProgramRun render(const std::string& scene, const std::vector<std::string>& more = {}) const {
+        return run(small_render(scene, more));
+    }
+
+    static void expect_result(const ProgramRun& got, int code, const std::string& id) {
+        EXPECT_EQ(got.code, code) << got.err;
+        const std::optional<ResultLine> result = result_of(got);
+        ASSERT_TRUE(result) << got.err;
+        EXPECT_EQ(result->code, code);
+        EXPECT_EQ(result->id, id) << got.err;
+        if (code != 0) EXPECT_THAT(got.err, testing::HasSubstr("ERROR "));
+    }
+
+    TempFolder folder_;
+};
+
+}  // namespace obscura

@@ -1,0 +1,205 @@
+// tests/cli/outputs_test.cpp - pictures that are written, and those that survive a failed run.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli.h"
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+namespace obscura {
+namespace {
+
+using testing::HasSubstr;
+
+class Outputs : public Cli {
+protected:
+    /// The pixel in the middle of the picture.
+    static std::vector<float> middle(const ReadPicture& picture) {
+        const size_t channels = picture.channels.size();
+        const size_t pixel =
+            static_cast<size_t>(picture.height / 2 * picture.width + picture.width / 2);
+        return {picture.pixels.begin() + static_cast<long>(pixel * channels),
+                picture.pixels.begin() + static_cast<long>((pixel + 1) * channels)};
+    }
+};
+
+TEST_F(Outputs, OneRenderingSeveralFiles) {
+    expect_result(render("quad.gltf", {"-o", "a.exr", "-o", "b.png", "-o", "c.jpg"}), 0, "OK");
+    const auto exr = read_picture(folder_ / "a.exr");
+    const auto png = read_picture(folder_ / "b.png");
+    const auto jpg = read_picture(folder_ / "c.jpg");
+    ASSERT_TRUE(exr && png && jpg);
+    for (const auto& picture : {*exr, *png, *jpg}) {
+        EXPECT_EQ(picture.width, 24);
+        EXPECT_EQ(picture.height, 16);
+    }
+    EXPECT_EQ(exr->spec.format, OIIO::TypeHalf);
+    EXPECT_EQ(exr->channels, (std::vector<std::string>{"R", "G", "B", "A"}));
+    const std::vector<float> lit = middle(*exr);
+    EXPECT_GT(lit[0], 0.8f);
+    EXPECT_LT(lit[0], 1.1f);
+    EXPECT_FLOAT_EQ(lit[3], 1);
+    EXPECT_GT(middle(*png)[0], 0.3f);
+    EXPECT_NEAR(middle(*png)[1], middle(*jpg)[1], 0.03f);
+}
+
+TEST_F(Outputs, TheDefaultNameIsTheScenesStemHere) {
+    std::filesystem::create_directory(folder_ / "elsewhere");
+    std::filesystem::rename(folder_ / "box.gltf", folder_ / "elsewhere/my.box.gltf");
+    expect_result(render("elsewhere/my.box.gltf"), 0, "OK");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "my.box.exr"));
+}
+
+TEST_F(Outputs, StrangeNamesKeepTheirBytes) {
+    for (const std::string name :
+         {"two words", "new\nline", "-dash", "%s%n", "\xC3\xA9\xFF", "[x]"}) {
+        SCOPED_TRACE(name);
+        folder_.write(name + ".gltf", gltf_text(triangle_scene()));
+        expect_result(render(name + ".gltf", {"-o", name + ".exr", "-o", name + ".png"}), 0, "OK");
+        EXPECT_TRUE(std::filesystem::exists(folder_ / (name + ".exr")));
+        EXPECT_TRUE(std::filesystem::exists(folder_ / (name + ".png")));
+    }
+}
+
+TEST_F(Outputs, TheExrSpeaksAboutItself) {
+    expect_result(
+        render("box.gltf", {"-o", "a.exr", "--float", "--seed", "7", "--camera", "Top"}), 0, "OK");
+    const auto exr = read_picture(folder_ / "a.exr");
+    ASSERT_TRUE(exr);
+    const OIIO::ImageSpec& spec = exr->spec;
+    EXPECT_EQ(spec.format, OIIO::TypeFloat);
+    EXPECT_THAT(std::string(spec.get_string_attribute("Software")), HasSubstr("Obscura"));
+    EXPECT_EQ(spec.get_string_attribute("colorInteropID"), "lin_rec709_scene");
+    EXPECT_EQ(spec.get_string_attribute("asset"), "box.gltf");
+    EXPECT_EQ(spec.get_string_attribute("integrator"), "path");
+    EXPECT_THAT(std::string(spec.get_string_attribute("camera")), HasSubstr("'Top'"));
+    EXPECT_EQ(spec.get_int_attribute("samplesPerPixel"), 2);
+    EXPECT_NE(spec.find_attribute("worldToCamera", OIIO::TypeMatrix44), nullptr);
+    EXPECT_NE(spec.find_attribute("worldToNDC", OIIO::TypeMatrix44), nullptr);
+}
+
+TEST_F(Outputs, QuantitiesAreFloatsInExrAndReadableInPng) {
+    const std::vector<std::pair<std::string, size_t>> quantities = {
+        {"normal", 3}, {"depth", 1}, {"id", 3}};
+    for (const auto& [name, channels] : quantities) {
+        SCOPED_TRACE(name);
+        const std::string exr_name = name + ".exr";
+        const std::string png_name = name + ".png";
+        expect_result(
+            render("quad.gltf", {"--integrator", name, "-o", exr_name, "-o", png_name}), 0, "OK");
+        const auto exr = read_picture(folder_ / exr_name);
+        const auto png = read_picture(folder_ / png_name);
+        ASSERT_TRUE(exr && png);
+        EXPECT_EQ(exr->channels.size(), channels);
+        EXPECT_EQ(exr->spec.format, OIIO::TypeFloat);
+        EXPECT_EQ(exr->spec.get_string_attribute("colorInteropID"), "data");
+        EXPECT_EQ(exr->spec.get_int_attribute("samplesPerPixel"), 1);
+        EXPECT_GT(middle(*png)[0] + middle(*png)[1] + middle(*png)[2], 0.3f);
+    }
+    EXPECT_NEAR(middle(*read_picture(folder_ / "depth.exr"))[0], 3, 1e-5);
+    EXPECT_NEAR(middle(*read_picture(folder_ / "normal.exr"))[2], 1, 1e-5);
+    EXPECT_NEAR(middle(*read_picture(folder_ / "normal.png"))[2], 1, 1e-5);
+    EXPECT_NEAR(middle(*read_picture(folder_ / "normal.png"))[0], 0.5, 0.01);
+}
+
+TEST_F(Outputs, EveryIntegratorRuns) {
+    for (const char* name : {"path", "direct", "ao", "albedo"}) {
+        SCOPED_TRACE(name);
+        expect_result(
+            render("quad.gltf", {"--integrator", name, "-o", "a.exr", "-o", "a.jpg"}), 0, "OK");
+        const auto exr = read_picture(folder_ / "a.exr");
+        ASSERT_TRUE(exr);
+        EXPECT_GT(middle(*exr)[0], 0.5f);
+    }
+}
+
+TEST_F(Outputs, BackgroundsAndExposure) {
+    const std::vector<std::string> far_away = {
+        "--eye", "0,0,90", "--target", "0,90,90", "--up", "0,0,1"};
+    const auto shot = [&](std::vector<std::string> more) {
+        more.insert(more.end(), far_away.begin(), far_away.end());
+        expect_result(render("quad.gltf", more), 0, "OK");
+    };
+    shot({"-o", "clear.exr", "--background", "transparent"});
+    EXPECT_EQ(middle(*read_picture(folder_ / "clear.exr")), (std::vector<float>{0, 0, 0, 0}));
+    shot({"-o", "color.exr", "-o", "plain.png", "--background", "0.5,0.25,2", "--view", "Raw"});
+    EXPECT_EQ(middle(*read_picture(folder_ / "color.exr")),
+              (std::vector<float>{0.5f, 0.25f, 2, 1}));
+    shot({"-o", "bright.png", "--background", "0.125,0.25,0", "--view", "Raw", "--exposure", "+1"});
+    EXPECT_NEAR(middle(*read_picture(folder_ / "plain.png"))[0], 0.5f, 0.003f);
+    EXPECT_NEAR(middle(*read_picture(folder_ / "bright.png"))[0], 0.25f, 0.003f);
+}
+
+TEST_F(Outputs, ACropHasTheSamePixels) {
+    expect_result(render("box.gltf", {"-o", "whole.exr", "--float"}), 0, "OK");
+    expect_result(render("box.gltf", {"-o", "part.exr", "--float", "--crop", "5,3,9,7"}), 0, "OK");
+    const auto whole = read_picture(folder_ / "whole.exr");
+    const auto part = read_picture(folder_ / "part.exr");
+    ASSERT_TRUE(whole && part);
+    ASSERT_EQ(whole->pixels.size(), part->pixels.size());
+    for (int y = 0; y < 16; ++y) {
+        for (int x = 0; x < 24; ++x) {
+            const bool inside = x >= 5 && x < 14 && y >= 3 && y < 10;
+            const size_t at = static_cast<size_t>(y * 24 + x) * 4;
+            for (size_t c = at; c < at + 4; ++c) {
+                EXPECT_EQ(part->pixels[c], inside ? whole->pixels[c] : 0) << x << ',' << y;
+            }
+        }
+    }
+}
+
+class Surviving : public Outputs {
+protected:
+    void SetUp() override {
+        Outputs::SetUp();
+        folder_.write("old.exr", old_content);
+    }
+    void TearDown() override {
+        EXPECT_EQ(read_whole_file(folder_ / "old.exr"), old_content);
+        for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+            EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+        }
+    }
+    static constexpr const char* old_content = "last week's picture";
+};
+
+TEST_F(Surviving, ABadScene) {
+    folder_.write("bad.gltf", "{\"asset\": ");
+    EXPECT_EQ(render("bad.gltf", {"-o", "old.exr"}).code, 65);
+}
+
+TEST_F(Surviving, AMissingScene) {
+    EXPECT_EQ(render("missing.gltf", {"-o", "old.exr"}).code, 66);
+}
+
+TEST_F(Surviving, ASecondOutputThatCannotBe) {
+    expect_result(
+        render("box.gltf", {"-o", "old.exr", "-o", "no/folder/b.png"}), 73, "E-OUT-CREATE");
+}
+
+TEST_F(Surviving, AFileSizeLimit) {
+    ProgramSetup limited =
+        setup({"render", "box.gltf", "--size", "200x200", "--spp", "1", "--float", "-o", "old.exr"},
+              folder_);
+    limited.before_start = [] {
+        const rlimit limit = {8192, 8192};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    };
+    expect_result(run_program_with(limited), 74, "E-OUT-WRITE");
+}
+
+TEST_F(Outputs, OutputsThatCannotBeAreRefusedBeforeTheSceneIsRead) {
+    std::filesystem::create_directory(folder_ / "folder.exr");
+    ASSERT_EQ(mkfifo((folder_ / "pipe.exr").c_str(), 0600), 0);
+    const std::string long_name(300, 'x');
+    for (const std::string output : {std::string("no/such/a.exr"),
+                                     std::string("folder.exr"),
+                                     std::string("pipe.exr"),
+                                     std::string("/proc/a.exr"),
+                                     long_name + ".exr"}) {
+        SCOPED_TRACE(output);
+        expect_result(render("missing.gltf", {"-o", output}), 73, "E-OUT-CREATE");
+    }
+    expect_result(render("missing.gltf", {"--stats", "no/such/s.json"}), 73, "E-OUT-CREATE");
+}
+
+}  // namespace
+}  // namespace obscura

@@ -1,0 +1,117 @@
+// tests/gltf/extensions_test.cpp - what is said about extensions that are not understood.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/extensions.h"
+
+#include "gltf/gltf_files.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace obscura {
+namespace {
+
+using namespace testing_gltf;
+
+size_t count_of(const std::string& text, const std::string& part) {
+    size_t out = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+        ++out;
+    return out;
+}
+
+TEST(Extensions, RequiredUnknownOnesAreAllListed) {  // F1
+    json tree = triangle_asset();
+    tree["extensionsUsed"] = {"A_one", "KHR_materials_unlit", "B_two"};
+    tree["extensionsRequired"] = {"A_one", "KHR_materials_unlit", "B_two"};
+    const Loaded loaded = load_tree(tree);
+    EXPECT_EQ(loaded.code(), 69);
+    EXPECT_EQ(loaded.id(), "E-EXT-REQUIRED");
+    EXPECT_NE(loaded.text().find("A_one, B_two"), std::string::npos) << loaded.text();
+    EXPECT_EQ(loaded.text().find("KHR_materials_unlit"), std::string::npos);
+}
+
+/// A required extension may change what the rest means: it is looked at first.
+TEST(Extensions, RequiredOnesAreCheckedBeforeTheRest) {
+    json tree = triangle_asset();
+    tree["extensionsRequired"] = {"A_one"};
+    tree["accessors"][0]["componentType"] = 9999;
+    EXPECT_EQ(load_tree(tree).id(), "E-EXT-REQUIRED");
+}
+
+TEST(Extensions, OptionalOnesWarnOnceWithTheirMaterials) {  // F2
+    json tree = triangle_asset();
+    for (const char* name : {"Glass", "Plain", "Wine"}) {
+        json material = {{"name", name}};
+        if (std::string(name) != "Plain") {
+            material["extensions"]["KHR_materials_transmission"] = json::object();
+        }
+        tree["materials"].push_back(material);
+    }
+    tree["extensionsUsed"] = {"KHR_materials_transmission"};
+    const Loaded loaded = load_tree(tree);
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(count_of(loaded.warnings, "KHR_materials_transmission"), 1U);
+    EXPECT_TRUE(loaded.warns("materials: Glass, Wine\n")) << loaded.warnings;
+    ASSERT_EQ(loaded.scene->info.extensions.size(), 1U);
+    const ExtensionInfo& info = loaded.scene->info.extensions[0];
+    EXPECT_EQ(info.name, "KHR_materials_transmission");
+    EXPECT_FALSE(info.supported);
+    EXPECT_FALSE(info.required);
+    EXPECT_EQ(info.materials, (std::vector<std::string>{"Glass", "Wine"}));
+}
+
+TEST(Extensions, UsesAreFoundWhereverTheyAre) {
+    json tree = triangle_asset();
+    tree["nodes"][0]["extensions"]["X_node"] = json::object();
+    tree["meshes"][0]["name"] = "Hull";
+    tree["meshes"][0]["primitives"][0]["extensions"]["X_mesh"] = json::object();
+    tree["extensions"]["X_top"] = json::object();
+    tree["materials"][0]["normalTexture"]["index"] = 0;
+    tree["materials"][0]["normalTexture"]["extensions"]["X_slot"] = json::object();
+    tree["materials"][0]["extras"]["extensions"]["X_extra"] = json::object();
+    tree["textures"][0] = json::object();
+    const Loaded loaded = load_tree(tree);
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_TRUE(loaded.warns("X_node is not supported; used by node 0"));
+    EXPECT_TRUE(loaded.warns("X_mesh is not supported; used by mesh Hull"));
+    EXPECT_TRUE(loaded.warns("X_top is not supported\n"));
+    EXPECT_TRUE(loaded.warns("X_slot is not supported; materials: material 0"));
+    EXPECT_FALSE(loaded.warns("X_extra"));
+}
+
+TEST(Extensions, SupportedOnesAreSilent) {
+    json tree = triangle_asset();
+    for (const ExtensionRow& row : extension_table()) {
+        if (row.supported) tree["extensionsRequired"].push_back(std::string(row.name));
+    }
+    const Loaded loaded = load_tree(tree);
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(loaded.warnings, "");
+    EXPECT_EQ(loaded.scene->info.extensions.size(), 6U);
+    for (const ExtensionInfo& info : loaded.scene->info.extensions)
+        EXPECT_TRUE(info.supported);
+}
+
+TEST(Extensions, TheTableNamesEachOnce) {
+    std::vector<std::string_view> names;
+    for (const ExtensionRow& row : extension_table()) {
+        names.push_back(row.name);
+        EXPECT_EQ(row.supported, row.without.empty()) << row.name;
+    }
+    std::sort(names.begin(), names.end());
+    EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
+}
+
+TEST(Extensions, DracoWithoutPlainDataIsUnsupported) {  // F10
+    json tree = triangle_asset();
+    tree["accessors"][0].erase("bufferView");
+    tree["meshes"][0]["primitives"][0]["extensions"]["KHR_draco_mesh_compression"] = {
+        {"bufferView", 0}, {"attributes", json::object()}};
+    const Loaded loaded = load_tree(tree);
+    EXPECT_EQ(loaded.code(), 69);
+    EXPECT_EQ(loaded.id(), "E-DRACO-DATA");
+}
+
+}  // namespace
+}  // namespace obscura

@@ -1,0 +1,153 @@
+// tests/gltf/node_graph_test.cpp - deep and wide trees, transforms, and what makes one singular.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/node_graph.h"
+
+#include "gltf/gltf_files.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <gmock/gmock.h>
+
+namespace obscura {
+namespace {
+
+using namespace testing_gltf;
+
+Affined scaling(double x, double y, double z) {
+    Affined out;
+    out.m[0][0] = x;
+    out.m[1][1] = y;
+    out.m[2][2] = z;
+    return out;
+}
+
+TEST(NodeGraph, SingularMeansFlatNotSmall) {  // E6
+    EXPECT_FALSE(is_singular(Affined{}));
+    EXPECT_FALSE(is_singular(scaling(1e-12, 1e-12, 1e-12)));
+    EXPECT_FALSE(is_singular(scaling(1e9, 1e-9, -1)));
+    EXPECT_TRUE(is_singular(scaling(1, 1, 0)));
+    EXPECT_TRUE(is_singular(scaling(0, 0, 0)));
+    EXPECT_TRUE(is_singular(scaling(INFINITY, 1, 1)));
+    Affined parallel;
+    parallel.m[0][1] = 1;
+    parallel.m[1][1] = 0;
+    EXPECT_TRUE(is_singular(parallel));
+    Affined lost;
+    lost.m[1][3] = NAN;
+    EXPECT_TRUE(is_singular(lost));
+}
+
+/// A chain of nodes, each moved by (1, 0, 0) from its parent; the mesh hangs on the last.
+Document chain(int length) {
+    Document document;
+    document.nodes.resize(static_cast<size_t>(length));
+    for (int i = 0; i < length; ++i) {
+        GltfNode& node = document.nodes[static_cast<size_t>(i)];
+        node.parent_from_node.m[0][3] = 1;
+        if (i + 1 < length) node.children = {i + 1};
+    }
+    document.scenes.push_back({"s", {0}});
+    return document;
+}
+
+TEST(NodeGraph, AMillionDeepIsPlaced) {  // E3
+    const Document document = chain(1000000);
+    Log log(Verbosity::quiet);
+    ASSERT_TRUE(check_node_graph(document));
+    const std::vector<PlacedNode> placed = place_nodes(document, 0, log);
+    ASSERT_EQ(placed.size(), 1000000U);
+    EXPECT_EQ(placed.back().world_from_node.m[0][3], 1000000.0);
+}
+
+TEST(NodeGraph, ALongCycleIsFoundInLinearTime) {
+    Document document = chain(1000000);
+    document.nodes.back().children = {500000};
+    document.nodes[499999].children.clear();
+    const Result<void> checked = check_node_graph(document);
+    ASSERT_FALSE(checked);
+    EXPECT_EQ(checked.error().id, "E-NODE-CYCLE");
+    EXPECT_LT(checked.error().message.size(), 1000U);
+}
+
+TEST(NodeGraph, TheFileIsReadInLinearTime) {
+    AssetBuilder builder = triangle_builder();
+    std::string nodes = R"({"mesh":0,"children":[1]})";
+    constexpr int count = 200000;
+    for (int i = 1; i < count; ++i) {
+        nodes += R"(,{"name":"n","translation":[0,1,0])";
+        nodes += i + 1 < count ? ",\"children\":[" + std::to_string(i + 1) + "]}" : "}";
+    }
+    builder.tree["nodes"] = "NODES";
+    std::string text = builder.finished().dump();
+    text.replace(text.find("\"NODES\""), 7, "[" + nodes + "]");
+    const auto start = std::chrono::steady_clock::now();
+    const Loaded loaded = load_bytes(text);
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(loaded.scene->info.node_names.size(), static_cast<size_t>(count));
+    EXPECT_LT(taken.count(), 20.0);  // 0.4 s alone on a core; quadratic would take minutes
+}
+
+TEST(NodeGraph, PlacesInDepthFirstOrderAndOnlyTheScene) {
+    Document document;
+    document.nodes.resize(6);
+    document.nodes[0].children = {2, 1};
+    document.nodes[2].children = {3};
+    document.scenes = {{"a", {4, 0}}, {"b", {5}}};
+    Log log(Verbosity::quiet);
+    std::vector<int> order;
+    for (const PlacedNode& place : place_nodes(document, 0, log))
+        order.push_back(place.node);
+    EXPECT_EQ(order, (std::vector<int>{4, 0, 2, 3, 1}));
+    order.clear();
+    for (const PlacedNode& place : place_nodes(document, -1, log))
+        order.push_back(place.node);
+    EXPECT_EQ(order, (std::vector<int>{0, 2, 3, 1, 4, 5}));
+    EXPECT_TRUE(log.warnings().empty());
+}
+
+TEST(NodeGraph, AChildListedAsRootIsDrawnOnceBelowItsParent) {  // E5
+    Document document;
+    document.nodes.resize(3);
+    document.nodes[0].children = {1};
+    document.nodes[0].parent_from_node.m[0][3] = 7;
+    document.scenes = {{"a", {1, 0, 0, 2}}};
+    Log log(Verbosity::quiet);
+    const std::vector<PlacedNode> placed = place_nodes(document, 0, log);
+    ASSERT_EQ(placed.size(), 3U);
+    EXPECT_EQ(placed[1].node, 1);
+    EXPECT_EQ(placed[1].world_from_node.m[0][3], 7.0);
+    EXPECT_EQ(log.warnings().size(), 1U);
+}
+
+/// World position of (1, 2, 3) in a node of a tree given by JSON.
+std::vector<float> moved_point(const json& node) {
+    AssetBuilder builder;
+    builder.add_accessor("VEC3", 5126, std::vector<float>{1, 2, 3, 2, 2, 3, 1, 3, 3});
+    builder.add_mesh({{"attributes", {{"POSITION", 0}}}});
+    json root = node;
+    root["mesh"] = 0;
+    builder.add_root(root);
+    const Loaded loaded = load_tree(builder.finished());
+    return loaded.scene ? position_of(*loaded.scene, 0) : std::vector<float>{};
+}
+
+TEST(NodeGraph, TransformsAreTranslationTimesRotationTimesScale) {
+    const double half = std::sqrt(0.5);
+    // A quarter turn around Z takes X to Y.
+    EXPECT_THAT(moved_point({{"translation", {10, 20, 30}},
+                             {"rotation", {0, 0, half, half}},
+                             {"scale", {2, 3, 4}}}),
+                testing::Pointwise(testing::FloatNear(1e-5f), {10 - 6.0f, 20 + 2.0f, 30 + 12.0f}));
+    // E9: length 2 is the same rotation.
+    EXPECT_THAT(moved_point({{"rotation", {0, 0, 2 * half, 2 * half}}}),
+                testing::Pointwise(testing::FloatNear(1e-5f), {-2.0f, 1.0f, 3.0f}));
+    // Columns: X to Y, Y to Z, Z to X, and a translation.
+    EXPECT_EQ(moved_point({{"matrix", {0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 0, 5, 6, 7, 1}}}),
+              (std::vector<float>{3 + 5, 1 + 6, 2 + 7}));
+}
+
+}  // namespace
+}  // namespace obscura
