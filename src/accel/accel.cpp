@@ -58,7 +58,7 @@ RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
 
 RTCScene new_scene(const Accel::Impl& impl) {
     RTCScene scene = rtcNewScene(impl.device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | query_filter_flag);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     return scene;
 }
@@ -79,8 +79,8 @@ void attach_instance(Accel::Impl& impl, size_t index) {
         geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, &instance.world_from_object.m[0][0]);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
     rtcCommitGeometry(geometry);
-    const auto id = static_cast<unsigned>(impl.scene->world_primitive_count) +
-                    static_cast<unsigned>(index);
+    const auto id =
+        static_cast<unsigned>(impl.scene->world_primitive_count) + static_cast<unsigned>(index);
     rtcAttachGeometryByID(impl.top, geometry, id);
     rtcReleaseGeometry(geometry);
 }
@@ -96,7 +96,8 @@ tl::unexpected<Error> embree_failure(const EmbreeErrors& errors) {
 }  // namespace
 
 Accel::Impl::~Impl() {
-    for (RTCScene mesh : mesh_scenes) rtcReleaseScene(mesh);
+    for (RTCScene mesh : mesh_scenes)
+        rtcReleaseScene(mesh);
     if (top != nullptr) rtcReleaseScene(top);
     if (device != nullptr) rtcReleaseDevice(device);
 }
@@ -124,7 +125,8 @@ Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
     }
     impl->top = new_scene(*impl);
     attach_triangles(*impl, impl->top, {0, scene.world_primitive_count});
-    for (size_t i = 0; i < scene.instances.size(); ++i) attach_instance(*impl, i);
+    for (size_t i = 0; i < scene.instances.size(); ++i)
+        attach_instance(*impl, i);
     rtcCommitScene(impl->top);
     if (impl->errors.code != RTC_ERROR_NONE) return embree_failure(impl->errors);
     return Accel(std::move(impl));
@@ -156,9 +158,8 @@ std::string Accel::embree_version() const {
     const auto part = [&](RTCDeviceProperty property) {
         return std::to_string(rtcGetDeviceProperty(impl_->device, property));
     };
-    return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." +
-           part(RTC_DEVICE_PROPERTY_VERSION_MINOR) + "." +
-           part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+    return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) +
+           "." + part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
 }
 
 }  // namespace obscura

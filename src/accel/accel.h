@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <string>
-
 #include "accel/columns.h"
 #include "base/error.h"
 #include "scene/scene.h"
 #include "surface/texture.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
 
 namespace obscura {
 
@@ -49,7 +49,7 @@ public:
                  Coherence coherence,
                  uint32_t segment) const;
 
-    size_t memory_bytes() const;        ///< as Embree's allocation monitor counts it
+    size_t memory_bytes() const;  ///< as Embree's allocation monitor counts it
     std::string embree_version() const;
 
     struct Impl;

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "accel/accel.h"
+#include "accel/alpha_filter.h"
+#include "accel/embree.h"
+
 #include <atomic>
 #include <mutex>
 #include <string>
 #include <vector>
-
-#include "accel/accel.h"
-#include "accel/alpha_filter.h"
-#include "accel/embree.h"
 
 namespace obscura {
 
@@ -34,8 +34,8 @@ struct Accel::Impl {
     RTCDevice device = nullptr;
     RTCScene top = nullptr;  ///< geometry ids: world primitives, then instances
     std::vector<RTCScene> mesh_scenes;
-    std::vector<AlphaGeometry> alpha;               ///< by primitive; filled where there is a filter
-    std::vector<uint8_t> single_sided;              ///< by primitive
+    std::vector<AlphaGeometry> alpha;   ///< by primitive; filled where there is a filter
+    std::vector<uint8_t> single_sided;  ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };
 

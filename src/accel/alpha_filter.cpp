@@ -66,8 +66,7 @@ void alpha_filter(const RTCFilterFunctionNArguments* args) {
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
-        const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i),
-                                RTCHitN_v(args->hit, args->N, i)};
+        const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
         float threshold = material.alpha_cutoff;
         if ((material.flags & material_alpha_blend) != 0) {
             threshold = 0.5f;

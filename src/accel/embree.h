@@ -12,6 +12,13 @@
 
 namespace obscura {
 
+/// Scene flag without which Query::set_filter must not be used.
+#if OBSCURA_EMBREE == 4
+inline constexpr RTCSceneFlags query_filter_flag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
+#else
+inline constexpr RTCSceneFlags query_filter_flag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
+#endif
+
 /// What travels with a query to the filter functions. The Embree part must come first: filters get
 /// its address.
 struct QueryContext {
@@ -40,17 +47,32 @@ public:
         occluded_.context = &context.embree;
 #else
         rtcInitIntersectContext(&context.embree);
-        context.embree.flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
-                                        : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+        context.embree.flags =
+            coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+#endif
+    }
+
+    /// Calls `filter` for every candidate hit of intersect, after the geometry's own filter.
+    void set_filter(RTCFilterFunctionN filter) {
+#if OBSCURA_EMBREE == 4
+        intersect_.filter = filter;
+        intersect_.flags = static_cast<RTCRayQueryFlags>(intersect_.flags |
+                                                         RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+#else
+        context_.embree.filter = filter;
 #endif
     }
 
 #if OBSCURA_EMBREE == 4
-    void intersect1(RTCScene scene, RTCRayHit* ray) { rtcIntersect1(scene, ray, &intersect_); }
+    void intersect1(RTCScene scene, RTCRayHit* ray) {
+        rtcIntersect1(scene, ray, &intersect_);
+    }
     void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays) {
         rtcIntersect16(valid, scene, rays, &intersect_);
     }
-    void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, ray, &occluded_); }
+    void occluded1(RTCScene scene, RTCRay* ray) {
+        rtcOccluded1(scene, ray, &occluded_);
+    }
     void occluded16(const int* valid, RTCScene scene, RTCRay16* rays) {
         rtcOccluded16(valid, scene, rays, &occluded_);
     }
@@ -61,7 +83,9 @@ public:
     void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays) {
         rtcIntersect16(valid, scene, &context_.embree, rays);
     }
-    void occluded1(RTCScene scene, RTCRay* ray) { rtcOccluded1(scene, &context_.embree, ray); }
+    void occluded1(RTCScene scene, RTCRay* ray) {
+        rtcOccluded1(scene, &context_.embree, ray);
+    }
     void occluded16(const int* valid, RTCScene scene, RTCRay16* rays) {
         rtcOccluded16(valid, scene, &context_.embree, rays);
     }

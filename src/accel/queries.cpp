@@ -1,10 +1,10 @@
 // accel/queries.cpp - columns of rays through Embree, in packets of 16 or one at a time.
 // SPDX-License-Identifier: Apache-2.0
+#include "accel/accel_impl.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-
-#include "accel/accel_impl.h"
 
 namespace obscura {
 
@@ -21,10 +21,8 @@ struct alignas(64) ValidMask {
 
 /// True when Embree may see the ray: finite, in range, and with a direction.
 bool is_safe(const RayColumns& rays, int i) {
-    const float origin =
-        std::fabs(rays.ox[i]) + std::fabs(rays.oy[i]) + std::fabs(rays.oz[i]);
-    const float direction =
-        std::fabs(rays.dx[i]) + std::fabs(rays.dy[i]) + std::fabs(rays.dz[i]);
+    const float origin = std::fabs(rays.ox[i]) + std::fabs(rays.oy[i]) + std::fabs(rays.oz[i]);
+    const float direction = std::fabs(rays.dx[i]) + std::fabs(rays.dy[i]) + std::fabs(rays.dz[i]);
     const bool far_ok = rays.tfar == nullptr || rays.tfar[i] >= 0.0f;
     return origin <= largest_component && direction <= largest_component && direction > 0.0f &&
            far_ok;
@@ -77,73 +75,93 @@ void load_ray(const RayColumns& rays, int row, RTCRay& out) {
     out.flags = 0;
 }
 
+/// What a hit lies on, as rows of the scene's tables.
+struct SceneRows {
+    int32_t instance = -1;
+    int32_t primitive = -1;
+};
+
+SceneRows scene_rows(const Accel::Impl& impl, unsigned geometry, unsigned instance_id) {
+    const auto first = static_cast<int32_t>(geometry);
+    if (instance_id == RTC_INVALID_GEOMETRY_ID) return {-1, first};
+    const int32_t instance = static_cast<int32_t>(instance_id) - impl.scene->world_primitive_count;
+    return {instance, first + impl.instance_first_primitive[static_cast<size_t>(instance)]};
+}
+
 /// Writes one row from what Embree found.
 void store_hit(const Accel::Impl& impl, const RTCRayHit& ray, const HitColumns& hits, int row) {
-    const unsigned geometry = ray.hit.geomID;
-    if (geometry == RTC_INVALID_GEOMETRY_ID) {
+    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
         hits.primitive[row] = -1;
         return;
     }
-    const unsigned instance_id = ray.hit.instID[0];
-    int32_t instance = -1;
-    int32_t primitive = static_cast<int32_t>(geometry);
-    if (instance_id != RTC_INVALID_GEOMETRY_ID) {
-        instance = static_cast<int32_t>(instance_id) - impl.scene->world_primitive_count;
-        primitive += impl.instance_first_primitive[static_cast<size_t>(instance)];
-    }
+    const SceneRows rows = scene_rows(impl, ray.hit.geomID, ray.hit.instID[0]);
     hits.t[row] = ray.ray.tfar;
     hits.u[row] = ray.hit.u;
     hits.v[row] = ray.hit.v;
-    hits.instance[row] = instance;
-    hits.primitive[row] = primitive;
+    hits.instance[row] = rows.instance;
+    hits.primitive[row] = rows.primitive;
     hits.triangle[row] = static_cast<int32_t>(ray.hit.primID);
 }
 
 /// True when the hit is the back of a single-sided surface. Embree's Ng is in object space, and a
 /// mirroring instance turns both the winding and glTF's rule: only the object-space sign matters.
 bool is_hidden_back(const Accel::Impl& impl,
-                    const RayColumns& rays,
-                    const HitColumns& hits,
-                    int row,
-                    const Vec3f& ng) {
-    if (impl.single_sided[static_cast<size_t>(hits.primitive[row])] == 0) return false;
-    Vec3f direction{rays.dx[row], rays.dy[row], rays.dz[row]};
-    if (hits.instance[row] >= 0) {
-        const Instance& instance = impl.scene->instances[static_cast<size_t>(hits.instance[row])];
-        direction = transform_vector(instance.object_from_world, direction);
-    }
-    return dot(ng, direction) > 0.0f;
+                    const SceneRows& rows,
+                    const Vec3f& ng,
+                    const Vec3f& direction_world) {
+    if (impl.single_sided[static_cast<size_t>(rows.primitive)] == 0) return false;
+    if (rows.instance < 0) return dot(ng, direction_world) > 0.0f;
+    const Instance& instance = impl.scene->instances[static_cast<size_t>(rows.instance)];
+    return dot(ng, transform_vector(instance.object_from_world, direction_world)) > 0.0f;
 }
 
-/// Follows a camera ray through single-sided back faces to the first surface that it may see.
+/// A query of one ray that passes hidden backs. The common part must come first.
+struct CullingContext {
+    QueryContext common;
+    const Accel::Impl* impl;
+    Vec3f direction_world;
+};
+
+/// Embree filter function: hidden backs do not count.
+void pass_hidden_backs(const RTCFilterFunctionNArguments* args) {
+    const auto& context = *reinterpret_cast<const CullingContext*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        const SceneRows rows = scene_rows(*context.impl,
+                                          RTCHitN_geomID(args->hit, args->N, i),
+                                          RTCHitN_instID(args->hit, args->N, i, 0));
+        const Vec3f ng{RTCHitN_Ng_x(args->hit, args->N, i),
+                       RTCHitN_Ng_y(args->hit, args->N, i),
+                       RTCHitN_Ng_z(args->hit, args->N, i)};
+        if (is_hidden_back(*context.impl, rows, ng, context.direction_world)) args->valid[i] = 0;
+    }
+}
+
+/// Traces a camera ray that met a hidden back again, from its start: what lies behind the back or
+/// in the very same plane may be the first surface that the ray can see.
 void look_behind(const Accel::Impl& impl,
-                 Query& query,
+                 const QueryContext& common,
                  const RayColumns& rays,
                  const HitColumns& hits,
                  int row) {
-    constexpr int most_layers = 1024;
-    for (int layer = 0; layer < most_layers; ++layer) {
-        RTCRayHit ray;
-        load_ray(rays, row, ray.ray);
-        ray.ray.tnear = std::nextafter(hits.t[row], unlimited);
-        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        query.intersect1(impl.top, &ray);
-        store_hit(impl, ray, hits, row);
-        if (hits.primitive[row] < 0) return;
-        if (!is_hidden_back(impl, rays, hits, row, {ray.hit.Ng_x, ray.hit.Ng_y, ray.hit.Ng_z})) {
-            return;
-        }
-    }
-    hits.primitive[row] = -1;
+    CullingContext context{common, &impl, {rays.dx[row], rays.dy[row], rays.dz[row]}};
+    Query query(context.common, false);
+    query.set_filter(pass_hidden_backs);
+    RTCRayHit ray;
+    load_ray(rays, row, ray.ray);
+    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    query.intersect1(impl.top, &ray);
+    store_hit(impl, ray, hits, row);
 }
 
-void intersect_packets(const Accel::Impl& impl,
-                       Query& query,
-                       const RayColumns& rays,
-                       const HitColumns& hits,
-                       bool culls_back_faces,
-                       int& refused) {
+int intersect_packets(const Accel::Impl& impl,
+                      QueryContext& context,
+                      const RayColumns& rays,
+                      const HitColumns& hits,
+                      bool culls_back_faces) {
+    Query query(context, true);
+    int refused = 0;
     for (int first = 0; first < rays.count; first += packet) {
         ValidMask valid;
         RTCRayHit16 block;
@@ -167,18 +185,22 @@ void intersect_packets(const Accel::Impl& impl,
             store_hit(impl, one, hits, row);
             if (!culls_back_faces || hits.primitive[row] < 0) continue;
             const Vec3f ng{block.hit.Ng_x[i], block.hit.Ng_y[i], block.hit.Ng_z[i]};
-            if (is_hidden_back(impl, rays, hits, row, ng)) {
-                look_behind(impl, query, rays, hits, row);
+            const Vec3f direction{rays.dx[row], rays.dy[row], rays.dz[row]};
+            const SceneRows rows{hits.instance[row], hits.primitive[row]};
+            if (is_hidden_back(impl, rows, ng, direction)) {
+                look_behind(impl, context, rays, hits, row);
             }
         }
     }
+    return refused;
 }
 
-void intersect_single(const Accel::Impl& impl,
-                      Query& query,
-                      const RayColumns& rays,
-                      const HitColumns& hits,
-                      int& refused) {
+int intersect_single(const Accel::Impl& impl,
+                     QueryContext& context,
+                     const RayColumns& rays,
+                     const HitColumns& hits) {
+    Query query(context, false);
+    int refused = 0;
     for (int row = 0; row < rays.count; ++row) {
         if (!is_safe(rays, row)) {
             ++refused;
@@ -192,6 +214,7 @@ void intersect_single(const Accel::Impl& impl,
         query.intersect1(impl.top, &ray);
         store_hit(impl, ray, hits, row);
     }
+    return refused;
 }
 
 }  // namespace
@@ -201,17 +224,12 @@ int Accel::intersect(const RayColumns& rays,
                      Coherence coherence,
                      SeeThrough see_through) const {
     QueryContext context;
-    Query query(context, coherence == Coherence::coherent);
     context.keys = rays.key;
     context.fixed_threshold = see_through.fixed_alpha;
     context.segment = see_through.segment;
-    int refused = 0;
-    if (coherence == Coherence::coherent) {
-        intersect_packets(*impl_, query, rays, hits, see_through.culls_back_faces, refused);
-    } else {
-        intersect_single(*impl_, query, rays, hits, refused);
-    }
-    return refused;
+    return coherence == Coherence::coherent
+               ? intersect_packets(*impl_, context, rays, hits, see_through.culls_back_faces)
+               : intersect_single(*impl_, context, rays, hits);
 }
 
 int Accel::occluded(const RayColumns& rays,

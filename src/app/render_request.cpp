@@ -277,10 +277,11 @@ Result<void> check_distinct_files(const RenderRequest& request) {
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code error;
     if (std::filesystem::equivalent(a, b, error) && !error) return true;
-    const std::filesystem::path real_a = std::filesystem::weakly_canonical(a, error);
-    if (error) return false;
-    const std::filesystem::path real_b = std::filesystem::weakly_canonical(b, error);
-    return !error && real_a == real_b;
+    const auto resolved = [&](const std::filesystem::path& file) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
+    };
+    const std::filesystem::path resolved_a = resolved(a);
+    return !error && resolved_a == resolved(b) && !error;
 }
 
 Result<RenderRequest> make_render_request(const RenderArguments& arguments) {

@@ -6,7 +6,8 @@
 
 namespace obscura {
 
-/// A ray from a camera, with the cone that one pixel covers: width(t) = cone_width + cone_spread * t.
+/// A ray from a camera, with the cone that one pixel covers: width(t) = cone_width + cone_spread *
+/// t.
 template <typename F>
 struct CameraRay {
     Vec3<F> origin;

@@ -12,7 +12,7 @@ namespace obscura {
 namespace {
 
 /// Without a view there are no bytes that bound the count.
-constexpr uint64_t largest_count_of_zeros = 1U << 26;
+constexpr uint64_t largest_count_of_zeros = 1U << 24;
 
 uint64_t column_size(const GltfAccessor& accessor) {
     const uint64_t bytes =

@@ -60,15 +60,6 @@ size_t attribute_floats(const MeshPart& part) {
     return out;
 }
 
-tl::unexpected<Error> over_limit(const char* id, const std::string& where, const char* what) {
-    return fail(ExitCode::refused,
-                id,
-                where,
-                std::string("the scene has too many ") + what +
-                    " for 32-bit numbers; accepted are "
-                    "2^29 - 1 vertices, 2^31 - 1 triangle corners and 2^31 - 1 attribute floats");
-}
-
 }  // namespace
 
 bool bake_part(MeshPart& part, const Affined& world_from_mesh) {
@@ -100,16 +91,24 @@ bool bake_part(MeshPart& part, const Affined& world_from_mesh) {
     return true;
 }
 
+const char* broken_limit(const ArraySizes& sizes) {
+    if (sizes.vertices > most_vertices) return "E-LIMIT-VERTICES";
+    if (sizes.corners > most_words) return "E-LIMIT-TRIANGLES";
+    if (sizes.attribute_floats > most_words) return "E-LIMIT-ATTRIBUTES";
+    return nullptr;
+}
+
 Result<Primitive> append_part(Scene& scene, const MeshPart& part, const std::string& where) {
     const size_t first_vertex = scene.positions.size() / 3;
-    if (first_vertex + part.positions.size() / 3 > most_vertices) {
-        return over_limit("E-LIMIT-VERTICES", where, "vertices");
-    }
-    if (scene.indices.size() + part.indices.size() > most_words) {
-        return over_limit("E-LIMIT-TRIANGLES", where, "triangles");
-    }
-    if (scene.attributes.size() + attribute_floats(part) > most_words) {
-        return over_limit("E-LIMIT-ATTRIBUTES", where, "vertex attributes");
+    const char* limit = broken_limit({first_vertex + part.positions.size() / 3,
+                                      scene.indices.size() + part.indices.size(),
+                                      scene.attributes.size() + attribute_floats(part)});
+    if (limit != nullptr) {
+        return fail(ExitCode::refused,
+                    limit,
+                    where,
+                    "the scene is too large for 32-bit numbers; accepted are 2^29 - 1 vertices, "
+                    "2^31 - 1 triangle corners and 2^31 - 1 attribute floats");
     }
     Primitive out;
     out.first_triangle = static_cast<int32_t>(scene.indices.size() / 3);

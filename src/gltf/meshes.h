@@ -34,6 +34,16 @@ Result<void> add_meshes(const MeshSources& sources,
 /// tangents along; a mirror turns triangles round. False: a position is no longer in range.
 bool bake_part(MeshPart& part, const Affined& world_from_mesh);
 
+/// Sizes of a scene's arrays, in elements.
+struct ArraySizes {
+    size_t vertices = 0;
+    size_t corners = 0;  ///< three a triangle
+    size_t attribute_floats = 0;
+};
+
+/// The limit of 32-bit numbers that such arrays break ("E-LIMIT-VERTICES"); nullptr: none.
+const char* broken_limit(const ArraySizes& sizes);
+
 /// Adds a part behind the scene's arrays as a Primitive; material and node are the caller's.
 ///
 /// Errors  77 E-LIMIT-*

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "light/row_words.h"
 #include "math/lanes.h"
 
 #include <cstdint>
@@ -75,9 +76,9 @@ OBSCURA_INLINE AliasSample<F> sample_alias_at(const AliasEntry* entries,
     const auto size = static_cast<uint32_t>(count);
     const IntOf<F> cell = as_int(multiply_high(random, size));
     const U fraction = random * U(size);  // the product's lower half: where in the cell
-    const IntOf<F> word = (first + cell) * IntOf<F>(2);
-    const uint32_t* thresholds = &entries->threshold;
-    const int32_t* aliases = &entries->alias;
+    const IntOf<F> word = (first + cell) * IntOf<F>(words_per_row<AliasEntry>);
+    const auto* thresholds = member_words<uint32_t>(entries, offsetof(AliasEntry, threshold));
+    const auto* aliases = member_words<int32_t>(entries, offsetof(AliasEntry, alias));
     const U threshold = gather<F>(thresholds, word);
     const auto kept = fraction < threshold;
     const IntOf<F> index = select(kept, cell, gather<F>(aliases, word));

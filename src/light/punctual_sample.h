@@ -3,6 +3,7 @@
 #pragma once
 
 #include "light/punctual.h"
+#include "light/row_words.h"
 #include "math/vec.h"
 
 namespace obscura {
@@ -29,25 +30,28 @@ template <typename F>
 OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,
                                                  const IntOf<F>& index,
                                                  const Vec3<F>& from) {
-    const IntOf<F> word = index * IntOf<F>(static_cast<int32_t>(sizeof(PunctualLight) / 4));
-    const auto read3 = [&](const float* base) {
-        return Vec3<F>{gather<F>(base, word), gather<F>(base + 1, word), gather<F>(base + 2, word)};
+    const IntOf<F> word = index * IntOf<F>(words_per_row<PunctualLight>);
+    const auto read = [&](size_t offset) {
+        return gather<F>(member_words<float>(rows, offset), word);
     };
-    const auto type = gather<F>(&rows->type, word);
+    const auto read3 = [&](size_t offset) {
+        return Vec3<F>{read(offset), read(offset + 4), read(offset + 8)};
+    };
+    const auto type = gather<F>(member_words<int32_t>(rows, offsetof(PunctualLight, type)), word);
     const auto directional = type == IntOf<F>(static_cast<int32_t>(PunctualType::directional));
     const auto spot = type == IntOf<F>(static_cast<int32_t>(PunctualType::spot));
 
-    const Vec3<F> shines = read3(rows->direction);
-    const Vec3<F> to_light = read3(rows->position) - from;
+    const Vec3<F> shines = read3(offsetof(PunctualLight, direction));
+    const Vec3<F> to_light = read3(offsetof(PunctualLight, position)) - from;
     const F distance = length(to_light);
     const Vec3<F> towards = to_light * (F(1.0f) / max(distance, F(1e-18f)));
 
-    const F range = gather<F>(&rows->range, word);
+    const F range = read(offsetof(PunctualLight, range));
     const F reach = distance / max(range, F(1e-18f));
     const F window = clamp(F(1.0f) - square(square(reach)), F(0.0f), F(1.0f));
     const F limited = select(range > F(0.0f), window, F(1.0f));
-    const F cone = clamp(-dot(shines, towards) * gather<F>(&rows->spot_scale, word) +
-                             gather<F>(&rows->spot_offset, word),
+    const F cone = clamp(-dot(shines, towards) * read(offsetof(PunctualLight, spot_scale)) +
+                             read(offsetof(PunctualLight, spot_offset)),
                          F(0.0f),
                          F(1.0f));
     const F angular = select(spot, cone * cone, F(1.0f));
@@ -55,7 +59,7 @@ OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,
     const F factor = select(directional, F(1.0f), attenuation);
     return {select(directional, -shines, towards),
             select(directional, F(directional_distance_m), distance),
-            read3(rows->intensity) * factor};
+            read3(offsetof(PunctualLight, intensity)) * factor};
 }
 
 }  // namespace OBSCURA_ISA

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "light/row_words.h"
 #include "math/vec.h"
 
 #include <cstdint>
@@ -74,21 +75,25 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
                                                             const IntOf<F>& index,
                                                             const Vec2<F>& u,
                                                             const Vec3<F>& from) {
-    const IntOf<F> word = index * IntOf<F>(static_cast<int32_t>(sizeof(TriangleLight) / 4));
-    const auto read2 = [&](const float* base) {
-        return Vec2<F>{gather<F>(base, word), gather<F>(base + 1, word)};
+    const IntOf<F> word = index * IntOf<F>(words_per_row<TriangleLight>);
+    const auto read = [&](size_t offset) {
+        return gather<F>(member_words<float>(rows, offset), word);
     };
-    const auto read3 = [&](const float* base) {
-        return Vec3<F>{gather<F>(base, word), gather<F>(base + 1, word), gather<F>(base + 2, word)};
+    const auto read2 = [&](size_t offset) { return Vec2<F>{read(offset), read(offset + 4)}; };
+    const auto read3 = [&](size_t offset) {
+        return Vec3<F>{read(offset), read(offset + 4), read(offset + 8)};
+    };
+    const auto read_int = [&](size_t offset) {
+        return gather<F>(member_words<int32_t>(rows, offset), word);
     };
     const Vec2<F> weight = triangle_from_square(u);
-    const Vec3<F> e1 = read3(rows->e1);
-    const Vec3<F> e2 = read3(rows->e2);
+    const Vec3<F> e1 = read3(offsetof(TriangleLight, e1));
+    const Vec3<F> e2 = read3(offsetof(TriangleLight, e2));
     TriangleLightSample<F> sample;
-    sample.point = read3(rows->p0) + weight.x * e1 + weight.y * e2;
+    sample.point = read3(offsetof(TriangleLight, p0)) + weight.x * e1 + weight.y * e2;
 
     // Divided by the area first: the square of a tiny triangle's cross product would underflow.
-    const F area = gather<F>(&rows->area, word);
+    const F area = read(offsetof(TriangleLight, area));
     const Vec3<F> scaled = cross(e1, e2 * (F(0.5f) / max(area, F(1e-36f))));
     const auto proper = area > F(0.0f);
     sample.normal = select(proper, normalize(scaled), splat3(F(0.0f)));
@@ -97,14 +102,16 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
     sample.distance = length(to_light);
     sample.direction = to_light * (F(1.0f) / max(sample.distance, F(1e-18f)));
     sample.cosine = -dot(sample.normal, sample.direction);
-    const auto both = gather<F>(&rows->two_sided, word) != IntOf<F>(0);
+    const auto both = read_int(offsetof(TriangleLight, two_sided)) != IntOf<F>(0);
     const F facing = select(both, abs(sample.cosine), sample.cosine);
-    sample.pdf = solid_angle_pdf<F>(gather<F>(&rows->pdf_area, word), sample.distance, facing);
+    sample.pdf =
+        solid_angle_pdf<F>(read(offsetof(TriangleLight, pdf_area)), sample.distance, facing);
 
-    sample.emission = read3(rows->emission);
-    sample.texture = gather<F>(&rows->texture, word);
-    const Vec2<F> uv0 = read2(rows->uv0);
-    sample.uv = uv0 + (read2(rows->uv1) - uv0) * weight.x + (read2(rows->uv2) - uv0) * weight.y;
+    sample.emission = read3(offsetof(TriangleLight, emission));
+    sample.texture = read_int(offsetof(TriangleLight, texture));
+    const Vec2<F> uv0 = read2(offsetof(TriangleLight, uv0));
+    sample.uv = uv0 + (read2(offsetof(TriangleLight, uv1)) - uv0) * weight.x +
+                (read2(offsetof(TriangleLight, uv2)) - uv0) * weight.y;
     return sample;
 }
 

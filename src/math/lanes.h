@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstdint>
 #include <type_traits>
-
 #include <xsimd/xsimd.hpp>
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -299,7 +298,9 @@ struct LaneTypes<Lanes> {
         return as_uint(gather(reinterpret_cast<const int32_t*>(base), i));
     }
 #endif
-    static OBSCURA_INLINE Lanes from_int(LanesI i) { return xs::to_float(i.v); }
+    static OBSCURA_INLINE Lanes from_int(LanesI i) {
+        return xs::to_float(i.v);
+    }
 };
 
 // clang-format off
@@ -313,8 +314,8 @@ OBSCURA_INLINE void store(uint32_t* p, LanesU a) { store(reinterpret_cast<int32_
 
 /// 0, 1, 2, ... in the lanes.
 OBSCURA_INLINE LanesI lane_numbers() {
-    alignas(64) static constexpr int32_t numbers[16] = {0, 1, 2,  3,  4,  5,  6,  7,
-                                                        8, 9, 10, 11, 12, 13, 14, 15};
+    alignas(64) static constexpr int32_t numbers[16] = {
+        0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15};
     return load(numbers);
 }
 

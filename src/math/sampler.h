@@ -48,7 +48,8 @@ OBSCURA_INLINE U owen_scramble_reversed(U x, const U& seed) {
 }
 
 /// Second Sobol dimension of an index, bits reversed: the Pascal triangle modulo 2 as matrix.
-/// Source  Ahmed, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact", 2024
+/// Source  Ahmed, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact",
+/// 2024
 template <typename U>
 OBSCURA_INLINE U sobol_second_reversed(U x) {
     x = x ^ ((x >> 1) & U(0x55555555U));

@@ -89,7 +89,8 @@ template <typename To, typename From>
 Affine<To> affine_cast(const Affine<From>& a) {
     Affine<To> out;
     for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c) out.m[r][c] = static_cast<To>(a.m[r][c]);
+        for (int c = 0; c < 4; ++c)
+            out.m[r][c] = static_cast<To>(a.m[r][c]);
     }
     return out;
 }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <type_traits>
-
 #include "math/vec.h"
+
+#include <type_traits>
 
 namespace obscura {
 
@@ -29,8 +29,7 @@ OBSCURA_INLINE SinCos<F> sin_cos_turn(const F& t) {
         const F x = (F(4.0f) * t - quadrant) * F(0.5f * pi_f);
         const F x2 = x * x;
         const F s =
-            x * (F(1.0f) +
-                 x2 * (F(-1.0f / 6) + x2 * (F(1.0f / 120) + x2 * F(-1.0f / 5040))));
+            x * (F(1.0f) + x2 * (F(-1.0f / 6) + x2 * (F(1.0f / 120) + x2 * F(-1.0f / 5040))));
         const F c =
             F(1.0f) +
             x2 * (F(-0.5f) + x2 * (F(1.0f / 24) + x2 * (F(-1.0f / 720) + x2 * F(1.0f / 40320))));

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/filter_table.h"
 
-#include <cmath>
-
 #include "stages/doors.h"
+
+#include <cmath>
 
 namespace obscura {
 
@@ -30,8 +30,8 @@ double blackman_harris(double x, double radius) {
 
 std::vector<float> make_filter_table(PixelFilter filter) {
     if (filter == PixelFilter::box) return {};
-    const Shape shape = filter == PixelFilter::gaussian ? Shape{1.5, gaussian}
-                                                        : Shape{1.65, blackman_harris};
+    const Shape shape =
+        filter == PixelFilter::gaussian ? Shape{1.5, gaussian} : Shape{1.65, blackman_harris};
     // Cumulative sums of the midpoint rule, then the steps at which they pass k / entries.
     constexpr int steps = 1 << 16;
     const double width = 2.0 * shape.radius / steps;
@@ -45,12 +45,12 @@ std::vector<float> make_filter_table(PixelFilter filter) {
     size_t step = 0;
     for (size_t k = 0; k <= filter_entries; ++k) {
         const double target = cumulative.back() * static_cast<double>(k) / filter_entries;
-        while (step + 1 < cumulative.size() && cumulative[step + 1] < target) ++step;
+        while (step + 1 < cumulative.size() && cumulative[step + 1] < target)
+            ++step;
         const double low = cumulative[step];
         const double high = cumulative[std::min(step + 1, cumulative.size() - 1)];
         const double within = high > low ? (target - low) / (high - low) : 0.0;
-        table[k] =
-            static_cast<float>(-shape.radius + (static_cast<double>(step) + within) * width);
+        table[k] = static_cast<float>(-shape.radius + (static_cast<double>(step) + within) * width);
     }
     return table;
 }

@@ -1,10 +1,10 @@
-// render/filter_table.h - reconstruction filters as tables that the camera stage draws offsets from.
-// SPDX-License-Identifier: Apache-2.0
+// render/filter_table.h - reconstruction filters as tables that the camera stage draws offsets
+// from. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
-
 #include "render/render.h"
+
+#include <vector>
 
 namespace obscura {
 

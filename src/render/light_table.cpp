@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/light_table.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/parallel.h"
 #include "math/warp.h"
 #include "surface/texture.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace obscura {
 
@@ -55,20 +55,17 @@ Vec3f mean_texture(const Scene& scene, const TriangleLight& row) {
     const TextureView view{scene.textures.texels.data(),
                            reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
     constexpr int side = 4;
-    const float area =
-        0.5f * std::fabs((row.uv1[0] - row.uv0[0]) * (row.uv2[1] - row.uv0[1]) -
-                         (row.uv1[1] - row.uv0[1]) * (row.uv2[0] - row.uv0[0]));
+    const float area = 0.5f * std::fabs((row.uv1[0] - row.uv0[0]) * (row.uv2[1] - row.uv0[1]) -
+                                        (row.uv1[1] - row.uv0[1]) * (row.uv2[0] - row.uv0[0]));
     Vec3f sum{0, 0, 0};
     for (int i = 0; i < side * side; ++i) {
         const Vec2f u{(static_cast<float>(i % side) + 0.5f) / side,
                       (static_cast<float>(i / side) + 0.5f) / side};
         const Vec2f b = triangle_from_square(u);
-        const Vec2f uv{row.uv0[0] + (row.uv1[0] - row.uv0[0]) * b.x +
-                           (row.uv2[0] - row.uv0[0]) * b.y,
-                       row.uv0[1] + (row.uv1[1] - row.uv0[1]) * b.x +
-                           (row.uv2[1] - row.uv0[1]) * b.y};
-        sum = sum + sample_texture_bilinear<float>(
-                        view, row.texture, uv, area / (side * side)).rgb;
+        const Vec2f uv{
+            row.uv0[0] + (row.uv1[0] - row.uv0[0]) * b.x + (row.uv2[0] - row.uv0[0]) * b.y,
+            row.uv0[1] + (row.uv1[1] - row.uv0[1]) * b.x + (row.uv2[1] - row.uv0[1]) * b.y};
+        sum = sum + sample_texture_bilinear<float>(view, row.texture, uv, area / (side * side)).rgb;
     }
     return sum * (1.0f / (side * side));
 }
@@ -83,8 +80,8 @@ TriangleLight light_row(const Emitter& e, int32_t triangle) {
         if (e.instance != nullptr) p[k] = transform_point(e.instance->world_from_object, p[k]);
     }
     const bool mirrored = e.instance != nullptr && e.instance->mirrored != 0;
-    TriangleLight row = mirrored ? make_triangle_light(p[0], p[2], p[1])
-                                 : make_triangle_light(p[0], p[1], p[2]);
+    TriangleLight row =
+        mirrored ? make_triangle_light(p[0], p[2], p[1]) : make_triangle_light(p[0], p[1], p[2]);
     std::copy_n(e.material.emission, 3, row.emission);
     row.two_sided = (e.material.flags & material_double_sided) != 0 ? 1 : 0;
     const TextureSlot& slot = e.material.emissive_texture;
@@ -116,13 +113,12 @@ double triangle_power(const Scene& scene, const TriangleLight& row) {
 void append_rows(const Emitter& e, std::vector<TriangleLight>& rows) {
     const size_t first = rows.size();
     rows.resize(first + static_cast<size_t>(e.primitive.triangle_count));
-    parallel_ranges(static_cast<size_t>(e.primitive.triangle_count),
-                    1024,
-                    [&](size_t begin, size_t end) {
-                        for (size_t i = begin; i < end; ++i) {
-                            rows[first + i] = light_row(e, static_cast<int32_t>(i));
-                        }
-                    });
+    parallel_ranges(
+        static_cast<size_t>(e.primitive.triangle_count), 1024, [&](size_t begin, size_t end) {
+            for (size_t i = begin; i < end; ++i) {
+                rows[first + i] = light_row(e, static_cast<int32_t>(i));
+            }
+        });
 }
 
 void collect_world_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
@@ -140,8 +136,7 @@ void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
     for (const Mesh& mesh : scene.meshes) {
         int32_t within = 0;
         for (int32_t i = 0; i < mesh.primitive_count; ++i) {
-            Primitive& primitive =
-                scene.primitives[static_cast<size_t>(mesh.first_primitive + i)];
+            Primitive& primitive = scene.primitives[static_cast<size_t>(mesh.first_primitive + i)];
             const bool glows = emits(scene.materials[static_cast<size_t>(primitive.material)]);
             primitive.light_base = glows ? within : -1;
             within += glows ? primitive.triangle_count : 0;
@@ -167,7 +162,8 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
                                    double environment) {
     const auto sum = [](const std::vector<double>& v) {
         double total = 0;
-        for (const double x : v) total += x;
+        for (const double x : v)
+            total += x;
         return total;
     };
     const double kinds[3] = {sum(punctual), sum(triangles), environment};
@@ -178,8 +174,10 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
     }
     std::vector<double> weights;
     weights.reserve(punctual.size() + triangles.size() + 1);
-    for (const double w : punctual) weights.push_back(w * scale[0]);
-    for (const double w : triangles) weights.push_back(w * scale[1]);
+    for (const double w : punctual)
+        weights.push_back(w * scale[0]);
+    for (const double w : triangles)
+        weights.push_back(w * scale[1]);
     if (environment > 0) weights.push_back(environment * scale[2]);
     return weights;
 }

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-#include <vector>
-
 #include "light/alias_table.h"
 #include "light/environment_table.h"
 #include "light/light_view.h"
 #include "light/triangle_light.h"
 #include "scene/scene.h"
+
+#include <optional>
+#include <vector>
 
 namespace obscura {
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/prepared_scene.h"
 
+#include "light/studio.h"
+
 #include <chrono>
 #include <new>
-
-#include "light/studio.h"
 
 namespace obscura {
 
@@ -80,8 +80,7 @@ Result<PreparedScene> PreparedScene::create(Scene scene,
     auto environment = make_environment(impl->scene, lighting, impl->studio, log);
     if (!environment) return fail(environment.error());
     impl->environment = std::move(*environment);
-    impl->lights = make_light_table(impl->scene,
-                                    impl->environment ? &*impl->environment : nullptr);
+    impl->lights = make_light_table(impl->scene, impl->environment ? &*impl->environment : nullptr);
     auto accel = Accel::build(impl->scene, embree_isa_for(isa));
     if (!accel) return fail(accel.error());
     impl->accel = std::move(*accel);
@@ -95,11 +94,23 @@ PreparedScene::PreparedScene(PreparedScene&&) noexcept = default;
 PreparedScene& PreparedScene::operator=(PreparedScene&&) noexcept = default;
 PreparedScene::~PreparedScene() = default;
 
-const Scene& PreparedScene::scene() const { return impl_->scene; }
-double PreparedScene::build_seconds() const { return impl_->build_seconds; }
-size_t PreparedScene::bvh_bytes() const { return impl_->accel->memory_bytes(); }
-bool PreparedScene::uses_studio() const { return impl_->studio; }
-std::string PreparedScene::isa_name() const { return impl_->stages->isa; }
-std::string PreparedScene::embree_version() const { return impl_->accel->embree_version(); }
+const Scene& PreparedScene::scene() const {
+    return impl_->scene;
+}
+double PreparedScene::build_seconds() const {
+    return impl_->build_seconds;
+}
+size_t PreparedScene::bvh_bytes() const {
+    return impl_->accel->memory_bytes();
+}
+bool PreparedScene::uses_studio() const {
+    return impl_->studio;
+}
+std::string PreparedScene::isa_name() const {
+    return impl_->stages->isa;
+}
+std::string PreparedScene::embree_version() const {
+    return impl_->accel->embree_version();
+}
 
 }  // namespace obscura

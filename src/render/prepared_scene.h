@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-
 #include "accel/accel.h"
 #include "render/light_table.h"
 #include "render/render.h"
+
+#include <optional>
 
 namespace obscura {
 

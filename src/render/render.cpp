@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render.h"
 
-#include <algorithm>
-#include <chrono>
-#include <mutex>
-#include <new>
-
 #include "base/parallel.h"
 #include "render/filter_table.h"
 #include "render/prepared_scene.h"
 #include "stages/walk.h"
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <new>
 
 namespace obscura {
 
@@ -19,13 +19,17 @@ namespace {
 /// What the film of an integrator holds: channel names, and how many of RGBA they take.
 std::vector<std::string> film_channels(Integrator integrator) {
     switch (integrator) {
-        case Integrator::normal: return {"N.X", "N.Y", "N.Z"};
-        case Integrator::depth: return {"Z"};
-        case Integrator::id: return {"id.node", "id.material", "id.triangle"};
+        case Integrator::normal:
+            return {"N.X", "N.Y", "N.Z"};
+        case Integrator::depth:
+            return {"Z"};
+        case Integrator::id:
+            return {"id.node", "id.material", "id.triangle"};
         case Integrator::albedo:
         case Integrator::path:
         case Integrator::direct:
-        case Integrator::ao: break;
+        case Integrator::ao:
+            break;
     }
     return {"R", "G", "B", "A"};
 }
@@ -38,13 +42,26 @@ void choose_walk(Integrator integrator, WalkInput& walk) {
         walk.batch.pixel_centres = true;
     };
     switch (integrator) {
-        case Integrator::path: break;
-        case Integrator::direct: walk.batch.max_bounces = 0; break;
-        case Integrator::ao: walk.kind = WalkKind::ao; break;
-        case Integrator::normal: quantity(Quantity::normal); break;
-        case Integrator::depth: quantity(Quantity::depth); break;
-        case Integrator::albedo: quantity(Quantity::albedo); break;
-        case Integrator::id: quantity(Quantity::id); break;
+        case Integrator::path:
+            break;
+        case Integrator::direct:
+            walk.batch.max_bounces = 0;
+            break;
+        case Integrator::ao:
+            walk.kind = WalkKind::ao;
+            break;
+        case Integrator::normal:
+            quantity(Quantity::normal);
+            break;
+        case Integrator::depth:
+            quantity(Quantity::depth);
+            break;
+        case Integrator::albedo:
+            quantity(Quantity::albedo);
+            break;
+        case Integrator::id:
+            quantity(Quantity::id);
+            break;
     }
 }
 
@@ -72,8 +89,8 @@ WalkInput make_walk(const PreparedScene::Impl& scene,
     }
     const Bounds& bounds = scene.scene.bounds;
     const float diagonal = bounds.empty() ? 1.0f : length(bounds.high - bounds.low);
-    batch.ao_distance = options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m)
-                                                  : 0.2f * diagonal;
+    batch.ao_distance =
+        options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m) : 0.2f * diagonal;
     choose_walk(options.integrator, walk);
     return walk;
 }
@@ -183,8 +200,7 @@ Result<RenderResult> render(const PreparedScene& scene,
     result.film.height = options.height;
     result.film.channels = film_channels(options.integrator);
     result.film.pixels.assign(static_cast<size_t>(options.width) *
-                                  static_cast<size_t>(options.height) *
-                                  result.film.channels.size(),
+                                  static_cast<size_t>(options.height) * result.film.channels.size(),
                               0.0f);
 
     const std::vector<float> filter = make_filter_table(options.filter);

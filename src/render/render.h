@@ -2,6 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/error.h"
+#include "base/log.h"
+#include "camera/camera.h"
+#include "image/pixels.h"
+#include "scene/scene.h"
+#include "stages/dispatch.h"
+
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -9,13 +16,6 @@
 #include <optional>
 #include <string>
 #include <vector>
-
-#include "base/error.h"
-#include "base/log.h"
-#include "camera/camera.h"
-#include "image/pixels.h"
-#include "scene/scene.h"
-#include "stages/dispatch.h"
 
 namespace obscura {
 
@@ -43,15 +43,15 @@ struct RenderOptions {
     int samples_per_pixel = 64;
     int max_bounces = 8;
     uint64_t seed = 0;
-    int tile_size = 16;                 ///< pixels; any value gives the same picture
-    std::optional<PixelRect> crop;      ///< renders only this part; the rest of the film is zero
+    int tile_size = 16;             ///< pixels; any value gives the same picture
+    std::optional<PixelRect> crop;  ///< renders only this part; the rest of the film is zero
     Integrator integrator = Integrator::path;
     PixelFilter filter = PixelFilter::box;
     BackgroundKind background = BackgroundKind::environment;
     float background_color[3] = {0, 0, 0};
-    double ao_distance_m = 0;           ///< 0: a fifth of the scene's diagonal
+    double ao_distance_m = 0;  ///< 0: a fifth of the scene's diagonal
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
-    int strategies = 3;                 ///< bit 0 light sampling, bit 1 BSDF sampling
+    int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling
 };
 
 /// Rays and faults, summed over all threads.
@@ -85,10 +85,7 @@ public:
     /// studio, and says so in the log.
     ///
     /// Errors  33 E-MEM out of memory; 69 E-ISA the CPU lacks `isa`; 70 E-EMBREE
-    static Result<PreparedScene> create(Scene scene,
-                                        LightingOptions lighting,
-                                        Isa isa,
-                                        Log& log);
+    static Result<PreparedScene> create(Scene scene, LightingOptions lighting, Isa isa, Log& log);
     PreparedScene(PreparedScene&&) noexcept;
     PreparedScene& operator=(PreparedScene&&) noexcept;
     ~PreparedScene();
@@ -97,7 +94,7 @@ public:
     double build_seconds() const;
     size_t bvh_bytes() const;
     bool uses_studio() const;
-    std::string isa_name() const;      ///< "avx512"
+    std::string isa_name() const;  ///< "avx512"
     std::string embree_version() const;
 
     struct Impl;

@@ -33,18 +33,16 @@ void make_camera_rays(const BatchSettings& batch,
     for (int i = 0; i < count; i += lane_count) {
         const LanesI slot = min(LanesI(i) + lane_numbers(), LanesI(count - 1));
         // Exact: slots are far below 2^23 and the half keeps the quotient off whole numbers.
-        const LanesI pixel =
-            to_int((from_int<Lanes>(slot) + Lanes(0.5f)) * Lanes(inverse_samples));
+        const LanesI pixel = to_int((from_int<Lanes>(slot) + Lanes(0.5f)) * Lanes(inverse_samples));
         const LanesI sample = slot - pixel * LanesI(batch.samples);
         const LanesI x = gather<Lanes>(batch.pixel_x, pixel);
         const LanesI y = gather<Lanes>(batch.pixel_y, pixel);
-        const LanesU key =
-            pixel_key(as_uint(x), as_uint(y), batch.seed_low, batch.seed_high);
+        const LanesU key = pixel_key(as_uint(x), as_uint(y), batch.seed_low, batch.seed_high);
         const LanesU index = reverse_bits(as_uint(sample) + LanesU(batch.first_sample));
         Vec2<Lanes> offset{Lanes(0.0f), Lanes(0.0f)};
         if (!batch.pixel_centres) {
-            const auto u = unit_pair<Lanes>(
-                sobol_pair(key, index, static_cast<uint32_t>(RandomUse::film)));
+            const auto u =
+                unit_pair<Lanes>(sobol_pair(key, index, static_cast<uint32_t>(RandomUse::film)));
             offset = {filter_offset(batch.filter, u.x), filter_offset(batch.filter, u.y)};
         }
         const Vec2<Lanes> film{(from_int<Lanes>(x) + Lanes(0.5f) + offset.x) * inverse_size.x,

@@ -5,6 +5,7 @@
 #include "light/alias_table.h"
 #include "light/environment.h"
 #include "light/punctual_sample.h"
+#include "light/row_words.h"
 #include "light/triangle_light.h"
 #include "stages/3_surface.h"
 
@@ -47,8 +48,8 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
     const Mask textured = s.texture >= LanesI(0);
     if (any(textured)) {
         const LanesI texture = select(textured, s.texture, LanesI(0));
-        const Rgba<Lanes> texel = sample_texture_stochastic<Lanes>(
-            scene.textures, texture, s.uv, Lanes(0.0f), random);
+        const Rgba<Lanes> texel =
+            sample_texture_stochastic<Lanes>(scene.textures, texture, s.uv, Lanes(0.0f), random);
         emission = select(textured, emission * texel.rgb, emission);
     }
     // End just before the light's own triangle.
@@ -96,8 +97,7 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     }
     if (any(punctual)) {
         const LanesI row = select(punctual, index, LanesI(0));
-        const PunctualSample<Lanes> s =
-            sample_punctual<Lanes>(lights.punctual, row, point.start);
+        const PunctualSample<Lanes> s = sample_punctual<Lanes>(lights.punctual, row, point.start);
         const Lanes select_pdf = gather<Lanes>(lights.select_pdf, row);
         choose(out,
                punctual,
@@ -118,9 +118,9 @@ OBSCURA_INLINE Lanes light_pdf(const SceneView& scene,
                                Lanes distance) {
     const Mask known = light >= LanesI(0);
     if (none(known) || scene.lights.triangle_count == 0) return Lanes(0.0f);
-    constexpr int words = static_cast<int>(sizeof(TriangleLight) / 4);
-    const LanesI word = select(known, light * LanesI(words), LanesI(0));
-    const Lanes pdf_area = gather<Lanes>(&scene.lights.triangles->pdf_area, word);
+    const LanesI word = select(known, light * LanesI(words_per_row<TriangleLight>), LanesI(0));
+    const Lanes pdf_area = gather<Lanes>(
+        member_words<float>(scene.lights.triangles, offsetof(TriangleLight, pdf_area)), word);
     const Lanes pdf = solid_angle_pdf<Lanes>(pdf_area, distance, abs(dot(ng, direction)));
     return select(known, pdf, Lanes(0.0f));
 }

@@ -20,14 +20,17 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
                                        Quantity quantity,
                                        const PathLanes& path,
                                        const HitLanes& hit) {
-    const ShadingPoint s = shading_point(
-        scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
+    const ShadingPoint s =
+        shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
     switch (quantity) {
-        case Quantity::normal: return s.normal;
+        case Quantity::normal:
+            return s.normal;
         case Quantity::depth:
             return {axial_depth(camera, path, hit.t), Lanes(0.0f), Lanes(0.0f)};
-        case Quantity::albedo: return s.bsdf.base_color;
-        case Quantity::id: break;
+        case Quantity::albedo:
+            return s.bsdf.base_color;
+        case Quantity::id:
+            break;
     }
     const LanesI primitive_word = hit.primitive * LanesI(primitive_words);
     LanesI node = gather<Lanes>(scene.primitives + 14, primitive_word);
@@ -55,11 +58,11 @@ void write_quantity(const SceneView& scene,
         const Mask exists = rows_in_range(i, sorted.hits);
         const PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_or_first(rows.hits, i, exists);
-        const Vec3<Lanes> value =
-            quantity_of(scene, batch.camera, quantity, path, hit);
+        const Vec3<Lanes> value = quantity_of(scene, batch.camera, quantity, path, hit);
         add_radiance(rows.samples, exists, path.slot, value);
     }
-    for (int i = 0; i < sorted.hits; ++i) rows.samples.a[rows.paths.slot[i]] = 1.0f;
+    for (int i = 0; i < sorted.hits; ++i)
+        rows.samples.a[rows.paths.slot[i]] = 1.0f;
 }
 
 }  // namespace OBSCURA_ISA

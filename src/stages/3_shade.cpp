@@ -70,31 +70,25 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
                                    const PathLanes& path,
                                    const ShadingPoint& s,
                                    const BounceRandom& random) {
-    const LightLanes light =
-        sample_light(scene, s, random.light, random.choice.x, random.texture);
+    const LightLanes light = sample_light(scene, s, random.light, random.choice.x, random.texture);
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
     Mask useful = active & light.valid & (dot(light.direction, s.ng) > Lanes(0.0f));
     if (none(useful)) return at;
     const BsdfValue<Lanes> bsdf = evaluate_bsdf(s.bsdf, s.lobes, wo, wi);
     const bool both = batch.strategies == (sample_lights | sample_bsdfs);
-    const Lanes weight = both ? select(light.pdf > Lanes(0.0f),
-                                       mis_weight(light.pdf, bsdf.pdf),
-                                       Lanes(1.0f))
-                              : Lanes(1.0f);
+    const Lanes weight =
+        both ? select(light.pdf > Lanes(0.0f), mis_weight(light.pdf, bsdf.pdf), Lanes(1.0f))
+             : Lanes(1.0f);
     const Vec3<Lanes> radiance =
         path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
-    return append_shadows(rows,
-                          at,
-                          useful,
-                          {s.start,
-                           light.direction,
-                           light.distance,
-                           radiance,
-                           path.slot,
-                           path.path_key});
+    return append_shadows(
+        rows,
+        at,
+        useful,
+        {s.start, light.direction, light.distance, radiance, path.slot, path.path_key});
 }
 
 /// Probability of going on after a bounce; the survivors are divided by it.
@@ -115,8 +109,7 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const BsdfSample<Lanes> sample = sample_bsdf(s.bsdf, s.lobes, wo, random.bsdf, random.lobe.x);
     const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
-    Mask goes_on =
-        active & (sample.at.pdf > Lanes(0.0f)) & (dot(direction, s.ng) > Lanes(0.0f));
+    Mask goes_on = active & (sample.at.pdf > Lanes(0.0f)) & (dot(direction, s.ng) > Lanes(0.0f));
     if (none(goes_on)) return at;
     const Vec3<Lanes> weight =
         sample.at.value_cos * (Lanes(1.0f) / max(sample.at.pdf, Lanes(1e-30f)));
@@ -153,27 +146,24 @@ void shade_misses(const SceneView& scene,
         if (bounce == 0) {
             light = environment_radiance(scene.environment, direction);
         } else {
-            const EnvironmentSample<Lanes> seen =
-                look_up_environment(scene.environment, direction);
+            const EnvironmentSample<Lanes> seen = look_up_environment(scene.environment, direction);
             Lanes weight(1.0f);
             if (batch.strategies == (sample_lights | sample_bsdfs)) {
-                weight = mis_weight(load(m.pdf + i),
-                                    seen.pdf * Lanes(scene.lights.environment_select));
+                weight =
+                    mis_weight(load(m.pdf + i), seen.pdf * Lanes(scene.lights.environment_select));
             } else if (batch.strategies == sample_lights) {
                 weight = select(seen.pdf > Lanes(0.0f), Lanes(0.0f), weight);
             }
             light = seen.radiance * weight;
         }
-        add_radiance(
-            rows.samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
+        add_radiance(rows.samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
     }
 }
 
 /// Camera rays that miss take the background colour, if there is one; those that hit are opaque.
-void set_camera_alpha(const BatchSettings& batch,
-                      SortedCounts sorted,
-                      const ShadeRows& rows) {
-    for (int i = 0; i < sorted.hits; ++i) rows.samples.a[rows.paths.slot[i]] = 1.0f;
+void set_camera_alpha(const BatchSettings& batch, SortedCounts sorted, const ShadeRows& rows) {
+    for (int i = 0; i < sorted.hits; ++i)
+        rows.samples.a[rows.paths.slot[i]] = 1.0f;
     for (int i = 0; i < sorted.misses; ++i) {
         const uint32_t slot = rows.misses.slot[i];
         rows.samples.r[slot] += batch.background[0];
@@ -205,11 +195,10 @@ ShadeCounts shade(const SceneView& scene,
         const Mask scatters = exists & (!s.unlit);
         if (bounce > batch.max_bounces || none(scatters)) continue;
         if (scene.lights.count > 0) {
-            out.shadow = add_shadow_rays(
-                scene, batch, rows.shadows, out.shadow, scatters, path, s, random);
+            out.shadow =
+                add_shadow_rays(scene, batch, rows.shadows, out.shadow, scatters, path, s, random);
         }
-        out.next =
-            add_next_rays(rows.next, out.next, scatters, path, s, random, bounce, hit.t);
+        out.next = add_next_rays(rows.next, out.next, scatters, path, s, random, bounce, hit.t);
     }
     return out;
 }
@@ -228,8 +217,7 @@ int shade_ao(const SceneView& scene,
         const BounceRandom random = bounce_random(path, 0);
         const ShadingPoint s =
             shading_point(scene, hit, path, random.texture, Filtering::stochastic);
-        const Vec3<Lanes> direction =
-            normalize(to_world(s.frame, cosine_hemisphere(random.bsdf)));
+        const Vec3<Lanes> direction = normalize(to_world(s.frame, cosine_hemisphere(random.bsdf)));
         const Mask useful = exists & (dot(direction, s.ng) > Lanes(0.0f));
         shadows = append_shadows(rows.shadows,
                                  shadows,

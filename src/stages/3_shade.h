@@ -24,10 +24,7 @@ ShadeCounts shade(const SceneView& scene,
 
 /// Ambient occlusion: one cosine-distributed ray of limited length a hit.
 /// Returns the number of shadow rows.
-int shade_ao(const SceneView& scene,
-             const BatchSettings& batch,
-             int count,
-             const ShadeRows& rows);
+int shade_ao(const SceneView& scene, const BatchSettings& batch, int count, const ShadeRows& rows);
 
 /// Quantities of the first hit (see Quantity), without light. Misses leave zero.
 void write_quantity(const SceneView& scene,

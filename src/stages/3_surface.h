@@ -3,9 +3,9 @@
 #pragma once
 
 #include "scene/scene.h"
+#include "stages/rows.h"
 #include "surface/bsdf.h"
 #include "surface/texture.h"
-#include "stages/rows.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -34,9 +34,10 @@ struct HitGeometry {
     Vec3<Lanes> position;  ///< from the corners, not from the ray: error is bounded
     Vec3<Lanes> ng;        ///< geometric normal, unit, to the front
     Vec3<Lanes> normal;    ///< interpolated, unit, to the front
-    Lanes offset;          ///< distance along ng at which rays start without hitting their own triangle
-    Vec3<Lanes> smooth_shift;  ///< from position to the smooth surface, for shadow rays (toward the front)
-    Lanes area2;           ///< twice the triangle's area
+    Lanes offset;  ///< distance along ng at which rays start without hitting their own triangle
+    Vec3<Lanes>
+        smooth_shift;  ///< from position to the smooth surface, for shadow rays (toward the front)
+    Lanes area2;       ///< twice the triangle's area
 };
 
 /// A point ready for shading. Normals face the viewer.
@@ -53,14 +54,16 @@ struct ShadingPoint {
 };
 
 OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
-    return {gather<Lanes>(base, word), gather<Lanes>(base + 1, word), gather<Lanes>(base + 2, word)};
+    return {
+        gather<Lanes>(base, word), gather<Lanes>(base + 1, word), gather<Lanes>(base + 2, word)};
 }
 
 /// Row-major 3x4 of an instance; `base` points to its first number.
 OBSCURA_INLINE Affine<Lanes> gather_affine(const float* base, LanesI word) {
     Affine<Lanes> a;
     for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c) a.m[r][c] = gather<Lanes>(base + r * 4 + c, word);
+        for (int c = 0; c < 4; ++c)
+            a.m[r][c] = gather<Lanes>(base + r * 4 + c, word);
     }
     return a;
 }
@@ -69,9 +72,9 @@ OBSCURA_INLINE Vec3<Lanes> weighted(const HitGeometry& g, const Vec3<Lanes> (&v)
     return v[0] * g.weight[0] + v[1] * g.weight[1] + v[2] * g.weight[2];
 }
 
-/// Where the surface through the corners with their normals would be, relative to the flat triangle:
-/// shadow rays that start there do not graze the facets.
-/// Source  Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4
+/// Where the surface through the corners with their normals would be, relative to the flat
+/// triangle: shadow rays that start there do not graze the facets. Source  Hanika, "Hacking the
+/// Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4
 OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
                                                 const Vec3<Lanes> (&p)[3],
                                                 const Vec3<Lanes> (&n)[3],
@@ -118,8 +121,8 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
             n[k] = gather3(scene.attributes, select(smooth, word, LanesI(0)));
         }
         g.normal = select(smooth, normalize(weighted(g, n)), g.ng);
-        g.smooth_shift = select(
-            smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
+        g.smooth_shift =
+            select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
     }
     // Rounding of the barycentric sum and of Embree's own arithmetic, 2^-24 each step.
     const Vec3<Lanes> size =
@@ -152,8 +155,7 @@ OBSCURA_INLINE void instance_to_world(const SceneView& scene, const HitLanes& hi
         return length(Vec3<Lanes>{world.m[0][c], world.m[1][c], world.m[2][c]});
     };
     const Lanes stretch = column_length(0) + column_length(1) + column_length(2);
-    const Lanes offset =
-        g.offset * stretch + Lanes(32.0f / 16777216.0f) * dot(abs(ng), magnitude);
+    const Lanes offset = g.offset * stretch + Lanes(32.0f / 16777216.0f) * dot(abs(ng), magnitude);
     g.normal = select(instanced, normalize(transform_normal(object, g.normal)), g.normal);
     g.smooth_shift = select(instanced, transform_vector(world, g.smooth_shift), g.smooth_shift);
     g.position = select(instanced, position, g.position);
@@ -186,7 +188,8 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene, const HitGeometry& g
         uv[k] = {gather<Lanes>(scene.attributes, word), gather<Lanes>(scene.attributes + 1, word)};
     }
     Lanes m[6];
-    for (int k = 0; k < 6; ++k) m[k] = gather<Lanes>(scene.materials + slot + 2 + k, g.material_word);
+    for (int k = 0; k < 6; ++k)
+        m[k] = gather<Lanes>(scene.materials + slot + 2 + k, g.material_word);
     const Vec2<Lanes> e1 = uv[1] - uv[0];
     const Vec2<Lanes> e2 = uv[2] - uv[0];
     const Vec2<Lanes> at = uv[0] + e1 * g.weight[1] + e2 * g.weight[2];
@@ -197,7 +200,7 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene, const HitGeometry& g
 
 /// What all look-ups at one hit share.
 struct LookUp {
-    Lanes footprint;      ///< world area of the ray's cone on the surface
+    Lanes footprint;  ///< world area of the ray's cone on the surface
     Vec3<Lanes> random;
     Filtering filtering;
 };
@@ -210,7 +213,8 @@ OBSCURA_INLINE Rgba<Lanes> read_slot(const SceneView& scene,
     if (look.filtering == Filtering::bilinear) {
         return sample_texture_bilinear<Lanes>(scene.textures, s.texture, s.uv, footprint);
     }
-    return sample_texture_stochastic<Lanes>(scene.textures, s.texture, s.uv, footprint, look.random);
+    return sample_texture_stochastic<Lanes>(
+        scene.textures, s.texture, s.uv, footprint, look.random);
 }
 
 /// Bends a normal until the mirror image of `wo` lies above the surface: no black fringes.
@@ -235,8 +239,7 @@ OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
     Vec3<Lanes> tangent[3];
     Lanes handedness = Lanes(1.0f);
     for (int k = 0; k < 3; ++k) {
-        const LanesI word =
-            select(mapped, tangent_base + g.corner[k] * LanesI(4), LanesI(0));
+        const LanesI word = select(mapped, tangent_base + g.corner[k] * LanesI(4), LanesI(0));
         tangent[k] = gather3(scene.attributes, word);
         if (k == 0) handedness = gather<Lanes>(scene.attributes + 3, word);
     }
@@ -293,9 +296,7 @@ OBSCURA_INLINE BsdfParams<Lanes> bsdf_params(const SceneView& scene,
         roughness = select(slot.used, roughness * texel.rgb.y, roughness);
         metallic = select(slot.used, metallic * texel.rgb.z, metallic);
     }
-    return {base_color(scene, g, look),
-            metallic,
-            max(roughness * roughness, Lanes(min_ggx_alpha))};
+    return {base_color(scene, g, look), metallic, max(roughness * roughness, Lanes(min_ggx_alpha))};
 }
 
 /// Everything about the hits of one group. `wo` points to the viewer.
@@ -333,8 +334,8 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     if (any(emits)) {
         const SlotLanes slot = slot_lanes(scene, g, emissive_slot);
         if (any(slot.used & emits)) {
-            s.emission = select(
-                slot.used, s.emission * read_slot(scene, g, slot, look).rgb, s.emission);
+            s.emission =
+                select(slot.used, s.emission * read_slot(scene, g, slot, look).rgb, s.emission);
         }
         const LanesI base = gather<Lanes>(scene.primitives + 15, g.primitive_word);
         LanesI light = base + hit.triangle;

@@ -29,10 +29,14 @@ const StageTable& stage_table_for(Isa isa) {
 
 const char* embree_isa_for(Isa isa) {
     switch (isa) {
-        case Isa::baseline: return "sse4.2";
-        case Isa::avx2: return "avx2";
-        case Isa::avx512: return "avx512";
-        case Isa::automatic: break;
+        case Isa::baseline:
+            return "sse4.2";
+        case Isa::avx2:
+            return "avx2";
+        case Isa::avx512:
+            return "avx512";
+        case Isa::automatic:
+            break;
     }
     return "";
 }

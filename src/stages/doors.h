@@ -1,5 +1,5 @@
-// stages/doors.h - what passes between stages: columns of plain numbers, and read-only scene tables.
-// SPDX-License-Identifier: Apache-2.0
+// stages/doors.h - what passes between stages: columns of plain numbers, and read-only scene
+// tables. SPDX-License-Identifier: Apache-2.0
 //
 //   door         bytes/row  written by        read by
 //   PathRows            64  camera, shade     intersect, shade
@@ -13,28 +13,28 @@
 // padded by 16 rows, so that a stage may read and write whole registers past the last row.
 #pragma once
 
-#include <cstdint>
-
 #include "accel/columns.h"
 #include "camera/camera.h"
 #include "light/environment.h"
 #include "light/light_view.h"
 #include "surface/texture.h"
 
+#include <cstdint>
+
 namespace obscura {
 
 /// Paths that still travel, packed.
 struct PathRows {
-    float *ox, *oy, *oz;     ///< ray origin, metres
-    float *dx, *dy, *dz;     ///< unit direction
-    float *tr, *tg, *tb;     ///< throughput
-    float* pdf;              ///< density of this direction, 1/sr; 0: chosen without one (camera)
-    float* cone_width;       ///< footprint at the origin, metres
-    float* cone_spread;      ///< growth of the footprint, metres per metre
+    float *ox, *oy, *oz;  ///< ray origin, metres
+    float *dx, *dy, *dz;  ///< unit direction
+    float *tr, *tg, *tb;  ///< throughput
+    float* pdf;           ///< density of this direction, 1/sr; 0: chosen without one (camera)
+    float* cone_width;    ///< footprint at the origin, metres
+    float* cone_spread;   ///< growth of the footprint, metres per metre
     uint32_t* slot;
-    uint32_t* key;           ///< of the pixel's random numbers
-    uint32_t* sample;        ///< sample number, bits reversed
-    uint32_t* path_key;      ///< of the path: decides at alpha BLEND surfaces
+    uint32_t* key;       ///< of the pixel's random numbers
+    uint32_t* sample;    ///< sample number, bits reversed
+    uint32_t* path_key;  ///< of the path: decides at alpha BLEND surfaces
 };
 
 using HitRows = HitColumns;
@@ -52,7 +52,7 @@ struct ShadowRows {
     float *ox, *oy, *oz;
     float *dx, *dy, *dz;
     float* tfar;
-    float *r, *g, *b;        ///< contribution to the slot's radiance
+    float *r, *g, *b;  ///< contribution to the slot's radiance
     uint32_t* slot;
     uint32_t* path_key;
 };
@@ -93,14 +93,14 @@ struct BatchSettings {
     int width = 0, height = 0;         ///< film, pixels
     const int32_t* pixel_x = nullptr;  ///< by pixel of the tile
     const int32_t* pixel_y = nullptr;
-    int samples = 1;                   ///< per pixel in this batch; slot = pixel * samples + i
+    int samples = 1;  ///< per pixel in this batch; slot = pixel * samples + i
     uint32_t first_sample = 0;
     uint32_t seed_low = 0, seed_high = 0;
-    const float* filter = nullptr;     ///< inverse CDF, filter_entries + 1 offsets; null: box
-    bool pixel_centres = false;        ///< no jitter: one ray through each pixel's centre
+    const float* filter = nullptr;  ///< inverse CDF, filter_entries + 1 offsets; null: box
+    bool pixel_centres = false;     ///< no jitter: one ray through each pixel's centre
     int max_bounces = 8;
     int strategies = sample_lights | sample_bsdfs;
-    bool background_visible = true;    ///< camera rays that miss see the environment
+    bool background_visible = true;      ///< camera rays that miss see the environment
     float background[4] = {0, 0, 0, 0};  ///< added where camera rays miss; premultiplied RGBA
     float ao_distance = 0;
 };

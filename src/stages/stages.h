@@ -35,18 +35,14 @@ struct StageTable {
     void (*camera)(const BatchSettings&, int count, const PathRows&, const SampleRows&);
 
     /// Stage 3: hits become radiance, shadow rays and next rays; misses see the environment.
-    ShadeCounts (*shade)(const SceneView&,
-                         const BatchSettings&,
-                         int bounce,
-                         int count,
-                         const ShadeRows&);
+    ShadeCounts (*shade)(
+        const SceneView&, const BatchSettings&, int bounce, int count, const ShadeRows&);
 
     /// Stage 3 for --integrator ao: one occlusion ray a hit.
     int (*shade_ao)(const SceneView&, const BatchSettings&, int count, const ShadeRows&);
 
     /// Stage 3 for quantities: written to the samples, without light.
-    void (*quantity)(
-        const SceneView&, const BatchSettings&, Quantity, int count, const ShadeRows&);
+    void (*quantity)(const SceneView&, const BatchSettings&, Quantity, int count, const ShadeRows&);
 
     /// Stage 5a: unoccluded shadow rows are added to their samples.
     void (*add_shadows)(int count, const ShadowRows&, const uint8_t* occluded, const SampleRows&);

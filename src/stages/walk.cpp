@@ -47,10 +47,8 @@ RayColumns rays_of(const ShadowRows& s, int count) {
 void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, WalkCounters& c) {
     const auto segment = 2U * static_cast<uint32_t>(bounce) + 1U;
     c.shadow_rays += static_cast<uint64_t>(count);
-    c.refused_rays += static_cast<uint64_t>(in.accel->occluded(rays_of(work.shadows, count),
-                                                               work.occluded.data(),
-                                                               Coherence::incoherent,
-                                                               segment));
+    c.refused_rays += static_cast<uint64_t>(in.accel->occluded(
+        rays_of(work.shadows, count), work.occluded.data(), Coherence::incoherent, segment));
     in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
 }
 
@@ -77,25 +75,25 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
     }
 }
 
-void trace_camera(const WalkInput& in, int count, bool fixed_alpha, Workspace& work, WalkCounters& c) {
+void trace_camera(
+    const WalkInput& in, int count, bool fixed_alpha, Workspace& work, WalkCounters& c) {
     c.camera_rays += static_cast<uint64_t>(count);
-    c.refused_rays += static_cast<uint64_t>(in.accel->intersect(rays_of(work.paths[0], count),
-                                                                work.hits,
-                                                                Coherence::coherent,
-                                                                {true, fixed_alpha, 0}));
+    c.refused_rays += static_cast<uint64_t>(in.accel->intersect(
+        rays_of(work.paths[0], count), work.hits, Coherence::coherent, {true, fixed_alpha, 0}));
 }
 
 }  // namespace
 
 Workspace::Workspace() {
-    constexpr size_t words = 2 * words_per_path + words_per_hit + words_per_miss +
-                             words_per_shadow + words_per_sample;
+    constexpr size_t words =
+        2 * words_per_path + words_per_hit + words_per_miss + words_per_shadow + words_per_sample;
     memory_.resize(words * (padded_rows * 4 + alignment) + alignment);
     void* start = memory_.data();
     size_t space = memory_.size();
-    Carver carve(static_cast<std::byte*>(
-        std::align(alignment, memory_.size() - alignment, start, space)));
-    for (PathRows& p : paths) carve_paths(carve, p);
+    Carver carve(
+        static_cast<std::byte*>(std::align(alignment, memory_.size() - alignment, start, space)));
+    for (PathRows& p : paths)
+        carve_paths(carve, p);
     carve.all(hits.t, hits.u, hits.v, hits.instance, hits.primitive, hits.triangle);
     carve.all(misses.dx, misses.dy, misses.dz, misses.tr, misses.tg, misses.tb);
     carve.all(misses.pdf, misses.slot);
@@ -110,11 +108,12 @@ void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCou
     in.stages->camera(in.batch, count, work.paths[0], work.samples);
     counters.paths += static_cast<uint64_t>(count);
     switch (in.kind) {
-        case WalkKind::path: walk_paths(in, count, work, counters); break;
+        case WalkKind::path:
+            walk_paths(in, count, work, counters);
+            break;
         case WalkKind::ao: {
             trace_camera(in, count, false, work, counters);
-            const int shadows =
-                in.stages->shade_ao(in.scene, in.batch, count, shade_rows(work));
+            const int shadows = in.stages->shade_ao(in.scene, in.batch, count, shade_rows(work));
             if (shadows > 0) trace_shadows(in, shadows, 0, work, counters);
             break;
         }

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "accel/accel.h"
+#include "stages/stages.h"
+
 #include <cstddef>
 #include <memory>
 #include <vector>
-
-#include "accel/accel.h"
-#include "stages/stages.h"
 
 namespace obscura {
 

@@ -104,8 +104,8 @@ OBSCURA_INLINE BsdfValue<F> evaluate_bsdf(const BsdfParams<F>& p,
     const F specular = distribution / (denominator_o * denominator_i);  // D * V
     const F dielectric = (F(1.0f) - p.metallic) * fd;
     const Vec3<F> metal = (p.base_color + (splat3(F(1.0f)) - p.base_color) * weight) * p.metallic;
-    const Vec3<F> f = p.base_color * (lobes.diffuse * F(1.0f / pi_f)) +
-                      (splat3(dielectric) + metal) * specular;
+    const Vec3<F> f =
+        p.base_color * (lobes.diffuse * F(1.0f / pi_f)) + (splat3(dielectric) + metal) * specular;
     const F pdf = lobes.specular_probability * distribution / (F(2.0f) * denominator_o) +
                   (F(1.0f) - lobes.specular_probability) * wi.z * F(1.0f / pi_f);
     const F zero = F(0.0f);
@@ -145,9 +145,7 @@ OBSCURA_INLINE BsdfSample<F> sample_bsdf(const BsdfParams<F>& p,
     const Vec3<F> h = sample_visible_normal(wo, p.alpha, u);
     const Vec3<F> mirrored = h * (F(2.0f) * dot(wo, h)) - wo;
     const Vec3<F> wi = select(specular, mirrored, cosine_hemisphere(u));
-    return {wi,
-            evaluate_bsdf(p, lobes, wo, wi),
-            select(specular, F(0.5f) * p.alpha, F(0.4f))};
+    return {wi, evaluate_bsdf(p, lobes, wo, wi), select(specular, F(0.5f) * p.alpha, F(0.4f))};
 }
 
 template <typename F>

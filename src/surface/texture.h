@@ -145,9 +145,8 @@ OBSCURA_INLINE TexelPosition<F> texel_position(const TextureView& view,
     const IntOf<F> wrap_v = IntOf<F>(as_int(as_uint(info.sampler) >> 2)) & IntOf<F>(3);
     const MipLevel<F> level = mip_level<F>(view, info, choose_level<F>(info, lod, pick));
     const MaskOf<F> magnified = lod <= F(0.0f);
-    const MaskOf<F> nearest =
-        (magnified & has_bits<F>(info.sampler, sampler_mag_nearest)) |
-        ((!magnified) & has_bits<F>(info.sampler, sampler_min_nearest));
+    const MaskOf<F> nearest = (magnified & has_bits<F>(info.sampler, sampler_mag_nearest)) |
+                              ((!magnified) & has_bits<F>(info.sampler, sampler_min_nearest));
     return {level,
             wrap_unit<F>(uv.x, wrap_u) * from_int<F>(level.width),
             wrap_unit<F>(uv.y, wrap_v) * from_int<F>(level.height),
@@ -169,7 +168,8 @@ OBSCURA_INLINE UintOf<F> fetch_texel(const TextureView& view,
 /// Reads one texel, chosen at random with the weights of the bilinear (and mip) filter: right on
 /// average, a quarter or an eighth of the memory traffic.
 ///
-/// In      texture: row number of every lane, all valid; footprint: area in UV space that the look-up
+/// In      texture: row number of every lane, all valid; footprint: area in UV space that the
+/// look-up
 ///         stands for; random: three numbers in [0,1)
 /// Source  Pharr et al., "Filtering After Shading With Stochastic Texture Filtering", I3D 2024
 template <typename F>
@@ -183,8 +183,8 @@ OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
     const TexelPosition<F> at = texel_position<F>(view, info, uv, lod, random.z);
     const F jitter_x = select(at.nearest, F(0.0f), random.x - F(0.5f));
     const F jitter_y = select(at.nearest, F(0.0f), random.y - F(0.5f));
-    const UintOf<F> texel = fetch_texel<F>(
-        view, at, to_int(floor(at.x + jitter_x)), to_int(floor(at.y + jitter_y)));
+    const UintOf<F> texel =
+        fetch_texel<F>(view, at, to_int(floor(at.x + jitter_x)), to_int(floor(at.y + jitter_y)));
     return decode_texel<F>(texel, has_bits<F>(info.sampler, sampler_srgb));
 }
 

@@ -120,6 +120,7 @@ TEST(SameFile, SeesThroughLinksAndMissingFiles) {
     EXPECT_TRUE(same_file(folder / "a", folder.path() / "." / "a"));
     EXPECT_TRUE(same_file(folder / "a", folder / "link"));
     EXPECT_TRUE(same_file(folder / "new", folder.path() / ".." / folder.path().filename() / "new"));
+    EXPECT_TRUE(same_file("obscura_no_such_file", "./obscura_no_such_file"));
     EXPECT_FALSE(same_file(folder / "new", folder / "other"));
     EXPECT_FALSE(same_file(folder / "a", folder / "new"));
 }

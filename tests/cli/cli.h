@@ -98,7 +98,9 @@ protected:
         ASSERT_TRUE(result) << got.err;
         EXPECT_EQ(result->code, code);
         EXPECT_EQ(result->id, id) << got.err;
-        if (code != 0) EXPECT_THAT(got.err, testing::HasSubstr("ERROR "));
+        if (code != 0) {
+            EXPECT_THAT(got.err, testing::HasSubstr("ERROR "));
+        }
     }
 
     TempFolder folder_;

@@ -49,8 +49,8 @@ TEST_F(Outputs, TheDefaultNameIsTheScenesStemHere) {
 }
 
 TEST_F(Outputs, StrangeNamesKeepTheirBytes) {
-    for (const std::string name :
-         {"two words", "new\nline", "-dash", "%s%n", "\xC3\xA9\xFF", "[x]"}) {
+    for (const std::string& name : std::vector<std::string>{
+             "two words", "new\nline", "-dash", "%s%n", "\xC3\xA9\xFF", "[x]"}) {
         SCOPED_TRACE(name);
         folder_.write(name + ".gltf", gltf_text(triangle_scene()));
         expect_result(render(name + ".gltf", {"-o", name + ".exr", "-o", name + ".png"}), 0, "OK");
@@ -190,11 +190,11 @@ TEST_F(Outputs, OutputsThatCannotBeAreRefusedBeforeTheSceneIsRead) {
     std::filesystem::create_directory(folder_ / "folder.exr");
     ASSERT_EQ(mkfifo((folder_ / "pipe.exr").c_str(), 0600), 0);
     const std::string long_name(300, 'x');
-    for (const std::string output : {std::string("no/such/a.exr"),
-                                     std::string("folder.exr"),
-                                     std::string("pipe.exr"),
-                                     std::string("/proc/a.exr"),
-                                     long_name + ".exr"}) {
+    for (const std::string& output : {std::string("no/such/a.exr"),
+                                      std::string("folder.exr"),
+                                      std::string("pipe.exr"),
+                                      std::string("/proc/a.exr"),
+                                      long_name + ".exr"}) {
         SCOPED_TRACE(output);
         expect_result(render("missing.gltf", {"-o", output}), 73, "E-OUT-CREATE");
     }

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 class Reports : public Cli {};
 
 TEST_F(Reports, ProgressLinesOnStandardOutput) {
-    const ProgramRun got = render("box.gltf", {"--size", "400x300", "--spp", "64"});
+    const ProgramRun got = run({"render", "box.gltf", "--size", "400x300", "--spp", "64"});
     const std::vector<std::string> lines = lines_of(got.out);
     ASSERT_GE(lines.size(), 2U);
     EXPECT_EQ(lines.front(), "Progress: 0%");

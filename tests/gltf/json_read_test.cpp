@@ -1,5 +1,5 @@
-// tests/gltf/json_read_test.cpp - typed access to JSON: what passes as a number, and where faults
-// are. SPDX-License-Identifier: Apache-2.0
+// tests/gltf/json_read_test.cpp - what passes as a number, and where faults are.
+// SPDX-License-Identifier: Apache-2.0
 #include "gltf/json_read.h"
 
 #include <gtest/gtest.h>

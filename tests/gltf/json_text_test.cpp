@@ -1,5 +1,5 @@
-// tests/gltf/json_text_test.cpp - JSON text with its limits and the places of its errors (faults
-// B). SPDX-License-Identifier: Apache-2.0
+// tests/gltf/json_text_test.cpp - JSON text, its limits and the places of its errors.
+// SPDX-License-Identifier: Apache-2.0
 #include "gltf/json_text.h"
 
 #include <gtest/gtest.h>

@@ -109,7 +109,8 @@ TEST(Cameras, ArePlacedWithoutScale) {
     builder.tree["cameras"] = json::parse(R"([
         {"type": "perspective", "name": "Main",
          "perspective": {"yfov": 0.8, "znear": 0.1, "zfar": 50, "aspectRatio": 1.5}},
-        {"type": "orthographic", "orthographic": {"xmag": 3, "ymag": -2, "znear": 0, "zfar": 9}}])");
+        {"type": "orthographic",
+         "orthographic": {"xmag": 3, "ymag": -2, "znear": 0, "zfar": 9}}])");
     builder.add_root({{"camera", 0},
                       {"translation", {1, 2, 3}},
                       {"rotation", {0, half, 0, half}},

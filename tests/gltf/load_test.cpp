@@ -1,5 +1,5 @@
-// tests/gltf/load_test.cpp - whole files: which scene, what is told about them, what cannot be
-// opened. SPDX-License-Identifier: Apache-2.0
+// tests/gltf/load_test.cpp - whole files: which scene, what is told, what cannot be opened.
+// SPDX-License-Identifier: Apache-2.0
 #include "gltf/load.h"
 
 #include "gltf/gltf_files.h"
@@ -144,7 +144,7 @@ TEST(Load, DamagedFilesNeverCrash) {
             bytes[next() % bytes.size()] = static_cast<char>(next());
         }
         const Loaded loaded = load_file(folder.write("damaged.glb", bytes));
-        if (!loaded.scene) EXPECT_FALSE(loaded.id().empty());
+        EXPECT_EQ(loaded.scene.has_value(), loaded.id().empty());
         EXPECT_NE(loaded.code(), static_cast<int>(ExitCode::internal)) << loaded.text();
     }
 }

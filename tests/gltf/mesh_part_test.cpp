@@ -43,6 +43,7 @@ std::vector<int> corners_of(int mode, const std::vector<uint16_t>& indices) {
     builder.add_root({{"mesh", 0}});
     const Loaded loaded = load_tree(builder.finished());
     EXPECT_TRUE(loaded.scene) << loaded.text();
+    if (!loaded.scene) return {};
     return corners(*loaded.scene);
 }
 
@@ -58,8 +59,8 @@ TEST(MeshPart, ListsStripsAndFans) {
 
 /// Repeated vertices join two strips; what is drawn keeps the winding of its place.
 TEST(MeshPart, StripsTurnAtRepeatedVertices) {
-    EXPECT_EQ(corners_of(5, {0, 1, 2, 2, 3, 3, 4, 5}), (Corners{0, 1, 2, 3, 4, 5}));
-    EXPECT_EQ(corners_of(5, {0, 1, 2, 3, 3, 4, 5}), (Corners{0, 1, 2, 1, 3, 2, 3, 5, 4}));
+    EXPECT_EQ(corners_of(5, {0, 1, 2, 2, 3, 3, 4, 5}), (Corners{0, 1, 2, 3, 5, 4}));
+    EXPECT_EQ(corners_of(5, {0, 1, 2, 3, 3, 4, 5}), (Corners{0, 1, 2, 1, 3, 2, 3, 4, 5}));
 }
 
 TEST(MeshPart, PointsAndLinesAreCountedAndNamed) {
@@ -135,7 +136,9 @@ TEST(MeshPart, OnlyUsedPositionsMustBeFinite) {  // C12, C13
             builder.add_root({{"mesh", 0}});
             const Loaded loaded = load_tree(builder.finished());
             EXPECT_EQ(loaded.id(), used ? "E-MESH-POSITION" : "") << bad << loaded.text();
-            if (!used) EXPECT_EQ(position_of(*loaded.scene, 3), (std::vector<float>{0, 0, 0}));
+            if (!used) {
+                EXPECT_EQ(position_of(*loaded.scene, 3), (std::vector<float>{0, 0, 0}));
+            }
         }
     }
 }
@@ -163,10 +166,13 @@ template <typename T>
 std::vector<float> color_of(const char* type, int component, const std::vector<T>& values) {
     AssetBuilder builder = triangle_builder();
     const int accessor = builder.add_accessor(type, component, values);
+    builder.tree["accessors"][4].erase("min");  // JSON has no NaN
+    builder.tree["accessors"][4].erase("max");
     if (component != 5126) builder.tree["accessors"][4]["normalized"] = true;
     builder.tree["meshes"][0]["primitives"][0]["attributes"]["COLOR_0"] = accessor;
     const Loaded loaded = load_tree(builder.finished());
     EXPECT_TRUE(loaded.scene) << loaded.text();
+    if (!loaded.scene) return {};
     return attribute_of(*loaded.scene, loaded.scene->primitives[0].color_base, 1, 4);
 }
 

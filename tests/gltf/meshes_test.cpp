@@ -181,5 +181,14 @@ TEST(Meshes, UnusedMeshesTakeNoRoom) {
     EXPECT_EQ(loaded.scene->info.meshes[1].count, 1U);
 }
 
+TEST(Meshes, LimitsAreThoseOf32Bits) {
+    constexpr size_t words = (1ULL << 31) - 1;
+    constexpr size_t vertices = (1ULL << 29) - 1;
+    EXPECT_EQ(broken_limit({vertices, words, words}), nullptr);
+    EXPECT_STREQ(broken_limit({vertices + 1, 0, 0}), "E-LIMIT-VERTICES");
+    EXPECT_STREQ(broken_limit({0, words + 1, 0}), "E-LIMIT-TRIANGLES");
+    EXPECT_STREQ(broken_limit({0, 0, words + 1}), "E-LIMIT-ATTRIBUTES");
+}
+
 }  // namespace
 }  // namespace obscura

@@ -1,5 +1,5 @@
-// tests/light/environment_test.cpp - look-up of environment maps: orientation, interpolation,
-// lanes. SPDX-License-Identifier: Apache-2.0
+// tests/light/environment_test.cpp - environment look-up: orientation, interpolation, lanes.
+// SPDX-License-Identifier: Apache-2.0
 #include "light/environment.h"
 
 #include <gtest/gtest.h>

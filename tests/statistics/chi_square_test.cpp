@@ -1,5 +1,5 @@
-// tests/statistics/chi_square_test.cpp - the statistical harness itself: known values, and that it
-// can fail. SPDX-License-Identifier: Apache-2.0
+// tests/statistics/chi_square_test.cpp - the statistical harness: known values; it can fail.
+// SPDX-License-Identifier: Apache-2.0
 #include "support/chi_square.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// tests/statistics/triangle_light_test.cpp - chi-square of points and directions on a triangle
-// light. SPDX-License-Identifier: Apache-2.0
+// tests/statistics/triangle_light_test.cpp - chi-square of points and directions of a light.
+// SPDX-License-Identifier: Apache-2.0
 #include "light/triangle_light.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// tests/support/chi_square.h - does a sampler make its samples with the density it claims?
+// tests/support/chi_square.h - tests that a sampler makes its samples with the density it claims.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

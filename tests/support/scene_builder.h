@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "render/render.h"
+
 #include <cmath>
 #include <vector>
-
-#include "render/render.h"
 
 namespace obscura::test {
 
@@ -27,7 +27,8 @@ public:
     /// A parallelogram with corners p, p + a, p + a + b, p + b; its front is cross(a, b).
     void quad(const Vec3f& p, const Vec3f& a, const Vec3f& b, int32_t material_row) {
         const uint32_t first = vertex_count();
-        for (const Vec3f& v : {p, p + a, p + a + b, p + b}) add_vertex(v);
+        for (const Vec3f& v : {p, p + a, p + a + b, p + b})
+            add_vertex(v);
         begin(material_row);
         triangle(first, first + 1, first + 2);
         triangle(first, first + 2, first + 3);
@@ -36,7 +37,12 @@ public:
 
     /// A sphere of `rings` x 2 `rings` quads; `inward`: its front faces the centre. With smooth
     /// normals unless `flat`.
-    void sphere(const Vec3f& centre, float radius, int rings, int32_t material_row, bool inward = false, bool flat = false) {
+    void sphere(const Vec3f& centre,
+                float radius,
+                int rings,
+                int32_t material_row,
+                bool inward = false,
+                bool flat = false) {
         const uint32_t first = vertex_count();
         const int columns = 2 * rings;
         std::vector<float> normals;
@@ -65,8 +71,11 @@ public:
             for (int c = 0; c < columns; ++c) {
                 uint32_t corner[4] = {at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r + 1, c)};
                 if (inward) std::swap(corner[1], corner[3]);
-                if (r > 0) triangle(corner[0], corner[1], corner[2]);
-                if (r + 1 < rings) triangle(corner[0], corner[2], corner[3]);
+                // At the poles one half of the quad has no area: which one, the winding decides.
+                const bool first_pole = r == 0;
+                const bool last_pole = r + 1 == rings;
+                if (!(inward ? last_pole : first_pole)) triangle(corner[0], corner[1], corner[2]);
+                if (!(inward ? first_pole : last_pole)) triangle(corner[0], corner[2], corner[3]);
             }
         }
         end();
@@ -120,7 +129,8 @@ inline ImageRgb32f constant_environment(float radiance) {
 }
 
 /// A pinhole camera at `eye` that looks at `target`.
-inline Camera look_at(const Vec3f& eye, const Vec3f& target, float yfov_rad, int width, int height) {
+inline Camera look_at(
+    const Vec3f& eye, const Vec3f& target, float yfov_rad, int width, int height) {
     const Vec3f back = normalize(eye - target);
     const Vec3f hint = std::fabs(back.y) > 0.99f ? Vec3f{0, 0, 1} : Vec3f{0, 1, 0};
     const Vec3f right = normalize(cross(hint, back));
@@ -134,8 +144,7 @@ inline Camera look_at(const Vec3f& eye, const Vec3f& target, float yfov_rad, int
     }
     camera.pinhole.tan_half_yfov = std::tan(0.5f * yfov_rad);
     camera.pinhole.aspect = static_cast<float>(width) / static_cast<float>(height);
-    camera.pinhole.pixel_spread =
-        2.0f * camera.pinhole.tan_half_yfov / static_cast<float>(height);
+    camera.pinhole.pixel_spread = 2.0f * camera.pinhole.tan_half_yfov / static_cast<float>(height);
     return camera;
 }
 

@@ -1,17 +1,18 @@
 // tests/truth/estimator_test.cpp - properties of the estimator: strategies agree, bits repeat.
 // SPDX-License-Identifier: Apache-2.0
-#include <cstring>
+#include "base/parallel.h"
 
 #include <gtest/gtest.h>
 
-#include "base/parallel.h"
 #include "support/scene_builder.h"
 #include "truth/reference.h"
+#include <cstring>
 
 namespace obscura::test {
 namespace {
 
-/// A floor, a glossy and a rough sphere, an emissive quad and a veil, under a sky with a bright spot.
+/// A floor, a glossy and a rough sphere, an emissive quad and a veil, under a sky with a bright
+/// spot.
 Scene mixed_scene() {
     SceneBuilder builder;
     Material ground;
@@ -41,7 +42,8 @@ LightingOptions mixed_light() {
     ImageRgb32f sky{64, 32, {}};
     sky.pixels.assign(64 * 32 * 3, 0.3f);
     for (int y = 6; y < 10; ++y) {
-        for (int x = 20; x < 26; ++x) sky.pixels[static_cast<size_t>(y * 64 + x) * 3] = 15.0f;
+        for (int x = 20; x < 26; ++x)
+            sky.pixels[static_cast<size_t>(y * 64 + x) * 3] = 15.0f;
     }
     LightingOptions lighting;
     lighting.environment = sky;
@@ -118,8 +120,8 @@ TEST(Determinism, ACropIsAPieceOfTheWhole) {
     const std::vector<float> piece = pixels_with(2, 16, crop);
     for (int y = 0; y < 50; ++y) {
         for (int x = 0; x < 70; ++x) {
-            const bool inside = x >= crop.x && x < crop.x + crop.width && y >= crop.y &&
-                                y < crop.y + crop.height;
+            const bool inside =
+                x >= crop.x && x < crop.x + crop.width && y >= crop.y && y < crop.y + crop.height;
             for (int c = 0; c < 4; ++c) {
                 const auto i = static_cast<size_t>((y * 70 + x) * 4 + c);
                 EXPECT_EQ(piece[i], inside ? whole[i] : 0.0f) << x << "," << y;

@@ -182,7 +182,8 @@ std::vector<double> solve_sphere(const BsdfParams<double>& p,
         std::vector<double> next(n);
         for (int o = 0; o < n; ++o) {
             next[o] = source(cosine(o));
-            for (int i = 0; i < n; ++i) next[o] += kernel[o][i] * radiance[i];
+            for (int i = 0; i < n; ++i)
+                next[o] += kernel[o][i] * radiance[i];
         }
         radiance = next;
     }
@@ -216,7 +217,8 @@ void check_closed_sphere(const Material& m, bool lamp_inside) {
     const auto source = [&](double cosine) {
         double light = static_cast<double>(m.emission[0]);
         if (lamp_inside) {
-            light += intensity * evaluate_bsdf(p, polar_direction(cosine, 0), {0, 0, 1}).value_cos.x;
+            light +=
+                intensity * evaluate_bsdf(p, polar_direction(cosine, 0), {0, 0, 1}).value_cos.x;
         }
         return light;
     };
@@ -290,9 +292,7 @@ TEST(Environment, FollowsTheDocumentedOrientation) {
         const Camera camera = look_at({0, 0, 0}, d, 0.01f, picture_size, picture_size);
         const Film film = render_scene(SceneBuilder().take(), lighting, camera, options).film;
         const Vec3f n = normalize(d);
-        EXPECT_NEAR(film_mean(film, 0).value,
-                    std::atan2(n.z, n.x) / (2 * pi_d) + 0.5,
-                    1e-3);
+        EXPECT_NEAR(film_mean(film, 0).value, std::atan2(n.z, n.x) / (2 * pi_d) + 0.5, 1e-3);
         EXPECT_NEAR(film_mean(film, 1).value, std::acos(n.y) / pi_d, 1e-3);
     }
 }

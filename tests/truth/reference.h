@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "render/render.h"
+#include "surface/bsdf.h"
+
 #include <cmath>
 #include <functional>
 #include <vector>
-
-#include "render/render.h"
-#include "surface/bsdf.h"
 
 namespace obscura::test {
 
@@ -38,8 +38,7 @@ inline double reflected(const BsdfParams<double>& p,
         const double tangent = std::sqrt(std::max(0.0, 1.0 - cos_h * cos_h)) / cos_h;
         const double ratio = tangent / p.alpha;
         const double one_minus_t = 1.0 / (1.0 + ratio);
-        const double dtheta_dt =
-            p.alpha / (one_minus_t * one_minus_t) / (1.0 + tangent * tangent);
+        const double dtheta_dt = p.alpha / (one_minus_t * one_minus_t) / (1.0 + tangent * tangent);
         const double sine = std::max(cos_h * tangent, 1e-300);
         return 1.0 / (2.0 * pi_d * sine * dtheta_dt * 4.0 * cos_oh);
     };

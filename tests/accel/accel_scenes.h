@@ -1,0 +1,162 @@
+// tests/accel/accel_scenes.h - rays in columns, hits beside them, and scenes to shoot at.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "accel/accel.h"
+
+#include "support/random.h"
+#include "support/scene_builder.h"
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+namespace obscura::test {
+
+#ifdef OBSCURA_DEBUG
+inline constexpr int thorough = 20;  ///< sample counts are divided by this
+#else
+inline constexpr int thorough = 1;
+#endif
+
+inline constexpr Coherence both_ways[] = {Coherence::coherent, Coherence::incoherent};
+
+/// Rays and the hits that belong to them; columns are padded to whole packets.
+class RayList {
+public:
+    void add(const Vec3f& origin, const Vec3f& direction, float tfar = 3e38F) {
+        const float row[7] = {
+            origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tfar};
+        for (size_t c = 0; c < 7; ++c)
+            ray_[c].push_back(row[c]);
+        key_.push_back(static_cast<uint32_t>(key_.size()) * 0x9E3779B9U);
+    }
+
+    int count() const { return static_cast<int>(key_.size()); }
+    Vec3f origin(int i) const { return {at(0, i), at(1, i), at(2, i)}; }
+    Vec3f direction(int i) const { return {at(3, i), at(4, i), at(5, i)}; }
+
+    /// Returns the number of refused rays; hits are in the members below.
+    int intersect(const Accel& accel, Coherence coherence, SeeThrough see_through = {}) {
+        const RayColumns rays = pad();
+        const size_t rows = ray_[0].size() + 16;
+        for (std::vector<float>* column : {&t, &u, &v})
+            column->assign(rows, -7.0F);
+        for (std::vector<int32_t>* column : {&instance, &primitive, &triangle})
+            column->assign(rows, -7);
+        const HitColumns hits{
+            t.data(), u.data(), v.data(), instance.data(), primitive.data(), triangle.data()};
+        const int refused = accel.intersect(rays, hits, coherence, see_through);
+        unpad();
+        return refused;
+    }
+
+    int occlude(const Accel& accel, Coherence coherence, uint32_t segment = 0) {
+        const RayColumns rays = pad();
+        occluded.assign(ray_[0].size() + 16, 9);
+        const int refused = accel.occluded(rays, occluded.data(), coherence, segment);
+        unpad();
+        return refused;
+    }
+
+    bool hit(int i) const { return primitive[static_cast<size_t>(i)] >= 0; }
+
+    std::vector<float> t, u, v;
+    std::vector<int32_t> instance, primitive, triangle;
+    std::vector<uint8_t> occluded;
+
+private:
+    float at(size_t column, int i) const { return ray_[column][static_cast<size_t>(i)]; }
+
+    RayColumns pad() {
+        rows_ = key_.size();
+        for (auto& column : ray_)
+            column.resize(rows_ + 16, 0.0F);
+        key_.resize(rows_ + 16, 0U);
+        return {ray_[0].data(),
+                ray_[1].data(),
+                ray_[2].data(),
+                ray_[3].data(),
+                ray_[4].data(),
+                ray_[5].data(),
+                ray_[6].data(),
+                key_.data(),
+                static_cast<int>(rows_)};
+    }
+    void unpad() {
+        for (auto& column : ray_)
+            column.resize(rows_);
+        key_.resize(rows_);
+    }
+
+    std::vector<float> ray_[7];
+    std::vector<uint32_t> key_;
+    size_t rows_ = 0;
+};
+
+/// A scene that does not move, with its hierarchy.
+struct BuiltScene {
+    std::unique_ptr<Scene> scene;
+    Accel accel;
+};
+
+inline BuiltScene build(Scene scene) {
+    auto kept = std::make_unique<Scene>(std::move(scene));
+    auto accel = Accel::build(*kept, "");
+    if (!accel) throw std::runtime_error(accel.error().message);
+    return {std::move(kept), std::move(*accel)};
+}
+
+/// Turns a scene's primitives into one mesh that is placed once for each map.
+inline Scene instanced(Scene scene, const std::vector<Affined>& placings) {
+    scene.world_primitive_count = 0;
+    scene.meshes = {{0, static_cast<int32_t>(scene.primitives.size())}};
+    for (const Affined& placing : placings) {
+        Instance instance;
+        instance.world_from_object = affine_cast<float>(placing);
+        instance.object_from_world =
+            affine_cast<float>(inverse(affine_cast<double>(instance.world_from_object)));
+        instance.mirrored = determinant(placing) < 0 ? 1 : 0;
+        scene.instances.push_back(instance);
+    }
+    return scene;
+}
+
+inline Affined scaling(double x, double y, double z, const Vec3d& translation = {0, 0, 0}) {
+    Affined a;
+    a.m[0][0] = x;
+    a.m[1][1] = y;
+    a.m[2][2] = z;
+    a.m[0][3] = translation.x;
+    a.m[1][3] = translation.y;
+    a.m[2][3] = translation.z;
+    return a;
+}
+
+/// Makes the sphere of SceneBuilder closed: its seam and poles share their vertices.
+inline void weld_sphere(Scene& scene, int rings) {
+    const auto columns = static_cast<uint32_t>(2 * rings);
+    for (uint32_t& index : scene.indices) {
+        const uint32_t row = index / (columns + 1);
+        uint32_t column = index % (columns + 1);
+        if (column == columns || row == 0 || row == static_cast<uint32_t>(rings)) column = 0;
+        index = row * (columns + 1) + column;
+    }
+}
+
+inline float between(Pcg32& random, float low, float high) {
+    return low + (high - low) * random.next_float();
+}
+
+inline Vec3f random_unit(Pcg32& random) {
+    const float x = random.next_float();
+    return uniform_sphere(Vec2f{x, random.next_float()});
+}
+
+inline Vec3f random_in_cube(Pcg32& random, float half) {
+    const float x = between(random, -half, half);
+    const float y = between(random, -half, half);
+    return {x, y, between(random, -half, half)};
+}
+
+}  // namespace obscura::test

@@ -1,0 +1,304 @@
+// tests/accel/queries_test.cpp - unsafe rays, packets of every size, ids, and hidden back faces.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/accel.h"
+#include "accel/accel_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace obscura {
+namespace {
+
+using namespace test;
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// A 2 x 2 square at height z that faces +Z, or -Z when turned over.
+void add_square(SceneBuilder& builder, float z, int32_t material, bool turned = false) {
+    const Vec3f p{-1, -1, z};
+    if (turned) {
+        builder.quad(p, {0, 2, 0}, {2, 0, 0}, material);
+    } else {
+        builder.quad(p, {2, 0, 0}, {0, 2, 0}, material);
+    }
+}
+
+BuiltScene one_square() {
+    SceneBuilder builder;
+    add_square(builder, 0, builder.material({}));
+    return build(builder.take());
+}
+
+TEST(Queries, UnsafeRaysAreRefusedAndCounted) {
+    const BuiltScene built = one_square();
+    std::vector<std::pair<Vec3f, Vec3f>> unsafe;
+    for (const float bad : {nan, infinity, -infinity, 1e30F, -3e38F}) {
+        for (int axis = 0; axis < 3; ++axis) {
+            float o[3] = {0, 0, 5};
+            float d[3] = {0, 0, -1};
+            o[axis] = bad;
+            unsafe.push_back({{o[0], o[1], o[2]}, {0, 0, -1}});
+            d[axis] = bad;
+            unsafe.push_back({{0, 0, 5}, {d[0], d[1], d[2]}});
+        }
+    }
+    unsafe.push_back({{0, 0, 5}, {0, 0, 0}});
+    unsafe.push_back({{0, 0, 5}, {-0.0F, 0, -0.0F}});
+    for (const Coherence coherence : both_ways) {
+        RayList rays;  // bad ones among good ones
+        for (const auto& [origin, direction] : unsafe) {
+            rays.add({0.1F, 0.2F, 5}, {0, 0, -1});
+            rays.add(origin, direction);
+        }
+        const int bad = static_cast<int>(unsafe.size());
+        EXPECT_EQ(rays.intersect(built.accel, coherence), bad);
+        EXPECT_EQ(rays.occlude(built.accel, coherence), bad);
+        for (int i = 0; i < rays.count(); ++i) {
+            const auto row = static_cast<size_t>(i);
+            EXPECT_EQ(rays.hit(i), i % 2 == 0) << i;
+            EXPECT_EQ(rays.occluded[row], 1) << "refused rays bring no light, ray " << i;
+            if (i % 2 == 0) {
+                EXPECT_EQ(rays.t[row], 5.0F);
+            }
+        }
+    }
+}
+
+TEST(Queries, EndsOfRaysAreChecked) {
+    const BuiltScene built = one_square();
+    for (const Coherence coherence : both_ways) {
+        RayList rays;
+        for (const float tfar : {nan, -1.0F, -infinity, 4.9F, 5.1F, 0.0F, infinity})
+            rays.add({0.1F, 0.2F, 5}, {0, 0, -1}, tfar);
+        EXPECT_EQ(rays.occlude(built.accel, coherence), 3);
+        const std::vector<uint8_t> expected = {1, 1, 1, 0, 1, 0, 1};
+        for (size_t i = 0; i < expected.size(); ++i)
+            EXPECT_EQ(rays.occluded[i], expected[i]) << i;
+        EXPECT_EQ(rays.intersect(built.accel, coherence), 3);
+        for (int i = 0; i < rays.count(); ++i)
+            EXPECT_EQ(rays.hit(i), i == 4 || i == 6) << i;
+    }
+}
+
+TEST(Queries, PacketsOfEveryCount) {
+    const BuiltScene built = one_square();
+    for (int count = 0; count <= 33; ++count) {
+        for (const Coherence coherence : both_ways) {
+            RayList rays;
+            for (int i = 0; i < count; ++i) {
+                const bool aims = i % 3 != 0;
+                rays.add(
+                    {aims ? 0.01F * static_cast<float>(i) : 3.0F, 0.5F, 1 + static_cast<float>(i)},
+                    {0, 0, -1});
+            }
+            EXPECT_EQ(rays.intersect(built.accel, coherence), 0);
+            EXPECT_EQ(rays.occlude(built.accel, coherence), 0);
+            for (int i = 0; i < count; ++i) {
+                const auto row = static_cast<size_t>(i);
+                EXPECT_EQ(rays.hit(i), i % 3 != 0) << i << " of " << count;
+                EXPECT_EQ(rays.occluded[row], i % 3 != 0 ? 1 : 0) << i << " of " << count;
+                if (rays.hit(i)) {
+                    EXPECT_EQ(rays.t[row], 1 + static_cast<float>(i));
+                }
+            }
+            for (size_t row = static_cast<size_t>(count); row < rays.occluded.size(); ++row) {
+                EXPECT_EQ(rays.occluded[row], 9) << "rows past the last are not written";
+                EXPECT_EQ(rays.primitive[row], -7);
+            }
+        }
+    }
+}
+
+TEST(Queries, AnEmptySceneIsMissedByAll) {
+    SceneBuilder builder;
+    const BuiltScene built = build(builder.take());
+    for (const Coherence coherence : both_ways) {
+        RayList rays;
+        for (int i = 0; i < 20; ++i)
+            rays.add({0, 0, 5}, {0, 0, -1});
+        EXPECT_EQ(rays.intersect(built.accel, coherence, {true, false, 0}), 0);
+        EXPECT_EQ(rays.occlude(built.accel, coherence), 0);
+        for (int i = 0; i < 20; ++i) {
+            EXPECT_FALSE(rays.hit(i));
+            EXPECT_EQ(rays.occluded[static_cast<size_t>(i)], 0);
+        }
+    }
+}
+
+TEST(Queries, DegenerateTrianglesAreNeverHit) {
+    SceneBuilder builder;
+    builder.material({});
+    Pcg32 random(3);
+    Scene& scene = builder.scene();
+    constexpr uint32_t count = 2000;
+    for (uint32_t i = 0; i < count; ++i) {
+        const Vec3f a = random_in_cube(random, 1.0F);
+        const Vec3f b = i % 2 == 0 ? a : random_in_cube(random, 1.0F);
+        for (const Vec3f& p : {a, b, a})
+            scene.positions.insert(scene.positions.end(), {p.x, p.y, p.z});
+        scene.indices.insert(scene.indices.end(), {3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    Primitive primitive;
+    primitive.triangle_count = count;
+    scene.primitives.push_back(primitive);
+    const BuiltScene built = build(builder.take());
+    for (const Coherence coherence : both_ways) {
+        RayList rays;
+        for (int i = 0; i < 20000; ++i) {
+            const Vec3f origin = random_in_cube(random, 2.0F);
+            rays.add(origin, random_unit(random));
+        }
+        EXPECT_EQ(rays.intersect(built.accel, coherence, {true, false, 0}), 0);
+        for (int i = 0; i < rays.count(); ++i)
+            ASSERT_FALSE(rays.hit(i)) << i;
+    }
+}
+
+/// Two world squares, then two meshes of two and one squares; the instances stand in rows along x.
+Scene numbered_scene() {
+    SceneBuilder builder;
+    const int32_t material = builder.material({});
+    for (const float z : {0.0F, 1.0F, 2.0F, 3.0F, 4.0F})
+        add_square(builder, z, material);
+    Scene scene = builder.take();
+    scene.world_primitive_count = 2;
+    scene.meshes = {{2, 2}, {4, 1}};
+    for (int i = 0; i < 4; ++i) {
+        Instance instance;
+        instance.world_from_object = affine_cast<float>(scaling(1, 1, 1, {10.0 * (i + 1), 0, 0}));
+        instance.object_from_world = affine_cast<float>(scaling(1, 1, 1, {-10.0 * (i + 1), 0, 0}));
+        instance.mesh = i % 2;
+        scene.instances.push_back(instance);
+    }
+    return scene;
+}
+
+TEST(Queries, RowsOfInstancesPrimitivesAndTriangles) {
+    const BuiltScene built = build(numbered_scene());
+    struct Expected {
+        float x, z;
+        int32_t instance, primitive;
+    };
+    const Expected cases[] = {{0, 1.5F, -1, 1},
+                              {0, 0.5F, -1, 0},
+                              {10, 9, 0, 3},
+                              {10, 2.5F, 0, 2},
+                              {20, 9, 1, 4},
+                              {30, 9, 2, 3},
+                              {30, 2.5F, 2, 2},
+                              {40, 9, 3, 4}};
+    for (const Coherence coherence : both_ways) {
+        RayList rays;
+        for (const Expected& e : cases) {
+            rays.add({e.x + 0.5F, -0.25F, e.z}, {0, 0, -1});  // lower right: triangle 0
+            rays.add({e.x - 0.5F, 0.25F, e.z}, {0, 0, -1});   // upper left: triangle 1
+        }
+        rays.intersect(built.accel, coherence);
+        for (int i = 0; i < rays.count(); ++i) {
+            const auto row = static_cast<size_t>(i);
+            const Expected& e = cases[i / 2];
+            EXPECT_EQ(rays.instance[row], e.instance) << i;
+            EXPECT_EQ(rays.primitive[row], e.primitive) << i;
+            EXPECT_EQ(rays.triangle[row], i % 2) << i;
+        }
+        // Barycentrics weigh the second and third corner: (1,-1) and (1,1) of (0.5,-0.25).
+        EXPECT_NEAR(rays.u[0], 0.375F, 1e-6F);
+        EXPECT_NEAR(rays.v[0], 0.375F, 1e-6F);
+    }
+}
+
+/// What a camera ray down -Z, or up +Z, sees: primitive row or -1.
+int32_t seen(const BuiltScene& built, bool from_above, Coherence coherence) {
+    RayList rays;
+    for (int i = 0; i < 5; ++i) {
+        rays.add({0.3F, 0.1F * static_cast<float>(i), from_above ? 9.0F : -9.0F},
+                 {0, 0, from_above ? -1.0F : 1.0F});
+    }
+    rays.intersect(built.accel, coherence, {true, false, 0});
+    for (size_t i = 1; i < 5; ++i)
+        EXPECT_EQ(rays.primitive[i], rays.primitive[0]);
+    rays.occlude(built.accel, coherence);
+    EXPECT_EQ(rays.occluded[0], 1) << "shadow rays see both sides";
+    return rays.primitive[0];
+}
+
+TEST(Queries, CameraRaysPassSingleSidedBacks) {
+    Material both_sides;
+    both_sides.flags = material_double_sided;
+    SceneBuilder builder;
+    const int32_t single = builder.material({});
+    const int32_t twofold = builder.material(both_sides);
+    add_square(builder, -3, twofold);
+    for (int i = 0; i < 6; ++i)
+        add_square(builder, static_cast<float>(i), single, true);  // all face down
+    add_square(builder, -1, single);
+    const BuiltScene built = build(builder.take());
+    EXPECT_EQ(seen(built, true, Coherence::coherent), 7) << "the only one that faces up";
+    EXPECT_EQ(seen(built, false, Coherence::coherent), 0) << "double-sided";
+    // Without culling the nearest counts.
+    RayList rays;
+    rays.add({0.3F, 0.2F, 9}, {0, 0, -1});
+    rays.intersect(built.accel, Coherence::coherent);
+    EXPECT_EQ(rays.primitive[0], 6);
+}
+
+TEST(Queries, OnlyBacksAreAMiss) {
+    SceneBuilder builder;
+    const int32_t single = builder.material({});
+    for (int i = 0; i < 3; ++i)
+        add_square(builder, static_cast<float>(i), single);
+    const BuiltScene built = build(builder.take());
+    EXPECT_EQ(seen(built, true, Coherence::coherent), 2);
+    EXPECT_EQ(seen(built, false, Coherence::coherent), -1);
+}
+
+TEST(Queries, FrontAndBackInOnePlaneShowTheFront) {
+    // A common way to model two-sided sheets: every triangle again, turned over.
+    SceneBuilder builder;
+    const int32_t single = builder.material({});
+    add_square(builder, 0, single);
+    add_square(builder, 0, single, true);
+    const BuiltScene built = build(builder.take());
+    EXPECT_EQ(seen(built, true, Coherence::coherent), 0);
+    EXPECT_EQ(seen(built, false, Coherence::coherent), 1);
+}
+
+TEST(Queries, MirroredInstancesKeepTheirFront) {
+    SceneBuilder builder;
+    add_square(builder, 0, builder.material({}));
+    const Scene square = builder.take();
+    struct Case {
+        Affined placing;
+        bool up;
+    };
+    const Case cases[] = {{scaling(1, 1, 1), true},
+                          {scaling(-1, 1, 1), true},
+                          {scaling(2, -3, 1, {0, 0.5, 2}), true},
+                          {scaling(1, 1, -1), false},
+                          {scaling(-1, -1, -1), false},
+                          {scaling(-1, 1, -1), false}};
+    for (const Case& c : cases) {
+        const BuiltScene built = build(instanced(square, {c.placing}));
+        EXPECT_EQ(seen(built, true, Coherence::coherent), c.up ? 0 : -1);
+        EXPECT_EQ(seen(built, false, Coherence::coherent), c.up ? -1 : 0);
+    }
+}
+
+TEST(Queries, MemoryAndVersionAreReported) {
+    const BuiltScene built = one_square();
+    EXPECT_GT(built.accel.memory_bytes(), 0U);
+    EXPECT_TRUE(built.accel.embree_version().starts_with("3.13.") ||
+                built.accel.embree_version().starts_with("4."));
+    Scene scene;
+    const auto refused = Accel::build(scene, "no-such-isa");
+    if (refused) {
+        EXPECT_FALSE(refused->embree_version().empty());  // Embree ignores names it does not know
+    } else {
+        EXPECT_EQ(refused.error().id, "E-EMBREE");
+    }
+}
+
+}  // namespace
+}  // namespace obscura
