@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace obscura {
 
@@ -41,15 +40,25 @@ int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {
     return refused;
 }
 
-void load_packet(const RayColumns& rays, int first, RTCRay16& out) {
-    const size_t bytes = packet * sizeof(float);
-    std::memcpy(out.org_x, rays.ox + first, bytes);
-    std::memcpy(out.org_y, rays.oy + first, bytes);
-    std::memcpy(out.org_z, rays.oz + first, bytes);
-    std::memcpy(out.dir_x, rays.dx + first, bytes);
-    std::memcpy(out.dir_y, rays.dy + first, bytes);
-    std::memcpy(out.dir_z, rays.dz + first, bytes);
-    if (rays.tfar != nullptr) std::memcpy(out.tfar, rays.tfar + first, bytes);
+/// Reads a column of the packet's rows. Idle lanes repeat the row of `stand_in`: Embree's coherent
+/// kernels look at all lanes, and unsafe numbers there can keep them from ever coming back.
+void load_column(const float* column, int first, const ValidMask& valid, int stand_in, float* out) {
+    for (int i = 0; i < packet; ++i)
+        out[i] = column[first + (valid.lane[i] != 0 ? i : stand_in)];
+}
+
+/// False when no lane is valid; then `out` is left as it was.
+bool load_packet(const RayColumns& rays, int first, const ValidMask& valid, RTCRay16& out) {
+    const int* found = std::find(valid.lane, valid.lane + packet, -1);
+    if (found == valid.lane + packet) return false;
+    const auto stand_in = static_cast<int>(found - valid.lane);
+    load_column(rays.ox, first, valid, stand_in, out.org_x);
+    load_column(rays.oy, first, valid, stand_in, out.org_y);
+    load_column(rays.oz, first, valid, stand_in, out.org_z);
+    load_column(rays.dx, first, valid, stand_in, out.dir_x);
+    load_column(rays.dy, first, valid, stand_in, out.dir_y);
+    load_column(rays.dz, first, valid, stand_in, out.dir_z);
+    if (rays.tfar != nullptr) load_column(rays.tfar, first, valid, stand_in, out.tfar);
     for (int i = 0; i < packet; ++i) {
         out.tnear[i] = 0.0f;
         if (rays.tfar == nullptr) out.tfar[i] = unlimited;
@@ -58,6 +67,7 @@ void load_packet(const RayColumns& rays, int first, RTCRay16& out) {
         out.id[i] = static_cast<unsigned>(first + i);
         out.flags[i] = 0;
     }
+    return true;
 }
 
 void load_ray(const RayColumns& rays, int row, RTCRay& out) {
@@ -166,12 +176,12 @@ int intersect_packets(const Accel::Impl& impl,
         ValidMask valid;
         RTCRayHit16 block;
         refused += mark_valid(rays, first, valid);
-        load_packet(rays, first, block.ray);
+        const bool any_valid = load_packet(rays, first, valid, block.ray);
         for (int i = 0; i < packet; ++i) {
             block.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
             block.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
         }
-        query.intersect16(valid.lane, impl.top, &block);
+        if (any_valid) query.intersect16(valid.lane, impl.top, &block);
         const int count = std::min(packet, rays.count - first);
         for (int i = 0; i < count; ++i) {
             RTCRayHit one;
@@ -245,8 +255,9 @@ int Accel::occluded(const RayColumns& rays,
         ValidMask valid;
         RTCRay16 block;
         refused += mark_valid(rays, first, valid);
-        load_packet(rays, first, block);
-        query.occluded16(valid.lane, impl_->top, &block);
+        if (load_packet(rays, first, valid, block)) {
+            query.occluded16(valid.lane, impl_->top, &block);
+        }
         const int count = std::min(packet, rays.count - first);
         for (int i = 0; i < count; ++i) {
             occluded[first + i] = valid.lane[i] == 0 || block.tfar[i] < 0.0f ? 1 : 0;

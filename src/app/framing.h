@@ -1,5 +1,5 @@
-// app/framing.h - views from outside that show a whole asset, and placing a camera by eye and
-// target. SPDX-License-Identifier: Apache-2.0
+// app/framing.h - views that show a whole asset, and placing a camera by eye and target.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "base/error.h"

@@ -3,30 +3,30 @@
 #pragma once
 
 #include <string>
-#include <utility>
-
 #include <tl/expected.hpp>
+#include <utility>
 
 namespace obscura {
 
 /// Process exit codes: sysexits.h, and what render farms retry on.
 ///
-/// To add one: append it here, give it a line in docs/cli.md, and a test in tests/cli that raises it.
+/// To add one: append it here, give it a line in docs/cli.md, and a test in tests/cli that raises
+/// it.
 enum class ExitCode : int {
     ok = 0,
     out_of_memory = 33,
     usage = 64,
-    bad_data = 65,          ///< the scene file breaks its format
-    missing_scene = 66,     ///< the scene file cannot be opened
-    bad_resource = 67,      ///< a referenced buffer, image or environment is missing or corrupt
-    unsupported = 69,       ///< a required extension or version that we do not have
-    internal = 70,          ///< a bug in this program
-    cannot_create = 73,     ///< the output cannot be created
-    io_error = 74,          ///< reading or writing failed half-way
-    stopped_early = 75,     ///< stopped on request, resumable
+    bad_data = 65,       ///< the scene file breaks its format
+    missing_scene = 66,  ///< the scene file cannot be opened
+    bad_resource = 67,   ///< a referenced buffer, image or environment is missing or corrupt
+    unsupported = 69,    ///< a required extension or version that we do not have
+    internal = 70,       ///< a bug in this program
+    cannot_create = 73,  ///< the output cannot be created
+    io_error = 74,       ///< reading or writing failed half-way
+    stopped_early = 75,  ///< stopped on request, resumable
     too_many_nonfinite = 76,
-    refused = 77,           ///< a limit or a policy forbids it
-    configuration = 78,     ///< OCIO config, display or view
+    refused = 77,        ///< a limit or a policy forbids it
+    configuration = 78,  ///< OCIO config, display or view
 };
 
 /// One failure. `id` is a stable name for scripts ("E-ACC-RANGE"), `where` is a file with a JSON
@@ -46,11 +46,12 @@ inline tl::unexpected<Error> fail(ExitCode code,
                                   std::string id,
                                   std::string where,
                                   std::string message) {
-    return tl::make_unexpected(
-        Error{code, std::move(id), std::move(where), std::move(message)});
+    return tl::make_unexpected(Error{code, std::move(id), std::move(where), std::move(message)});
 }
 
 /// Hands an error on to the caller's own Result type.
-inline tl::unexpected<Error> fail(Error error) { return tl::make_unexpected(std::move(error)); }
+inline tl::unexpected<Error> fail(Error error) {
+    return tl::make_unexpected(std::move(error));
+}
 
 }  // namespace obscura

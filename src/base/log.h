@@ -1,4 +1,4 @@
-// base/log.h - warnings and progress notes for people, on standard error, counted for the statistics.
+// base/log.h - warnings and notes for people, on standard error, kept for the statistics.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

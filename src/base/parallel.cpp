@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
 
-#include <algorithm>
-
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -21,11 +21,14 @@ ThreadLimit::ThreadLimit(int threads)
       control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
                                        static_cast<size_t>(threads_))) {}
 
-ThreadLimit::~ThreadLimit() { delete static_cast<tbb::global_control*>(control_); }
+ThreadLimit::~ThreadLimit() {
+    delete static_cast<tbb::global_control*>(control_);
+}
 
 namespace {
 
-/// TBB's default arena has as many slots as the machine has cores; a limit above that needs its own.
+/// TBB's default arena has as many slots as the machine has cores; a limit above that needs its
+/// own.
 template <typename Body>
 void in_arena(const Body& body) {
     const auto allowed = static_cast<int>(
@@ -42,13 +45,12 @@ void in_arena(const Body& body) {
 
 void parallel_for(size_t count, const std::function<void(size_t)>& body) {
     parallel_ranges(count, 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) body(i);
+        for (size_t i = begin; i < end; ++i)
+            body(i);
     });
 }
 
-void parallel_ranges(size_t count,
-                     size_t grain,
-                     const std::function<void(size_t, size_t)>& body) {
+void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t, size_t)>& body) {
     in_arena([&] {
         tbb::parallel_for(
             tbb::blocked_range<size_t>(0, count, std::max<size_t>(grain, 1)),
@@ -66,8 +68,7 @@ size_t thread_index() {
 }
 
 size_t max_thread_index() {
-    return std::max(tbb::global_control::active_value(
-                        tbb::global_control::max_allowed_parallelism),
+    return std::max(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
                     static_cast<size_t>(tbb::this_task_arena::max_concurrency()));
 }
 
@@ -75,13 +76,17 @@ size_t max_thread_index() {
 FlushDenormals::FlushDenormals() : saved_(_mm_getcsr()) {
     _mm_setcsr(static_cast<unsigned>(saved_) | 0x8040U);
 }
-FlushDenormals::~FlushDenormals() { _mm_setcsr(static_cast<unsigned>(saved_)); }
+FlushDenormals::~FlushDenormals() {
+    _mm_setcsr(static_cast<unsigned>(saved_));
+}
 #elif defined(__aarch64__)
 FlushDenormals::FlushDenormals() : saved_(0) {
     __asm__ volatile("mrs %0, fpcr" : "=r"(saved_));
     __asm__ volatile("msr fpcr, %0" ::"r"(saved_ | (1ULL << 24)));
 }
-FlushDenormals::~FlushDenormals() { __asm__ volatile("msr fpcr, %0" ::"r"(saved_)); }
+FlushDenormals::~FlushDenormals() {
+    __asm__ volatile("msr fpcr, %0" ::"r"(saved_));
+}
 #endif
 
 }  // namespace obscura

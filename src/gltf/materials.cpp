@@ -39,7 +39,7 @@ MaterialTable make_material_table(const Document& document) {
 
 int material_row(
     MaterialTable& table, const Document& document, int material, uint32_t uv_sets, Log& log) {
-    const size_t own = static_cast<size_t>(material + 1);
+    const size_t own = static_cast<size_t>(material) + 1;
     uint32_t lost = 0;
     std::string lost_names;
     const auto slots = slots_of(std::as_const(table.rows[own]));

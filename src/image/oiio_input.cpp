@@ -34,7 +34,7 @@ OiioInput::OiioInput(std::span<const std::byte> bytes, const char* format)
     if (!input_->open(format, found, wishes)) error_ = input_->geterror();
 }
 
-bool OiioInput::read(OIIO::TypeDesc type, void* pixels, OIIO::stride_t pixel_stride) {
+bool OiioInput::read(const OIIO::TypeDesc& type, void* pixels, OIIO::stride_t pixel_stride) {
     return input_->read_image(0, 0, 0, input_->spec().nchannels, type, pixels, pixel_stride);
 }
 

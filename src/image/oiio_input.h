@@ -28,7 +28,7 @@ public:
 
     /// Reads all channels, converted to `type`, into pixels that lie `pixel_stride` bytes apart.
     /// False on failure. Either way, errors() tells what the library said.
-    bool read(OIIO::TypeDesc type, void* pixels, OIIO::stride_t pixel_stride);
+    bool read(const OIIO::TypeDesc& type, void* pixels, OIIO::stride_t pixel_stride);
     std::string errors();
 
 private:

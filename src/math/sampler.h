@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "math/reverse_bits.h"
 #include "math/vec.h"
 
 namespace obscura {

@@ -1,5 +1,5 @@
-// render/filter_table.h - reconstruction filters as tables that the camera stage draws offsets
-// from. SPDX-License-Identifier: Apache-2.0
+// render/filter_table.h - reconstruction filters as tables for the camera stage.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "render/render.h"

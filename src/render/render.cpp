@@ -137,8 +137,12 @@ struct ThreadState {
     WalkCounters counters;
 };
 
-/// Renders all samples of one tile into state.sums.
-void render_tile(const WalkInput& walk_input, int samples, const Tile& tile, ThreadState& state) {
+/// Renders all samples of one tile into state.sums; leaves early when `stop` is set.
+void render_tile(const WalkInput& walk_input,
+                 int samples,
+                 const Tile& tile,
+                 const std::atomic<bool>& stop,
+                 ThreadState& state) {
     list_pixels(tile, state.xs, state.ys);
     const int pixels = static_cast<int>(state.xs.size());
     state.sums.assign(static_cast<size_t>(pixels) * 4, 0.0f);
@@ -149,6 +153,7 @@ void render_tile(const WalkInput& walk_input, int samples, const Tile& tile, Thr
         in.batch.pixel_x = state.xs.data() + first;
         in.batch.pixel_y = state.ys.data() + first;
         for (int sample = 0; sample < samples; sample += per_batch) {
+            if (stop.load(std::memory_order_relaxed)) return;
             in.batch.first_sample = static_cast<uint32_t>(sample);
             in.batch.samples = std::min(per_batch, samples - sample);
             walk(in,
@@ -216,7 +221,7 @@ Result<RenderResult> render(const PreparedScene& scene,
         if (stop.load(std::memory_order_relaxed)) return;
         std::unique_ptr<ThreadState>& state = states[thread_index()];
         if (!state) state = std::make_unique<ThreadState>();
-        render_tile(walk_input, samples, tiles[i], *state);
+        render_tile(walk_input, samples, tiles[i], stop, *state);
         store_tile(*state, samples, result.film);
         const size_t done = ++finished;
         if (progress) progress(static_cast<double>(done) / static_cast<double>(tiles.size()));

@@ -11,12 +11,12 @@ namespace obscura {
 struct ExtensionInfo {
     std::string name;
     bool required = false;
-    bool supported = false;               ///< false: ignored, with a warning
-    std::vector<std::string> materials;   ///< names of the materials that use it, if any
+    bool supported = false;              ///< false: ignored, with a warning
+    std::vector<std::string> materials;  ///< names of the materials that use it, if any
 };
 
 struct ImageInfo {
-    std::string name;  ///< its name, URI or "image 3"
+    std::string name;    ///< its name, URI or "image 3"
     std::string format;  ///< "png", "jpeg", "webp"
     int width = 0;
     int height = 0;

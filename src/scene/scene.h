@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "light/punctual.h"
 #include "math/transform.h"
 #include "scene/asset_info.h"
 #include "scene/texture_arena.h"
 #include "surface/material.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -26,8 +26,14 @@ struct Primitive {
     int32_t normal_base = no_attribute;   ///< 3 floats a vertex, unit; absent: flat shading
     int32_t tangent_base = no_attribute;  ///< 4 floats a vertex, w = handedness
     int32_t color_base = no_attribute;    ///< 4 floats a vertex, linear, multiplies base colour
-    int32_t uv_base[max_uv_sets] = {no_attribute, no_attribute, no_attribute, no_attribute,
-                                    no_attribute, no_attribute, no_attribute, no_attribute};
+    int32_t uv_base[max_uv_sets] = {no_attribute,
+                                    no_attribute,
+                                    no_attribute,
+                                    no_attribute,
+                                    no_attribute,
+                                    no_attribute,
+                                    no_attribute,
+                                    no_attribute};
     int32_t node = -1;  ///< glTF node, for primitives in world space; -1 when reached by instances
     int32_t light_base = -1;  ///< first row in the light table when it emits; set by render
 };
@@ -45,9 +51,9 @@ struct Instance {
     Affinef world_from_object;
     Affinef object_from_world;
     int32_t mesh = 0;
-    int32_t node = -1;      ///< glTF node
-    int32_t mirrored = 0;   ///< 1 when the determinant is negative: front faces are clockwise
-    int32_t light_base = 0; ///< added to Primitive::light_base for this instance; set by render
+    int32_t node = -1;       ///< glTF node
+    int32_t mirrored = 0;    ///< 1 when the determinant is negative: front faces are clockwise
+    int32_t light_base = 0;  ///< added to Primitive::light_base for this instance; set by render
 };
 
 static_assert(sizeof(Instance) == 28 * 4, "read as 32-bit words: no padding");

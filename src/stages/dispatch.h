@@ -6,7 +6,8 @@
 
 namespace obscura {
 
-namespace isa_baseline {
+// This header is for files compiled as baseline only: there, isa_baseline is the inline namespace.
+inline namespace isa_baseline {
 extern const StageTable stage_table;
 }
 namespace isa_avx2 {

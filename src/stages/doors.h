@@ -1,5 +1,5 @@
-// stages/doors.h - what passes between stages: columns of plain numbers, and read-only scene
-// tables. SPDX-License-Identifier: Apache-2.0
+// stages/doors.h - what passes between stages: columns of numbers and read-only tables.
+// SPDX-License-Identifier: Apache-2.0
 //
 //   door         bytes/row  written by        read by
 //   PathRows            64  camera, shade     intersect, shade

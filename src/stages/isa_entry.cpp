@@ -3,7 +3,6 @@
 #include "stages/1_camera.h"
 #include "stages/3_shade.h"
 #include "stages/5_accumulate.h"
-#include "stages/dispatch.h"
 
 #define OBSCURA_TEXT_OF(name) #name
 #define OBSCURA_TEXT(name) OBSCURA_TEXT_OF(name)
@@ -13,8 +12,9 @@ inline namespace OBSCURA_ISA {
 
 static_assert(lane_count == OBSCURA_LANES, "compiled for another instruction set than intended");
 
+extern const StageTable stage_table;
 const StageTable stage_table = {
-    OBSCURA_TEXT(OBSCURA_ISA) + 4,  // without "isa_"
+    &OBSCURA_TEXT(OBSCURA_ISA)[4],  // without "isa_"
     lane_count,
     make_camera_rays,
     shade,

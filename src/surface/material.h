@@ -1,4 +1,4 @@
-// surface/material.h - the glTF metallic-roughness material as plain 32-bit words, ready for gathers.
+// surface/material.h - the glTF metallic-roughness material as plain 32-bit words.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -34,8 +34,8 @@ struct Material {
     float roughness = 1;  ///< perceptual; GGX alpha is its square
     float normal_scale = 1;
     float alpha_cutoff = 0.5f;
-    float emission[3] = {0, 0, 0};  ///< nits: emissiveFactor * emissiveStrength
-    uint32_t flags = 0;             ///< MaterialFlag bits
+    float emission[3] = {0, 0, 0};           ///< nits: emissiveFactor * emissiveStrength
+    uint32_t flags = 0;                      ///< MaterialFlag bits
     TextureSlot base_color_texture;          ///< sRGB, alpha linear
     TextureSlot metallic_roughness_texture;  ///< G roughness, B metallic
     TextureSlot normal_texture;              ///< tangent space, +Y up

@@ -1,5 +1,5 @@
-// tests/accel/self_hit_test.cpp - rays that the stages start at a hit: off the surface, not through
-// walls. SPDX-License-Identifier: Apache-2.0
+// tests/accel/self_hit_test.cpp - rays that start at a hit leave it, and stop at thin walls.
+// SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_scenes.h"
 #include "stages/dispatch.h"
 #include "stages/walk.h"

@@ -34,7 +34,7 @@ TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     EXPECT_FALSE(request->camera.yfov_rad || request->camera.eye_m || request->camera.model);
 }
 
-TEST(RenderRequest, EveryOptionArrives) {
+RenderArguments every_option() {
     RenderArguments a;
     a.scene_file = "s.glb";
     a.outputs = {"b.png", "c.exr"};
@@ -66,7 +66,11 @@ TEST(RenderRequest, EveryOptionArrives) {
     a.stats = "s.json";
     a.float32 = true;
     a.verbose = true;
-    const Result<RenderRequest> request = make_render_request(a);
+    return a;
+}
+
+TEST(RenderRequest, PictureAndSamplingOptionsArrive) {
+    const Result<RenderRequest> request = make_render_request(every_option());
     ASSERT_TRUE(request) << request.error().message;
     const RenderOptions& options = request->options;
     EXPECT_EQ(request->outputs.size(), 2U);
@@ -82,6 +86,15 @@ TEST(RenderRequest, EveryOptionArrives) {
     EXPECT_EQ(request->isa, Isa::avx2);
     EXPECT_EQ(options.tile_size, 9);
     EXPECT_EQ(request->load.scene, 3);
+    EXPECT_EQ(options.integrator, Integrator::ao);
+    EXPECT_EQ(options.ao_distance_m, 0.5);
+    EXPECT_EQ(options.filter, PixelFilter::gaussian);
+}
+
+TEST(RenderRequest, CameraLightAndDisplayOptionsArrive) {
+    const Result<RenderRequest> request = make_render_request(every_option());
+    ASSERT_TRUE(request) << request.error().message;
+    const RenderOptions& options = request->options;
     EXPECT_EQ(request->camera.model, CameraModel::orthographic);
     EXPECT_EQ(request->camera.eye_m->z, 3);
     EXPECT_EQ(request->camera.target_m->x, 4);
@@ -92,9 +105,6 @@ TEST(RenderRequest, EveryOptionArrives) {
     EXPECT_EQ(request->environment_rotation_deg, -45);
     EXPECT_EQ(options.background, BackgroundKind::color);
     EXPECT_EQ(options.background_color[1], 0.25f);
-    EXPECT_EQ(options.integrator, Integrator::ao);
-    EXPECT_EQ(options.ao_distance_m, 0.5);
-    EXPECT_EQ(options.filter, PixelFilter::gaussian);
     EXPECT_EQ(request->display.view, "V");
     EXPECT_EQ(request->display.display, "D");
     EXPECT_EQ(request->display.ocio_file, "o.ocio");

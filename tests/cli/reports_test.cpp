@@ -163,7 +163,7 @@ TEST_F(Reports, TheLocaleDoesNotMatter) {
                                     folder_);
         german.environment = {"OCIO=", "LC_ALL=" + locale, "LANG=" + locale};
         expect_result(run_program_with(german), 0, "OK");
-        EXPECT_NO_THROW(json::parse(read_whole_file(folder_ / (name + ".json")))) << locale;
+        EXPECT_TRUE(json::accept(read_whole_file(folder_ / (name + ".json")))) << locale;
         return read_whole_file(folder_ / name);
     };
     EXPECT_EQ(with_locale("C", "c.png"), with_locale("de_DE.UTF-8", "de.png"));

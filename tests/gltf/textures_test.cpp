@@ -206,6 +206,7 @@ TEST(Textures, TooManyTexelsAreRefusedUnread) {  // D6, D7
     const testing_pictures::ByteVector start =
         testing_pictures::PngBuilder(22000, 22000, 1, 0)
             .chunk("IDAT", testing_pictures::ByteVector(100000))
+            .chunk("IEND", testing_pictures::ByteVector())
             .so_far();
     const std::string uri = "data:image/png;base64," +
                             base64({reinterpret_cast<const char*>(start.data()), start.size()});
