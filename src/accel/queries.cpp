@@ -40,8 +40,8 @@ int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {
     return refused;
 }
 
-/// Reads a column of the packet's rows. Idle lanes repeat the row of `stand_in`: Embree's coherent
-/// kernels look at all lanes, and unsafe numbers there can keep them from ever coming back.
+/// Reads a column of the packet's rows. Idle lanes repeat the row of `stand_in`, for Embree sees
+/// them too: where its packets are narrower than 16 it takes all 16 rays whatever the mask says.
 void load_column(const float* column, int first, const ValidMask& valid, int stand_in, float* out) {
     for (int i = 0; i < packet; ++i)
         out[i] = column[first + (valid.lane[i] != 0 ? i : stand_in)];
@@ -189,7 +189,8 @@ int intersect_packets(const Accel::Impl& impl,
             one.hit.u = block.hit.u[i];
             one.hit.v = block.hit.v[i];
             one.hit.primID = block.hit.primID[i];
-            one.hit.geomID = block.hit.geomID[i];
+            const bool valid_lane = valid.lane[i] != 0;
+            one.hit.geomID = valid_lane ? block.hit.geomID[i] : RTC_INVALID_GEOMETRY_ID;
             one.hit.instID[0] = block.hit.instID[0][i];
             const int row = first + i;
             store_hit(impl, one, hits, row);
@@ -246,8 +247,10 @@ int Accel::occluded(const RayColumns& rays,
                     uint8_t* occluded,
                     Coherence coherence,
                     uint32_t segment) const {
+    // On instances the coherent kernel of Embree 3.13 for AVX-512 may never come back.
+    const bool coherent = coherence == Coherence::coherent && impl_->scene->instances.empty();
     QueryContext context;
-    Query query(context, coherence == Coherence::coherent);
+    Query query(context, coherent);
     context.keys = rays.key;
     context.segment = segment;
     int refused = 0;

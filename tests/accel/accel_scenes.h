@@ -3,11 +3,14 @@
 #pragma once
 
 #include "accel/accel.h"
+#include "stages/dispatch.h"
 
 #include "support/random.h"
 #include "support/scene_builder.h"
 #include <cmath>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -70,8 +73,8 @@ private:
 
     RayColumns pad() {
         rows_ = key_.size();
-        for (auto& column : ray_)
-            column.resize(rows_ + 16, 0.0F);
+        for (auto& column : ray_)  // what lies past the last row may be anything
+            column.resize(rows_ + 16, std::nanf(""));
         key_.resize(rows_ + 16, 0U);
         return {ray_[0].data(),
                 ray_[1].data(),
@@ -100,11 +103,20 @@ struct BuiltScene {
     Accel accel;
 };
 
-inline BuiltScene build(Scene scene) {
+inline BuiltScene build(Scene scene, const std::string& embree_isa = "") {
     auto kept = std::make_unique<Scene>(std::move(scene));
-    auto accel = Accel::build(*kept, "");
+    auto accel = Accel::build(*kept, embree_isa);
     if (!accel) throw std::runtime_error(accel.error().message);
     return {std::move(kept), std::move(*accel)};
+}
+
+/// Every instruction set that this CPU has.
+inline std::vector<Isa> all_isas() {
+    std::vector<Isa> out;
+    for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+        if (has_isa(isa)) out.push_back(isa);
+    }
+    return out;
 }
 
 /// Turns a scene's primitives into one mesh that is placed once for each map.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel.h"
 #include "accel/accel_scenes.h"
+#include "math/sampler.h"
 
 #include <gtest/gtest.h>
 
@@ -25,14 +26,14 @@ void add_square(SceneBuilder& builder, float z, int32_t material, bool turned = 
     }
 }
 
-BuiltScene one_square() {
+BuiltScene one_square(Isa isa = Isa::automatic) {
     SceneBuilder builder;
     add_square(builder, 0, builder.material({}));
-    return build(builder.take());
+    return build(builder.take(), embree_isa_for(isa));
 }
 
-TEST(Queries, UnsafeRaysAreRefusedAndCounted) {
-    const BuiltScene built = one_square();
+/// Origins and directions that Embree must not see.
+std::vector<std::pair<Vec3f, Vec3f>> unsafe_rays() {
     std::vector<std::pair<Vec3f, Vec3f>> unsafe;
     for (const float bad : {nan, infinity, -infinity, 1e30F, -3e38F}) {
         for (int axis = 0; axis < 3; ++axis) {
@@ -46,21 +47,46 @@ TEST(Queries, UnsafeRaysAreRefusedAndCounted) {
     }
     unsafe.push_back({{0, 0, 5}, {0, 0, 0}});
     unsafe.push_back({{0, 0, 5}, {-0.0F, 0, -0.0F}});
-    for (const Coherence coherence : both_ways) {
-        RayList rays;  // bad ones among good ones
-        for (const auto& [origin, direction] : unsafe) {
-            rays.add({0.1F, 0.2F, 5}, {0, 0, -1});
-            rays.add(origin, direction);
+    return unsafe;
+}
+
+TEST(Queries, UnsafeRaysAreRefusedAndCounted) {
+    const auto unsafe = unsafe_rays();
+    RayList rays;  // bad ones among good ones
+    for (const auto& [origin, direction] : unsafe) {
+        rays.add({0.1F, 0.2F, 5}, {0, 0, -1});
+        rays.add(origin, direction);
+    }
+    const int bad = static_cast<int>(unsafe.size());
+    for (const Isa isa : all_isas()) {
+        const BuiltScene built = one_square(isa);
+        for (const Coherence coherence : both_ways) {
+            EXPECT_EQ(rays.intersect(built.accel, coherence), bad);
+            EXPECT_EQ(rays.occlude(built.accel, coherence), bad);
+            for (int i = 0; i < rays.count(); ++i) {
+                const auto row = static_cast<size_t>(i);
+                EXPECT_EQ(rays.hit(i), i % 2 == 0) << i;
+                EXPECT_EQ(rays.occluded[row], 1) << "refused rays bring no light, ray " << i;
+                if (i % 2 == 0) {
+                    EXPECT_NEAR(rays.t[row], 5.0F, 1e-5F);
+                }
+            }
         }
-        const int bad = static_cast<int>(unsafe.size());
-        EXPECT_EQ(rays.intersect(built.accel, coherence), bad);
-        EXPECT_EQ(rays.occlude(built.accel, coherence), bad);
-        for (int i = 0; i < rays.count(); ++i) {
-            const auto row = static_cast<size_t>(i);
-            EXPECT_EQ(rays.hit(i), i % 2 == 0) << i;
-            EXPECT_EQ(rays.occluded[row], 1) << "refused rays bring no light, ray " << i;
-            if (i % 2 == 0) {
-                EXPECT_EQ(rays.t[row], 5.0F);
+    }
+}
+
+TEST(Queries, PacketsOfUnsafeRaysOnly) {
+    RayList rays;
+    for (const auto& [origin, direction] : unsafe_rays())
+        rays.add(origin, direction);
+    for (const Isa isa : all_isas()) {
+        const BuiltScene built = one_square(isa);
+        for (const Coherence coherence : both_ways) {
+            EXPECT_EQ(rays.intersect(built.accel, coherence), rays.count());
+            EXPECT_EQ(rays.occlude(built.accel, coherence), rays.count());
+            for (int i = 0; i < rays.count(); ++i) {
+                EXPECT_FALSE(rays.hit(i)) << i;
+                EXPECT_EQ(rays.occluded[static_cast<size_t>(i)], 1) << i;
             }
         }
     }
@@ -82,31 +108,34 @@ TEST(Queries, EndsOfRaysAreChecked) {
     }
 }
 
+void expect_packet(const BuiltScene& built, int count, Coherence coherence) {
+    RayList rays;
+    for (int i = 0; i < count; ++i) {
+        const float x = i % 3 != 0 ? 0.01F * static_cast<float>(i) : 3.0F;  // every third misses
+        rays.add({x, 0.5F, 1 + static_cast<float>(i)}, {0, 0, -1});
+    }
+    EXPECT_EQ(rays.intersect(built.accel, coherence), 0);
+    EXPECT_EQ(rays.occlude(built.accel, coherence), 0);
+    for (int i = 0; i < count; ++i) {
+        const auto row = static_cast<size_t>(i);
+        EXPECT_EQ(rays.hit(i), i % 3 != 0) << i << " of " << count;
+        EXPECT_EQ(rays.occluded[row], i % 3 != 0 ? 1 : 0) << i << " of " << count;
+        if (rays.hit(i)) {
+            EXPECT_NEAR(rays.t[row], 1 + static_cast<float>(i), 1e-5F);
+        }
+    }
+    for (size_t row = static_cast<size_t>(count); row < rays.occluded.size(); ++row) {
+        EXPECT_EQ(rays.occluded[row], 9) << "rows past the last are not written";
+        EXPECT_EQ(rays.primitive[row], -7);
+    }
+}
+
 TEST(Queries, PacketsOfEveryCount) {
-    const BuiltScene built = one_square();
-    for (int count = 0; count <= 33; ++count) {
-        for (const Coherence coherence : both_ways) {
-            RayList rays;
-            for (int i = 0; i < count; ++i) {
-                const bool aims = i % 3 != 0;
-                rays.add(
-                    {aims ? 0.01F * static_cast<float>(i) : 3.0F, 0.5F, 1 + static_cast<float>(i)},
-                    {0, 0, -1});
-            }
-            EXPECT_EQ(rays.intersect(built.accel, coherence), 0);
-            EXPECT_EQ(rays.occlude(built.accel, coherence), 0);
-            for (int i = 0; i < count; ++i) {
-                const auto row = static_cast<size_t>(i);
-                EXPECT_EQ(rays.hit(i), i % 3 != 0) << i << " of " << count;
-                EXPECT_EQ(rays.occluded[row], i % 3 != 0 ? 1 : 0) << i << " of " << count;
-                if (rays.hit(i)) {
-                    EXPECT_EQ(rays.t[row], 1 + static_cast<float>(i));
-                }
-            }
-            for (size_t row = static_cast<size_t>(count); row < rays.occluded.size(); ++row) {
-                EXPECT_EQ(rays.occluded[row], 9) << "rows past the last are not written";
-                EXPECT_EQ(rays.primitive[row], -7);
-            }
+    for (const Isa isa : all_isas()) {
+        const BuiltScene built = one_square(isa);
+        for (int count = 0; count <= 33; ++count) {
+            for (const Coherence coherence : both_ways)
+                expect_packet(built, count, coherence);
         }
     }
 }
@@ -284,6 +313,69 @@ TEST(Queries, MirroredInstancesKeepTheirFront) {
         EXPECT_EQ(seen(built, true, Coherence::coherent), c.up ? 0 : -1);
         EXPECT_EQ(seen(built, false, Coherence::coherent), c.up ? -1 : 0);
     }
+}
+
+/// Leaves numbers where later calls have their local variables.
+[[gnu::noinline]] uint32_t soil_the_stack(uint32_t seed) {
+    volatile uint32_t words[20000];
+    for (uint32_t i = 0; i < 20000; ++i)
+        words[i] = seed < 2 ? 0U - seed : hash_word(seed + i);
+    return words[seed];
+}
+
+TEST(Queries, CoherentAndIncoherentRaysSeeTheSameInstances) {
+    SceneBuilder builder;
+    builder.sphere({0, 0, 0}, 1.0F, 8, builder.material({}));
+    const Scene ball = builder.take();
+    std::vector<Affined> placings;
+    Pcg32 random(9);
+    for (int i = 0; i < 30; ++i) {
+        const Vec3f p = random_in_cube(random, 6.0F);
+        placings.push_back(scaling(i % 2 == 0 ? -1 : 1, 0.5, 2, {p.x, p.y, p.z}));
+    }
+    RayList rays;
+    for (int i = 0; i < 20000 / thorough; ++i) {
+        const Vec3f target = random_in_cube(random, 6.0F);
+        rays.add({0, 0, 20}, normalize(target - Vec3f{0, 0, 20}));
+    }
+    for (const Isa isa : all_isas()) {
+        const BuiltScene built = build(instanced(ball, placings), embree_isa_for(isa));
+        soil_the_stack(static_cast<uint32_t>(isa));
+        rays.intersect(built.accel, Coherence::incoherent);
+        const auto t = rays.t;
+        const auto instance = rays.instance;
+        const auto primitive = rays.primitive;
+        rays.intersect(built.accel, Coherence::coherent);
+        rays.occlude(built.accel, Coherence::coherent);
+        int different = 0;
+        for (size_t i = 0; i < static_cast<size_t>(rays.count()); ++i) {
+            const bool same = primitive[i] == rays.primitive[i] &&
+                              (primitive[i] < 0 || (instance[i] == rays.instance[i] &&
+                                                    std::abs(t[i] - rays.t[i]) < 1e-4F * t[i]));
+            different += same ? 0 : 1;
+            EXPECT_EQ(rays.occluded[i] == 1, rays.primitive[i] >= 0) << i;
+        }
+        EXPECT_LE(different, 1);
+    }
+}
+
+TEST(Queries, CoherentOcclusionByInstancesAlwaysComesBack) {
+    const BuiltScene built = [] {
+        SceneBuilder builder;
+        add_square(builder, 0, builder.material({}));
+        return build(instanced(builder.take(), {scaling(1, 1, 1)}));
+    }();
+    uint32_t soil = 0;
+    for (uint32_t seed = 0; seed < 40; ++seed) {
+        RayList rays;
+        for (int i = 0; i < 5; ++i)
+            rays.add({0.3F, 0.1F * static_cast<float>(i), 9}, {0, 0, -1});
+        soil ^= soil_the_stack(seed);
+        rays.occlude(built.accel, Coherence::coherent);
+        for (size_t i = 0; i < 5; ++i)
+            ASSERT_EQ(rays.occluded[i], 1);
+    }
+    EXPECT_NE(soil, 1U);
 }
 
 TEST(Queries, MemoryAndVersionAreReported) {

@@ -1,7 +1,6 @@
 // tests/accel/self_hit_test.cpp - rays that start at a hit leave it, and stop at thin walls.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_scenes.h"
-#include "stages/dispatch.h"
 #include "stages/walk.h"
 
 #include <gtest/gtest.h>
@@ -91,14 +90,6 @@ private:
     Workspace work_;
     Pcg32 random_{11};
 };
-
-std::vector<Isa> all_isas() {
-    std::vector<Isa> out;
-    for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
-        if (has_isa(isa)) out.push_back(isa);
-    }
-    return out;
-}
 
 Vec3d random_point(Pcg32& random, double half) {
     const double x = (2 * random.next_double() - 1) * half;

@@ -128,7 +128,7 @@ Disagreements compare(const Scene& soup, Coherence coherence, int ray_count) {
     Pcg32 random(7);
     for (int i = 0; i < ray_count; ++i) {
         const Vec3f origin = random_in_cube(random, 2.0F);
-        rays.add(origin, random_unit(random));
+        rays.add(origin, normalize(random_in_cube(random, 1.0F) - origin));
     }
     rays.intersect(built.accel, coherence);
     Disagreements out;
