@@ -1,7 +1,6 @@
 // tests/math/lanes_test.cpp - every operation on lanes against the same one on scalars.
 // SPDX-License-Identifier: Apache-2.0
 #include "math/lanes.h"
-#include "math/reverse_bits.h"
 
 #include "math/reverse_bits.h"
 

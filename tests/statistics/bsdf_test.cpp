@@ -1,4 +1,4 @@
-// tests/statistics/bsdf_test.cpp - does the BRDF choose directions with the density it claims?
+// tests/statistics/bsdf_test.cpp - the BRDF chooses directions with the density it claims.
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/bsdf.h"
 
