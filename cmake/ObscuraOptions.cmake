@@ -30,8 +30,11 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
 endif()
 
 if(OBSCURA_SANITIZE)
-  target_compile_options(obscura_options INTERFACE
-    -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  # The stages are left out (OBSCURA_UNSANITIZED): gathers are not instrumented anyway, and GCC 12
+  # needs more than three minutes for each of their files instead of a quarter of one.
+  set(sanitized $<NOT:$<BOOL:$<TARGET_PROPERTY:OBSCURA_UNSANITIZED>>>)
+  target_compile_options(obscura_options INTERFACE -fno-omit-frame-pointer
+    "$<${sanitized}:-fsanitize=address,undefined;-fno-sanitize-recover=all>")
   target_link_options(obscura_options INTERFACE -fsanitize=address,undefined)
   if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)  # the sanitizers' own code confuses this warning
     target_compile_options(obscura_options INTERFACE -Wno-maybe-uninitialized)
