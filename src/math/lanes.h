@@ -115,13 +115,13 @@ OBSCURA_INLINE Lanes operator+(Lanes a, Lanes b) { return a.v + b.v; }
 OBSCURA_INLINE Lanes operator-(Lanes a, Lanes b) { return a.v - b.v; }
 OBSCURA_INLINE Lanes operator*(Lanes a, Lanes b) { return a.v * b.v; }
 OBSCURA_INLINE Lanes operator/(Lanes a, Lanes b) { return a.v / b.v; }
-OBSCURA_INLINE Lanes operator-(Lanes a) { return -a.v; }
+OBSCURA_INLINE Lanes operator-(Lanes a) { return BatchF(-0.0f) - a.v; }  // keeps the sign of zero
 OBSCURA_INLINE Mask operator<(Lanes a, Lanes b) { return a.v < b.v; }
 OBSCURA_INLINE Mask operator<=(Lanes a, Lanes b) { return a.v <= b.v; }
 OBSCURA_INLINE Mask operator>(Lanes a, Lanes b) { return a.v > b.v; }
 OBSCURA_INLINE Mask operator>=(Lanes a, Lanes b) { return a.v >= b.v; }
 OBSCURA_INLINE Mask operator==(Lanes a, Lanes b) { return a.v == b.v; }
-OBSCURA_INLINE Mask operator!=(Lanes a, Lanes b) { return a.v != b.v; }
+OBSCURA_INLINE Mask operator!=(Lanes a, Lanes b) { return !Mask(a.v == b.v); }  // NaN differs from all
 
 OBSCURA_INLINE LanesI operator+(LanesI a, LanesI b) { return a.v + b.v; }
 OBSCURA_INLINE LanesI operator-(LanesI a, LanesI b) { return a.v - b.v; }
