@@ -212,6 +212,7 @@ OBSCURA_INLINE double atan2(double y, double x) { return __builtin_atan2(y, x); 
 OBSCURA_INLINE int32_t to_int(float a) { return static_cast<int32_t>(a); }
 OBSCURA_INLINE int32_t to_int(double a) { return static_cast<int32_t>(a); }
 OBSCURA_INLINE int32_t as_int(uint32_t a) { return static_cast<int32_t>(a); }
+OBSCURA_INLINE int32_t first_lane(int32_t a) { return a; }
 OBSCURA_INLINE uint32_t as_uint(int32_t a) { return static_cast<uint32_t>(a); }
 OBSCURA_INLINE int32_t float_bits(float a) { return __builtin_bit_cast(int32_t, a); }
 OBSCURA_INLINE float bits_float(int32_t a) { return __builtin_bit_cast(float, a); }
@@ -277,6 +278,15 @@ struct LaneTypes<Lanes> {
 OBSCURA_INLINE Lanes load(const float* p) { return BatchF::load_unaligned(p); }
 OBSCURA_INLINE LanesI load(const int32_t* p) { return BatchI::load_unaligned(p); }
 OBSCURA_INLINE LanesU load(const uint32_t* p) { return as_uint(load(reinterpret_cast<const int32_t*>(p))); }
+OBSCURA_INLINE int32_t first_lane(LanesI a) {
+#if defined(__AVX512F__)
+    return _mm512_cvtsi512_si32(a.v);
+#elif defined(__AVX2__)
+    return _mm256_cvtsi256_si32(a.v);
+#else
+    return a.v.get(0);
+#endif
+}
 OBSCURA_INLINE void store(float* p, Lanes a) { a.v.store_unaligned(p); }
 OBSCURA_INLINE void store(int32_t* p, LanesI a) { a.v.store_unaligned(p); }
 OBSCURA_INLINE void store(uint32_t* p, LanesU a) { store(reinterpret_cast<int32_t*>(p), as_int(a)); }

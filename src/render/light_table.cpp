@@ -59,8 +59,9 @@ Vec3f mean_texture(const Scene& scene, const TriangleLight& row) {
                                         (row.uv1[1] - row.uv0[1]) * (row.uv2[0] - row.uv0[0]));
     Vec3f sum{0, 0, 0};
     for (int i = 0; i < side * side; ++i) {
+        const int row_of_cell = i / side;
         const Vec2f u{(static_cast<float>(i % side) + 0.5f) / side,
-                      (static_cast<float>(i / side) + 0.5f) / side};
+                      (static_cast<float>(row_of_cell) + 0.5f) / side};
         const Vec2f b = triangle_from_square(u);
         const Vec2f uv{
             row.uv0[0] + (row.uv1[0] - row.uv0[0]) * b.x + (row.uv2[0] - row.uv0[0]) * b.y,
@@ -135,8 +136,9 @@ void collect_world_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
 void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
     for (const Mesh& mesh : scene.meshes) {
         int32_t within = 0;
-        for (int32_t i = 0; i < mesh.primitive_count; ++i) {
-            Primitive& primitive = scene.primitives[static_cast<size_t>(mesh.first_primitive + i)];
+        const int32_t end = mesh.first_primitive + mesh.primitive_count;
+        for (int32_t i = mesh.first_primitive; i < end; ++i) {
+            Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
             const bool glows = emits(scene.materials[static_cast<size_t>(primitive.material)]);
             primitive.light_base = glows ? within : -1;
             within += glows ? primitive.triangle_count : 0;
@@ -145,9 +147,9 @@ void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
     for (Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
         instance.light_base = static_cast<int32_t>(rows.size());
-        for (int32_t i = 0; i < mesh.primitive_count; ++i) {
-            const Primitive& primitive =
-                scene.primitives[static_cast<size_t>(mesh.first_primitive + i)];
+        const int32_t end = mesh.first_primitive + mesh.primitive_count;
+        for (int32_t i = mesh.first_primitive; i < end; ++i) {
+            const Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
             if (primitive.light_base < 0) continue;
             const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
             append_rows({scene, primitive, material, &instance}, rows);

@@ -64,7 +64,7 @@ SceneView PreparedScene::Impl::view() const {
 }
 
 Result<PreparedScene> PreparedScene::create(Scene scene,
-                                            LightingOptions lighting,
+                                            const LightingOptions& lighting,
                                             Isa isa,
                                             Log& log) {
     if (!has_isa(isa)) {

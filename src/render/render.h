@@ -85,7 +85,10 @@ public:
     /// studio, and says so in the log.
     ///
     /// Errors  33 E-MEM out of memory; 69 E-ISA the CPU lacks `isa`; 70 E-EMBREE
-    static Result<PreparedScene> create(Scene scene, LightingOptions lighting, Isa isa, Log& log);
+    static Result<PreparedScene> create(Scene scene,
+                                        const LightingOptions& lighting,
+                                        Isa isa,
+                                        Log& log);
     PreparedScene(PreparedScene&&) noexcept;
     PreparedScene& operator=(PreparedScene&&) noexcept;
     ~PreparedScene();

@@ -32,15 +32,13 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
         case Quantity::id:
             break;
     }
-    const LanesI primitive_word = hit.primitive * LanesI(primitive_words);
-    LanesI node = gather<Lanes>(scene.primitives + 14, primitive_word);
+    const TableRow<Lanes> primitive(scene.primitives, hit.primitive, primitive_words);
+    LanesI node = primitive.integer(14);
     const Mask instanced = hit.instance >= LanesI(0);
     if (any(instanced)) {
-        const int32_t* column = reinterpret_cast<const int32_t*>(scene.instances) + 25;
-        const LanesI word = select(instanced, hit.instance * LanesI(instance_words), LanesI(0));
-        node = select(instanced, gather<Lanes>(column, word), node);
+        node = select(instanced, instance_row(scene, hit).integer(25), node);
     }
-    const LanesI material = gather<Lanes>(scene.primitives + 2, primitive_word);
+    const LanesI material = primitive.integer(2);
     return {from_int<Lanes>(node + LanesI(1)),
             from_int<Lanes>(material + LanesI(1)),
             from_int<Lanes>(hit.triangle + LanesI(1))};

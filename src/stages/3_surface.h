@@ -26,9 +26,16 @@ static_assert(offsetof(Material, emissive_texture) == emissive_slot * 4);
 /// How textures are read: one random texel, or exact bilinear for noise-free quantities.
 enum class Filtering { stochastic, bilinear };
 
+/// One UV set at the hits.
+struct MeshUv {
+    LanesI base;  ///< as Primitive::uv_base
+    Vec2<Lanes> at;
+    Lanes area2;  ///< twice the triangle's signed area in UV space
+};
+
 /// A hit's geometry in world space.
 struct HitGeometry {
-    IntOf<Lanes> primitive_word, material_word;
+    TableRow<Lanes> primitive, material;
     LanesI corner[3];      ///< absolute vertex numbers
     Lanes weight[3];       ///< barycentric
     Vec3<Lanes> position;  ///< from the corners, not from the ray: error is bounded
@@ -38,6 +45,7 @@ struct HitGeometry {
     Vec3<Lanes>
         smooth_shift;  ///< from position to the smooth surface, for shadow rays (toward the front)
     Lanes area2;       ///< twice the triangle's area
+    MeshUv first_uv;   ///< of UV set 0, read where a texture may need it
 };
 
 /// A point ready for shading. Normals face the viewer.
@@ -58,12 +66,21 @@ OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
         gather<Lanes>(base, word), gather<Lanes>(base + 1, word), gather<Lanes>(base + 2, word)};
 }
 
-/// Row-major 3x4 of an instance; `base` points to its first number.
-OBSCURA_INLINE Affine<Lanes> gather_affine(const float* base, LanesI word) {
+OBSCURA_INLINE Vec3<Lanes> read3(const TableRow<Lanes>& row, int word) {
+    return {row.number(word), row.number(word + 1), row.number(word + 2)};
+}
+
+/// The instances of the hits; lanes in world space get the first.
+OBSCURA_INLINE TableRow<Lanes> instance_row(const SceneView& scene, const HitLanes& hit) {
+    return {scene.instances, max(hit.instance, LanesI(0)), instance_words};
+}
+
+/// Row-major 3x4 of an instance.
+OBSCURA_INLINE Affine<Lanes> read_affine(const TableRow<Lanes>& row, int word) {
     Affine<Lanes> a;
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 4; ++c)
-            a.m[r][c] = gather<Lanes>(base + r * 4 + c, word);
+            a.m[r][c] = row.number(word + r * 4 + c);
     }
     return a;
 }
@@ -93,11 +110,9 @@ OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
 
 OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& hit) {
     HitGeometry g;
-    g.primitive_word = hit.primitive * LanesI(primitive_words);
-    g.material_word =
-        gather<Lanes>(scene.primitives + 2, g.primitive_word) * LanesI(material_words);
-    const LanesI first = gather<Lanes>(scene.primitives, g.primitive_word);
-    const LanesI index_word = (first + hit.triangle) * LanesI(3);
+    g.primitive = {scene.primitives, hit.primitive, primitive_words};
+    g.material = {scene.materials, g.primitive.integer(2), material_words};
+    const LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
     Vec3<Lanes> p[3];
     for (int k = 0; k < 3; ++k) {
         g.corner[k] = gather<Lanes>(scene.indices + k, index_word);
@@ -112,7 +127,7 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
     g.normal = g.ng;
     g.smooth_shift = splat3(Lanes(0.0f));
     g.area2 = length(face);
-    const LanesI normal_base = gather<Lanes>(scene.primitives + 3, g.primitive_word);
+    const LanesI normal_base = g.primitive.integer(3);
     const Mask smooth = normal_base != LanesI(no_attribute);
     if (any(smooth)) {
         Vec3<Lanes> n[3];
@@ -136,9 +151,9 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
 OBSCURA_INLINE void instance_to_world(const SceneView& scene, const HitLanes& hit, HitGeometry& g) {
     const Mask instanced = hit.instance >= LanesI(0);
     if (none(instanced)) return;
-    const LanesI word = select(instanced, hit.instance * LanesI(instance_words), LanesI(0));
-    const Affine<Lanes> world = gather_affine(scene.instances, word);
-    const Affine<Lanes> object = gather_affine(scene.instances + 12, word);
+    const TableRow<Lanes> instance = instance_row(scene, hit);
+    const Affine<Lanes> world = read_affine(instance, 0);
+    const Affine<Lanes> object = read_affine(instance, 12);
     const Vec3<Lanes> position = transform_point(world, g.position);
     const Vec3<Lanes> normal_scaled = transform_normal(object, g.ng);
     const Vec3<Lanes> ng = normalize(normal_scaled);
@@ -172,29 +187,49 @@ struct SlotLanes {
     Lanes uv_area2;  ///< twice the triangle's area in the texture's UV space
 };
 
-OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene, const HitGeometry& g, int slot) {
-    const int32_t* materials = reinterpret_cast<const int32_t*>(scene.materials);
-    SlotLanes s;
-    s.texture = gather<Lanes>(materials + slot, g.material_word);
-    s.used = s.texture >= LanesI(0);
-    if (none(s.used)) return s;
-    const LanesI set = gather<Lanes>(materials + slot + 1, g.material_word);
-    const LanesI uv_base = gather<Lanes>(scene.primitives + 6, g.primitive_word + set);
-    s.used = s.used & (uv_base != LanesI(no_attribute));
-    s.texture = select(s.used, s.texture, LanesI(0));
+/// `base`: as Primitive::uv_base; lanes without the attribute get anything.
+OBSCURA_INLINE MeshUv read_mesh_uv(const SceneView& scene, const HitGeometry& g, LanesI base) {
+    const Mask present = base != LanesI(no_attribute);
     Vec2<Lanes> uv[3];
     for (int k = 0; k < 3; ++k) {
-        const LanesI word = select(s.used, uv_base + g.corner[k] * LanesI(2), LanesI(0));
+        const LanesI word = select(present, base + g.corner[k] * LanesI(2), LanesI(0));
         uv[k] = {gather<Lanes>(scene.attributes, word), gather<Lanes>(scene.attributes + 1, word)};
     }
-    Lanes m[6];
-    for (int k = 0; k < 6; ++k)
-        m[k] = gather<Lanes>(scene.materials + slot + 2 + k, g.material_word);
     const Vec2<Lanes> e1 = uv[1] - uv[0];
     const Vec2<Lanes> e2 = uv[2] - uv[0];
-    const Vec2<Lanes> at = uv[0] + e1 * g.weight[1] + e2 * g.weight[2];
+    return {base, uv[0] + e1 * g.weight[1] + e2 * g.weight[2], e1.x * e2.y - e1.y * e2.x};
+}
+
+/// Reads UV set 0, which most textures use, once for all of them.
+OBSCURA_INLINE void read_first_uv_set(const SceneView& scene, HitGeometry& g) {
+    const LanesI base = g.primitive.integer(6);
+    const Mask textured =
+        (max(g.material.integer(base_color_slot), g.material.integer(metallic_roughness_slot)) >=
+         LanesI(0)) |
+        (max(g.material.integer(normal_slot), g.material.integer(emissive_slot)) >= LanesI(0));
+    g.first_uv = {LanesI(no_attribute), {Lanes(0.0f), Lanes(0.0f)}, Lanes(0.0f)};
+    if (any(textured & (base != LanesI(no_attribute)))) g.first_uv = read_mesh_uv(scene, g, base);
+}
+
+OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene, const HitGeometry& g, int slot) {
+    SlotLanes s;
+    s.texture = g.material.integer(slot);
+    s.used = s.texture >= LanesI(0);
+    if (none(s.used)) return s;
+    const LanesI base = g.primitive.shared()
+                            ? g.primitive.integer(6 + g.material.one_integer(slot + 1))
+                            : g.primitive.varying_integer(g.material.integer(slot + 1) + LanesI(6));
+    s.used = s.used & (base != LanesI(no_attribute));
+    if (none(s.used)) return s;
+    s.texture = select(s.used, s.texture, LanesI(0));
+    const bool first = none(s.used & (base != g.first_uv.base));
+    const MeshUv mesh = first ? g.first_uv : read_mesh_uv(scene, g, base);
+    Lanes m[6];
+    for (int k = 0; k < 6; ++k)
+        m[k] = g.material.number(slot + 2 + k);
+    const Vec2<Lanes>& at = mesh.at;
     s.uv = {m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};
-    s.uv_area2 = abs((e1.x * e2.y - e1.y * e2.x) * (m[0] * m[4] - m[1] * m[3]));
+    s.uv_area2 = abs(mesh.area2 * (m[0] * m[4] - m[1] * m[3]));
     return s;
 }
 
@@ -234,7 +269,7 @@ OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
                                             const LookUp& look) {
     const SlotLanes slot = slot_lanes(scene, g, normal_slot);
     if (none(slot.used)) return g.normal;
-    const LanesI tangent_base = gather<Lanes>(scene.primitives + 4, g.primitive_word);
+    const LanesI tangent_base = g.primitive.integer(4);
     const Mask mapped = slot.used & (tangent_base != LanesI(no_attribute));
     Vec3<Lanes> tangent[3];
     Lanes handedness = Lanes(1.0f);
@@ -246,17 +281,15 @@ OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
     Vec3<Lanes> t = weighted(g, tangent);
     const Mask instanced = mapped & (hit.instance >= LanesI(0));
     if (any(instanced)) {
-        const LanesI word = select(instanced, hit.instance * LanesI(instance_words), LanesI(0));
-        const Affine<Lanes> world = gather_affine(scene.instances, word);
-        t = select(instanced, transform_vector(world, t), t);
-        const int32_t* mirrored_column = reinterpret_cast<const int32_t*>(scene.instances) + 26;
-        const Mask mirrored = instanced & (gather<Lanes>(mirrored_column, word) != LanesI(0));
+        const TableRow<Lanes> instance = instance_row(scene, hit);
+        t = select(instanced, transform_vector(read_affine(instance, 0), t), t);
+        const Mask mirrored = instanced & (instance.integer(26) != LanesI(0));
         handedness = select(mirrored, -handedness, handedness);
     }
     t = normalize(t - g.normal * dot(t, g.normal));
     const Vec3<Lanes> b = cross(g.normal, t) * handedness;
     const Rgba<Lanes> texel = read_slot(scene, g, slot, look);
-    const Lanes scale = gather<Lanes>(scene.materials + 6, g.material_word);
+    const Lanes scale = g.material.number(6);
     const Lanes x = (texel.rgb.x * Lanes(2.0f) - Lanes(1.0f)) * scale;
     const Lanes y = (texel.rgb.y * Lanes(2.0f) - Lanes(1.0f)) * scale;
     const Lanes z = texel.rgb.z * Lanes(2.0f) - Lanes(1.0f);
@@ -267,8 +300,8 @@ OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
 OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
                                       const HitGeometry& g,
                                       const LookUp& look) {
-    Vec3<Lanes> color = gather3(scene.materials, g.material_word);
-    const LanesI color_base = gather<Lanes>(scene.primitives + 5, g.primitive_word);
+    Vec3<Lanes> color = read3(g.material, 0);
+    const LanesI color_base = g.primitive.integer(5);
     const Mask colored = color_base != LanesI(no_attribute);
     if (any(colored)) {
         Vec3<Lanes> c[3];
@@ -288,8 +321,8 @@ OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
 OBSCURA_INLINE BsdfParams<Lanes> bsdf_params(const SceneView& scene,
                                              const HitGeometry& g,
                                              const LookUp& look) {
-    Lanes metallic = gather<Lanes>(scene.materials + 4, g.material_word);
-    Lanes roughness = gather<Lanes>(scene.materials + 5, g.material_word);
+    Lanes metallic = g.material.number(4);
+    Lanes roughness = g.material.number(5);
     const SlotLanes slot = slot_lanes(scene, g, metallic_roughness_slot);
     if (any(slot.used)) {
         const Rgba<Lanes> texel = read_slot(scene, g, slot, look);
@@ -307,6 +340,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
                                           Filtering filtering) {
     HitGeometry g = hit_geometry(scene, hit);
     instance_to_world(scene, hit, g);
+    read_first_uv_set(scene, g);
     const Vec3<Lanes> wo = -path.direction;
     const Lanes cos_front = dot(g.ng, wo);
     const Lanes width = path.cone_width + path.cone_spread * hit.t;
@@ -314,8 +348,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     const LookUp look{width * width / max(abs(cos_front), Lanes(0.05f)), random, filtering};
 
     ShadingPoint s;
-    const int32_t* words = reinterpret_cast<const int32_t*>(scene.materials);
-    const LanesI flags = gather<Lanes>(words + 11, g.material_word);
+    const LanesI flags = g.material.integer(11);
     const Mask front = cos_front >= Lanes(0.0f);
     s.ng = select(front, g.ng, -g.ng);
     s.start = g.position + s.ng * g.offset + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
@@ -326,7 +359,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, wo));
     s.unlit = has_bits<Lanes>(flags, material_unlit);
 
-    s.emission = gather3(scene.materials + 8, g.material_word);
+    s.emission = read3(g.material, 8);
     const Mask emits = (max_component(s.emission) > Lanes(0.0f)) &
                        (front | has_bits<Lanes>(flags, material_double_sided)) & (!s.unlit);
     s.emission = select(emits, s.emission, splat3(Lanes(0.0f)));
@@ -337,13 +370,11 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
             s.emission =
                 select(slot.used, s.emission * read_slot(scene, g, slot, look).rgb, s.emission);
         }
-        const LanesI base = gather<Lanes>(scene.primitives + 15, g.primitive_word);
+        const LanesI base = g.primitive.integer(15);
         LanesI light = base + hit.triangle;
         const Mask instanced = hit.instance >= LanesI(0);
         if (any(instanced)) {
-            const int32_t* column = reinterpret_cast<const int32_t*>(scene.instances) + 27;
-            const LanesI word = select(instanced, hit.instance * LanesI(instance_words), LanesI(0));
-            light = light + select(instanced, gather<Lanes>(column, word), LanesI(0));
+            light = light + select(instanced, instance_row(scene, hit).integer(27), LanesI(0));
         }
         s.light = select(emits & (base >= LanesI(0)), light, LanesI(-1));
     }

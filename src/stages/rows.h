@@ -85,15 +85,15 @@ OBSCURA_INLINE HitLanes load_hits(const HitRows& rows, int i) {
             load(rows.triangle + i)};
 }
 
-/// Hits of one group; lanes that do not exist get a harmless one, so that gathers stay in range.
+/// Hits of one group; lanes that do not exist repeat the first, so that gathers stay in range.
 OBSCURA_INLINE HitLanes hits_or_first(const HitRows& rows, int i, Mask exists) {
     const HitLanes hit = load_hits(rows, i);
-    return {select(exists, hit.t, Lanes(1.0f)),
-            select(exists, hit.u, Lanes(0.25f)),
-            select(exists, hit.v, Lanes(0.25f)),
-            select(exists, hit.instance, LanesI(-1)),
-            select(exists, hit.primitive, LanesI(0)),
-            select(exists, hit.triangle, LanesI(0))};
+    return {select(exists, hit.t, Lanes(rows.t[i])),
+            select(exists, hit.u, Lanes(rows.u[i])),
+            select(exists, hit.v, Lanes(rows.v[i])),
+            select(exists, hit.instance, LanesI(rows.instance[i])),
+            select(exists, hit.primitive, LanesI(rows.primitive[i])),
+            select(exists, hit.triangle, LanesI(rows.triangle[i]))};
 }
 
 OBSCURA_INLINE void append_hits(const HitRows& rows, int at, Mask mask, const HitLanes& h) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "math/table_row.h"
 #include "math/vec.h"
 #include "surface/srgb.h"
 #include "surface/texture_row.h"
@@ -27,19 +28,15 @@ inline namespace OBSCURA_ISA {
 /// One texture's row, read for every lane.
 template <typename F>
 struct TextureInfo {
-    IntOf<F> row;  ///< first word of the row
+    TableRow<F> row;
     IntOf<F> width, height, levels;
     IntOf<F> sampler;
 };
 
 template <typename F>
 OBSCURA_INLINE TextureInfo<F> texture_info(const TextureView& view, const IntOf<F>& texture) {
-    const IntOf<F> row = texture * IntOf<F>(texture_row_words);
-    return {row,
-            gather<F>(view.rows, row),
-            gather<F>(view.rows + 1, row),
-            gather<F>(view.rows + 2, row),
-            gather<F>(view.rows + 3, row)};
+    const TableRow<F> row(view.rows, texture, texture_row_words);
+    return {row, row.integer(0), row.integer(1), row.integer(2), row.integer(3)};
 }
 
 /// log2 of the side, in texels of level 0, of a footprint given as an area in UV space.
@@ -103,10 +100,8 @@ struct MipLevel {
 };
 
 template <typename F>
-OBSCURA_INLINE MipLevel<F> mip_level(const TextureView& view,
-                                     const TextureInfo<F>& info,
-                                     const IntOf<F>& level) {
-    const IntOf<F> offset = gather<F>(view.rows + 4, IntOf<F>(info.row + level));
+OBSCURA_INLINE MipLevel<F> mip_level(const TextureInfo<F>& info, const IntOf<F>& level) {
+    const IntOf<F> offset = info.row.varying_integer(IntOf<F>(level + IntOf<F>(4)));
     // Sides halve, rounding down: exact in float for sides up to 65536.
     const F scale = power_of_two<F>(IntOf<F>(IntOf<F>(127) - level));
     return {offset,
@@ -136,14 +131,13 @@ struct TexelPosition {
 };
 
 template <typename F>
-OBSCURA_INLINE TexelPosition<F> texel_position(const TextureView& view,
-                                               const TextureInfo<F>& info,
+OBSCURA_INLINE TexelPosition<F> texel_position(const TextureInfo<F>& info,
                                                const Vec2<F>& uv,
                                                const F& lod,
                                                const F& pick) {
     const IntOf<F> wrap_u = info.sampler & IntOf<F>(3);
     const IntOf<F> wrap_v = IntOf<F>(as_int(as_uint(info.sampler) >> 2)) & IntOf<F>(3);
-    const MipLevel<F> level = mip_level<F>(view, info, choose_level<F>(info, lod, pick));
+    const MipLevel<F> level = mip_level<F>(info, choose_level<F>(info, lod, pick));
     const MaskOf<F> magnified = lod <= F(0.0f);
     const MaskOf<F> nearest = (magnified & has_bits<F>(info.sampler, sampler_mag_nearest)) |
                               ((!magnified) & has_bits<F>(info.sampler, sampler_min_nearest));
@@ -180,7 +174,7 @@ OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
                                                  const Vec3<F>& random) {
     const TextureInfo<F> info = texture_info<F>(view, texture);
     const F lod = level_of_detail<F>(info, footprint);
-    const TexelPosition<F> at = texel_position<F>(view, info, uv, lod, random.z);
+    const TexelPosition<F> at = texel_position<F>(info, uv, lod, random.z);
     const F jitter_x = select(at.nearest, F(0.0f), random.x - F(0.5f));
     const F jitter_y = select(at.nearest, F(0.0f), random.y - F(0.5f));
     const UintOf<F> texel =
@@ -196,7 +190,7 @@ OBSCURA_INLINE Rgba<F> sample_texture_bilinear(const TextureView& view,
                                                const F& footprint) {
     const TextureInfo<F> info = texture_info<F>(view, texture);
     const F lod = level_of_detail<F>(info, footprint);
-    const TexelPosition<F> at = texel_position<F>(view, info, uv, lod, F(0.5f));
+    const TexelPosition<F> at = texel_position<F>(info, uv, lod, F(0.5f));
     const F x = select(at.nearest, floor(at.x), at.x - F(0.5f));
     const F y = select(at.nearest, floor(at.y), at.y - F(0.5f));
     const F fx = x - floor(x);
