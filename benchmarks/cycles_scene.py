@@ -1,12 +1,12 @@
-# benchmarks/cycles_scene.py - a glTF scene set up in Blender Cycles to do the work that Obscura does.
+# benchmarks/cycles_scene.py - a glTF scene in Blender Cycles, set up for the work Obscura does.
 # SPDX-License-Identifier: Apache-2.0
 """Runs inside Blender (2.93 or later). One load, any number of renders.
 
 The same work means: CPU only, every sample of every pixel (no adaptive sampling), no denoiser, no
 clamping, caustics on, box filter, the same number of bounces, float32 EXR.
 
-Axes: glTF is +Y up, Blender +Z up, so (x, y, z) becomes (x, -z, y). With that, Blender's own mapping
-of equirectangular environments is the one that docs/conventions.md describes, without a rotation.
+Axes: glTF is +Y up, Blender +Z up, so (x, y, z) becomes (x, -z, y). With that, Blender's own
+mapping of equirectangular environments is that of docs/conventions.md, without a rotation.
 """
 
 import math
@@ -17,7 +17,7 @@ import bpy
 import mathutils
 import numpy
 
-if not hasattr(numpy, "bool"):  # Blender 3.4's importer meets numpy 1.24
+if "bool" not in numpy.__dict__:  # Blender 3.4's importer meets numpy 1.24
     numpy.bool = bool
 
 
