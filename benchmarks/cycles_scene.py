@@ -118,3 +118,7 @@ def read_exr(file):
     image.pixels.foreach_get(pixels)
     bpy.data.images.remove(image)
     return pixels.reshape(height, width, 4)[:, :, :3]
+
+
+def version():
+    return bpy.app.version_string
