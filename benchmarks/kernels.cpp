@@ -1,5 +1,5 @@
-// benchmarks/kernels.cpp - loops over the renderer's own kernels; compiled once per instruction
-// set. SPDX-License-Identifier: Apache-2.0
+// benchmarks/kernels.cpp - loops over the renderer's kernels; compiled once per instruction set.
+// SPDX-License-Identifier: Apache-2.0
 #include "benchmarks/kernels.h"
 
 #include "math/sampler.h"
