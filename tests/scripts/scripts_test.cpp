@@ -12,6 +12,7 @@
 #include <string>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <utility>
 
 namespace obscura {
 namespace {
@@ -251,6 +252,63 @@ TEST_F(Scripts, SetupNamesThePackageListOnOtherSystems) {
     EXPECT_THAT(first.output, HasSubstr("this is not a Debian system"));
     EXPECT_THAT(first.output, HasSubstr("list.txt"));
     EXPECT_EQ(run_with_setup(code).output, "") << "said once only";
+}
+
+/// Stands in for Blender: repeats its arguments where people see them.
+constexpr const char* fake_blender = R"sh(
+echo "log line"
+printf '<%s>' "$@" >&3
+exit "${BLENDER_CODE:-0}"
+)sh";
+
+TEST_F(Scripts, VersusCyclesHandsItsSettingsToBlender) {
+    write_program("obscura", "");
+    write_program("blender", fake_blender);
+    write("a b.glb", "");
+    const std::string versus = source_dir + "/benchmarks/versus_cycles.sh";
+    const std::string tools = " --obscura ./obscura --blender ./blender ";
+    const Outcome outcome =
+        run(versus + tools + "--spp 32 --eye -1,2,3 --view close --keep kept 'a b.glb'");
+    EXPECT_EQ(outcome.code, 0) << outcome.output;
+    EXPECT_THAT(outcome.output, HasSubstr("/benchmarks/versus_cycles.py><-->"));
+    EXPECT_THAT(outcome.output, HasSubstr("<--spp=32>"));
+    EXPECT_THAT(outcome.output, HasSubstr("<--view=close>"));
+    EXPECT_THAT(outcome.output, HasSubstr("<--size=1280x720>"));
+    EXPECT_THAT(outcome.output, HasSubstr("<--camera=--eye=-1,2,3><--><a b.glb>"));
+    EXPECT_THAT(outcome.output, Not(HasSubstr("log line")));
+    EXPECT_EQ(read_text(folder_ / "kept/blender.log"), "log line\n");
+    for (const auto& [ends, code] : {std::pair{1, 70}, {11, 70}, {69, 69}}) {
+        const Outcome failed =
+            run("BLENDER_CODE=" + std::to_string(ends) + " " + versus + tools + "'a b.glb'");
+        EXPECT_EQ(failed.code, code);
+        EXPECT_THAT(failed.output, HasSubstr("log line"));
+    }
+}
+
+TEST_F(Scripts, VersusCyclesSaysWhatItNeeds) {
+    write_program("obscura", "");
+    write_program("blender", fake_blender);
+    write("a.glb", "");
+    const std::string versus = source_dir + "/benchmarks/versus_cycles.sh ";
+    const std::string tools = "--obscura ./obscura --blender ./blender ";
+    for (const std::string arguments : {"",
+                                        "missing.glb",
+                                        "a.glb --what",
+                                        "a.glb --what 1",
+                                        "a.glb --spp",
+                                        "a.glb --spp 0",
+                                        "a.glb --size 12",
+                                        "a.glb --view left",
+                                        "a.glb --env missing.hdr",
+                                        "a.glb --obscura ./none"}) {
+        const Outcome outcome = run(versus + tools + arguments);
+        EXPECT_EQ(outcome.code, 64) << arguments;
+        EXPECT_THAT(outcome.output, HasSubstr("usage: benchmarks/versus_cycles.sh")) << arguments;
+    }
+    const Outcome outcome = run(versus + "--obscura ./obscura --blender ./none a.glb");
+    EXPECT_EQ(outcome.code, 69);
+    EXPECT_THAT(outcome.output, HasSubstr("apt-get install"));
+    EXPECT_EQ(run(versus + "--help").code, 0);
 }
 
 TEST_F(Scripts, EveryPackageIsListedOnce) {

@@ -1,0 +1,192 @@
+// benchmarks/kernels.cpp - loops over the renderer's kernels; compiled once per instruction set.
+// SPDX-License-Identifier: Apache-2.0
+#include "benchmarks/kernels.h"
+
+#include "math/sampler.h"
+#include "surface/bsdf.h"
+
+#define OBSCURA_TEXT_OF(name) #name
+#define OBSCURA_TEXT(name) OBSCURA_TEXT_OF(name)
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+static_assert(lane_count == OBSCURA_LANES, "compiled for another instruction set than intended");
+
+namespace {
+
+using bench::KernelData;
+
+/// The rows that start at p: one, or a register full of them.
+template <typename F, typename T>
+OBSCURA_INLINE auto read(const T* p) {
+    if constexpr (std::is_same_v<F, float>) {
+        return *p;
+    } else {
+        return load(p);
+    }
+}
+
+template <typename F>
+OBSCURA_INLINE void write(float* p, const F& value) {
+    if constexpr (std::is_same_v<F, float>) {
+        *p = value;
+    } else {
+        store(p, value);
+    }
+}
+
+template <typename F>
+OBSCURA_INLINE Vec3<F> read3(const float* x, const float* y, const float* z, int i) {
+    return {read<F>(x + i), read<F>(y + i), read<F>(z + i)};
+}
+
+template <typename F>
+OBSCURA_INLINE F sum3(const Vec3<F>& v) {
+    return v.x + v.y + v.z;
+}
+
+/// Calls body(i) for the first row of every group of F. Bodies store sums of what they compute:
+/// nothing can be left out, and one or two stores are little beside the kernel.
+template <typename F, typename Body>
+OBSCURA_INLINE void for_rows(const Body& body) {
+    for (int i = 0; i < bench::kernel_rows; i += LaneTypes<F>::size) {
+        body(i);
+    }
+}
+
+template <typename F>
+OBSCURA_INLINE BsdfParams<F> material(const KernelData& d, int i) {
+    return {read3<F>(d.red, d.green, d.blue, i), read<F>(d.metallic + i), read<F>(d.alpha + i)};
+}
+
+template <typename F>
+OBSCURA_INLINE LobeWeights<F> weights(const KernelData& d, int i) {
+    return {read<F>(d.diffuse + i), read<F>(d.specular_probability + i)};
+}
+
+template <typename F>
+void bsdf_weights(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const LobeWeights<F> lobes = lobe_weights(material<F>(d, i), read<F>(d.wo_z + i));
+        write(d.out0 + i, lobes.diffuse);
+        write(d.out1 + i, lobes.specular_probability);
+    });
+}
+
+template <typename F>
+void bsdf_evaluate(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const Vec3<F> wo = read3<F>(d.wo_x, d.wo_y, d.wo_z, i);
+        const Vec3<F> wi = read3<F>(d.wi_x, d.wi_y, d.wi_z, i);
+        const BsdfValue<F> at = evaluate_bsdf(material<F>(d, i), weights<F>(d, i), wo, wi);
+        write(d.out0 + i, sum3(at.value_cos));
+        write(d.out1 + i, at.pdf);
+    });
+}
+
+template <typename F>
+void bsdf_sample(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const Vec3<F> wo = read3<F>(d.wo_x, d.wo_y, d.wo_z, i);
+        const Vec2<F> u{read<F>(d.u0 + i), read<F>(d.u1 + i)};
+        const BsdfSample<F> sample =
+            sample_bsdf(material<F>(d, i), weights<F>(d, i), wo, u, read<F>(d.u2 + i));
+        write(d.out0 + i, sum3(sample.direction) + sample.spread);
+        write(d.out1 + i, sum3(sample.at.value_cos) + sample.at.pdf);
+    });
+}
+
+template <typename F>
+void ggx_sample_normal(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const Vec3<F> wo = read3<F>(d.wo_x, d.wo_y, d.wo_z, i);
+        const Vec2<F> u{read<F>(d.u0 + i), read<F>(d.u1 + i)};
+        write(d.out0 + i, sum3(sample_visible_normal(wo, read<F>(d.alpha + i), u)));
+    });
+}
+
+template <typename F>
+void texture_stochastic(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const Rgba<F> texel =
+            sample_texture_stochastic<F>(d.textures,
+                                         read<F>(d.texture + i),
+                                         {read<F>(d.texture_u + i), read<F>(d.texture_v + i)},
+                                         read<F>(d.footprint + i),
+                                         read3<F>(d.u0, d.u1, d.u2, i));
+        write(d.out0 + i, sum3(texel.rgb) + texel.alpha);
+    });
+}
+
+template <typename F>
+void texture_bilinear(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const Rgba<F> texel =
+            sample_texture_bilinear<F>(d.textures,
+                                       read<F>(d.texture + i),
+                                       {read<F>(d.texture_u + i), read<F>(d.texture_v + i)},
+                                       read<F>(d.footprint + i));
+        write(d.out0 + i, sum3(texel.rgb) + texel.alpha);
+    });
+}
+
+template <typename F>
+void random_pair(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const Vec2<F> u = unit_pair<F>(sobol_pair(read<F>(d.bits0 + i), read<F>(d.bits1 + i), 7));
+        write(d.out0 + i, u.x);
+        write(d.out1 + i, u.y);
+    });
+}
+
+template <typename F>
+void environment_sample(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const Vec2<UintOf<F>> random{read<F>(d.bits0 + i), read<F>(d.bits1 + i)};
+        const EnvironmentSample<F> sample = sample_environment<F>(d.environment, random);
+        write(d.out0 + i, sum3(sample.direction));
+        write(d.out1 + i, sum3(sample.radiance) + sample.pdf);
+    });
+}
+
+template <typename F>
+void environment_look_up(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const EnvironmentSample<F> seen =
+            look_up_environment(d.environment, read3<F>(d.world_x, d.world_y, d.world_z, i));
+        write(d.out0 + i, sum3(seen.radiance) + seen.pdf);
+    });
+}
+
+template <typename F>
+void alias_draw(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const AliasSample<F> sample = sample_alias<F>(d.alias, d.alias_count, read<F>(d.bits0 + i));
+        write(d.out0 + i, from_int<F>(sample.index) + unit_float<F>(sample.remaining));
+    });
+}
+
+}  // namespace
+
+#define OBSCURA_KERNEL(name) \
+    { #name, name < float>, name < Lanes> }
+
+extern const bench::KernelTable kernel_table;
+const bench::KernelTable kernel_table = {
+    &OBSCURA_TEXT(OBSCURA_ISA)[4],  // without "isa_"
+    lane_count,
+    {OBSCURA_KERNEL(bsdf_weights),
+     OBSCURA_KERNEL(bsdf_evaluate),
+     OBSCURA_KERNEL(bsdf_sample),
+     OBSCURA_KERNEL(ggx_sample_normal),
+     OBSCURA_KERNEL(texture_stochastic),
+     OBSCURA_KERNEL(texture_bilinear),
+     OBSCURA_KERNEL(random_pair),
+     OBSCURA_KERNEL(environment_sample),
+     OBSCURA_KERNEL(environment_look_up),
+     OBSCURA_KERNEL(alias_draw)},
+};
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

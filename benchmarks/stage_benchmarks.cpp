@@ -1,0 +1,100 @@
+// benchmarks/stage_benchmarks.cpp - registers every stage of the corridor for one instruction set.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/prepared_scene.h"
+
+#include <benchmark/benchmark.h>
+
+#include "benchmarks/benchmarks.h"
+#include "benchmarks/stage_columns.h"
+#include <ctime>
+#include <memory>
+
+namespace obscura::bench {
+
+namespace {
+
+using Columns = std::shared_ptr<StageColumns>;
+
+/// Registers stage(columns), which handles `rows` rows a call and leaves what it reads as it is.
+template <typename Stage>
+void register_stage(const std::string& name, const Columns& columns, int rows, const Stage& stage) {
+    const auto run = [columns, rows, stage](benchmark::State& state) {
+        columns->restore();  // another benchmark may have shaded them
+        for (auto _ : state) {
+            stage(*columns);
+            benchmark::ClobberMemory();
+        }
+        state.SetItemsProcessed(state.iterations() * rows);
+        state.counters["rows"] = rows;
+    };
+    benchmark::RegisterBenchmark(name.c_str(), run);
+}
+
+/// This thread's own time: on a busy machine the wall clock counts what others do.
+double thread_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Shading packs its input in place: the columns are put back before each call, untimed.
+void register_shade(const std::string& name, const Columns& columns) {
+    const auto run = [columns](benchmark::State& state) {
+        StageColumns& c = *columns;
+        for (auto _ : state) {
+            c.restore();
+            const double start = thread_seconds();
+            c.scene.stages->shade(c.view, c.batch, c.bounce, c.rows(), c.shade_rows());
+            state.SetIterationTime(thread_seconds() - start);
+        }
+        state.SetItemsProcessed(state.iterations() * c.rows());
+        state.counters["rows"] = c.rows();
+    };
+    benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime();
+}
+
+void register_rays(const std::string& isa, const std::string& kind, const Columns& columns) {
+    const Coherence coherence = columns->bounce == 0 ? Coherence::coherent : Coherence::incoherent;
+    const auto segment = static_cast<uint32_t>(columns->bounce);
+    register_stage(
+        "stage/2_intersect_" + kind + "/" + isa, columns, columns->rows(), [=](StageColumns& c) {
+            c.scene.accel->intersect(
+                c.rays(), c.work.hits, coherence, {segment == 0, false, 2U * segment});
+        });
+    register_shade("stage/3_shade_" + kind + "/" + isa, columns);
+}
+
+void register_light(const std::string& isa, const Columns& columns) {
+    const int shadows = columns->shaded.shadow;
+    register_stage("stage/4_shadow/" + isa, columns, shadows, [](StageColumns& c) {
+        c.scene.accel->occluded(c.shadow_rays(), c.work.occluded.data(), Coherence::incoherent, 1);
+    });
+    register_stage("stage/5_add_shadows/" + isa, columns, shadows, [](StageColumns& c) {
+        c.scene.stages->add_shadows(
+            c.shaded.shadow, c.work.shadows, c.work.occluded.data(), c.work.samples);
+    });
+}
+
+}  // namespace
+
+void register_stages(const PreparedScene& scene, const Camera& camera, Isa isa) {
+    const std::string name = isa_name(isa);
+    const auto camera_rays = std::make_shared<StageColumns>(scene, camera, 0);
+    const int rows = camera_rays->rows();
+    // The ones that overwrite what the others read have columns of their own.
+    const auto own = std::make_shared<StageColumns>(scene, camera, 0);
+    register_stage("stage/1_camera/" + name, own, rows, [rows](StageColumns& c) {
+        c.scene.stages->camera(c.batch, rows, c.work.paths[0], c.work.samples);
+    });
+    register_rays(name, "camera", camera_rays);
+    register_rays(name, "bounce", std::make_shared<StageColumns>(scene, camera, 1));
+    const auto shadow_rays = std::make_shared<StageColumns>(scene, camera, 0);
+    shadow_rays->make_shadow_rays();
+    register_light(name, shadow_rays);
+    const auto sums = std::make_shared<std::vector<float>>(4 * static_cast<size_t>(own->pixels));
+    register_stage("stage/5_accumulate/" + name, own, rows, [sums](StageColumns& c) {
+        c.scene.stages->accumulate(c.pixels, c.batch.samples, c.work.samples, sums->data());
+    });
+}
+
+}  // namespace obscura::bench
