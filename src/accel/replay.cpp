@@ -62,10 +62,15 @@ void load_one(const RayColumns& rays, size_t row, RTCRay& out) {
     out.flags = 0;
 }
 
-/// Loads rows [first, first + count) of a column; the lanes behind them repeat the first.
+/// Loads rows [first, first + count) of a column; the lanes behind them repeat the first. Whole
+/// packets are copied with a length that the compiler knows.
 void load_column(const float* column, size_t first, size_t count, float* out) {
+    if (count == packet) {
+        std::copy_n(column + first, packet, out);
+        return;
+    }
     std::copy_n(column + first, count, out);
-    if (count < packet) std::fill_n(out + count, packet - count, column[first]);
+    std::fill_n(out + count, packet - count, column[first]);
 }
 
 void load_sixteen(const RayColumns& rays, size_t first, size_t count, RTCRay16& out) {

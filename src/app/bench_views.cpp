@@ -93,9 +93,14 @@ Window best_window(const CoverageMap& map, double share) {
     return best;
 }
 
+/// Part of the whole view's height that a close one may have at most.
+double widest_share(const CoverageMap& map) {
+    return map.share() >= wanted_in_picture ? 0.5 : 1.0;
+}
+
 /// The largest window that is covered well enough, by bisection of its size.
 Window find_window(const CoverageMap& map) {
-    double large = map.share() >= wanted_in_picture ? 0.5 : 1.0;
+    double large = widest_share(map);
     if (best_window(map, large).coverage >= wanted_in_picture) return best_window(map, large);
     double small = 1.0 / map.height();
     for (int i = 0; i < 10; ++i) {
@@ -150,24 +155,44 @@ BenchView describe(const PreparedScene& scene, const Camera& camera, const std::
     return view;
 }
 
-/// Narrows the view until the asset covers enough of it.
+/// The view of one share of the whole one's height, with its coverage.
+Result<BenchView> close_view(const PreparedScene& scene,
+                             const Camera& whole,
+                             const Window& window,
+                             double share,
+                             int height_px) {
+    const Result<Camera> camera = turned(whole, window, share, height_px);
+    if (!camera) return fail(camera.error());
+    const auto aspect = static_cast<double>(whole.pinhole.aspect);
+    const Result<double> coverage = measure_coverage(scene, *camera, aspect);
+    if (!coverage) return fail(coverage.error());
+    BenchView view = describe(scene, *camera, "close");
+    view.coverage = *coverage;
+    view.description = fmt::format("{:.1f} % of the whole view's height", 100 * share);
+    return view;
+}
+
+/// Looks at the middle of the best covered part and finds the widest angle at which the asset
+/// covers enough of the frame, by bisection: turning the camera shifts what it sees, so that the
+/// part of the whole picture is only where the search begins. Without any such angle: the view
+/// that was covered best.
 Result<BenchView> find_close_view(const PreparedScene& scene,
                                   const Camera& whole,
                                   const CoverageMap& map,
                                   int height_px) {
-    const double aspect = static_cast<double>(whole.pinhole.aspect);
     const Window window = find_window(map);
-    double share = window.share;
-    for (;; share *= 0.9) {
-        const Result<Camera> camera = turned(whole, window, share, height_px);
-        if (!camera) return fail(camera.error());
-        const Result<double> coverage = measure_coverage(scene, *camera, aspect);
-        if (!coverage) return fail(coverage.error());
-        if (*coverage < close_coverage && share > least_share) continue;
-        BenchView view = describe(scene, *camera, "close");
-        view.coverage = *coverage;
-        view.description = fmt::format("the best covered {:.0f} % of the whole view", 100 * share);
-        return view;
+    double too_wide = std::min(widest_share(map), 1.5 * window.share);
+    double enough = 0;
+    BenchView best;
+    best.coverage = -1;
+    for (double share = window.share;; share = 0.5 * (enough + too_wide)) {
+        Result<BenchView> view = close_view(scene, whole, window, share, height_px);
+        if (!view) return view;
+        const bool covered = view->coverage >= close_coverage;
+        (covered ? enough : too_wide) = share;
+        if (covered || (enough == 0 && view->coverage > best.coverage)) best = std::move(*view);
+        const bool narrow = enough == 0 && share < least_share;
+        if (narrow || too_wide <= 1.02 * enough) return best;
     }
 }
 

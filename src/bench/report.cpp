@@ -36,6 +36,14 @@ std::array<double, 5> stage_shares(const ViewFigures& view) {
     return shares;
 }
 
+double outside_stages(const ViewFigures& view) {
+    const double all = view.render_s.median * view.threads;
+    double inside = 0;
+    for (const Spread& stage : view.stage_s)
+        inside += stage.median;
+    return all > 0 ? std::max(0.0, 1 - inside / all) : 0;
+}
+
 double per_second(const ViewFigures& view, uint64_t count) {
     return view.render_s.median > 0 ? static_cast<double>(count) / view.render_s.median : 0;
 }

@@ -126,6 +126,9 @@ const char* way_name(ReplayWay way);
 /// Share of each stage in the time of all; zero when nothing took time.
 std::array<double, 5> stage_shares(const ViewFigures& view);
 
+/// Share of the threads' time that the median rendering spent outside all stages: tiles, waiting.
+double outside_stages(const ViewFigures& view);
+
 /// Count per second of the median rendering.
 double per_second(const ViewFigures& view, uint64_t count);
 

@@ -119,6 +119,7 @@ void write_view(JsonWriter& json, const ViewFigures& view) {
     json.member("rays_per_second", per_second(view, rays));
     json.member("refused_rays", c.refused_rays).member("nonfinite_samples", c.nonfinite_samples);
     write_stages(json, view);
+    json.member("outside_stages", outside_stages(view));
     write_kinds(json, view);
 }
 

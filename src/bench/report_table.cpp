@@ -116,7 +116,7 @@ void add_view(const ViewFigures& view, std::string& out) {
     const auto shares = stage_shares(view);
     for (size_t i = 0; i < shares.size(); ++i)
         out += fmt::format(" {} {:.1f} %", stage_names()[i], 100 * shares[i]);
-    out += "\n";
+    out += fmt::format("; outside {:.1f} %\n", 100 * outside_stages(view));
     add_kinds(view, out);
 }
 
