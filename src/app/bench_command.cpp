@@ -111,7 +111,6 @@ Result<void> measure_isas(SceneBench& bench,
 
 Result<std::string> measure_scene(SceneBench& bench) {
     bench.figures.file = bench.scene.scene.string();
-    bench.figures.name = bench.scene.scene.stem().string();
     bench.log.info("measuring " + bench.figures.file);
     Result<LightingOptions> lighting = load_lighting(bench.scene, bench.log);
     if (!lighting) return fail(lighting.error());
@@ -133,6 +132,13 @@ Result<std::string> measure_scene(SceneBench& bench) {
     const Result<void> isas = measure_isas(bench, loaded->scene, *views);
     if (!isas) return fail(isas.error());
     return loaded->scene.embree_version();
+}
+
+/// The file's name without extension; the whole path where an earlier scene has that name.
+std::string free_name(const std::filesystem::path& file, const std::vector<SceneFigures>& taken) {
+    const std::string name = file.stem().string();
+    const auto is_taken = [&](const SceneFigures& scene) { return scene.name == name; };
+    return std::any_of(taken.begin(), taken.end(), is_taken) ? file.string() : name;
 }
 
 BenchSettings settings_of(const BenchRequest& request) {
@@ -201,6 +207,7 @@ Result<void> execute(const BenchRequest& request, Log& log) {
     bool nonfinite = false;
     for (const RenderRequest& scene : request.scenes) {
         SceneBench bench{request, scene, log};
+        bench.figures.name = free_name(scene.scene, report.scenes);
         const Result<std::string> embree = measure_scene(bench);
         if (!embree) return fail(embree.error());
         report.machine.embree = *embree;

@@ -12,7 +12,7 @@ namespace obscura {
 namespace {
 
 constexpr double panel_width = 460, panel_height = 360;
-constexpr double left = 56, top = 48, bottom = 52, legend_width = 190;
+constexpr double left = 56, top = 48, bottom = 52, legend_width = 190, footer = 24;
 constexpr std::array<const char*, 8> colors = {
     "#3366aa", "#cc6633", "#339966", "#aa3366", "#7755aa", "#888833", "#338899", "#666666"};
 
@@ -235,7 +235,7 @@ std::string bench_svg(const BenchReport& report) {
     if (!threads.empty()) draw_scaling(draw, panels++, threads);
     if (!isas.empty()) draw_isas(draw, panels++, isas);
     const size_t rows = std::max(threads.size(), isas.size());
-    const double height = std::max(panel_height, top + 18 * static_cast<double>(rows) + 40);
+    const double height = std::max(panel_height, top + 18 * static_cast<double>(rows)) + footer;
     draw.text(
         left, height - 8, "start", report.machine.cpu + ", Obscura " + report.machine.version);
     return fmt::format(
