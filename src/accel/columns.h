@@ -15,7 +15,8 @@ struct RayColumns {
     int count;
 };
 
-/// Hits as columns. primitive -1 is a miss; the other columns then hold nothing of use.
+/// Hits as columns, padded like the rays: whole blocks are written. primitive -1 is a miss; the
+/// other columns then hold nothing of use.
 struct HitColumns {
     float *t, *u, *v;
     int32_t* instance;   ///< row in Scene::instances, -1 for world-space primitives

@@ -17,44 +17,66 @@ struct alignas(64) ValidMask {
 
 /// Marks the rows [first, first + 16) that exist and are safe; counts the refused ones.
 int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {
-    int refused = 0;
+    const int existing = std::min(packet, rays.count - first);
+    int safe = 0;
     for (int i = 0; i < packet; ++i) {
-        const int row = first + i;
-        const bool exists = row < rays.count;
-        const bool safe = exists && is_safe(rays, row);
-        valid.lane[i] = safe ? -1 : 0;
-        refused += exists && !safe ? 1 : 0;
+        const int row = i < existing ? first + i : first;
+        valid.lane[i] = is_safe(rays, row) && i < existing ? -1 : 0;
+        safe -= valid.lane[i];
     }
-    return refused;
+    return existing - safe;
 }
 
-/// Reads a column of the packet's rows. Idle lanes repeat the row of `stand_in`, for Embree sees
-/// them too: where its packets are narrower than 16 it takes all 16 rays whatever the mask says.
-void load_column(const float* column, int first, const ValidMask& valid, int stand_in, float* out) {
+/// Which row each lane of a packet takes: idle lanes repeat one that is valid, for Embree sees them
+/// too: where its packets are narrower than 16 it takes all 16 rays whatever the mask says.
+struct PacketRows {
+    int row[packet];
+    bool in_order;  ///< 16 rows one after the other
+};
+
+/// False when no lane is valid.
+bool choose_rows(const ValidMask& valid, int first, PacketRows& rows) {
+    const int* found = std::find(valid.lane, valid.lane + packet, -1);
+    if (found == valid.lane + packet) return false;
+    const auto stand_in = static_cast<int>(found - valid.lane);
+    rows.in_order = true;
+    for (int i = 0; i < packet; ++i) {
+        rows.row[i] = first + (valid.lane[i] != 0 ? i : stand_in);
+        rows.in_order &= valid.lane[i] != 0;
+    }
+    return true;
+}
+
+void load_column(const float* column, const PacketRows& rows, float* out) {
+    if (rows.in_order) {
+        std::copy_n(column + rows.row[0], packet, out);
+        return;
+    }
     for (int i = 0; i < packet; ++i)
-        out[i] = column[first + (valid.lane[i] != 0 ? i : stand_in)];
+        out[i] = column[rows.row[i]];
 }
 
 /// False when no lane is valid; then `out` is left as it was.
 bool load_packet(const RayColumns& rays, int first, const ValidMask& valid, RTCRay16& out) {
-    const int* found = std::find(valid.lane, valid.lane + packet, -1);
-    if (found == valid.lane + packet) return false;
-    const auto stand_in = static_cast<int>(found - valid.lane);
-    load_column(rays.ox, first, valid, stand_in, out.org_x);
-    load_column(rays.oy, first, valid, stand_in, out.org_y);
-    load_column(rays.oz, first, valid, stand_in, out.org_z);
-    load_column(rays.dx, first, valid, stand_in, out.dir_x);
-    load_column(rays.dy, first, valid, stand_in, out.dir_y);
-    load_column(rays.dz, first, valid, stand_in, out.dir_z);
-    if (rays.tfar != nullptr) load_column(rays.tfar, first, valid, stand_in, out.tfar);
-    for (int i = 0; i < packet; ++i) {
-        out.tnear[i] = 0.0f;
-        if (rays.tfar == nullptr) out.tfar[i] = unlimited;
-        out.time[i] = 0.0f;
-        out.mask[i] = 0xFFFFFFFFU;
-        out.id[i] = static_cast<unsigned>(first + i);
-        out.flags[i] = 0;
+    PacketRows chosen;
+    if (!choose_rows(valid, first, chosen)) return false;
+    load_column(rays.ox, chosen, out.org_x);
+    load_column(rays.oy, chosen, out.org_y);
+    load_column(rays.oz, chosen, out.org_z);
+    load_column(rays.dx, chosen, out.dir_x);
+    load_column(rays.dy, chosen, out.dir_y);
+    load_column(rays.dz, chosen, out.dir_z);
+    if (rays.tfar != nullptr) {
+        load_column(rays.tfar, chosen, out.tfar);
+    } else {
+        std::fill_n(out.tfar, packet, unlimited);
     }
+    std::fill_n(out.tnear, packet, 0.0f);
+    std::fill_n(out.time, packet, 0.0f);
+    std::fill_n(out.mask, packet, 0xFFFFFFFFU);
+    std::fill_n(out.flags, packet, 0U);
+    for (int i = 0; i < packet; ++i)
+        out.id[i] = static_cast<unsigned>(first + i);
     return true;
 }
 
@@ -153,6 +175,48 @@ void look_behind(const Accel::Impl& impl,
     store_hit(impl, ray, hits, row);
 }
 
+/// Writes 16 rows: the columns have room for whole packets.
+void store_packet(const Accel::Impl& impl,
+                  const ValidMask& valid,
+                  const RTCRayHit16& block,
+                  const HitColumns& hits,
+                  int first) {
+    std::copy_n(block.ray.tfar, packet, hits.t + first);
+    std::copy_n(block.hit.u, packet, hits.u + first);
+    std::copy_n(block.hit.v, packet, hits.v + first);
+    static_assert(RTC_INVALID_GEOMETRY_ID == 0xFFFFFFFFU, "as int32_t it is -1, a miss");
+    for (int i = 0; i < packet; ++i) {
+        hits.triangle[first + i] = static_cast<int32_t>(block.hit.primID[i]);
+        hits.primitive[first + i] = static_cast<int32_t>(block.hit.geomID[i]) | ~valid.lane[i];
+        hits.instance[first + i] = -1;
+    }
+    if (impl.scene->instances.empty()) return;
+    for (int i = 0; i < packet; ++i) {
+        if (hits.primitive[first + i] < 0) continue;
+        const SceneRows rows = scene_rows(impl, block.hit.geomID[i], block.hit.instID[0][i]);
+        hits.primitive[first + i] = rows.primitive;
+        hits.instance[first + i] = rows.instance;
+    }
+}
+
+/// Looks behind the hidden backs among a packet's hits.
+void pass_hidden_backs_of_packet(const Accel::Impl& impl,
+                                 const QueryContext& context,
+                                 const RayColumns& rays,
+                                 const RTCHit16& hit,
+                                 const HitColumns& hits,
+                                 int first) {
+    const int count = std::min(packet, rays.count - first);
+    for (int i = 0; i < count; ++i) {
+        const int row = first + i;
+        if (hits.primitive[row] < 0) continue;
+        const Vec3f ng{hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]};
+        const Vec3f direction{rays.dx[row], rays.dy[row], rays.dz[row]};
+        const SceneRows rows{hits.instance[row], hits.primitive[row]};
+        if (is_hidden_back(impl, rows, ng, direction)) look_behind(impl, context, rays, hits, row);
+    }
+}
+
 int intersect_packets(const Accel::Impl& impl,
                       QueryContext& context,
                       const RayColumns& rays,
@@ -164,31 +228,16 @@ int intersect_packets(const Accel::Impl& impl,
         ValidMask valid;
         RTCRayHit16 block;
         refused += mark_valid(rays, first, valid);
-        const bool any_valid = load_packet(rays, first, valid, block.ray);
-        for (int i = 0; i < packet; ++i) {
-            block.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-            block.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+        std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
+        std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
+        if (!load_packet(rays, first, valid, block.ray)) {
+            std::fill_n(hits.primitive + first, packet, -1);
+            continue;
         }
-        if (any_valid) query.intersect16(valid.lane, impl.top, &block);
-        const int count = std::min(packet, rays.count - first);
-        for (int i = 0; i < count; ++i) {
-            RTCRayHit one;
-            one.ray.tfar = block.ray.tfar[i];
-            one.hit.u = block.hit.u[i];
-            one.hit.v = block.hit.v[i];
-            one.hit.primID = block.hit.primID[i];
-            const bool valid_lane = valid.lane[i] != 0;
-            one.hit.geomID = valid_lane ? block.hit.geomID[i] : RTC_INVALID_GEOMETRY_ID;
-            one.hit.instID[0] = block.hit.instID[0][i];
-            const int row = first + i;
-            store_hit(impl, one, hits, row);
-            if (!culls_back_faces || hits.primitive[row] < 0) continue;
-            const Vec3f ng{block.hit.Ng_x[i], block.hit.Ng_y[i], block.hit.Ng_z[i]};
-            const Vec3f direction{rays.dx[row], rays.dy[row], rays.dz[row]};
-            const SceneRows rows{hits.instance[row], hits.primitive[row]};
-            if (is_hidden_back(impl, rows, ng, direction)) {
-                look_behind(impl, context, rays, hits, row);
-            }
+        query.intersect16(valid.lane, impl.top, &block);
+        store_packet(impl, valid, block, hits, first);
+        if (culls_back_faces) {
+            pass_hidden_backs_of_packet(impl, context, rays, block.hit, hits, first);
         }
     }
     return refused;

@@ -165,12 +165,19 @@ OBSCURA_INLINE Lanes atan2(Lanes y, Lanes x) { return xs::atan2(y.v, x.v); }
 OBSCURA_INLINE LanesI min(LanesI a, LanesI b) { return xs::min(a.v, b.v); }
 OBSCURA_INLINE LanesI max(LanesI a, LanesI b) { return xs::max(a.v, b.v); }
 
+/// The same bits in registers of another type; xsimd 10 went from naming the batch to its element.
+#if XSIMD_VERSION_MAJOR >= 10
+template <typename To, typename From> OBSCURA_INLINE To same_bits(From v) { return xs::bitwise_cast<typename To::value_type>(v); }
+#else
+template <typename To, typename From> OBSCURA_INLINE To same_bits(From v) { return xs::bitwise_cast<To>(v); }
+#endif
+
 /// Rounds towards zero.
 OBSCURA_INLINE LanesI to_int(Lanes a) { return xs::to_int(a.v); }
-OBSCURA_INLINE LanesI as_int(LanesU a) { return xs::bitwise_cast<BatchI>(a.v); }
-OBSCURA_INLINE LanesU as_uint(LanesI a) { return xs::bitwise_cast<BatchU>(a.v); }
-OBSCURA_INLINE LanesI float_bits(Lanes a) { return xs::bitwise_cast<BatchI>(a.v); }
-OBSCURA_INLINE Lanes bits_float(LanesI a) { return xs::bitwise_cast<BatchF>(a.v); }
+OBSCURA_INLINE LanesI as_int(LanesU a) { return same_bits<BatchI>(a.v); }
+OBSCURA_INLINE LanesU as_uint(LanesI a) { return same_bits<BatchU>(a.v); }
+OBSCURA_INLINE LanesI float_bits(Lanes a) { return same_bits<BatchI>(a.v); }
+OBSCURA_INLINE Lanes bits_float(LanesI a) { return same_bits<BatchF>(a.v); }
 
 // Scalars: the same names, so that a formula reads the same for one path and for sixteen.
 OBSCURA_INLINE bool any(bool m) { return m; }

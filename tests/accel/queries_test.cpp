@@ -125,8 +125,8 @@ void expect_packet(const BuiltScene& built, int count, Coherence coherence) {
         }
     }
     for (size_t row = static_cast<size_t>(count); row < rays.occluded.size(); ++row) {
-        EXPECT_EQ(rays.occluded[row], 9) << "rows past the last are not written";
-        EXPECT_EQ(rays.primitive[row], -7);
+        EXPECT_EQ(rays.occluded[row], 9) << "answers past the last row are not written";
+        EXPECT_LT(rays.primitive[row], 0) << "and nothing is hit there";
     }
 }
 

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -79,7 +81,7 @@ public:
         const auto size = static_cast<unsigned>(raw.size());
         ByteVector stream;
         append(stream, {0x78, 0x01, 0x01, size, size >> 8, ~size, ~size >> 8});
-        stream.insert(stream.end(), raw.begin(), raw.end());
+        std::copy(raw.begin(), raw.end(), std::back_inserter(stream));
         append_big_endian(stream, b << 16 | a);
         chunk("IDAT", stream);
         chunk("IEND", ByteVector());
