@@ -1,8 +1,9 @@
 // accel/accel.cpp - builds Embree scenes from a Scene: world-space primitives and instances.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "base/stopwatch.h"
 
-#include <new>
+#include <algorithm>
 
 namespace obscura {
 
@@ -45,7 +46,7 @@ RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
                                static_cast<size_t>(primitive.triangle_count));
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    if (needs_alpha_filter(scene, primitive)) {
+    if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive)) {
         AlphaGeometry& alpha = impl.alpha[static_cast<size_t>(primitive_index)];
         alpha = {impl.scene, impl.textures, primitive_index};
         rtcSetGeometryUserData(geometry, &alpha);
@@ -102,8 +103,11 @@ Accel::Impl::~Impl() {
     if (device != nullptr) rtcReleaseDevice(device);
 }
 
-Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
-    auto impl = std::make_unique<Impl>();
+namespace {
+
+Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene,
+                                                 const std::string& embree_isa) {
+    auto impl = std::make_unique<Accel::Impl>();
     impl->scene = &scene;
     impl->textures = {scene.textures.texels.data(),
                       reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
@@ -114,22 +118,47 @@ Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
     }
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
     rtcSetDeviceMemoryMonitorFunction(impl->device, note_memory, &impl->memory);
+    return impl;
+}
 
-    impl->alpha.resize(scene.primitives.size());
-    impl->fill_primitive_tables();
+/// Hands everything over to Embree and builds; without filters where impl.alpha is empty.
+Result<void> build_scenes(Accel::Impl& impl) {
+    const Scene& scene = *impl.scene;
     for (const Mesh& mesh : scene.meshes) {
-        RTCScene target = new_scene(*impl);
-        attach_triangles(*impl, target, mesh);
+        RTCScene target = new_scene(impl);
+        attach_triangles(impl, target, mesh);
         rtcCommitScene(target);
-        impl->mesh_scenes.push_back(target);
+        impl.mesh_scenes.push_back(target);
     }
-    impl->top = new_scene(*impl);
-    attach_triangles(*impl, impl->top, {0, scene.world_primitive_count});
+    impl.top = new_scene(impl);
+    attach_triangles(impl, impl.top, {0, scene.world_primitive_count});
     for (size_t i = 0; i < scene.instances.size(); ++i)
-        attach_instance(*impl, i);
-    rtcCommitScene(impl->top);
-    if (impl->errors.code != RTC_ERROR_NONE) return embree_failure(impl->errors);
-    return Accel(std::move(impl));
+        attach_instance(impl, i);
+    rtcCommitScene(impl.top);
+    if (impl.errors.code != RTC_ERROR_NONE) return embree_failure(impl.errors);
+    return {};
+}
+
+}  // namespace
+
+Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
+    auto impl = open_device(scene, embree_isa);
+    if (!impl) return fail(impl.error());
+    (*impl)->alpha.resize(scene.primitives.size());
+    (*impl)->fill_primitive_tables();
+    const Result<void> built = build_scenes(**impl);
+    if (!built) return fail(built.error());
+    return Accel(std::move(*impl));
+}
+
+Result<BareBuild> Accel::build_bare(const Scene& scene, const std::string& embree_isa) {
+    auto impl = open_device(scene, embree_isa);
+    if (!impl) return fail(impl.error());
+    const Stopwatch building;
+    const Result<void> built = build_scenes(**impl);
+    if (!built) return fail(built.error());
+    return BareBuild{building.seconds(),
+                     static_cast<size_t>(std::max<int64_t>((*impl)->memory.load(), 0))};
 }
 
 void Accel::Impl::fill_primitive_tables() {

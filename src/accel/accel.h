@@ -23,6 +23,17 @@ struct SeeThrough {
     uint32_t segment = 0;
 };
 
+struct RayRecording;
+struct ReplayResult;
+enum class RayKind : int;
+enum class ReplayWay : int;
+
+/// What Embree alone takes for the triangles of a scene.
+struct BareBuild {
+    double seconds = 0;
+    size_t bytes = 0;
+};
+
 class Accel {
 public:
     /// Builds on all threads.
@@ -31,6 +42,10 @@ public:
     ///         embree_isa: "" or an Embree isa name such as "avx2"
     /// Errors  33 E-MEM; 70 E-EMBREE
     static Result<Accel> build(const Scene& scene, const std::string& embree_isa);
+
+    /// Builds the same triangles and instances as build(), with no filters and no tables, and lets
+    /// them go: a measure for build(). Same errors.
+    static Result<BareBuild> build_bare(const Scene& scene, const std::string& embree_isa);
 
     Accel(Accel&&) noexcept;
     Accel& operator=(Accel&&) noexcept;
@@ -48,6 +63,10 @@ public:
                  uint8_t* occluded,
                  Coherence coherence,
                  uint32_t segment) const;
+
+    /// Asks bare Embree for all recorded rays of one kind once more, on all threads: see
+    /// accel/ray_recording.h.
+    ReplayResult replay(const RayRecording& recording, RayKind kind, ReplayWay way) const;
 
     size_t memory_bytes() const;  ///< as Embree's allocation monitor counts it
     std::string embree_version() const;

@@ -72,7 +72,7 @@ void alpha_filter(const RTCFilterFunctionNArguments* args) {
             threshold = 0.5f;
             if (!context.fixed_threshold) {
                 uint32_t hash = context.keys[RTCRayN_id(args->ray, args->N, i)];
-                hash = hash_word(hash + context.segment * 0x27D4EB2FU);
+                hash = hash_word(segment_key(hash, context.segment));
                 hash = hash_word(hash + RTCHitN_instID(args->hit, args->N, i, 0) * 0x9E3779B9U);
                 hash = hash_word(hash ^ (static_cast<uint32_t>(geometry.primitive) * 0x85EBCA6BU));
                 hash = hash_word(hash + triangle * 0xC2B2AE35U);

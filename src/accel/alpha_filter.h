@@ -15,6 +15,11 @@ struct AlphaGeometry {
     int32_t primitive = 0;
 };
 
+/// The key of a ray's alpha decisions in one segment of its path.
+inline uint32_t segment_key(uint32_t path_key, uint32_t segment) {
+    return path_key + segment * 0x27D4EB2FU;
+}
+
 /// False where every point of the primitive is opaque, so that no filter is needed at all.
 bool needs_alpha_filter(const Scene& scene, const Primitive& primitive);
 

@@ -1,31 +1,19 @@
 // accel/queries.cpp - columns of rays through Embree, in packets of 16 or one at a time.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/safe_ray.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace obscura {
 
 namespace {
 
 constexpr int packet = 16;
-/// Embree's assertions refuse components of 1e30; its boxes hold up to 1.8e18.
-constexpr float largest_component = 1.8e18f;
-constexpr float unlimited = 3.0e38f;
 
 struct alignas(64) ValidMask {
     int lane[packet];
 };
-
-/// True when Embree may see the ray: finite, in range, and with a direction.
-bool is_safe(const RayColumns& rays, int i) {
-    const float origin = std::fabs(rays.ox[i]) + std::fabs(rays.oy[i]) + std::fabs(rays.oz[i]);
-    const float direction = std::fabs(rays.dx[i]) + std::fabs(rays.dy[i]) + std::fabs(rays.dz[i]);
-    const bool far_ok = rays.tfar == nullptr || rays.tfar[i] >= 0.0f;
-    return origin <= largest_component && direction <= largest_component && direction > 0.0f &&
-           far_ok;
-}
 
 /// Marks the rows [first, first + 16) that exist and are safe; counts the refused ones.
 int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {

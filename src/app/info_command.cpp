@@ -10,9 +10,6 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 
 namespace obscura {
 
@@ -26,14 +23,6 @@ Examples:
   obscura info helmet.glb
   obscura info helmet.glb --json | jq .triangles_in_world
       warnings and the closing RESULT line go to standard error, never into the JSON)";
-
-/// A closed pipe is the reader's wish; a full disk is an error.
-Result<void> print(const std::string& text) {
-    const bool written =
-        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-    if (written || errno == EPIPE) return {};
-    return fail(ExitCode::io_error, "E-OUT-WRITE", "standard output", std::strerror(errno));
-}
 
 }  // namespace
 
@@ -59,7 +48,7 @@ int run_info(const InfoArguments& arguments) {
     const Result<Scene> scene = load_gltf(arguments.scene_file, *options, log);
     if (!scene) return report_failure(scene.error(), log);
     const Result<void> printed =
-        print(arguments.json ? info_json(*scene, log.warnings()) : info_table(*scene));
+        print_output(arguments.json ? info_json(*scene, log.warnings()) : info_table(*scene));
     if (!printed) return report_failure(printed.error(), log);
     return report_success(arguments.scene_file, log);
 }

@@ -4,8 +4,10 @@
 
 #include "app/signals.h"
 
+#include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 
 namespace obscura {
 
@@ -37,6 +39,13 @@ std::string result_line(int code,
                         size_t warnings) {
     return "RESULT code=" + std::to_string(code) + " id=" + one_word(id) +
            " where=" + one_word(where) + " warnings=" + std::to_string(warnings);
+}
+
+Result<void> print_output(const std::string& text) {
+    const bool written =
+        std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
+    if (written || errno == EPIPE) return {};
+    return fail(ExitCode::io_error, "E-OUT-WRITE", "standard output", std::strerror(errno));
 }
 
 int report_failure(const Error& error, const Log& log) {

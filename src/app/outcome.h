@@ -13,6 +13,11 @@ namespace obscura {
 /// blanks and control characters are written as \xNN, an empty one as "-".
 std::string result_line(int code, const std::string& id, const std::string& where, size_t warnings);
 
+/// Writes a command's result to standard output. A closed pipe is the reader's wish.
+///
+/// Errors  74 E-OUT-WRITE such as a full disk
+Result<void> print_output(const std::string& text);
+
 /// Prints "ERROR where: message" and the result line to standard error; returns the exit code.
 int report_failure(const Error& error, const Log& log);
 

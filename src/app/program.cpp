@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/program.h"
 
+#include "app/bench_command.h"
+#include "app/bench_options.h"
 #include "app/info_command.h"
 #include "app/numbers.h"
 #include "app/outcome.h"
 #include "app/render_command.h"
 #include "app/render_options.h"
 #include "app/signals.h"
+#include "bench/machine.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -26,16 +29,13 @@ constexpr const char* examples = R"(
 Examples:
   obscura render helmet.glb --env sky.hdr -o helmet.exr -o helmet.png
   obscura info helmet.glb --json
+  obscura bench helmet.glb --json helmet.json
 
 `obscura COMMAND --help` explains a command's options.)";
 
 std::string version_text() {
-    return "obscura " OBSCURA_VERSION "\nEmbree " OBSCURA_EMBREE_VERSION
-#if defined(__clang__)
-           "\ncompiled by clang " __clang_version__;
-#else
-           "\ncompiled by GCC " __VERSION__;
-#endif
+    return "obscura " OBSCURA_VERSION "\nEmbree " OBSCURA_EMBREE_VERSION "\ncompiled by " +
+           compiler_name();
 }
 
 /// Steps that turn one word into the other, at most `limit` of them.
@@ -94,8 +94,8 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
             extras.empty() ? "no command was given" : in_quotes(extras.front()) + " is no command";
         return report_usage("command-line",
                             got +
-                                "; expected `obscura render SCENE` or `obscura info SCENE`, see "
-                                "`obscura --help`");
+                                "; expected `obscura render SCENE`, `obscura info SCENE` or "
+                                "`obscura bench`, see `obscura --help`");
     }
     const CLI::App& command = *chosen.front();
     const std::string hint = "; `obscura " + command.get_name() + " --help` lists what is accepted";
@@ -128,7 +128,10 @@ int run_program(int argc, char** argv) {
     InfoArguments info_arguments;
     CLI::App* info = app.add_subcommand("info", "Print what a scene file holds");
     add_info_options(*info, info_arguments);
-    for (CLI::App* command : {render, info}) {
+    BenchArguments bench_arguments;
+    CLI::App* bench = app.add_subcommand("bench", "Measure how fast scenes render");
+    add_bench_options(*bench, bench_arguments);
+    for (CLI::App* command : {render, info, bench}) {
         command->get_formatter()->column_width(28);
     }
     try {
@@ -142,6 +145,7 @@ int run_program(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return report_parse_error(app, error);
     }
+    if (bench->parsed()) return run_bench(bench_arguments);
     return render->parsed() ? run_render(render_arguments) : run_info(info_arguments);
 }
 

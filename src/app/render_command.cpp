@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_command.h"
 
+#include "app/lighting.h"
 #include "app/outcome.h"
 #include "app/outputs.h"
 #include "app/progress.h"
@@ -9,44 +10,16 @@
 #include "app/statistics.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "gltf/load.h"
-#include "image/decode.h"
+#include "scene/scene_memory.h"
 
-#include <chrono>
 #include <fmt/format.h>
 #include <span>
 
 namespace obscura {
 
 namespace {
-
-class Stopwatch {
-public:
-    double seconds() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
-Result<LightingOptions> load_lighting(const RenderRequest& request, Log& log) {
-    LightingOptions lighting;
-    lighting.environment_intensity = request.environment_intensity;
-    lighting.environment_rotation_deg = request.environment_rotation_deg;
-    if (request.environment) {
-        Result<ImageRgb32f> environment = read_environment(*request.environment, log);
-        if (!environment) return fail(environment.error());
-        lighting.environment = std::move(*environment);
-    }
-    return lighting;
-}
-
-size_t geometry_bytes(const Scene& scene) {
-    return scene.positions.size() * sizeof(float) + scene.attributes.size() * sizeof(float) +
-           scene.indices.size() * sizeof(uint32_t) + scene.primitives.size() * sizeof(Primitive) +
-           scene.instances.size() * sizeof(Instance) + scene.materials.size() * sizeof(Material);
-}
 
 /// Loads and builds everything that rendering reads.
 Result<PreparedScene> prepare(const RenderRequest& request,
@@ -61,12 +34,12 @@ Result<PreparedScene> prepare(const RenderRequest& request,
     statistics.parse_s = scene->info.parse_seconds;
     statistics.decode_s = scene->info.decode_seconds;
     statistics.geometry_bytes = geometry_bytes(*scene);
-    statistics.texture_bytes = scene->textures.texels.size() * sizeof(uint32_t);
+    statistics.texture_bytes = texture_bytes(*scene);
 
     Result<PreparedScene> prepared =
         PreparedScene::create(std::move(*scene), std::move(*lighting), request.isa, log);
     if (!prepared) return prepared;
-    statistics.build_s = prepared->build_seconds();
+    statistics.build_s = prepared->build_seconds().all;
     statistics.bvh_bytes = prepared->bvh_bytes();
     statistics.isa = prepared->isa_name();
     statistics.embree = prepared->embree_version();
@@ -162,9 +135,7 @@ Result<void> execute(const RenderRequest& request, Log& log) {
 }  // namespace
 
 int run_render(const RenderArguments& arguments) {
-    Log log(arguments.quiet     ? Verbosity::quiet
-            : arguments.verbose ? Verbosity::verbose
-                                : Verbosity::normal);
+    Log log(verbosity_of(arguments));
     const Result<RenderRequest> request = make_render_request(arguments);
     if (!request) return report_failure(request.error(), log);
     const Result<void> done = execute(*request, log);

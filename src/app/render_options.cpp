@@ -2,37 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_options.h"
 
-#include <CLI/App.hpp>
+#include "app/option_group.h"
+
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 
 namespace obscura {
 
 namespace {
-
-/// Options of one heading in the help.
-class Group {
-public:
-    Group(CLI::App& command, const char* heading) : command_(command), heading_(heading) {}
-
-    /// An option with one argument; `type` stands for it in the help.
-    void text(const char* name,
-              std::optional<std::string>& target,
-              const char* type,
-              const char* help) {
-        const auto store = [&target](const std::string& given) { target = given; };
-        command_.add_option_function<std::string>(name, store, help)
-            ->type_name(type)
-            ->group(heading_);
-    }
-    void flag(const char* name, bool& target, const char* help) {
-        command_.add_flag(name, target, help)->group(heading_);
-    }
-
-private:
-    CLI::App& command_;
-    const char* heading_;
-};
 
 constexpr const char* examples = R"(
 Examples:
@@ -58,7 +35,7 @@ void add_picture_options(CLI::App& command, RenderArguments& arguments) {
         ->type_name("FILE")
         ->allow_extra_args(false)
         ->group("Picture");
-    Group group(command, "Picture");
+    OptionGroup group(command, "Picture");
     group.text("--size", arguments.size, "WxH", "Width and height in pixels [1280x720]");
     group.text("--crop",
                arguments.crop,
@@ -75,9 +52,46 @@ void add_picture_options(CLI::App& command, RenderArguments& arguments) {
         "--filter", arguments.filter, "NAME", "Pixel filter: box, gaussian, blackman-harris [box]");
 }
 
-void add_sampling_options(CLI::App& command, RenderArguments& arguments) {
-    Group group(command, "Sampling");
-    group.text("--spp", arguments.spp, "N", "Samples per pixel, 1 to 1048576 [64]");
+void add_display_options(CLI::App& command, RenderArguments& arguments) {
+    OptionGroup group(command, "Display (PNG and JPEG only)");
+    group.text("--exposure", arguments.exposure, "EV", "Brighter by this many stops [0]");
+    group.text("--view",
+               arguments.view,
+               "NAME",
+               "View of the OpenColorIO display. Built in: \"ACES 1.0 SDR\",\n"
+               "\"Un-tone-mapped\", \"Khronos PBR Neutral\", Raw [ACES 1.0 SDR]");
+    group.text("--display", arguments.display, "NAME", "OpenColorIO display [sRGB]");
+    group.text("--ocio", arguments.ocio, "FILE", "OpenColorIO config [$OCIO, else built in]");
+}
+
+void add_program_options(CLI::App& command, RenderArguments& arguments) {
+    OptionGroup group(command, "Program");
+    group.text("--scene",
+               arguments.scene,
+               "NAME|INDEX",
+               "Scene of a file that holds several [the file's default]");
+    group.text("--threads", arguments.threads, "N", "Threads, 0 to 1024; 0 is every core [0]");
+    group.text(
+        "--isa", arguments.isa, "NAME", "Instruction set: auto, baseline, avx2, avx512 [auto]");
+    group.text("--tile-size",
+               arguments.tile_size,
+               "N",
+               "Side of a tile in pixels, 1 to 256; does not change\n"
+               "the picture [16]");
+    group.text(
+        "--stats", arguments.stats, "FILE.json", "Write times, rays, memory and warnings as JSON");
+    group.flag("--quiet", arguments.quiet, "Print errors only");
+    group.flag("--verbose", arguments.verbose, "Print more notes");
+}
+
+}  // namespace
+
+void add_sampling_options(CLI::App& command,
+                          RenderArguments& arguments,
+                          const std::string& default_spp) {
+    OptionGroup group(command, "Sampling");
+    group.text(
+        "--spp", arguments.spp, "N", "Samples per pixel, 1 to 1048576 [" + default_spp + "]");
     group.text("--depth", arguments.depth, "N", "Most bounces of a path, 0 to 1000 [8]");
     group.text("--seed", arguments.seed, "N", "Random numbers; equal seeds, equal pictures [0]");
     group.text("--integrator",
@@ -93,7 +107,7 @@ void add_sampling_options(CLI::App& command, RenderArguments& arguments) {
 }
 
 void add_camera_options(CLI::App& command, RenderArguments& arguments) {
-    Group group(command, "Camera");
+    OptionGroup group(command, "Camera");
     group.text("--camera",
                arguments.camera,
                "NAME|INDEX",
@@ -116,7 +130,7 @@ void add_camera_options(CLI::App& command, RenderArguments& arguments) {
 }
 
 void add_light_options(CLI::App& command, RenderArguments& arguments) {
-    Group group(command, "Light");
+    OptionGroup group(command, "Light");
     group.text("--env",
                arguments.env,
                "FILE",
@@ -129,46 +143,12 @@ void add_light_options(CLI::App& command, RenderArguments& arguments) {
                "Turns it about +Y, counter-clockwise from above [0]");
 }
 
-void add_display_options(CLI::App& command, RenderArguments& arguments) {
-    Group group(command, "Display (PNG and JPEG only)");
-    group.text("--exposure", arguments.exposure, "EV", "Brighter by this many stops [0]");
-    group.text("--view",
-               arguments.view,
-               "NAME",
-               "View of the OpenColorIO display. Built in: \"ACES 1.0 SDR\",\n"
-               "\"Un-tone-mapped\", \"Khronos PBR Neutral\", Raw [ACES 1.0 SDR]");
-    group.text("--display", arguments.display, "NAME", "OpenColorIO display [sRGB]");
-    group.text("--ocio", arguments.ocio, "FILE", "OpenColorIO config [$OCIO, else built in]");
-}
-
-void add_program_options(CLI::App& command, RenderArguments& arguments) {
-    Group group(command, "Program");
-    group.text("--scene",
-               arguments.scene,
-               "NAME|INDEX",
-               "Scene of a file that holds several [the file's default]");
-    group.text("--threads", arguments.threads, "N", "Threads, 0 to 1024; 0 is every core [0]");
-    group.text(
-        "--isa", arguments.isa, "NAME", "Instruction set: auto, baseline, avx2, avx512 [auto]");
-    group.text("--tile-size",
-               arguments.tile_size,
-               "N",
-               "Side of a tile in pixels, 1 to 256; does not change\n"
-               "the picture [16]");
-    group.text(
-        "--stats", arguments.stats, "FILE.json", "Write times, rays, memory and warnings as JSON");
-    group.flag("--quiet", arguments.quiet, "Print errors only");
-    group.flag("--verbose", arguments.verbose, "Print more notes");
-}
-
-}  // namespace
-
 void add_render_options(CLI::App& command, RenderArguments& arguments) {
     command.add_option("SCENE", arguments.scene_file, "glTF 2.0 file, .gltf or .glb")
         ->type_name("")
         ->required();
     add_picture_options(command, arguments);
-    add_sampling_options(command, arguments);
+    add_sampling_options(command, arguments, "64");
     add_camera_options(command, arguments);
     add_light_options(command, arguments);
     add_display_options(command, arguments);

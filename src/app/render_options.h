@@ -13,4 +13,12 @@ namespace obscura {
 /// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.
 void add_render_options(CLI::App& command, RenderArguments& arguments);
 
+/// Options that other subcommands share: --spp to --ao-distance, --camera to --camera-model,
+/// --env to --env-rotation.
+void add_sampling_options(CLI::App& command,
+                          RenderArguments& arguments,
+                          const std::string& default_spp);
+void add_camera_options(CLI::App& command, RenderArguments& arguments);
+void add_light_options(CLI::App& command, RenderArguments& arguments);
+
 }  // namespace obscura

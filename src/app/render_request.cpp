@@ -218,16 +218,11 @@ void parse_program(const RenderArguments& arguments, RenderRequest& request, Ste
         arguments.threads,
         [](const std::string& text) { return parse_integer(text, "--threads", 0, 1024); },
         [&](int64_t threads) { request.threads = static_cast<int>(threads); });
-    steps.option(
-        arguments.isa,
-        [](const std::string& text) { return choose(text, "--isa", instruction_sets); },
-        [&](Isa isa) { request.isa = isa; });
+    steps.option(arguments.isa, parse_isa, [&](Isa isa) { request.isa = isa; });
     steps.refuse(arguments.quiet && arguments.verbose,
                  "--quiet",
                  "it cannot go together with --verbose; give one or the other");
-    request.verbosity = arguments.quiet     ? Verbosity::quiet
-                        : arguments.verbose ? Verbosity::verbose
-                                            : Verbosity::normal;
+    request.verbosity = verbosity_of(arguments);
 }
 
 /// Names of things and files; an empty one is most likely an unset variable of a script.
@@ -274,6 +269,16 @@ Result<void> check_distinct_files(const RenderRequest& request) {
 
 }  // namespace
 
+Result<Isa> parse_isa(const std::string& text) {
+    return choose(text, "--isa", instruction_sets);
+}
+
+Verbosity verbosity_of(const RenderArguments& arguments) {
+    return arguments.quiet     ? Verbosity::quiet
+           : arguments.verbose ? Verbosity::verbose
+                               : Verbosity::normal;
+}
+
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code error;
     if (std::filesystem::equivalent(a, b, error) && !error) return true;
@@ -290,7 +295,7 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     request.scene = arguments.scene_file;
     refuse_empty_names(arguments, steps);
     request.outputs.assign(arguments.outputs.begin(), arguments.outputs.end());
-    if (request.outputs.empty()) {
+    if (request.outputs.empty() && arguments.writes_pictures) {
         request.outputs.push_back(request.scene.stem().concat(".exr"));
     }
     steps.take(choose_scene(arguments.scene),

@@ -18,7 +18,7 @@ namespace obscura {
 
 struct RenderRequest {
     std::filesystem::path scene;
-    std::vector<std::filesystem::path> outputs;  ///< at least one
+    std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
     LoadOptions load;                            ///< --scene
     CameraRequest camera;
     RenderOptions options;
@@ -43,6 +43,7 @@ struct RenderArguments {
     std::optional<std::string> integrator, ao_distance, filter;
     std::optional<std::string> view, display, ocio, exposure, stats;
     bool float32 = false;
+    bool writes_pictures = true;  ///< false: no output unless one is named
     bool quiet = false;
     bool verbose = false;
 };
@@ -52,6 +53,14 @@ struct RenderArguments {
 /// Errors  64, each with the option and what it accepts: E-USAGE-NUMBER, E-USAGE-RANGE,
 ///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE, E-CAM-MODEL
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
+
+/// One name of --isa.
+///
+/// Errors  64 E-USAGE-CHOICE
+Result<Isa> parse_isa(const std::string& text);
+
+/// What --quiet and --verbose ask for.
+Verbosity verbosity_of(const RenderArguments& arguments);
 
 /// True when both names lead to one file, through links too, also when it does not exist yet.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);

@@ -4,8 +4,7 @@
 
 #include "app/preview.h"
 #include "base/json_writer.h"
-
-#include <sys/resource.h>
+#include "base/peak_memory.h"
 
 namespace obscura {
 
@@ -36,6 +35,10 @@ void write_rays(const RenderStatistics& statistics, JsonWriter& json) {
     json.member("total", total_rays(counters));
     json.end_object();
     json.member("paths", counters.paths);
+    json.key("stages").begin_object();
+    for (const NamedSeconds& stage : by_stage(counters.stages))
+        json.member(std::string(stage.name) + "_s", stage.seconds);
+    json.end_object();
     json.member("rays_per_second", per_second(total_rays(counters), statistics.render_s));
     json.member("paths_per_second", per_second(counters.paths, statistics.render_s));
 }
@@ -89,12 +92,6 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
     json.end_array();
     json.end_object();
     return std::move(json).take();
-}
-
-size_t peak_memory_bytes() {
-    rusage usage = {};
-    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-    return static_cast<size_t>(usage.ru_maxrss) * 1024;
 }
 
 bool too_many_nonfinite(const RenderCounters& counters) {

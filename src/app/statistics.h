@@ -38,9 +38,6 @@ uint64_t total_rays(const RenderCounters& counters);
 /// The JSON document; docs/cli.md explains the keys.
 std::string statistics_json(const RenderRequest& request, const RenderStatistics& statistics);
 
-/// Largest resident memory of this process so far.
-size_t peak_memory_bytes();
-
 /// True when more than one sample in a million was not finite: exit code 76.
 bool too_many_nonfinite(const RenderCounters& counters);
 

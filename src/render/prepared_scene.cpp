@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/prepared_scene.h"
 
+#include "base/stopwatch.h"
 #include "light/studio.h"
-
-#include <chrono>
-#include <new>
 
 namespace obscura {
 
@@ -63,17 +61,19 @@ SceneView PreparedScene::Impl::view() const {
     return out;
 }
 
+Error missing_isa() {
+    return {ExitCode::unsupported,
+            "E-ISA",
+            "--isa",
+            "this CPU does not have that instruction set; auto or baseline always work"};
+}
+
 Result<PreparedScene> PreparedScene::create(Scene scene,
                                             const LightingOptions& lighting,
                                             Isa isa,
                                             Log& log) {
-    if (!has_isa(isa)) {
-        return fail(ExitCode::unsupported,
-                    "E-ISA",
-                    "--isa",
-                    "this CPU does not have that instruction set; auto or baseline always work");
-    }
-    const auto start = std::chrono::steady_clock::now();
+    if (!has_isa(isa)) return fail(missing_isa());
+    const Stopwatch building;
     auto impl = std::make_unique<Impl>();
     impl->scene = std::move(scene);
     impl->stages = &stage_table_for(isa);
@@ -81,11 +81,11 @@ Result<PreparedScene> PreparedScene::create(Scene scene,
     if (!environment) return fail(environment.error());
     impl->environment = std::move(*environment);
     impl->lights = make_light_table(impl->scene, impl->environment ? &*impl->environment : nullptr);
+    const Stopwatch building_bvh;
     auto accel = Accel::build(impl->scene, embree_isa_for(isa));
     if (!accel) return fail(accel.error());
     impl->accel = std::move(*accel);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    impl->build_seconds = elapsed.count();
+    impl->build_seconds = {building.seconds(), building_bvh.seconds()};
     return PreparedScene(std::move(impl));
 }
 
@@ -97,8 +97,11 @@ PreparedScene::~PreparedScene() = default;
 const Scene& PreparedScene::scene() const {
     return impl_->scene;
 }
-double PreparedScene::build_seconds() const {
+BuildSeconds PreparedScene::build_seconds() const {
     return impl_->build_seconds;
+}
+const Accel& PreparedScene::accel() const {
+    return *impl_->accel;
 }
 size_t PreparedScene::bvh_bytes() const {
     return impl_->accel->memory_bytes();

@@ -16,7 +16,7 @@ struct PreparedScene::Impl {
     LightTable lights;
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;
-    double build_seconds = 0;
+    BuildSeconds build_seconds;
     bool studio = false;
 
     SceneView view() const;

@@ -3,14 +3,13 @@
 #include "render/render.h"
 
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "render/filter_table.h"
 #include "render/prepared_scene.h"
 #include "stages/walk.h"
 
 #include <algorithm>
-#include <chrono>
-#include <mutex>
-#include <new>
+#include <memory>
 
 namespace obscura {
 
@@ -135,6 +134,7 @@ struct ThreadState {
     std::vector<int32_t> xs, ys;
     std::vector<float> sums;
     WalkCounters counters;
+    std::unique_ptr<RayRecorder> recorder;  ///< null: nobody wants the rays
 };
 
 /// Renders all samples of one tile into state.sums; leaves early when `stop` is set.
@@ -147,6 +147,7 @@ void render_tile(const WalkInput& walk_input,
     const int pixels = static_cast<int>(state.xs.size());
     state.sums.assign(static_cast<size_t>(pixels) * 4, 0.0f);
     WalkInput in = walk_input;
+    in.recorder = state.recorder.get();
     const int per_batch = std::max(1, batch_rows / pixels);
     const int pixels_per_batch = std::min(pixels, batch_rows);
     for (int first = 0; first < pixels; first += pixels_per_batch) {
@@ -188,8 +189,21 @@ RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& sta
         total.shadow_rays += state->counters.shadow_rays;
         total.refused_rays += state->counters.refused_rays;
         total.nonfinite_samples += state->counters.nonfinite_samples;
+        total.stages.add(state->counters.seconds);
     }
     return total;
+}
+
+std::unique_ptr<ThreadState> make_state(bool records) {
+    auto state = std::make_unique<ThreadState>();
+    if (records) state->recorder = std::make_unique<RayRecorder>();
+    return state;
+}
+
+void hand_over(std::vector<std::unique_ptr<ThreadState>>& states, RayRecording& recording) {
+    for (const auto& state : states) {
+        if (state) recording.threads.push_back(std::move(state->recorder));
+    }
 }
 
 }  // namespace
@@ -199,7 +213,7 @@ Result<RenderResult> render(const PreparedScene& scene,
                             const RenderOptions& options,
                             const ProgressFunction& progress,
                             const std::atomic<bool>& stop) {
-    const auto start = std::chrono::steady_clock::now();
+    const Stopwatch rendering;
     RenderResult result;
     result.film.width = options.width;
     result.film.height = options.height;
@@ -220,7 +234,7 @@ Result<RenderResult> render(const PreparedScene& scene,
     parallel_for(tiles.size(), [&](size_t i) {
         if (stop.load(std::memory_order_relaxed)) return;
         std::unique_ptr<ThreadState>& state = states[thread_index()];
-        if (!state) state = std::make_unique<ThreadState>();
+        if (!state) state = make_state(options.recording != nullptr);
         render_tile(walk_input, samples, tiles[i], stop, *state);
         store_tile(*state, samples, result.film);
         const size_t done = ++finished;
@@ -230,8 +244,8 @@ Result<RenderResult> render(const PreparedScene& scene,
         return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
     }
     result.counters = sum_counters(states);
-    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-    result.render_seconds = elapsed.count();
+    result.render_seconds = rendering.seconds();
+    if (options.recording != nullptr) hand_over(states, *options.recording);
     return result;
 }
 

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "accel/ray_recording.h"
 #include "base/error.h"
 #include "base/log.h"
 #include "camera/camera.h"
 #include "image/pixels.h"
 #include "scene/scene.h"
 #include "stages/dispatch.h"
+#include "stages/stage_seconds.h"
 
 #include <atomic>
 #include <cstdint>
@@ -52,6 +54,8 @@ struct RenderOptions {
     double ao_distance_m = 0;  ///< 0: a fifth of the scene's diagonal
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
     int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling
+    /// Filled with every ray that was asked, about 32 bytes each; null: nobody wants them.
+    RayRecording* recording = nullptr;
 };
 
 /// Rays and faults, summed over all threads.
@@ -62,6 +66,7 @@ struct RenderCounters {
     uint64_t shadow_rays = 0;
     uint64_t refused_rays = 0;       ///< not finite: never handed to Embree
     uint64_t nonfinite_samples = 0;  ///< written as zero
+    StageSeconds stages;
 };
 
 /// A finished film, float32, rows from the top.
@@ -76,6 +81,12 @@ struct RenderResult {
     Film film;
     RenderCounters counters;
     double render_seconds = 0;
+};
+
+/// How long preparing a scene took.
+struct BuildSeconds {
+    double all = 0;
+    double bvh = 0;
 };
 
 /// A scene with its BVH, light tables and environment: rendered any number of times.
@@ -94,7 +105,8 @@ public:
     ~PreparedScene();
 
     const Scene& scene() const;
-    double build_seconds() const;
+    BuildSeconds build_seconds() const;
+    const Accel& accel() const;
     size_t bvh_bytes() const;
     bool uses_studio() const;
     std::string isa_name() const;  ///< "avx512"
@@ -107,6 +119,9 @@ private:
     explicit PreparedScene(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
+
+/// 69 E-ISA: what PreparedScene::create says of an instruction set that the CPU lacks.
+Error missing_isa();
 
 /// Called from any thread, at most every 50 ms or so, with the finished share in [0, 1].
 using ProgressFunction = std::function<void(double)>;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/walk.h"
 
+#include "base/stopwatch.h"
+
 #include <memory>
 #include <utility>
 
@@ -44,11 +46,33 @@ RayColumns rays_of(const ShadowRows& s, int count) {
     return {s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.path_key, count};
 }
 
+/// Stage 2: what the paths' rays hit.
+void intersect(
+    const WalkInput& in, int count, SeeThrough see_through, Workspace& work, WalkCounters& c) {
+    const bool camera = see_through.segment == 0;
+    const RayColumns rays = rays_of(work.paths[0], count);
+    (camera ? c.camera_rays : c.bounce_rays) += static_cast<uint64_t>(count);
+    {
+        const SumOfTime time(camera ? c.seconds.intersect_camera : c.seconds.intersect_bounce);
+        const Coherence coherence = camera ? Coherence::coherent : Coherence::incoherent;
+        c.refused_rays +=
+            static_cast<uint64_t>(in.accel->intersect(rays, work.hits, coherence, see_through));
+    }
+    if (in.recorder != nullptr) in.recorder->add_hits(rays, work.hits, see_through);
+}
+
+/// Stage 4, and its light into the samples.
 void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, WalkCounters& c) {
     const auto segment = 2U * static_cast<uint32_t>(bounce) + 1U;
+    const RayColumns rays = rays_of(work.shadows, count);
     c.shadow_rays += static_cast<uint64_t>(count);
-    c.refused_rays += static_cast<uint64_t>(in.accel->occluded(
-        rays_of(work.shadows, count), work.occluded.data(), Coherence::incoherent, segment));
+    {
+        const SumOfTime time(c.seconds.shadow);
+        c.refused_rays += static_cast<uint64_t>(
+            in.accel->occluded(rays, work.occluded.data(), Coherence::incoherent, segment));
+    }
+    if (in.recorder != nullptr) in.recorder->add_shadows(rays, work.occluded.data(), segment);
+    const SumOfTime time(c.seconds.accumulate);
     in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
 }
 
@@ -59,27 +83,32 @@ ShadeRows shade_rows(const Workspace& work) {
 void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     // One more segment than there are bounces: the last one only collects emitted light.
     for (int bounce = 0; count > 0 && bounce <= in.batch.max_bounces + 1; ++bounce) {
-        const bool camera = bounce == 0;
-        const SeeThrough see_through{camera, false, 2U * static_cast<uint32_t>(bounce)};
-        (camera ? c.camera_rays : c.bounce_rays) += static_cast<uint64_t>(count);
-        c.refused_rays += static_cast<uint64_t>(
-            in.accel->intersect(rays_of(work.paths[0], count),
-                                work.hits,
-                                camera ? Coherence::coherent : Coherence::incoherent,
-                                see_through));
-        const ShadeCounts out =
-            in.stages->shade(in.scene, in.batch, bounce, count, shade_rows(work));
+        intersect(in, count, {bounce == 0, false, 2U * static_cast<uint32_t>(bounce)}, work, c);
+        ShadeCounts out;
+        {
+            const SumOfTime time(c.seconds.shade);
+            out = in.stages->shade(in.scene, in.batch, bounce, count, shade_rows(work));
+        }
         if (out.shadow > 0) trace_shadows(in, out.shadow, bounce, work, c);
         std::swap(work.paths[0], work.paths[1]);
         count = out.next;
     }
 }
 
-void trace_camera(
-    const WalkInput& in, int count, bool fixed_alpha, Workspace& work, WalkCounters& c) {
-    c.camera_rays += static_cast<uint64_t>(count);
-    c.refused_rays += static_cast<uint64_t>(in.accel->intersect(
-        rays_of(work.paths[0], count), work.hits, Coherence::coherent, {true, fixed_alpha, 0}));
+void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
+    intersect(in, count, {true, false, 0}, work, c);
+    int shadows = 0;
+    {
+        const SumOfTime time(c.seconds.shade);
+        shadows = in.stages->shade_ao(in.scene, in.batch, count, shade_rows(work));
+    }
+    if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
+}
+
+void walk_quantity(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
+    intersect(in, count, {true, true, 0}, work, c);
+    const SumOfTime time(c.seconds.shade);
+    in.stages->quantity(in.scene, in.batch, in.quantity, count, shade_rows(work));
 }
 
 }  // namespace
@@ -105,23 +134,23 @@ Workspace::Workspace() {
 
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {
     const int count = pixels * in.batch.samples;
-    in.stages->camera(in.batch, count, work.paths[0], work.samples);
+    {
+        const SumOfTime time(counters.seconds.camera);
+        in.stages->camera(in.batch, count, work.paths[0], work.samples);
+    }
     counters.paths += static_cast<uint64_t>(count);
     switch (in.kind) {
         case WalkKind::path:
             walk_paths(in, count, work, counters);
             break;
-        case WalkKind::ao: {
-            trace_camera(in, count, false, work, counters);
-            const int shadows = in.stages->shade_ao(in.scene, in.batch, count, shade_rows(work));
-            if (shadows > 0) trace_shadows(in, shadows, 0, work, counters);
+        case WalkKind::ao:
+            walk_ao(in, count, work, counters);
             break;
-        }
         case WalkKind::quantity:
-            trace_camera(in, count, true, work, counters);
-            in.stages->quantity(in.scene, in.batch, in.quantity, count, shade_rows(work));
+            walk_quantity(in, count, work, counters);
             break;
     }
+    const SumOfTime time(counters.seconds.accumulate);
     counters.nonfinite_samples +=
         in.stages->accumulate(pixels, in.batch.samples, work.samples, sums);
 }

@@ -3,6 +3,8 @@
 #pragma once
 
 #include "accel/accel.h"
+#include "accel/ray_recording.h"
+#include "stages/stage_seconds.h"
 #include "stages/stages.h"
 
 #include <cstddef>
@@ -21,6 +23,7 @@ struct WalkCounters {
     uint64_t shadow_rays = 0;
     uint64_t refused_rays = 0;
     uint64_t nonfinite_samples = 0;
+    StageSeconds seconds;
 };
 
 /// Rows in a batch: its columns (about 340 bytes a row) stay within a core's second-level cache.
@@ -50,6 +53,7 @@ struct WalkInput {
     BatchSettings batch;
     WalkKind kind = WalkKind::path;
     Quantity quantity = Quantity::normal;
+    RayRecorder* recorder = nullptr;  ///< keeps every ray; of this thread alone; null: nobody
 };
 
 /// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_rows) and adds them

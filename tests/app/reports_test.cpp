@@ -28,7 +28,7 @@ TEST(Statistics, RatesComeFromTheRenderTimeAlone) {
     RenderStatistics statistics;
     statistics.render_s = 2;
     statistics.total_s = 50;
-    statistics.counters = {10, 10, 20, 30, 1, 2};
+    statistics.counters = {10, 10, 20, 30, 1, 2, {}};
     EXPECT_EQ(total_rays(statistics.counters), 60U);
     const std::string json = statistics_json(request, statistics);
     EXPECT_THAT(json, HasSubstr("\"rays_per_second\": 30,"));

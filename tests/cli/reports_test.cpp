@@ -74,6 +74,8 @@ TEST_F(Reports, StatisticsAreCompleteAndTrue) {
     EXPECT_EQ(
         rays.at("total").get<int>(),
         rays.at("camera").get<int>() + rays.at("bounce").get<int>() + rays.at("shadow").get<int>());
+    for (const char* stage : {"camera_s", "intersect_s", "shade_s", "shadow_s", "accumulate_s"})
+        EXPECT_GE(stats.at("stages").at(stage).get<double>(), 0) << stage;
     EXPECT_GT(stats.at("rays_per_second").get<double>(), 0);
     EXPECT_GT(stats.at("paths_per_second").get<double>(), 0);
     EXPECT_GT(stats.at("peak_memory_bytes").get<double>(), 1e6);

@@ -1,0 +1,63 @@
+// accel/ray_recording.cpp - rays as a renderer asked them, kept to ask bare Embree the same.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/ray_recording.h"
+
+#include "accel/alpha_filter.h"
+#include "accel/safe_ray.h"
+
+namespace obscura {
+
+namespace {
+
+void append(const RayColumns& rays, int row, uint32_t segment, RecordedRays& out) {
+    out.ox.push_back(rays.ox[row]);
+    out.oy.push_back(rays.oy[row]);
+    out.oz.push_back(rays.oz[row]);
+    out.dx.push_back(rays.dx[row]);
+    out.dy.push_back(rays.dy[row]);
+    out.dz.push_back(rays.dz[row]);
+    if (rays.tfar != nullptr) out.tfar.push_back(rays.tfar[row]);
+    out.key.push_back(segment_key(rays.key[row], segment));
+}
+
+}  // namespace
+
+RayColumns RecordedRays::columns() const {
+    const float* ends = tfar.empty() ? nullptr : tfar.data();
+    return {ox.data(), oy.data(), oz.data(), dx.data(), dy.data(), dz.data(), ends, key.data(), 0};
+}
+
+void RayRecorder::add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through) {
+    RecordedRays& out = list(see_through.segment == 0 ? RayKind::camera : RayKind::bounce);
+    fixed_alpha_ = see_through.fixed_alpha;
+    for (int row = 0; row < rays.count; ++row) {
+        if (!is_safe(rays, row)) continue;
+        append(rays, row, see_through.segment, out);
+        out.hits += hits.primitive[row] >= 0 ? 1 : 0;
+    }
+}
+
+void RayRecorder::add_shadows(const RayColumns& rays, const uint8_t* occluded, uint32_t segment) {
+    RecordedRays& out = list(RayKind::shadow);
+    for (int row = 0; row < rays.count; ++row) {
+        if (!is_safe(rays, row)) continue;
+        append(rays, row, segment, out);
+        out.hits += occluded[row] != 0 ? 1 : 0;
+    }
+}
+
+uint64_t RayRecording::count(RayKind kind) const {
+    uint64_t sum = 0;
+    for (const auto& thread : threads)
+        sum += thread->rays(kind).count();
+    return sum;
+}
+
+uint64_t RayRecording::hits(RayKind kind) const {
+    uint64_t sum = 0;
+    for (const auto& thread : threads)
+        sum += thread->rays(kind).hits;
+    return sum;
+}
+
+}  // namespace obscura

@@ -1,0 +1,61 @@
+// accel/ray_recording.h - rays as a renderer asked them, kept to ask bare Embree the same.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "accel/accel.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace obscura {
+
+enum class RayKind : int { camera, bounce, shadow };
+inline constexpr size_t ray_kinds = 3;
+
+/// Rays of one kind from one thread, in the order in which they were asked.
+struct RecordedRays {
+    std::vector<float> ox, oy, oz, dx, dy, dz;
+    std::vector<float> tfar;    ///< shadow rays only
+    std::vector<uint32_t> key;  ///< of the alpha decisions, with the path's segment mixed in
+    uint64_t hits = 0;          ///< what the renderer found: hits, or occluded rays
+
+    size_t count() const { return key.size(); }
+    /// The columns; their count is 0, for there may be more rows than it holds.
+    RayColumns columns() const;
+};
+
+/// What one thread recorded. Refused rays are left out.
+class RayRecorder {
+public:
+    void add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through);
+    void add_shadows(const RayColumns& rays, const uint8_t* occluded, uint32_t segment);
+
+    const RecordedRays& rays(RayKind kind) const { return rays_[static_cast<size_t>(kind)]; }
+    bool fixed_alpha() const { return fixed_alpha_; }
+
+private:
+    RecordedRays& list(RayKind kind) { return rays_[static_cast<size_t>(kind)]; }
+    std::array<RecordedRays, ray_kinds> rays_;
+    bool fixed_alpha_ = false;
+};
+
+/// All threads' rays of one rendering.
+struct RayRecording {
+    std::vector<std::unique_ptr<RayRecorder>> threads;
+
+    uint64_t count(RayKind kind) const;
+    uint64_t hits(RayKind kind) const;  ///< as the renderer found them
+};
+
+/// How Embree is asked: one ray a call, or packets of 16 with one flag or the other.
+enum class ReplayWay : int { single, packets, coherent_packets };
+
+struct ReplayResult {
+    double seconds = 0;
+    uint64_t hits = 0;      ///< or occluded rays
+    uint64_t checksum = 0;  ///< of what was hit, so that no query can be left out
+};
+
+}  // namespace obscura

@@ -1,0 +1,25 @@
+// accel/safe_ray.h - which rays Embree may see.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "accel/columns.h"
+
+#include <cmath>
+
+namespace obscura {
+
+/// Embree's assertions refuse components of 1e30; its boxes hold up to 1.8e18.
+inline constexpr float largest_component = 1.8e18f;
+/// tfar of rays without an end.
+inline constexpr float unlimited = 3.0e38f;
+
+/// True when Embree may see the ray: finite, in range, and with a direction.
+inline bool is_safe(const RayColumns& rays, int i) {
+    const float origin = std::fabs(rays.ox[i]) + std::fabs(rays.oy[i]) + std::fabs(rays.oz[i]);
+    const float direction = std::fabs(rays.dx[i]) + std::fabs(rays.dy[i]) + std::fabs(rays.dz[i]);
+    const bool far_ok = rays.tfar == nullptr || rays.tfar[i] >= 0.0f;
+    return origin <= largest_component && direction <= largest_component && direction > 0.0f &&
+           far_ok;
+}
+
+}  // namespace obscura

@@ -1,0 +1,41 @@
+// app/bench_request.h - everything that `obscura bench` was asked for, checked and ready to use.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/bench_views.h"
+#include "app/render_request.h"
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// The texts of the options as they stood on the command line. Of `render`, the bench has size,
+/// sampling, camera, light, quiet and verbose; its threads and isa are lists and stand here.
+struct BenchArguments {
+    std::vector<std::string> scenes;
+    RenderArguments render;
+    std::optional<std::string> assets, json, compare, plot, view, repeat, threads, isa;
+};
+
+struct BenchRequest {
+    std::vector<RenderRequest> scenes;  ///< at least one; they differ in the scene alone
+    ViewChoice views = ViewChoice::both;
+    int repeat = 5;
+    std::vector<int> threads;  ///< at least one; the first is the one for the main figures
+    std::vector<Isa> isas;     ///< likewise
+    std::optional<std::filesystem::path> json;
+    std::optional<std::filesystem::path> plot;
+    std::optional<std::filesystem::path> compare;
+    Verbosity verbosity = Verbosity::normal;
+};
+
+/// Reads the texts; looks for assets when no scene is given.
+///
+/// Errors  those of make_render_request, with the same ids for the bench's own options;
+///         67 E-BENCH-ASSETS
+Result<BenchRequest> make_bench_request(const BenchArguments& arguments);
+
+}  // namespace obscura

@@ -1,0 +1,40 @@
+// app/bench_views.h - the cameras that the bench measures with.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/render_request.h"
+#include "bench/report.h"
+
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+enum class ViewChoice { whole, close, both };
+
+/// A camera to measure with, and how much of its frame the asset covers.
+struct BenchView {
+    std::string name;
+    std::string description;
+    Camera camera;
+    ViewCamera numbers;
+    double coverage = 0;
+};
+
+/// Share of the frame that a close view's asset covers at least.
+inline constexpr double close_coverage = 0.7;
+
+/// Share of a small rendering's pixels in which something is hit.
+Result<double> measure_coverage(const PreparedScene& scene, const Camera& camera, double aspect);
+
+/// The views of one scene: "whole" is what `obscura render` would show, always through a pinhole;
+/// "close" the widest part of it that the asset covers by close_coverage, at most half as high
+/// where the whole view covers that already. A camera placed by hand is the only one: "own".
+///
+/// Errors  those of choose_camera and render
+Result<std::vector<BenchView>> choose_bench_views(const PreparedScene& scene,
+                                                  const RenderRequest& request,
+                                                  ViewChoice choice,
+                                                  Log& log);
+
+}  // namespace obscura

@@ -1,0 +1,29 @@
+// bench/asset_files.h - the files that one asset consists of, and the assets in a folder.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+
+#include <filesystem>
+#include <vector>
+
+namespace obscura {
+
+/// The file itself and every buffer and image that it names, each once. What cannot be read or
+/// understood is left out: loading is what complains.
+std::vector<std::filesystem::path> files_of_asset(const std::filesystem::path& file);
+
+/// Sum of the sizes of files read one after the other, nothing done with their bytes.
+size_t read_all(const std::vector<std::filesystem::path>& files);
+
+/// Every .gltf and .glb below a folder, by path.
+///
+/// Errors  67 E-BENCH-ASSETS there are none, or the folder cannot be read
+Result<std::vector<std::filesystem::path>> find_assets(const std::filesystem::path& folder);
+
+/// The first folder called "assets" with scenes in it, in `start` or above it.
+///
+/// Errors  67 E-BENCH-ASSETS
+Result<std::filesystem::path> find_assets_folder(const std::filesystem::path& start);
+
+}  // namespace obscura

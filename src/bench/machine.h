@@ -1,0 +1,15 @@
+// bench/machine.h - what a measurement ran on.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "bench/report.h"
+
+namespace obscura {
+
+/// "GCC 12.2.0" or "clang 14.0.6".
+std::string compiler_name();
+
+/// The CPU's own name where the system tells it; all but `embree`.
+Machine describe_machine();
+
+}  // namespace obscura

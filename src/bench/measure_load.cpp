@@ -1,0 +1,110 @@
+// bench/measure_load.cpp - loading and building a scene, against its bytes and bare Embree.
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/measure_load.h"
+
+#include "base/peak_memory.h"
+#include "base/stopwatch.h"
+#include "bench/asset_files.h"
+#include "scene/scene_memory.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+constexpr double most_seconds = 20;
+
+/// What is measured, one value a repetition.
+struct Series {
+    std::vector<double> load, parse, decode, prepare, bvh, read, bare_bvh, of_bare;
+};
+
+Result<PreparedScene> load_once(const LoadTask& task, Log& log, Series& series) {
+    const Stopwatch loading;
+    Result<Scene> scene = load_gltf(task.file, task.load, log);
+    if (!scene) return fail(scene.error());
+    series.load.push_back(loading.seconds());
+    series.parse.push_back(scene->info.parse_seconds);
+    series.decode.push_back(scene->info.decode_seconds);
+    LightingOptions lighting = task.lighting;
+    auto prepared = PreparedScene::create(std::move(*scene), std::move(lighting), task.isa, log);
+    if (!prepared) return prepared;
+    series.prepare.push_back(prepared->build_seconds().all);
+    series.bvh.push_back(prepared->build_seconds().bvh);
+    return prepared;
+}
+
+/// The bytes and the bare build; returns the bytes that the latter takes.
+Result<size_t> bare_once(const PreparedScene& prepared,
+                         const std::vector<std::filesystem::path>& files,
+                         Isa isa,
+                         Series& series) {
+    const Stopwatch reading;
+    read_all(files);
+    series.read.push_back(reading.seconds());
+    const Result<BareBuild> bare = Accel::build_bare(prepared.scene(), embree_isa_for(isa));
+    if (!bare) return fail(bare.error());
+    series.bare_bvh.push_back(bare->seconds);
+    const double ours = series.load.back() + series.prepare.back();
+    series.of_bare.push_back((series.read.back() + bare->seconds) / std::max(ours, 1e-12));
+    return bare->bytes;
+}
+
+LoadFigures figures_of(const Series& series) {
+    LoadFigures out;
+    out.load_s = spread_of(series.load);
+    out.parse_s = spread_of(series.parse);
+    out.decode_s = spread_of(series.decode);
+    out.prepare_s = spread_of(series.prepare);
+    out.bvh_s = spread_of(series.bvh);
+    out.read_s = spread_of(series.read);
+    out.bare_bvh_s = spread_of(series.bare_bvh);
+    out.of_bare = spread_of(series.of_bare);
+    return out;
+}
+
+MemoryFigures memory_of(const PreparedScene& prepared, size_t bare_bvh) {
+    const Scene& scene = prepared.scene();
+    MemoryFigures out;
+    out.bvh = prepared.bvh_bytes();
+    out.geometry = geometry_bytes(scene);
+    out.textures = texture_bytes(scene);
+    out.bare_bvh = bare_bvh;
+    out.bare_vertices = vertex_bytes(scene);
+    out.bare_texels = base_texel_bytes(scene);
+    return out;
+}
+
+}  // namespace
+
+Result<LoadedScene> measure_load(const LoadTask& task, Log& log) {
+    const std::vector<std::filesystem::path> files = files_of_asset(task.file);
+    const Stopwatch all;
+    Log silent(Verbosity::quiet);
+    Series series;
+    std::optional<PreparedScene> kept;
+    size_t bare_bytes = 0;
+    size_t peak = 0;
+    for (int i = 0; i < task.repeat && (i == 0 || all.seconds() < most_seconds); ++i) {
+        kept.reset();  // two at a time would double the peak of memory
+        reset_peak_memory();
+        Result<PreparedScene> prepared = load_once(task, i == 0 ? log : silent, series);
+        if (!prepared) return fail(prepared.error());
+        peak = peak_memory_bytes();
+        const Result<size_t> bare = bare_once(*prepared, files, task.isa, series);
+        if (!bare) return fail(bare.error());
+        bare_bytes = *bare;
+        kept = std::move(*prepared);
+    }
+    LoadFigures figures = figures_of(series);
+    figures.file_bytes = read_all(files);
+    figures.triangles = stored_triangles(kept->scene());
+    figures.triangles_in_world = kept->scene().info.triangles_in_world;
+    MemoryFigures memory = memory_of(*kept, bare_bytes);
+    memory.peak = peak;
+    return LoadedScene{std::move(*kept), figures, memory};
+}
+
+}  // namespace obscura

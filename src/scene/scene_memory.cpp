@@ -1,0 +1,37 @@
+// scene/scene_memory.cpp - how many bytes the tables of a scene take.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene_memory.h"
+
+#include <set>
+
+namespace obscura {
+
+size_t vertex_bytes(const Scene& scene) {
+    return scene.positions.size() * sizeof(float) + scene.attributes.size() * sizeof(float) +
+           scene.indices.size() * sizeof(uint32_t);
+}
+
+size_t geometry_bytes(const Scene& scene) {
+    return vertex_bytes(scene) + scene.primitives.size() * sizeof(Primitive) +
+           scene.instances.size() * sizeof(Instance) + scene.materials.size() * sizeof(Material);
+}
+
+size_t texture_bytes(const Scene& scene) {
+    return scene.textures.texels.size() * sizeof(uint32_t);
+}
+
+size_t base_texel_bytes(const Scene& scene) {
+    size_t texels = 0;
+    std::set<int32_t> seen;  // textures that differ in their sampler alone share their texels
+    for (const TextureRow& row : scene.textures.rows) {
+        if (!seen.insert(row.level_offset[0]).second) continue;
+        texels += static_cast<size_t>(row.width) * static_cast<size_t>(row.height);
+    }
+    return texels * sizeof(uint32_t);
+}
+
+size_t stored_triangles(const Scene& scene) {
+    return scene.indices.size() / 3;
+}
+
+}  // namespace obscura

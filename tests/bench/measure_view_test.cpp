@@ -1,0 +1,140 @@
+// tests/bench/measure_view_test.cpp - recorded rays, their replay, and the shares of the stages.
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/measure_view.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scene_builder.h"
+#include <numeric>
+
+namespace obscura {
+namespace {
+
+using namespace test;
+
+const std::atomic<bool> never_stop = false;
+
+/// A room of two-sided spheres and squares, half of them half transparent.
+PreparedScene some_scene() {
+    SceneBuilder builder;
+    Material solid;
+    solid.flags = material_double_sided;
+    Material glass = solid;
+    glass.flags |= material_alpha_blend;
+    glass.base_color[3] = 0.5f;
+    const int32_t solid_row = builder.material(solid);
+    const int32_t glass_row = builder.material(glass);
+    builder.quad({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}, solid_row);
+    builder.sphere({-1, 0, 0}, 0.8f, 12, solid_row);
+    builder.sphere({1, 0, 0}, 0.8f, 12, glass_row);
+    Log silent(Verbosity::quiet);
+    auto prepared = PreparedScene::create(builder.take(), {}, Isa::automatic, silent);
+    EXPECT_TRUE(prepared);
+    return std::move(*prepared);
+}
+
+Camera some_camera() {
+    Camera camera;
+    camera.world_from_camera.m[2][3] = 6;
+    camera.pinhole.tan_half_yfov = 0.4f;
+    camera.pinhole.aspect = 1.5f;
+    return camera;
+}
+
+RenderOptions some_options(Integrator integrator = Integrator::path) {
+    RenderOptions options;
+    options.width = 48;
+    options.height = 32;
+    options.samples_per_pixel = 3;
+    options.max_bounces = 4;
+    options.integrator = integrator;
+    return options;
+}
+
+TEST(Recording, LeavesThePictureAlone) {
+    const PreparedScene scene = some_scene();
+    RenderOptions options = some_options();
+    const auto plain = render(scene, some_camera(), options, {}, never_stop);
+    RayRecording recording;
+    options.recording = &recording;
+    const auto recorded = render(scene, some_camera(), options, {}, never_stop);
+    ASSERT_TRUE(plain && recorded);
+    EXPECT_EQ(plain->film.pixels, recorded->film.pixels);
+    EXPECT_EQ(recording.count(RayKind::camera), plain->counters.camera_rays);
+    EXPECT_EQ(recording.count(RayKind::bounce), plain->counters.bounce_rays);
+    EXPECT_EQ(recording.count(RayKind::shadow), plain->counters.shadow_rays);
+    EXPECT_GT(recording.count(RayKind::shadow), 0U);
+}
+
+TEST(Replay, FindsTheHitsOfTheRendering) {
+    const PreparedScene scene = some_scene();
+    for (const Integrator integrator : {Integrator::path, Integrator::ao, Integrator::normal}) {
+        RayRecording recording;
+        RenderOptions options = some_options(integrator);
+        options.recording = &recording;
+        ASSERT_TRUE(render(scene, some_camera(), options, {}, never_stop));
+        for (size_t k = 0; k < ray_kinds; ++k) {
+            const auto kind = static_cast<RayKind>(k);
+            for (const ReplayWay way :
+                 {ReplayWay::single, ReplayWay::packets, ReplayWay::coherent_packets}) {
+                const ReplayResult got = scene.accel().replay(recording, kind, way);
+                EXPECT_EQ(got.hits, recording.hits(kind)) << ray_kind_names[k] << way_name(way);
+            }
+        }
+        EXPECT_GT(recording.hits(RayKind::camera), 0U);
+    }
+}
+
+TEST(MeasureView, CountsAndShares) {
+    const PreparedScene scene = some_scene();
+    ViewTask task;
+    task.scene = &scene;
+    task.camera = some_camera();
+    task.options = some_options();
+    task.repeat = 2;
+    task.threads = 1;
+    int calls = 0;
+    task.after_first = [&] { ++calls; };
+    const Result<ViewFigures> view = measure_view(task, never_stop);
+    ASSERT_TRUE(view);
+    EXPECT_EQ(calls, 1);
+    EXPECT_EQ(view->counters.paths, 48U * 32U * 3U);
+    EXPECT_EQ(view->kinds[0].rays, view->counters.camera_rays);
+    EXPECT_TRUE(doubts_about(*view).empty());
+    const auto shares = stage_shares(*view);
+    EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1.0, 1e-12);
+    for (const double share : shares)
+        EXPECT_GE(share, 0);
+    EXPECT_GT(view->of_bare.median, 0);
+    EXPECT_LE(view->of_bare.low, view->of_bare.median);
+    EXPECT_LE(view->of_bare.median, view->of_bare.high);
+}
+
+TEST(MeasureView, StopsOnRequest) {
+    const PreparedScene scene = some_scene();
+    ViewTask task;
+    task.scene = &scene;
+    task.camera = some_camera();
+    task.options = some_options();
+    const std::atomic<bool> stop = true;
+    const Result<ViewFigures> view = measure_view(task, stop);
+    ASSERT_FALSE(view);
+    EXPECT_EQ(view.error().id, "E-STOPPED");
+}
+
+TEST(MeasureView, DoubtsHitsThatDiffer) {
+    ViewFigures view;
+    view.kinds[1] = {1000, 500, 500, ReplayWay::single, {}, 0};
+    EXPECT_TRUE(doubts_about(view).empty());
+    view.kinds[1].bare_hits = 700;
+    EXPECT_TRUE(doubts_about(view).empty()) << "backs that the renderer passes";
+    view.kinds[1].bare_hits = 400;
+    EXPECT_EQ(doubts_about(view).size(), 1U);
+    view.kinds[2] = {1000, 500, 700, ReplayWay::single, {}, 0};
+    EXPECT_EQ(doubts_about(view).size(), 2U);
+    view.recording_changed_picture = true;
+    EXPECT_EQ(doubts_about(view).size(), 3U);
+}
+
+}  // namespace
+}  // namespace obscura
