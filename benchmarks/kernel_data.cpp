@@ -12,7 +12,7 @@ namespace obscura::bench {
 
 namespace {
 
-constexpr size_t alias_entries = 4096;  // as many lights as a large scene has
+constexpr size_t choices = 4096;  // as many lights as a large scene has
 
 }  // namespace
 
@@ -103,11 +103,11 @@ KernelColumns::KernelColumns(const Scene& scene, const EnvironmentTable& environ
     data_.out1 = floats_.emplace_back(kernel_rows).data();
     data_.environment = environment.view();
     std::vector<float> powers;
-    for (size_t i = 0; i < alias_entries; ++i)
+    for (size_t i = 0; i < choices; ++i)
         powers.push_back(next() * next());
-    alias_ = build_alias_table(powers);
-    data_.alias = alias_.data();
-    data_.alias_count = static_cast<int32_t>(alias_.size());
+    choice_ = build_cdf_table(powers);
+    data_.choice = choice_.data();
+    data_.choice_count = static_cast<int32_t>(choices);
 }
 
 }  // namespace obscura::bench

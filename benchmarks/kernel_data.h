@@ -33,7 +33,7 @@ private:
     std::deque<std::vector<float>> floats_;  ///< a deque: columns stay where they are
     std::vector<int32_t> texture_;
     std::vector<uint32_t> bits_[2];
-    std::vector<AliasEntry> alias_;
+    std::vector<CdfEntry> choice_;
     uint32_t state_ = 0;
     KernelData data_{};
 

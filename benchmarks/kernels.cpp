@@ -160,9 +160,9 @@ void environment_look_up(const KernelData& d) {
 }
 
 template <typename F>
-void alias_draw(const KernelData& d) {
+void choice_draw(const KernelData& d) {
     for_rows<F>([&](int i) {
-        const AliasSample<F> sample = sample_alias<F>(d.alias, d.alias_count, read<F>(d.bits0 + i));
+        const CdfSample<F> sample = sample_cdf<F>(d.choice, d.choice_count, read<F>(d.bits0 + i));
         write(d.out0 + i, from_int<F>(sample.index) + unit_float<F>(sample.remaining));
     });
 }
@@ -185,7 +185,7 @@ const bench::KernelTable kernel_table = {
      OBSCURA_KERNEL(random_pair),
      OBSCURA_KERNEL(environment_sample),
      OBSCURA_KERNEL(environment_look_up),
-     OBSCURA_KERNEL(alias_draw)},
+     OBSCURA_KERNEL(choice_draw)},
 };
 
 }  // namespace OBSCURA_ISA

@@ -28,8 +28,8 @@ struct KernelData {
     float *out0, *out1;
     TextureView textures;
     EnvironmentView environment;
-    const AliasEntry* alias;
-    int32_t alias_count;
+    const CdfEntry* choice;
+    int32_t choice_count;
 };
 
 /// Runs over all rows once.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "light/alias_table.h"
+#include "light/cdf_table.h"
 #include "math/sampler.h"
 #include "math/vec.h"
 #include "math/warp.h"
@@ -18,8 +18,8 @@ struct EnvironmentView {
     /// 4 floats a pixel, so that one cache line holds what a look-up needs: the radiance, and the
     /// density per solid angle with which the pixel is sampled, times sin(theta)
     const float* pixels = nullptr;
-    const AliasEntry* rows = nullptr;     ///< chooses a row
-    const AliasEntry* columns = nullptr;  ///< height tables of width entries: chooses a pixel
+    const CdfEntry* rows = nullptr;     ///< chooses a row
+    const CdfEntry* columns = nullptr;  ///< height tables, one a row: chooses a pixel
     int32_t width = 1;
     int32_t height = 1;
     float cos_rotation = 1;  ///< of the angle by which the map is turned about +Y,
@@ -158,9 +158,10 @@ OBSCURA_INLINE EnvironmentSample<F> look_up_environment(const EnvironmentView& v
 template <typename F>
 OBSCURA_INLINE EnvironmentSample<F> sample_environment(const EnvironmentView& view,
                                                        const Vec2<UintOf<F>>& random) {
-    const AliasSample<F> row = sample_alias<F>(view.rows, view.height, random.x);
+    const CdfSample<F> row = sample_cdf<F>(view.rows, view.height, random.x);
     const IntOf<F> first = row.index * IntOf<F>(view.width);
-    const AliasSample<F> column = sample_alias_at<F>(view.columns, first, view.width, random.y);
+    const CdfSample<F> column =
+        sample_cdf_at<F>(view.columns, IntOf<F>(first + row.index), view.width, random.y);
     // Half a step of the 24 bits keeps clear of the pixel's borders, and so of the poles.
     const F half_step(0.5f / 16777216.0f);
     const F y = from_int<F>(row.index) + max(unit_float<F>(row.remaining), half_step);

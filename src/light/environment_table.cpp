@@ -132,7 +132,7 @@ void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {
 void EnvironmentTable::build_tables() {
     const auto width = static_cast<size_t>(width_);
     const auto height = static_cast<size_t>(height_);
-    columns_.resize(width * height);
+    columns_.resize((width + 1) * height);
     std::vector<double> row_weight(height);
     std::vector<double> row_power(height);
     parallel_for(height, [&](size_t y) {
@@ -142,19 +142,19 @@ void EnvironmentTable::build_tables() {
         row_power[y] = sum_of(light) * steradians;
         const auto weights = filtered_row(pixels_, width_, height_, at, importance_of);
         row_weight[y] = sum_of(weights) * steradians;
-        const auto entries = build_alias_table(std::span<const double>(weights));
-        std::copy(entries.begin(), entries.end(), columns_.data() + y * width);
-        const auto shares = alias_probabilities(entries);
+        const auto entries = build_cdf_table(std::span<const double>(weights));
+        std::copy(entries.begin(), entries.end(), columns_.data() + y * (width + 1));
+        const auto shares = cdf_probabilities(entries);
         for (size_t x = 0; x < width; ++x) {
             pixels_[4 * (y * width + x) + 3] = static_cast<float>(shares[x]);
         }
     });
     power_ = sum_of(row_power);
     black_ = !(sum_of(row_weight) > 0);
-    rows_ = build_alias_table(std::span<const double>(row_weight));
+    rows_ = build_cdf_table(std::span<const double>(row_weight));
 
     // In (u, v) a pixel's share is spread over 1 / (width height); d omega = 2 pi^2 sin du dv.
-    const auto row_shares = alias_probabilities(rows_);
+    const auto row_shares = cdf_probabilities(rows_);
     const double spread = static_cast<double>(width * height) / (2 * pi_d * pi_d);
     parallel_for(height, [&](size_t y) {
         const double scale = black_ ? 0.0 : row_shares[y] * spread;

@@ -54,8 +54,8 @@ private:
     void build_tables();
 
     std::vector<float> pixels_;  ///< see EnvironmentView
-    std::vector<AliasEntry> rows_;
-    std::vector<AliasEntry> columns_;
+    std::vector<CdfEntry> rows_;
+    std::vector<CdfEntry> columns_;
     int width_ = 0;
     int height_ = 0;
     double cos_rotation_ = 1;

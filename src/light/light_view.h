@@ -6,13 +6,13 @@
 
 namespace obscura {
 
-struct AliasEntry;
+struct CdfEntry;
 struct PunctualLight;
 struct TriangleLight;
 
 /// Lights are numbered: punctual ones first, then emissive triangles, then the environment.
 struct LightView {
-    const AliasEntry* alias = nullptr;  ///< chooses a light with probability select_pdf
+    const CdfEntry* choice = nullptr;   ///< chooses a light with probability select_pdf
     const float* select_pdf = nullptr;  ///< by light number
     int32_t count = 0;                  ///< of all lights
     int32_t punctual_count = 0;

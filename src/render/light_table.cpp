@@ -209,8 +209,8 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     const std::vector<double> weights = choice_weights(punctual, triangles, environment_power);
     if (weights.empty()) return table;
 
-    table.alias = build_alias_table(std::span<const double>(weights));
-    const std::vector<double> pdf = alias_probabilities(table.alias);
+    table.choice = build_cdf_table(std::span<const double>(weights));
+    const std::vector<double> pdf = cdf_probabilities(table.choice);
     table.select_pdf.assign(pdf.begin(), pdf.end());
     for (size_t i = 0; i < table.triangles.size(); ++i) {
         TriangleLight& row = table.triangles[i];
@@ -222,9 +222,9 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
 }
 
 LightView LightTable::view() const {
-    return {alias.data(),
+    return {choice.data(),
             select_pdf.data(),
-            static_cast<int32_t>(alias.size()),
+            static_cast<int32_t>(select_pdf.size()),
             static_cast<int32_t>(punctual.size()),
             static_cast<int32_t>(triangles.size()),
             punctual.data(),

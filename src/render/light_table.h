@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "light/alias_table.h"
+#include "light/cdf_table.h"
 #include "light/environment_table.h"
 #include "light/light_view.h"
 #include "light/triangle_light.h"
@@ -18,7 +18,7 @@ struct LightTable {
     std::vector<PunctualLight> punctual;
     std::vector<TriangleLight> triangles;
     std::vector<float> select_pdf;
-    std::vector<AliasEntry> alias;
+    std::vector<CdfEntry> choice;
     float environment_select = 0;
 
     LightView view() const;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "light/alias_table.h"
+#include "light/cdf_table.h"
 #include "light/environment.h"
 #include "light/punctual_sample.h"
 #include "light/row_words.h"
@@ -70,7 +70,7 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     const LightView& lights = scene.lights;
     LightLanes out{splat3(Lanes(0.0f)), Lanes(0.0f), splat3(Lanes(0.0f)), Lanes(0.0f), Mask(false)};
     LanesI index(lights.count - 1);
-    if (lights.count > 1) index = sample_alias<Lanes>(lights.alias, lights.count, choice).index;
+    if (lights.count > 1) index = sample_cdf<Lanes>(lights.choice, lights.count, choice).index;
     const Mask punctual = index < LanesI(lights.punctual_count);
     const LanesI triangle_index = index - LanesI(lights.punctual_count);
     const Mask triangle = (!punctual) & (triangle_index < LanesI(lights.triangle_count));

@@ -1,6 +1,6 @@
-// tests/light/alias_table_test.cpp - alias tables: probabilities, leftovers, limits, lanes.
+// tests/light/cdf_table_test.cpp - drawing an index: probabilities, leftovers, limits, lanes.
 // SPDX-License-Identifier: Apache-2.0
-#include "light/alias_table.h"
+#include "light/cdf_table.h"
 
 #include <gtest/gtest.h>
 
@@ -23,15 +23,15 @@ std::vector<double> random_weights(size_t count, uint64_t seed) {
     return weights;
 }
 
-std::vector<AliasEntry> table_for(const std::vector<double>& weights) {
-    return build_alias_table(std::span<const double>(weights));
+std::vector<CdfEntry> table_for(const std::vector<double>& weights) {
+    return build_cdf_table(std::span<const double>(weights));
 }
 
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-TEST(AliasTable, MultiplyHighIsTheUpperHalfOfTheProduct) {
+TEST(CdfTable, MultiplyHighIsTheUpperHalfOfTheProduct) {
     Pcg32 random(3);
     for (int i = 0; i < 10000; ++i) {
         const uint32_t a = i == 0 ? 0xFFFFFFFFU : random.next_uint();
@@ -40,11 +40,11 @@ TEST(AliasTable, MultiplyHighIsTheUpperHalfOfTheProduct) {
     }
 }
 
-TEST(AliasTable, ProbabilitiesFollowTheWeights) {
+TEST(CdfTable, ProbabilitiesFollowTheWeights) {
     for (const size_t count : {1U, 2U, 3U, 7U, 64U, 1000U, 16384U}) {
         std::vector<double> weights = random_weights(count, count);
         weights[0] += 1;
-        const std::vector<double> got = alias_probabilities(table_for(weights));
+        const std::vector<double> got = cdf_probabilities(table_for(weights));
         const double sum = sum_of(weights);
         EXPECT_DOUBLE_EQ(sum_of(got), 1.0);
         const double grain = static_cast<double>(count) * 0x1p-32;
@@ -55,11 +55,11 @@ TEST(AliasTable, ProbabilitiesFollowTheWeights) {
     }
 }
 
-TEST(AliasTable, AMillionEntriesKeepTheirShares) {
+TEST(CdfTable, AMillionEntriesKeepTheirShares) {
     const size_t count = 1 << 20;
     std::vector<double> weights(count, 1.0);
     weights[12345] = static_cast<double>(count);  // half of everything
-    const std::vector<double> got = alias_probabilities(table_for(weights));
+    const std::vector<double> got = cdf_probabilities(table_for(weights));
     EXPECT_NEAR(got[12345], 0.5, 1e-6 + 0x1p-12);
     EXPECT_NEAR(sum_of(got), 1.0, 1e-9);
     for (size_t i = 0; i < count; i += 997) {
@@ -67,55 +67,55 @@ TEST(AliasTable, AMillionEntriesKeepTheirShares) {
     }
 }
 
-TEST(AliasTable, TheFaintestEntryIsStillReached) {
+TEST(CdfTable, TheFaintestEntryIsStillReached) {
     std::vector<double> weights(1000, 1.0);
     weights[500] = 1e30;
-    const std::vector<double> got = alias_probabilities(table_for(weights));
+    const std::vector<double> got = cdf_probabilities(table_for(weights));
     for (size_t i = 0; i < weights.size(); ++i)
         EXPECT_GE(got[i], 0x1p-32) << i;
 }
 
-TEST(AliasTable, WeightsThatAreAllZeroMeanUniform) {
+TEST(CdfTable, WeightsThatAreAllZeroMeanUniform) {
     const std::vector<float> weights(5, 0.0F);
-    const std::vector<AliasEntry> table = build_alias_table(std::span<const float>(weights));
-    for (const double got : alias_probabilities(table))
+    const std::vector<CdfEntry> table = build_cdf_table(std::span<const float>(weights));
+    for (const double got : cdf_probabilities(table))
         EXPECT_NEAR(got, 0.2, 1e-8);
 }
 
-TEST(AliasTable, BrokenWeightsCountAsZero) {
+TEST(CdfTable, BrokenWeightsCountAsZero) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
-    const std::vector<double> got = alias_probabilities(table_for({-1, 2, nan, infinity, 6}));
+    const std::vector<double> got = cdf_probabilities(table_for({-1, 2, nan, infinity, 6}));
     const std::vector<double> expected = {0, 0.25, 0, 0, 0.75};
     for (size_t i = 0; i < got.size(); ++i)
         EXPECT_NEAR(got[i], expected[i], 1e-8) << i;
 }
 
-TEST(AliasTable, HugeWeightsDoNotOverflow) {
-    const std::vector<double> got = alias_probabilities(table_for({1.7e308, 1.7e308, 1.7e308}));
+TEST(CdfTable, HugeWeightsDoNotOverflow) {
+    const std::vector<double> got = cdf_probabilities(table_for({1.7e308, 1.7e308, 1.7e308}));
     for (const double share : got)
         EXPECT_NEAR(share, 1.0 / 3, 1e-8);
 }
 
 /// Counts of (index, sixteenth of the remaining bits).
-std::vector<double> draw(const std::vector<AliasEntry>& table, int samples) {
-    std::vector<double> observed(table.size() * 16, 0.0);
+std::vector<double> draw(const std::vector<CdfEntry>& table, int samples) {
+    std::vector<double> observed((table.size() - 1) * 16, 0.0);
     Pcg32 random(11);
     for (int i = 0; i < samples; ++i) {
-        const auto count = static_cast<int>(table.size());
-        const auto sample = sample_alias<float>(table.data(), count, random.next_uint());
+        const auto count = static_cast<int>(table.size()) - 1;
+        const auto sample = sample_cdf<float>(table.data(), count, random.next_uint());
         observed[static_cast<size_t>(sample.index) * 16 + (sample.remaining >> 28)] += 1;
     }
     return observed;
 }
 
-TEST(AliasTable, IndexAndRemainderAreIndependentAndRight) {
+TEST(CdfTable, IndexAndRemainderAreIndependentAndRight) {
     constexpr int samples = 1000000;
     std::vector<double> weights = random_weights(100, 7);
     for (double& weight : weights)
         weight = std::sqrt(weight);  // most bins get samples
-    const std::vector<AliasEntry> table = table_for(weights);
-    const std::vector<double> shares = alias_probabilities(table);
+    const std::vector<CdfEntry> table = table_for(weights);
+    const std::vector<double> shares = cdf_probabilities(table);
     std::vector<double> expected(shares.size() * 16);
     for (size_t i = 0; i < expected.size(); ++i)
         expected[i] = shares[i / 16] * samples / 16;
@@ -129,11 +129,11 @@ TEST(AliasTable, IndexAndRemainderAreIndependentAndRight) {
     EXPECT_FALSE(wrong.passes(0.01)) << wrong;
 }
 
-/// Sampler and alias_probabilities agree to the single random number, at every cell's turns.
-TEST(AliasTable, ProbabilitiesCountEveryRandomNumber) {
-    const std::vector<AliasEntry> table = table_for(random_weights(7, 5));
+/// Sampler and cdf_probabilities agree to the single random number, at every border.
+TEST(CdfTable, ProbabilitiesCountEveryRandomNumber) {
+    const std::vector<CdfEntry> table = table_for(random_weights(7, 5));
     const auto index_of = [&](uint32_t random) {
-        return sample_alias<float>(table.data(), 7, random).index;
+        return sample_cdf<float>(table.data(), 7, random).index;
     };
     std::vector<double> counted(7, 0.0);
     uint64_t begin = 0;
@@ -143,32 +143,46 @@ TEST(AliasTable, ProbabilitiesCountEveryRandomNumber) {
         uint64_t last = begin;
         for (; step > 0; step /= 2) {
             const uint64_t next = last + step;
-            const bool same_cell = next < 0x100000000U && next * 7 >> 32 == begin * 7 >> 32;
-            if (same_cell && index_of(static_cast<uint32_t>(next)) == index) last = next;
+            if (next < 0x100000000U && index_of(static_cast<uint32_t>(next)) == index) last = next;
         }
         counted[static_cast<size_t>(index)] += static_cast<double>(last - begin + 1) * 0x1p-32;
         begin = last + 1;
     }
-    const std::vector<double> told = alias_probabilities(table);
+    const std::vector<double> told = cdf_probabilities(table);
     for (size_t i = 0; i < 7; ++i)
         EXPECT_DOUBLE_EQ(counted[i], told[i]) << i;
 }
 
-TEST(AliasTable, LanesEqualScalars) {
-    const std::vector<AliasEntry> table = table_for(random_weights(5000, 9));
+TEST(CdfTable, TheIndexGrowsWithTheRandomNumber) {
+    std::vector<double> weights = random_weights(300, 4);
+    weights.insert(weights.end(), {1e7, 0, 0});
+    const std::vector<CdfEntry> table = table_for(weights);
+    int32_t index = 0;
+    for (uint64_t random = 0; random < 0x100000000U; random += 0xFFFFF) {
+        const auto bits = static_cast<uint32_t>(random);
+        const int32_t next = sample_cdf<float>(table.data(), 303, bits).index;
+        EXPECT_GE(next, index);
+        EXPECT_GT(weights[static_cast<size_t>(next)], 0);
+        index = next;
+    }
+    EXPECT_EQ(index, 300);
+}
+
+TEST(CdfTable, LanesEqualScalars) {
+    const std::vector<CdfEntry> table = table_for(random_weights(5000, 9));
     Pcg32 random(1);
     for (int round = 0; round < 1000; ++round) {
         uint32_t bits[lane_count];
         for (uint32_t& word : bits)
             word = random.next_uint();
         const LanesU in(BatchU::load_unaligned(bits));
-        const AliasSample<Lanes> got = sample_alias<Lanes>(table.data(), 5000, in);
+        const CdfSample<Lanes> got = sample_cdf<Lanes>(table.data(), 5000, in);
         int32_t index[lane_count];
         uint32_t remaining[lane_count];
         got.index.v.store_unaligned(index);
         got.remaining.v.store_unaligned(remaining);
         for (int i = 0; i < lane_count; ++i) {
-            const auto one = sample_alias<float>(table.data(), 5000, bits[i]);
+            const auto one = sample_cdf<float>(table.data(), 5000, bits[i]);
             EXPECT_EQ(index[i], one.index);
             EXPECT_EQ(remaining[i], one.remaining);
         }

@@ -1,0 +1,112 @@
+// light/cdf_table.h - draws an index with given probabilities, in the order of the random number.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "light/row_words.h"
+#include "math/lanes.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace obscura {
+
+/// One index of a table, read as two 32-bit words; a table has one entry more than indices.
+struct CdfEntry {
+    uint32_t first_random;  ///< smallest random number that leads to this index or a later one
+    int32_t first_index;  ///< what the smallest random number in this cell of equal cells leads to
+};
+
+static_assert(sizeof(CdfEntry) == 2 * 4, "read as 32-bit words: no padding");
+
+/// Indices that one table may have. Above, cells would be missed by 32-bit random numbers.
+inline constexpr size_t max_cdf_indices = size_t{1} << 24;
+
+/// Builds the table; the same weights give the same table.
+///
+/// The index grows with the random number, so that well-spread numbers lead to well-spread indices:
+/// an alias table would draw in constant time, and tear neighbouring numbers apart.
+///
+/// In      weights: 1 to max_cdf_indices; negative and non-finite ones count as 0; when all are 0,
+///         every index is equally likely
+/// Out     weights.size() + 1 entries; an index with weight > 0 has a probability of at least 2^-32
+std::vector<CdfEntry> build_cdf_table(std::span<const double> weights);
+std::vector<CdfEntry> build_cdf_table(std::span<const float> weights);
+
+/// What sample_cdf really does: how many of the 2^32 random numbers lead to each index, as a share.
+/// Densities made from it match the sampler exactly; the weights are met to about count * 2^-32,
+/// relative to the mean probability.
+std::vector<double> cdf_probabilities(std::span<const CdfEntry> entries);
+
+inline namespace OBSCURA_ISA {
+
+template <typename F>
+struct CdfSample {
+    IntOf<F> index;
+    UintOf<F> remaining;  ///< uniform again; its upper 24 bits are filled
+};
+
+/// Bits 32 to 63 of a * b.
+template <typename U>
+OBSCURA_INLINE U multiply_high(const U& a, uint32_t b) {
+    const U b_low(b & 0xFFFFU);
+    const U b_high(b >> 16);
+    const U a_low = a & U(0xFFFFU);
+    const U a_high = a >> 16;
+    const U middle = a_high * b_low + ((a_low * b_low) >> 16);
+    const U carry = a_low * b_high + (middle & U(0xFFFFU));
+    return a_high * b_high + (middle >> 16) + (carry >> 16);
+}
+
+/// A 32-bit number as F, rounded once.
+template <typename F>
+OBSCURA_INLINE F float_from_uint(const UintOf<F>& u) {
+    return from_int<F>(as_int(u >> 16)) * F(65536.0f) + from_int<F>(as_int(u & UintOf<F>(0xFFFFU)));
+}
+
+/// Draws an index from the table of `count` indices that starts at entries[first].
+///
+/// In      first + count < 2^30; count in [1, max_cdf_indices]; random: uniform 32 bits
+/// Out     index in [0, count), relative to first; the remainder is where the random number lies
+///         among those that lead to the index
+/// Source  Chen and Asau, "On Generating Random Variates from an Empirical Distribution", AIIE
+///         Transactions 6(2), 1974: the search begins at a cell of equal cells
+template <typename F>
+OBSCURA_INLINE CdfSample<F> sample_cdf_at(const CdfEntry* entries,
+                                          const IntOf<F>& first,
+                                          int count,
+                                          const UintOf<F>& random) {
+    using U = UintOf<F>;
+    using I = IntOf<F>;
+    const auto* randoms = member_words<uint32_t>(entries, offsetof(CdfEntry, first_random));
+    const auto* indices = member_words<int32_t>(entries, offsetof(CdfEntry, first_index));
+    const auto word = [&](const I& index) -> I {
+        return (first + index) * I(words_per_row<CdfEntry>);
+    };
+    const I cell = as_int(multiply_high(random, static_cast<uint32_t>(count)));
+    I low = gather<F>(indices, word(cell));
+    I high = gather<F>(indices, word(I(cell + I(1))));
+    while (any(low < high)) {
+        const I middle = as_int(as_uint(I(low + high + I(1))) >> 1);
+        const auto beyond = random < gather<F>(randoms, word(middle));
+        high = select(beyond, I(middle - I(1)), high);
+        low = select(beyond, low, middle);
+    }
+    const U begin = gather<F>(randoms, word(low));
+    const U width = gather<F>(randoms, word(I(low + I(1)))) - begin;
+    // An index that takes all 2^32 numbers has a width of 2^32, modulo 2^32 that is 0.
+    const F span = select(width == U(0U), F(4294967296.0f), float_from_uint<F>(width));
+    const F unit = (float_from_uint<F>(U(random - begin)) + F(0.5f)) / span;
+    const I bits = to_int(min(unit * F(16777216.0f), F(16777215.0f)));
+    return {low, as_uint(bits) << 8};
+}
+
+template <typename F>
+OBSCURA_INLINE CdfSample<F> sample_cdf(const CdfEntry* entries,
+                                       int count,
+                                       const UintOf<F>& random) {
+    return sample_cdf_at<F>(entries, IntOf<F>(0), count, random);
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura
