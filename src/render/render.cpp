@@ -112,25 +112,44 @@ std::vector<Tile> cut_tiles(const PixelRect& area, int size) {
     return tiles;
 }
 
-/// Pixel coordinates of a tile in 4x4 blocks, row by row inside a block: packets of 16 are square.
-void list_pixels(const Tile& tile, std::vector<int32_t>& xs, std::vector<int32_t>& ys) {
-    xs.clear();
-    ys.clear();
-    for (int block_y = 0; block_y < tile.height; block_y += 4) {
-        for (int block_x = 0; block_x < tile.width; block_x += 4) {
-            for (int y = block_y; y < std::min(block_y + 4, tile.height); ++y) {
-                for (int x = block_x; x < std::min(block_x + 4, tile.width); ++x) {
-                    xs.push_back(tile.x + x);
-                    ys.push_back(tile.y + y);
+/// Pixels of a tile of one size in 4x4 blocks, row by row inside a block: packets of 16 are square.
+struct TilePattern {
+    int width = 0, height = 0;
+    std::vector<int32_t> dx, dy;  ///< from the tile's corner
+};
+
+void fill_pattern(int width, int height, TilePattern& pattern) {
+    if (pattern.width == width && pattern.height == height) return;
+    pattern = {width, height, {}, {}};
+    for (int block_y = 0; block_y < height; block_y += 4) {
+        for (int block_x = 0; block_x < width; block_x += 4) {
+            for (int y = block_y; y < std::min(block_y + 4, height); ++y) {
+                for (int x = block_x; x < std::min(block_x + 4, width); ++x) {
+                    pattern.dx.push_back(x);
+                    pattern.dy.push_back(y);
                 }
             }
         }
     }
 }
 
+void list_pixels(const Tile& tile,
+                 TilePattern& pattern,
+                 std::vector<int32_t>& xs,
+                 std::vector<int32_t>& ys) {
+    fill_pattern(tile.width, tile.height, pattern);
+    xs.resize(pattern.dx.size());
+    ys.resize(pattern.dy.size());
+    for (size_t i = 0; i < xs.size(); ++i) {
+        xs[i] = tile.x + pattern.dx[i];
+        ys[i] = tile.y + pattern.dy[i];
+    }
+}
+
 /// What one thread keeps from tile to tile.
 struct ThreadState {
     Workspace work;
+    TilePattern pattern;
     std::vector<int32_t> xs, ys;
     std::vector<float> sums;
     WalkCounters counters;
@@ -143,7 +162,7 @@ void render_tile(const WalkInput& walk_input,
                  const Tile& tile,
                  const std::atomic<bool>& stop,
                  ThreadState& state) {
-    list_pixels(tile, state.xs, state.ys);
+    list_pixels(tile, state.pattern, state.xs, state.ys);
     const int pixels = static_cast<int>(state.xs.size());
     state.sums.assign(static_cast<size_t>(pixels) * 4, 0.0f);
     WalkInput in = walk_input;

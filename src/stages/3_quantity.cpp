@@ -15,33 +15,49 @@ OBSCURA_INLINE Lanes axial_depth(const Camera& camera, const PathLanes& path, La
     return distance * dot(path.direction, forward);
 }
 
-OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
-                                       const Camera& camera,
-                                       Quantity quantity,
-                                       const PathLanes& path,
-                                       const HitLanes& hit) {
-    const ShadingPoint s =
-        shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
-    switch (quantity) {
-        case Quantity::normal:
-            return s.normal;
-        case Quantity::depth:
-            return {axial_depth(camera, path, hit.t), Lanes(0.0f), Lanes(0.0f)};
-        case Quantity::albedo:
-            return s.bsdf.base_color;
-        case Quantity::id:
-            break;
-    }
+/// Numbers of the node, material and triangle, from 1.
+OBSCURA_INLINE Vec3<Lanes> identity(const SceneView& scene, const HitLanes& hit) {
     const TableRow<Lanes> primitive(scene.primitives, hit.primitive, primitive_words);
     LanesI node = primitive.integer(14);
     const Mask instanced = hit.instance >= LanesI(0);
     if (any(instanced)) {
         node = select(instanced, instance_row(scene, hit).integer(25), node);
     }
-    const LanesI material = primitive.integer(2);
     return {from_int<Lanes>(node + LanesI(1)),
-            from_int<Lanes>(material + LanesI(1)),
+            from_int<Lanes>(primitive.integer(2) + LanesI(1)),
             from_int<Lanes>(hit.triangle + LanesI(1))};
+}
+
+template <Quantity quantity>
+OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
+                                       const Camera& camera,
+                                       const PathLanes& path,
+                                       const HitLanes& hit) {
+    if constexpr (quantity == Quantity::depth) {
+        return {axial_depth(camera, path, hit.t), Lanes(0.0f), Lanes(0.0f)};
+    } else if constexpr (quantity == Quantity::id) {
+        return identity(scene, hit);
+    } else {
+        const ShadingPoint s =
+            shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
+        return quantity == Quantity::normal ? s.normal : s.bsdf.base_color;
+    }
+}
+
+/// A loop of its own for each quantity, so that the compiler drops what the quantity does not need.
+/// Camera rays are in slot order: row i is slot i.
+template <Quantity quantity>
+void write_all(const SceneView& scene, const Camera& camera, int count, const ShadeRows& rows) {
+    const SampleRows& out = rows.samples;
+    for (int i = 0; i < count; i += lane_count) {
+        const Mask hits = rows_in_range(i, count) & (load(rows.hits.primitive + i) >= LanesI(0));
+        if (none(hits)) continue;  // samples were cleared
+        const HitLanes hit = hits_or_first(rows.hits, i, hits);
+        const PathLanes path = load_paths(rows.paths, i);
+        const Vec3<Lanes> value = quantity_of<quantity>(scene, camera, path, hit);
+        store3(out.r, out.g, out.b, i, select(hits, value, splat3(Lanes(0.0f))));
+        store(out.a + i, select(hits, Lanes(1.0f), Lanes(0.0f)));
+    }
 }
 
 }  // namespace
@@ -49,18 +65,18 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
 void write_quantity(const SceneView& scene,
                     const BatchSettings& batch,
                     Quantity quantity,
-                    int count_in,
+                    int count,
                     const ShadeRows& rows) {
-    const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
-    for (int i = 0; i < sorted.hits; i += lane_count) {
-        const Mask exists = rows_in_range(i, sorted.hits);
-        const PathLanes path = load_paths(rows.paths, i);
-        const HitLanes hit = hits_or_first(rows.hits, i, exists);
-        const Vec3<Lanes> value = quantity_of(scene, batch.camera, quantity, path, hit);
-        add_radiance(rows.samples, exists, path.slot, value);
+    switch (quantity) {
+        case Quantity::normal:
+            return write_all<Quantity::normal>(scene, batch.camera, count, rows);
+        case Quantity::depth:
+            return write_all<Quantity::depth>(scene, batch.camera, count, rows);
+        case Quantity::albedo:
+            return write_all<Quantity::albedo>(scene, batch.camera, count, rows);
+        case Quantity::id:
+            return write_all<Quantity::id>(scene, batch.camera, count, rows);
     }
-    for (int i = 0; i < sorted.hits; ++i)
-        rows.samples.a[rows.paths.slot[i]] = 1.0f;
 }
 
 }  // namespace OBSCURA_ISA

@@ -85,15 +85,17 @@ OBSCURA_INLINE HitLanes load_hits(const HitRows& rows, int i) {
             load(rows.triangle + i)};
 }
 
-/// Hits of one group; lanes that do not exist repeat the first, so that gathers stay in range.
-OBSCURA_INLINE HitLanes hits_or_first(const HitRows& rows, int i, Mask exists) {
+/// Hits of one group. Lanes outside the mask, which must have one, repeat its first, so that
+/// gathers stay in range.
+OBSCURA_INLINE HitLanes hits_or_first(const HitRows& rows, int i, Mask valid) {
     const HitLanes hit = load_hits(rows, i);
-    return {select(exists, hit.t, Lanes(rows.t[i])),
-            select(exists, hit.u, Lanes(rows.u[i])),
-            select(exists, hit.v, Lanes(rows.v[i])),
-            select(exists, hit.instance, LanesI(rows.instance[i])),
-            select(exists, hit.primitive, LanesI(rows.primitive[i])),
-            select(exists, hit.triangle, LanesI(rows.triangle[i]))};
+    const int first = i + __builtin_ctz(mask_bits(valid));
+    return {select(valid, hit.t, Lanes(rows.t[first])),
+            select(valid, hit.u, Lanes(rows.u[first])),
+            select(valid, hit.v, Lanes(rows.v[first])),
+            select(valid, hit.instance, LanesI(rows.instance[first])),
+            select(valid, hit.primitive, LanesI(rows.primitive[first])),
+            select(valid, hit.triangle, LanesI(rows.triangle[first]))};
 }
 
 OBSCURA_INLINE void append_hits(const HitRows& rows, int at, Mask mask, const HitLanes& h) {

@@ -27,7 +27,7 @@ struct WalkCounters {
 };
 
 /// Rows in a batch: its columns (about 340 bytes a row) stay within a core's second-level cache.
-inline constexpr int batch_rows = 1024;
+inline constexpr int batch_rows = 4096;
 
 /// The columns of one batch, reused from batch to batch. One per thread.
 class Workspace {
