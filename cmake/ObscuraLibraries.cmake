@@ -18,6 +18,8 @@ if(NOT embree_FOUND)
   find_package(embree 3.13 CONFIG REQUIRED)
 endif()
 message(STATUS "Embree ${embree_VERSION}")
+set_property(TARGET embree APPEND PROPERTY
+  INTERFACE_COMPILE_DEFINITIONS OBSCURA_EMBREE=${embree_VERSION_MAJOR})
 
 # Debian's OpenImageIO target names an OpenCV folder that does not exist.
 find_package(OpenEXR CONFIG REQUIRED)

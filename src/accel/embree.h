@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#if __has_include(<embree4/rtcore.h>)
+#if OBSCURA_EMBREE == 4  // the build says which one it found
 #include <embree4/rtcore.h>
-#define OBSCURA_EMBREE 4
 #else
 #include <embree3/rtcore.h>
-#define OBSCURA_EMBREE 3
 #endif
 
 namespace obscura {

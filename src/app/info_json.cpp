@@ -155,7 +155,7 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     json.member("instances", scene.instances.size());
     json.member("skipped_points", info.skipped_points);
     json.member("skipped_lines", info.skipped_lines);
-    write_names(json, "materials", scene.material_names);
+    write_names(json, "materials", file_materials(scene));
     write_images(json, info);
     write_lights(json, scene);
     write_cameras(json, scene);

@@ -59,9 +59,10 @@ void append_meshes(const Scene& scene, std::string& text) {
 }
 
 void append_materials(const Scene& scene, std::string& text) {
-    text += title("materials") + fmt::format("{}\n", scene.material_names.size());
-    for (size_t i = 0; i < scene.material_names.size(); ++i) {
-        text += fmt::format("  {:>4} {}\n", i, quoted_name(scene.material_names[i]));
+    const std::vector<std::string> names = file_materials(scene);
+    text += title("materials") + fmt::format("{}\n", names.size());
+    for (size_t i = 0; i < names.size(); ++i) {
+        text += fmt::format("  {:>4} {}\n", i, quoted_name(names[i]));
     }
     const AssetInfo& info = scene.info;
     text += title("textures") + fmt::format("{} images, {} with mip levels\n",
@@ -160,6 +161,16 @@ const char* light_unit_name(const PunctualLight& light) {
 
 const char* camera_type_name(const SceneCamera& camera) {
     return camera.type == SceneCameraType::perspective ? "perspective" : "orthographic";
+}
+
+std::vector<std::string> file_materials(const Scene& scene) {
+    std::vector<std::string> names;
+    for (size_t row = 0; row < scene.material_names.size(); ++row) {
+        // Further rows of one material come after the first of each.
+        const bool is_next = scene.material_numbers[row] == static_cast<int32_t>(names.size());
+        if (is_next) names.push_back(scene.material_names[row]);
+    }
+    return names;
 }
 
 size_t triangles_in_file(const AssetInfo& info) {

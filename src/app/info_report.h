@@ -19,6 +19,9 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
 /// stored twice, an unused one not at all.
 size_t texture_bytes(const ImageInfo& image);
 
+/// Names of the file's own materials, in its order.
+std::vector<std::string> file_materials(const Scene& scene);
+
 /// Each mesh counted once.
 size_t triangles_in_file(const AssetInfo& info);
 

@@ -46,18 +46,24 @@ Result<PreparedScene> prepare(const RenderRequest& request,
     return prepared;
 }
 
+/// One rendering from the request to the statistics.
+struct Job {
+    const RenderRequest& request;
+    std::optional<DisplayTransform> display;
+    RenderStatistics statistics;
+};
+
 /// Renders, then writes the pictures; a signal stops it between two tiles or two files.
-Result<void> render_and_write(const RenderRequest& request,
+Result<void> render_and_write(Job& job,
                               const PreparedScene& prepared,
                               Log& log,
-                              Progress& progress,
-                              RenderStatistics& statistics) {
+                              Progress& progress) {
+    const RenderRequest& request = job.request;
+    RenderStatistics& statistics = job.statistics;
     const RenderOptions& options = request.options;
     const Result<ChosenCamera> chosen =
         choose_camera(prepared.scene(), request.camera, options.width, options.height, log);
     if (!chosen) return fail(chosen.error());
-    Result<std::optional<DisplayTransform>> display = make_display(request, log);
-    if (!display) return fail(display.error());
 
     const StopOnSignal stop;
     progress.begin();
@@ -74,7 +80,7 @@ Result<void> render_and_write(const RenderRequest& request,
     finished.metadata = make_metadata(request, prepared, *chosen, result->render_seconds, log);
     Film& film = result->film;
     finished.picture = {film.width, film.height, std::move(film.channels), std::move(film.pixels)};
-    const Result<void> written = write_outputs(request, finished, *display, stop.flag());
+    const Result<void> written = write_outputs(request, finished, job.display, stop.flag());
     statistics.write_s = writing.seconds();
     if (!written) return written;
     progress.finish();
@@ -117,13 +123,16 @@ Result<void> check_counters(const RenderCounters& counters, const RenderRequest&
 Result<void> execute(const RenderRequest& request, Log& log) {
     const Stopwatch total;
     if (auto writable = check_outputs(request); !writable) return writable;
+    Result<std::optional<DisplayTransform>> display = make_display(request, log);
+    if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);
-    RenderStatistics statistics;
+    Job job{request, std::move(*display), {}};
+    RenderStatistics& statistics = job.statistics;
     statistics.threads = threads.threads();
     Progress progress(request.verbosity);
     const Result<PreparedScene> prepared = prepare(request, log, statistics);
     if (!prepared) return fail(prepared.error());
-    const Result<void> done = render_and_write(request, *prepared, log, progress, statistics);
+    const Result<void> done = render_and_write(job, *prepared, log, progress);
     if (!done) return done;
     statistics.total_s = total.seconds();
     statistics.warnings = log.warnings();

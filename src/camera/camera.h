@@ -9,7 +9,7 @@ namespace obscura {
 
 /// To add a model: write camera/<model>.h with its parameters, `generate_ray` and the source of the
 /// formula, append a name here and a member to Camera, add a case to generate_ray below and to
-/// ndc_from_camera in camera/matrices.h, and a test against the closed form in tests/camera.
+/// ndc_from_camera in camera/matrices.cpp, and a test against the closed form in tests/camera.
 enum class CameraModel : int { pinhole = 0, orthographic = 1 };
 
 /// A camera in the world. Only the member that `model` names is used.

@@ -178,6 +178,7 @@ Result<Scene> build_scene(const std::filesystem::path& file, const LoadOptions& 
     scene.info.decode_seconds = seconds_since(decode_start);
     scene.materials = std::move(materials.rows);
     scene.material_names = std::move(materials.names);
+    scene.material_numbers = std::move(materials.numbers);
     warn_about_whole(document, scene, log);
     return scene;
 }

@@ -29,9 +29,11 @@ MaterialTable make_material_table(const Document& document) {
     MaterialTable table;
     table.rows.emplace_back();
     table.names.emplace_back("default material");
+    table.numbers.push_back(-1);
     for (const GltfMaterial& material : document.materials) {
         table.rows.push_back(material.values);
         table.names.push_back(material.name);
+        table.numbers.push_back(static_cast<int32_t>(table.numbers.size()) - 1);
     }
     table.used.assign(table.rows.size(), 0);
     return table;
@@ -62,6 +64,7 @@ int material_row(
             }
             table.rows.push_back(copy);
             table.names.push_back(table.names[own]);
+            table.numbers.push_back(material);
             table.used.push_back(0);
             log.warn(document.at("materials", static_cast<size_t>(material)),
                      "primitives with \"" + table.names[own] +

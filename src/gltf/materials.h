@@ -29,7 +29,8 @@ constexpr bool slot_is_color(size_t slot) {
 struct MaterialTable {
     std::vector<Material> rows;
     std::vector<std::string> names;
-    std::vector<char> used;  ///< by a primitive that is drawn
+    std::vector<int32_t> numbers;  ///< in glTF, -1: the default material
+    std::vector<char> used;        ///< by a primitive that is drawn
     /// Row of (glTF material, bit mask of the slots taken away).
     std::map<std::pair<int, uint32_t>, int> reduced;
 };

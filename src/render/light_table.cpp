@@ -26,8 +26,11 @@ double punctual_power(const PunctualLight& light, double radius) {
     return directional ? pi_d * radius * radius * intensity : 4.0 * pi_d * intensity;
 }
 
+/// Emitters with holes are left to the rays that meet them: a point on the table's triangle cannot
+/// tell whether it is there.
 bool emits(const Material& material) {
-    return (material.flags & material_unlit) == 0 &&
+    constexpr uint32_t unsampled = material_unlit | material_alpha_mask | material_alpha_blend;
+    return (material.flags & unsampled) == 0 &&
            std::max({material.emission[0], material.emission[1], material.emission[2]}) > 0;
 }
 
@@ -99,12 +102,10 @@ TriangleLight light_row(const Emitter& e, int32_t triangle) {
     return row;
 }
 
-double triangle_power(const Scene& scene, const TriangleLight& row) {
+/// least: what a black texture counts as.
+double triangle_power(const Scene& scene, const TriangleLight& row, float least) {
     Vec3f emission{row.emission[0], row.emission[1], row.emission[2]};
-    // A dark texel grid must not hide a bright spot: every triangle keeps a little.
-    if (row.texture >= 0) {
-        emission = emission * (mean_texture(scene, row) + splat3(1e-3f));
-    }
+    if (row.texture >= 0) emission = emission * (mean_texture(scene, row) + splat3(least));
     const double sides = row.two_sided != 0 ? 2.0 : 1.0;
     return sides * pi_d * static_cast<double>(row.area) *
            static_cast<double>(max_component(emission));
@@ -172,7 +173,10 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
     const double total = kinds[0] + kinds[1] + kinds[2];
     double scale[3] = {0, 0, 0};
     for (int k = 0; k < 3; ++k) {
-        if (kinds[k] > 0) scale[k] = std::max(kinds[k] / total, 0.2) / kinds[k];
+        const double share = kinds[k] / total;
+        // BSDF sampling finds what is near of the faint kinds, but for the punctual ones.
+        const double least = k == 0 ? 0.2 : std::min(0.2, 50.0 * share);
+        if (kinds[k] > 0) scale[k] = std::max(share, least) / kinds[k];
     }
     std::vector<double> weights;
     weights.reserve(punctual.size() + triangles.size() + 1);
@@ -200,7 +204,8 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     std::vector<double> triangles(table.triangles.size());
     parallel_ranges(triangles.size(), 1024, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            triangles[i] = triangle_power(scene, table.triangles[i]);
+            // A dark texel grid must not hide a bright spot: every triangle keeps a little.
+            triangles[i] = triangle_power(scene, table.triangles[i], 1e-3f);
         }
     });
     const bool has_environment = environment != nullptr && !environment->black();
@@ -219,6 +224,26 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     }
     if (has_environment) table.environment_select = table.select_pdf.back();
     return table;
+}
+
+double brightest_mean_radiance(const Scene& scene, const LightTable& table) {
+    const auto same_surface = [](const TriangleLight& a, const TriangleLight& b) {
+        return a.texture == b.texture && a.two_sided == b.two_sided &&
+               std::equal(a.emission, a.emission + 3, b.emission);
+    };
+    double brightest = 0;
+    double power = 0;
+    double area = 0;
+    for (size_t i = 0; i < table.triangles.size(); ++i) {
+        const TriangleLight& row = table.triangles[i];
+        if (i > 0 && !same_surface(row, table.triangles[i - 1])) power = area = 0;
+        power += triangle_power(scene, row, 0.0f);
+        area += (row.two_sided != 0 ? 2.0 : 1.0) * static_cast<double>(row.area);
+        const bool is_last =
+            i + 1 == table.triangles.size() || !same_surface(row, table.triangles[i + 1]);
+        if (is_last && area > 0) brightest = std::max(brightest, power / (pi_d * area));
+    }
+    return brightest;
 }
 
 LightView LightTable::view() const {

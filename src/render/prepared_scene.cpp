@@ -9,38 +9,59 @@ namespace obscura {
 
 namespace {
 
-bool has_emitters(const Scene& scene) {
-    for (const Primitive& primitive : scene.primitives) {
-        const Material& m = scene.materials[static_cast<size_t>(primitive.material)];
-        const bool unlit = (m.flags & material_unlit) != 0;
-        if (unlit || m.emission[0] > 0 || m.emission[1] > 0 || m.emission[2] > 0) return true;
-    }
-    return false;
+/// Surfaces that glow less than this on average are no lamps (the studio's radiance is about 0.7).
+constexpr double least_lamp_radiance = 0.05;
+
+/// Emitters with alpha are not in the light table.
+bool has_holed_emitter(const Scene& scene) {
+    return std::any_of(
+        scene.primitives.begin(), scene.primitives.end(), [&](const Primitive& primitive) {
+            const Material& m = scene.materials[static_cast<size_t>(primitive.material)];
+            const bool holed = (m.flags & (material_alpha_mask | material_alpha_blend)) != 0;
+            return holed && std::max({m.emission[0], m.emission[1], m.emission[2]}) > 0;
+        });
 }
 
-/// The given environment, or the studio when nothing else lights the scene.
-Result<std::optional<EnvironmentTable>> make_environment(const Scene& scene,
-                                                         const LightingOptions& lighting,
-                                                         bool& studio,
-                                                         Log& log) {
+/// True when something could be seen by light and nothing lights it.
+bool needs_studio(const Scene& scene, const LightTable& lights) {
+    if (!scene.lights.empty()) return false;
+    const auto is_unlit = [&](const Primitive& primitive) {
+        const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+        return (material.flags & material_unlit) != 0;
+    };
+    const auto& all = scene.primitives;
+    if (!all.empty() && std::all_of(all.begin(), all.end(), is_unlit)) return false;
+    return !has_holed_emitter(scene) &&
+           brightest_mean_radiance(scene, lights) < least_lamp_radiance;
+}
+
+Result<EnvironmentTable> make_environment(const LightingOptions& lighting) {
     EnvironmentImage image;
     std::vector<float> studio_pixels;
     if (lighting.environment) {
         image = {lighting.environment->width,
                  lighting.environment->height,
                  lighting.environment->pixels.data()};
-    } else if (scene.lights.empty() && !has_emitters(scene)) {
-        studio = true;
-        log.info("the scene has no light: using the built-in studio (--env FILE chooses another)");
+    } else {
         studio_pixels = make_studio_pixels();
         image = {studio_width, studio_height, studio_pixels.data()};
-    } else {
-        return std::optional<EnvironmentTable>();
     }
-    auto table = EnvironmentTable::create(
+    return EnvironmentTable::create(
         image, lighting.environment_intensity, lighting.environment_rotation_deg);
-    if (!table) return fail(table.error());
-    return std::optional<EnvironmentTable>(std::move(*table));
+}
+
+/// Lights and environment; the studio when nothing lights the scene.
+Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
+    if (!lighting.environment) {
+        impl.lights = make_light_table(impl.scene, nullptr);
+        if (!needs_studio(impl.scene, impl.lights)) return {};
+        log.info("the scene has no light: using the built-in studio (--env FILE chooses another)");
+    }
+    auto environment = make_environment(lighting);
+    if (!environment) return fail(environment.error());
+    impl.environment = std::move(*environment);
+    impl.lights = make_light_table(impl.scene, &*impl.environment);
+    return {};
 }
 
 }  // namespace
@@ -53,6 +74,7 @@ SceneView PreparedScene::Impl::view() const {
     out.primitives = reinterpret_cast<const int32_t*>(scene.primitives.data());
     out.instances = reinterpret_cast<const float*>(scene.instances.data());
     out.materials = reinterpret_cast<const float*>(scene.materials.data());
+    out.material_numbers = scene.material_numbers.data();
     out.textures = {scene.textures.texels.data(),
                     reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
     out.lights = lights.view();
@@ -77,10 +99,8 @@ Result<PreparedScene> PreparedScene::create(Scene scene,
     auto impl = std::make_unique<Impl>();
     impl->scene = std::move(scene);
     impl->stages = &stage_table_for(isa);
-    auto environment = make_environment(impl->scene, lighting, impl->studio, log);
-    if (!environment) return fail(environment.error());
-    impl->environment = std::move(*environment);
-    impl->lights = make_light_table(impl->scene, impl->environment ? &*impl->environment : nullptr);
+    auto lit = make_lighting(*impl, lighting, log);
+    if (!lit) return fail(lit.error());
     const Stopwatch building_bvh;
     auto accel = Accel::build(impl->scene, embree_isa_for(isa));
     if (!accel) return fail(accel.error());
@@ -105,9 +125,6 @@ const Accel& PreparedScene::accel() const {
 }
 size_t PreparedScene::bvh_bytes() const {
     return impl_->accel->memory_bytes();
-}
-bool PreparedScene::uses_studio() const {
-    return impl_->studio;
 }
 std::string PreparedScene::isa_name() const {
     return impl_->stages->isa;

@@ -17,7 +17,6 @@ struct PreparedScene::Impl {
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;
     BuildSeconds build_seconds;
-    bool studio = false;
 
     SceneView view() const;
 };

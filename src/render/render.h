@@ -21,8 +21,10 @@
 
 namespace obscura {
 
-/// To add one: append it here, give it a channel list in render/film.cpp and a row function in
-/// stages/3_aov.h (quantities) or a case in stages/walk.cpp (light transport).
+/// To add one: append it here; name it in app/render_request.cpp and app/statistics.cpp; give it
+/// channels and a walk in render/render.cpp. A quantity is computed in stages/3_quantity.cpp and,
+/// for PNG and JPEG, mapped to colours in app/preview.cpp; light transport is a case in
+/// stages/walk.cpp.
 enum class Integrator { path, direct, ao, normal, depth, albedo, id };
 
 enum class PixelFilter { box, gaussian, blackman_harris };
@@ -108,7 +110,6 @@ public:
     BuildSeconds build_seconds() const;
     const Accel& accel() const;
     size_t bvh_bytes() const;
-    bool uses_studio() const;
     std::string isa_name() const;  ///< "avx512"
     std::string embree_version() const;
 
@@ -123,13 +124,13 @@ private:
 /// 69 E-ISA: what PreparedScene::create says of an instruction set that the CPU lacks.
 Error missing_isa();
 
-/// Called from any thread, at most every 50 ms or so, with the finished share in [0, 1].
+/// Called from any thread after every tile, with the finished share in [0, 1].
 using ProgressFunction = std::function<void(double)>;
 
 /// Renders one picture on all threads. The same arguments give the same bits for any number of
 /// threads, any tile size and any crop.
 ///
-/// In      stop: when it becomes true, tiles not yet begun are left out
+/// In      stop: when it becomes true, tiles end after the batch they are in
 /// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM
 Result<RenderResult> render(const PreparedScene& scene,
                             const Camera& camera,

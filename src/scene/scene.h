@@ -95,6 +95,9 @@ struct Scene {
     std::vector<Instance> instances;
     std::vector<Material> materials;  ///< never empty: row 0 exists for primitives without one
     std::vector<std::string> material_names;
+    /// glTF material of each row, -1: none. A material has several rows where some primitives lack
+    /// the texture coordinates that it wants.
+    std::vector<int32_t> material_numbers;
     TextureArena textures;
     std::vector<PunctualLight> lights;
     std::vector<SceneCamera> cameras;

@@ -43,7 +43,7 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
                                                  const ShadingPoint& point,
                                                  const Vec3<Lanes>& random) {
     const TriangleLightSample<Lanes> s =
-        sample_triangle_light<Lanes>(scene.lights.triangles, index, u, point.start);
+        sample_triangle_light<Lanes>(scene.lights.triangles, index, u, point.light_start);
     Vec3<Lanes> emission = s.emission;
     const Mask textured = s.texture >= LanesI(0);
     if (any(textured)) {
@@ -52,8 +52,11 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
             sample_texture_stochastic<Lanes>(scene.textures, texture, s.uv, Lanes(0.0f), random);
         emission = select(textured, emission * texel.rgb, emission);
     }
-    // End just before the light's own triangle.
-    const Lanes distance = s.distance * Lanes(1.0f - 1e-4f);
+    // End before the light's own triangle by what rounding may move it, and no sooner: whatever
+    // covers the light closely must still be met.
+    const Lanes size = dot(abs(s.normal), abs(s.point) + abs(point.light_start));
+    const Lanes clear = Lanes(32.0f / 16777216.0f) * (size + s.distance * Lanes(0.25f));
+    const Lanes distance = max(s.distance - clear / max(abs(s.cosine), Lanes(0.02f)), Lanes(0.0f));
     return {s.direction,
             distance,
             emission * (Lanes(1.0f) / max(s.pdf, Lanes(1e-30f))),
@@ -97,7 +100,8 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     }
     if (any(punctual)) {
         const LanesI row = select(punctual, index, LanesI(0));
-        const PunctualSample<Lanes> s = sample_punctual<Lanes>(lights.punctual, row, point.start);
+        const PunctualSample<Lanes> s =
+            sample_punctual<Lanes>(lights.punctual, row, point.light_start);
         const Lanes select_pdf = gather<Lanes>(lights.select_pdf, row);
         choose(out,
                punctual,

@@ -15,16 +15,17 @@ OBSCURA_INLINE Lanes axial_depth(const Camera& camera, const PathLanes& path, La
     return distance * dot(path.direction, forward);
 }
 
-/// Numbers of the node, material and triangle, from 1.
+/// Numbers of glTF node, glTF material and triangle, from 1; material 0 is the default one.
 OBSCURA_INLINE Vec3<Lanes> identity(const SceneView& scene, const HitLanes& hit) {
     const TableRow<Lanes> primitive(scene.primitives, hit.primitive, primitive_words);
     LanesI node = primitive.integer(14);
+    const LanesI material = gather<Lanes>(scene.material_numbers, primitive.integer(2));
     const Mask instanced = hit.instance >= LanesI(0);
     if (any(instanced)) {
         node = select(instanced, instance_row(scene, hit).integer(25), node);
     }
     return {from_int<Lanes>(node + LanesI(1)),
-            from_int<Lanes>(primitive.integer(2) + LanesI(1)),
+            from_int<Lanes>(material + LanesI(1)),
             from_int<Lanes>(hit.triangle + LanesI(1))};
 }
 

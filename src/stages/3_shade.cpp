@@ -88,7 +88,7 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
         rows,
         at,
         useful,
-        {s.start, light.direction, light.distance, radiance, path.slot, path.path_key});
+        {s.light_start, light.direction, light.distance, radiance, path.slot, path.path_key});
 }
 
 /// Probability of going on after a bounce; the survivors are divided by it.

@@ -51,6 +51,7 @@ struct HitGeometry {
 /// A point ready for shading. Normals face the viewer.
 struct ShadingPoint {
     Vec3<Lanes> start;  ///< of rays that leave on the viewer's side: clear of the surface itself
+    Vec3<Lanes> light_start;  ///< of rays to lights: on the smooth surface that normals describe
     Vec3<Lanes> ng;
     Vec3<Lanes> normal;  ///< shading normal as the asset says
     Frame<Lanes> frame;  ///< around the shading normal, bent where it must be
@@ -351,7 +352,8 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     const LanesI flags = g.material.integer(11);
     const Mask front = cos_front >= Lanes(0.0f);
     s.ng = select(front, g.ng, -g.ng);
-    s.start = g.position + s.ng * g.offset + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
+    s.start = g.position + s.ng * g.offset;
+    s.light_start = s.start + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
     const Vec3<Lanes> n = apply_normal_map(scene, hit, g, look);
     s.normal = select(dot(n, s.ng) < Lanes(0.0f), -n, n);
     s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, wo));
@@ -367,8 +369,11 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     if (any(emits)) {
         const SlotLanes slot = slot_lanes(scene, g, emissive_slot);
         if (any(slot.used & emits)) {
+            // Where light sampling may find the same light, both must see the same texels.
+            LookUp sharp = look;
+            sharp.footprint = select(path.pdf > Lanes(0.0f), Lanes(0.0f), look.footprint);
             s.emission =
-                select(slot.used, s.emission * read_slot(scene, g, slot, look).rgb, s.emission);
+                select(slot.used, s.emission * read_slot(scene, g, slot, sharp).rgb, s.emission);
         }
         const LanesI base = g.primitive.integer(15);
         LanesI light = base + hit.triangle;

@@ -75,9 +75,10 @@ struct SceneView {
     const float* positions = nullptr;
     const int32_t* indices = nullptr;
     const float* attributes = nullptr;
-    const int32_t* primitives = nullptr;  ///< Primitive as words
-    const float* instances = nullptr;     ///< Instance as words
-    const float* materials = nullptr;     ///< Material as words
+    const int32_t* primitives = nullptr;        ///< Primitive as words
+    const float* instances = nullptr;           ///< Instance as words
+    const float* materials = nullptr;           ///< Material as words
+    const int32_t* material_numbers = nullptr;  ///< in glTF, by row; -1: none
     TextureView textures;
     LightView lights;
     EnvironmentView environment;

@@ -59,7 +59,8 @@ TEST(InfoReport, TexturesCountOnceForEachUse) {
 
 TEST(InfoReport, NamesFromTheFileAreEscaped) {
     Scene scene;
-    scene.material_names = {"evil\x1b[31m\nname"};
+    scene.material_names = {"default material", "evil\x1b[31m\nname", "evil\x1b[31m\nname"};
+    scene.material_numbers = {-1, 0, 0};
     scene.info.file_name = "a\tb";
     scene.info.extensions = {{"EXT_x", true, false, {"evil\x07"}}};
     const std::string table = info_table(scene);

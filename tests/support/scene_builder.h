@@ -20,6 +20,7 @@ public:
     /// Adds a material and returns its row.
     int32_t material(const Material& m) {
         scene_.materials.push_back(m);
+        scene_.material_numbers.push_back(static_cast<int32_t>(scene_.material_numbers.size()));
         scene_.material_names.push_back("material " + std::to_string(scene_.materials.size()));
         return static_cast<int32_t>(scene_.materials.size()) - 1;
     }
