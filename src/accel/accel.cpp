@@ -46,7 +46,7 @@ RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
                                static_cast<size_t>(primitive.triangle_count));
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive)) {
+    if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
         AlphaGeometry& alpha = impl.alpha[static_cast<size_t>(primitive_index)];
         alpha = {impl.scene, impl.textures, primitive_index};
         rtcSetGeometryUserData(geometry, &alpha);
@@ -145,6 +145,7 @@ Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
     auto impl = open_device(scene, embree_isa);
     if (!impl) return fail(impl.error());
     (*impl)->alpha.resize(scene.primitives.size());
+    (*impl)->materials_with_holes = find_materials_with_holes(scene);
     (*impl)->fill_primitive_tables();
     const Result<void> built = build_scenes(**impl);
     if (!built) return fail(built.error());

@@ -34,6 +34,7 @@ struct Accel::Impl {
     RTCDevice device = nullptr;
     RTCScene top = nullptr;  ///< geometry ids: world primitives, then instances
     std::vector<RTCScene> mesh_scenes;
+    std::vector<uint8_t> materials_with_holes;
     std::vector<AlphaGeometry> alpha;   ///< by primitive; filled where there is a filter
     std::vector<uint8_t> single_sided;  ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance

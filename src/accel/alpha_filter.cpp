@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/alpha_filter.h"
 
+#include "base/parallel.h"
 #include "math/sampler.h"
+
+#include <algorithm>
 
 namespace obscura {
 
@@ -41,20 +44,43 @@ float alpha_at(const AlphaGeometry& geometry, unsigned triangle, Vec2f barycentr
 
 }  // namespace
 
-bool needs_alpha_filter(const Scene& scene, const Primitive& primitive) {
-    const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-    if ((material.flags & (material_alpha_mask | material_alpha_blend)) == 0) return false;
-    if (material.base_color[3] < 1.0f || primitive.color_base != no_attribute) return true;
-    if ((material.flags & material_alpha_mask) != 0 && material.alpha_cutoff > 1.0f) return true;
-    const int32_t texture = material.base_color_texture.texture;
-    if (texture < 0) return false;
+namespace {
+
+/// Smallest alpha of a texture's finest level; filtering never goes below.
+float lowest_alpha(const Scene& scene, int32_t texture) {
+    if (texture < 0) return 1.0f;
     const TextureRow& row = scene.textures.rows[static_cast<size_t>(texture)];
     const uint32_t* texels = &scene.textures.texels[static_cast<size_t>(row.level_offset[0])];
     const size_t count = static_cast<size_t>(row.width) * static_cast<size_t>(row.height);
-    for (size_t i = 0; i < count; ++i) {
-        if (texels[i] >> 24 != 255U) return true;
-    }
-    return false;
+    uint32_t lowest = 255U;
+    for (size_t i = 0; i < count; ++i)
+        lowest = std::min(lowest, texels[i] >> 24);
+    return static_cast<float>(lowest) / 255.0f;
+}
+
+}  // namespace
+
+std::vector<uint8_t> find_materials_with_holes(const Scene& scene) {
+    std::vector<uint8_t> holes(scene.materials.size(), 0);
+    parallel_for(holes.size(), [&](size_t i) {
+        const Material& material = scene.materials[i];
+        const bool is_mask = (material.flags & material_alpha_mask) != 0;
+        if (!is_mask && (material.flags & material_alpha_blend) == 0) return;
+        const float lowest =
+            material.base_color[3] * lowest_alpha(scene, material.base_color_texture.texture);
+        holes[i] = lowest < (is_mask ? material.alpha_cutoff : 1.0f) ? 1 : 0;
+    });
+    return holes;
+}
+
+bool needs_alpha_filter(const Scene& scene,
+                        const Primitive& primitive,
+                        const std::vector<uint8_t>& materials_with_holes) {
+    const auto row = static_cast<size_t>(primitive.material);
+    constexpr uint32_t see_through = material_alpha_mask | material_alpha_blend;
+    const bool colored = primitive.color_base != no_attribute;  // their alpha may be anything
+    return materials_with_holes[row] != 0 ||
+           (colored && (scene.materials[row].flags & see_through) != 0);
 }
 
 void alpha_filter(const RTCFilterFunctionNArguments* args) {

@@ -6,6 +6,9 @@
 #include "scene/scene.h"
 #include "surface/texture.h"
 
+#include <cstdint>
+#include <vector>
+
 namespace obscura {
 
 /// What an Embree geometry knows of its primitive; the geometry's user pointer.
@@ -20,8 +23,13 @@ inline uint32_t segment_key(uint32_t path_key, uint32_t segment) {
     return path_key + segment * 0x27D4EB2FU;
 }
 
+/// 1 for every material whose factor and texture make a ray pass anywhere.
+std::vector<uint8_t> find_materials_with_holes(const Scene& scene);
+
 /// False where every point of the primitive is opaque, so that no filter is needed at all.
-bool needs_alpha_filter(const Scene& scene, const Primitive& primitive);
+bool needs_alpha_filter(const Scene& scene,
+                        const Primitive& primitive,
+                        const std::vector<uint8_t>& materials_with_holes);
 
 /// Embree filter for intersection and occlusion alike. A BLEND hit counts with probability alpha,
 /// decided by a hash of (ray key, instance, geometry, triangle): the same answer however often and

@@ -206,7 +206,7 @@ TEST(AlphaFilter, HiddenBacksDecideLikeFronts) {
 }
 
 bool needs_filter(const Scene& scene) {
-    return needs_alpha_filter(scene, scene.primitives[0]);
+    return needs_alpha_filter(scene, scene.primitives[0], find_materials_with_holes(scene));
 }
 
 TEST(AlphaFilter, OpaqueSurfacesNeedNone) {
@@ -215,11 +215,14 @@ TEST(AlphaFilter, OpaqueSurfacesNeedNone) {
     EXPECT_FALSE(needs_filter(sheets(opaque))) << "alphaMode OPAQUE ignores alpha";
     for (const MaterialFlag mode : {material_alpha_mask, material_alpha_blend}) {
         EXPECT_FALSE(needs_filter(sheets(see_through(mode, 1.0F))));
-        EXPECT_TRUE(needs_filter(sheets(see_through(mode, 0.9F))));
+        EXPECT_EQ(needs_filter(sheets(see_through(mode, 0.9F))), mode == material_alpha_blend);
+        EXPECT_TRUE(needs_filter(sheets(see_through(mode, 0.4F))));
         Scene textured = sheets(see_through(mode, 1.0F));
         add_texture(textured, {0xFF123456U, 0xFF000000U});
         EXPECT_FALSE(needs_filter(textured)) << "a texture without any transparent texel";
         textured.textures.texels.back() = 0xFE000000U;
+        EXPECT_EQ(needs_filter(textured), mode == material_alpha_blend) << "above the cut-off";
+        textured.textures.texels.back() = 0x40000000U;
         EXPECT_TRUE(needs_filter(textured));
         Scene colored = sheets(see_through(mode, 1.0F));
         colored.primitives[0].color_base = 0;
