@@ -1,5 +1,5 @@
-// tests/truth/footprint_test.cpp - a distant chequer board is grey: mip levels follow the
-// footprint. SPDX-License-Identifier: Apache-2.0
+// tests/truth/footprint_test.cpp - mip levels follow the footprint: distant chequers are grey.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include "support/scene_builder.h"
