@@ -26,6 +26,14 @@ TEST(Outcome, AFailureSaysWhereAndWhat) {
               "RESULT code=65 id=E-X where=a\\x09b.gltf#/nodes/0 warnings=0\n");
 }
 
+TEST(Outcome, TooManyNonfiniteSamplesEndWith76) {
+    testing::internal::CaptureStderr();
+    const Error error{ExitCode::too_many_nonfinite, "E-NONFINITE", "bench", "9 of 10"};
+    EXPECT_EQ(report_failure(error, Log()), 76);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "ERROR bench: 9 of 10\nRESULT code=76 id=E-NONFINITE where=bench warnings=0\n");
+}
+
 TEST(Outcome, SuccessIsSilentWhenQuiet) {
     testing::internal::CaptureStderr();
     EXPECT_EQ(report_success("a.gltf", Log(Verbosity::quiet)), 0);

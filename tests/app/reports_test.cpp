@@ -20,6 +20,11 @@ TEST(Statistics, MoreThanOneInAMillionIsTooMany) {
     EXPECT_FALSE(too_many_nonfinite(counters));
     counters.nonfinite_samples = 4;
     EXPECT_TRUE(too_many_nonfinite(counters));
+    counters.paths = 999'999;
+    counters.nonfinite_samples = 1;
+    EXPECT_TRUE(too_many_nonfinite(counters)) << "a single one in a small picture";
+    counters.nonfinite_samples = 0;
+    EXPECT_FALSE(too_many_nonfinite(counters));
 }
 
 TEST(Statistics, RatesComeFromTheRenderTimeAlone) {

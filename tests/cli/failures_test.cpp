@@ -1,6 +1,7 @@
 // tests/cli/failures_test.cpp - the exit codes of inputs, resources and configurations.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
+#include <cmath>
 #include <sys/resource.h>
 #include <sys/stat.h>
 
@@ -73,6 +74,29 @@ TEST_F(Failures, RefusedByPolicy) {
         folder_.write("escape.gltf", replaced(text, uri, other));
         expect_result(render("escape.gltf"), 77, "E-URI-REFUSED");
     }
+}
+
+/// A lamp of 1e30 candela 10 micrometres above a square: its illuminance exceeds every float.
+TEST_F(Failures, SamplesThatAreNotFinite) {
+    SmallScene scene = lit_quad_scene();
+    for (float& coordinate : scene.positions)
+        coordinate *= 1e-5f;
+    scene.nodes = R"({"mesh": 0}, {"camera": 0, "translation": [0, 0, 3e-5]},
+{"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 1e-5]})";
+    scene.more = replaced(scene.more, "\"directional\"", "\"point\"");
+    scene.more = replaced(scene.more, "3.14159265", "1e30");
+    folder_.write("bright.gltf", gltf_text(scene));
+    const ProgramRun got = render("bright.gltf", {"-o", "a.exr", "--stats", "s.json"});
+    expect_result(got, 76, "E-NONFINITE");
+    EXPECT_THAT(got.err, HasSubstr("of 768 samples were not finite"));
+    EXPECT_THAT(read_whole_file(folder_ / "s.json"), HasSubstr("\"nonfinite_samples\": "));
+    const std::optional<ReadPicture> picture = read_picture(folder_ / "a.exr");
+    ASSERT_TRUE(picture) << "the picture is written all the same";
+    for (const float value : picture->pixels)
+        EXPECT_TRUE(std::isfinite(value));
+    expect_result(run({"bench", "bright.gltf", "--size", "24x16", "--spp", "2", "--repeat", "1"}),
+                  76,
+                  "E-NONFINITE");
 }
 
 TEST_F(Failures, ColorConfiguration) {

@@ -1,0 +1,251 @@
+// tests/render/light_table_test.cpp - which lights there are and how often each is chosen.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/light_table.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scene_builder.h"
+#include <numeric>
+
+namespace obscura::test {
+namespace {
+
+Material lamp(float radiance) {
+    Material m;
+    std::fill_n(m.emission, 3, radiance);
+    return m;
+}
+
+PunctualLight bulb(PunctualType type, float intensity) {
+    PunctualLight light;
+    light.type = static_cast<int32_t>(type);
+    std::fill_n(light.intensity, 3, intensity);
+    return light;
+}
+
+EnvironmentTable sky(float radiance) {
+    const ImageRgb32f image = constant_environment(radiance);
+    return EnvironmentTable::create({image.width, image.height, image.pixels.data()}, 1, 0).value();
+}
+
+/// Sum of `count` probabilities.
+double chosen(const LightTable& table, size_t first, size_t count) {
+    const auto begin = table.select_pdf.begin() + static_cast<std::ptrdiff_t>(first);
+    return std::accumulate(begin, begin + static_cast<std::ptrdiff_t>(count), 0.0);
+}
+
+void expect_whole(const LightTable& table) {
+    EXPECT_NEAR(chosen(table, 0, table.select_pdf.size()), 1.0, 1e-6);
+    for (size_t i = 0; i < table.triangles.size(); ++i) {
+        const TriangleLight& row = table.triangles[i];
+        const float select = table.select_pdf[table.punctual.size() + i];
+        EXPECT_NEAR(row.pdf_area * row.area, select, 1e-6f * select) << "triangle " << i;
+    }
+}
+
+/// A square of side `side` at height y that shows its front downwards.
+void add_lamp(SceneBuilder& builder, float y, float side, const Material& m) {
+    builder.quad({0, y, 0}, {side, 0, 0}, {0, 0, side}, builder.material(m));
+}
+
+TEST(LightTable, ProbabilitiesSumToOneOverAllKinds) {
+    SceneBuilder builder;
+    add_lamp(builder, 2, 1, lamp(3));
+    add_lamp(builder, 3, 0.5f, lamp(7));
+    Scene scene = builder.take();
+    scene.lights = {bulb(PunctualType::point, 2),
+                    bulb(PunctualType::spot, 5),
+                    bulb(PunctualType::directional, 1)};
+    const EnvironmentTable environment = sky(0.5f);
+    const LightTable table = make_light_table(scene, &environment);
+    ASSERT_EQ(table.triangles.size(), 4U);
+    ASSERT_EQ(table.select_pdf.size(), 3U + 4U + 1U);
+    expect_whole(table);
+    EXPECT_EQ(table.environment_select, table.select_pdf.back());
+    const LightView view = table.view();
+    EXPECT_EQ(view.count, 8);
+    EXPECT_EQ(view.punctual_count, 3);
+    EXPECT_EQ(view.triangle_count, 4);
+}
+
+TEST(LightTable, WithoutLightsThereIsNothingToChoose) {
+    Scene scene = SceneBuilder().take();
+    const EnvironmentTable black = sky(0);
+    for (const EnvironmentTable* environment :
+         {static_cast<const EnvironmentTable*>(nullptr), &black}) {
+        const LightTable table = make_light_table(scene, environment);
+        EXPECT_EQ(table.view().count, 0);
+        EXPECT_EQ(table.environment_select, 0.0f);
+    }
+}
+
+TEST(LightTable, TwiceThePowerIsTwiceTheProbability) {
+    for (const PunctualType type :
+         {PunctualType::point, PunctualType::spot, PunctualType::directional}) {
+        Scene scene = SceneBuilder().take();
+        scene.lights = {bulb(type, 3), bulb(type, 6)};
+        const LightTable table = make_light_table(scene, nullptr);
+        ASSERT_EQ(table.select_pdf.size(), 2U);
+        EXPECT_NEAR(table.select_pdf[1], 2 * table.select_pdf[0], 1e-5f);
+    }
+    Material both = lamp(2);
+    both.flags = material_double_sided;
+    SceneBuilder builder;
+    add_lamp(builder, 1, 1, lamp(2));
+    add_lamp(builder, 2, 1, lamp(4));                // twice the radiance
+    add_lamp(builder, 3, std::sqrt(2.0f), lamp(2));  // twice the area
+    add_lamp(builder, 4, 1, both);                   // twice the sides
+    Scene scene = builder.take();
+    const LightTable table = make_light_table(scene, nullptr);
+    ASSERT_EQ(table.select_pdf.size(), 8U);
+    for (size_t i = 1; i < 4; ++i)
+        EXPECT_NEAR(chosen(table, 2 * i, 2), 2 * chosen(table, 0, 2), 1e-5) << "lamp " << i;
+    expect_whole(table);
+}
+
+/// Shares of punctual lights, triangles and the environment, for these brightnesses.
+std::vector<double> shares_of_kinds(float bulbs, float lamps, float around) {
+    SceneBuilder builder;
+    add_lamp(builder, 1, 1, lamp(lamps));
+    Scene scene = builder.take();
+    scene.lights = {bulb(PunctualType::point, bulbs)};
+    const EnvironmentTable environment = sky(around);
+    const LightTable table = make_light_table(scene, &environment);
+    expect_whole(table);
+    return {chosen(table, 0, 1), chosen(table, 1, 2), chosen(table, 3, 1)};
+}
+
+TEST(LightTable, ADimKindKeepsItsFloor) {
+    // Both dim kinds are raised to a fifth before all are scaled to sum to 1.
+    constexpr double floor_share = 0.2 / 1.4;
+    for (int bright = 0; bright < 3; ++bright) {
+        float brightness[3] = {1e-3f, 1e-3f, 1e-3f};
+        brightness[bright] = 1e4f;
+        const std::vector<double> shares =
+            shares_of_kinds(brightness[0], brightness[1], brightness[2]);
+        for (int kind = 0; kind < 3; ++kind) {
+            const double expected = kind == bright ? 1 - 2 * floor_share : floor_share;
+            EXPECT_NEAR(shares[static_cast<size_t>(kind)], expected, 1e-3) << bright << kind;
+        }
+    }
+}
+
+constexpr int picture_side = 64;
+
+/// A texture whose texels are white from column `first_white` on and black before, with its mips.
+int32_t add_picture(Scene& scene, int first_white) {
+    TextureArena& arena = scene.textures;
+    TextureRow row;
+    row.width = row.height = picture_side;
+    row.levels = mip_level_count(picture_side, picture_side);
+    row.sampler = pack_sampler(Wrap::clamp, Wrap::clamp, false, false, MipMode::linear, true);
+    size_t at = arena.texels.size();
+    for (int level = 0; level < row.levels; ++level) {
+        row.level_offset[level] = static_cast<int32_t>(at);
+        at +=
+            static_cast<size_t>(picture_side >> level) * static_cast<size_t>(picture_side >> level);
+    }
+    arena.texels.resize(at);
+    uint32_t* const base = &arena.texels[static_cast<size_t>(row.level_offset[0])];
+    for (int i = 0; i < picture_side * picture_side; ++i)
+        base[i] = i % picture_side >= first_white ? 0xFFFFFFFFU : 0xFF000000U;
+    build_mip_chain(base, picture_side, picture_side, true);
+    arena.rows.push_back(row);
+    return static_cast<int32_t>(arena.rows.size()) - 1;
+}
+
+/// Gives a square of SceneBuilder the texture coordinates of the unit square.
+void add_uv(Scene& scene, size_t primitive) {
+    Primitive& p = scene.primitives[primitive];
+    const uint32_t first = scene.indices[3 * static_cast<size_t>(p.first_triangle)];
+    p.uv_base[0] = static_cast<int32_t>(scene.attributes.size()) - 2 * static_cast<int32_t>(first);
+    scene.attributes.insert(scene.attributes.end(), {0, 0, 1, 0, 1, 1, 0, 1});
+}
+
+TEST(LightTable, AHalfBlackTextureHalvesThePower) {
+    SceneBuilder builder;
+    const int first_white[] = {0, picture_side / 2, picture_side};
+    for (const int column : first_white) {
+        Material m = lamp(5);
+        m.emissive_texture.texture = add_picture(builder.scene(), column);
+        add_lamp(builder, 1 + static_cast<float>(column), 1, m);
+    }
+    Scene scene = builder.take();
+    for (size_t i = 0; i < 3; ++i)
+        add_uv(scene, i);
+    const LightTable table = make_light_table(scene, nullptr);
+    ASSERT_EQ(table.select_pdf.size(), 6U);
+    const double white = chosen(table, 0, 2);
+    EXPECT_NEAR(chosen(table, 2, 2), 0.5 * white, 0.02 * white);
+    EXPECT_GT(chosen(table, 4, 2), 0.0) << "black ones keep a little";
+    EXPECT_LT(chosen(table, 4, 2), 0.01 * white);
+    // The white half lies in one triangle of the square for three quarters.
+    EXPECT_NEAR(table.select_pdf[2], 3 * table.select_pdf[3], 0.1f * table.select_pdf[2]);
+    expect_whole(table);
+}
+
+/// A dark and a glowing square as one mesh, placed thrice: as is, doubled and moved, mirrored.
+Scene placed_thrice() {
+    SceneBuilder builder;
+    builder.quad({0, 0, 0}, {1, 0, 0}, {0, 0, 1}, builder.material({}));
+    add_lamp(builder, 1, 1, lamp(2));
+    Scene scene = builder.take();
+    scene.world_primitive_count = 0;
+    scene.meshes = {{0, 2}};
+    scene.instances.resize(3);
+    for (int axis = 0; axis < 3; ++axis)
+        scene.instances[1].world_from_object.m[axis][axis] = 2;
+    scene.instances[1].world_from_object.m[0][3] = 10;
+    scene.instances[2].world_from_object.m[0][0] = -1;
+    scene.instances[2].mirrored = 1;
+    return scene;
+}
+
+TEST(LightTable, EveryInstanceHasRowsOfItsOwn) {
+    Scene scene = placed_thrice();
+    const LightTable table = make_light_table(scene, nullptr);
+    ASSERT_EQ(table.triangles.size(), 6U);
+    EXPECT_EQ(scene.primitives[0].light_base, -1) << "it does not glow";
+    EXPECT_EQ(scene.primitives[1].light_base, 0);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(scene.instances[static_cast<size_t>(i)].light_base, 2 * i);
+    const float corner_x[] = {0, 10, 0};
+    const float corner_y[] = {1, 2, 1};
+    const float area[] = {0.5f, 2, 0.5f};
+    for (size_t i = 0; i < 6; ++i) {
+        const TriangleLight& row = table.triangles[i];
+        EXPECT_EQ(row.p0[0], corner_x[i / 2]) << i;
+        EXPECT_EQ(row.p0[1], corner_y[i / 2]) << i;
+        EXPECT_NEAR(row.area, area[i / 2], 1e-6f) << i;
+        const Vec3f front =
+            cross(Vec3f{row.e1[0], row.e1[1], row.e1[2]}, Vec3f{row.e2[0], row.e2[1], row.e2[2]});
+        EXPECT_LT(front.y, 0.0f) << i << ": mirrors keep the front";
+    }
+    EXPECT_NEAR(chosen(table, 2, 2), 4 * chosen(table, 0, 2), 1e-5);
+    EXPECT_NEAR(chosen(table, 4, 2), chosen(table, 0, 2), 1e-6);
+    expect_whole(table);
+}
+
+TEST(LightTable, RowsFollowTheTrianglesOfWorldPrimitives) {
+    SceneBuilder builder;
+    add_lamp(builder, 1, 1, lamp(0));
+    add_lamp(builder, 2, 1, lamp(1));
+    Material unlit = lamp(1);
+    unlit.flags = material_unlit;
+    add_lamp(builder, 3, 1, unlit);
+    add_lamp(builder, 4, 0, lamp(1));  // without area
+    add_lamp(builder, 5, 1, lamp(1));
+    Scene scene = builder.take();
+    const LightTable table = make_light_table(scene, nullptr);
+    const int32_t bases[] = {-1, 0, -1, 2, 4};
+    for (size_t i = 0; i < 5; ++i)
+        EXPECT_EQ(scene.primitives[i].light_base, bases[i]) << i;
+    ASSERT_EQ(table.triangles.size(), 6U);
+    EXPECT_EQ(table.triangles[2].pdf_area, 0.0f);
+    EXPECT_EQ(chosen(table, 2, 2), 0.0);
+    EXPECT_EQ(table.triangles[4].p0[1], 5.0f);
+    expect_whole(table);
+}
+
+}  // namespace
+}  // namespace obscura::test

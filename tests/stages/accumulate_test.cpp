@@ -1,0 +1,177 @@
+// tests/stages/accumulate_test.cpp - samples become sums, on every instruction set of this CPU.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/accel_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace obscura::test {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+
+/// The four columns of SampleRows, padded as doors.h asks.
+class Samples {
+public:
+    void add(float r, float g, float b, float a) {
+        const float values[] = {r, g, b, a};
+        for (size_t c = 0; c < 4; ++c)
+            channel_[c].push_back(values[c]);
+    }
+    SampleRows rows() {
+        for (std::vector<float>& column : padded_)
+            column.clear();
+        for (size_t c = 0; c < 4; ++c) {
+            padded_[c] = channel_[c];
+            padded_[c].resize(channel_[c].size() + 16, nan);
+        }
+        return {padded_[0].data(), padded_[1].data(), padded_[2].data(), padded_[3].data()};
+    }
+    float at(size_t channel, size_t slot) const { return padded_[channel][slot]; }
+    size_t count() const { return channel_[0].size(); }
+
+    /// Samples first .. first + count of every pixel.
+    Samples part(size_t pixels, size_t first, size_t part_count) const {
+        Samples out;
+        const size_t per_pixel = count() / pixels;
+        for (size_t pixel = 0; pixel < pixels; ++pixel) {
+            for (size_t i = first; i < first + part_count; ++i) {
+                const size_t slot = pixel * per_pixel + i;
+                out.add(channel_[0][slot], channel_[1][slot], channel_[2][slot], channel_[3][slot]);
+            }
+        }
+        return out;
+    }
+
+private:
+    std::vector<float> channel_[4];
+    std::vector<float> padded_[4];
+};
+
+class Accumulate : public testing::TestWithParam<Isa> {
+protected:
+    const StageTable& stages() const { return stage_table_for(GetParam()); }
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryIsa, Accumulate, testing::ValuesIn(all_isas()), [](const auto& isa) {
+    return stage_table_for(isa.param).isa;
+});
+
+TEST_P(Accumulate, WhatIsNotFiniteIsCountedAndAddsNothing) {
+    for (const float bad : {nan, -nan, infinity, -infinity, 3.3e38f, -3.3e38f}) {
+        for (int channel = 0; channel < 3; ++channel) {
+            Samples samples;
+            float rgb[] = {0.5f, 0.25f, 0.125f};
+            rgb[channel] = bad;
+            samples.add(1, 2, 3, 1);
+            samples.add(rgb[0], rgb[1], rgb[2], 1);
+            samples.add(4, 5, 6, 0.5f);
+            std::vector<float> sums = {10, 20, 30, 40};
+            EXPECT_EQ(stages().accumulate(1, 3, samples.rows(), sums.data()), 1U)
+                << bad << " in channel " << channel;
+            EXPECT_EQ(sums, (std::vector<float>{15, 27, 39, 41.5f}))
+                << bad << " in channel " << channel;
+        }
+    }
+}
+
+TEST_P(Accumulate, ChannelsThatAreHugeTogetherCountToo) {
+    Samples samples;
+    samples.add(1.5e38f, 1.5e38f, 1.5e38f, 1);
+    samples.add(0.9e38f, 0.9e38f, 0.9e38f, 1);
+    std::vector<float> sums(8, 0.0f);
+    EXPECT_EQ(stages().accumulate(2, 1, samples.rows(), sums.data()), 1U);
+    EXPECT_EQ(sums, (std::vector<float>{0, 0, 0, 0, 0.9e38f, 0.9e38f, 0.9e38f, 1}));
+}
+
+TEST_P(Accumulate, EveryBadSampleOfEveryPixelCounts) {
+    constexpr int pixels = 7;
+    constexpr int per_pixel = 5;
+    Samples samples;
+    for (int i = 0; i < pixels * per_pixel; ++i) {
+        const bool bad = i % per_pixel < i / per_pixel;  // pixel p has min(p, 5) of them
+        samples.add(1, bad ? nan : 2.0f, 4, 1);
+    }
+    std::vector<float> sums(4 * pixels, 0.0f);
+    EXPECT_EQ(stages().accumulate(pixels, per_pixel, samples.rows(), sums.data()), 20U);
+    for (int pixel = 0; pixel < pixels; ++pixel) {
+        const auto good = static_cast<float>(std::max(per_pixel - pixel, 0));
+        const auto at = static_cast<size_t>(4 * pixel);
+        EXPECT_EQ(sums[at], good);
+        EXPECT_EQ(sums[at + 1], 2 * good);
+        EXPECT_EQ(sums[at + 2], 4 * good);
+        EXPECT_EQ(sums[at + 3], good);
+    }
+}
+
+TEST_P(Accumulate, SumsDoNotDependOnTheBatches) {
+    constexpr size_t pixels = 5;
+    constexpr size_t per_pixel = 12;
+    Pcg32 random(3);
+    Samples samples;
+    for (size_t i = 0; i < pixels * per_pixel; ++i) {
+        // Over many decades: any other order of adding would round differently.
+        const float scale = std::exp2(between(random, -20, 20));
+        const float red = scale * random.next_float();
+        const float green = i % 17 == 3 ? infinity : scale * random.next_float();
+        samples.add(red, green, scale * random.next_float(), random.next_float());
+    }
+    std::vector<float> whole(4 * pixels, 0.0f);
+    const uint64_t bad = stages().accumulate(pixels, per_pixel, samples.rows(), whole.data());
+    EXPECT_EQ(bad, 4U);
+    for (const std::vector<size_t>& cuts : {std::vector<size_t>{1, 11},
+                                            std::vector<size_t>{5, 7},
+                                            std::vector<size_t>{4, 4, 4},
+                                            std::vector<size_t>(12, 1)}) {
+        std::vector<float> sums(4 * pixels, 0.0f);
+        uint64_t bad_in_parts = 0;
+        size_t first = 0;
+        for (const size_t count : cuts) {
+            Samples part = samples.part(pixels, first, count);
+            bad_in_parts += stages().accumulate(
+                static_cast<int>(pixels), static_cast<int>(count), part.rows(), sums.data());
+            first += count;
+        }
+        EXPECT_EQ(sums, whole) << cuts.size() << " batches, the first of " << cuts[0];
+        EXPECT_EQ(bad_in_parts, bad);
+    }
+}
+
+TEST_P(Accumulate, OnlyUnoccludedShadowRowsArriveAtTheirSlots) {
+    for (int count = 0; count <= 33; ++count) {
+        Samples samples;
+        for (int slot = 0; slot < 40; ++slot)
+            samples.add(1, 2, 3, 0.5f);
+        std::vector<float> r, g, b;
+        std::vector<uint32_t> slots;
+        std::vector<uint8_t> occluded;
+        for (int i = 0; i < count + 16; ++i) {  // what lies past the last row may be anything
+            const bool row = i < count;
+            r.push_back(row ? static_cast<float>(i + 1) : nan);
+            g.push_back(row ? 100.0f : nan);
+            b.push_back(row ? 0.25f : nan);
+            slots.push_back(row ? static_cast<uint32_t>(39 - i) : 0U);
+            occluded.push_back(row && i % 3 == 1 ? 1 : row && i % 5 == 2 ? 255 : 0);
+        }
+        ShadowRows shadows{};
+        shadows.r = r.data();
+        shadows.g = g.data();
+        shadows.b = b.data();
+        shadows.slot = slots.data();
+        const SampleRows rows = samples.rows();
+        stages().add_shadows(count, shadows, occluded.data(), rows);
+        for (int slot = 0; slot < 40; ++slot) {
+            const int i = 39 - slot;
+            const bool lit = i < count && i % 3 != 1 && i % 5 != 2;
+            EXPECT_EQ(rows.r[slot], lit ? 1 + static_cast<float>(i + 1) : 1) << count << " " << i;
+            EXPECT_EQ(rows.g[slot], lit ? 102.0f : 2.0f);
+            EXPECT_EQ(rows.b[slot], lit ? 3.25f : 3.0f);
+            EXPECT_EQ(rows.a[slot], 0.5f) << "light has no alpha";
+        }
+    }
+}
+
+}  // namespace
+}  // namespace obscura::test

@@ -1,0 +1,138 @@
+// tests/stages/sort_test.cpp - hits and misses are parted, and each keeps its own row.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/accel_scenes.h"
+#include "render/prepared_scene.h"
+#include "stages/walk.h"
+
+#include <gtest/gtest.h>
+
+namespace obscura::test {
+namespace {
+
+constexpr float untouched = -5.0f;
+constexpr float background[4] = {0.125f, 0.25f, 0.5f, 0.75f};
+
+/// One square that shows its colour without light, and nothing around it.
+PreparedScene unlit_square(Isa isa) {
+    SceneBuilder builder;
+    Material m;
+    m.flags = material_unlit;
+    m.base_color[0] = 0.5f;
+    m.base_color[1] = 0.25f;
+    m.base_color[2] = 2.0f;
+    builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(m));
+    Log log(Verbosity::quiet);
+    auto prepared = PreparedScene::create(builder.take(), {}, isa, log);
+    if (!prepared) throw std::runtime_error(prepared.error().message);
+    return std::move(*prepared);
+}
+
+class Sort : public testing::TestWithParam<Isa> {
+protected:
+    /// Shades rows of which those with is_hit hit the square; row i belongs to slot count - 1 - i
+    /// and has the throughput i + 1.
+    void shade(const std::vector<bool>& is_hit, int bounce) {
+        const int count = static_cast<int>(is_hit.size());
+        for (int i = 0; i < count + 16; ++i)
+            write_row(i, count, i < count && is_hit[static_cast<size_t>(i)]);
+        BatchSettings batch;
+        std::copy_n(background, 4, batch.background);
+        const ShadeCounts out = stage_table_for(GetParam())
+                                    .shade(scene_.impl().view(),
+                                           batch,
+                                           bounce,
+                                           count,
+                                           {work_.paths[0],
+                                            work_.hits,
+                                            work_.misses,
+                                            work_.paths[1],
+                                            work_.shadows,
+                                            work_.samples});
+        EXPECT_EQ(out.next, 0) << "unlit surfaces and misses end paths";
+        EXPECT_EQ(out.shadow, 0);
+    }
+
+    void expect_slots(const std::vector<bool>& is_hit, int bounce) const {
+        const int count = static_cast<int>(is_hit.size());
+        const SampleRows& s = work_.samples;
+        for (int i = 0; i < count; ++i) {
+            const int slot = count - 1 - i;
+            const auto own = static_cast<float>(i + 1);
+            const bool hit = is_hit[static_cast<size_t>(i)];
+            const float back = bounce == 0 ? 1.0f : 0.0f;
+            EXPECT_EQ(s.r[slot], hit ? own * 0.5f : back * background[0]) << count << " " << i;
+            EXPECT_EQ(s.g[slot], hit ? own * 0.25f : back * background[1]) << count << " " << i;
+            EXPECT_EQ(s.b[slot], hit ? own * 2.0f : back * background[2]) << count << " " << i;
+            const float alpha = hit ? 1.0f : background[3];
+            EXPECT_EQ(s.a[slot], bounce == 0 ? alpha : 0.0f) << count << " " << i;
+        }
+        for (int slot = count; slot < count + 16; ++slot) {
+            EXPECT_EQ(s.r[slot], untouched);
+            EXPECT_EQ(s.a[slot], untouched);
+        }
+    }
+
+private:
+    void write_row(int i, int count, bool hit) {
+        const bool exists = i < count;
+        const PathRows& p = work_.paths[0];
+        for (float* zero : {p.ox, p.oy, p.dx, p.dy, p.pdf, p.cone_width, p.cone_spread})
+            zero[i] = 0;
+        p.oz[i] = 3;
+        p.dz[i] = -1;
+        for (float* throughput : {p.tr, p.tg, p.tb})
+            throughput[i] = static_cast<float>(i + 1);
+        p.slot[i] = exists ? static_cast<uint32_t>(count - 1 - i) : 0xFFFFFFFFU;
+        p.key[i] = p.sample[i] = p.path_key[i] = static_cast<uint32_t>(i) * 0x9E3779B9U;
+        const HitRows& h = work_.hits;
+        h.t[i] = hit ? 3.0f : std::nanf("");
+        h.u[i] = h.v[i] = hit ? 0.25f : std::nanf("");
+        h.instance[i] = hit ? -1 : -7;
+        // A row past the last one claims a hit that is out of every table's range.
+        h.primitive[i] = hit ? 0 : exists ? -1 : 0x7000000;
+        h.triangle[i] = hit ? i % 2 : 0x7000000;
+        const float clear = exists ? 0.0f : untouched;
+        for (float* channel :
+             {work_.samples.r, work_.samples.g, work_.samples.b, work_.samples.a}) {
+            channel[i] = clear;
+        }
+    }
+
+    PreparedScene scene_ = unlit_square(GetParam());
+    Workspace work_;
+};
+
+INSTANTIATE_TEST_SUITE_P(EveryIsa, Sort, testing::ValuesIn(all_isas()), [](const auto& isa) {
+    return stage_table_for(isa.param).isa;
+});
+
+TEST_P(Sort, HitsAreOpaqueAndMissesTakeTheBackground) {
+    Pcg32 random(11);
+    for (size_t count = 1; count <= 33; ++count) {
+        std::vector<bool> mixed(count);
+        std::vector<bool> alternating(count);
+        for (size_t i = 0; i < count; ++i) {
+            mixed[i] = random.next_float() < 0.5f;
+            alternating[i] = i % 2 == 0;
+        }
+        for (const std::vector<bool>& is_hit :
+             {mixed, alternating, std::vector<bool>(count, true), std::vector<bool>(count)}) {
+            shade(is_hit, 0);
+            expect_slots(is_hit, 0);
+        }
+    }
+}
+
+TEST_P(Sort, LaterBouncesLeaveAlphaAndBackgroundAlone) {
+    Pcg32 random(12);
+    for (size_t count = 1; count <= 33; ++count) {
+        std::vector<bool> is_hit(count);
+        for (size_t i = 0; i < count; ++i)
+            is_hit[i] = random.next_float() < 0.5f;
+        shade(is_hit, 1);
+        expect_slots(is_hit, 1);
+    }
+}
+
+}  // namespace
+}  // namespace obscura::test
