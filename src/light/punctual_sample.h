@@ -24,7 +24,8 @@ struct PunctualSample {
 /// by the probability of choosing this light.
 ///
 /// In      index must be in range for idle lanes too
-/// Out     finite at any distance: nearer than 1e-9 m, the light is treated as that far away
+/// Out     finite at any distance for intensities up to 1e20 cd: nearer than 1e-9 m, the light is
+///         treated as that far away
 /// Source  KHR_lights_punctual: range window, inverse square law and spot cone
 template <typename F>
 OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,

@@ -18,6 +18,9 @@ void add_shadow_light(int count,
     }
 }
 
+/// Above this a sample counts as not finite: the sum of a pixel's samples must stay finite too.
+constexpr float largest_sample = 1.0e30f;
+
 uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums) {
     uint64_t nonfinite = 0;
     for (int pixel = 0; pixel < pixels; ++pixel) {
@@ -28,7 +31,7 @@ uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float*
             const float g = samples.g[slot];
             const float b = samples.b[slot];
             const float size = abs(r) + abs(g) + abs(b);
-            if (!(size <= 3.0e38f)) {
+            if (!(size <= largest_sample)) {
                 ++nonfinite;
                 continue;
             }

@@ -115,19 +115,27 @@ std::vector<double> shares_of_kinds(float bulbs, float lamps, float around) {
     return {chosen(table, 0, 1), chosen(table, 1, 2), chosen(table, 3, 1)};
 }
 
-TEST(LightTable, ADimKindKeepsItsFloor) {
-    // Both dim kinds are raised to a fifth before all are scaled to sum to 1.
-    constexpr double floor_share = 0.2 / 1.4;
+TEST(LightTable, DimPunctualLightsKeepTheirFloor) {
+    // They are raised to a fifth before all are scaled to sum to 1; BSDF sampling cannot find them.
     for (int bright = 0; bright < 3; ++bright) {
         float brightness[3] = {1e-3f, 1e-3f, 1e-3f};
         brightness[bright] = 1e4f;
         const std::vector<double> shares =
             shares_of_kinds(brightness[0], brightness[1], brightness[2]);
+        const double punctual = bright == 0 ? 1.0 : 0.2 / 1.2;
         for (int kind = 0; kind < 3; ++kind) {
-            const double expected = kind == bright ? 1 - 2 * floor_share : floor_share;
+            const double others = kind == bright ? 1.0 - punctual : 0.0;
+            const double expected = kind == 0 ? punctual : others;
             EXPECT_NEAR(shares[static_cast<size_t>(kind)], expected, 1e-3) << bright << kind;
         }
     }
+}
+
+TEST(LightTable, KindsOfSomePowerAreRaisedToAFifth) {
+    const std::vector<double> even = shares_of_kinds(1.0f, 1.0f, 1.0f);
+    const std::vector<double> dimmer = shares_of_kinds(1.0f, 0.03f, 1.0f);
+    EXPECT_LT(dimmer[1], even[1]);
+    EXPECT_GT(dimmer[1], 0.2 / 1.4);
 }
 
 constexpr int picture_side = 64;
