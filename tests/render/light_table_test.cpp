@@ -131,11 +131,13 @@ TEST(LightTable, DimPunctualLightsKeepTheirFloor) {
     }
 }
 
-TEST(LightTable, KindsOfSomePowerAreRaisedToAFifth) {
-    const std::vector<double> even = shares_of_kinds(1.0f, 1.0f, 1.0f);
-    const std::vector<double> dimmer = shares_of_kinds(1.0f, 0.03f, 1.0f);
-    EXPECT_LT(dimmer[1], even[1]);
-    EXPECT_GT(dimmer[1], 0.2 / 1.4);
+TEST(LightTable, DimLampsAreRaisedInProportionUpToAFifth) {
+    const double faint = shares_of_kinds(1.0f, 1e-5f, 1.0f)[1];
+    const double fainter = shares_of_kinds(1.0f, 0.5e-5f, 1.0f)[1];
+    EXPECT_NEAR(faint / fainter, 2.0, 0.1);
+    const double dim = shares_of_kinds(1.0f, 3e-2f, 1.0f)[1];
+    EXPECT_GT(dim, 0.1);
+    EXPECT_LT(dim, 0.2);
 }
 
 constexpr int picture_side = 64;
