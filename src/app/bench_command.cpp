@@ -97,7 +97,7 @@ Result<void> measure_isas(SceneBench& bench,
         Result<LightingOptions> lighting = load_lighting(bench.scene, silent);
         if (!lighting) return fail(lighting.error());
         const Result<PreparedScene> other =
-            PreparedScene::create(prepared.scene(), std::move(*lighting), isas[i], silent);
+            PreparedScene::create(prepared.scene(), *lighting, isas[i], silent);
         if (!other) return fail(other.error());
         for (const BenchView& view : views) {
             Result<ViewFigures> figures =

@@ -37,7 +37,7 @@ Result<PreparedScene> prepare(const RenderRequest& request,
     statistics.texture_bytes = texture_bytes(*scene);
 
     Result<PreparedScene> prepared =
-        PreparedScene::create(std::move(*scene), std::move(*lighting), request.isa, log);
+        PreparedScene::create(std::move(*scene), *lighting, request.isa, log);
     if (!prepared) return prepared;
     statistics.build_s = prepared->build_seconds().all;
     statistics.bvh_bytes = prepared->bvh_bytes();

@@ -28,8 +28,7 @@ Result<PreparedScene> load_once(const LoadTask& task, Log& log, Series& series) 
     series.load.push_back(loading.seconds());
     series.parse.push_back(scene->info.parse_seconds);
     series.decode.push_back(scene->info.decode_seconds);
-    LightingOptions lighting = task.lighting;
-    auto prepared = PreparedScene::create(std::move(*scene), std::move(lighting), task.isa, log);
+    auto prepared = PreparedScene::create(std::move(*scene), task.lighting, task.isa, log);
     if (!prepared) return prepared;
     series.prepare.push_back(prepared->build_seconds().all);
     series.bvh.push_back(prepared->build_seconds().bvh);
