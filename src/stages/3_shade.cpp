@@ -14,11 +14,12 @@ namespace {
 /// The random numbers of one bounce.
 struct BounceRandom {
     Vec2<Lanes> bsdf, lobe;
-    Vec2<LanesU> light, choice;
+    Vec2<LanesU> light;
+    LanesU light_choice;
     Vec3<Lanes> texture;
 };
 
-OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path, int bounce) {
+OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path, int bounce, int light_count) {
     const auto pair = [&](RandomUse use) {
         const uint32_t number =
             static_cast<uint32_t>(bounce) * pairs_per_bounce + static_cast<uint32_t>(use);
@@ -28,9 +29,11 @@ OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path, int bounce) {
     r.bsdf = unit_pair<Lanes>(pair(RandomUse::bsdf));
     r.lobe = unit_pair<Lanes>(pair(RandomUse::lobe));
     r.light = pair(RandomUse::light);
-    r.choice = pair(RandomUse::light_choice);
-    const Vec2<Lanes> texel = unit_pair<Lanes>(pair(RandomUse::texture));
-    r.texture = {texel.x, texel.y, unit_float<Lanes>(r.choice.y)};
+    r.light_choice = light_count > 1 ? pair(RandomUse::light_choice).x : LanesU(0U);
+    // A place between texels, and from the bits that remain one between mip levels.
+    const Vec2<LanesU> bits = pair(RandomUse::texture);
+    const Vec2<Lanes> texel = unit_pair<Lanes>(bits);
+    r.texture = {texel.x, texel.y, unit_float<Lanes>((bits.y << 16) | (bits.x & LanesU(0xFFFFU)))};
     return r;
 }
 
@@ -70,7 +73,8 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
                                    const PathLanes& path,
                                    const ShadingPoint& s,
                                    const BounceRandom& random) {
-    const LightLanes light = sample_light(scene, s, random.light, random.choice.x, random.texture);
+    const LightLanes light =
+        sample_light(scene, s, random.light, random.light_choice, random.texture);
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
     Mask useful = active & light.valid & (dot(light.direction, s.ng) > Lanes(0.0f));
@@ -188,7 +192,7 @@ ShadeCounts shade(const SceneView& scene,
         const Mask exists = rows_in_range(i, sorted.hits);
         const PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_or_first(rows.hits, i, exists);
-        const BounceRandom random = bounce_random(path, bounce);
+        const BounceRandom random = bounce_random(path, bounce, scene.lights.count);
         const ShadingPoint s =
             shading_point(scene, hit, path, random.texture, Filtering::stochastic);
         add_emission(scene, batch, rows, exists, path, s, hit.t);
@@ -214,7 +218,7 @@ int shade_ao(const SceneView& scene,
         const Mask exists = rows_in_range(i, sorted.hits);
         const PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_or_first(rows.hits, i, exists);
-        const BounceRandom random = bounce_random(path, 0);
+        const BounceRandom random = bounce_random(path, 0, 0);
         const ShadingPoint s =
             shading_point(scene, hit, path, random.texture, Filtering::stochastic);
         const Vec3<Lanes> direction = normalize(to_world(s.frame, cosine_hemisphere(random.bsdf)));
