@@ -15,17 +15,7 @@
 namespace obscura::bench {
 
 const char* isa_name(Isa isa) {
-    switch (isa) {
-        case Isa::baseline:
-            return "baseline";
-        case Isa::avx2:
-            return "avx2";
-        case Isa::avx512:
-            return "avx512";
-        case Isa::automatic:
-            break;
-    }
-    return "auto";
+    return stage_table_for(isa).isa;
 }
 
 void register_missing_isa(const std::string& group, Isa isa) {

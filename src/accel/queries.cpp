@@ -80,21 +80,6 @@ bool load_packet(const RayColumns& rays, int first, const ValidMask& valid, RTCR
     return true;
 }
 
-void load_ray(const RayColumns& rays, int row, RTCRay& out) {
-    out.org_x = rays.ox[row];
-    out.org_y = rays.oy[row];
-    out.org_z = rays.oz[row];
-    out.dir_x = rays.dx[row];
-    out.dir_y = rays.dy[row];
-    out.dir_z = rays.dz[row];
-    out.tnear = 0.0f;
-    out.tfar = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
-    out.time = 0.0f;
-    out.mask = 0xFFFFFFFFU;
-    out.id = static_cast<unsigned>(row);
-    out.flags = 0;
-}
-
 /// What a hit lies on, as rows of the scene's tables.
 struct SceneRows {
     int32_t instance = -1;

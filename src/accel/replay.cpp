@@ -47,21 +47,6 @@ void give_keys(QueryContext& context, const Chunk& chunk) {
     context.fixed_threshold = chunk.fixed_alpha;
 }
 
-void load_one(const RayColumns& rays, size_t row, RTCRay& out) {
-    out.org_x = rays.ox[row];
-    out.org_y = rays.oy[row];
-    out.org_z = rays.oz[row];
-    out.dir_x = rays.dx[row];
-    out.dir_y = rays.dy[row];
-    out.dir_z = rays.dz[row];
-    out.tnear = 0.0f;
-    out.tfar = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
-    out.time = 0.0f;
-    out.mask = 0xFFFFFFFFU;
-    out.id = static_cast<unsigned>(row);
-    out.flags = 0;
-}
-
 /// Loads rows [first, first + count) of a column; the lanes behind them repeat the first. Whole
 /// packets are copied with a length that the compiler knows.
 void load_column(const float* column, size_t first, size_t count, float* out) {
@@ -102,7 +87,7 @@ Tally intersect_one_by_one(RTCScene scene, const Chunk& chunk) {
     Tally tally;
     for (size_t row = chunk.begin; row < chunk.end; ++row) {
         RTCRayHit ray;
-        load_one(rays, row, ray.ray);
+        load_ray(rays, static_cast<int>(row), ray.ray);
         ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         query.intersect1(scene, &ray);
@@ -121,7 +106,7 @@ Tally occlude_one_by_one(RTCScene scene, const Chunk& chunk) {
     Tally tally;
     for (size_t row = chunk.begin; row < chunk.end; ++row) {
         RTCRay ray;
-        load_one(rays, row, ray);
+        load_ray(rays, static_cast<int>(row), ray);
         query.occluded1(scene, &ray);
         tally.hits += ray.tfar < 0.0f ? 1 : 0;
     }

@@ -1,8 +1,9 @@
-// accel/safe_ray.h - which rays Embree may see.
+// accel/safe_ray.h - which rays Embree may see, and how one is handed to it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "accel/columns.h"
+#include "accel/embree.h"
 
 #include <cmath>
 
@@ -20,6 +21,22 @@ inline bool is_safe(const RayColumns& rays, int i) {
     const bool far_ok = rays.tfar == nullptr || rays.tfar[i] >= 0.0f;
     return origin <= largest_component && direction <= largest_component && direction > 0.0f &&
            far_ok;
+}
+
+/// One row as Embree wants it; its id is the row.
+inline void load_ray(const RayColumns& rays, int row, RTCRay& out) {
+    out.org_x = rays.ox[row];
+    out.org_y = rays.oy[row];
+    out.org_z = rays.oz[row];
+    out.dir_x = rays.dx[row];
+    out.dir_y = rays.dy[row];
+    out.dir_z = rays.dz[row];
+    out.tnear = 0.0f;
+    out.tfar = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
+    out.time = 0.0f;
+    out.mask = 0xFFFFFFFFU;
+    out.id = static_cast<unsigned>(row);
+    out.flags = 0;
 }
 
 }  // namespace obscura
