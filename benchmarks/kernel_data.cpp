@@ -102,10 +102,10 @@ KernelColumns::KernelColumns(const Scene& scene, const EnvironmentTable& environ
     data_.out0 = floats_.emplace_back(kernel_rows).data();
     data_.out1 = floats_.emplace_back(kernel_rows).data();
     data_.environment = environment.view();
-    std::vector<float> powers;
+    std::vector<double> powers;
     for (size_t i = 0; i < choices; ++i)
         powers.push_back(next() * next());
-    choice_ = build_cdf_table(powers);
+    choice_ = build_cdf_table(std::span<const double>(powers));
     data_.choice = choice_.data();
     data_.choice_count = static_cast<int32_t>(choices);
 }

@@ -153,9 +153,12 @@ void environment_sample(const KernelData& d) {
 template <typename F>
 void environment_look_up(const KernelData& d) {
     for_rows<F>([&](int i) {
-        const EnvironmentSample<F> seen =
-            look_up_environment(d.environment, read3<F>(d.world_x, d.world_y, d.world_z, i));
-        write(d.out0 + i, sum3(seen.radiance) + seen.pdf);
+        const EnvironmentTaps<F> taps =
+            environment_taps(d.environment, read3<F>(d.world_x, d.world_y, d.world_z, i));
+        F sum(0.0f);
+        for (int tap = 0; tap < 4; ++tap)
+            sum = sum + taps.weight[tap] * (sum3(taps.radiance[tap]) + taps.pdf[tap]);
+        write(d.out0 + i, sum);
     });
 }
 

@@ -15,69 +15,87 @@ struct alignas(64) ValidMask {
     int lane[packet];
 };
 
+/// True when all rows [first, first + 16) exist and are safe. Without branches: 16 rows at a time.
+bool is_whole(const RayColumns& rays, int first) {
+    if (rays.count - first < packet) return false;
+    int unsafe = 0;
+    for (int i = first; i < first + packet; ++i)
+        unsafe |= static_cast<int>(!is_safe(rays, i));
+    return unsafe == 0;
+}
+
 /// Marks the rows [first, first + 16) that exist and are safe; counts the refused ones.
 int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {
     const int existing = std::min(packet, rays.count - first);
     int safe = 0;
     for (int i = 0; i < packet; ++i) {
-        const int row = i < existing ? first + i : first;
-        valid.lane[i] = is_safe(rays, row) && i < existing ? -1 : 0;
+        valid.lane[i] = i < existing && is_safe(rays, first + i) ? -1 : 0;
         safe -= valid.lane[i];
     }
     return existing - safe;
 }
 
-/// Which row each lane of a packet takes: idle lanes repeat one that is valid, for Embree sees them
-/// too: where its packets are narrower than 16 it takes all 16 rays whatever the mask says.
-struct PacketRows {
-    int row[packet];
-    bool in_order;  ///< 16 rows one after the other
-};
-
-/// False when no lane is valid.
-bool choose_rows(const ValidMask& valid, int first, PacketRows& rows) {
-    const int* found = std::find(valid.lane, valid.lane + packet, -1);
-    if (found == valid.lane + packet) return false;
-    const auto stand_in = static_cast<int>(found - valid.lane);
-    rows.in_order = true;
-    for (int i = 0; i < packet; ++i) {
-        rows.row[i] = first + (valid.lane[i] != 0 ? i : stand_in);
-        rows.in_order &= valid.lane[i] != 0;
-    }
-    return true;
-}
-
-void load_column(const float* column, const PacketRows& rows, float* out) {
-    if (rows.in_order) {
-        std::copy_n(column + rows.row[0], packet, out);
-        return;
-    }
-    for (int i = 0; i < packet; ++i)
-        out[i] = column[rows.row[i]];
-}
-
-/// False when no lane is valid; then `out` is left as it was.
-bool load_packet(const RayColumns& rays, int first, const ValidMask& valid, RTCRay16& out) {
-    PacketRows chosen;
-    if (!choose_rows(valid, first, chosen)) return false;
-    load_column(rays.ox, chosen, out.org_x);
-    load_column(rays.oy, chosen, out.org_y);
-    load_column(rays.oz, chosen, out.org_z);
-    load_column(rays.dx, chosen, out.dir_x);
-    load_column(rays.dy, chosen, out.dir_y);
-    load_column(rays.dz, chosen, out.dir_z);
-    if (rays.tfar != nullptr) {
-        load_column(rays.tfar, chosen, out.tfar);
-    } else {
-        std::fill_n(out.tfar, packet, unlimited);
-    }
+/// What no packet of a call changes.
+void begin_packets(RTCRay16& out) {
     std::fill_n(out.tnear, packet, 0.0f);
+    std::fill_n(out.tfar, packet, unlimited);
     std::fill_n(out.time, packet, 0.0f);
     std::fill_n(out.mask, packet, 0xFFFFFFFFU);
     std::fill_n(out.flags, packet, 0U);
+}
+
+/// Loads 16 safe rows.
+void load_whole(const RayColumns& rays, int first, RTCRay16& out) {
+    std::copy_n(rays.ox + first, packet, out.org_x);
+    std::copy_n(rays.oy + first, packet, out.org_y);
+    std::copy_n(rays.oz + first, packet, out.org_z);
+    std::copy_n(rays.dx + first, packet, out.dir_x);
+    std::copy_n(rays.dy + first, packet, out.dir_y);
+    std::copy_n(rays.dz + first, packet, out.dir_z);
+    if (rays.tfar != nullptr) {
+        std::copy_n(rays.tfar + first, packet, out.tfar);
+    } else {
+        std::fill_n(out.tfar, packet, unlimited);
+    }
     for (int i = 0; i < packet; ++i)
         out.id[i] = static_cast<unsigned>(first + i);
+}
+
+/// Loads the valid rows. Idle lanes repeat one of them, for Embree sees them too: where its packets
+/// are narrower than 16 it takes all 16 rays whatever the mask says. False when no row is valid;
+/// then `out` is left as it was.
+bool load_part(const RayColumns& rays, int first, const ValidMask& valid, RTCRay16& out) {
+    const int* found = std::find(valid.lane, valid.lane + packet, -1);
+    if (found == valid.lane + packet) return false;
+    const int stand_in = first + static_cast<int>(found - valid.lane);
+    for (int i = 0; i < packet; ++i) {
+        const int row = valid.lane[i] != 0 ? first + i : stand_in;
+        out.org_x[i] = rays.ox[row];
+        out.org_y[i] = rays.oy[row];
+        out.org_z[i] = rays.oz[row];
+        out.dir_x[i] = rays.dx[row];
+        out.dir_y[i] = rays.dy[row];
+        out.dir_z[i] = rays.dz[row];
+        out.tfar[i] = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
+        out.id[i] = static_cast<unsigned>(first + i);
+    }
     return true;
+}
+
+/// What became of loading 16 rows.
+struct Loaded {
+    int refused = 0;
+    bool any = true;
+};
+
+Loaded load_packet(const RayColumns& rays, int first, ValidMask& valid, RTCRay16& out) {
+    if (is_whole(rays, first)) {
+        std::fill_n(valid.lane, packet, -1);
+        load_whole(rays, first, out);
+        return {};
+    }
+    const int refused = mark_valid(rays, first, valid);
+    return {refused, load_part(rays, first, valid, out)};
 }
 
 /// What a hit lies on, as rows of the scene's tables.
@@ -191,6 +209,16 @@ void pass_hidden_backs_of_packet(const Accel::Impl& impl,
                                  const RTCHit16& hit,
                                  const HitColumns& hits,
                                  int first) {
+    int candidates = 0;  // a first look without branches: mostly there are none
+    for (int i = 0; i < packet; ++i) {
+        const int row = first + i;
+        const float along =
+            hit.Ng_x[i] * rays.dx[row] + hit.Ng_y[i] * rays.dy[row] + hit.Ng_z[i] * rays.dz[row];
+        const int turned =
+            static_cast<int>(along > 0.0f) | static_cast<int>(hits.instance[row] >= 0);
+        candidates |= turned & static_cast<int>(hits.primitive[row] >= 0);
+    }
+    if (candidates == 0) return;
     const int count = std::min(packet, rays.count - first);
     for (int i = 0; i < count; ++i) {
         const int row = first + i;
@@ -216,13 +244,17 @@ int Accel::intersect(const RayColumns& rays,
     context.fixed_threshold = see_through.fixed_alpha;
     context.segment = see_through.segment;
     int refused = 0;
+    ValidMask valid;
+    RTCRayHit16 block;
+    begin_packets(block.ray);
+    for (float* ng : {block.hit.Ng_x, block.hit.Ng_y, block.hit.Ng_z})
+        std::fill_n(ng, packet, 0.0f);  // read for misses too
     for (int first = 0; first < rays.count; first += packet) {
-        ValidMask valid;
-        RTCRayHit16 block;
-        refused += mark_valid(rays, first, valid);
+        const Loaded loaded = load_packet(rays, first, valid, block.ray);
+        refused += loaded.refused;
         std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
-        if (!load_packet(rays, first, valid, block.ray)) {
+        if (!loaded.any) {
             std::fill_n(hits.primitive + first, packet, -1);
             continue;
         }
@@ -246,13 +278,13 @@ int Accel::occluded(const RayColumns& rays,
     context.keys = rays.key;
     context.segment = segment;
     int refused = 0;
+    ValidMask valid;
+    RTCRay16 block;
+    begin_packets(block);
     for (int first = 0; first < rays.count; first += packet) {
-        ValidMask valid;
-        RTCRay16 block;
-        refused += mark_valid(rays, first, valid);
-        if (load_packet(rays, first, valid, block)) {
-            query.occluded16(valid.lane, impl_->top, &block);
-        }
+        const Loaded loaded = load_packet(rays, first, valid, block);
+        refused += loaded.refused;
+        if (loaded.any) query.occluded16(valid.lane, impl_->top, &block);
         const int count = std::min(packet, rays.count - first);
         for (int i = 0; i < count; ++i) {
             occluded[first + i] = valid.lane[i] == 0 || block.tfar[i] < 0.0f ? 1 : 0;

@@ -19,8 +19,8 @@ inline bool is_safe(const RayColumns& rays, int i) {
     const float origin = std::fabs(rays.ox[i]) + std::fabs(rays.oy[i]) + std::fabs(rays.oz[i]);
     const float direction = std::fabs(rays.dx[i]) + std::fabs(rays.dy[i]) + std::fabs(rays.dz[i]);
     const bool far_ok = rays.tfar == nullptr || rays.tfar[i] >= 0.0f;
-    return origin <= largest_component && direction <= largest_component && direction > 0.0f &&
-           far_ok;
+    return (origin <= largest_component) & (direction <= largest_component) & (direction > 0.0f) &
+           far_ok;  // no branches: a loop over rows becomes vector code
 }
 
 /// One row as Embree wants it; its id is the row.

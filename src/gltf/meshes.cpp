@@ -130,8 +130,8 @@ void MeshBuilder::reserve(const std::vector<PartJob>& jobs) {
     }
     constexpr size_t most = 1U << 31;
     scene_.positions.reserve(std::min(most, scene_.positions.size() + vertices * 3 + 4));
-    scene_.indices.reserve(std::min(most, scene_.indices.size() + corners));
-    scene_.attributes.reserve(std::min(most, scene_.attributes.size() + floats));
+    scene_.indices.reserve(std::min(most, scene_.indices.size() + corners + 1));
+    scene_.attributes.reserve(std::min(most, scene_.attributes.size() + floats + 4));
 }
 
 /// Parts are read in batches: together on all cores, but never all in memory twice.
@@ -317,7 +317,7 @@ Result<void> MeshBuilder::build() {
         done = build_shared(used);
         if (!done) return done;
     }
-    scene_.positions.insert(scene_.positions.end(), 4, 0.0f);
+    pad_tables(scene_);
     warn();
     return {};
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "light/cdf_table.h"
+#include "math/gather4.h"
 #include "math/sampler.h"
 #include "math/vec.h"
 #include "math/warp.h"
@@ -18,8 +19,8 @@ struct EnvironmentView {
     /// 4 floats a pixel, so that one cache line holds what a look-up needs: the radiance, and the
     /// density per solid angle with which the pixel is sampled, times sin(theta)
     const float* pixels = nullptr;
-    const CdfEntry* rows = nullptr;     ///< chooses a row
-    const CdfEntry* columns = nullptr;  ///< height tables, one a row: chooses a pixel
+    const CdfEntry* rows = nullptr;          ///< chooses a row
+    const ShortCdfEntry* columns = nullptr;  ///< height tables, one a row: chooses a pixel
     int32_t width = 1;
     int32_t height = 1;
     float cos_rotation = 1;  ///< of the angle by which the map is turned about +Y,
@@ -31,8 +32,8 @@ inline namespace OBSCURA_ISA {
 template <typename F>
 struct EnvironmentSample {
     Vec3<F> direction;  ///< world, unit
-    Vec3<F> radiance;
-    F pdf;  ///< 1/sr; 0 when the map is black
+    Vec3<F> radiance;   ///< of one pixel, see finish_environment_draw
+    F pdf;              ///< 1/sr, of that pixel; 0 when the map is black
 };
 
 /// A direction's place on the map, in pixels, and the sine of its polar angle.
@@ -69,27 +70,30 @@ OBSCURA_INLINE EnvironmentPoint<F> environment_point(const EnvironmentView& view
             sin_theta};
 }
 
-/// The pixel that a coordinate falls into; anything out of range, NaN too, goes to an end.
+/// The four pixels that bilinear interpolation mixes for one direction. Their weights sum to 1.
 template <typename F>
-OBSCURA_INLINE IntOf<F> environment_cell(const F& coordinate, int32_t size) {
-    const F last = from_int<F>(IntOf<F>(size - 1));
-    return to_int(clamp(coordinate, F(0.0f), last));
-}
+struct EnvironmentTaps {
+    Vec3<F> radiance[4];
+    F pdf[4];  ///< 1/sr, of making this direction from this pixel, divided by its weight
+    F weight[4];
+};
 
+/// A pixel's density per solid angle times sin(theta), as density per solid angle.
 template <typename F>
-OBSCURA_INLINE F environment_density(const EnvironmentView& view,
-                                     const IntOf<F>& pixel,
-                                     const F& sin_theta) {
-    return gather<F>(view.pixels + 3, pixel * IntOf<F>(4)) / max(sin_theta, F(1e-7f));
+OBSCURA_INLINE F environment_density(const F& times_sine, const F& sin_theta) {
+    return times_sine / max(sin_theta, F(1e-7f));
 }
 
 /// Bilinear interpolation between pixel centres; wraps around in x, stops at the first and last
 /// row.
 template <typename F>
-OBSCURA_INLINE Vec3<F> environment_pixel(const EnvironmentView& view, const F& x, const F& y) {
+OBSCURA_INLINE EnvironmentTaps<F> environment_taps(const EnvironmentView& view,
+                                                   const Vec3<F>& direction) {
     using I = IntOf<F>;
-    const F from_x = clamp(x - F(0.5f), F(-1.0f), from_int<F>(I(view.width - 1)) + F(0.5f));
-    const F from_y = clamp(y - F(0.5f), F(0.0f), from_int<F>(I(view.height - 1)));
+    const EnvironmentPoint<F> point = environment_point(view, direction);
+    // Clamped so that NaN stays in the map too.
+    const F from_x = clamp(point.x - F(0.5f), F(-1.0f), from_int<F>(I(view.width - 1)) + F(0.5f));
+    const F from_y = clamp(point.y - F(0.5f), F(0.0f), from_int<F>(I(view.height - 1)));
     const F floor_x = floor(from_x);
     const F floor_y = floor(from_y);
     const F right = from_x - floor_x;
@@ -100,83 +104,138 @@ OBSCURA_INLINE Vec3<F> environment_pixel(const EnvironmentView& view, const F& x
     const I row0 = to_int(floor_y);
     const I row1 = min(row0 + I(1), I(view.height - 1));
 
-    Vec3<F> sum = splat3(F(0.0f));
-    const auto add = [&](const I& row, const I& column_at, const F& weight) {
-        const I word = (row * I(view.width) + column_at) * I(4);
-        sum = sum + weight * Vec3<F>{gather<F>(view.pixels, word),
-                                     gather<F>(view.pixels + 1, word),
-                                     gather<F>(view.pixels + 2, word)};
+    EnvironmentTaps<F> taps;
+    const auto set = [&](int i, const I& row, const I& column_at, const F& weight) {
+        const Four<F> pixel = gather4<F>(view.pixels, I((row * I(view.width) + column_at) * I(4)));
+        taps.radiance[i] = {pixel.x, pixel.y, pixel.z};
+        taps.pdf[i] = environment_density(pixel.w, point.sin_theta);
+        taps.weight[i] = weight;
     };
     const F left = F(1.0f) - right;
     const F up = F(1.0f) - down;
-    add(row0, column0, left * up);
-    add(row0, column1, right * up);
-    add(row1, column0, left * down);
-    add(row1, column1, right * down);
+    set(0, row0, column0, left * up);
+    set(1, row0, column1, right * up);
+    set(2, row1, column0, left * down);
+    set(3, row1, column1, right * down);
+    return taps;
+}
+
+template <typename F>
+OBSCURA_INLINE Vec3<F> mix(const EnvironmentTaps<F>& taps) {
+    Vec3<F> sum = taps.weight[0] * taps.radiance[0];
+    for (int i = 1; i < 4; ++i)
+        sum = sum + taps.weight[i] * taps.radiance[i];
     return sum;
 }
 
 /// Radiance that arrives from a world direction (unit).
 template <typename F>
 OBSCURA_INLINE Vec3<F> environment_radiance(const EnvironmentView& view, const Vec3<F>& direction) {
-    const EnvironmentPoint<F> point = environment_point(view, direction);
-    return environment_pixel(view, point.x, point.y);
+    return mix(environment_taps(view, direction));
 }
 
-/// Density per solid angle with which sample_environment makes a direction (unit); 0 for a black
-/// map.
+/// Density per solid angle with which sample_environment makes a direction (unit) from any pixel; 0
+/// for a black map.
 template <typename F>
 OBSCURA_INLINE F environment_pdf(const EnvironmentView& view, const Vec3<F>& direction) {
-    const EnvironmentPoint<F> point = environment_point(view, direction);
-    const IntOf<F> row = environment_cell(point.y, view.height);
-    const IntOf<F> column = environment_cell(point.x, view.width);
-    const IntOf<F> pixel = row * IntOf<F>(view.width) + column;
-    return environment_density<F>(view, pixel, point.sin_theta);
+    const EnvironmentTaps<F> taps = environment_taps(view, direction);
+    F sum = taps.weight[0] * taps.pdf[0];
+    for (int i = 1; i < 4; ++i)
+        sum = sum + taps.weight[i] * taps.pdf[i];
+    return sum;
 }
 
-/// Radiance and density of one direction, for less than the two calls: what a BSDF ray that
-/// leaves the scene needs.
+/// A place in [-1, 1] with the density 1 - |place|, which is a pixel's weight in interpolation.
 template <typename F>
-OBSCURA_INLINE EnvironmentSample<F> look_up_environment(const EnvironmentView& view,
-                                                        const Vec3<F>& direction) {
-    const EnvironmentPoint<F> point = environment_point(view, direction);
-    const IntOf<F> row = environment_cell(point.y, view.height);
-    const IntOf<F> column = environment_cell(point.x, view.width);
-    const IntOf<F> pixel = row * IntOf<F>(view.width) + column;
-    return {direction,
-            environment_pixel(view, point.x, point.y),
-            environment_density<F>(view, pixel, point.sin_theta)};
+OBSCURA_INLINE F tent(const F& u) {
+    const F a = F(2.0f) * u - F(1.0f);
+    const F size = F(1.0f) - sqrt(max(F(1.0f) - abs(a), F(0.0f)));
+    return select(a < F(0.0f), -size, size);
 }
 
-/// Chooses a pixel in proportion to its light (row first, then column) and a place inside it,
-/// uniform in (u, v).
-///
-/// In      random: two uniform 32-bit numbers
-/// Out     pdf as environment_pdf(direction), but for directions so near a pixel's border that
-///         rounding decides: there it is the density of the pixel that was chosen
-/// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 12.5
+/// A pixel on its way to be chosen. Tables and map are large, and their memory is far: each step
+/// asks for what the next one reads, and a caller with other work does it in between.
 template <typename F>
-OBSCURA_INLINE EnvironmentSample<F> sample_environment(const EnvironmentView& view,
+struct EnvironmentDraw {
+    Vec2<UintOf<F>> random;  ///< uniform 32-bit numbers
+    CdfSample<F> row, column;
+    CdfRange<F> range;  ///< of columns
+};
+
+/// First step: the row.
+template <typename F>
+OBSCURA_INLINE EnvironmentDraw<F> draw_environment_row(const EnvironmentView& view,
                                                        const Vec2<UintOf<F>>& random) {
-    const CdfSample<F> row = sample_cdf<F>(view.rows, view.height, random.x);
-    const IntOf<F> first = row.index * IntOf<F>(view.width);
-    const CdfSample<F> column =
-        sample_cdf_at<F>(view.columns, IntOf<F>(first + row.index), view.width, random.y);
-    // Half a step of the 24 bits keeps clear of the pixel's borders, and so of the poles.
-    const F half_step(0.5f / 16777216.0f);
-    const F y = from_int<F>(row.index) + max(unit_float<F>(row.remaining), half_step);
-    const F x = from_int<F>(column.index) + max(unit_float<F>(column.remaining), half_step);
+    EnvironmentDraw<F> draw;
+    draw.random = random;
+    draw.row = sample_cdf<F>(view.rows, view.height, random.x);
+    const IntOf<F> first = draw.row.index * IntOf<F>(view.width + 1);
+    prefetch<F>(view.columns, cdf_cell<F>(first, view.width, random.y));
+    return draw;
+}
 
-    const SinCos<F> polar = sin_cos_turn(y / from_int<F>(IntOf<F>(view.height)) * F(0.5f));
-    const SinCos<F> turn = sin_cos_turn(x / from_int<F>(IntOf<F>(view.width)));
+/// Second step: between which columns.
+template <typename F>
+OBSCURA_INLINE void draw_environment_range(const EnvironmentView& view, EnvironmentDraw<F>& draw) {
+    const IntOf<F> first = draw.row.index * IntOf<F>(view.width + 1);
+    draw.range = cdf_range_at<F>(view.columns, first, view.width, draw.random.y);
+    prefetch<F>(view.columns, IntOf<F>(first + draw.range.low));
+}
+
+/// Third step: the pixel in the row.
+template <typename F>
+OBSCURA_INLINE void draw_environment_column(const EnvironmentView& view, EnvironmentDraw<F>& draw) {
+    const IntOf<F> first = draw.row.index * IntOf<F>(view.width + 1);
+    draw.column = search_cdf<F>(view.columns, first, draw.range, draw.random.y);
+    const IntOf<F> pixel = draw.row.index * IntOf<F>(view.width) + draw.column.index;
+    prefetch<F>(view.pixels, IntOf<F>(pixel * IntOf<F>(4)));
+}
+
+/// Chooses a pixel in proportion to its light (row first, then column) and a place around it with
+/// the density of the pixel's weight in bilinear interpolation. The map is a sum of weighted
+/// pixels, and one term of the sum is drawn, together with a direction: so radiance / pdf is nearly
+/// the same for all samples, even where a bright pixel lies beside a dark one, and one pixel is
+/// read. The other strategy draws a direction first; given that, a term's density is the
+/// direction's times the weight. The weight cancels in the quotient of both densities:
+/// multiple importance sampling compares the pdf here and in EnvironmentTaps with the other's pdf.
+///
+/// Out     radiance and pdf of the chosen pixel, both without its weight, which cancels too
+/// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 12.5, for
+///         the choice of pixels; Veach, PhD thesis, 1997, section 9.2, holds in the joint space
+template <typename F>
+OBSCURA_INLINE EnvironmentSample<F> finish_environment_draw(const EnvironmentView& view,
+                                                            const EnvironmentDraw<F>& draw) {
+    using I = IntOf<F>;
+    const CdfSample<F>& row = draw.row;
+    const CdfSample<F>& column = draw.column;
+    const F height = from_int<F>(I(view.height));
+    // What reaches past a pole comes back: there the pixel's weight is 1 up to the border.
+    F y = abs(from_int<F>(row.index) + F(0.5f) + tent(unit_float<F>(row.remaining)));
+    y = min(y, F(2.0f) * height - y);
+    const F x = from_int<F>(column.index) + F(0.5f) + tent(unit_float<F>(column.remaining));
+
+    const SinCos<F> polar = sin_cos_turn(y / height * F(0.5f));
+    const SinCos<F> turn = sin_cos_turn(x / from_int<F>(I(view.width)));
     const F sin_theta = max(polar.sin, F(1e-7f));
     const F map_x = -(sin_theta * turn.cos);  // u = 0.5 is +X, so a turn begins at -X
     const F map_z = -(sin_theta * turn.sin);
     const F c(view.cos_rotation);
     const F s(view.sin_rotation);
+    const Four<F> pixel =
+        gather4<F>(view.pixels, I((row.index * I(view.width) + column.index) * I(4)));
     return {{map_x * c + map_z * s, polar.cos, map_z * c - map_x * s},
-            environment_pixel(view, x, y),
-            environment_density<F>(view, first + column.index, sin_theta)};
+            {pixel.x, pixel.y, pixel.z},
+            environment_density(pixel.w, sin_theta)};
+}
+
+/// All steps at once.
+template <typename F>
+OBSCURA_INLINE EnvironmentSample<F> sample_environment(const EnvironmentView& view,
+                                                       const Vec2<UintOf<F>>& random) {
+    EnvironmentDraw<F> draw = draw_environment_row<F>(view, random);
+    draw_environment_range(view, draw);
+    draw_environment_column(view, draw);
+    return finish_environment_draw(view, draw);
 }
 
 }  // namespace OBSCURA_ISA

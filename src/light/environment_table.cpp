@@ -34,30 +34,15 @@ double importance_of(const float* rgb) {
     return 0.5 * (luminance_of(rgb) + std::max({rgb[0], rgb[1], rgb[2]}));
 }
 
-/// Mean over each pixel of row y of what bilinear interpolation makes of a measure: in each
-/// direction an eighth, six eighths and an eighth of the neighbours.
+/// A measure of every pixel of row y.
 template <typename Measure>
-std::vector<double> filtered_row(
-    const std::vector<float>& pixels, int width, int height, int y, const Measure& measure) {
-    const auto row = [&](int at) {
-        const auto clamped = static_cast<size_t>(std::clamp(at, 0, height - 1));
-        return pixels.data() + clamped * static_cast<size_t>(width) * 4;
-    };
-    const float* above = row(y - 1);
-    const float* here = row(y);
-    const float* below = row(y + 1);
-    const auto size = static_cast<size_t>(width);
-    std::vector<double> column(size);
-    for (size_t x = 0; x < size; ++x) {
-        column[x] =
-            (measure(above + 4 * x) + 6 * measure(here + 4 * x) + measure(below + 4 * x)) / 8;
-    }
-    std::vector<double> result(size);
-    for (size_t x = 0; x < size; ++x) {
-        const double left = column[(x + size - 1) % size];
-        const double right = column[(x + 1) % size];
-        result[x] = (left + 6 * column[x] + right) / 8;
-    }
+std::vector<double> measured_row(const std::vector<float>& pixels,
+                                 size_t width,
+                                 size_t y,
+                                 const Measure& measure) {
+    std::vector<double> result(width);
+    for (size_t x = 0; x < width; ++x)
+        result[x] = measure(pixels.data() + 4 * (y * width + x));
     return result;
 }
 
@@ -132,17 +117,16 @@ void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {
 void EnvironmentTable::build_tables() {
     const auto width = static_cast<size_t>(width_);
     const auto height = static_cast<size_t>(height_);
-    columns_.resize((width + 1) * height);
+    columns_.resize((width + 1) * height + cdf_padding<ShortCdfEntry>);
     std::vector<double> row_weight(height);
     std::vector<double> row_power(height);
     parallel_for(height, [&](size_t y) {
-        const int at = static_cast<int>(y);
-        const double steradians = pixel_steradians(width_, height_, at);
-        const auto light = filtered_row(pixels_, width_, height_, at, luminance_of);
+        const double steradians = pixel_steradians(width_, height_, static_cast<int>(y));
+        const auto light = measured_row(pixels_, width, y, luminance_of);
         row_power[y] = sum_of(light) * steradians;
-        const auto weights = filtered_row(pixels_, width_, height_, at, importance_of);
+        const auto weights = measured_row(pixels_, width, y, importance_of);
         row_weight[y] = sum_of(weights) * steradians;
-        const auto entries = build_cdf_table(std::span<const double>(weights));
+        const auto entries = build_cdf_table<ShortCdfEntry>(std::span<const double>(weights));
         std::copy(entries.begin(), entries.end(), columns_.data() + y * (width + 1));
         const auto shares = cdf_probabilities(entries);
         for (size_t x = 0; x < width; ++x) {
@@ -153,7 +137,7 @@ void EnvironmentTable::build_tables() {
     black_ = !(sum_of(row_weight) > 0);
     rows_ = build_cdf_table(std::span<const double>(row_weight));
 
-    // In (u, v) a pixel's share is spread over 1 / (width height); d omega = 2 pi^2 sin du dv.
+    // A pixel's weight has the integral 1 / (width height) in (u, v); d omega = 2 pi^2 sin du dv.
     const auto row_shares = cdf_probabilities(rows_);
     const double spread = static_cast<double>(width * height) / (2 * pi_d * pi_d);
     parallel_for(height, [&](size_t y) {

@@ -55,7 +55,7 @@ private:
 
     std::vector<float> pixels_;  ///< see EnvironmentView
     std::vector<CdfEntry> rows_;
-    std::vector<CdfEntry> columns_;
+    std::vector<ShortCdfEntry> columns_;
     int width_ = 0;
     int height_ = 0;
     double cos_rotation_ = 1;

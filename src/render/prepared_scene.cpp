@@ -4,6 +4,7 @@
 
 #include "base/stopwatch.h"
 #include "light/studio.h"
+#include "scene/alike_textures.h"
 
 namespace obscura {
 
@@ -98,6 +99,7 @@ Result<PreparedScene> PreparedScene::create(Scene scene,
     const Stopwatch building;
     auto impl = std::make_unique<Impl>();
     impl->scene = std::move(scene);
+    mark_alike_textures(impl->scene);
     impl->stages = &stage_table_for(isa);
     auto lit = make_lighting(*impl, lighting, log);
     if (!lit) return fail(lit.error());

@@ -84,8 +84,8 @@ struct Bounds {
 /// Primitives [0, world_primitive_count) lie in world space and appear once; the others belong to
 /// `meshes` and appear through `instances` only.
 struct Scene {
-    /// 3 floats a vertex, metres, and 4 floats of padding at the end (Embree reads 16 bytes).
-    std::vector<float> positions;
+    // These three end with the padding of pad_tables.
+    std::vector<float> positions;  ///< 3 floats a vertex, metres
     /// 3 absolute vertex numbers a triangle, counter-clockwise from the front (before mirroring).
     std::vector<uint32_t> indices;
     std::vector<float> attributes;  ///< normals, tangents, UVs and colours; see Primitive
@@ -104,5 +104,10 @@ struct Scene {
     Bounds bounds;  ///< world space, of all triangles
     AssetInfo info;
 };
+
+/// Ends the tables that are read four words at a time (Embree's 16 bytes, math/gather4.h), once
+/// nothing is added any more: 4 floats after the positions and attributes, 1 number after the
+/// indices.
+void pad_tables(Scene& scene);
 
 }  // namespace obscura

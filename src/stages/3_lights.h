@@ -64,22 +64,29 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
             s.pdf > Lanes(0.0f)};
 }
 
+/// The random numbers that choose a light and a place on it.
+struct LightRandom {
+    LanesU choice;
+    Vec3<Lanes> texture;
+    EnvironmentDraw<Lanes> environment;  ///< drawn ahead; its random numbers serve other lights too
+};
+
 /// Chooses one light for every lane and a place on it.
 OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                                        const ShadingPoint& point,
-                                       const Vec2<LanesU>& random,
-                                       LanesU choice,
-                                       const Vec3<Lanes>& texture_random) {
+                                       const LightRandom& random) {
     const LightView& lights = scene.lights;
     LightLanes out{splat3(Lanes(0.0f)), Lanes(0.0f), splat3(Lanes(0.0f)), Lanes(0.0f), Mask(false)};
     LanesI index(lights.count - 1);
-    if (lights.count > 1) index = sample_cdf<Lanes>(lights.choice, lights.count, choice).index;
+    if (lights.count > 1)
+        index = sample_cdf<Lanes>(lights.choice, lights.count, random.choice).index;
     const Mask punctual = index < LanesI(lights.punctual_count);
     const LanesI triangle_index = index - LanesI(lights.punctual_count);
     const Mask triangle = (!punctual) & (triangle_index < LanesI(lights.triangle_count));
     const Mask environment = !(punctual | triangle);
     if (scene.has_environment && any(environment)) {
-        const EnvironmentSample<Lanes> s = sample_environment<Lanes>(scene.environment, random);
+        const EnvironmentSample<Lanes> s =
+            finish_environment_draw(scene.environment, random.environment);
         const Lanes pdf = s.pdf * Lanes(lights.environment_select);
         choose(out,
                environment,
@@ -94,9 +101,9 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                triangle,
                sample_triangle_lights(scene,
                                       select(triangle, triangle_index, LanesI(0)),
-                                      unit_pair<Lanes>(random),
+                                      unit_pair<Lanes>(random.environment.random),
                                       point,
-                                      texture_random));
+                                      random.texture));
     }
     if (any(punctual)) {
         const LanesI row = select(punctual, index, LanesI(0));

@@ -14,27 +14,60 @@ namespace {
 /// The random numbers of one bounce.
 struct BounceRandom {
     Vec2<Lanes> bsdf, lobe;
-    Vec2<LanesU> light;
-    LanesU light_choice;
+    LightRandom light;
     Vec3<Lanes> texture;
 };
 
-OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path, int bounce, int light_count) {
+OBSCURA_INLINE Vec2<LanesU> random_pair(LanesU key, LanesU sample, int bounce, RandomUse use) {
+    const uint32_t number =
+        static_cast<uint32_t>(bounce) * pairs_per_bounce + static_cast<uint32_t>(use);
+    return sobol_pair(key, sample, number);
+}
+
+OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
+                                          int bounce,
+                                          int light_count,
+                                          const EnvironmentDraw<Lanes>& draw) {
     const auto pair = [&](RandomUse use) {
-        const uint32_t number =
-            static_cast<uint32_t>(bounce) * pairs_per_bounce + static_cast<uint32_t>(use);
-        return sobol_pair(path.key, path.sample, number);
+        return random_pair(path.key, path.sample, bounce, use);
     };
     BounceRandom r;
     r.bsdf = unit_pair<Lanes>(pair(RandomUse::bsdf));
     r.lobe = unit_pair<Lanes>(pair(RandomUse::lobe));
-    r.light = pair(RandomUse::light);
-    r.light_choice = light_count > 1 ? pair(RandomUse::light_choice).x : LanesU(0U);
+    r.light.choice = light_count > 1 ? pair(RandomUse::light_choice).x : LanesU(0U);
+    r.light.environment = draw;
     // A place between texels, and from the bits that remain one between mip levels.
     const Vec2<LanesU> bits = pair(RandomUse::texture);
     const Vec2<Lanes> texel = unit_pair<Lanes>(bits);
     r.texture = {texel.x, texel.y, unit_float<Lanes>((bits.y << 16) | (bits.x & LanesU(0xFFFFU)))};
+    r.light.texture = r.texture;
     return r;
+}
+
+/// Groups whose light samples are drawn ahead together: while one group's memory is on its way, the
+/// others are served.
+constexpr int groups_ahead = 8;
+
+OBSCURA_INLINE void draw_ahead(const SceneView& scene,
+                               const PathRows& paths,
+                               int bounce,
+                               int first,
+                               int groups,
+                               EnvironmentDraw<Lanes> (&draws)[groups_ahead]) {
+    for (int g = 0; g < groups; ++g) {
+        const int i = first + g * lane_count;
+        const Vec2<LanesU> random =
+            random_pair(load(paths.key + i), load(paths.sample + i), bounce, RandomUse::light);
+        draws[g].random = random;
+        if (scene.has_environment) {
+            draws[g] = draw_environment_row<Lanes>(scene.environment, random);
+        }
+    }
+    if (!scene.has_environment) return;
+    for (int g = 0; g < groups; ++g)
+        draw_environment_range(scene.environment, draws[g]);
+    for (int g = 0; g < groups; ++g)
+        draw_environment_column(scene.environment, draws[g]);
 }
 
 /// Light that the hit surfaces send towards the viewer themselves.
@@ -73,8 +106,7 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
                                    const PathLanes& path,
                                    const ShadingPoint& s,
                                    const BounceRandom& random) {
-    const LightLanes light =
-        sample_light(scene, s, random.light, random.light_choice, random.texture);
+    const LightLanes light = sample_light(scene, s, random.light);
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
     Mask useful = active & light.valid & (dot(light.direction, s.ng) > Lanes(0.0f));
@@ -134,6 +166,25 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
     return append_paths(rows, at, goes_on, next);
 }
 
+/// Environment light along a ray that the BSDF chose with density `pdf`, with the MIS weight of
+/// each pixel that is mixed.
+OBSCURA_INLINE Vec3<Lanes> weighted_environment(const SceneView& scene,
+                                                int strategies,
+                                                const EnvironmentTaps<Lanes>& taps,
+                                                Lanes pdf) {
+    Vec3<Lanes> sum = splat3(Lanes(0.0f));
+    for (int i = 0; i < 4; ++i) {
+        Lanes weight = taps.weight[i];
+        if (strategies == (sample_lights | sample_bsdfs)) {
+            weight = weight * mis_weight(pdf, taps.pdf[i] * Lanes(scene.lights.environment_select));
+        } else if (strategies == sample_lights) {
+            weight = select(taps.pdf[i] > Lanes(0.0f), Lanes(0.0f), weight);
+        }
+        sum = sum + taps.radiance[i] * weight;
+    }
+    return sum;
+}
+
 /// Environment light of the paths that left the scene.
 void shade_misses(const SceneView& scene,
                   const BatchSettings& batch,
@@ -146,20 +197,10 @@ void shade_misses(const SceneView& scene,
         const MissRows& m = rows.misses;
         const Vec3<Lanes> direction =
             select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
-        Vec3<Lanes> light;
-        if (bounce == 0) {
-            light = environment_radiance(scene.environment, direction);
-        } else {
-            const EnvironmentSample<Lanes> seen = look_up_environment(scene.environment, direction);
-            Lanes weight(1.0f);
-            if (batch.strategies == (sample_lights | sample_bsdfs)) {
-                weight =
-                    mis_weight(load(m.pdf + i), seen.pdf * Lanes(scene.lights.environment_select));
-            } else if (batch.strategies == sample_lights) {
-                weight = select(seen.pdf > Lanes(0.0f), Lanes(0.0f), weight);
-            }
-            light = seen.radiance * weight;
-        }
+        const EnvironmentTaps<Lanes> taps = environment_taps(scene.environment, direction);
+        const Vec3<Lanes> light =
+            bounce == 0 ? mix(taps)
+                        : weighted_environment(scene, batch.strategies, taps, load(m.pdf + i));
         add_radiance(rows.samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
     }
 }
@@ -187,22 +228,28 @@ ShadeCounts shade(const SceneView& scene,
     const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
     if (bounce == 0) set_camera_alpha(batch, sorted, rows);
     shade_misses(scene, batch, bounce, sorted.misses, rows);
+    EnvironmentDraw<Lanes> draws[groups_ahead];
     ShadeCounts out;
     for (int i = 0; i < sorted.hits; i += lane_count) {
+        const int group = i / lane_count % groups_ahead;
+        if (group == 0) {
+            const int groups = (sorted.hits - i + lane_count - 1) / lane_count;
+            draw_ahead(scene, rows.paths, bounce, i, min(groups, groups_ahead), draws);
+        }
         const Mask exists = rows_in_range(i, sorted.hits);
         const PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_or_first(rows.hits, i, exists);
-        const BounceRandom random = bounce_random(path, bounce, scene.lights.count);
+        const BounceRandom random = bounce_random(path, bounce, scene.lights.count, draws[group]);
         const ShadingPoint s =
             shading_point(scene, hit, path, random.texture, Filtering::stochastic);
         add_emission(scene, batch, rows, exists, path, s, hit.t);
         const Mask scatters = exists & (!s.unlit);
         if (bounce > batch.max_bounces || none(scatters)) continue;
+        out.next = add_next_rays(rows.next, out.next, scatters, path, s, random, bounce, hit.t);
         if (scene.lights.count > 0) {
             out.shadow =
                 add_shadow_rays(scene, batch, rows.shadows, out.shadow, scatters, path, s, random);
         }
-        out.next = add_next_rays(rows.next, out.next, scatters, path, s, random, bounce, hit.t);
     }
     return out;
 }
@@ -218,7 +265,7 @@ int shade_ao(const SceneView& scene,
         const Mask exists = rows_in_range(i, sorted.hits);
         const PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_or_first(rows.hits, i, exists);
-        const BounceRandom random = bounce_random(path, 0, 0);
+        const BounceRandom random = bounce_random(path, 0, 0, {});
         const ShadingPoint s =
             shading_point(scene, hit, path, random.texture, Filtering::stochastic);
         const Vec3<Lanes> direction = normalize(to_world(s.frame, cosine_hemisphere(random.bsdf)));

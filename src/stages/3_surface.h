@@ -2,51 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/scene.h"
-#include "stages/rows.h"
+#include "stages/3_textures.h"
 #include "surface/bsdf.h"
-#include "surface/texture.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
-
-inline constexpr int primitive_words = static_cast<int>(sizeof(Primitive) / 4);
-inline constexpr int instance_words = static_cast<int>(sizeof(Instance) / 4);
-inline constexpr int material_words = static_cast<int>(sizeof(Material) / 4);
-inline constexpr int slot_words = static_cast<int>(sizeof(TextureSlot) / 4);
-
-/// First word of a TextureSlot in a Material.
-inline constexpr int base_color_slot = 12;
-inline constexpr int metallic_roughness_slot = base_color_slot + slot_words;
-inline constexpr int normal_slot = metallic_roughness_slot + slot_words;
-inline constexpr int emissive_slot = normal_slot + slot_words;
-static_assert(offsetof(Material, base_color_texture) == base_color_slot * 4);
-static_assert(offsetof(Material, emissive_texture) == emissive_slot * 4);
-
-/// How textures are read: one random texel, or exact bilinear for noise-free quantities.
-enum class Filtering { stochastic, bilinear };
-
-/// One UV set at the hits.
-struct MeshUv {
-    LanesI base;  ///< as Primitive::uv_base
-    Vec2<Lanes> at;
-    Lanes area2;  ///< twice the triangle's signed area in UV space
-};
-
-/// A hit's geometry in world space.
-struct HitGeometry {
-    TableRow<Lanes> primitive, material;
-    LanesI corner[3];      ///< absolute vertex numbers
-    Lanes weight[3];       ///< barycentric
-    Vec3<Lanes> position;  ///< from the corners, not from the ray: error is bounded
-    Vec3<Lanes> ng;        ///< geometric normal, unit, to the front
-    Vec3<Lanes> normal;    ///< interpolated, unit, to the front
-    Lanes offset;  ///< distance along ng at which rays start without hitting their own triangle
-    Vec3<Lanes>
-        smooth_shift;  ///< from position to the smooth surface, for shadow rays (toward the front)
-    Lanes area2;       ///< twice the triangle's area
-    MeshUv first_uv;   ///< of UV set 0, read where a texture may need it
-};
 
 /// A point ready for shading. Normals face the viewer.
 struct ShadingPoint {
@@ -62,195 +22,18 @@ struct ShadingPoint {
     LanesI light;  ///< row in the triangle light table, -1: none
 };
 
-OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
-    return {
-        gather<Lanes>(base, word), gather<Lanes>(base + 1, word), gather<Lanes>(base + 2, word)};
-}
-
-OBSCURA_INLINE Vec3<Lanes> read3(const TableRow<Lanes>& row, int word) {
-    return {row.number(word), row.number(word + 1), row.number(word + 2)};
-}
-
-/// The instances of the hits; lanes in world space get the first.
-OBSCURA_INLINE TableRow<Lanes> instance_row(const SceneView& scene, const HitLanes& hit) {
-    return {scene.instances, max(hit.instance, LanesI(0)), instance_words};
-}
-
-/// Row-major 3x4 of an instance.
-OBSCURA_INLINE Affine<Lanes> read_affine(const TableRow<Lanes>& row, int word) {
-    Affine<Lanes> a;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c)
-            a.m[r][c] = row.number(word + r * 4 + c);
-    }
-    return a;
-}
-
-OBSCURA_INLINE Vec3<Lanes> weighted(const HitGeometry& g, const Vec3<Lanes> (&v)[3]) {
-    return v[0] * g.weight[0] + v[1] * g.weight[1] + v[2] * g.weight[2];
-}
-
-/// Where the surface through the corners with their normals would be, relative to the flat
-/// triangle: shadow rays that start there do not graze the facets. Source  Hanika, "Hacking the
-/// Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4
-OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
-                                                const Vec3<Lanes> (&p)[3],
-                                                const Vec3<Lanes> (&n)[3],
-                                                const Vec3<Lanes>& position) {
-    Vec3<Lanes> shift = splat3(Lanes(0.0f));
-    for (int k = 0; k < 3; ++k) {
-        const Vec3<Lanes> up = select(dot(n[k], g.ng) < Lanes(0.0f), -n[k], n[k]);
-        // Only outwards: a corner whose tangent plane lies above the point.
-        const Lanes below = min(dot(position - p[k], up), Lanes(0.0f));
-        shift = shift - up * (below * g.weight[k]);
-    }
-    // A box with averaged normals is no sphere: never far from the triangle.
-    const Lanes most = Lanes(0.05f) * sqrt(g.area2);
-    return shift * min(Lanes(1.0f), most / max(length(shift), Lanes(1e-30f)));
-}
-
-OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& hit) {
-    HitGeometry g;
-    g.primitive = {scene.primitives, hit.primitive, primitive_words};
-    g.material = {scene.materials, g.primitive.integer(2), material_words};
-    const LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
-    Vec3<Lanes> p[3];
-    for (int k = 0; k < 3; ++k) {
-        g.corner[k] = gather<Lanes>(scene.indices + k, index_word);
-        p[k] = gather3(scene.positions, g.corner[k] * LanesI(3));
-    }
-    g.weight[0] = Lanes(1.0f) - hit.u - hit.v;
-    g.weight[1] = hit.u;
-    g.weight[2] = hit.v;
-    g.position = weighted(g, p);
-    const Vec3<Lanes> face = cross(p[1] - p[0], p[2] - p[0]);
-    g.ng = normalize(face);
-    g.normal = g.ng;
-    g.smooth_shift = splat3(Lanes(0.0f));
-    g.area2 = length(face);
-    const LanesI normal_base = g.primitive.integer(3);
-    const Mask smooth = normal_base != LanesI(no_attribute);
-    if (any(smooth)) {
-        Vec3<Lanes> n[3];
-        for (int k = 0; k < 3; ++k) {
-            const LanesI word = normal_base + g.corner[k] * LanesI(3);
-            n[k] = gather3(scene.attributes, select(smooth, word, LanesI(0)));
-        }
-        g.normal = select(smooth, normalize(weighted(g, n)), g.ng);
-        g.smooth_shift =
-            select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
-    }
-    // Rounding of the barycentric sum and of Embree's own arithmetic, 2^-24 each step.
-    const Vec3<Lanes> size =
-        abs(p[0]) * g.weight[0] + abs(p[1]) * g.weight[1] + abs(p[2]) * g.weight[2];
-    const Lanes extent = max_component(max3(abs(p[1] - p[0]), abs(p[2] - p[0])));
-    g.offset = Lanes(32.0f / 16777216.0f) * (dot(abs(g.ng), size) + extent * Lanes(0.25f));
-    return g;
-}
-
-/// Moves the lanes that hit an instance from object space to world space.
-OBSCURA_INLINE void instance_to_world(const SceneView& scene, const HitLanes& hit, HitGeometry& g) {
-    const Mask instanced = hit.instance >= LanesI(0);
-    if (none(instanced)) return;
-    const TableRow<Lanes> instance = instance_row(scene, hit);
-    const Affine<Lanes> world = read_affine(instance, 0);
-    const Affine<Lanes> object = read_affine(instance, 12);
-    const Vec3<Lanes> position = transform_point(world, g.position);
-    const Vec3<Lanes> normal_scaled = transform_normal(object, g.ng);
-    const Vec3<Lanes> ng = normalize(normal_scaled);
-    // area' = area * |det| * |M^-T n|
-    const Lanes area_scale = abs(determinant(world)) * length(normal_scaled);
-    Vec3<Lanes> magnitude;  // |M| |p| + |translation|: what the sums below round against
-    const Vec3<Lanes> p = abs(g.position);
-    const auto row_size = [&](int r) {
-        return abs(world.m[r][0]) * p.x + abs(world.m[r][1]) * p.y + abs(world.m[r][2]) * p.z +
-               abs(world.m[r][3]);
-    };
-    magnitude = {row_size(0), row_size(1), row_size(2)};
-    const auto column_length = [&](int c) {
-        return length(Vec3<Lanes>{world.m[0][c], world.m[1][c], world.m[2][c]});
-    };
-    const Lanes stretch = column_length(0) + column_length(1) + column_length(2);
-    const Lanes offset = g.offset * stretch + Lanes(32.0f / 16777216.0f) * dot(abs(ng), magnitude);
-    g.normal = select(instanced, normalize(transform_normal(object, g.normal)), g.normal);
-    g.smooth_shift = select(instanced, transform_vector(world, g.smooth_shift), g.smooth_shift);
-    g.position = select(instanced, position, g.position);
-    g.ng = select(instanced, ng, g.ng);
-    g.offset = select(instanced, offset, g.offset);
-    g.area2 = select(instanced, g.area2 * area_scale, g.area2);
-}
-
-/// A texture slot of the hit materials, with the coordinates of its UV set.
-struct SlotLanes {
-    Mask used;
-    LanesI texture;
-    Vec2<Lanes> uv;
-    Lanes uv_area2;  ///< twice the triangle's area in the texture's UV space
+/// The textures that every hit reads.
+struct FoundSlots {
+    FoundSlot normal, metallic_roughness, base_color;
 };
 
-/// `base`: as Primitive::uv_base; lanes without the attribute get anything.
-OBSCURA_INLINE MeshUv read_mesh_uv(const SceneView& scene, const HitGeometry& g, LanesI base) {
-    const Mask present = base != LanesI(no_attribute);
-    Vec2<Lanes> uv[3];
-    for (int k = 0; k < 3; ++k) {
-        const LanesI word = select(present, base + g.corner[k] * LanesI(2), LanesI(0));
-        uv[k] = {gather<Lanes>(scene.attributes, word), gather<Lanes>(scene.attributes + 1, word)};
-    }
-    const Vec2<Lanes> e1 = uv[1] - uv[0];
-    const Vec2<Lanes> e2 = uv[2] - uv[0];
-    return {base, uv[0] + e1 * g.weight[1] + e2 * g.weight[2], e1.x * e2.y - e1.y * e2.x};
-}
-
-/// Reads UV set 0, which most textures use, once for all of them.
-OBSCURA_INLINE void read_first_uv_set(const SceneView& scene, HitGeometry& g) {
-    const LanesI base = g.primitive.integer(6);
-    const Mask textured =
-        (max(g.material.integer(base_color_slot), g.material.integer(metallic_roughness_slot)) >=
-         LanesI(0)) |
-        (max(g.material.integer(normal_slot), g.material.integer(emissive_slot)) >= LanesI(0));
-    g.first_uv = {LanesI(no_attribute), {Lanes(0.0f), Lanes(0.0f)}, Lanes(0.0f)};
-    if (any(textured & (base != LanesI(no_attribute)))) g.first_uv = read_mesh_uv(scene, g, base);
-}
-
-OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene, const HitGeometry& g, int slot) {
-    SlotLanes s;
-    s.texture = g.material.integer(slot);
-    s.used = s.texture >= LanesI(0);
-    if (none(s.used)) return s;
-    const LanesI base = g.primitive.shared()
-                            ? g.primitive.integer(6 + g.material.one_integer(slot + 1))
-                            : g.primitive.varying_integer(g.material.integer(slot + 1) + LanesI(6));
-    s.used = s.used & (base != LanesI(no_attribute));
-    if (none(s.used)) return s;
-    s.texture = select(s.used, s.texture, LanesI(0));
-    const bool first = none(s.used & (base != g.first_uv.base));
-    const MeshUv mesh = first ? g.first_uv : read_mesh_uv(scene, g, base);
-    Lanes m[6];
-    for (int k = 0; k < 6; ++k)
-        m[k] = g.material.number(slot + 2 + k);
-    const Vec2<Lanes>& at = mesh.at;
-    s.uv = {m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};
-    s.uv_area2 = abs(mesh.area2 * (m[0] * m[4] - m[1] * m[3]));
-    return s;
-}
-
-/// What all look-ups at one hit share.
-struct LookUp {
-    Lanes footprint;  ///< world area of the ray's cone on the surface
-    Vec3<Lanes> random;
-    Filtering filtering;
-};
-
-OBSCURA_INLINE Rgba<Lanes> read_slot(const SceneView& scene,
+OBSCURA_INLINE FoundSlots find_slots(const SceneView& scene,
                                      const HitGeometry& g,
-                                     const SlotLanes& s,
                                      const LookUp& look) {
-    const Lanes footprint = look.footprint * s.uv_area2 / max(g.area2, Lanes(1e-30f));
-    if (look.filtering == Filtering::bilinear) {
-        return sample_texture_bilinear<Lanes>(scene.textures, s.texture, s.uv, footprint);
-    }
-    return sample_texture_stochastic<Lanes>(
-        scene.textures, s.texture, s.uv, footprint, look.random);
+    const CommonTexel common = find_common_texel(scene, g, look);
+    return {find_slot(scene, g, normal_slot, look, common),
+            find_slot(scene, g, metallic_roughness_slot, look, common),
+            find_slot(scene, g, base_color_slot, look, common)};
 }
 
 /// Bends a normal until the mirror image of `wo` lies above the surface: no black fringes.
@@ -267,8 +50,8 @@ OBSCURA_INLINE Vec3<Lanes> bend_towards_viewer(const Vec3<Lanes>& n,
 OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
                                             const HitLanes& hit,
                                             const HitGeometry& g,
-                                            const LookUp& look) {
-    const SlotLanes slot = slot_lanes(scene, g, normal_slot);
+                                            const LookUp& look,
+                                            const FoundSlot& slot) {
     if (none(slot.used)) return g.normal;
     const LanesI tangent_base = g.primitive.integer(4);
     const Mask mapped = slot.used & (tangent_base != LanesI(no_attribute));
@@ -276,8 +59,9 @@ OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
     Lanes handedness = Lanes(1.0f);
     for (int k = 0; k < 3; ++k) {
         const LanesI word = select(mapped, tangent_base + g.corner[k] * LanesI(4), LanesI(0));
-        tangent[k] = gather3(scene.attributes, word);
-        if (k == 0) handedness = gather<Lanes>(scene.attributes + 3, word);
+        const Four<Lanes> words = gather4<Lanes>(scene.attributes, word);
+        tangent[k] = {words.x, words.y, words.z};
+        if (k == 0) handedness = words.w;
     }
     Vec3<Lanes> t = weighted(g, tangent);
     const Mask instanced = mapped & (hit.instance >= LanesI(0));
@@ -300,7 +84,8 @@ OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
 
 OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
                                       const HitGeometry& g,
-                                      const LookUp& look) {
+                                      const LookUp& look,
+                                      const FoundSlot& slot) {
     Vec3<Lanes> color = read3(g.material, 0);
     const LanesI color_base = g.primitive.integer(5);
     const Mask colored = color_base != LanesI(no_attribute);
@@ -312,7 +97,6 @@ OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
         }
         color = select(colored, color * weighted(g, c), color);
     }
-    const SlotLanes slot = slot_lanes(scene, g, base_color_slot);
     if (any(slot.used)) {
         color = select(slot.used, color * read_slot(scene, g, slot, look).rgb, color);
     }
@@ -321,16 +105,19 @@ OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
 
 OBSCURA_INLINE BsdfParams<Lanes> bsdf_params(const SceneView& scene,
                                              const HitGeometry& g,
-                                             const LookUp& look) {
+                                             const LookUp& look,
+                                             const FoundSlots& slots) {
     Lanes metallic = g.material.number(4);
     Lanes roughness = g.material.number(5);
-    const SlotLanes slot = slot_lanes(scene, g, metallic_roughness_slot);
+    const FoundSlot& slot = slots.metallic_roughness;
     if (any(slot.used)) {
         const Rgba<Lanes> texel = read_slot(scene, g, slot, look);
         roughness = select(slot.used, roughness * texel.rgb.y, roughness);
         metallic = select(slot.used, metallic * texel.rgb.z, metallic);
     }
-    return {base_color(scene, g, look), metallic, max(roughness * roughness, Lanes(min_ggx_alpha))};
+    return {base_color(scene, g, look, slots.base_color),
+            metallic,
+            max(roughness * roughness, Lanes(min_ggx_alpha))};
 }
 
 /// Everything about the hits of one group. `wo` points to the viewer.
@@ -348,16 +135,18 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     // The cone's cross section on the slanted surface: geometric mean of its two widths.
     const LookUp look{width * width / max(abs(cos_front), Lanes(0.05f)), random, filtering};
 
+    const FoundSlots slots = find_slots(scene, g, look);
+
     ShadingPoint s;
     const LanesI flags = g.material.integer(11);
     const Mask front = cos_front >= Lanes(0.0f);
     s.ng = select(front, g.ng, -g.ng);
     s.start = g.position + s.ng * g.offset;
     s.light_start = s.start + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
-    const Vec3<Lanes> n = apply_normal_map(scene, hit, g, look);
+    const Vec3<Lanes> n = apply_normal_map(scene, hit, g, look, slots.normal);
     s.normal = select(dot(n, s.ng) < Lanes(0.0f), -n, n);
     s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, wo));
-    s.bsdf = bsdf_params(scene, g, look);
+    s.bsdf = bsdf_params(scene, g, look, slots);
     s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, wo));
     s.unlit = has_bits<Lanes>(flags, material_unlit);
 
@@ -367,11 +156,11 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     s.emission = select(emits, s.emission, splat3(Lanes(0.0f)));
     s.light = LanesI(-1);
     if (any(emits)) {
-        const SlotLanes slot = slot_lanes(scene, g, emissive_slot);
+        // Where light sampling may find the same light, both must see the same texels.
+        LookUp sharp = look;
+        sharp.footprint = select(path.pdf > Lanes(0.0f), Lanes(0.0f), look.footprint);
+        const FoundSlot slot = find_slot(scene, g, emissive_slot, sharp, {});
         if (any(slot.used & emits)) {
-            // Where light sampling may find the same light, both must see the same texels.
-            LookUp sharp = look;
-            sharp.footprint = select(path.pdf > Lanes(0.0f), Lanes(0.0f), look.footprint);
             s.emission =
                 select(slot.used, s.emission * read_slot(scene, g, slot, sharp).rgb, s.emission);
         }

@@ -21,6 +21,9 @@ enum MaterialFlag : uint32_t {
     material_alpha_blend = 1U << 1,  ///< alphaMode BLEND: hit with probability alpha
     material_double_sided = 1U << 2,
     material_unlit = 1U << 3,  ///< KHR_materials_unlit: base colour is the radiance
+    /// Base colour, metallic-roughness and normal texture, where present, have the same size,
+    /// sampler and coordinates (absent ones have them too), so that a place in one is found for all
+    material_textures_alike = 1U << 4,
 };
 
 /// One glTF material. A table of these is read word by word by the shading lanes, so every member

@@ -7,6 +7,8 @@
 #include "surface/srgb.h"
 #include "surface/texture_row.h"
 
+#include <cstddef>
+
 namespace obscura {
 
 /// All textures of a scene, as raw pointers for gathers.
@@ -16,6 +18,11 @@ struct TextureView {
 };
 
 inline constexpr int texture_row_words = static_cast<int>(sizeof(TextureRow) / 4);
+
+// Words of a TextureRow.
+inline constexpr int sampler_word = 3, first_level_word = 4;
+static_assert(offsetof(TextureRow, sampler) == sampler_word * 4);
+static_assert(offsetof(TextureRow, level_offset) == first_level_word * 4);
 
 template <typename F>
 struct Rgba {
@@ -36,7 +43,7 @@ struct TextureInfo {
 template <typename F>
 OBSCURA_INLINE TextureInfo<F> texture_info(const TextureView& view, const IntOf<F>& texture) {
     const TableRow<F> row(view.rows, texture, texture_row_words);
-    return {row, row.integer(0), row.integer(1), row.integer(2), row.integer(3)};
+    return {row, row.integer(0), row.integer(1), row.integer(2), row.integer(sampler_word)};
 }
 
 /// log2 of the side, in texels of level 0, of a footprint given as an area in UV space.
@@ -101,7 +108,7 @@ struct MipLevel {
 
 template <typename F>
 OBSCURA_INLINE MipLevel<F> mip_level(const TextureInfo<F>& info, const IntOf<F>& level) {
-    const IntOf<F> offset = info.row.varying_integer(IntOf<F>(level + IntOf<F>(4)));
+    const IntOf<F> offset = info.row.varying_integer(IntOf<F>(level + IntOf<F>(first_level_word)));
     // Sides halve, rounding down: exact in float for sides up to 65536.
     const F scale = power_of_two<F>(IntOf<F>(IntOf<F>(127) - level));
     return {offset,
@@ -149,23 +156,36 @@ OBSCURA_INLINE TexelPosition<F> texel_position(const TextureInfo<F>& info,
             wrap_v};
 }
 
+/// The number of a texel in the arena.
 template <typename F>
-OBSCURA_INLINE UintOf<F> fetch_texel(const TextureView& view,
-                                     const TexelPosition<F>& at,
+OBSCURA_INLINE IntOf<F> texel_number(const TexelPosition<F>& at,
                                      const IntOf<F>& x,
                                      const IntOf<F>& y) {
     const IntOf<F> column = wrap_texel<F>(x, at.level.width, at.wrap_u);
     const IntOf<F> row = wrap_texel<F>(y, at.level.height, at.wrap_v);
-    return gather<F>(view.texels, IntOf<F>(at.level.offset + row * at.level.width + column));
+    return at.level.offset + row * at.level.width + column;
 }
 
-/// Reads one texel, chosen at random with the weights of the bilinear (and mip) filter: right on
-/// average, a quarter or an eighth of the memory traffic.
+/// The number of one texel, chosen at random with the weights of the bilinear (and mip) filter:
+/// right on average, a quarter or an eighth of the memory traffic.
 ///
-/// In      texture: row number of every lane, all valid; footprint: area in UV space that the
-/// look-up
-///         stands for; random: three numbers in [0,1)
+/// In      footprint: area in UV space that the look-up stands for; random: three numbers in [0,1)
 /// Source  Pharr et al., "Filtering After Shading With Stochastic Texture Filtering", I3D 2024
+template <typename F>
+OBSCURA_INLINE IntOf<F> stochastic_texel(const TextureInfo<F>& info,
+                                         const Vec2<F>& uv,
+                                         const F& footprint,
+                                         const Vec3<F>& random) {
+    const F lod = level_of_detail<F>(info, footprint);
+    const TexelPosition<F> at = texel_position<F>(info, uv, lod, random.z);
+    const F jitter_x = select(at.nearest, F(0.0f), random.x - F(0.5f));
+    const F jitter_y = select(at.nearest, F(0.0f), random.y - F(0.5f));
+    return texel_number<F>(at, to_int(floor(at.x + jitter_x)), to_int(floor(at.y + jitter_y)));
+}
+
+/// Reads one random texel.
+///
+/// In      texture: row number of every lane, all valid; the others as stochastic_texel
 template <typename F>
 OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
                                                  const IntOf<F>& texture,
@@ -173,12 +193,8 @@ OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
                                                  const F& footprint,
                                                  const Vec3<F>& random) {
     const TextureInfo<F> info = texture_info<F>(view, texture);
-    const F lod = level_of_detail<F>(info, footprint);
-    const TexelPosition<F> at = texel_position<F>(info, uv, lod, random.z);
-    const F jitter_x = select(at.nearest, F(0.0f), random.x - F(0.5f));
-    const F jitter_y = select(at.nearest, F(0.0f), random.y - F(0.5f));
     const UintOf<F> texel =
-        fetch_texel<F>(view, at, to_int(floor(at.x + jitter_x)), to_int(floor(at.y + jitter_y)));
+        gather<F>(view.texels, stochastic_texel<F>(info, uv, footprint, random));
     return decode_texel<F>(texel, has_bits<F>(info.sampler, sampler_srgb));
 }
 
@@ -204,7 +220,8 @@ OBSCURA_INLINE Rgba<F> sample_texture_bilinear(const TextureView& view,
         const IntOf<F> cy = y0 + IntOf<F>(corner >> 1);
         const F wx = (corner & 1) != 0 ? fx : F(1.0f) - fx;
         const F wy = (corner >> 1) != 0 ? fy : F(1.0f) - fy;
-        const Rgba<F> value = decode_texel<F>(fetch_texel<F>(view, at, cx, cy), srgb);
+        const Rgba<F> value =
+            decode_texel<F>(gather<F>(view.texels, texel_number<F>(at, cx, cy)), srgb);
         sum.rgb = sum.rgb + value.rgb * (wx * wy);
         sum.alpha = sum.alpha + value.alpha * (wx * wy);
     }

@@ -62,7 +62,7 @@ std::vector<WideTriangle> widen(const Scene& scene) {
         const float* p = &scene.positions[3 * static_cast<size_t>(scene.indices[i])];
         return Vec3d{p[0], p[1], p[2]};
     };
-    for (size_t i = 0; i < scene.indices.size(); i += 3) {
+    for (size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
         const Vec3d e1 = vertex(i + 1) - vertex(i);
         const Vec3d e2 = vertex(i + 2) - vertex(i);
         out.push_back({vertex(i), e1, e2, cross(e1, e2)});

@@ -139,7 +139,7 @@ TEST(Meshes, WorldPrimitivesComeFirst) {
     EXPECT_EQ(scene.primitives[1].node, 2);
     EXPECT_EQ(scene.primitives[1].first_triangle, 1);
     EXPECT_EQ(scene.meshes[0].first_primitive, 2);
-    EXPECT_EQ(scene.indices, (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8}));
+    EXPECT_EQ(scene.indices, (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 0}));
     // The base of an attribute is such that the absolute vertex number finds its place.
     EXPECT_EQ(attribute_of(scene, scene.primitives[1].normal_base, 4, 3), (F{0, 0, 1}));
     EXPECT_EQ(position_of(scene, 4), (F{2, 0, 9}));
@@ -174,7 +174,7 @@ TEST(Meshes, UnusedMeshesTakeNoRoom) {
     builder.tree["meshes"][1]["name"] = "Spare";
     const Loaded loaded = load_tree(builder.finished());
     ASSERT_TRUE(loaded.scene) << loaded.text();
-    EXPECT_EQ(loaded.scene->indices.size(), 3U);
+    EXPECT_EQ(loaded.scene->indices.size(), 3U + 1);
     ASSERT_EQ(loaded.scene->info.meshes.size(), 2U);
     EXPECT_EQ(loaded.scene->info.meshes[0].name, "mesh 0");
     EXPECT_EQ(loaded.scene->info.meshes[1].name, "Spare");

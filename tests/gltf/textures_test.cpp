@@ -64,7 +64,7 @@ TEST(Textures, InfoOnlyMeasures) {
     EXPECT_TRUE(loaded.scene->textures.texels.empty());
     EXPECT_EQ(loaded.scene->textures.rows.size(), 1U);
     EXPECT_EQ(loaded.scene->info.images[0].height, 2);
-    EXPECT_EQ(loaded.scene->indices.size(), 3U);
+    EXPECT_EQ(loaded.scene->indices.size(), 3U + 1);
 }
 
 /// One image: colour with two samplers and data with one. Texels exist twice, rows three times.

@@ -23,9 +23,31 @@ std::vector<double> random_weights(size_t count, uint64_t seed) {
     return weights;
 }
 
-std::vector<CdfEntry> table_for(const std::vector<double>& weights) {
-    return build_cdf_table(std::span<const double>(weights));
+template <typename Entry = CdfEntry>
+std::vector<Entry> table_for(const std::vector<double>& weights) {
+    return build_cdf_table<Entry>(std::span<const double>(weights));
 }
+
+template <typename Entry>
+std::vector<double> shares_of(const std::vector<Entry>& table) {
+    return cdf_probabilities(std::span<const Entry>(table));
+}
+
+/// What sample_cdf reads: a table with the padding after it.
+template <typename Entry>
+std::vector<Entry> padded(std::vector<Entry> table) {
+    table.resize(table.size() + cdf_padding<Entry>);
+    return table;
+}
+
+/// Smallest share of the random numbers that an index can have.
+template <typename Entry>
+constexpr double grain = sizeof(Entry) == 4 ? 0x1p-16 : 0x1p-32;
+
+template <typename Entry>
+class CdfTables : public testing::Test {};
+using Entries = testing::Types<CdfEntry, ShortCdfEntry>;
+TYPED_TEST_SUITE(CdfTables, Entries);
 
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -40,16 +62,16 @@ TEST(CdfTable, MultiplyHighIsTheUpperHalfOfTheProduct) {
     }
 }
 
-TEST(CdfTable, ProbabilitiesFollowTheWeights) {
+TYPED_TEST(CdfTables, ProbabilitiesFollowTheWeights) {
     for (const size_t count : {1U, 2U, 3U, 7U, 64U, 1000U, 16384U}) {
         std::vector<double> weights = random_weights(count, count);
         weights[0] += 1;
-        const std::vector<double> got = cdf_probabilities(table_for(weights));
+        const std::vector<double> got = shares_of(table_for<TypeParam>(weights));
         const double sum = sum_of(weights);
         EXPECT_DOUBLE_EQ(sum_of(got), 1.0);
-        const double grain = static_cast<double>(count) * 0x1p-32;
+        const double limit = static_cast<double>(count) * grain<TypeParam>;
         for (size_t i = 0; i < count; ++i) {
-            EXPECT_NEAR(got[i], weights[i] / sum, grain) << count << " entries, index " << i;
+            EXPECT_NEAR(got[i], weights[i] / sum, limit) << count << " entries, index " << i;
             EXPECT_EQ(got[i] > 0, weights[i] > 0) << count << " entries, index " << i;
         }
     }
@@ -59,7 +81,7 @@ TEST(CdfTable, AMillionEntriesKeepTheirShares) {
     const size_t count = 1 << 20;
     std::vector<double> weights(count, 1.0);
     weights[12345] = static_cast<double>(count);  // half of everything
-    const std::vector<double> got = cdf_probabilities(table_for(weights));
+    const std::vector<double> got = shares_of(table_for(weights));
     EXPECT_NEAR(got[12345], 0.5, 1e-6 + 0x1p-12);
     EXPECT_NEAR(sum_of(got), 1.0, 1e-9);
     for (size_t i = 0; i < count; i += 997) {
@@ -67,55 +89,57 @@ TEST(CdfTable, AMillionEntriesKeepTheirShares) {
     }
 }
 
-TEST(CdfTable, TheFaintestEntryIsStillReached) {
+TYPED_TEST(CdfTables, TheFaintestEntryIsStillReached) {
     std::vector<double> weights(1000, 1.0);
     weights[500] = 1e30;
-    const std::vector<double> got = cdf_probabilities(table_for(weights));
+    const std::vector<double> got = shares_of(table_for<TypeParam>(weights));
     for (size_t i = 0; i < weights.size(); ++i)
-        EXPECT_GE(got[i], 0x1p-32) << i;
+        EXPECT_GE(got[i], grain<TypeParam>) << i;
 }
 
-TEST(CdfTable, WeightsThatAreAllZeroMeanUniform) {
-    const std::vector<float> weights(5, 0.0F);
-    const std::vector<CdfEntry> table = build_cdf_table(std::span<const float>(weights));
-    for (const double got : cdf_probabilities(table))
-        EXPECT_NEAR(got, 0.2, 1e-8);
+TYPED_TEST(CdfTables, WeightsThatAreAllZeroMeanUniform) {
+    const std::vector<double> weights(5, 0.0);
+    const std::vector<TypeParam> table = table_for<TypeParam>(weights);
+    for (const double got : shares_of(table))
+        EXPECT_NEAR(got, 0.2, 1e-8 + grain<TypeParam>);
 }
 
-TEST(CdfTable, BrokenWeightsCountAsZero) {
+TYPED_TEST(CdfTables, BrokenWeightsCountAsZero) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
-    const std::vector<double> got = cdf_probabilities(table_for({-1, 2, nan, infinity, 6}));
+    const std::vector<double> got = shares_of(table_for<TypeParam>({-1, 2, nan, infinity, 6}));
     const std::vector<double> expected = {0, 0.25, 0, 0, 0.75};
     for (size_t i = 0; i < got.size(); ++i)
-        EXPECT_NEAR(got[i], expected[i], 1e-8) << i;
+        EXPECT_NEAR(got[i], expected[i], 1e-8 + grain<TypeParam>) << i;
 }
 
-TEST(CdfTable, HugeWeightsDoNotOverflow) {
-    const std::vector<double> got = cdf_probabilities(table_for({1.7e308, 1.7e308, 1.7e308}));
+TYPED_TEST(CdfTables, HugeWeightsDoNotOverflow) {
+    const std::vector<double> got = shares_of(table_for<TypeParam>({1.7e308, 1.7e308, 1.7e308}));
     for (const double share : got)
-        EXPECT_NEAR(share, 1.0 / 3, 1e-8);
+        EXPECT_NEAR(share, 1.0 / 3, 1e-8 + grain<TypeParam>);
 }
 
 /// Counts of (index, sixteenth of the remaining bits).
-std::vector<double> draw(const std::vector<CdfEntry>& table, int samples) {
+template <typename Entry>
+std::vector<double> draw(const std::vector<Entry>& table, int samples) {
     std::vector<double> observed((table.size() - 1) * 16, 0.0);
+    const std::vector<Entry> entries = padded(table);
     Pcg32 random(11);
     for (int i = 0; i < samples; ++i) {
         const auto count = static_cast<int>(table.size()) - 1;
-        const auto sample = sample_cdf<float>(table.data(), count, random.next_uint());
+        const auto sample = sample_cdf<float>(entries.data(), count, random.next_uint());
         observed[static_cast<size_t>(sample.index) * 16 + (sample.remaining >> 28)] += 1;
     }
     return observed;
 }
 
-TEST(CdfTable, IndexAndRemainderAreIndependentAndRight) {
+TYPED_TEST(CdfTables, IndexAndRemainderAreIndependentAndRight) {
     constexpr int samples = 1000000;
     std::vector<double> weights = random_weights(100, 7);
     for (double& weight : weights)
         weight = std::sqrt(weight);  // most bins get samples
-    const std::vector<CdfEntry> table = table_for(weights);
-    const std::vector<double> shares = cdf_probabilities(table);
+    const std::vector<TypeParam> table = table_for<TypeParam>(weights);
+    const std::vector<double> shares = shares_of(table);
     std::vector<double> expected(shares.size() * 16);
     for (size_t i = 0; i < expected.size(); ++i)
         expected[i] = shares[i / 16] * samples / 16;
@@ -130,10 +154,11 @@ TEST(CdfTable, IndexAndRemainderAreIndependentAndRight) {
 }
 
 /// Sampler and cdf_probabilities agree to the single random number, at every border.
-TEST(CdfTable, ProbabilitiesCountEveryRandomNumber) {
-    const std::vector<CdfEntry> table = table_for(random_weights(7, 5));
+TYPED_TEST(CdfTables, ProbabilitiesCountEveryRandomNumber) {
+    const std::vector<TypeParam> table = table_for<TypeParam>(random_weights(7, 5));
+    const std::vector<TypeParam> entries = padded(table);
     const auto index_of = [&](uint32_t random) {
-        return sample_cdf<float>(table.data(), 7, random).index;
+        return sample_cdf<float>(entries.data(), 7, random).index;
     };
     std::vector<double> counted(7, 0.0);
     uint64_t begin = 0;
@@ -148,15 +173,15 @@ TEST(CdfTable, ProbabilitiesCountEveryRandomNumber) {
         counted[static_cast<size_t>(index)] += static_cast<double>(last - begin + 1) * 0x1p-32;
         begin = last + 1;
     }
-    const std::vector<double> told = cdf_probabilities(table);
+    const std::vector<double> told = shares_of(table);
     for (size_t i = 0; i < 7; ++i)
         EXPECT_DOUBLE_EQ(counted[i], told[i]) << i;
 }
 
-TEST(CdfTable, TheIndexGrowsWithTheRandomNumber) {
+TYPED_TEST(CdfTables, TheIndexGrowsWithTheRandomNumber) {
     std::vector<double> weights = random_weights(300, 4);
     weights.insert(weights.end(), {1e7, 0, 0});
-    const std::vector<CdfEntry> table = table_for(weights);
+    const std::vector<TypeParam> table = padded(table_for<TypeParam>(weights));
     int32_t index = 0;
     for (uint64_t random = 0; random < 0x100000000U; random += 0xFFFFF) {
         const auto bits = static_cast<uint32_t>(random);
@@ -168,8 +193,8 @@ TEST(CdfTable, TheIndexGrowsWithTheRandomNumber) {
     EXPECT_EQ(index, 300);
 }
 
-TEST(CdfTable, LanesEqualScalars) {
-    const std::vector<CdfEntry> table = table_for(random_weights(5000, 9));
+TYPED_TEST(CdfTables, LanesEqualScalars) {
+    const std::vector<TypeParam> table = padded(table_for<TypeParam>(random_weights(5000, 9)));
     Pcg32 random(1);
     for (int round = 0; round < 1000; ++round) {
         uint32_t bits[lane_count];

@@ -90,7 +90,7 @@ public:
                                  std::min(scene_.bounds.low.z, p[2])};
             scene_.bounds.high = max3(scene_.bounds.high, Vec3f{p[0], p[1], p[2]});
         }
-        scene_.positions.insert(scene_.positions.end(), 4, 0.0f);
+        pad_tables(scene_);
         scene_.world_primitive_count = static_cast<int32_t>(scene_.primitives.size());
         if (scene_.materials.empty()) material({});
         return std::move(scene_);

@@ -48,7 +48,7 @@ Scene chequered_floor(MipMode mip, float tiles_per_m) {
     scene.textures = chequer_board(mip);
     scene.primitives[0].uv_base[0] = 0;
     const float end = 400 * tiles_per_m;
-    scene.attributes = {0, 0, end, 0, end, end, 0, end};
+    scene.attributes = {0, 0, end, 0, end, end, 0, end, 0, 0, 0, 0};
     return scene;
 }
 

@@ -1,0 +1,117 @@
+// math/gather4.h - four neighbouring words for every lane, for less than four gathers.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/lanes.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+/// Words [i, i + 4) of a table, one member a word.
+template <typename T>
+struct Four {
+    T x, y, z, w;
+};
+
+#if defined(__AVX512F__)
+/// 16 loads of 16 bytes and a transposition: processors split a gather into loads of one word each.
+OBSCURA_INLINE Four<Lanes> gather4_lanes(const float* base, LanesI first) {
+    alignas(64) int32_t at[lane_count];
+    _mm512_store_si512(at, first.v);
+    const auto rows = [&](int k) {  // of lanes k, k + 4, k + 8, k + 12
+        __m512 r = _mm512_castps128_ps512(_mm_loadu_ps(base + at[k]));
+        r = _mm512_insertf32x4(r, _mm_loadu_ps(base + at[k + 4]), 1);
+        r = _mm512_insertf32x4(r, _mm_loadu_ps(base + at[k + 8]), 2);
+        return _mm512_insertf32x4(r, _mm_loadu_ps(base + at[k + 12]), 3);
+    };
+    const __m512 a = rows(0);
+    const __m512 b = rows(1);
+    const __m512 c = rows(2);
+    const __m512 d = rows(3);
+    const __m512d xy01 = _mm512_castps_pd(_mm512_unpacklo_ps(a, b));
+    const __m512d zw01 = _mm512_castps_pd(_mm512_unpackhi_ps(a, b));
+    const __m512d xy23 = _mm512_castps_pd(_mm512_unpacklo_ps(c, d));
+    const __m512d zw23 = _mm512_castps_pd(_mm512_unpackhi_ps(c, d));
+    return {BatchF(_mm512_castpd_ps(_mm512_unpacklo_pd(xy01, xy23))),
+            BatchF(_mm512_castpd_ps(_mm512_unpackhi_pd(xy01, xy23))),
+            BatchF(_mm512_castpd_ps(_mm512_unpacklo_pd(zw01, zw23))),
+            BatchF(_mm512_castpd_ps(_mm512_unpackhi_pd(zw01, zw23)))};
+}
+#elif defined(__AVX2__)
+OBSCURA_INLINE Four<Lanes> gather4_lanes(const float* base, LanesI first) {
+    alignas(32) int32_t at[lane_count];
+    _mm256_store_si256(reinterpret_cast<__m256i*>(at), first.v);
+    const auto rows = [&](int k) {  // of lanes k and k + 4
+        return _mm256_insertf128_ps(
+            _mm256_castps128_ps256(_mm_loadu_ps(base + at[k])), _mm_loadu_ps(base + at[k + 4]), 1);
+    };
+    const __m256 a = rows(0);
+    const __m256 b = rows(1);
+    const __m256 c = rows(2);
+    const __m256 d = rows(3);
+    const __m256d xy01 = _mm256_castps_pd(_mm256_unpacklo_ps(a, b));
+    const __m256d zw01 = _mm256_castps_pd(_mm256_unpackhi_ps(a, b));
+    const __m256d xy23 = _mm256_castps_pd(_mm256_unpacklo_ps(c, d));
+    const __m256d zw23 = _mm256_castps_pd(_mm256_unpackhi_ps(c, d));
+    return {BatchF(_mm256_castpd_ps(_mm256_unpacklo_pd(xy01, xy23))),
+            BatchF(_mm256_castpd_ps(_mm256_unpackhi_pd(xy01, xy23))),
+            BatchF(_mm256_castpd_ps(_mm256_unpacklo_pd(zw01, zw23))),
+            BatchF(_mm256_castpd_ps(_mm256_unpackhi_pd(zw01, zw23)))};
+}
+#elif defined(__x86_64__)
+OBSCURA_INLINE Four<Lanes> gather4_lanes(const float* base, LanesI first) {
+    alignas(16) int32_t at[lane_count];
+    first.v.store_aligned(at);
+    __m128 a = _mm_loadu_ps(base + at[0]);
+    __m128 b = _mm_loadu_ps(base + at[1]);
+    __m128 c = _mm_loadu_ps(base + at[2]);
+    __m128 d = _mm_loadu_ps(base + at[3]);
+    _MM_TRANSPOSE4_PS(a, b, c, d);
+    return {BatchF(a), BatchF(b), BatchF(c), BatchF(d)};
+}
+#else
+OBSCURA_INLINE Four<Lanes> gather4_lanes(const float* base, LanesI first) {
+    return {BatchF::gather(base, first.v),
+            BatchF::gather(base + 1, first.v),
+            BatchF::gather(base + 2, first.v),
+            BatchF::gather(base + 3, first.v)};
+}
+#endif
+
+/// Reads base[i] to base[i + 3] for every lane. All four words must exist, in idle lanes too, also
+/// where the caller drops some: tables read this way have padding at their end.
+template <typename F>
+OBSCURA_INLINE Four<F> gather4(const float* base, const IntOf<F>& i) {
+    if constexpr (std::is_same_v<F, Lanes>) {
+        return gather4_lanes(base, i);
+    } else {
+        return {F(base[i]), F(base[i + 1]), F(base[i + 2]), F(base[i + 3])};
+    }
+}
+
+/// As above, for integers.
+template <typename F>
+OBSCURA_INLINE Four<IntOf<F>> gather4(const int32_t* base, const IntOf<F>& i) {
+    if constexpr (std::is_same_v<F, Lanes>) {
+        const Four<Lanes> words = gather4_lanes(reinterpret_cast<const float*>(base), i);
+        return {float_bits(words.x), float_bits(words.y), float_bits(words.z), float_bits(words.w)};
+    } else {
+        return {base[i], base[i + 1], base[i + 2], base[i + 3]};
+    }
+}
+
+/// Asks for the memory that gather4(base, i) will read, so that other work can go on meanwhile.
+template <typename F, typename T>
+OBSCURA_INLINE void prefetch(const T* base, const IntOf<F>& i) {
+    if constexpr (std::is_same_v<F, Lanes>) {
+        alignas(64) int32_t at[lane_count];
+        store(at, i);
+        for (int lane = 0; lane < lane_count; ++lane)
+            __builtin_prefetch(base + at[lane]);
+    } else {
+        __builtin_prefetch(base + i);
+    }
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,13 @@
+// scene/scene.cpp - what closes a scene's tables.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/scene.h"
+
+namespace obscura {
+
+void pad_tables(Scene& scene) {
+    scene.positions.insert(scene.positions.end(), 4, 0.0f);
+    scene.attributes.insert(scene.attributes.end(), 4, 0.0f);
+    scene.indices.push_back(0);
+}
+
+}  // namespace obscura

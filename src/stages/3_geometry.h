@@ -1,0 +1,161 @@
+// stages/3_geometry.h - from a hit to its position and normals in world space.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/gather4.h"
+#include "math/table_row.h"
+#include "scene/scene.h"
+#include "stages/rows.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+inline constexpr int primitive_words = static_cast<int>(sizeof(Primitive) / 4);
+inline constexpr int instance_words = static_cast<int>(sizeof(Instance) / 4);
+inline constexpr int material_words = static_cast<int>(sizeof(Material) / 4);
+
+/// One UV set at the hits.
+struct MeshUv {
+    LanesI base;  ///< as Primitive::uv_base
+    Vec2<Lanes> at;
+    Lanes area2;  ///< twice the triangle's signed area in UV space
+};
+
+/// A hit's geometry in world space.
+struct HitGeometry {
+    TableRow<Lanes> primitive, material;
+    LanesI corner[3];      ///< absolute vertex numbers
+    Lanes weight[3];       ///< barycentric
+    Vec3<Lanes> position;  ///< from the corners, not from the ray: error is bounded
+    Vec3<Lanes> ng;        ///< geometric normal, unit, to the front
+    Vec3<Lanes> normal;    ///< interpolated, unit, to the front
+    Lanes offset;  ///< distance along ng at which rays start without hitting their own triangle
+    Vec3<Lanes>
+        smooth_shift;  ///< from position to the smooth surface, for shadow rays (toward the front)
+    Lanes area2;       ///< twice the triangle's area
+    MeshUv first_uv;   ///< of UV set 0, read where a texture may need it
+};
+
+/// The scene's tables have a word of padding after the last triple.
+OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
+    const Four<Lanes> words = gather4<Lanes>(base, word);
+    return {words.x, words.y, words.z};
+}
+
+OBSCURA_INLINE Vec3<Lanes> read3(const TableRow<Lanes>& row, int word) {
+    return {row.number(word), row.number(word + 1), row.number(word + 2)};
+}
+
+/// The instances of the hits; lanes in world space get the first.
+OBSCURA_INLINE TableRow<Lanes> instance_row(const SceneView& scene, const HitLanes& hit) {
+    return {scene.instances, max(hit.instance, LanesI(0)), instance_words};
+}
+
+/// Row-major 3x4 of an instance.
+OBSCURA_INLINE Affine<Lanes> read_affine(const TableRow<Lanes>& row, int word) {
+    Affine<Lanes> a;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c)
+            a.m[r][c] = row.number(word + r * 4 + c);
+    }
+    return a;
+}
+
+OBSCURA_INLINE Vec3<Lanes> weighted(const HitGeometry& g, const Vec3<Lanes> (&v)[3]) {
+    return v[0] * g.weight[0] + v[1] * g.weight[1] + v[2] * g.weight[2];
+}
+
+/// Where the surface through the corners with their normals would be, relative to the flat
+/// triangle: shadow rays that start there do not graze the facets. Source  Hanika, "Hacking the
+/// Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4
+OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
+                                                const Vec3<Lanes> (&p)[3],
+                                                const Vec3<Lanes> (&n)[3],
+                                                const Vec3<Lanes>& position) {
+    Vec3<Lanes> shift = splat3(Lanes(0.0f));
+    for (int k = 0; k < 3; ++k) {
+        const Vec3<Lanes> up = select(dot(n[k], g.ng) < Lanes(0.0f), -n[k], n[k]);
+        // Only outwards: a corner whose tangent plane lies above the point.
+        const Lanes below = min(dot(position - p[k], up), Lanes(0.0f));
+        shift = shift - up * (below * g.weight[k]);
+    }
+    // A box with averaged normals is no sphere: never far from the triangle.
+    const Lanes most = Lanes(0.05f) * sqrt(g.area2);
+    return shift * min(Lanes(1.0f), most / max(length(shift), Lanes(1e-30f)));
+}
+
+OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& hit) {
+    HitGeometry g;
+    g.primitive = {scene.primitives, hit.primitive, primitive_words};
+    g.material = {scene.materials, g.primitive.integer(2), material_words};
+    const LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
+    const Four<LanesI> corners = gather4<Lanes>(scene.indices, index_word);
+    g.corner[0] = corners.x;
+    g.corner[1] = corners.y;
+    g.corner[2] = corners.z;
+    Vec3<Lanes> p[3];
+    for (int k = 0; k < 3; ++k)
+        p[k] = gather3(scene.positions, g.corner[k] * LanesI(3));
+    g.weight[0] = Lanes(1.0f) - hit.u - hit.v;
+    g.weight[1] = hit.u;
+    g.weight[2] = hit.v;
+    g.position = weighted(g, p);
+    const Vec3<Lanes> face = cross(p[1] - p[0], p[2] - p[0]);
+    g.ng = normalize(face);
+    g.normal = g.ng;
+    g.smooth_shift = splat3(Lanes(0.0f));
+    g.area2 = length(face);
+    const LanesI normal_base = g.primitive.integer(3);
+    const Mask smooth = normal_base != LanesI(no_attribute);
+    if (any(smooth)) {
+        Vec3<Lanes> n[3];
+        for (int k = 0; k < 3; ++k) {
+            const LanesI word = normal_base + g.corner[k] * LanesI(3);
+            n[k] = gather3(scene.attributes, select(smooth, word, LanesI(0)));
+        }
+        g.normal = select(smooth, normalize(weighted(g, n)), g.ng);
+        g.smooth_shift =
+            select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
+    }
+    // Rounding of the barycentric sum and of Embree's own arithmetic, 2^-24 each step.
+    const Vec3<Lanes> size =
+        abs(p[0]) * g.weight[0] + abs(p[1]) * g.weight[1] + abs(p[2]) * g.weight[2];
+    const Lanes extent = max_component(max3(abs(p[1] - p[0]), abs(p[2] - p[0])));
+    g.offset = Lanes(32.0f / 16777216.0f) * (dot(abs(g.ng), size) + extent * Lanes(0.25f));
+    return g;
+}
+
+/// Moves the lanes that hit an instance from object space to world space.
+OBSCURA_INLINE void instance_to_world(const SceneView& scene, const HitLanes& hit, HitGeometry& g) {
+    const Mask instanced = hit.instance >= LanesI(0);
+    if (none(instanced)) return;
+    const TableRow<Lanes> instance = instance_row(scene, hit);
+    const Affine<Lanes> world = read_affine(instance, 0);
+    const Affine<Lanes> object = read_affine(instance, 12);
+    const Vec3<Lanes> position = transform_point(world, g.position);
+    const Vec3<Lanes> normal_scaled = transform_normal(object, g.ng);
+    const Vec3<Lanes> ng = normalize(normal_scaled);
+    // area' = area * |det| * |M^-T n|
+    const Lanes area_scale = abs(determinant(world)) * length(normal_scaled);
+    Vec3<Lanes> magnitude;  // |M| |p| + |translation|: what the sums below round against
+    const Vec3<Lanes> p = abs(g.position);
+    const auto row_size = [&](int r) {
+        return abs(world.m[r][0]) * p.x + abs(world.m[r][1]) * p.y + abs(world.m[r][2]) * p.z +
+               abs(world.m[r][3]);
+    };
+    magnitude = {row_size(0), row_size(1), row_size(2)};
+    const auto column_length = [&](int c) {
+        return length(Vec3<Lanes>{world.m[0][c], world.m[1][c], world.m[2][c]});
+    };
+    const Lanes stretch = column_length(0) + column_length(1) + column_length(2);
+    const Lanes offset = g.offset * stretch + Lanes(32.0f / 16777216.0f) * dot(abs(ng), magnitude);
+    g.normal = select(instanced, normalize(transform_normal(object, g.normal)), g.normal);
+    g.smooth_shift = select(instanced, transform_vector(world, g.smooth_shift), g.smooth_shift);
+    g.position = select(instanced, position, g.position);
+    g.ng = select(instanced, ng, g.ng);
+    g.offset = select(instanced, offset, g.offset);
+    g.area2 = select(instanced, g.area2 * area_scale, g.area2);
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

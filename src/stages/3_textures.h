@@ -1,0 +1,174 @@
+// stages/3_textures.h - the textures of the hit materials: coordinates, texels, values.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/3_geometry.h"
+#include "surface/texture.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+inline constexpr int slot_words = static_cast<int>(sizeof(TextureSlot) / 4);
+
+/// First word of a TextureSlot in a Material.
+inline constexpr int base_color_slot = 12;
+inline constexpr int metallic_roughness_slot = base_color_slot + slot_words;
+inline constexpr int normal_slot = metallic_roughness_slot + slot_words;
+inline constexpr int emissive_slot = normal_slot + slot_words;
+static_assert(offsetof(Material, base_color_texture) == base_color_slot * 4);
+static_assert(offsetof(Material, emissive_texture) == emissive_slot * 4);
+
+/// How textures are read: one random texel, or exact bilinear for noise-free quantities.
+enum class Filtering { stochastic, bilinear };
+
+/// A texture slot of the hit materials, with the coordinates of its UV set.
+struct SlotLanes {
+    Mask used;
+    LanesI texture;
+    Vec2<Lanes> uv;
+    Lanes uv_area2;  ///< twice the triangle's area in the texture's UV space
+};
+
+/// `base`: as Primitive::uv_base; lanes without the attribute get anything.
+OBSCURA_INLINE MeshUv read_mesh_uv(const SceneView& scene, const HitGeometry& g, LanesI base) {
+    const Mask present = base != LanesI(no_attribute);
+    Vec2<Lanes> uv[3];
+    for (int k = 0; k < 3; ++k) {
+        const LanesI word = select(present, base + g.corner[k] * LanesI(2), LanesI(0));
+        const Four<Lanes> words = gather4<Lanes>(scene.attributes, word);
+        uv[k] = {words.x, words.y};
+    }
+    const Vec2<Lanes> e1 = uv[1] - uv[0];
+    const Vec2<Lanes> e2 = uv[2] - uv[0];
+    return {base, uv[0] + e1 * g.weight[1] + e2 * g.weight[2], e1.x * e2.y - e1.y * e2.x};
+}
+
+/// Reads UV set 0, which most textures use, once for all of them.
+OBSCURA_INLINE void read_first_uv_set(const SceneView& scene, HitGeometry& g) {
+    const LanesI base = g.primitive.integer(6);
+    const Mask textured =
+        (max(g.material.integer(base_color_slot), g.material.integer(metallic_roughness_slot)) >=
+         LanesI(0)) |
+        (max(g.material.integer(normal_slot), g.material.integer(emissive_slot)) >= LanesI(0));
+    g.first_uv = {LanesI(no_attribute), {Lanes(0.0f), Lanes(0.0f)}, Lanes(0.0f)};
+    if (any(textured & (base != LanesI(no_attribute)))) g.first_uv = read_mesh_uv(scene, g, base);
+}
+
+/// The coordinates of a slot, for a texture that need not be the slot's own.
+OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
+                                    const HitGeometry& g,
+                                    int slot,
+                                    LanesI texture) {
+    SlotLanes s;
+    s.texture = texture;
+    s.used = s.texture >= LanesI(0);
+    if (none(s.used)) return s;
+    const LanesI base = g.primitive.shared()
+                            ? g.primitive.integer(6 + g.material.one_integer(slot + 1))
+                            : g.primitive.varying_integer(g.material.integer(slot + 1) + LanesI(6));
+    s.used = s.used & (base != LanesI(no_attribute));
+    if (none(s.used)) return s;
+    s.texture = select(s.used, s.texture, LanesI(0));
+    const bool first = none(s.used & (base != g.first_uv.base));
+    const MeshUv mesh = first ? g.first_uv : read_mesh_uv(scene, g, base);
+    Lanes m[6];
+    for (int k = 0; k < 6; ++k)
+        m[k] = g.material.number(slot + 2 + k);
+    const Vec2<Lanes>& at = mesh.at;
+    s.uv = {m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};
+    s.uv_area2 = abs(mesh.area2 * (m[0] * m[4] - m[1] * m[3]));
+    return s;
+}
+
+/// What all look-ups at one hit share.
+struct LookUp {
+    Lanes footprint;  ///< world area of the ray's cone on the surface
+    Vec3<Lanes> random;
+    Filtering filtering;
+};
+
+OBSCURA_INLINE Lanes texture_footprint(const HitGeometry& g,
+                                       const SlotLanes& s,
+                                       const LookUp& look) {
+    return look.footprint * s.uv_area2 / max(g.area2, Lanes(1e-30f));
+}
+
+/// A slot whose texel is known and on its way: look-ups of one hit are found first and read later.
+struct FoundSlot {
+    Mask used;
+    SlotLanes lanes;  ///< for Filtering::bilinear
+    LanesU texel;     ///< number in the arena, for Filtering::stochastic
+    Mask srgb;
+};
+
+/// Where the textures of a material that are alike (material_textures_alike) are read: found once
+/// for all of them.
+struct CommonTexel {
+    bool usable = false;  ///< all lanes have such a material
+    Mask used;            ///< and texture coordinates
+    LanesI from_start;    ///< texel number, counted from the start of a texture
+};
+
+OBSCURA_INLINE CommonTexel find_common_texel(const SceneView& scene,
+                                             const HitGeometry& g,
+                                             const LookUp& look) {
+    CommonTexel common;
+    if (look.filtering == Filtering::bilinear) return common;
+    if (!all(has_bits<Lanes>(g.material.integer(11), material_textures_alike))) return common;
+    // Absent slots have texture -1, and the coordinates of the others.
+    const LanesI texture =
+        max(max(g.material.integer(base_color_slot), g.material.integer(metallic_roughness_slot)),
+            g.material.integer(normal_slot));
+    const SlotLanes s = slot_lanes(scene, g, base_color_slot, texture);
+    if (none(s.used)) return common;
+    const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, s.texture);
+    const LanesI texel =
+        stochastic_texel<Lanes>(info, s.uv, texture_footprint(g, s, look), look.random);
+    return {true, s.used, texel - info.row.integer(first_level_word)};
+}
+
+/// Finds what a slot reads, and asks for its memory.
+OBSCURA_INLINE FoundSlot find_slot(const SceneView& scene,
+                                   const HitGeometry& g,
+                                   int slot,
+                                   const LookUp& look,
+                                   const CommonTexel& common) {
+    FoundSlot found;
+    const LanesI texture = g.material.integer(slot);
+    if (common.usable) {
+        found.used = common.used & (texture >= LanesI(0));
+        if (none(found.used)) return found;
+        const TableRow<Lanes> row(
+            scene.textures.rows, select(found.used, texture, LanesI(0)), texture_row_words);
+        const LanesI texel = row.integer(first_level_word) + common.from_start;
+        found.texel = as_uint(select(found.used, texel, LanesI(0)));
+        found.srgb = has_bits<Lanes>(row.integer(sampler_word), sampler_srgb);
+    } else {
+        found.lanes = slot_lanes(scene, g, slot, texture);
+        found.used = found.lanes.used;
+        if (none(found.used) || look.filtering == Filtering::bilinear) return found;
+        const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, found.lanes.texture);
+        found.texel = as_uint(stochastic_texel<Lanes>(
+            info, found.lanes.uv, texture_footprint(g, found.lanes, look), look.random));
+        found.srgb = has_bits<Lanes>(info.sampler, sampler_srgb);
+    }
+    prefetch<Lanes>(scene.textures.texels, as_int(found.texel));
+    return found;
+}
+
+OBSCURA_INLINE Rgba<Lanes> read_slot(const SceneView& scene,
+                                     const HitGeometry& g,
+                                     const FoundSlot& found,
+                                     const LookUp& look) {
+    if (look.filtering == Filtering::bilinear) {
+        return sample_texture_bilinear<Lanes>(scene.textures,
+                                              found.lanes.texture,
+                                              found.lanes.uv,
+                                              texture_footprint(g, found.lanes, look));
+    }
+    return decode_texel<Lanes>(gather<Lanes>(scene.textures.texels, as_int(found.texel)),
+                               found.srgb);
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

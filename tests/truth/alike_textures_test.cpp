@@ -1,0 +1,95 @@
+// tests/truth/alike_textures_test.cpp - textures looked up together give what each gives alone.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/alike_textures.h"
+
+#include <gtest/gtest.h>
+
+#include "support/random.h"
+#include "support/scene_builder.h"
+#include "truth/reference.h"
+
+namespace obscura::test {
+namespace {
+
+constexpr int picture_side = 16;
+
+/// Adds a picture of noise. `gap`: unused texels before its levels 1 and up.
+int32_t add_noise(TextureArena& arena, uint64_t seed, bool srgb, int32_t gap) {
+    Pcg32 random(seed);
+    std::vector<uint32_t> texels(mip_chain_texels(picture_side, picture_side));
+    for (int i = 0; i < picture_side * picture_side; ++i)
+        texels[static_cast<size_t>(i)] = random.next_uint() | 0xFF000000U;
+    build_mip_chain(texels.data(), picture_side, picture_side, srgb);
+    TextureRow row;
+    row.width = row.height = picture_side;
+    row.levels = mip_level_count(picture_side, picture_side);
+    row.sampler = pack_sampler(Wrap::repeat, Wrap::mirror, false, false, MipMode::linear, srgb);
+    auto at = static_cast<int32_t>(arena.texels.size());
+    const auto base_end = texels.begin() + picture_side * picture_side;
+    arena.texels.insert(arena.texels.end(), texels.begin(), base_end);
+    arena.texels.insert(arena.texels.end(), static_cast<size_t>(gap), 0xFF00FF00U);
+    arena.texels.insert(arena.texels.end(), base_end, texels.end());
+    for (int level = 0; level < row.levels; ++level) {
+        row.level_offset[level] = at + (level > 0 ? gap : 0);
+        at += (picture_side >> level) * (picture_side >> level);
+    }
+    arena.rows.push_back(row);
+    return static_cast<int32_t>(arena.rows.size()) - 1;
+}
+
+/// A slanted floor with base colour and roughness; with a gap the two are not alike.
+Scene textured_floor(int32_t gap) {
+    SceneBuilder builder;
+    Material m;
+    m.metallic = 0.5f;
+    m.base_color_texture.texture = 0;
+    m.base_color_texture.uv_from_mesh[2] = 0.3f;
+    m.metallic_roughness_texture = m.base_color_texture;
+    m.metallic_roughness_texture.texture = 1;
+    builder.quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, builder.material(m));
+    Scene scene = builder.take();
+    add_noise(scene.textures, 1, true, 0);
+    add_noise(scene.textures, 2, false, gap);
+    scene.primitives[0].uv_base[0] = 0;
+    scene.attributes = {0, 0, 5, 0, 5, 5, 0, 5};
+    scene.attributes.insert(scene.attributes.end(), 4, 0.0f);
+    return scene;
+}
+
+std::vector<float> picture(int32_t gap) {
+    RenderOptions options;
+    options.width = options.height = 48;
+    options.samples_per_pixel = 4;
+    const Camera camera = look_at({0.2f, 1, 3}, {0, 0, 0}, 0.9f, 48, 48);
+    return render_scene(textured_floor(gap), {}, camera, options).film.pixels;
+}
+
+TEST(AlikeTextures, PicturesAreTheSameTogetherAndAlone) {
+    const std::vector<float> together = picture(0);
+    EXPECT_EQ(together, picture(5));
+    EXPECT_GT(*std::max_element(together.begin(), together.end()), 0.1f);
+}
+
+TEST(AlikeTextures, SameLayoutAndCoordinatesAreMarked) {
+    Scene alike = textured_floor(0);
+    mark_alike_textures(alike);
+    EXPECT_NE(alike.materials[0].flags & material_textures_alike, 0U);
+    EXPECT_EQ(alike.materials[0].normal_texture.texture, -1);
+    EXPECT_EQ(alike.materials[0].normal_texture.uv_from_mesh[2], 0.3f);
+
+    Scene gap = textured_floor(5);
+    Scene moved = textured_floor(0);
+    moved.materials[0].metallic_roughness_texture.uv_from_mesh[5] = 0.5f;
+    Scene clamped = textured_floor(0);
+    clamped.textures.rows[1].sampler ^= 1U;
+    Scene bare = textured_floor(0);
+    bare.materials[0].base_color_texture.texture = -1;
+    bare.materials[0].metallic_roughness_texture.texture = -1;
+    for (Scene* scene : {&gap, &moved, &clamped, &bare}) {
+        mark_alike_textures(*scene);
+        EXPECT_EQ(scene->materials[0].flags & material_textures_alike, 0U);
+    }
+}
+
+}  // namespace
+}  // namespace obscura::test
