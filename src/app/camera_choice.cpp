@@ -178,9 +178,12 @@ void override_lens(Placed& placed, const CameraRequest& request, const BoundingS
 void choose_planes(const Placed& placed, const BoundingSphere& sphere, ChosenCamera& out) {
     const double middle = distance_to_middle(placed.world_from_camera, sphere);
     const double far_side = middle + 2 * sphere.radius_m;
-    out.zfar_m = placed.zfar_m > 0 ? placed.zfar_m : far_side;
-    out.znear_m = placed.znear_m > 0 ? placed.znear_m
-                                     : std::max(middle - 2 * sphere.radius_m, 1e-4 * far_side);
+    const double clipped_near = static_cast<double>(out.camera.near_m);
+    const double clipped_far = static_cast<double>(out.camera.far_m);
+    out.zfar_m = clipped_far > 0 ? clipped_far : placed.zfar_m > 0 ? placed.zfar_m : far_side;
+    out.znear_m = clipped_near > 0     ? clipped_near
+                  : placed.znear_m > 0 ? placed.znear_m
+                                       : std::max(middle - 2 * sphere.radius_m, 1e-4 * far_side);
     if (!(out.zfar_m > out.znear_m)) out.zfar_m = 1e4 * out.znear_m;
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double degree = pi_d / 180;
 
 void add(std::string& text, const char* name, double value) {
-    text += fmt::format("{}{}={:.9g}", text.empty() ? "" : " ", name, value);
+    text += fmt::format("{}{}={:.7g}", text.empty() ? "" : " ", name, value);
 }
 
 void add(std::string& text, const char* name, const char* value) {
@@ -34,7 +34,7 @@ void add_film(const PinholeCamera& film, std::string& text) {
 void add_distortion(const Distortion& d, std::string& text) {
     if (!(d.radius_limit > 0)) return;
     text +=
-        fmt::format(" distortion={:.9g},{:.9g},{:.9g},{:.9g},{:.9g}", d.k1, d.k2, d.p1, d.p2, d.k3);
+        fmt::format(" distortion={:.7g},{:.7g},{:.7g},{:.7g},{:.7g}", d.k1, d.k2, d.p1, d.p2, d.k3);
 }
 
 void add_lens(const ThinLens& lens, std::string& text) {
@@ -60,7 +60,7 @@ void add_fisheye(const FisheyeCamera& camera, std::string& text) {
     }
     if (camera.law != FisheyeLaw::opencv) return;
     text += fmt::format(
-        " k={:.9g},{:.9g},{:.9g},{:.9g}", camera.k[0], camera.k[1], camera.k[2], camera.k[3]);
+        " k={:.7g},{:.7g},{:.7g},{:.7g}", camera.k[0], camera.k[1], camera.k[2], camera.k[3]);
 }
 
 void add_environment(const EnvironmentCamera& camera, std::string& text) {

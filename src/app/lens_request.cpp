@@ -206,6 +206,8 @@ Result<CameraSettings> parse_lens(const LensArguments& arguments,
     read_thin_lens(arguments, settings, steps);
     read_wide(arguments, settings, steps);
     read_exposure(arguments, settings, steps);
+    // Only a lens can be focused.
+    if (arguments.focus_on && !implied_model(settings)) settings.model = CameraModel::thin_lens;
     // Without a model in sight the file decides, and its camera may have what the options are for.
     const std::optional<CameraModel> meant = model ? model : implied_model(settings);
     if (meant) refuse_idle_options(arguments, *meant, steps);

@@ -59,7 +59,7 @@ Result<void> load_requested_camera(RenderRequest& request, Log& log) {
         request.options.height = static_cast<int>(intrinsics.height_px);
     }
     request.camera.loaded = std::move(*camera);
-    return {};
+    return check_crop(request.options);
 }
 
 /// One rendering from the request to the statistics.

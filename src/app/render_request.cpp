@@ -75,11 +75,10 @@ void parse_picture(const RenderArguments& arguments, RenderOptions& options, Ste
         [&](const std::array<int, 4>& r) {
             options.crop = PixelRect{r[0], r[1], r[2], r[3]};
         });
-    const PixelRect crop = options.crop.value_or(PixelRect{});
-    steps.refuse(crop.x + crop.width > options.width || crop.y + crop.height > options.height,
-                 "--crop",
-                 "the part reaches beyond the picture; expected one within " +
-                     std::to_string(options.width) + "x" + std::to_string(options.height));
+    // Without --size, --camera-json may say how large the picture is; then it is checked later.
+    const bool size_is_known = arguments.size || !arguments.lens.camera_json;
+    const Result<void> fits = check_crop(options);
+    steps.refuse(size_is_known && !fits, "--crop", fits ? "" : fits.error().message);
 }
 
 Result<RenderOptions> parse_background(const std::string& text, RenderOptions options) {
@@ -241,6 +240,15 @@ Result<void> check_distinct_files(const RenderRequest& request) {
 }
 
 }  // namespace
+
+Result<void> check_crop(const RenderOptions& options) {
+    const PixelRect crop = options.crop.value_or(PixelRect{});
+    if (crop.x + crop.width <= options.width && crop.y + crop.height <= options.height) return {};
+    return usage("E-USAGE-CONFLICT",
+                 "--crop",
+                 "the part reaches beyond the picture; expected one within " +
+                     std::to_string(options.width) + "x" + std::to_string(options.height));
+}
 
 Result<Isa> parse_isa(const std::string& text) {
     return choose_option(text, "--isa", instruction_sets);

@@ -58,6 +58,9 @@ struct RenderArguments {
 ///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
 
+/// 64 E-USAGE-CONFLICT when the part to render reaches beyond the picture.
+Result<void> check_crop(const RenderOptions& options);
+
 /// One name of --isa.
 ///
 /// Errors  64 E-USAGE-CHOICE

@@ -116,18 +116,18 @@ OBSCURA_INLINE CameraRay<F> local_ray(const Camera& camera, const FilmPoint<F>& 
     }
 }
 
-/// A ray in the world and how far it may go.
+/// A ray in the world.
 template <typename F>
-struct LimitedRay {
+struct WorldRay {
     CameraRay<F> ray;
-    F length_m;  ///< only meaningful where limits_rays(camera); 0 for invalid rays
+    F axial;  ///< cosine between the ray and the axis along which near and far are measured
 };
 
 /// Makes the world-space ray for one film point. With a near distance it begins there.
 ///
 /// Out     unit direction; footprint of one pixel for texture filtering
 template <typename Maker, typename F>
-OBSCURA_INLINE LimitedRay<F> world_ray(const Camera& camera, const FilmPoint<F>& point) {
+OBSCURA_INLINE WorldRay<F> world_ray(const Camera& camera, const FilmPoint<F>& point) {
     constexpr bool round =
         Maker::model == CameraModel::fisheye || Maker::model == CameraModel::environment;
     const CameraRay<F> local = local_ray<Maker>(camera, point);
@@ -137,20 +137,25 @@ OBSCURA_INLINE LimitedRay<F> world_ray(const Camera& camera, const FilmPoint<F>&
             world_from_camera.m[r][c] = F(camera.world_from_camera.m[r][c]);
         }
     }
-    LimitedRay<F> out{local, F(0.0f)};
+    WorldRay<F> out{local, round ? F(1.0f) : -local.direction.z};
     CameraRay<F>& ray = out.ray;
     ray.origin = transform_point(world_from_camera, local.origin);
     ray.direction = transform_vector(world_from_camera, local.direction);
-    // Metres along the ray for each metre along the axis.
-    const F stretch = round ? F(1.0f) : F(1.0f) / max(-local.direction.z, F(1e-6f));
     if (camera.near_m > 0.0f) {
-        const F skipped = F(camera.near_m) * stretch;
+        const F skipped = F(camera.near_m) / max(out.axial, F(1e-6f));
         ray.origin = ray.origin + ray.direction * skipped;
         ray.cone_width = ray.cone_width + ray.cone_spread * skipped;
     }
-    const F depth = camera.far_m > 0.0f ? F(camera.far_m - camera.near_m) * stretch : F(1e38f);
-    out.length_m = select(ray.valid, depth, F(0.0f));
     return out;
+}
+
+/// How far a ray may go from where it begins: 0 where the model shows nothing.
+template <typename F>
+OBSCURA_INLINE F length_of(const Camera& camera, const WorldRay<F>& made) {
+    const F longest = F(1e38f);
+    const F depth =
+        camera.far_m > 0.0f ? F(camera.far_m - camera.near_m) / max(made.axial, F(1e-6f)) : longest;
+    return select(made.ray.valid, depth, F(0.0f));
 }
 
 /// A single ray, for tests and cold code: through point.lens, or the middle of the lens.

@@ -80,6 +80,10 @@ Intrinsics read_intrinsics(const JsonReader& reader, const json& tree) {
         }
         *side = static_cast<double>(pixels);
     }
+    constexpr double most_pixels = 536870912;
+    if (out.width_px * out.height_px > most_pixels) {
+        reader.fault("height", value_id, "expected at most 536870912 pixels in all");
+    }
     std::vector<double> k(9);
     if (read_matrix(reader, tree, "K", k)) {
         if (!(k[0] > 0 && k[4] > 0) || k[1] != 0 || k[3] != 0 || k[6] != 0 || k[7] != 0) {

@@ -56,13 +56,13 @@ void make_rays_of(const BatchSettings& batch,
         if constexpr (Maker::has_lens) {
             point.lens = unit_pair<Lanes>(sobol_pair(key, index, lens_pair));
         }
-        const LimitedRay<Lanes> limited = world_ray<Maker>(batch.camera, point);
-        const CameraRay<Lanes>& ray = limited.ray;
+        const WorldRay<Lanes> made = world_ray<Maker>(batch.camera, point);
+        const CameraRay<Lanes>& ray = made.ray;
         store3(out.ox, out.oy, out.oz, i, ray.origin);
         store3(out.dx, out.dy, out.dz, i, ray.direction);
         // What shows nothing carries no light, not even the background's.
         store3(out.tr, out.tg, out.tb, i, splat3(select(ray.valid, Lanes(1.0f), Lanes(0.0f))));
-        if (length_m != nullptr) store(length_m + i, limited.length_m);
+        if (length_m != nullptr) store(length_m + i, length_of(batch.camera, made));
         store(out.pdf + i, Lanes(0.0f));
         store(out.cone_width + i, ray.cone_width);
         store(out.cone_spread + i, ray.cone_spread);

@@ -141,13 +141,14 @@ TEST(Clipping, RaysBeginAtTheNearDistanceAndEndAtTheFarOne) {
         camera.far_m = 5;
         EXPECT_TRUE(limits_rays(camera));
         visit_model(camera, false, [&, &lens = camera](auto maker) {
-            const auto [ray, length_m] = world_ray<decltype(maker)>(lens, point);
+            const WorldRay<double> made = world_ray<decltype(maker)>(lens, point);
+            const CameraRay<double>& ray = made.ray;
             const double skipped = dot(ray.origin - whole.origin, whole.direction);
             const auto& m = lens.world_from_camera.m;
             const Vec3d forward{-m[0][2], -m[1][2], -m[2][2]};
             const double along = measures_from_eye(lens) ? 1 : dot(whole.direction, forward);
             EXPECT_NEAR(skipped * along, 2, 1e-5);
-            EXPECT_NEAR(length_m * along, 3, 1e-5);
+            EXPECT_NEAR(length_of(lens, made) * along, 3, 1e-5);
             EXPECT_NEAR(ray.cone_width, whole.cone_width + whole.cone_spread * skipped, 1e-6);
         });
     }

@@ -152,34 +152,48 @@ TEST(ThinLens, RadiusZeroRendersThePinholesPictureBitForBit) {
     EXPECT_NE(picture_of(scene(), open, 96, 8).pixels, picture_of(scene(), pinhole, 96, 8).pixels);
 }
 
-/// Lamps in several directions, each alone in its picture.
+/// The middle of a lamp some pixels wide, in a large picture of which only its surroundings are
+/// rendered.
+Spot lamp_in_fisheye(const Camera& camera, const Vec3d& place, int size_px) {
+    SceneBuilder builder;
+    const Vec3f at{
+        static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)};
+    add_lamp(builder, builder.material(lamp()), at, 0.1f);
+    const auto film = project(camera, place);
+    RenderOptions options;
+    options.width = options.height = size_px;
+    options.samples_per_pixel = 256;
+    options.integrator = Integrator::direct;
+    options.background = BackgroundKind::transparent;
+    options.crop = PixelRect{
+        static_cast<int>(film->x * size_px) - 8, static_cast<int>(film->y * size_px) - 8, 16, 16};
+    return measure(render_scene(builder.take(), {}, camera, options).film, 0, size_px);
+}
+
 TEST(Fisheye, LampsAreSeenWhereTheLawPutsThem) {
+    constexpr int size_px = 512;
     for (const FisheyeLaw law :
          {FisheyeLaw::equidistant, FisheyeLaw::equisolid, FisheyeLaw::stereographic}) {
         Camera camera;
         camera.model = CameraModel::fisheye;
-        camera.fisheye.law = law;
-        camera.fisheye.largest_angle = static_cast<float>(110 * pi_d / 180);
-        camera.fisheye.largest_radius =
-            fisheye_radius(camera.fisheye, camera.fisheye.largest_angle);
-        camera.fisheye.half_width = camera.fisheye.half_height = camera.fisheye.largest_radius;
+        FisheyeCamera& fisheye = camera.fisheye;
+        fisheye.law = law;
+        fisheye.largest_angle = static_cast<float>(110 * pi_d / 180);
+        fisheye.largest_radius = fisheye_radius(fisheye, fisheye.largest_angle);
+        fisheye.half_width = fisheye.half_height = fisheye.largest_radius;
         for (const double theta_deg : {20.0, 70.0, 100.0}) {
             const double theta = theta_deg * pi_d / 180;
-            const Vec3d place{
-                10 * std::sin(theta) * 0.8, 10 * std::sin(theta) * 0.6, -10 * std::cos(theta)};
-            SceneBuilder builder;
-            add_lamp(builder,
-                     builder.material(lamp()),
-                     {static_cast<float>(place.x),
-                      static_cast<float>(place.y),
-                      static_cast<float>(place.z)},
-                     0.3f);
-            const Spot spot = measure(
-                picture_of(std::move(builder), camera, picture_size, 4096), 0, picture_size);
-            const auto film = project(camera, place);
-            ASSERT_TRUE(film);
-            EXPECT_NEAR(spot.x, film->x * picture_size, 0.05);
-            EXPECT_NEAR(spot.y, film->y * picture_size, 0.05);
+            const Spot spot = lamp_in_fisheye(
+                camera,
+                Vec3d{8 * std::sin(theta), 6 * std::sin(theta), -10 * std::cos(theta)},
+                size_px);
+            const double radius = law == FisheyeLaw::equidistant ? theta
+                                  : law == FisheyeLaw::equisolid ? 2 * std::sin(theta / 2)
+                                                                 : 2 * std::tan(theta / 2);
+            const double from_middle =
+                radius / static_cast<double>(fisheye.largest_radius) * size_px / 2;
+            EXPECT_NEAR(spot.x, size_px / 2 + 0.8 * from_middle, 0.03);
+            EXPECT_NEAR(spot.y, size_px / 2 - 0.6 * from_middle, 0.03);
         }
     }
 }
