@@ -78,8 +78,8 @@ def _add_cameras(gltf):
     _camera(gltf, 'Stereo panorama', {'environment': {
         'projection': 'latlong', 'stereo': 0.064, 'align': 'view'}})
     _camera(gltf, 'Photograph', {
-        'lens': {'fstop': 2.8, 'focusDistance': 4.0},
-        'exposure': {'shutter': round(1.0 / 60.0, 9), 'iso': 400.0}})
+        'lens': {'fstop': 1.4, 'focusDistance': 4.0},
+        'exposure': {'shutter': 0.5, 'iso': 400.0}})
     plan = gltf.orthographic_camera('Plan', 5.5, 12.5, 20.0)
     gltf.node(name='Plan', camera=plan, translation=(0, 10, -8),
               rotation=quaternion((1, 0, 0), -90.0))

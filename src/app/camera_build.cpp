@@ -1,5 +1,5 @@
-// app/camera_build.cpp - a camera's place, angle and settings become the record that rays come
-// from. SPDX-License-Identifier: Apache-2.0
+// app/camera_build.cpp - place, angle and settings become the record that rays come from.
+// SPDX-License-Identifier: Apache-2.0
 #include "app/camera_build.h"
 
 #include "app/numbers.h"

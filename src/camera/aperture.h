@@ -1,5 +1,5 @@
-// camera/aperture.h - points on a lens: a disk, a polygon of blades, or the bright parts of a
-// picture. SPDX-License-Identifier: Apache-2.0
+// camera/aperture.h - points on a lens: a disk, a polygon, or the bright parts of a picture.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "camera/camera_ray.h"

@@ -1,5 +1,5 @@
-// camera/environment.h - pictures of all directions: latitude-longitude, cylinder, cube; one eye or
-// two. SPDX-License-Identifier: Apache-2.0
+// camera/environment.h - pictures of all directions, for one eye or two.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "camera/camera_ray.h"

@@ -145,6 +145,8 @@ TEST_F(CameraFiles, IntrinsicsAndExtrinsicsMakeTheSamePictureAsOurs) {
                                 "2"});
     expect_result(got, 0, "OK");
     EXPECT_EQ(read_picture(folder_ / "a.exr")->width, 60);
+    const Strings part = {"render", "box.gltf", "--camera-json", "c.json", "--crop", "50,0,11,9"};
+    expect_result(run(part), 64, "E-USAGE-CONFLICT");
 }
 
 /// The edge of the box at x = 1, z = 1 is seen where OpenCV's formula puts it.

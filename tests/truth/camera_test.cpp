@@ -1,5 +1,5 @@
-// tests/truth/camera_test.cpp - rendered pictures of small lights lie where and blur as they
-// should. SPDX-License-Identifier: Apache-2.0
+// tests/truth/camera_test.cpp - pictures of small lights: where they lie, how they blur.
+// SPDX-License-Identifier: Apache-2.0
 #include "camera/lens_equation.h"
 #include "camera/project.h"
 
@@ -158,7 +158,7 @@ Spot lamp_in_fisheye(const Camera& camera, const Vec3d& place, int size_px) {
     SceneBuilder builder;
     const Vec3f at{
         static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)};
-    add_lamp(builder, builder.material(lamp()), at, 0.1f);
+    add_lamp(builder, builder.material(lamp()), at, 0.2f);
     const auto film = project(camera, place);
     RenderOptions options;
     options.width = options.height = size_px;
@@ -171,7 +171,7 @@ Spot lamp_in_fisheye(const Camera& camera, const Vec3d& place, int size_px) {
 }
 
 TEST(Fisheye, LampsAreSeenWhereTheLawPutsThem) {
-    constexpr int size_px = 512;
+    constexpr int size_px = 1024;
     for (const FisheyeLaw law :
          {FisheyeLaw::equidistant, FisheyeLaw::equisolid, FisheyeLaw::stereographic}) {
         Camera camera;
@@ -192,8 +192,8 @@ TEST(Fisheye, LampsAreSeenWhereTheLawPutsThem) {
                                                                  : 2 * std::tan(theta / 2);
             const double from_middle =
                 radius / static_cast<double>(fisheye.largest_radius) * size_px / 2;
-            EXPECT_NEAR(spot.x, size_px / 2 + 0.8 * from_middle, 0.03);
-            EXPECT_NEAR(spot.y, size_px / 2 - 0.6 * from_middle, 0.03);
+            EXPECT_NEAR(spot.x, size_px / 2 + 0.8 * from_middle, 0.05);
+            EXPECT_NEAR(spot.y, size_px / 2 - 0.6 * from_middle, 0.05);
         }
     }
 }
@@ -207,6 +207,7 @@ TEST(Fisheye, OutsideTheCircleThereIsNothingAndNoRayIsRefused) {
     lighting.environment = constant_environment(1.0f);
     Camera camera;
     camera.model = CameraModel::fisheye;
+    camera.fisheye.half_width = camera.fisheye.half_height = camera.fisheye.largest_radius;
     for (const bool sees_scene : {true, false}) {
         camera.far_m = sees_scene ? 0.0f : 1.0f;  // else the background is seen
         RenderOptions options;
