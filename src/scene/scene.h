@@ -71,7 +71,7 @@ struct SceneCamera {
     double xmag_m = 1;
     double ymag_m = 1;
     double znear_m = 0;
-    double zfar_m = 0;  ///< 0: infinite
+    double zfar_m = 0;             ///< 0: infinite
     CameraSettings settings = {};  ///< from OBSCURA_camera
 };
 
