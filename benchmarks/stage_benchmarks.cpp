@@ -84,7 +84,7 @@ void register_stages(const PreparedScene& scene, const Camera& camera, Isa isa) 
     // The ones that overwrite what the others read have columns of their own.
     const auto own = std::make_shared<StageColumns>(scene, camera, 0);
     register_stage("stage/1_camera/" + name, own, rows, [rows](StageColumns& c) {
-        c.scene.stages->camera(c.batch, rows, c.work.paths[0], c.work.samples);
+        c.scene.stages->camera(c.batch, rows, c.work.paths[0], c.work.samples, nullptr);
     });
     register_rays(name, "camera", camera_rays);
     register_rays(name, "bounce", std::make_shared<StageColumns>(scene, camera, 1));

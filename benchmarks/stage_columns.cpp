@@ -45,7 +45,7 @@ StageColumns::StageColumns(const PreparedScene& prepared, const Camera& camera, 
     batch.background[3] = 1.0f;
 
     rows_ = pixels * batch.samples;
-    scene.stages->camera(batch, rows_, work.paths[0], work.samples);
+    scene.stages->camera(batch, rows_, work.paths[0], work.samples, nullptr);
     for (int b = 0;; ++b) {
         scene.accel->intersect(rays(),
                                work.hits,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/camera_choice.h"
 
+#include "app/aperture_picture.h"
+#include "app/camera_build.h"
 #include "app/framing.h"
 #include "app/numbers.h"
 
@@ -21,6 +23,8 @@ struct Placed {
     double half_height_m = 0;
     double znear_m = 0;  ///< 0: from the scene's size
     double zfar_m = 0;
+    CameraSettings settings;
+    std::optional<double> target_m;  ///< distance of the point that was aimed at
     std::string description;
 };
 
@@ -69,16 +73,16 @@ double uncropped_half_height(double half_height, double half_width, double pictu
     return std::max(half_height, half_width / picture_aspect);
 }
 
-Result<Placed> place_from_file(const Scene& scene, size_t index, double picture_aspect) {
-    const SceneCamera& source = scene.cameras[index];
-    const Result<Affined> rigid = rigid_part(
-        source.world_from_camera, scene.info.file_name + " camera '" + source.name + "'");
+Result<Placed> place_as_given(const SceneCamera& source,
+                              const std::string& where,
+                              double picture_aspect) {
+    const Result<Affined> rigid = rigid_part(source.world_from_camera, where);
     if (!rigid) return fail(rigid.error());
     Placed placed;
     placed.world_from_camera = *rigid;
     placed.znear_m = source.znear_m;
     placed.zfar_m = source.zfar_m;
-    placed.description = "camera " + std::to_string(index) + " '" + source.name + "' of the file";
+    placed.settings = source.settings;
     if (source.type == SceneCameraType::orthographic) {
         placed.model = CameraModel::orthographic;
         placed.half_height_m =
@@ -91,11 +95,30 @@ Result<Placed> place_from_file(const Scene& scene, size_t index, double picture_
     return placed;
 }
 
+Result<Placed> place_from_file(const Scene& scene, size_t index, double picture_aspect) {
+    const SceneCamera& source = scene.cameras[index];
+    Result<Placed> placed = place_as_given(
+        source, scene.info.file_name + " camera '" + source.name + "'", picture_aspect);
+    if (!placed) return placed;
+    placed->description = "camera " + std::to_string(index) + " '" + source.name + "' of the file";
+    return placed;
+}
+
+std::optional<CameraModel> wanted_model(const CameraRequest& request) {
+    return request.model ? request.model : implied_model(request.settings);
+}
+
+/// The vertical angle of a flat picture: a fisheye's or cylinder's says nothing about one.
+double flat_yfov(const CameraRequest& request) {
+    const double angle = request.yfov_rad.value_or(default_yfov_rad);
+    return angle < pi_d ? angle : default_yfov_rad;
+}
+
 Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect) {
-    const bool orthographic = request.model == CameraModel::orthographic && !request.yfov_rad;
+    const bool orthographic =
+        wanted_model(request) == CameraModel::orthographic && !request.yfov_rad;
     return orthographic ? frame_orthographic(scene.bounds, aspect)
-                        : frame_perspective(
-                              scene.bounds, request.yfov_rad.value_or(default_yfov_rad), aspect);
+                        : frame_perspective(scene.bounds, flat_yfov(request), aspect);
 }
 
 /// The viewpoint of the options over the framing's. Where --up is not given, a view straight up or
@@ -124,26 +147,28 @@ Result<Placed> place_outside(const Scene& scene, const CameraRequest& request, d
     const double distance = length(view.eye_m - view.target_m);
     Placed placed;
     placed.world_from_camera = *world_from_camera;
-    placed.model = request.model.value_or(CameraModel::pinhole);
-    placed.tan_half_yfov = std::tan(0.5 * request.yfov_rad.value_or(default_yfov_rad));
+    placed.model = wanted_model(request).value_or(CameraModel::pinhole);
+    placed.tan_half_yfov = std::tan(0.5 * flat_yfov(request));
+    placed.target_m = distance;
     placed.half_height_m = by_hand ? distance * placed.tan_half_yfov : framing.half_height_m;
     placed.description =
         by_hand ? "placed by --eye, --target, --up" : "automatic framing of the whole scene";
     return placed;
 }
 
-/// Applies --camera-model and --fov to a camera of the file.
+/// Applies the model and --fov to a camera of a file.
 void override_lens(Placed& placed, const CameraRequest& request, const BoundingSphere& sphere) {
-    const CameraModel wanted = request.model.value_or(placed.model);
+    const CameraModel in_file = implied_model(placed.settings).value_or(placed.model);
+    const CameraModel wanted = wanted_model(request).value_or(in_file);
     const double distance = distance_to_middle(placed.world_from_camera, sphere);
     if (request.yfov_rad) {
-        placed.tan_half_yfov = std::tan(0.5 * *request.yfov_rad);
+        placed.tan_half_yfov = std::tan(0.5 * flat_yfov(request));
         placed.half_height_m = distance * placed.tan_half_yfov;
     } else if (wanted != placed.model) {
-        if (wanted == CameraModel::orthographic) {
-            placed.half_height_m = distance * placed.tan_half_yfov;
-        } else {
+        if (placed.model == CameraModel::orthographic) {
             placed.tan_half_yfov = placed.half_height_m / distance;
+        } else {
+            placed.half_height_m = distance * placed.tan_half_yfov;
         }
     }
     placed.model = wanted;
@@ -153,21 +178,70 @@ void override_lens(Placed& placed, const CameraRequest& request, const BoundingS
 void choose_planes(const Placed& placed, const BoundingSphere& sphere, ChosenCamera& out) {
     const double middle = distance_to_middle(placed.world_from_camera, sphere);
     const double far_side = middle + 2 * sphere.radius_m;
-    out.zfar_m = placed.zfar_m > 0 ? placed.zfar_m : far_side;
-    out.znear_m = placed.znear_m > 0 ? placed.znear_m
-                                     : std::max(middle - 2 * sphere.radius_m, 1e-4 * far_side);
+    const double clipped_near = static_cast<double>(out.camera.near_m);
+    const double clipped_far = static_cast<double>(out.camera.far_m);
+    out.zfar_m = clipped_far > 0 ? clipped_far : placed.zfar_m > 0 ? placed.zfar_m : far_side;
+    out.znear_m = clipped_near > 0     ? clipped_near
+                  : placed.znear_m > 0 ? placed.znear_m
+                                       : std::max(middle - 2 * sphere.radius_m, 1e-4 * far_side);
     if (!(out.zfar_m > out.znear_m)) out.zfar_m = 1e4 * out.znear_m;
 }
 
 bool fits_float(const Camera& camera) {
     const auto positive = [](float f) { return f > 0 && std::isfinite(f); };
-    const bool lens = camera.model == CameraModel::orthographic
-                          ? positive(camera.orthographic.half_width_m) &&
-                                positive(camera.orthographic.half_height_m) &&
-                                positive(camera.orthographic.pixel_width_m)
-                          : positive(camera.pinhole.tan_half_yfov);
+    const OrthographicCamera& parallel = camera.orthographic;
+    const FisheyeCamera& round = camera.fisheye;
+    const bool lens =
+        camera.model == CameraModel::orthographic
+            ? positive(parallel.half_width_m) && positive(parallel.half_height_m) &&
+                  positive(parallel.pixel_width_m)
+        : camera.model == CameraModel::fisheye
+            ? positive(round.half_width) && positive(round.half_height)
+            : positive(camera.pinhole.tan_half_yfov) && positive(camera.pinhole.aspect);
     const auto& m = camera.world_from_camera.m;
     return lens && std::isfinite(m[0][3]) && std::isfinite(m[1][3]) && std::isfinite(m[2][3]);
+}
+
+/// The settings of the file under those of the options; --fov counts where the model has an angle.
+CameraSettings join_settings(const Placed& placed, const CameraRequest& request) {
+    CameraSettings joined = merge_settings(placed.settings, request.settings);
+    joined.model = placed.model;
+    if (!request.yfov_rad) return joined;
+    joined.fisheye_fov_rad = request.yfov_rad;
+    joined.cylinder_fov_rad = request.yfov_rad;
+    const bool flat = placed.model != CameraModel::fisheye;
+    if (flat && !request.settings.intrinsics) joined.intrinsics.reset();
+    return joined;
+}
+
+/// Asks each source in turn; the first that has a say decides.
+Result<Placed> place(const Scene& scene, const CameraRequest& request, double aspect) {
+    const BoundingSphere sphere = bounding_sphere(scene.bounds);
+    const bool by_hand = request.eye_m || request.target_m || request.up;
+    Result<Placed> placed = Placed{};
+    if (request.loaded) {
+        placed = place_as_given(*request.loaded, request.loaded->name, aspect);
+        if (placed) placed->description = "camera of " + request.loaded->name;
+    } else if (!by_hand && (!request.choice.empty() || !scene.cameras.empty())) {
+        const Result<size_t> index =
+            request.choice.empty() ? Result<size_t>(0) : find_camera(scene.cameras, request.choice);
+        if (!index) return fail(index.error());
+        placed = place_from_file(scene, *index, aspect);
+    } else {
+        return place_outside(scene, request, aspect);
+    }
+    if (placed) override_lens(*placed, request, sphere);
+    return placed;
+}
+
+/// Gives the camera the picture of its opening, which `out` then owns.
+Result<void> add_aperture(ChosenCamera& out, Log& log) {
+    if (!out.settings.aperture_file || out.camera.model != CameraModel::thin_lens) return {};
+    Result<ApertureTable> table = read_aperture(*out.settings.aperture_file, log);
+    if (!table) return fail(table.error());
+    out.aperture = std::make_shared<const ApertureTable>(std::move(*table));
+    out.camera.thin_lens.aperture.picture = out.aperture->view();
+    return {};
 }
 
 }  // namespace
@@ -176,36 +250,32 @@ Result<ChosenCamera> choose_camera(
     const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log) {
     const double aspect = static_cast<double>(width_px) / height_px;
     const BoundingSphere sphere = bounding_sphere(scene.bounds);
-    const bool by_hand = request.eye_m || request.target_m || request.up;
-    const bool from_file = !by_hand && (!request.choice.empty() || !scene.cameras.empty());
-    Result<Placed> placed = Placed{};
-    if (from_file) {
-        const Result<size_t> index =
-            request.choice.empty() ? Result<size_t>(0) : find_camera(scene.cameras, request.choice);
-        if (!index) return fail(index.error());
-        placed = place_from_file(scene, *index, aspect);
-        if (placed) override_lens(*placed, request, sphere);
-    } else {
-        placed = place_outside(scene, request, aspect);
-    }
+    const Result<Placed> placed = place(scene, request, aspect);
     if (!placed) return fail(placed.error());
 
     ChosenCamera out;
-    out.camera.model = placed->model;
-    out.camera.world_from_camera = affine_cast<float>(placed->world_from_camera);
-    out.camera.pinhole.tan_half_yfov = static_cast<float>(placed->tan_half_yfov);
-    out.camera.pinhole.aspect = static_cast<float>(aspect);
-    out.camera.pinhole.pixel_spread = static_cast<float>(2 * placed->tan_half_yfov / height_px);
-    out.camera.orthographic.half_width_m = static_cast<float>(placed->half_height_m * aspect);
-    out.camera.orthographic.half_height_m = static_cast<float>(placed->half_height_m);
-    out.camera.orthographic.pixel_width_m =
-        static_cast<float>(2 * placed->half_height_m / height_px);
+    out.settings = join_settings(*placed, request);
+    CameraBasis basis;
+    basis.world_from_camera = placed->world_from_camera;
+    basis.tan_half_yfov = placed->tan_half_yfov;
+    basis.half_height_m = placed->half_height_m;
+    basis.focus_m =
+        placed->target_m.value_or(distance_to_middle(placed->world_from_camera, sphere));
+    basis.keeps_angle = request.yfov_rad.has_value();
+    const Result<Camera> camera =
+        make_camera(basis, placed->model, out.settings, {width_px, height_px});
+    if (!camera) return fail(camera.error());
+    out.camera = *camera;
     if (!fits_float(out.camera)) {
         return fail(ExitCode::bad_data,
                     "E-CAM-RANGE",
                     scene.info.file_name,
                     "the camera's position or size is zero or beyond what 32-bit floats hold");
     }
+    const Result<std::optional<double>> ev100 = chosen_exposure(out.settings);
+    if (!ev100) return fail(ev100.error());
+    out.ev100 = *ev100;
+    if (const Result<void> added = add_aperture(out, log); !added) return fail(added.error());
     choose_planes(*placed, sphere, out);
     out.description = placed->description;
     log.detail("camera: " + out.description);

@@ -1,9 +1,12 @@
 // app/info_json.cpp - what `obscura info --json` says about a scene.
 // SPDX-License-Identifier: Apache-2.0
+#include "app/camera_build.h"
 #include "app/framing.h"
 #include "app/info_report.h"
 #include "base/json_writer.h"
+#include "camera/matrices.h"
 
+#include <cmath>
 #include <numeric>
 
 namespace obscura {
@@ -37,6 +40,34 @@ void write_matrix(JsonWriter& json, const char* key, const Affined& matrix) {
     }
     for (const double number : {0.0, 0.0, 0.0, 1.0})
         json.value(number);
+    json.end_array();
+}
+
+/// World to normalised device coordinates in the picture that the file's camera names, where there
+/// is such a matrix; for column vectors, row by row.
+void write_ndc(JsonWriter& json, const SceneCamera& source, const Affined& rigid) {
+    const bool parallel = source.type == SceneCameraType::orthographic;
+    const double aspect = parallel ? source.xmag_m / source.ymag_m : source.aspect;
+    CameraBasis basis;
+    basis.world_from_camera = rigid;
+    basis.tan_half_yfov = std::tan(0.5 * source.yfov_rad);
+    basis.half_height_m = source.ymag_m;
+    const CameraModel core = parallel ? CameraModel::orthographic : CameraModel::pinhole;
+    const CameraModel model = implied_model(source.settings).value_or(core);
+    constexpr int height_px = 1 << 20;  // so that the width can follow the aspect ratio
+    if (!(aspect > 1e-3 && aspect < 1e3)) return;
+    const int width_px = static_cast<int>(std::lround(height_px * aspect));
+    const Result<Camera> camera = make_camera(basis, model, source.settings, {width_px, height_px});
+    if (!camera) return;
+    const double znear = std::max(source.znear_m, 1e-6);
+    const double zfar = source.zfar_m > znear ? source.zfar_m : 1e6 * znear;
+    const CameraMatrices matrices = camera_matrices(*camera, znear, zfar);
+    if (!matrices.has_ndc) return;
+    json.key("ndc_from_world").begin_array();
+    for (int r = 0; r < 4; ++r) {
+        for (int c = 0; c < 4; ++c)
+            json.value(static_cast<double>(matrices.world_to_ndc[4 * c + r]));
+    }
     json.end_array();
 }
 
@@ -90,6 +121,11 @@ void write_cameras(JsonWriter& json, const Scene& scene) {
         json.begin_object();
         json.member("name", camera.name);
         json.member("type", camera_type_name(camera));
+        json.member("model", camera_model_name(camera));
+        json.key("settings").begin_object();
+        for (const auto& [name, value] : settings_texts(camera.settings))
+            json.member(name, value);
+        json.end_object();
         if (camera.type == SceneCameraType::orthographic) {
             json.member("xmag_m", camera.xmag_m);
             json.member("ymag_m", camera.ymag_m);
@@ -106,6 +142,7 @@ void write_cameras(JsonWriter& json, const Scene& scene) {
         if (rigid) {
             write_matrix(json, "world_from_camera", *rigid);
             write_matrix(json, "camera_from_world", inverse(*rigid));
+            write_ndc(json, camera, *rigid);
         }
         json.end_object();
     }

@@ -4,6 +4,7 @@
 
 #include "app/numbers.h"
 #include "base/log.h"
+#include "camera/names.h"
 
 #include <fmt/format.h>
 #include <numeric>
@@ -111,6 +112,10 @@ void append_cameras(const Scene& scene, std::string& text) {
             text += fmt::format(
                 "yfov {:g} deg, aspect {}\n", camera.yfov_rad * degrees_per_radian, aspect);
         }
+        text += fmt::format("       model {}", camera_model_name(camera));
+        for (const auto& [name, value] : settings_texts(camera.settings))
+            text += fmt::format(" {}={}", name, value);
+        text += "\n       world from camera\n";
         for (const auto& row : camera.world_from_camera.m) {
             text += fmt::format("       [{:>12.6g} {:>12.6g} {:>12.6g} {:>12.6g} ]\n",
                                 row[0],
@@ -161,6 +166,13 @@ const char* light_unit_name(const PunctualLight& light) {
 
 const char* camera_type_name(const SceneCamera& camera) {
     return camera.type == SceneCameraType::perspective ? "perspective" : "orthographic";
+}
+
+const char* camera_model_name(const SceneCamera& camera) {
+    const CameraModel core = camera.type == SceneCameraType::perspective
+                                 ? CameraModel::pinhole
+                                 : CameraModel::orthographic;
+    return name_of(camera_model_names, implied_model(camera.settings).value_or(core));
 }
 
 std::vector<std::string> file_materials(const Scene& scene) {

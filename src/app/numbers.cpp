@@ -59,25 +59,6 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     return parts;
 }
 
-/// `count` comma-separated numbers in [low, high].
-Result<std::vector<double>> parse_list(std::string_view text,
-                                       std::string_view option,
-                                       const std::string& accepted,
-                                       std::array<double, 2> range) {
-    std::vector<double> numbers;
-    for (const std::string_view part : split(text, ',')) {
-        double number = 0;
-        const Reading reading = read_all(part, number);
-        if (reading == Reading::garbage) return not_a_number(text, option, accepted);
-        if (reading == Reading::overflow || !(number >= range[0] && number <= range[1])) {
-            return out_of_range(text, option, accepted);
-        }
-        numbers.push_back(number);
-    }
-    if (numbers.size() != 3) return not_a_number(text, option, accepted);
-    return numbers;
-}
-
 }  // namespace
 
 Result<int64_t> parse_integer(std::string_view text,
@@ -136,18 +117,17 @@ Result<std::array<int, 2>> parse_size(std::string_view text, std::string_view op
 }
 
 Result<Vec3d> parse_point(std::string_view text, std::string_view option) {
-    const Result<std::vector<double>> list =
-        parse_list(text, option, "x,y,z in metres without blanks, such as 0,1.5,-3", {-1e18, 1e18});
+    const Result<std::vector<double>> list = parse_numbers(
+        text, option, {"x,y,z in metres without blanks, such as 0,1.5,-3", 3, 3, -1e18, 1e18});
     if (!list) return fail(list.error());
     return Vec3d{(*list)[0], (*list)[1], (*list)[2]};
 }
 
 Result<std::array<float, 3>> parse_color(std::string_view text, std::string_view option) {
-    const Result<std::vector<double>> list =
-        parse_list(text,
-                   option,
-                   "env, transparent, or linear R,G,B without blanks, each from 0 to 1e9",
-                   {0, 1e9});
+    const Result<std::vector<double>> list = parse_numbers(
+        text,
+        option,
+        {"env, transparent, or linear R,G,B without blanks, each from 0 to 1e9", 3, 3, 0, 1e9});
     if (!list) return fail(list.error());
     return std::array<float, 3>{static_cast<float>((*list)[0]),
                                 static_cast<float>((*list)[1]),
@@ -167,6 +147,38 @@ Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_vi
         if (reading == Reading::overflow || numbers[i] < low || numbers[i] > max_side) {
             return out_of_range(text, option, accepted);
         }
+    }
+    return numbers;
+}
+
+Result<std::array<int, 2>> parse_pixel(std::string_view text, std::string_view option) {
+    const std::string accepted = "X,Y in pixels from the top left corner, such as 640,360";
+    const Result<std::vector<double>> list =
+        parse_numbers(text, option, {accepted, 2, 2, 0, max_side});
+    if (!list) return fail(list.error());
+    std::array<int, 2> pixel = {};
+    for (size_t i = 0; i < 2; ++i) {
+        pixel[i] = static_cast<int>((*list)[i]);
+        if (pixel[i] != (*list)[i]) return not_a_number(text, option, accepted);
+    }
+    return pixel;
+}
+
+Result<std::vector<double>> parse_numbers(std::string_view text,
+                                          std::string_view option,
+                                          const NumberList& list) {
+    std::vector<double> numbers;
+    for (const std::string_view part : split(text, ',')) {
+        double number = 0;
+        const Reading reading = read_all(part, number);
+        if (reading == Reading::garbage) return not_a_number(text, option, list.accepted);
+        if (reading == Reading::overflow || !(number >= list.low && number <= list.high)) {
+            return out_of_range(text, option, list.accepted);
+        }
+        numbers.push_back(number);
+    }
+    if (numbers.size() < list.least || numbers.size() > list.most) {
+        return not_a_number(text, option, list.accepted);
     }
     return numbers;
 }

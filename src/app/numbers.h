@@ -37,6 +37,21 @@ Result<std::array<float, 3>> parse_color(std::string_view text, std::string_view
 /// "X,Y,W,H" of integers; width and height at least 1, corner at least 0.
 Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_view option);
 
+/// "X,Y" of pixels from the top left corner, each at least 0.
+Result<std::array<int, 2>> parse_pixel(std::string_view text, std::string_view option);
+
+/// What a list of numbers may be.
+struct NumberList {
+    std::string accepted;  ///< for messages
+    size_t least, most;    ///< how many
+    double low, high;      ///< inclusive
+};
+
+/// "a,b,c" without blanks.
+Result<std::vector<double>> parse_numbers(std::string_view text,
+                                          std::string_view option,
+                                          const NumberList& list);
+
 /// True when the text consists of decimal digits only: an index rather than a name.
 bool is_index(std::string_view text);
 

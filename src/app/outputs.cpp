@@ -2,12 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/outputs.h"
 
+#include "app/camera_build.h"
+#include "app/numbers.h"
 #include "app/preview.h"
 #include "app/statistics.h"
 #include "base/atomic_file.h"
+#include "camera/exposure.h"
 #include "camera/matrices.h"
+#include "camera/names.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace obscura {
 
@@ -41,6 +46,19 @@ Result<std::optional<DisplayTransform>> make_display(const RenderRequest& reques
     return std::optional<DisplayTransform>(std::move(*display));
 }
 
+Result<void> expose_display(const ChosenCamera& chosen,
+                            const RenderRequest& request,
+                            std::optional<DisplayTransform>& display,
+                            Log& log) {
+    if (!chosen.ev100 || !display) return {};
+    DisplayOptions options = request.display;
+    options.exposure_ev += std::log2(exposure_scale(*chosen.ev100));
+    Result<DisplayTransform> exposed = DisplayTransform::create(options, log);
+    if (!exposed) return fail(exposed.error());
+    display = std::move(*exposed);
+    return {};
+}
+
 PictureMetadata make_metadata(const RenderRequest& request,
                               const PreparedScene& prepared,
                               const ChosenCamera& chosen,
@@ -59,12 +77,19 @@ PictureMetadata make_metadata(const RenderRequest& request,
         !needs_preview(options.integrator) || options.integrator == Integrator::albedo;
     const CameraMatrices matrices = camera_matrices(chosen.camera, chosen.znear_m, chosen.zfar_m);
     std::copy_n(matrices.world_to_camera, 16, metadata.world_to_camera);
+    metadata.has_ndc = matrices.has_ndc;
     std::copy_n(matrices.world_to_ndc, 16, metadata.world_to_ndc);
     metadata.extra = {{"integrator", integrator_name(options.integrator)},
                       {"camera", chosen.description},
+                      {"cameraModel", name_of(camera_model_names, chosen.camera.model)},
+                      {"cameraParameters", camera_parameters(chosen.camera)},
                       {"isa", prepared.isa_name()},
                       {"embree", prepared.embree_version()},
                       {"warnings", std::to_string(log.warnings().size())}};
+    if (chosen.ev100) {
+        metadata.extra.emplace_back("ev100", shortest(*chosen.ev100));
+        metadata.extra.emplace_back("exposureScale", shortest(exposure_scale(*chosen.ev100)));
+    }
     return metadata;
 }
 

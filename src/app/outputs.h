@@ -21,6 +21,14 @@ Result<void> check_outputs(const RenderRequest& request);
 /// Errors  78 E-OCIO-*
 Result<std::optional<DisplayTransform>> make_display(const RenderRequest& request, Log& log);
 
+/// Brightens or darkens the display by the camera's photographic exposure, if it has one.
+///
+/// Errors  78 E-OCIO-*
+Result<void> expose_display(const ChosenCamera& chosen,
+                            const RenderRequest& request,
+                            std::optional<DisplayTransform>& display,
+                            Log& log);
+
 /// What the pictures say about themselves.
 PictureMetadata make_metadata(const RenderRequest& request,
                               const PreparedScene& prepared,

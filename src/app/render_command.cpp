@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_command.h"
 
+#include "app/autofocus.h"
 #include "app/lighting.h"
 #include "app/outcome.h"
 #include "app/outputs.h"
@@ -11,6 +12,7 @@
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "gltf/camera_json.h"
 #include "gltf/load.h"
 #include "scene/scene_memory.h"
 
@@ -46,6 +48,20 @@ Result<PreparedScene> prepare(const RenderRequest& request,
     return prepared;
 }
 
+/// Reads --camera-json; without --size its picture has the size that the file names.
+Result<void> load_requested_camera(RenderRequest& request, Log& log) {
+    if (!request.camera_json) return {};
+    Result<SceneCamera> camera = load_camera_json(*request.camera_json, log);
+    if (!camera) return fail(camera.error());
+    const Intrinsics& intrinsics = *camera->settings.intrinsics;
+    if (!request.size_is_given) {
+        request.options.width = static_cast<int>(intrinsics.width_px);
+        request.options.height = static_cast<int>(intrinsics.height_px);
+    }
+    request.camera.loaded = std::move(*camera);
+    return check_crop(request.options);
+}
+
 /// One rendering from the request to the statistics.
 struct Job {
     const RenderRequest& request;
@@ -61,9 +77,11 @@ Result<void> render_and_write(Job& job,
     const RenderRequest& request = job.request;
     RenderStatistics& statistics = job.statistics;
     const RenderOptions& options = request.options;
-    const Result<ChosenCamera> chosen =
-        choose_camera(prepared.scene(), request.camera, options.width, options.height, log);
+    const Result<ChosenCamera> chosen = choose_focused_camera(prepared, request, log);
     if (!chosen) return fail(chosen.error());
+    if (const Result<void> exposed = expose_display(*chosen, request, job.display, log); !exposed) {
+        return exposed;
+    }
 
     const StopOnSignal stop;
     progress.begin();
@@ -145,8 +163,10 @@ Result<void> execute(const RenderRequest& request, Log& log) {
 
 int run_render(const RenderArguments& arguments) {
     Log log(verbosity_of(arguments));
-    const Result<RenderRequest> request = make_render_request(arguments);
+    Result<RenderRequest> request = make_render_request(arguments);
     if (!request) return report_failure(request.error(), log);
+    const Result<void> loaded = load_requested_camera(*request, log);
+    if (!loaded) return report_failure(loaded.error(), log);
     const Result<void> done = execute(*request, log);
     if (done) return report_success(request->scene.string(), log);
     if (done.error().id == "E-STOPPED" && received_stop_signal() != 0) {

@@ -120,13 +120,18 @@ void add_camera_options(CLI::App& command, RenderArguments& arguments) {
                "given of eye, target and up comes from the framing");
     group.text("--target", arguments.target, "X,Y,Z", "Point that the camera looks at");
     group.text("--up", arguments.up, "X,Y,Z", "Direction that is up in the picture [0,1,0]");
-    group.text(
-        "--fov", arguments.fov, "DEG", "Vertical angle of view, 0.01 to 179 [the camera's, or 35]");
+    group.text("--fov",
+               arguments.fov,
+               "DEG",
+               "Vertical angle of view, 0.01 to 179 [the camera's, or\n"
+               "35]; of a fisheye the whole circle's, up to 360 [180]");
     group.text("--camera-model",
                arguments.camera_model,
                "NAME",
-               "pinhole or orthographic [the camera's, or pinhole];\n"
-               "orthographic shows what the angle shows at the target");
+               "pinhole, orthographic, thinlens, fisheye or environment\n"
+               "[the camera's, or what the options below mean, or\n"
+               "pinhole]; orthographic shows what the angle shows at\n"
+               "the target");
 }
 
 void add_light_options(CLI::App& command, RenderArguments& arguments) {
@@ -150,6 +155,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
     add_picture_options(command, arguments);
     add_sampling_options(command, arguments, "64");
     add_camera_options(command, arguments);
+    add_lens_options(command, arguments.lens);
     add_light_options(command, arguments);
     add_display_options(command, arguments);
     add_program_options(command, arguments);

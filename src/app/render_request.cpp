@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_request.h"
 
+#include "app/lens_request.h"
 #include "app/numbers.h"
+#include "app/option_steps.h"
 #include "app/scene_choice.h"
+#include "camera/names.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +16,8 @@ namespace obscura {
 
 namespace {
 
-using Text = std::optional<std::string>;
+using Text = OptionText;
+using Steps = OptionSteps;
 
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
@@ -21,55 +25,11 @@ tl::unexpected<Error> usage(const char* id, const std::string& where, const std:
     return fail(ExitCode::usage, id, where, message);
 }
 
-/// Runs each step in turn and stops at the first that fails.
-class Steps {
-public:
-    template <typename T, typename Use>
-    void take(const Result<T>& result, Use use) {
-        if (error_) return;
-        if (result) {
-            use(*result);
-        } else {
-            error_ = result.error();
-        }
-    }
-    /// Reads an option only if it was given.
-    template <typename Parse, typename Use>
-    void option(const Text& text, Parse parse, Use use) {
-        if (!error_ && text) take(parse(*text), use);
-    }
-    void refuse(bool condition, const std::string& where, const std::string& message) {
-        if (!error_ && condition) {
-            error_ = Error{ExitCode::usage, "E-USAGE-CONFLICT", where, message};
-        }
-    }
-    Result<void> done() const {
-        if (error_) return fail(*error_);
-        return {};
-    }
-
-private:
-    std::optional<Error> error_;
-};
-
 template <typename T>
 struct Choice {
     const char* name;
     T value;
 };
-
-template <typename T, size_t N>
-Result<T> choose(const std::string& text,
-                 const std::string& option,
-                 const std::array<Choice<T>, N>& choices) {
-    std::string names;
-    for (const Choice<T>& choice : choices) {
-        if (text == choice.name) return choice.value;
-        names += (names.empty() ? "" : ", ") + std::string(choice.name);
-    }
-    return usage(
-        "E-USAGE-CHOICE", option, in_quotes(text) + " is not accepted; expected one of: " + names);
-}
 
 constexpr std::array<Choice<Integrator>, 7> integrators = {{{"path", Integrator::path},
                                                             {"direct", Integrator::direct},
@@ -86,17 +46,6 @@ constexpr std::array<Choice<Isa>, 4> instruction_sets = {{{"auto", Isa::automati
                                                           {"baseline", Isa::baseline},
                                                           {"avx2", Isa::avx2},
                                                           {"avx512", Isa::avx512}}};
-
-Result<CameraModel> parse_camera_model(const std::string& text) {
-    if (text == "thinlens" || text == "fisheye" || text == "environment") {
-        return usage("E-CAM-MODEL",
-                     "--camera-model",
-                     in_quotes(text) + " is not there yet; expected one of: pinhole, orthographic");
-    }
-    constexpr std::array<Choice<CameraModel>, 2> models = {
-        {{"pinhole", CameraModel::pinhole}, {"orthographic", CameraModel::orthographic}}};
-    return choose(text, "--camera-model", models);
-}
 
 void parse_picture(const RenderArguments& arguments, RenderOptions& options, Steps& steps) {
     const auto integer = [](const char* name, int64_t low, int64_t high) {
@@ -126,11 +75,10 @@ void parse_picture(const RenderArguments& arguments, RenderOptions& options, Ste
         [&](const std::array<int, 4>& r) {
             options.crop = PixelRect{r[0], r[1], r[2], r[3]};
         });
-    const PixelRect crop = options.crop.value_or(PixelRect{});
-    steps.refuse(crop.x + crop.width > options.width || crop.y + crop.height > options.height,
-                 "--crop",
-                 "the part reaches beyond the picture; expected one within " +
-                     std::to_string(options.width) + "x" + std::to_string(options.height));
+    // Without --size, --camera-json may say how large the picture is; then it is checked later.
+    const bool size_is_known = arguments.size || !arguments.lens.camera_json;
+    const Result<void> fits = check_crop(options);
+    steps.refuse(size_is_known && !fits, "--crop", fits ? "" : fits.error().message);
 }
 
 Result<RenderOptions> parse_background(const std::string& text, RenderOptions options) {
@@ -150,11 +98,11 @@ Result<RenderOptions> parse_background(const std::string& text, RenderOptions op
 void parse_transport(const RenderArguments& arguments, RenderOptions& options, Steps& steps) {
     steps.option(
         arguments.integrator,
-        [](const std::string& text) { return choose(text, "--integrator", integrators); },
+        [](const std::string& text) { return choose_option(text, "--integrator", integrators); },
         [&](Integrator integrator) { options.integrator = integrator; });
     steps.option(
         arguments.filter,
-        [](const std::string& text) { return choose(text, "--filter", filters); },
+        [](const std::string& text) { return choose_option(text, "--filter", filters); },
         [&](PixelFilter filter) { options.filter = filter; });
     steps.option(
         arguments.background,
@@ -181,12 +129,31 @@ void parse_camera(const RenderArguments& arguments, CameraRequest& camera, Steps
     steps.option(arguments.target, point("--target"), into(camera.target_m));
     steps.option(arguments.up, point("--up"), into(camera.up));
     steps.option(
+        arguments.camera_model,
+        [](const std::string& text) {
+            return choose_option(text, "--camera-model", camera_model_names);
+        },
+        [&](CameraModel model) { camera.model = model; });
+    steps.take(parse_lens(arguments.lens, camera.model),
+               [&](const CameraSettings& settings) { camera.settings = settings; });
+    const bool fisheye =
+        camera.model.value_or(implied_model(camera.settings).value_or(CameraModel::pinhole)) ==
+        CameraModel::fisheye;
+    steps.option(
         arguments.fov,
-        [](const std::string& text) { return parse_real(text, "--fov", 0.01, 179); },
+        [&](const std::string& text) {
+            return parse_real(text, "--fov", 0.01, fisheye ? 360 : 179);
+        },
         [&](double degrees) { camera.yfov_rad = degrees * degree; });
-    steps.option(arguments.camera_model, parse_camera_model, [&](CameraModel model) {
-        camera.model = model;
-    });
+    steps.option(
+        arguments.lens.focus_on,
+        [](const std::string& text) { return parse_pixel(text, "--focus-on"); },
+        [&](const std::array<int, 2>& pixel) { camera.focus_on_px = pixel; });
+    steps.refuse(arguments.lens.camera_json &&
+                     (arguments.camera || arguments.eye || arguments.target || arguments.up),
+                 "--camera-json",
+                 "it places the camera; it cannot go together with --camera, --eye, --target or "
+                 "--up");
     steps.refuse(arguments.camera && (arguments.eye || arguments.target || arguments.up),
                  "--camera",
                  "it cannot go together with --eye, --target or --up; give one or the other");
@@ -227,8 +194,10 @@ void parse_program(const RenderArguments& arguments, RenderRequest& request, Ste
 
 /// Names of things and files; an empty one is most likely an unset variable of a script.
 void refuse_empty_names(const RenderArguments& arguments, Steps& steps) {
-    const std::array<std::pair<const char*, const Text*>, 6> names = {
+    const std::array<std::pair<const char*, const Text*>, 8> names = {
         {{"--camera", &arguments.camera},
+         {"--camera-json", &arguments.lens.camera_json},
+         {"--aperture", &arguments.lens.aperture},
          {"--env", &arguments.env},
          {"--view", &arguments.view},
          {"--display", &arguments.display},
@@ -249,6 +218,9 @@ Result<void> check_distinct_files(const RenderRequest& request) {
     std::vector<std::filesystem::path> written = request.outputs;
     if (request.statistics) written.push_back(*request.statistics);
     std::vector<std::filesystem::path> read = {request.scene};
+    if (request.camera_json) read.push_back(*request.camera_json);
+    if (request.camera.settings.aperture_file)
+        read.push_back(*request.camera.settings.aperture_file);
     if (request.environment) read.push_back(*request.environment);
     if (!request.display.ocio_file.empty()) read.push_back(request.display.ocio_file);
     for (size_t i = 0; i < written.size(); ++i) {
@@ -269,8 +241,17 @@ Result<void> check_distinct_files(const RenderRequest& request) {
 
 }  // namespace
 
+Result<void> check_crop(const RenderOptions& options) {
+    const PixelRect crop = options.crop.value_or(PixelRect{});
+    if (crop.x + crop.width <= options.width && crop.y + crop.height <= options.height) return {};
+    return usage("E-USAGE-CONFLICT",
+                 "--crop",
+                 "the part reaches beyond the picture; expected one within " +
+                     std::to_string(options.width) + "x" + std::to_string(options.height));
+}
+
 Result<Isa> parse_isa(const std::string& text) {
-    return choose(text, "--isa", instruction_sets);
+    return choose_option(text, "--isa", instruction_sets);
 }
 
 Verbosity verbosity_of(const RenderArguments& arguments) {
@@ -302,6 +283,8 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
                [&](const LoadOptions& load) { request.load = load; });
     request.exr_depth = arguments.float32 ? ExrDepth::float32 : ExrDepth::half;
     if (arguments.stats) request.statistics = *arguments.stats;
+    if (arguments.lens.camera_json) request.camera_json = *arguments.lens.camera_json;
+    request.size_is_given = arguments.size.has_value();
     parse_picture(arguments, request.options, steps);
     parse_transport(arguments, request.options, steps);
     parse_camera(arguments, request.camera, steps);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/camera_choice.h"
+#include "app/lens_options.h"
 #include "base/log.h"
 #include "gltf/load.h"
 #include "image/display.h"
@@ -21,6 +22,8 @@ struct RenderRequest {
     std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
     LoadOptions load;                            ///< --scene
     CameraRequest camera;
+    std::optional<std::filesystem::path> camera_json;
+    bool size_is_given = false;  ///< else --camera-json may have one
     RenderOptions options;
     std::optional<std::filesystem::path> environment;
     double environment_intensity = 1;
@@ -39,6 +42,7 @@ struct RenderArguments {
     std::vector<std::string> outputs;
     std::optional<std::string> size, spp, depth, seed, threads, isa, tile_size, crop;
     std::optional<std::string> scene, camera, camera_model, eye, target, up, fov;
+    LensArguments lens;
     std::optional<std::string> env, env_intensity, env_rotation, background;
     std::optional<std::string> integrator, ao_distance, filter;
     std::optional<std::string> view, display, ocio, exposure, stats;
@@ -51,8 +55,11 @@ struct RenderArguments {
 /// Reads the texts; touches no file but to find out whether two names mean the same one.
 ///
 /// Errors  64, each with the option and what it accepts: E-USAGE-NUMBER, E-USAGE-RANGE,
-///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE, E-CAM-MODEL
+///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
+
+/// 64 E-USAGE-CONFLICT when the part to render reaches beyond the picture.
+Result<void> check_crop(const RenderOptions& options);
 
 /// One name of --isa.
 ///

@@ -46,7 +46,9 @@ Matrix4 ndc_from_camera(const Camera& camera, double znear_m, double zfar_m) {
     }
     const double half_height = static_cast<double>(camera.pinhole.tan_half_yfov);
     out.m[0][0] = 1.0 / (half_height * static_cast<double>(camera.pinhole.aspect));
+    out.m[0][2] = out.m[0][0] * static_cast<double>(camera.pinhole.shift_x);
     out.m[1][1] = 1.0 / half_height;
+    out.m[1][2] = out.m[1][1] * static_cast<double>(camera.pinhole.shift_y);
     out.m[2][2] = (zfar_m + znear_m) / depth;
     out.m[2][3] = 2.0 * zfar_m * znear_m / depth;
     out.m[3][2] = -1;
@@ -67,6 +69,10 @@ CameraMatrices camera_matrices(const Camera& camera, double znear_m, double zfar
         from_affine(inverse(affine_cast<double>(camera.world_from_camera)));
     CameraMatrices out = {};
     store_for_row_vectors(camera_from_world, out.world_to_camera);
+    const bool flat = camera.model != CameraModel::fisheye &&
+                      camera.model != CameraModel::environment && !is_distorted(camera);
+    out.has_ndc = flat;
+    if (!flat) return out;
     store_for_row_vectors(multiply(ndc_from_camera(camera, znear_m, zfar_m), camera_from_world),
                           out.world_to_ndc);
     return out;

@@ -11,6 +11,7 @@ struct CameraMatrices {
     float world_to_camera[16];
     /// x, y in [-1, 1] over the picture (y up), after division by w.
     float world_to_ndc[16];
+    bool has_ndc;  ///< false: no matrix does what this camera does; world_to_ndc is zero
 };
 
 /// In      znear_m, zfar_m: only shape the z of NDC; > 0, zfar_m > znear_m

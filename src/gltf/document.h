@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "math/transform.h"
 #include "scene/asset_info.h"
+#include "scene/camera_settings.h"
 #include "surface/material.h"
 
 #include <array>
@@ -134,6 +135,7 @@ struct GltfCamera {
     double ymag_m = 0;
     double znear_m = 0;
     double zfar_m = 0;
+    CameraSettings settings = {};  ///< OBSCURA_camera
 };
 
 enum class GltfLightType { point, spot, directional };

@@ -1,5 +1,6 @@
 // gltf/document_nodes.cpp - reads nodes, scenes, cameras and lights.
 // SPDX-License-Identifier: Apache-2.0
+#include "gltf/camera_extension.h"
 #include "gltf/document_parts.h"
 #include "math/warp.h"
 
@@ -210,6 +211,9 @@ void read_cameras(DocumentReading& reading) {
             camera.fault("type", "E-CAM-TYPE", "accepted are perspective and orthographic");
         }
         out.name = camera.text("name");
+        if (camera.has_extension(camera_extension_name)) {
+            out.settings = read_camera_extension(camera.extension(camera_extension_name));
+        }
         reading.document.cameras.push_back(std::move(out));
     });
 }

@@ -21,6 +21,7 @@ constexpr std::array extension_rows = {
     ExtensionRow{"KHR_materials_unlit", true, ""},
     ExtensionRow{"KHR_mesh_quantization", true, ""},
     ExtensionRow{"KHR_texture_transform", true, ""},
+    ExtensionRow{"OBSCURA_camera", true, ""},
     ExtensionRow{"EXT_mesh_gpu_instancing", false, "one copy is drawn instead of all"},
     ExtensionRow{"EXT_meshopt_compression", false, "the uncompressed copy is read"},
     ExtensionRow{"KHR_meshopt_compression", false, "the uncompressed copy is read"},

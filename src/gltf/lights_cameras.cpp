@@ -61,6 +61,7 @@ Result<SceneCamera> place_camera(const Document& document, const PlacedNode& pla
     out.ymag_m = camera.ymag_m;
     out.znear_m = camera.znear_m;
     out.zfar_m = camera.zfar_m;
+    out.settings = camera.settings;
     return out;
 }
 

@@ -51,7 +51,7 @@ Imf::Header header_of(const Picture& picture, const PictureMetadata& metadata, E
     if (metadata.is_color) Imf::addChromaticities(header, Imf::Chromaticities());  // Rec.709
     insert_text(header, "colorInteropID", metadata.is_color ? "lin_rec709_scene" : "data");
     Imf::addWorldToCamera(header, matrix_from(metadata.world_to_camera));
-    Imf::addWorldToNDC(header, matrix_from(metadata.world_to_ndc));
+    if (metadata.has_ndc) Imf::addWorldToNDC(header, matrix_from(metadata.world_to_ndc));
     insert_text(header, "Software", metadata.software);
     insert_text(header, "asset", metadata.asset);
     insert_text(header, "copyright", metadata.copyright);

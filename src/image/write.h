@@ -35,6 +35,7 @@ struct PictureMetadata {
     bool is_color = true;  ///< false: data such as depth; no chromaticities
     /// Row-major 4x4 for row vectors, as OpenEXR's standard attributes want them.
     float world_to_camera[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
+    bool has_ndc = true;  ///< false: no matrix does what the camera does, and none is written
     float world_to_ndc[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     std::vector<std::pair<std::string, std::string>> extra;  ///< further text attributes
 };

@@ -15,6 +15,10 @@ enum class RandomUse : uint32_t { film, bsdf, lobe, light, light_choice, texture
 
 inline constexpr uint32_t pairs_per_bounce = static_cast<uint32_t>(RandomUse::count);
 
+/// Pair number of the point on the lens: beyond those of any bounce, so that cameras without a lens
+/// draw what they always did.
+inline constexpr uint32_t lens_pair = 0x4C454E53U;
+
 inline namespace OBSCURA_ISA {
 
 /// A bijection of 32-bit words in which every output bit depends on every input bit.

@@ -5,6 +5,7 @@
 #include "light/punctual.h"
 #include "math/transform.h"
 #include "scene/asset_info.h"
+#include "scene/camera_settings.h"
 #include "scene/texture_arena.h"
 #include "surface/material.h"
 
@@ -70,7 +71,8 @@ struct SceneCamera {
     double xmag_m = 1;
     double ymag_m = 1;
     double znear_m = 0;
-    double zfar_m = 0;  ///< 0: infinite
+    double zfar_m = 0;             ///< 0: infinite
+    CameraSettings settings = {};  ///< from OBSCURA_camera
 };
 
 struct Bounds {

@@ -21,12 +21,13 @@ OBSCURA_INLINE Lanes filter_offset(const float* inverse_cdf, Lanes u) {
     return lerp(low, high, x - from_int<Lanes>(i));
 }
 
-}  // namespace
-
-void make_camera_rays(const BatchSettings& batch,
-                      int count,
-                      const PathRows& out,
-                      const SampleRows& samples) {
+/// The loop over a batch, for one kind of camera.
+template <typename Maker>
+void make_rays_of(const BatchSettings& batch,
+                  int count,
+                  const PathRows& out,
+                  const SampleRows& samples,
+                  float* length_m) {
     const float inverse_samples = 1.0f / static_cast<float>(batch.samples);
     const Vec2<Lanes> inverse_size{Lanes(1.0f / static_cast<float>(batch.width)),
                                    Lanes(1.0f / static_cast<float>(batch.height))};
@@ -47,10 +48,21 @@ void make_camera_rays(const BatchSettings& batch,
         }
         const Vec2<Lanes> film{(from_int<Lanes>(x) + Lanes(0.5f) + offset.x) * inverse_size.x,
                                (from_int<Lanes>(y) + Lanes(0.5f) + offset.y) * inverse_size.y};
-        const CameraRay<Lanes> ray = generate_ray(batch.camera, film);
+        FilmPoint<Lanes> point{film, film, {Lanes(0.5f), Lanes(0.5f)}};
+        if constexpr (Maker::model == CameraModel::environment) {
+            point.pixel_centre = {(from_int<Lanes>(x) + Lanes(0.5f)) * inverse_size.x,
+                                  (from_int<Lanes>(y) + Lanes(0.5f)) * inverse_size.y};
+        }
+        if constexpr (Maker::has_lens) {
+            point.lens = unit_pair<Lanes>(sobol_pair(key, index, lens_pair));
+        }
+        const WorldRay<Lanes> made = world_ray<Maker>(batch.camera, point);
+        const CameraRay<Lanes>& ray = made.ray;
         store3(out.ox, out.oy, out.oz, i, ray.origin);
         store3(out.dx, out.dy, out.dz, i, ray.direction);
-        store3(out.tr, out.tg, out.tb, i, splat3(Lanes(1.0f)));
+        // What shows nothing carries no light, not even the background's.
+        store3(out.tr, out.tg, out.tb, i, splat3(select(ray.valid, Lanes(1.0f), Lanes(0.0f))));
+        if (length_m != nullptr) store(length_m + i, length_of(batch.camera, made));
         store(out.pdf + i, Lanes(0.0f));
         store(out.cone_width + i, ray.cone_width);
         store(out.cone_spread + i, ray.cone_spread);
@@ -61,6 +73,18 @@ void make_camera_rays(const BatchSettings& batch,
         store3(samples.r, samples.g, samples.b, i, splat3(Lanes(0.0f)));
         store(samples.a + i, Lanes(0.0f));
     }
+}
+
+}  // namespace
+
+void make_camera_rays(const BatchSettings& batch,
+                      int count,
+                      const PathRows& out,
+                      const SampleRows& samples,
+                      float* length_m) {
+    visit_model(batch.camera, !batch.pixel_centres, [&](auto maker) {
+        make_rays_of<decltype(maker)>(batch, count, out, samples, length_m);
+    });
 }
 
 }  // namespace OBSCURA_ISA

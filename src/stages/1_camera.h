@@ -9,13 +9,15 @@ namespace obscura {
 inline namespace OBSCURA_ISA {
 
 /// In      batch.pixel_x/y, samples, first_sample: which film points
-/// Out     out: one row a slot, in slot order; samples: cleared
+/// Out     out: one row a slot, in slot order; throughput 0 where the camera shows nothing;
+///         samples: cleared; length_m: how far each ray may go, null where !limits_rays(camera)
 /// Units   metres; key and sample feed math/sampler.h
 /// Errors  none
 void make_camera_rays(const BatchSettings& batch,
                       int count,
                       const PathRows& out,
-                      const SampleRows& samples);
+                      const SampleRows& samples,
+                      float* length_m);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -8,11 +8,13 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// Distance along the camera's view axis.
+/// Distance along the camera's view axis; from the eye where the camera has no flat picture. Rays
+/// begin at the near distance.
 OBSCURA_INLINE Lanes axial_depth(const Camera& camera, const PathLanes& path, Lanes distance) {
+    if (measures_from_eye(camera)) return distance + Lanes(camera.near_m);
     const auto& m = camera.world_from_camera.m;
     const Vec3<Lanes> forward{Lanes(-m[0][2]), Lanes(-m[1][2]), Lanes(-m[2][2])};
-    return distance * dot(path.direction, forward);
+    return distance * dot(path.direction, forward) + Lanes(camera.near_m);
 }
 
 /// Numbers of glTF node, glTF material and triangle, from 1; material 0 is the default one.

@@ -32,7 +32,8 @@ struct StageTable {
     int lanes;
 
     /// Stage 1: one camera ray a slot; samples are cleared.
-    void (*camera)(const BatchSettings&, int count, const PathRows&, const SampleRows&);
+    void (*camera)(
+        const BatchSettings&, int count, const PathRows&, const SampleRows&, float* length_m);
 
     /// Stage 3: hits become radiance, shadow rays and next rays; misses see the environment.
     ShadeCounts (*shade)(

@@ -50,7 +50,8 @@ RayColumns rays_of(const ShadowRows& s, int count) {
 void intersect(
     const WalkInput& in, int count, SeeThrough see_through, Workspace& work, WalkCounters& c) {
     const bool camera = see_through.segment == 0;
-    const RayColumns rays = rays_of(work.paths[0], count);
+    RayColumns rays = rays_of(work.paths[0], count);
+    if (camera && limits_rays(in.batch.camera)) rays.tfar = work.camera_length_m.data();
     (camera ? c.camera_rays : c.bounce_rays) += static_cast<uint64_t>(count);
     {
         const SumOfTime time(camera ? c.seconds.intersect_camera : c.seconds.intersect_bounce);
@@ -130,13 +131,15 @@ Workspace::Workspace() {
     carve.all(shadows.tfar, shadows.r, shadows.g, shadows.b, shadows.slot, shadows.path_key);
     carve.all(samples.r, samples.g, samples.b, samples.a);
     occluded.resize(padded_rows);
+    camera_length_m.resize(padded_rows);
 }
 
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {
     const int count = pixels * in.batch.samples;
     {
         const SumOfTime time(counters.seconds.camera);
-        in.stages->camera(in.batch, count, work.paths[0], work.samples);
+        float* length_m = limits_rays(in.batch.camera) ? work.camera_length_m.data() : nullptr;
+        in.stages->camera(in.batch, count, work.paths[0], work.samples, length_m);
     }
     counters.paths += static_cast<uint64_t>(count);
     switch (in.kind) {

@@ -41,6 +41,7 @@ public:
     ShadowRows shadows;
     SampleRows samples;
     std::vector<uint8_t> occluded;
+    std::vector<float> camera_length_m;  ///< how far camera rays may go; for cameras that say it
 
 private:
     std::vector<std::byte> memory_;

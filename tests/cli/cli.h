@@ -8,6 +8,7 @@
 #include "support/run_program.h"
 #include "support/small_scenes.h"
 #include "support/temp_folder.h"
+#include <algorithm>
 #include <gmock/gmock.h>
 #include <memory>
 #include <optional>
@@ -80,10 +81,15 @@ protected:
     ProgramRun run(std::vector<std::string> arguments) const {
         return run_program_with(setup(std::move(arguments), folder_));
     }
-    /// `obscura render` of few pixels and samples.
+    /// `obscura render` of few pixels and samples, unless `more` says how many.
     static std::vector<std::string> small_render(const std::string& scene,
                                                  const std::vector<std::string>& more) {
-        std::vector<std::string> arguments = {"render", "--size", "24x16", "--spp", "2"};
+        std::vector<std::string> arguments = {"render"};
+        for (const auto& [option, value] :
+             {std::pair{"--size", "24x16"}, std::pair{"--spp", "2"}}) {
+            if (std::find(more.begin(), more.end(), option) != more.end()) continue;
+            arguments.insert(arguments.end(), {option, value});
+        }
         arguments.insert(arguments.end(), more.begin(), more.end());
         arguments.insert(arguments.end(), {"--", scene});
         return arguments;

@@ -1,0 +1,22 @@
+// camera/aperture_table.h - a picture of an opening becomes running sums to draw points from.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "camera/aperture.h"
+
+#include <vector>
+
+namespace obscura {
+
+/// Owns what an ApertureView sees.
+struct ApertureTable {
+    std::vector<float> rows;
+    std::vector<float> columns;
+    ApertureView view() const { return {rows.data(), columns.data()}; }
+};
+
+/// In      brightness: width * height values, rows from the top; negative ones count as 0
+/// Out     an empty table when nothing is bright
+ApertureTable make_aperture_table(const std::vector<float>& brightness, int width, int height);
+
+}  // namespace obscura

@@ -1,0 +1,21 @@
+// gltf/camera_json.h - a camera as computer vision writes it, from a JSON file of its own.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "base/log.h"
+#include "scene/scene.h"
+
+#include <filesystem>
+
+namespace obscura {
+
+/// Reads intrinsics and extrinsics; docs/cameras.md has the keys. The file's camera axes are
+/// OpenCV's (+X right, +Y down, +Z forward), its world is glTF's. The result has `intrinsics`, its
+/// pinhole or fisheye model, and the file's name.
+///
+/// Errors  67 E-CAMJSON-MISSING the file cannot be read; 65 E-JSON-*, E-DOC-MISSING, E-CAM-KEY,
+///         E-CAM-VALUE, E-CAM-MATRIX a rotation that is none
+Result<SceneCamera> load_camera_json(const std::filesystem::path& file, Log& log);
+
+}  // namespace obscura

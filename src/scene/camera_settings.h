@@ -1,0 +1,80 @@
+// scene/camera_settings.h - what can be said of a camera beyond glTF's core, from whatever source.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "camera/camera.h"
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace obscura {
+
+/// Focal lengths and principal point in pixels of a picture of a given size. (0, 0) is the top left
+/// corner, so that the first pixel's centre is (0.5, 0.5).
+struct Intrinsics {
+    double width_px = 0;
+    double height_px = 0;
+    double fx_px = 0;
+    double fy_px = 0;
+    double cx_px = 0;
+    double cy_px = 0;
+};
+
+/// How a fisheye's circle lies in the picture.
+enum class FisheyeFit : int { circle, diagonal };  ///< all of it in view; it covers the picture
+
+/// Where a picture of all directions has its middle.
+enum class EnvironmentAlign : int { world, view };  ///< at +X, as environment maps; ahead
+
+/// Empty: not said. docs/extensions/OBSCURA_camera/README.md has the meaning of each.
+///
+/// To add one: append it here and to merge_settings; read it in gltf/camera_extension.cpp and
+/// app/lens_request.cpp; use it in app/camera_build.cpp; describe it in both places of docs/.
+struct CameraSettings {
+    std::optional<CameraModel> model = {};
+    std::optional<double> near_m = {};
+    std::optional<double> far_m = {};
+    std::optional<std::array<double, 2>> magnification_m = {};  ///< half width and half height
+    std::optional<double> focal_length_m = {};
+    std::optional<std::array<double, 2>> sensor_m = {};    ///< width, height
+    std::optional<std::array<double, 2>> shift = {};       ///< in pictures: right, up
+    std::optional<std::array<double, 5>> distortion = {};  ///< k1 k2 p1 p2 k3
+    std::optional<Intrinsics> intrinsics = {};
+
+    std::optional<double> fstop = {};
+    std::optional<double> lens_radius_m = {};
+    std::optional<double> focus_distance_m = {};
+    std::optional<int> blades = {};
+    std::optional<double> blade_rotation_rad = {};
+    std::optional<double> anamorphic = {};
+    std::optional<std::string> aperture_file = {};
+
+    std::optional<FisheyeLaw> fisheye = {};
+    std::optional<double> fisheye_fov_rad = {};  ///< of the whole circle
+    std::optional<FisheyeFit> fisheye_fit = {};
+    std::optional<std::array<double, 4>> fisheye_k = {};
+
+    std::optional<EnvironmentProjection> environment = {};
+    std::optional<double> cylinder_fov_rad = {};  ///< vertical
+    std::optional<double> stereo_m = {};          ///< between the eyes
+    std::optional<EnvironmentAlign> align = {};
+
+    std::optional<double> shutter_s = {};
+    std::optional<double> iso = {};
+    std::optional<double> ev100 = {};
+};
+
+/// `over` where it says something, else `base`. The lens' size counts as one thing, and so does
+/// the exposure.
+CameraSettings merge_settings(const CameraSettings& base, const CameraSettings& over);
+
+/// The model that the settings name, or the only one that they make sense for.
+std::optional<CameraModel> implied_model(const CameraSettings& settings);
+
+/// Name and value of each thing that is said, in a fixed order, for people.
+std::vector<std::pair<std::string, std::string>> settings_texts(const CameraSettings& settings);
+
+}  // namespace obscura
