@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 
 namespace obscura {
 
@@ -23,7 +24,7 @@ constexpr double wanted_in_picture = close_coverage + 0.02;
 /// Which pixels of a small picture show the asset, with sums over all rectangles from the corner.
 class CoverageMap {
 public:
-    CoverageMap(int width, int height, const std::vector<float>& rgba)
+    CoverageMap(int width, int height, std::span<const float> rgba)
         : width_(width), height_(height) {
         sums_.assign(static_cast<size_t>(width + 1) * static_cast<size_t>(height + 1), 0);
         for (int y = 0; y < height; ++y) {

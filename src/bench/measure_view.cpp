@@ -107,7 +107,7 @@ struct Renders {
 };
 
 /// NaN never equals itself, so bits are compared.
-bool same_bits(const std::vector<float>& a, const std::vector<float>& b) {
+bool same_bits(std::span<const float> a, std::span<const float> b) {
     const auto bytes_a = std::as_bytes(std::span(a));
     const auto bytes_b = std::as_bytes(std::span(b));
     return std::equal(bytes_a.begin(), bytes_a.end(), bytes_b.begin(), bytes_b.end());

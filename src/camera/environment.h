@@ -34,8 +34,8 @@ OBSCURA_INLINE SinCos<F> precise_turn(const F& t) {
         const F quadrant = floor(F(4.0f) * t + F(0.5f));
         const F x = (F(4.0f) * t - quadrant) * F(0.5f * pi_f);
         const F q = quadrant - F(4.0f) * floor(quadrant * F(0.25f));
-        const F s = sin(x);
-        const F c = cos(x);
+        const F s = sin_cos(x).sin;
+        const F c = sin_cos(x).cos;
         const MaskOf<F> odd = (q == F(1.0f)) | (q == F(3.0f));
         const MaskOf<F> cosine_negative = (q == F(1.0f)) | (q == F(2.0f));
         const F sine = select(odd, c, s);

@@ -65,11 +65,11 @@ OBSCURA_INLINE F fisheye_radius(const FisheyeCamera& camera, const F& theta) {
         case FisheyeLaw::equidistant:
             break;
         case FisheyeLaw::equisolid:
-            return F(2.0f) * sin(half);
+            return F(2.0f) * sin_cos(half).sin;
         case FisheyeLaw::stereographic:
-            return F(2.0f) * sin(half) / cos(half);
+            return F(2.0f) * sin_cos(half).sin / sin_cos(half).cos;
         case FisheyeLaw::orthographic:
-            return sin(theta);
+            return sin_cos(theta).sin;
         case FisheyeLaw::opencv:
             return opencv_radius(camera, theta).radius;
     }
@@ -87,7 +87,8 @@ struct FisheyeAngle {
 template <typename F>
 OBSCURA_INLINE FisheyeAngle<F> angle_from_theta(const F& theta, const F& radius, const F& slope) {
     const auto apart = radius > F(0.0f);
-    return {select(apart, sin(theta) / select(apart, radius, F(1.0f)), F(1.0f)), cos(theta), slope};
+    const SinCos<F> turned = sin_cos(theta);
+    return {select(apart, turned.sin / select(apart, radius, F(1.0f)), F(1.0f)), turned.cos, slope};
 }
 
 /// Inverts the four-coefficient model by Newton's method inside a bracket. A lane stays as it is

@@ -21,6 +21,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 namespace obscura {
 
@@ -62,7 +63,7 @@ Imf::Header header_of(const Picture& picture, const PictureMetadata& metadata, E
     return header;
 }
 
-std::vector<half> halves_of(const std::vector<float>& values) {
+std::vector<half> halves_of(std::span<const float> values) {
     constexpr float largest = 65504;
     constexpr size_t grain = 1 << 16;
     std::vector<half> halves(values.size());

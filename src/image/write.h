@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/unset_array.h"
 #include "image/display.h"
 
 #include <cstdint>
@@ -18,7 +19,8 @@ struct Picture {
     int width = 0;
     int height = 0;
     std::vector<std::string> channels;  ///< "R","G","B","A" or e.g. "Z", "N.X","N.Y","N.Z"
-    std::vector<float> pixels;          ///< alpha premultiplied where there is an A
+    /// alpha premultiplied where there is an A
+    UnsetArray<float> pixels;
 };
 
 /// What a picture says about itself. An EXR has the attributes Software, asset, copyright,

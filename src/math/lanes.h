@@ -156,8 +156,6 @@ OBSCURA_INLINE Lanes abs(Lanes a) { return xs::abs(a.v); }
 OBSCURA_INLINE Lanes min(Lanes a, Lanes b) { return xs::min(a.v, b.v); }
 OBSCURA_INLINE Lanes max(Lanes a, Lanes b) { return xs::max(a.v, b.v); }
 OBSCURA_INLINE Lanes floor(Lanes a) { return xs::floor(a.v); }
-OBSCURA_INLINE Lanes sin(Lanes a) { return xs::sin(a.v); }
-OBSCURA_INLINE Lanes cos(Lanes a) { return xs::cos(a.v); }
 OBSCURA_INLINE Lanes exp(Lanes a) { return xs::exp(a.v); }
 OBSCURA_INLINE Lanes log2(Lanes a) { return xs::log2(a.v); }
 OBSCURA_INLINE Lanes acos(Lanes a) { return xs::acos(a.v); }

@@ -18,6 +18,38 @@ struct SinCos {
     F sin, cos;
 };
 
+/// Sine and cosine of an angle, in lanes to about one unit in the last place.
+///
+/// In      |angle| at most a few turns, radians
+/// Source  Cody and Waite, "Software Manual for the Elementary Functions", 1980 (reduction in three
+///         parts); coefficients: Moshier, Cephes library, sinf and cosf
+template <typename F>
+OBSCURA_INLINE SinCos<F> sin_cos(const F& angle) {
+    if constexpr (std::is_floating_point_v<F>) {
+        return {sin(angle), cos(angle)};
+    } else {  // xsimd's own carry a scalar function for huge angles along, of which no copy may
+              // stay
+        const F quadrant = floor(angle * F(2.0f / pi_f) + F(0.5f));
+        const F x = ((angle - quadrant * F(1.5703125f)) - quadrant * F(4.837512969970703125e-4f)) -
+                    quadrant * F(7.549789948768648e-8f);
+        const F x2 = x * x;
+        const F s =
+            x + x * x2 *
+                    (F(-1.6666654611e-1f) + x2 * (F(8.3321608736e-3f) + x2 * F(-1.9515295891e-4f)));
+        const F c = F(1.0f) - F(0.5f) * x2 +
+                    x2 * x2 *
+                        (F(4.166664568298827e-2f) +
+                         x2 * (F(-1.388731625493765e-3f) + x2 * F(2.443315711809948e-5f)));
+        const auto q = to_int(quadrant);
+        const auto odd = (q & IntOf<F>(1)) == IntOf<F>(1);
+        const auto sine_negative = (q & IntOf<F>(2)) == IntOf<F>(2);
+        const auto cosine_negative = ((q + IntOf<F>(1)) & IntOf<F>(2)) == IntOf<F>(2);
+        const F sine = select(odd, c, s);
+        const F cosine = select(odd, s, c);
+        return {select(sine_negative, -sine, sine), select(cosine_negative, -cosine, cosine)};
+    }
+}
+
 /// Sine and cosine of a whole turn times t, t in [0, 1]; absolute error below 4e-7 in float.
 template <typename F>
 OBSCURA_INLINE SinCos<F> sin_cos_turn(const F& t) {

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace obscura {
 
@@ -33,35 +34,23 @@ std::vector<std::string> film_channels(Integrator integrator) {
     return {"R", "G", "B", "A"};
 }
 
-/// The walk that an integrator is.
-void choose_walk(Integrator integrator, WalkInput& walk) {
-    const auto quantity = [&](Quantity q) {
-        walk.kind = WalkKind::quantity;
-        walk.quantity = q;
-        walk.batch.pixel_centres = true;
-    };
+/// What an integrator named after a quantity finds at pixel centres; none for the others.
+std::optional<Quantity> quantity_of(Integrator integrator) {
     switch (integrator) {
-        case Integrator::path:
-            break;
-        case Integrator::direct:
-            walk.batch.max_bounces = 0;
-            break;
-        case Integrator::ao:
-            walk.kind = WalkKind::ao;
-            break;
         case Integrator::normal:
-            quantity(Quantity::normal);
-            break;
+            return Quantity::normal;
         case Integrator::depth:
-            quantity(Quantity::depth);
-            break;
+            return Quantity::depth;
         case Integrator::albedo:
-            quantity(Quantity::albedo);
-            break;
+            return Quantity::albedo;
         case Integrator::id:
-            quantity(Quantity::id);
+            return Quantity::id;
+        case Integrator::path:
+        case Integrator::direct:
+        case Integrator::ao:
             break;
     }
+    return std::nullopt;
 }
 
 WalkInput make_walk(const PreparedScene::Impl& scene,
@@ -90,7 +79,9 @@ WalkInput make_walk(const PreparedScene::Impl& scene,
     const float diagonal = bounds.empty() ? 1.0f : length(bounds.high - bounds.low);
     batch.ao_distance =
         options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m) : 0.2f * diagonal;
-    choose_walk(options.integrator, walk);
+    if (options.integrator == Integrator::direct) batch.max_bounces = 0;
+    if (options.integrator == Integrator::ao) walk.kind = WalkKind::ao;
+    walk.quantity = quantity_of(options.integrator).value_or(Quantity::normal);
     return walk;
 }
 
@@ -185,6 +176,55 @@ void render_tile(const WalkInput& walk_input,
     }
 }
 
+/// Writes rows of samples to the film, from the tile's pixel `first` on.
+template <int channels>
+void store_samples(const ThreadState& state, int first, int count, Film& film) {
+    const SampleRows& s = state.work.samples;
+    const float* const columns[] = {s.r, s.g, s.b, s.a};
+    const auto width = static_cast<size_t>(film.width);
+    float* const pixels = film.pixels.data();
+    const int32_t* xs = state.xs.data() + first;
+    const int32_t* ys = state.ys.data() + first;
+    for (int i = 0; i < count; ++i) {
+        float* pixel =
+            pixels + channels * (static_cast<size_t>(ys[i]) * width + static_cast<size_t>(xs[i]));
+        for (int c = 0; c < channels; ++c)
+            pixel[c] = columns[c][i];
+    }
+}
+
+/// Finds the quantity in one tile and writes it into the film.
+void render_quantity_tile(const WalkInput& walk_input,
+                          const Tile& tile,
+                          const std::atomic<bool>& stop,
+                          ThreadState& state,
+                          Film& film) {
+    list_pixels(tile, state.pattern, state.xs, state.ys);
+    const int pixels = static_cast<int>(state.xs.size());
+    state.xs.resize(state.xs.size() + 16);  // stages read whole registers
+    state.ys.resize(state.ys.size() + 16);
+    WalkInput in = walk_input;
+    in.recorder = state.recorder.get();
+    for (int first = 0; first < pixels; first += quantity_rows) {
+        if (stop.load(std::memory_order_relaxed)) return;
+        const int count = std::min(quantity_rows, pixels - first);
+        in.batch.pixel_x = state.xs.data() + first;
+        in.batch.pixel_y = state.ys.data() + first;
+        walk_quantity(in, count, state.work, state.counters);
+        const SumOfTime time(state.counters.seconds.accumulate);
+        switch (film.channels.size()) {
+            case 1:
+                store_samples<1>(state, first, count, film);
+                break;
+            case 3:
+                store_samples<3>(state, first, count, film);
+                break;
+            default:
+                store_samples<4>(state, first, count, film);
+        }
+    }
+}
+
 /// Writes a tile's means into the film.
 void store_tile(const ThreadState& state, int samples, Film& film) {
     const size_t channels = film.channels.size();
@@ -237,14 +277,15 @@ Result<RenderResult> render(const PreparedScene& scene,
     result.film.width = options.width;
     result.film.height = options.height;
     result.film.channels = film_channels(options.integrator);
-    result.film.pixels.assign(static_cast<size_t>(options.width) *
-                                  static_cast<size_t>(options.height) * result.film.channels.size(),
-                              0.0f);
+    // Not cleared here: the threads that write the pixels first bring in their memory.
+    result.film.pixels.resize(static_cast<size_t>(options.width) *
+                              static_cast<size_t>(options.height) * result.film.channels.size());
+    if (options.crop) std::fill(result.film.pixels.begin(), result.film.pixels.end(), 0.0f);
 
     const std::vector<float> filter = make_filter_table(options.filter);
     WalkInput walk_input = make_walk(scene.impl(), camera, options);
     walk_input.batch.filter = filter.empty() ? nullptr : filter.data();
-    const int samples = walk_input.batch.pixel_centres ? 1 : options.samples_per_pixel;
+    const bool quantity = quantity_of(options.integrator).has_value();
     const PixelRect whole{0, 0, options.width, options.height};
     const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), options.tile_size);
 
@@ -254,8 +295,12 @@ Result<RenderResult> render(const PreparedScene& scene,
         if (stop.load(std::memory_order_relaxed)) return;
         std::unique_ptr<ThreadState>& state = states[thread_index()];
         if (!state) state = make_state(options.recording != nullptr);
-        render_tile(walk_input, samples, tiles[i], stop, *state);
-        store_tile(*state, samples, result.film);
+        if (quantity) {
+            render_quantity_tile(walk_input, tiles[i], stop, *state, result.film);
+        } else {
+            render_tile(walk_input, options.samples_per_pixel, tiles[i], stop, *state);
+            store_tile(*state, options.samples_per_pixel, result.film);
+        }
         const size_t done = ++finished;
         if (progress) progress(static_cast<double>(done) / static_cast<double>(tiles.size()));
     });

@@ -5,6 +5,7 @@
 #include "accel/ray_recording.h"
 #include "base/error.h"
 #include "base/log.h"
+#include "base/unset_array.h"
 #include "camera/camera.h"
 #include "image/pixels.h"
 #include "scene/scene.h"
@@ -76,7 +77,7 @@ struct Film {
     int width = 0;
     int height = 0;
     std::vector<std::string> channels;  ///< R G B A; or e.g. Z; N.X N.Y N.Z
-    std::vector<float> pixels;
+    UnsetArray<float> pixels;
 };
 
 struct RenderResult {

@@ -21,6 +21,50 @@ OBSCURA_INLINE Lanes filter_offset(const float* inverse_cdf, Lanes u) {
     return lerp(low, high, x - from_int<Lanes>(i));
 }
 
+/// What pixels share in a batch.
+struct FilmScale {
+    Vec2<Lanes> inverse_size;
+
+    explicit FilmScale(const BatchSettings& batch)
+        : inverse_size{Lanes(1.0f / static_cast<float>(batch.width)),
+                       Lanes(1.0f / static_cast<float>(batch.height))} {}
+
+    OBSCURA_INLINE Vec2<Lanes> operator()(LanesI x, LanesI y, const Vec2<Lanes>& offset) const {
+        return {(from_int<Lanes>(x) + Lanes(0.5f) + offset.x) * inverse_size.x,
+                (from_int<Lanes>(y) + Lanes(0.5f) + offset.y) * inverse_size.y};
+    }
+};
+
+/// Writes what every integrator needs of a ray.
+template <typename Maker>
+OBSCURA_INLINE CameraRay<Lanes> store_ray(const BatchSettings& batch,
+                                          const FilmPoint<Lanes>& point,
+                                          int i,
+                                          const PathRows& out,
+                                          float* length_m) {
+    const WorldRay<Lanes> made = world_ray<Maker>(batch.camera, point);
+    store3(out.ox, out.oy, out.oz, i, made.ray.origin);
+    store3(out.dx, out.dy, out.dz, i, made.ray.direction);
+    if (length_m != nullptr) store(length_m + i, length_of(batch.camera, made));
+    store(out.cone_width + i, made.ray.cone_width);
+    store(out.cone_spread + i, made.ray.cone_spread);
+    return made.ray;
+}
+
+/// One ray through every pixel's centre and the middle of the lens, for one kind of camera.
+template <typename Maker>
+void make_centre_rays_of(const BatchSettings& batch,
+                         int count,
+                         const PathRows& out,
+                         float* length_m) {
+    const FilmScale scale(batch);
+    for (int i = 0; i < count; i += lane_count) {
+        const Vec2<Lanes> film =
+            scale(load(batch.pixel_x + i), load(batch.pixel_y + i), {Lanes(0.0f), Lanes(0.0f)});
+        store_ray<Maker>(batch, {film, film, {Lanes(0.5f), Lanes(0.5f)}}, i, out, length_m);
+    }
+}
+
 /// The loop over a batch, for one kind of camera.
 template <typename Maker>
 void make_rays_of(const BatchSettings& batch,
@@ -29,8 +73,7 @@ void make_rays_of(const BatchSettings& batch,
                   const SampleRows& samples,
                   float* length_m) {
     const float inverse_samples = 1.0f / static_cast<float>(batch.samples);
-    const Vec2<Lanes> inverse_size{Lanes(1.0f / static_cast<float>(batch.width)),
-                                   Lanes(1.0f / static_cast<float>(batch.height))};
+    const FilmScale scale(batch);
     for (int i = 0; i < count; i += lane_count) {
         const LanesI slot = min(LanesI(i) + lane_numbers(), LanesI(count - 1));
         // Exact: slots are far below 2^23 and the half keeps the quotient off whole numbers.
@@ -40,32 +83,21 @@ void make_rays_of(const BatchSettings& batch,
         const LanesI y = gather<Lanes>(batch.pixel_y, pixel);
         const LanesU key = pixel_key(as_uint(x), as_uint(y), batch.seed_low, batch.seed_high);
         const LanesU index = reverse_bits(as_uint(sample) + LanesU(batch.first_sample));
-        Vec2<Lanes> offset{Lanes(0.0f), Lanes(0.0f)};
-        if (!batch.pixel_centres) {
-            const auto u =
-                unit_pair<Lanes>(sobol_pair(key, index, static_cast<uint32_t>(RandomUse::film)));
-            offset = {filter_offset(batch.filter, u.x), filter_offset(batch.filter, u.y)};
-        }
-        const Vec2<Lanes> film{(from_int<Lanes>(x) + Lanes(0.5f) + offset.x) * inverse_size.x,
-                               (from_int<Lanes>(y) + Lanes(0.5f) + offset.y) * inverse_size.y};
+        const auto u =
+            unit_pair<Lanes>(sobol_pair(key, index, static_cast<uint32_t>(RandomUse::film)));
+        const Vec2<Lanes> film =
+            scale(x, y, {filter_offset(batch.filter, u.x), filter_offset(batch.filter, u.y)});
         FilmPoint<Lanes> point{film, film, {Lanes(0.5f), Lanes(0.5f)}};
         if constexpr (Maker::model == CameraModel::environment) {
-            point.pixel_centre = {(from_int<Lanes>(x) + Lanes(0.5f)) * inverse_size.x,
-                                  (from_int<Lanes>(y) + Lanes(0.5f)) * inverse_size.y};
+            point.pixel_centre = scale(x, y, {Lanes(0.0f), Lanes(0.0f)});
         }
         if constexpr (Maker::has_lens) {
             point.lens = unit_pair<Lanes>(sobol_pair(key, index, lens_pair));
         }
-        const WorldRay<Lanes> made = world_ray<Maker>(batch.camera, point);
-        const CameraRay<Lanes>& ray = made.ray;
-        store3(out.ox, out.oy, out.oz, i, ray.origin);
-        store3(out.dx, out.dy, out.dz, i, ray.direction);
+        const CameraRay<Lanes> ray = store_ray<Maker>(batch, point, i, out, length_m);
         // What shows nothing carries no light, not even the background's.
         store3(out.tr, out.tg, out.tb, i, splat3(select(ray.valid, Lanes(1.0f), Lanes(0.0f))));
-        if (length_m != nullptr) store(length_m + i, length_of(batch.camera, made));
         store(out.pdf + i, Lanes(0.0f));
-        store(out.cone_width + i, ray.cone_width);
-        store(out.cone_spread + i, ray.cone_spread);
         store(out.slot + i, as_uint(slot));
         store(out.key + i, key);
         store(out.sample + i, index);
@@ -82,8 +114,14 @@ void make_camera_rays(const BatchSettings& batch,
                       const PathRows& out,
                       const SampleRows& samples,
                       float* length_m) {
-    visit_model(batch.camera, !batch.pixel_centres, [&](auto maker) {
+    visit_model(batch.camera, true, [&](auto maker) {
         make_rays_of<decltype(maker)>(batch, count, out, samples, length_m);
+    });
+}
+
+void make_centre_rays(const BatchSettings& batch, int count, const PathRows& out, float* length_m) {
+    visit_model(batch.camera, false, [&](auto maker) {
+        make_centre_rays_of<decltype(maker)>(batch, count, out, length_m);
     });
 }
 

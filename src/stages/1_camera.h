@@ -19,5 +19,9 @@ void make_camera_rays(const BatchSettings& batch,
                       const SampleRows& samples,
                       float* length_m);
 
+/// For quantities: one ray through the centre of each pixel in the order of batch.pixel_x, as above
+/// but with origin, direction and cone alone.
+void make_centre_rays(const BatchSettings& batch, int count, const PathRows& out, float* length_m);
+
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -48,13 +48,17 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
 }
 
 /// A loop of its own for each quantity, so that the compiler drops what the quantity does not need.
-/// Camera rays are in slot order: row i is slot i.
+/// Row i is pixel i.
 template <Quantity quantity>
 void write_all(const SceneView& scene, const Camera& camera, int count, const ShadeRows& rows) {
     const SampleRows& out = rows.samples;
     for (int i = 0; i < count; i += lane_count) {
         const Mask hits = rows_in_range(i, count) & (load(rows.hits.primitive + i) >= LanesI(0));
-        if (none(hits)) continue;  // samples were cleared
+        if (none(hits)) {
+            store3(out.r, out.g, out.b, i, splat3(Lanes(0.0f)));
+            store(out.a + i, Lanes(0.0f));
+            continue;
+        }
         const HitLanes hit = hits_or_first(rows.hits, i, hits);
         const PathLanes path = load_paths(rows.paths, i);
         const Vec3<Lanes> value = quantity_of<quantity>(scene, camera, path, hit);

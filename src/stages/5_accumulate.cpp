@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/5_accumulate.h"
 
+#include "stages/rows.h"
+
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
@@ -40,6 +42,21 @@ uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float*
             sum[2] += b;
             sum[3] += samples.a[slot];
         }
+    }
+    return nonfinite;
+}
+
+uint64_t clear_nonfinite(int count, const SampleRows& samples) {
+    uint64_t nonfinite = 0;
+    const Vec3<Lanes> zero = splat3(Lanes(0.0f));
+    for (int i = 0; i < count; i += lane_count) {
+        const Vec3<Lanes> value = load3(samples.r, samples.g, samples.b, i);
+        const Lanes size = abs(value.x) + abs(value.y) + abs(value.z);
+        const Mask broken = rows_in_range(i, count) & !(size <= Lanes(largest_sample));
+        if (none(broken)) continue;
+        nonfinite += static_cast<uint64_t>(obscura::count(broken));
+        store3(samples.r, samples.g, samples.b, i, select(broken, zero, value));
+        store(samples.a + i, select(broken, Lanes(0.0f), load(samples.a + i)));
     }
     return nonfinite;
 }

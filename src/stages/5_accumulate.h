@@ -21,5 +21,8 @@ void add_shadow_light(int count,
 /// Out     number of samples that were not finite; each counts as zero, all four channels
 uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums);
 
+/// Clears the samples that are not finite; returns how many.
+uint64_t clear_nonfinite(int count, const SampleRows& samples);
+
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

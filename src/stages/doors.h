@@ -98,7 +98,6 @@ struct BatchSettings {
     uint32_t first_sample = 0;
     uint32_t seed_low = 0, seed_high = 0;
     const float* filter = nullptr;  ///< inverse CDF, filter_entries + 1 offsets; null: box
-    bool pixel_centres = false;     ///< no jitter: one ray through each pixel's centre
     int max_bounces = 8;
     int strategies = sample_lights | sample_bsdfs;
     bool background_visible = true;      ///< camera rays that miss see the environment

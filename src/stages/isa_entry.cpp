@@ -17,11 +17,13 @@ const StageTable stage_table = {
     &OBSCURA_TEXT(OBSCURA_ISA)[4],  // without "isa_"
     lane_count,
     make_camera_rays,
+    make_centre_rays,
     shade,
     shade_ao,
     write_quantity,
     add_shadow_light,
     accumulate,
+    clear_nonfinite,
 };
 
 }  // namespace OBSCURA_ISA

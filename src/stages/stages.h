@@ -35,6 +35,9 @@ struct StageTable {
     void (*camera)(
         const BatchSettings&, int count, const PathRows&, const SampleRows&, float* length_m);
 
+    /// Stage 1 for quantities: one ray a pixel, and of its row only what they need.
+    void (*centre_camera)(const BatchSettings&, int count, const PathRows&, float* length_m);
+
     /// Stage 3: hits become radiance, shadow rays and next rays; misses see the environment.
     ShadeCounts (*shade)(
         const SceneView&, const BatchSettings&, int bounce, int count, const ShadeRows&);
@@ -42,7 +45,7 @@ struct StageTable {
     /// Stage 3 for --integrator ao: one occlusion ray a hit.
     int (*shade_ao)(const SceneView&, const BatchSettings&, int count, const ShadeRows&);
 
-    /// Stage 3 for quantities: written to the samples, without light.
+    /// Stage 3 for quantities: every sample is written, without light; 0 where nothing was hit.
     void (*quantity)(const SceneView&, const BatchSettings&, Quantity, int count, const ShadeRows&);
 
     /// Stage 5a: unoccluded shadow rows are added to their samples.
@@ -50,6 +53,10 @@ struct StageTable {
 
     /// Stage 5b: adds each pixel's samples to its sum, in sample order. sums: RGBA per pixel.
     uint64_t (*accumulate)(int pixels, int samples, const SampleRows&, float* sums);
+
+    /// Stage 5 for quantities, whose samples are pixels: clears those that are not finite, and says
+    /// how many they were.
+    uint64_t (*clear_nonfinite)(int count, const SampleRows&);
 };
 
 }  // namespace obscura

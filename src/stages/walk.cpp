@@ -106,10 +106,8 @@ void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
 }
 
-void walk_quantity(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
-    intersect(in, count, {true, true, 0}, work, c);
-    const SumOfTime time(c.seconds.shade);
-    in.stages->quantity(in.scene, in.batch, in.quantity, count, shade_rows(work));
+float* camera_lengths(const WalkInput& in, Workspace& work) {
+    return limits_rays(in.batch.camera) ? work.camera_length_m.data() : nullptr;
 }
 
 }  // namespace
@@ -138,7 +136,7 @@ void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCou
     const int count = pixels * in.batch.samples;
     {
         const SumOfTime time(counters.seconds.camera);
-        float* length_m = limits_rays(in.batch.camera) ? work.camera_length_m.data() : nullptr;
+        float* length_m = camera_lengths(in, work);
         in.stages->camera(in.batch, count, work.paths[0], work.samples, length_m);
     }
     counters.paths += static_cast<uint64_t>(count);
@@ -149,13 +147,22 @@ void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCou
         case WalkKind::ao:
             walk_ao(in, count, work, counters);
             break;
-        case WalkKind::quantity:
-            walk_quantity(in, count, work, counters);
-            break;
     }
     const SumOfTime time(counters.seconds.accumulate);
     counters.nonfinite_samples +=
         in.stages->accumulate(pixels, in.batch.samples, work.samples, sums);
+}
+
+void walk_quantity(const WalkInput& in, int pixels, Workspace& work, WalkCounters& counters) {
+    {
+        const SumOfTime time(counters.seconds.camera);
+        in.stages->centre_camera(in.batch, pixels, work.paths[0], camera_lengths(in, work));
+    }
+    counters.paths += static_cast<uint64_t>(pixels);
+    intersect(in, pixels, {true, true, 0}, work, counters);
+    const SumOfTime time(counters.seconds.shade);
+    in.stages->quantity(in.scene, in.batch, in.quantity, pixels, shade_rows(work));
+    counters.nonfinite_samples += in.stages->clear_nonfinite(pixels, work.samples);
 }
 
 }  // namespace obscura

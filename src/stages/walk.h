@@ -14,7 +14,7 @@
 namespace obscura {
 
 /// What a walk computes. To add a quantity: stages/3_quantity.cpp; a transport: a case in walk().
-enum class WalkKind { path, ao, quantity };
+enum class WalkKind { path, ao };
 
 struct WalkCounters {
     uint64_t paths = 0;
@@ -54,12 +54,18 @@ struct WalkInput {
     SceneView scene;
     BatchSettings batch;
     WalkKind kind = WalkKind::path;
-    Quantity quantity = Quantity::normal;
-    RayRecorder* recorder = nullptr;  ///< keeps every ray; of this thread alone; null: nobody
+    Quantity quantity = Quantity::normal;  ///< of walk_quantity
+    RayRecorder* recorder = nullptr;       ///< keeps every ray; of this thread alone; null: nobody
 };
 
 /// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_rows) and adds them
 /// to sums (RGBA per pixel).
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters);
+
+/// Rows of a batch of quantities: they stay in the nearest cache.
+inline constexpr int quantity_rows = 1024;
+
+/// Finds in.quantity at `pixels` <= batch_rows pixel centres; work.samples has one row for each.
+void walk_quantity(const WalkInput& in, int pixels, Workspace& work, WalkCounters& counters);
 
 }  // namespace obscura

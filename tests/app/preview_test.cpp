@@ -9,7 +9,7 @@
 namespace obscura {
 namespace {
 
-Picture picture_of(std::vector<std::string> channels, std::vector<float> pixels) {
+Picture picture_of(std::vector<std::string> channels, UnsetArray<float> pixels) {
     Picture picture;
     picture.width = static_cast<int>(pixels.size() / channels.size());
     picture.height = 1;
@@ -22,7 +22,7 @@ TEST(Preview, NormalsMapToTheUnitCube) {
     const Picture out = preview_picture(
         picture_of({"N.X", "N.Y", "N.Z"}, {0, 0, 1, -1, 0, 0, 0, 0, 0}), Integrator::normal);
     EXPECT_EQ(out.channels, (std::vector<std::string>{"R", "G", "B"}));
-    EXPECT_EQ(out.pixels, (std::vector<float>{0.5f, 0.5f, 1, 0, 0.5f, 0.5f, 0, 0, 0}));
+    EXPECT_EQ(out.pixels, (UnsetArray<float>{0.5f, 0.5f, 1, 0, 0.5f, 0.5f, 0, 0, 0}));
 }
 
 TEST(Preview, DepthGoesFromNearWhiteToFarDark) {

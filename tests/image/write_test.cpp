@@ -37,7 +37,7 @@ Picture picture_of(int width, int height, std::vector<std::string> channels) {
     return picture;
 }
 
-Picture one_pixel(std::vector<std::string> channels, std::vector<float> values) {
+Picture one_pixel(std::vector<std::string> channels, UnsetArray<float> values) {
     return Picture{1, 1, std::move(channels), std::move(values)};
 }
 

@@ -56,7 +56,7 @@ Scene textured_floor(int32_t gap) {
     return scene;
 }
 
-std::vector<float> picture(int32_t gap) {
+UnsetArray<float> picture(int32_t gap) {
     RenderOptions options;
     options.width = options.height = 48;
     options.samples_per_pixel = 4;
@@ -65,7 +65,7 @@ std::vector<float> picture(int32_t gap) {
 }
 
 TEST(AlikeTextures, PicturesAreTheSameTogetherAndAlone) {
-    const std::vector<float> together = picture(0);
+    const UnsetArray<float> together = picture(0);
     EXPECT_EQ(together, picture(5));
     EXPECT_GT(*std::max_element(together.begin(), together.end()), 0.1f);
 }

@@ -292,7 +292,7 @@ TEST(Cameras, TilesDoNotChangeThePicture) {
         options.tile_size = tile_size;
         return render_scene(builder.take(), {}, camera, options).film.pixels;
     };
-    const std::vector<float> whole = shot(16);
+    const UnsetArray<float> whole = shot(16);
     EXPECT_EQ(whole, shot(7));
     EXPECT_EQ(whole, shot(64));
 }

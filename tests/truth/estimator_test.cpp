@@ -90,7 +90,7 @@ TEST(Strategies, LightSamplingBsdfSamplingAndBothAgree) {
     }
 }
 
-std::vector<float> pixels_with(int threads, int tile_size, std::optional<PixelRect> crop) {
+UnsetArray<float> pixels_with(int threads, int tile_size, std::optional<PixelRect> crop) {
     const ThreadLimit limit(threads);
     RenderOptions options;
     options.width = 70;
@@ -103,10 +103,10 @@ std::vector<float> pixels_with(int threads, int tile_size, std::optional<PixelRe
 }
 
 TEST(Determinism, ThreadsAndTilesDoNotChangeABit) {
-    const std::vector<float> reference = pixels_with(1, 16, {});
+    const UnsetArray<float> reference = pixels_with(1, 16, {});
     for (const int threads : {1, 2, 7}) {
         for (const int tile_size : {8, 16, 32, 64}) {
-            const std::vector<float> other = pixels_with(threads, tile_size, {});
+            const UnsetArray<float> other = pixels_with(threads, tile_size, {});
             ASSERT_EQ(other.size(), reference.size());
             EXPECT_EQ(std::memcmp(other.data(), reference.data(), other.size() * sizeof(float)), 0)
                 << threads << " threads, tiles of " << tile_size;
@@ -115,9 +115,9 @@ TEST(Determinism, ThreadsAndTilesDoNotChangeABit) {
 }
 
 TEST(Determinism, ACropIsAPieceOfTheWhole) {
-    const std::vector<float> whole = pixels_with(2, 16, {});
+    const UnsetArray<float> whole = pixels_with(2, 16, {});
     const PixelRect crop{13, 7, 31, 29};
-    const std::vector<float> piece = pixels_with(2, 16, crop);
+    const UnsetArray<float> piece = pixels_with(2, 16, crop);
     for (int y = 0; y < 50; ++y) {
         for (int x = 0; x < 70; ++x) {
             const bool inside =
