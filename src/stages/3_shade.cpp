@@ -165,17 +165,17 @@ void shade_misses(const SceneView& scene,
 }
 
 /// Camera rays that miss take the background colour, if there is one; those that hit are opaque.
-/// Throughput is 1 but where the camera shows nothing: there it is 0, and so is all else.
+/// Where the camera shows nothing the throughput is 0, and the sample stays clear.
 void set_camera_alpha(const BatchSettings& batch, SortedCounts sorted, const ShadeRows& rows) {
     for (int i = 0; i < sorted.hits; ++i)
         rows.samples.a[rows.paths.slot[i]] = 1.0f;
     for (int i = 0; i < sorted.misses; ++i) {
         const uint32_t slot = rows.misses.slot[i];
-        const float share = rows.misses.tr[i];
-        rows.samples.r[slot] += share * batch.background[0];
-        rows.samples.g[slot] += share * batch.background[1];
-        rows.samples.b[slot] += share * batch.background[2];
-        rows.samples.a[slot] = share * batch.background[3];
+        if (rows.misses.tr[i] == 0.0f) continue;
+        rows.samples.r[slot] += batch.background[0];
+        rows.samples.g[slot] += batch.background[1];
+        rows.samples.b[slot] += batch.background[2];
+        rows.samples.a[slot] = batch.background[3];
     }
 }
 
