@@ -8,13 +8,13 @@ namespace obscura {
 inline namespace OBSCURA_ISA {
 
 template <typename F>
-struct Box {
+struct AlignedBox {
     Vec3<F> centre;
     Vec3<F> half;  ///< of the edges
 };
 
 template <typename F>
-OBSCURA_INLINE Roots<F> intersect_box(const Box<F>& box, const ShapeRay<F>& ray) {
+OBSCURA_INLINE Roots<F> intersect_box(const AlignedBox<F>& box, const ShapeRay<F>& ray) {
     const NearRay<F> near = bring_near(ray, box.centre);
     const Span<F> x = slab(near.origin.x, near.direction.x, box.half.x);
     const Span<F> y = slab(near.origin.y, near.direction.y, box.half.y);
@@ -25,7 +25,7 @@ OBSCURA_INLINE Roots<F> intersect_box(const Box<F>& box, const ShapeRay<F>& ray)
 /// Every face shows the whole texture: the four at the sides upright, +Y up; the top with +Z at its
 /// foot, the bottom with -Z at its foot.
 template <typename F>
-OBSCURA_INLINE SurfacePoint<F> surface_of_box(const Box<F>& box, const Vec3<F>& near) {
+OBSCURA_INLINE SurfacePoint<F> surface_of_box(const AlignedBox<F>& box, const Vec3<F>& near) {
     const F zero(0.0f);
     const Vec3<F> inside{
         abs(near.x) - box.half.x, abs(near.y) - box.half.y, abs(near.z) - box.half.z};

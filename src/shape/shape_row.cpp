@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shape/shape_row.h"
 
+#include "shape/sphere_block.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,6 +51,23 @@ ShapeBox shape_bounds(const ShapeRow& row) {
     const auto y_high = endless ? c[1] : high(c[1], half.y);
     return {{low(c[0], half.x), y_low, low(c[2], half.z)},
             {high(c[0], half.x), y_high, high(c[2], half.z)}};
+}
+
+ShapeBox sphere_block_bounds(const float* block) {
+    ShapeBox box{{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+    for (int i = 0; i < sphere_block; ++i) {
+        ShapeRow row;
+        row.size[0] = block[3 * sphere_block + i];
+        if (!(row.size[0] >= 0)) continue;
+        for (int c = 0; c < 3; ++c)
+            row.centre[c] = block[c * sphere_block + i];
+        const ShapeBox one = shape_bounds(row);
+        box.low = {std::min(box.low.x, one.low.x),
+                   std::min(box.low.y, one.low.y),
+                   std::min(box.low.z, one.low.z)};
+        box.high = max3(box.high, one.high);
+    }
+    return box;
 }
 
 ShapeRow scaled_and_moved(const ShapeRow& row, double scale, const Vec3d& move) {

@@ -49,6 +49,9 @@ struct ShapeBox {
 };
 ShapeBox shape_bounds(const ShapeRow& row);
 
+/// The box around the spheres of a block: see sphere_block.h.
+ShapeBox sphere_block_bounds(const float* block);
+
 /// The shape after a uniform scale, about the origin, and a move.
 ShapeRow scaled_and_moved(const ShapeRow& row, double scale, const Vec3d& move);
 
@@ -81,7 +84,7 @@ OBSCURA_INLINE Sphere<F> read_sphere(const Read& read) {
     return {shape_centre<F>(read), read(4)};
 }
 template <typename F, typename Read>
-OBSCURA_INLINE Box<F> read_box(const Read& read) {
+OBSCURA_INLINE AlignedBox<F> read_box(const Read& read) {
     return {shape_centre<F>(read), {read(4), read(5), read(6)}};
 }
 template <typename F, typename Read>
@@ -134,6 +137,25 @@ OBSCURA_INLINE Roots<F> intersect_shape(const ShapeRow& row, const ShapeRay<F>& 
             break;
     }
     return intersect_quadric(read_quadric<F>(read), ray);
+}
+
+/// True where the ray meets the front at root k of intersect_shape: outside of solid shapes, above
+/// flat ones, where its value is positive for a quadric.
+template <typename F>
+OBSCURA_INLINE MaskOf<F> is_front(const ShapeRow& row, const ShapeRay<F>& ray, const F& t, int k) {
+    switch (static_cast<ShapeKind>(row.kind)) {
+        case ShapeKind::plane:
+        case ShapeKind::disk:
+            return ray.direction.y < F(0.0f);
+        case ShapeKind::quadric:
+        case ShapeKind::quadric_from_above:
+            break;
+        default:
+            return MaskOf<F>(k == 0);
+    }
+    const Quadric<F> q = read_quadric<F>(UniformShape<F>(row));
+    const Vec3<F> at = ray.origin - q.centre + ray.direction * t;
+    return dot(quadric_gradient(q, at), ray.direction) < F(0.0f);
 }
 
 /// The place on a shape nearest to a point that is known to be close to it; another shape for every

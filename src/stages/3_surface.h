@@ -2,26 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "scene/scene.h"
-#include "stages/rows.h"
+#include "stages/3_shape.h"
 #include "surface/bsdf.h"
 #include "surface/texture.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
-
-inline constexpr int primitive_words = static_cast<int>(sizeof(Primitive) / 4);
-inline constexpr int instance_words = static_cast<int>(sizeof(Instance) / 4);
-inline constexpr int material_words = static_cast<int>(sizeof(Material) / 4);
-inline constexpr int slot_words = static_cast<int>(sizeof(TextureSlot) / 4);
-
-/// First word of a TextureSlot in a Material.
-inline constexpr int base_color_slot = 12;
-inline constexpr int metallic_roughness_slot = base_color_slot + slot_words;
-inline constexpr int normal_slot = metallic_roughness_slot + slot_words;
-inline constexpr int emissive_slot = normal_slot + slot_words;
-static_assert(offsetof(Material, base_color_texture) == base_color_slot * 4);
-static_assert(offsetof(Material, emissive_texture) == emissive_slot * 4);
 
 /// How textures are read: one random texel, or exact bilinear for noise-free quantities.
 enum class Filtering { stochastic, bilinear };
@@ -46,6 +32,9 @@ struct HitGeometry {
         smooth_shift;  ///< from position to the smooth surface, for shadow rays (toward the front)
     Lanes area2;       ///< twice the triangle's area
     MeshUv first_uv;   ///< of UV set 0, read where a texture may need it
+    bool has_shapes = false;  ///< some lanes hit analytic shapes: their tangents are below
+    Mask shapes;
+    Vec3<Lanes> dpdu, dpdv;  ///< world space
 };
 
 /// A point ready for shading. Normals face the viewer.
@@ -61,30 +50,6 @@ struct ShadingPoint {
     Mask unlit;
     LanesI light;  ///< row in the triangle light table, -1: none
 };
-
-OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
-    return {
-        gather<Lanes>(base, word), gather<Lanes>(base + 1, word), gather<Lanes>(base + 2, word)};
-}
-
-OBSCURA_INLINE Vec3<Lanes> read3(const TableRow<Lanes>& row, int word) {
-    return {row.number(word), row.number(word + 1), row.number(word + 2)};
-}
-
-/// The instances of the hits; lanes in world space get the first.
-OBSCURA_INLINE TableRow<Lanes> instance_row(const SceneView& scene, const HitLanes& hit) {
-    return {scene.instances, max(hit.instance, LanesI(0)), instance_words};
-}
-
-/// Row-major 3x4 of an instance.
-OBSCURA_INLINE Affine<Lanes> read_affine(const TableRow<Lanes>& row, int word) {
-    Affine<Lanes> a;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c)
-            a.m[r][c] = row.number(word + r * 4 + c);
-    }
-    return a;
-}
 
 OBSCURA_INLINE Vec3<Lanes> weighted(const HitGeometry& g, const Vec3<Lanes> (&v)[3]) {
     return v[0] * g.weight[0] + v[1] * g.weight[1] + v[2] * g.weight[2];
@@ -113,10 +78,16 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
     HitGeometry g;
     g.primitive = {scene.primitives, hit.primitive, primitive_words};
     g.material = {scene.materials, g.primitive.integer(2), material_words};
-    const LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
+    LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
+    if (scene.shapes != nullptr) {
+        g.shapes = g.primitive.integer(16) != LanesI(0);
+        g.has_shapes = any(g.shapes);
+        index_word = select(g.shapes, LanesI(0), index_word);  // any triangle: it is not looked at
+    }
     Vec3<Lanes> p[3];
     for (int k = 0; k < 3; ++k) {
         g.corner[k] = gather<Lanes>(scene.indices + k, index_word);
+        if (g.has_shapes) g.corner[k] = select(g.shapes, LanesI(0), g.corner[k]);
         p[k] = gather3(scene.positions, g.corner[k] * LanesI(3));
     }
     g.weight[0] = Lanes(1.0f) - hit.u - hit.v;
@@ -224,7 +195,12 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene, const HitGeometry& g
     if (none(s.used)) return s;
     s.texture = select(s.used, s.texture, LanesI(0));
     const bool first = none(s.used & (base != g.first_uv.base));
-    const MeshUv mesh = first ? g.first_uv : read_mesh_uv(scene, g, base);
+    MeshUv mesh = first ? g.first_uv : read_mesh_uv(scene, g, base);
+    if (g.has_shapes && !first) {
+        mesh.at = {select(g.shapes, g.first_uv.at.x, mesh.at.x),
+                   select(g.shapes, g.first_uv.at.y, mesh.at.y)};
+        mesh.area2 = select(g.shapes, g.first_uv.area2, mesh.area2);
+    }
     Lanes m[6];
     for (int k = 0; k < 6; ++k)
         m[k] = g.material.number(slot + 2 + k);
@@ -287,6 +263,11 @@ OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
         const Mask mirrored = instanced & (instance.integer(26) != LanesI(0));
         handedness = select(mirrored, -handedness, handedness);
     }
+    if (g.has_shapes) {
+        t = select(g.shapes, g.dpdu, t);
+        const Mask turned = dot(cross(g.normal, g.dpdu), g.dpdv) > Lanes(0.0f);
+        handedness = select(g.shapes, select(turned, Lanes(-1.0f), Lanes(1.0f)), handedness);
+    }
     t = normalize(t - g.normal * dot(t, g.normal));
     const Vec3<Lanes> b = cross(g.normal, t) * handedness;
     const Rgba<Lanes> texel = read_slot(scene, g, slot, look);
@@ -342,6 +323,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     HitGeometry g = hit_geometry(scene, hit);
     instance_to_world(scene, hit, g);
     read_first_uv_set(scene, g);
+    shapes_to_world(scene, hit, path, g);
     const Vec3<Lanes> wo = -path.direction;
     const Lanes cos_front = dot(g.ng, wo);
     const Lanes width = path.cone_width + path.cone_spread * hit.t;

@@ -1,0 +1,34 @@
+// gltf/particles.h - accessors of positions and radii become blocks of spheres.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/accessors.h"
+#include "scene/scene.h"
+
+namespace obscura {
+
+struct ParticleSources {
+    const Document& document;
+    const BufferStore& buffers;
+};
+
+/// Spheres as a primitive counts them; `first` is the first of a block.
+struct ParticleRange {
+    int32_t first = 0;
+    int32_t count = 0;
+};
+
+/// Appends a "spheres" shape to Scene::spheres, ordered along a space-filling curve, so that blocks
+/// and neighbours in them are small.
+///
+/// In      shape_index: for messages
+/// Errors  as add_shapes
+Result<ParticleRange> append_particles(const ParticleSources& sources,
+                                       const GltfShape& shape,
+                                       int shape_index,
+                                       Scene& scene);
+
+/// The box around a primitive of shapes or particles, in its own space.
+ShapeBox primitive_box(const Scene& scene, const Primitive& primitive);
+
+}  // namespace obscura
