@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from generator import instances, plain_scenes, showcase, sky  # noqa: E402
+from generator import analytic, instances, plain_scenes, showcase, sky  # noqa: E402
 
 MAKERS = {
     'environments': lambda folder: sky.write_sky(os.path.join(folder, 'environments')),
@@ -28,6 +28,8 @@ MAKERS = {
     'material_grid': plain_scenes.write_material_grid,
     'alpha_test': plain_scenes.write_alpha_test,
     'instances': instances.write_instances,
+    'analytic': analytic.write_analytic,
+    'particles': analytic.write_particles,
 }
 
 

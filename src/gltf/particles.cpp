@@ -64,6 +64,26 @@ std::string find_problem(const std::vector<float>& positions, const std::vector<
 
 }  // namespace
 
+ParticleRange append_spheres(const std::vector<float>& positions,
+                             const std::vector<float>& radii,
+                             Scene& scene) {
+    const size_t count = positions.size() / 3;
+    const ParticleRange range{static_cast<int32_t>(scene.spheres.size() / 4),
+                              static_cast<int32_t>(count)};
+    const size_t blocks = (count + sphere_block - 1) / sphere_block;
+    const size_t base = scene.spheres.size();
+    scene.spheres.resize(base + blocks * sphere_block_floats,
+                         std::numeric_limits<float>::quiet_NaN());
+    const std::vector<uint32_t> order = curve_order(positions);
+    for (size_t i = 0; i < count; ++i) {
+        float* at = &scene.spheres[base + sphere_word(i)];
+        for (size_t c = 0; c < 3; ++c)
+            at[c * sphere_block] = positions[3 * order[i] + c];
+        at[3 * sphere_block] = radii[radii.size() > 1 ? order[i] : 0];
+    }
+    return range;
+}
+
 Result<ParticleRange> append_particles(const ParticleSources& sources,
                                        const GltfShape& shape,
                                        int shape_index,
@@ -92,20 +112,7 @@ Result<ParticleRange> append_particles(const ParticleSources& sources,
     const std::string problem = find_problem(*positions, *radii);
     if (!problem.empty()) return fail(ExitCode::bad_data, "E-SHAPE-SPHERES", where, problem);
 
-    const ParticleRange range{static_cast<int32_t>(scene.spheres.size() / 4),
-                              static_cast<int32_t>(count)};
-    const size_t blocks = (count + sphere_block - 1) / sphere_block;
-    const size_t base = scene.spheres.size();
-    scene.spheres.resize(base + blocks * sphere_block_floats,
-                         std::numeric_limits<float>::quiet_NaN());
-    const std::vector<uint32_t> order = curve_order(*positions);
-    for (size_t i = 0; i < count; ++i) {
-        float* at = &scene.spheres[base + sphere_word(i)];
-        for (size_t c = 0; c < 3; ++c)
-            at[c * sphere_block] = (*positions)[3 * order[i] + c];
-        at[3 * sphere_block] = (*radii)[shape.radii >= 0 ? order[i] : 0];
-    }
-    return range;
+    return append_spheres(*positions, *radii, scene);
 }
 
 ShapeBox primitive_box(const Scene& scene, const Primitive& primitive) {

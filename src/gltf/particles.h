@@ -18,8 +18,15 @@ struct ParticleRange {
     int32_t count = 0;
 };
 
-/// Appends a "spheres" shape to Scene::spheres, ordered along a space-filling curve, so that blocks
-/// and neighbours in them are small.
+/// Appends spheres to Scene::spheres, ordered along a space-filling curve, so that blocks and what
+/// lies around them are small.
+///
+/// In      positions: 3 numbers a sphere; radii: one for all, or one a sphere
+ParticleRange append_spheres(const std::vector<float>& positions,
+                             const std::vector<float>& radii,
+                             Scene& scene);
+
+/// Appends a "spheres" shape.
 ///
 /// In      shape_index: for messages
 /// Errors  as add_shapes

@@ -65,6 +65,19 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
             s.pdf > Lanes(0.0f)};
 }
 
+OBSCURA_INLINE LightLanes sample_shapes(const SceneView& scene,
+                                        LanesI index,
+                                        const Vec2<Lanes>& u,
+                                        const ShadingPoint& point) {
+    ShapeLightLanes s;
+    sample_shape_lights(scene, index, u, point.light_start, s);
+    return {s.direction,
+            s.distance,
+            s.emission * (Lanes(1.0f) / max(s.pdf, Lanes(1e-30f))),
+            s.pdf,
+            s.pdf > Lanes(0.0f)};
+}
+
 /// Chooses one light for every lane and a place on it.
 OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                                        const ShadingPoint& point,
@@ -102,16 +115,8 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                                       texture_random));
     }
     if (any(shape)) {
-        ShapeLightLanes s;
         const LanesI row = select(shape, shape_index, LanesI(0));
-        sample_shape_lights(scene, row, unit_pair<Lanes>(random), point.light_start, s);
-        choose(out,
-               shape,
-               {s.direction,
-                s.distance,
-                s.emission * (Lanes(1.0f) / max(s.pdf, Lanes(1e-30f))),
-                s.pdf,
-                s.pdf > Lanes(0.0f)});
+        choose(out, shape, sample_shapes(scene, row, unit_pair<Lanes>(random), point));
     }
     if (any(punctual)) {
         const LanesI row = select(punctual, index, LanesI(0));
