@@ -10,9 +10,8 @@ from generator.vectors import look_at
 _COPYRIGHT = 'Obscura authors, CC0-1.0'
 
 
-def _quadric(coefficients, half, **more):
-    box = {'min': [-h for h in half], 'max': list(half)}
-    return {'coefficients': coefficients, **box, **more}
+def _quadric(coefficients, **more):
+    return {'coefficients': coefficients, 'min': [-0.45] * 3, 'max': [0.45] * 3, **more}
 
 
 # Type and sizes of each shape, its height above the floor, and its material.
@@ -23,11 +22,11 @@ _STILL_LIFE = [
     ('cone', {'height': 0.95, 'radius': 0.42}, 0.476, 'Copper'),
     ('capsule', {'height': 0.5, 'radiusBottom': 0.35, 'radiusTop': 0.2}, 0.602, 'Leaf'),
     ('disk', {'radius': 0.45, 'innerRadius': 0.18}, 0.5, 'Copper'),
-    ('quadric', _quadric([1, -1, 1, 0, 0, 0, 0, 0, 0, -0.03], (0.45, 0.45, 0.45)), 0.455, 'Chequer'),
-    ('quadric', _quadric([1, -1, 1, 0, 0, 0, 0, 0, 0, 0.01], (0.45, 0.45, 0.45)), 0.455, 'Leaf'),
-    ('quadric', _quadric([1, 0, 1, 0, 0, 0, 0, -0.45, 0, -0.2], (0.45, 0.45, 0.45)), 0.455, 'Copper'),
-    ('quadric', _quadric([1, 0, -1, 0, 0, 0, 0, -0.45, 0, 0], (0.45, 0.45, 0.45),
-                         projection='above'), 0.5, 'Chequer'),
+    ('quadric', _quadric([1, -1, 1, 0, 0, 0, 0, 0, 0, -0.03]), 0.455, 'Chequer'),
+    ('quadric', _quadric([1, -1, 1, 0, 0, 0, 0, 0, 0, 0.01]), 0.455, 'Leaf'),
+    ('quadric', _quadric([1, 0, 1, 0, 0, 0, 0, -0.45, 0, -0.2]), 0.455, 'Copper'),
+    ('quadric', _quadric([1, 0, -1, 0, 0, 0, 0, -0.45, 0, 0], projection='above'), 0.5,
+     'Chequer'),
 ]
 
 
@@ -58,8 +57,8 @@ def write_analytic(folder):
         'Copper': gltf.material('Copper', color=(0.93, 0.55, 0.4), metallic=1.0, roughness=0.25,
                                 double_sided=True),
         'Leaf': gltf.material('Leaf', color=(0.1, 0.4, 0.12), roughness=0.35, double_sided=True),
-        'Lamp': gltf.material('Lamp', color=(0, 0, 0), emission=(30.0, 27.0, 22.0)),
-        'Panel': gltf.material('Panel', color=(0, 0, 0), emission=(6.0, 7.0, 9.0))}
+        'Lamp': gltf.material('Lamp', color=(0, 0, 0), emission=(110.0, 98.0, 80.0)),
+        'Panel': gltf.material('Panel', color=(0, 0, 0), emission=(20.0, 23.0, 29.0))}
     shapes = _Shapes(gltf)
     shapes.draw('plane', None, materials['Floor'], name='Floor')
     for i, (kind, sizes, height, material) in enumerate(_STILL_LIFE):

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <span>
 
 namespace obscura {
 
@@ -13,39 +15,39 @@ namespace {
 constexpr double farthest_position = 1e18;
 constexpr size_t most_spheres = size_t{1} << 29;  // their words have 31-bit numbers
 
-/// Puts two zeros before each of 21 bits.
-uint64_t spread_bits(uint64_t x) {
-    x &= 0x1FFFFFU;
-    x = (x | x << 32) & 0x001F00000000FFFFU;
-    x = (x | x << 16) & 0x001F0000FF0000FFU;
-    x = (x | x << 8) & 0x100F00F00F00F00FU;
-    x = (x | x << 4) & 0x10C30C30C30C30C3U;
-    return (x | x << 2) & 0x1249249249249249U;
+/// Splits spheres along the longest edge of their box until each part fills one block: boxes around
+/// blocks get smaller than along any curve.
+void split_into_blocks(const std::vector<float>& positions, std::span<uint32_t> order) {
+    if (order.size() <= sphere_block) return;
+    float low[3] = {INFINITY, INFINITY, INFINITY};
+    float high[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (const uint32_t sphere : order) {
+        for (size_t c = 0; c < 3; ++c) {
+            low[c] = std::min(low[c], positions[3 * size_t{sphere} + c]);
+            high[c] = std::max(high[c], positions[3 * size_t{sphere} + c]);
+        }
+    }
+    size_t axis = 0;
+    for (size_t c = 1; c < 3; ++c) {
+        if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
+    }
+    const size_t blocks = (order.size() + sphere_block - 1) / sphere_block;
+    const size_t half = blocks / 2 * sphere_block;
+    const auto place = [&](uint32_t sphere) { return positions[3 * size_t{sphere} + axis]; };
+    std::nth_element(
+        order.begin(),
+        order.begin() + static_cast<std::ptrdiff_t>(half),
+        order.end(),
+        [&](uint32_t a, uint32_t b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
+    split_into_blocks(positions, order.first(half));
+    split_into_blocks(positions, order.subspan(half));
 }
 
-/// Order of the spheres along Morton's curve through their bounding cube.
-std::vector<uint32_t> curve_order(const std::vector<float>& positions) {
-    const size_t count = positions.size() / 3;
-    float low[3] = {INFINITY, INFINITY, INFINITY};
-    float high = 0;
-    for (size_t i = 0; i < positions.size(); ++i)
-        low[i % 3] = std::min(low[i % 3], positions[i]);
-    for (size_t i = 0; i < positions.size(); ++i)
-        high = std::max(high, positions[i] - low[i % 3]);
-    const double scale = high > 0 ? 2097151.0 / static_cast<double>(high) : 0;
-    std::vector<std::pair<uint64_t, uint32_t>> keys(count);
-    for (size_t i = 0; i < count; ++i) {
-        uint64_t key = 0;
-        for (size_t c = 0; c < 3; ++c) {
-            const double offset = static_cast<double>(positions[3 * i + c] - low[c]);
-            key |= spread_bits(static_cast<uint64_t>(offset * scale)) << c;
-        }
-        keys[i] = {key, static_cast<uint32_t>(i)};
-    }
-    std::sort(keys.begin(), keys.end());
-    std::vector<uint32_t> order(count);
-    for (size_t i = 0; i < count; ++i)
-        order[i] = keys[i].second;
+/// Order of the spheres in which neighbours share blocks.
+std::vector<uint32_t> block_order(const std::vector<float>& positions) {
+    std::vector<uint32_t> order(positions.size() / 3);
+    std::iota(order.begin(), order.end(), 0U);
+    split_into_blocks(positions, order);
     return order;
 }
 
@@ -74,7 +76,7 @@ ParticleRange append_spheres(const std::vector<float>& positions,
     const size_t base = scene.spheres.size();
     scene.spheres.resize(base + blocks * sphere_block_floats,
                          std::numeric_limits<float>::quiet_NaN());
-    const std::vector<uint32_t> order = curve_order(positions);
+    const std::vector<uint32_t> order = block_order(positions);
     for (size_t i = 0; i < count; ++i) {
         float* at = &scene.spheres[base + sphere_word(i)];
         for (size_t c = 0; c < 3; ++c)

@@ -18,8 +18,7 @@ struct ParticleRange {
     int32_t count = 0;
 };
 
-/// Appends spheres to Scene::spheres, ordered along a space-filling curve, so that blocks and what
-/// lies around them are small.
+/// Appends spheres to Scene::spheres in an order in which blocks are small boxes.
 ///
 /// In      positions: 3 numbers a sphere; radii: one for all, or one a sphere
 ParticleRange append_spheres(const std::vector<float>& positions,

@@ -135,7 +135,10 @@ TEST(Shapes, ParticlesFillBlocks) {
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_EQ(loaded.scene->spheres.size(), 2U * sphere_block_floats);
     EXPECT_EQ(loaded.scene->info.shapes[0].count, 20U);
-    EXPECT_FLOAT_EQ(loaded.scene->spheres[3 * sphere_block + 4], 0.5F);
+    for (size_t i = 0; i < 20; ++i) {  // in any order, each with its own radius
+        const float* at = &loaded.scene->spheres[sphere_word(i)];
+        EXPECT_NEAR(at[3 * sphere_block], 0.1F * (at[0] + 1), 1e-6F);
+    }
     EXPECT_NEAR(loaded.scene->bounds.high.x, 21, 1e-3);
     builder.tree["extensions"]["OBSCURA_shape"]["shapes"][0]["spheres"]["positions"] = 1;
     EXPECT_EQ(load_tree(builder.finished()).id(), "E-SHAPE-ACCESSOR");
