@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from generator import cameras, instances, plain_scenes, showcase, sky  # noqa: E402
+from generator import analytic, cameras, instances, plain_scenes, showcase, sky  # noqa: E402
 
 MAKERS = {
     'environments': lambda folder: sky.write_sky(os.path.join(folder, 'environments')),
@@ -29,6 +29,8 @@ MAKERS = {
     'alpha_test': plain_scenes.write_alpha_test,
     'instances': instances.write_instances,
     'cameras': cameras.write_cameras,
+    'analytic': analytic.write_analytic,
+    'particles': analytic.write_particles,
 }
 
 

@@ -28,4 +28,8 @@ void register_kernels(const KernelData& data);
 /// In      scene: lives until all benchmarks have run; isa: what it was prepared for
 void register_stages(const PreparedScene& scene, const Camera& camera, Isa isa);
 
+/// "particles/RAYS/WAY": a million spheres on one thread, in blocks as user geometry and as
+/// Embree's own sphere points, with bytes per sphere.
+void register_particles();
+
 }  // namespace obscura::bench

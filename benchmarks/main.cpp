@@ -77,6 +77,7 @@ void register_all(const Inputs& in) {
         }
     }
     register_kernels(in.columns->data());
+    register_particles();
 }
 
 int run(int argc, char** argv) {

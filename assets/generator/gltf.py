@@ -154,7 +154,9 @@ class GltfFile:
 
     def _json_bytes(self, buffer, indent):
         # Every kind of object is known now, so a fixed order makes the text independent of calls.
-        document = dict(sorted(self.json.items()), buffers=[buffer])
+        document = dict(sorted(self.json.items()))
+        if self.binary:
+            document['buffers'] = [buffer]
         separators = (',', ':') if indent is None else (',', ': ')
         return json.dumps(document, indent=indent, separators=separators).encode()
 
@@ -163,7 +165,9 @@ class GltfFile:
         os.makedirs(folder, exist_ok=True)
         buffer = {'byteLength': len(self.binary), 'uri': name + '.bin'}
         files = {name + '.gltf': self._json_bytes(buffer, 1) + b'\n',
-                 name + '.bin': bytes(self.binary), **self.pictures}
+                 **self.pictures}
+        if self.binary:
+            files[name + '.bin'] = bytes(self.binary)
         for file_name, data in files.items():
             with open(os.path.join(folder, file_name), 'wb') as out:
                 out.write(data)

@@ -57,6 +57,42 @@ RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
     return geometry;
 }
 
+/// False for a plane without end: no box can hold it, so it is no geometry.
+bool fill_shape_geometry(Accel::Impl& impl, int32_t primitive_index) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+    ShapeGeometry& out = impl.shapes[static_cast<size_t>(primitive_index)];
+    const auto first = static_cast<size_t>(primitive.first_triangle);
+    const bool spheres = primitive.geometry == static_cast<int32_t>(GeometryKind::spheres);
+    out.rows = spheres ? nullptr : &scene.shapes[first];
+    out.spheres = spheres ? &scene.spheres[first * 4] : nullptr;
+    out.count = primitive.triangle_count;
+    out.single_sided = (material.flags & material_double_sided) == 0;
+    if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
+        AlphaGeometry& alpha = impl.alpha[static_cast<size_t>(primitive_index)];
+        alpha = {impl.scene, impl.textures, primitive_index};
+        out.alpha = &alpha;
+    }
+    return spheres || !is_unbounded(scene.shapes[first]);
+}
+
+RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
+    ShapeGeometry& shapes = impl.shapes[static_cast<size_t>(primitive_index)];
+    const int32_t blocks = (shapes.count + sphere_block - 1) / sphere_block;
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(
+        geometry, static_cast<unsigned>(shapes.rows != nullptr ? shapes.count : blocks));
+    rtcSetGeometryUserData(geometry, &shapes);
+    rtcSetGeometryBoundsFunction(geometry, impl.shape_callbacks->bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, impl.shape_callbacks->intersect);
+    rtcSetGeometryOccludedFunction(geometry, impl.shape_callbacks->occluded);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
 RTCScene new_scene(const Accel::Impl& impl) {
     RTCScene scene = rtcNewScene(impl.device);
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | query_filter_flag);
@@ -64,9 +100,12 @@ RTCScene new_scene(const Accel::Impl& impl) {
     return scene;
 }
 
-void attach_triangles(Accel::Impl& impl, RTCScene target, Mesh range) {
+void attach_primitives(Accel::Impl& impl, RTCScene target, Mesh range) {
     for (int32_t i = 0; i < range.primitive_count; ++i) {
-        RTCGeometry geometry = make_triangles(impl, range.first_primitive + i);
+        const int32_t row = range.first_primitive + i;
+        const bool mesh = is_mesh(impl.scene->primitives[static_cast<size_t>(row)]);
+        if (!mesh && !fill_shape_geometry(impl, row)) continue;
+        RTCGeometry geometry = mesh ? make_triangles(impl, row) : make_shapes(impl, row);
         rtcAttachGeometryByID(target, geometry, static_cast<unsigned>(i));
         rtcReleaseGeometry(geometry);
     }
@@ -117,6 +156,7 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene,
         return fail(ExitCode::internal, "E-EMBREE", "rtcNewDevice", "no Embree device: " + config);
     }
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
+    impl->shape_callbacks = &shape_callbacks_for(embree_isa);
     rtcSetDeviceMemoryMonitorFunction(impl->device, note_memory, &impl->memory);
     return impl;
 }
@@ -124,17 +164,19 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene,
 /// Hands everything over to Embree and builds; without filters where impl.alpha is empty.
 Result<void> build_scenes(Accel::Impl& impl) {
     const Scene& scene = *impl.scene;
+    impl.shapes.resize(scene.primitives.size());
     for (const Mesh& mesh : scene.meshes) {
         RTCScene target = new_scene(impl);
-        attach_triangles(impl, target, mesh);
+        attach_primitives(impl, target, mesh);
         rtcCommitScene(target);
         impl.mesh_scenes.push_back(target);
     }
     impl.top = new_scene(impl);
-    attach_triangles(impl, impl.top, {0, scene.world_primitive_count});
+    attach_primitives(impl, impl.top, {0, scene.world_primitive_count});
     for (size_t i = 0; i < scene.instances.size(); ++i)
         attach_instance(impl, i);
     rtcCommitScene(impl.top);
+    impl.list_endless_planes();
     if (impl.errors.code != RTC_ERROR_NONE) return embree_failure(impl.errors);
     return {};
 }
@@ -171,6 +213,26 @@ void Accel::Impl::fill_primitive_tables() {
     for (const Instance& instance : scene->instances) {
         const Mesh& mesh = scene->meshes[static_cast<size_t>(instance.mesh)];
         instance_first_primitive.push_back(mesh.first_primitive);
+    }
+}
+
+void Accel::Impl::list_endless_planes() {
+    const auto add = [&](int32_t primitive, int32_t instance) {
+        const ShapeGeometry& geometry = shapes[static_cast<size_t>(primitive)];
+        if (geometry.rows == nullptr || !is_unbounded(*geometry.rows)) return;
+        EndlessPlane plane{geometry, *geometry.rows, primitive, instance, {}};
+        if (instance >= 0) {
+            plane.object_from_world =
+                scene->instances[static_cast<size_t>(instance)].object_from_world;
+        }
+        endless_planes.push_back(plane);
+    };
+    for (int32_t i = 0; i < scene->world_primitive_count; ++i)
+        add(i, -1);
+    for (size_t i = 0; i < scene->instances.size(); ++i) {
+        const Mesh& mesh = scene->meshes[static_cast<size_t>(scene->instances[i].mesh)];
+        for (int32_t k = 0; k < mesh.primitive_count; ++k)
+            add(mesh.first_primitive + k, static_cast<int32_t>(i));
     }
 }
 

@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "accel/alpha_filter.h"
 #include "accel/embree.h"
+#include "accel/shape_geometry.h"
 
 #include <atomic>
 #include <mutex>
@@ -26,6 +27,7 @@ struct Accel::Impl {
     ~Impl();
 
     void fill_primitive_tables();
+    void list_endless_planes();
 
     const Scene* scene = nullptr;
     TextureView textures;
@@ -36,7 +38,10 @@ struct Accel::Impl {
     std::vector<RTCScene> mesh_scenes;
     std::vector<uint8_t> materials_with_holes;
     std::vector<AlphaGeometry> alpha;   ///< by primitive; filled where there is a filter
-    std::vector<uint8_t> single_sided;  ///< by primitive
+    std::vector<ShapeGeometry> shapes;  ///< by primitive; filled where it is one of shapes
+    const ShapeCallbacks* shape_callbacks = nullptr;
+    std::vector<EndlessPlane> endless_planes;
+    std::vector<uint8_t> single_sided;              ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };
 

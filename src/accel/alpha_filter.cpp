@@ -20,6 +20,13 @@ float interpolate(const Scene& scene, const uint32_t* corners, int32_t base, int
     return (1.0f - uv.x - uv.y) * at(0) + uv.x * at(1) + uv.y * at(2);
 }
 
+/// uv: as in the mesh, before the slot's transform.
+float texture_alpha(const AlphaGeometry& geometry, const TextureSlot& slot, Vec2f uv) {
+    const float* m = slot.uv_from_mesh;
+    const Vec2f at{m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
+    return sample_texture_bilinear<float>(geometry.textures, slot.texture, at, 0.0f).alpha;
+}
+
 float alpha_at(const AlphaGeometry& geometry, unsigned triangle, Vec2f barycentric) {
     const Scene& scene = *geometry.scene;
     const Primitive& primitive = scene.primitives[static_cast<size_t>(geometry.primitive)];
@@ -35,14 +42,34 @@ float alpha_at(const AlphaGeometry& geometry, unsigned triangle, Vec2f barycentr
     if (slot.texture >= 0 && uv_base != no_attribute) {
         const float u = interpolate(scene, corners, uv_base, 2, barycentric);
         const float v = interpolate(scene, corners, uv_base + 1, 2, barycentric);
-        const float* m = slot.uv_from_mesh;
-        const Vec2f uv{m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]};
-        alpha *= sample_texture_bilinear<float>(geometry.textures, slot.texture, uv, 0.0f).alpha;
+        alpha *= texture_alpha(geometry, slot, {u, v});
     }
     return alpha;
 }
 
 }  // namespace
+
+float material_alpha(const AlphaGeometry& geometry, const Material& material, Vec2f uv) {
+    const TextureSlot& slot = material.base_color_texture;
+    const float alpha = material.base_color[3];
+    return slot.texture < 0 ? alpha : alpha * texture_alpha(geometry, slot, uv);
+}
+
+float alpha_threshold(const AlphaGeometry& geometry,
+                      const QueryContext& context,
+                      const AlphaPlace& place) {
+    const Scene& scene = *geometry.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(geometry.primitive)];
+    const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+    if ((material.flags & material_alpha_blend) == 0) return material.alpha_cutoff;
+    if (context.fixed_threshold) return 0.5f;
+    uint32_t hash = hash_word(segment_key(context.keys[place.ray], context.segment));
+    hash = hash_word(hash + place.instance * 0x9E3779B9U);
+    hash = hash_word(hash ^ (static_cast<uint32_t>(geometry.primitive) * 0x85EBCA6BU));
+    hash = hash_word(hash + place.triangle * 0xC2B2AE35U);
+    // In (0, 1]: alpha 0 never hits, alpha 1 always does.
+    return unit_float<float>(hash) + 1.0f / 16777216.0f;
+}
 
 namespace {
 
@@ -86,26 +113,13 @@ bool needs_alpha_filter(const Scene& scene,
 void alpha_filter(const RTCFilterFunctionNArguments* args) {
     const auto& geometry = *static_cast<const AlphaGeometry*>(args->geometryUserPtr);
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
-    const Scene& scene = *geometry.scene;
-    const Primitive& primitive = scene.primitives[static_cast<size_t>(geometry.primitive)];
-    const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
         const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
-        float threshold = material.alpha_cutoff;
-        if ((material.flags & material_alpha_blend) != 0) {
-            threshold = 0.5f;
-            if (!context.fixed_threshold) {
-                uint32_t hash = context.keys[RTCRayN_id(args->ray, args->N, i)];
-                hash = hash_word(segment_key(hash, context.segment));
-                hash = hash_word(hash + RTCHitN_instID(args->hit, args->N, i, 0) * 0x9E3779B9U);
-                hash = hash_word(hash ^ (static_cast<uint32_t>(geometry.primitive) * 0x85EBCA6BU));
-                hash = hash_word(hash + triangle * 0xC2B2AE35U);
-                // In (0, 1]: alpha 0 never hits, alpha 1 always does.
-                threshold = unit_float<float>(hash) + 1.0f / 16777216.0f;
-            }
-        }
+        const AlphaPlace place{
+            RTCRayN_id(args->ray, args->N, i), RTCHitN_instID(args->hit, args->N, i, 0), triangle};
+        const float threshold = alpha_threshold(geometry, context, place);
         if (alpha_at(geometry, triangle, barycentric) < threshold) args->valid[i] = 0;
     }
 }

@@ -31,6 +31,20 @@ bool needs_alpha_filter(const Scene& scene,
                         const Primitive& primitive,
                         const std::vector<uint8_t>& materials_with_holes);
 
+/// Alpha of a material where its base colour texture is read at `uv` (before the texture
+/// transform).
+float material_alpha(const AlphaGeometry& geometry, const Material& material, Vec2f uv);
+
+/// What decides at one place: a ray's number, Embree's instance id, and the triangle.
+struct AlphaPlace {
+    unsigned ray, instance, triangle;
+};
+
+/// The alpha from which on a hit counts.
+float alpha_threshold(const AlphaGeometry& geometry,
+                      const QueryContext& context,
+                      const AlphaPlace& place);
+
 /// Embree filter for intersection and occlusion alike. A BLEND hit counts with probability alpha,
 /// decided by a hash of (ray key, instance, geometry, triangle): the same answer however often and
 /// in whatever order Embree asks.

@@ -28,7 +28,21 @@ struct QueryContext {
     const unsigned* keys = nullptr;  ///< random key of each ray, indexed by the ray's id
     unsigned segment = 0;            ///< mixed into the key
     bool fixed_threshold = false;    ///< alpha BLEND counts as MASK at one half
+    bool culls_back_faces = false;   ///< of single-sided analytic shapes
 };
+
+/// Tells a user geometry's hit through which instance the ray came.
+inline void copy_instance_stack(const QueryContext& context,
+                                RTCHitN* hits,
+                                unsigned n,
+                                unsigned i) {
+    for (unsigned level = 0; level < RTC_MAX_INSTANCE_LEVEL_COUNT; ++level) {
+        RTCHitN_instID(hits, n, i, level) = context.embree.instID[level];
+#if defined(RTC_GEOMETRY_INSTANCE_ARRAY)
+        RTCHitN_instPrimID(hits, n, i, level) = context.embree.instPrimID[level];
+#endif
+    }
+}
 
 /// One set of query settings: the context and whether rays start and go alike.
 class Query {

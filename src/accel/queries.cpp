@@ -230,6 +230,50 @@ void pass_hidden_backs_of_packet(const Accel::Impl& impl,
     }
 }
 
+/// The row's ray, as planes without end take it.
+ShapeRay<float> shape_ray(const RayColumns& rays, int row) {
+    return {{rays.ox[row], rays.oy[row], rays.oz[row]}, {rays.dx[row], rays.dy[row], rays.dz[row]}};
+}
+
+/// Planes without end that are nearer than what the BVH found for a packet.
+void meet_endless_planes(const Accel::Impl& impl,
+                         const QueryContext& context,
+                         const RayColumns& rays,
+                         const HitColumns& hits,
+                         const ValidMask& valid,
+                         int first) {
+    for (const EndlessPlane& plane : impl.endless_planes) {
+        for (int i = 0; i < packet; ++i) {
+            const int row = first + i;
+            if (valid.lane[i] == 0) continue;
+            const float tfar = hits.primitive[row] >= 0 ? hits.t[row] : unlimited;
+            const auto hit = intersect_endless(
+                plane, context, shape_ray(rays, row), static_cast<unsigned>(row), tfar);
+            if (!hit.found) continue;
+            hits.t[row] = hit.t;
+            hits.u[row] = 0.0f;
+            hits.v[row] = 0.0f;
+            hits.instance[row] = plane.instance;
+            hits.primitive[row] = plane.primitive;
+            hits.triangle[row] = 0;
+        }
+    }
+}
+
+/// True when a plane without end lies in (0, tfar) of the row's ray.
+bool endless_plane_hides(const Accel::Impl& impl,
+                         const QueryContext& context,
+                         const RayColumns& rays,
+                         int row) {
+    const float tfar = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
+    return std::any_of(
+        impl.endless_planes.begin(), impl.endless_planes.end(), [&](const EndlessPlane& plane) {
+            return intersect_endless(
+                       plane, context, shape_ray(rays, row), static_cast<unsigned>(row), tfar)
+                .found;
+        });
+}
+
 }  // namespace
 
 int Accel::intersect(const RayColumns& rays,
@@ -243,6 +287,7 @@ int Accel::intersect(const RayColumns& rays,
     context.keys = rays.key;
     context.fixed_threshold = see_through.fixed_alpha;
     context.segment = see_through.segment;
+    context.culls_back_faces = see_through.culls_back_faces;
     int refused = 0;
     ValidMask valid;
     RTCRayHit16 block;
@@ -262,6 +307,9 @@ int Accel::intersect(const RayColumns& rays,
         store_packet(*impl_, valid, block, hits, first);
         if (see_through.culls_back_faces) {
             pass_hidden_backs_of_packet(*impl_, context, rays, block.hit, hits, first);
+        }
+        if (!impl_->endless_planes.empty()) {
+            meet_endless_planes(*impl_, context, rays, hits, valid, first);
         }
     }
     return refused;
@@ -288,6 +336,11 @@ int Accel::occluded(const RayColumns& rays,
         const int count = std::min(packet, rays.count - first);
         for (int i = 0; i < count; ++i) {
             occluded[first + i] = valid.lane[i] == 0 || block.tfar[i] < 0.0f ? 1 : 0;
+        }
+        if (impl_->endless_planes.empty()) continue;
+        for (int i = 0; i < count; ++i) {
+            if (occluded[first + i] != 0) continue;
+            occluded[first + i] = endless_plane_hides(*impl_, context, rays, first + i) ? 1 : 0;
         }
     }
     return refused;

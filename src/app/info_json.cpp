@@ -189,6 +189,7 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     write_counts(json, "meshes", "triangles", info.meshes);
     json.member("triangles_in_file", triangles_in_file(info));
     json.member("triangles_in_world", info.triangles_in_world);
+    write_counts(json, "shapes", "placed", info.shapes);
     json.member("instances", scene.instances.size());
     json.member("skipped_points", info.skipped_points);
     json.member("skipped_lines", info.skipped_lines);

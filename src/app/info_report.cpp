@@ -51,6 +51,11 @@ void append_meshes(const Scene& scene, std::string& text) {
     text += title("triangles") + fmt::format("{} in the file, {} in the world\n",
                                              triangles_in_file(info),
                                              info.triangles_in_world);
+    std::string shapes;
+    for (const NamedCount& shape : info.shapes) {
+        shapes += fmt::format("{}{} {}", shapes.empty() ? "" : ", ", shape.count, shape.name);
+    }
+    if (!shapes.empty()) text += title("shapes") + shapes + "\n";
     text += title("instances") + fmt::format("{}\n", scene.instances.size());
     if (info.skipped_points + info.skipped_lines > 0) {
         text += title("not drawn") + fmt::format("{} primitives of points, {} of lines\n",

@@ -80,6 +80,7 @@ void read_parts(DocumentReading& reading) {
     read_animations(reading);
     read_cameras(reading);
     read_lights(reading);
+    read_shapes(reading);
     read_nodes(reading);
     read_scenes(reading);
 }

@@ -7,6 +7,7 @@
 #include "math/transform.h"
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
+#include "shape/shape_row.h"
 #include "surface/material.h"
 
 #include <array>
@@ -111,6 +112,16 @@ struct GltfMesh {
     std::vector<GltfPrimitive> primitives;
 };
 
+/// A shape of OBSCURA_shape or KHR_implicit_shapes.
+struct GltfShape {
+    std::string type;
+    bool known = false;  ///< false: a type that nobody may draw
+    ShapeRow row;        ///< for particles only the common radius, size[0]
+    int positions = -1;  ///< accessors of particles
+    int radii = -1;      ///< -1: all have the common radius
+    bool double_sided = false;
+};
+
 struct GltfNode {
     std::string name;
     Affined parent_from_node;
@@ -118,6 +129,8 @@ struct GltfNode {
     int camera = -1;
     int light = -1;
     int skin = -1;
+    int shape = -1;  ///< in Document::shapes
+    int shape_material = -1;
     std::vector<int> children;
 };
 
@@ -168,6 +181,8 @@ struct Document {
     int scene = -1;  ///< the file's own choice
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
+    std::vector<GltfShape> shapes;  ///< of OBSCURA_shape, then those of KHR_implicit_shapes
+    size_t first_khronos_shape = 0;
     std::vector<NamedCount> animations;
     size_t skin_count = 0;
     size_t morphed_mesh_count = 0;

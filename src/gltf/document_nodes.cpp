@@ -180,6 +180,7 @@ void read_nodes(DocumentReading& reading) {
         if (node.has_extension(punctual_name)) {
             out.light = node.extension(punctual_name).index("light", light_count, "light");
         }
+        read_node_shape(reading, node, out);
         reading.document.nodes.push_back(std::move(out));
     });
 }

@@ -49,5 +49,7 @@ void read_nodes(DocumentReading& reading);  // document_nodes.cpp
 void read_scenes(DocumentReading& reading);
 void read_cameras(DocumentReading& reading);
 void read_lights(DocumentReading& reading);
+void read_shapes(DocumentReading& reading);  // document_shapes.cpp
+void read_node_shape(DocumentReading& reading, const JsonReader& node, GltfNode& out);
 
 }  // namespace obscura

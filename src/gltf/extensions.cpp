@@ -16,12 +16,14 @@ using nlohmann::json;
 
 constexpr std::array extension_rows = {
     ExtensionRow{"EXT_texture_webp", true, ""},
+    ExtensionRow{"KHR_implicit_shapes", true, ""},
     ExtensionRow{"KHR_lights_punctual", true, ""},
     ExtensionRow{"KHR_materials_emissive_strength", true, ""},
     ExtensionRow{"KHR_materials_unlit", true, ""},
     ExtensionRow{"KHR_mesh_quantization", true, ""},
     ExtensionRow{"KHR_texture_transform", true, ""},
     ExtensionRow{"OBSCURA_camera", true, ""},
+    ExtensionRow{"OBSCURA_shape", true, ""},
     ExtensionRow{"EXT_mesh_gpu_instancing", false, "one copy is drawn instead of all"},
     ExtensionRow{"EXT_meshopt_compression", false, "the uncompressed copy is read"},
     ExtensionRow{"KHR_meshopt_compression", false, "the uncompressed copy is read"},

@@ -8,6 +8,7 @@
 #include "gltf/json_text.h"
 #include "gltf/lights_cameras.h"
 #include "gltf/meshes.h"
+#include "gltf/shapes.h"
 #include "gltf/textures.h"
 
 #include <algorithm>
@@ -134,7 +135,8 @@ void fill_info(const Document& document, AssetInfo& info) {
 
 void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
     if (scene.bounds.empty()) {
-        log.warn(document.file, "the scene has no triangles; only its surroundings will be seen");
+        log.warn(document.file,
+                 "the scene has no triangles and no shapes; only its surroundings will be seen");
         return;
     }
     const Vec3f extent = scene.bounds.high - scene.bounds.low;
@@ -167,6 +169,7 @@ Result<Scene> build_scene(const std::filesystem::path& file, const LoadOptions& 
     const std::vector<PlacedNode> placed = place_nodes(document, *chosen, log);
     MaterialTable materials = make_material_table(document);
     Result<void> done = add_meshes({document, *buffers, placed}, materials, scene, log);
+    if (done) done = add_shapes({document, *buffers, placed}, materials, scene, log);
     if (done) done = add_lights_and_cameras(document, placed, scene, log);
     if (!done) return fail(std::move(done.error()));
     release_geometry(document, *buffers);

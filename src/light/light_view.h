@@ -8,9 +8,11 @@ namespace obscura {
 
 struct CdfEntry;
 struct PunctualLight;
+struct ShapeLight;
 struct TriangleLight;
 
-/// Lights are numbered: punctual ones first, then emissive triangles, then the environment.
+/// Lights are numbered: punctual ones first, then emissive triangles, then emissive shapes, then
+/// the environment.
 struct LightView {
     const CdfEntry* choice = nullptr;   ///< chooses a light with probability select_pdf
     const float* select_pdf = nullptr;  ///< by light number
@@ -19,6 +21,8 @@ struct LightView {
     int32_t triangle_count = 0;
     const PunctualLight* punctual = nullptr;
     const TriangleLight* triangles = nullptr;
+    int32_t shape_count = 0;
+    const ShapeLight* shapes = nullptr;
     float environment_select = 0;  ///< probability of choosing the environment
 };
 

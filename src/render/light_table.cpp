@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "math/warp.h"
+#include "render/shape_light_table.h"
 #include "surface/texture.h"
 
 #include <algorithm>
@@ -127,7 +128,7 @@ void collect_world_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
     for (int32_t i = 0; i < scene.world_primitive_count; ++i) {
         Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-        if (!emits(material)) continue;
+        if (!emits(material) || !is_mesh(primitive)) continue;
         primitive.light_base = static_cast<int32_t>(rows.size());
         append_rows({scene, primitive, material, nullptr}, rows);
     }
@@ -140,7 +141,8 @@ void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
         const int32_t end = mesh.first_primitive + mesh.primitive_count;
         for (int32_t i = mesh.first_primitive; i < end; ++i) {
             Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
-            const bool glows = emits(scene.materials[static_cast<size_t>(primitive.material)]);
+            const bool glows = is_mesh(primitive) &&
+                               emits(scene.materials[static_cast<size_t>(primitive.material)]);
             primitive.light_base = glows ? within : -1;
             within += glows ? primitive.triangle_count : 0;
         }
@@ -151,7 +153,7 @@ void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
         const int32_t end = mesh.first_primitive + mesh.primitive_count;
         for (int32_t i = mesh.first_primitive; i < end; ++i) {
             const Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
-            if (primitive.light_base < 0) continue;
+            if (primitive.light_base < 0 || !is_mesh(primitive)) continue;
             const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
             append_rows({scene, primitive, material, &instance}, rows);
         }
@@ -195,6 +197,7 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     table.punctual = scene.lights;
     collect_world_emitters(scene, table.triangles);
     collect_instance_emitters(scene, table.triangles);
+    table.shapes = collect_shape_lights(scene, static_cast<int32_t>(table.triangles.size()));
 
     const double radius = scene_radius(scene.bounds);
     std::vector<double> punctual;
@@ -208,6 +211,8 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
             triangles[i] = triangle_power(scene, table.triangles[i], 1e-3f);
         }
     });
+    for (const ShapeLight& light : table.shapes)
+        triangles.push_back(shape_light_power(light));
     const bool has_environment = environment != nullptr && !environment->black();
     const double environment_power =
         has_environment ? pi_d * radius * radius * environment->power() : 0.0;
@@ -222,6 +227,9 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
         const double area = static_cast<double>(row.area);
         row.pdf_area = area > 0 ? static_cast<float>(pdf[punctual.size() + i] / area) : 0.0f;
     }
+    const size_t first_shape = punctual.size() + table.triangles.size();
+    for (size_t i = 0; i < table.shapes.size(); ++i)
+        table.shapes[i].select = static_cast<float>(pdf[first_shape + i]);
     if (has_environment) table.environment_select = table.select_pdf.back();
     return table;
 }
@@ -254,6 +262,8 @@ LightView LightTable::view() const {
             static_cast<int32_t>(triangles.size()),
             punctual.data(),
             triangles.data(),
+            static_cast<int32_t>(shapes.size()),
+            shapes.data(),
             environment_select};
 }
 

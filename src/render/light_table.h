@@ -5,6 +5,7 @@
 #include "light/cdf_table.h"
 #include "light/environment_table.h"
 #include "light/light_view.h"
+#include "light/shape_light.h"
 #include "light/triangle_light.h"
 #include "scene/scene.h"
 
@@ -17,6 +18,7 @@ namespace obscura {
 struct LightTable {
     std::vector<PunctualLight> punctual;
     std::vector<TriangleLight> triangles;
+    std::vector<ShapeLight> shapes;
     std::vector<float> select_pdf;
     std::vector<CdfEntry> choice;
     float environment_select = 0;

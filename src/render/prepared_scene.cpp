@@ -4,6 +4,7 @@
 
 #include "base/stopwatch.h"
 #include "light/studio.h"
+#include "render/shape_light_table.h"
 #include "scene/alike_textures.h"
 
 namespace obscura {
@@ -33,7 +34,8 @@ bool needs_studio(const Scene& scene, const LightTable& lights) {
     const auto& all = scene.primitives;
     if (!all.empty() && std::all_of(all.begin(), all.end(), is_unlit)) return false;
     return !has_holed_emitter(scene) &&
-           brightest_mean_radiance(scene, lights) < least_lamp_radiance;
+           brightest_mean_radiance(scene, lights) < least_lamp_radiance &&
+           brightest_shape_radiance(scene) < least_lamp_radiance;
 }
 
 Result<EnvironmentTable> make_environment(const LightingOptions& lighting) {
@@ -74,6 +76,18 @@ SceneView PreparedScene::Impl::view() const {
     out.attributes = scene.attributes.data();
     out.primitives = reinterpret_cast<const int32_t*>(scene.primitives.data());
     out.instances = reinterpret_cast<const float*>(scene.instances.data());
+    if (!scene.shapes.empty() || !scene.spheres.empty()) {
+        // Lanes that hit shapes read mesh tables at 0, whatever is there.
+        static constexpr float zeros[16] = {};
+        static constexpr ShapeRow no_shape = {};
+        const auto zero_indices = reinterpret_cast<const int32_t*>(zeros);
+        if (scene.indices.size() < 4) out.indices = zero_indices;
+        if (scene.positions.size() < 3) out.positions = zeros;
+        if (scene.attributes.empty()) out.attributes = zeros;
+        out.shapes =
+            reinterpret_cast<const float*>(scene.shapes.empty() ? &no_shape : scene.shapes.data());
+        out.spheres = scene.spheres.empty() ? nullptr : scene.spheres.data();
+    }
     out.materials = reinterpret_cast<const float*>(scene.materials.data());
     out.material_numbers = scene.material_numbers.data();
     out.textures = {scene.textures.texels.data(),

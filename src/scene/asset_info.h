@@ -38,6 +38,7 @@ struct AssetInfo {
     std::vector<std::string> scenes;  ///< names; unnamed ones are "scene 0"
     int scene = 0;                    ///< the one that was loaded
     std::vector<NamedCount> meshes;   ///< as in the file, triangles counted once
+    std::vector<NamedCount> shapes;   ///< by type, every placing counted
     std::vector<NamedCount> animations;
     std::vector<std::string> node_names;   ///< by glTF node index
     std::vector<std::string> light_names;  ///< beside Scene::lights

@@ -7,6 +7,8 @@
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
 #include "scene/texture_arena.h"
+#include "shape/shape_row.h"
+#include "shape/sphere_block.h"
 #include "surface/material.h"
 
 #include <cstdint>
@@ -17,9 +19,14 @@ namespace obscura {
 
 inline constexpr int32_t no_attribute = INT32_MIN;
 
-/// A run of triangles with one material. Attribute bases are float offsets such that vertex v
-/// (an absolute vertex number, as stored in Scene::indices) starts at base + v * components;
-/// a base may be negative, no_attribute means that the attribute is absent.
+/// What a primitive's rows are: triangles of Scene::indices, rows of Scene::shapes or spheres of
+/// Scene::spheres. Shapes have attributes of their own: for them UV set 0 and tangents are 0, the
+/// others no_attribute.
+enum class GeometryKind : int32_t { triangles, shapes, spheres };
+
+/// A run of triangles (or shapes) with one material. Attribute bases are float offsets such that
+/// vertex v (an absolute vertex number, as stored in Scene::indices) starts at base + v *
+/// components; a base may be negative, no_attribute means that the attribute is absent.
 struct Primitive {
     int32_t first_triangle = 0;
     int32_t triangle_count = 0;
@@ -37,9 +44,14 @@ struct Primitive {
                                     no_attribute};
     int32_t node = -1;  ///< glTF node, for primitives in world space; -1 when reached by instances
     int32_t light_base = -1;  ///< first row in the light table when it emits; set by render
+    int32_t geometry = 0;     ///< GeometryKind
 };
 
-static_assert(sizeof(Primitive) == 16 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(Primitive) == 17 * 4, "read as 32-bit words: no padding");
+
+inline bool is_mesh(const Primitive& primitive) {
+    return primitive.geometry == static_cast<int32_t>(GeometryKind::triangles);
+}
 
 /// A run of primitives that share one object space.
 struct Mesh {
@@ -90,6 +102,8 @@ struct Scene {
     std::vector<float> positions;  ///< 3 floats a vertex, metres
     /// 3 absolute vertex numbers a triangle, counter-clockwise from the front (before mirroring).
     std::vector<uint32_t> indices;
+    std::vector<ShapeRow> shapes;
+    std::vector<float> spheres;     ///< particles in blocks: see shape/sphere_block.h
     std::vector<float> attributes;  ///< normals, tangents, UVs and colours; see Primitive
     std::vector<Primitive> primitives;
     int32_t world_primitive_count = 0;
@@ -103,7 +117,8 @@ struct Scene {
     TextureArena textures;
     std::vector<PunctualLight> lights;
     std::vector<SceneCamera> cameras;
-    Bounds bounds;  ///< world space, of all triangles
+    Bounds
+        bounds;  ///< world space, of all triangles and shapes; a plane without end counts as 1 m^2
     AssetInfo info;
 };
 

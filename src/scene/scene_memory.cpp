@@ -13,6 +13,7 @@ size_t vertex_bytes(const Scene& scene) {
 
 size_t geometry_bytes(const Scene& scene) {
     return vertex_bytes(scene) + scene.primitives.size() * sizeof(Primitive) +
+           scene.shapes.size() * sizeof(ShapeRow) + scene.spheres.size() * sizeof(float) +
            scene.instances.size() * sizeof(Instance) + scene.materials.size() * sizeof(Material);
 }
 

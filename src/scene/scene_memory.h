@@ -11,7 +11,7 @@ namespace obscura {
 /// Corners and their attributes: what any renderer of the same triangles must keep.
 size_t vertex_bytes(const Scene& scene);
 
-/// All tables but the texels: vertices, primitives, instances, materials.
+/// All tables but the texels: vertices, shapes, primitives, instances, materials.
 size_t geometry_bytes(const Scene& scene);
 
 /// Texels with their mip chains.

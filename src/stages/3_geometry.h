@@ -2,17 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "math/gather4.h"
-#include "math/table_row.h"
-#include "scene/scene.h"
-#include "stages/rows.h"
+#include "stages/3_shape.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
-
-inline constexpr int primitive_words = static_cast<int>(sizeof(Primitive) / 4);
-inline constexpr int instance_words = static_cast<int>(sizeof(Instance) / 4);
-inline constexpr int material_words = static_cast<int>(sizeof(Material) / 4);
 
 /// One UV set at the hits.
 struct MeshUv {
@@ -34,32 +27,10 @@ struct HitGeometry {
         smooth_shift;  ///< from position to the smooth surface, for shadow rays (toward the front)
     Lanes area2;       ///< twice the triangle's area
     MeshUv first_uv;   ///< of UV set 0, read where a texture may need it
+    bool has_shapes = false;  ///< some lanes hit analytic shapes: their tangents are below
+    Mask shapes;
+    Vec3<Lanes> dpdu, dpdv;  ///< world space
 };
-
-/// The scene's tables have a word of padding after the last triple.
-OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
-    const Four<Lanes> words = gather4<Lanes>(base, word);
-    return {words.x, words.y, words.z};
-}
-
-OBSCURA_INLINE Vec3<Lanes> read3(const TableRow<Lanes>& row, int word) {
-    return {row.number(word), row.number(word + 1), row.number(word + 2)};
-}
-
-/// The instances of the hits; lanes in world space get the first.
-OBSCURA_INLINE TableRow<Lanes> instance_row(const SceneView& scene, const HitLanes& hit) {
-    return {scene.instances, max(hit.instance, LanesI(0)), instance_words};
-}
-
-/// Row-major 3x4 of an instance.
-OBSCURA_INLINE Affine<Lanes> read_affine(const TableRow<Lanes>& row, int word) {
-    Affine<Lanes> a;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c)
-            a.m[r][c] = row.number(word + r * 4 + c);
-    }
-    return a;
-}
 
 OBSCURA_INLINE Vec3<Lanes> weighted(const HitGeometry& g, const Vec3<Lanes> (&v)[3]) {
     return v[0] * g.weight[0] + v[1] * g.weight[1] + v[2] * g.weight[2];
@@ -88,14 +59,21 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
     HitGeometry g;
     g.primitive = {scene.primitives, hit.primitive, primitive_words};
     g.material = {scene.materials, g.primitive.integer(2), material_words};
-    const LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
+    LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
+    if (scene.shapes != nullptr) {
+        g.shapes = g.primitive.integer(16) != LanesI(0);
+        g.has_shapes = any(g.shapes);
+        index_word = select(g.shapes, LanesI(0), index_word);  // any triangle: it is not looked at
+    }
     const Four<LanesI> corners = gather4<Lanes>(scene.indices, index_word);
     g.corner[0] = corners.x;
     g.corner[1] = corners.y;
     g.corner[2] = corners.z;
     Vec3<Lanes> p[3];
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
+        if (g.has_shapes) g.corner[k] = select(g.shapes, LanesI(0), g.corner[k]);
         p[k] = gather3(scene.positions, g.corner[k] * LanesI(3));
+    }
     g.weight[0] = Lanes(1.0f) - hit.u - hit.v;
     g.weight[1] = hit.u;
     g.weight[2] = hit.v;

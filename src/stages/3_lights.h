@@ -7,6 +7,7 @@
 #include "light/punctual_sample.h"
 #include "light/row_words.h"
 #include "light/triangle_light.h"
+#include "stages/3_shape_lights.h"
 #include "stages/3_surface.h"
 
 namespace obscura {
@@ -64,6 +65,19 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
             s.pdf > Lanes(0.0f)};
 }
 
+OBSCURA_INLINE LightLanes sample_shapes(const SceneView& scene,
+                                        LanesI index,
+                                        const Vec2<Lanes>& u,
+                                        const ShadingPoint& point) {
+    ShapeLightLanes s;
+    sample_shape_lights(scene, index, u, point.light_start, s);
+    return {s.direction,
+            s.distance,
+            s.emission * (Lanes(1.0f) / max(s.pdf, Lanes(1e-30f))),
+            s.pdf,
+            s.pdf > Lanes(0.0f)};
+}
+
 /// The random numbers that choose a light and a place on it.
 struct LightRandom {
     LanesU choice;
@@ -83,7 +97,9 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     const Mask punctual = index < LanesI(lights.punctual_count);
     const LanesI triangle_index = index - LanesI(lights.punctual_count);
     const Mask triangle = (!punctual) & (triangle_index < LanesI(lights.triangle_count));
-    const Mask environment = !(punctual | triangle);
+    const LanesI shape_index = triangle_index - LanesI(lights.triangle_count);
+    const Mask shape = (shape_index >= LanesI(0)) & (shape_index < LanesI(lights.shape_count));
+    const Mask environment = !(punctual | triangle | shape);
     if (scene.has_environment && any(environment)) {
         const EnvironmentSample<Lanes> s =
             finish_environment_draw(scene.environment, random.environment);
@@ -104,6 +120,12 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                                       unit_pair<Lanes>(random.environment.random),
                                       point,
                                       random.texture));
+    }
+    if (any(shape)) {
+        const LanesI row = select(shape, shape_index, LanesI(0));
+        choose(out,
+               shape,
+               sample_shapes(scene, row, unit_pair<Lanes>(random.environment.random), point));
     }
     if (any(punctual)) {
         const LanesI row = select(punctual, index, LanesI(0));
@@ -127,7 +149,7 @@ OBSCURA_INLINE Lanes light_pdf(const SceneView& scene,
                                const Vec3<Lanes>& ng,
                                const Vec3<Lanes>& direction,
                                Lanes distance) {
-    const Mask known = light >= LanesI(0);
+    const Mask known = (light >= LanesI(0)) & (light < LanesI(scene.lights.triangle_count));
     if (none(known) || scene.lights.triangle_count == 0) return Lanes(0.0f);
     const LanesI word = select(known, light * LanesI(words_per_row<TriangleLight>), LanesI(0));
     const Lanes pdf_area = gather<Lanes>(

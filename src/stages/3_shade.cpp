@@ -84,7 +84,10 @@ OBSCURA_INLINE void add_emission(const SceneView& scene,
         const Mask chosen_by_bsdf = path.pdf > Lanes(0.0f);
         Lanes weight(1.0f);
         if (batch.strategies == (sample_lights | sample_bsdfs)) {
-            const Lanes other = light_pdf(scene, s.light, s.ng, path.direction, distance);
+            Lanes other = light_pdf(scene, s.light, s.ng, path.direction, distance);
+            if (scene.lights.shape_count > 0) {
+                other = shape_light_pdf(scene, s.light, path, s.ng, {distance, other});
+            }
             weight = select(chosen_by_bsdf, mis_weight(path.pdf, other), weight);
         } else if (batch.strategies == sample_lights) {
             weight = select(chosen_by_bsdf & (s.light >= LanesI(0)), Lanes(0.0f), weight);

@@ -71,6 +71,11 @@ OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
         const Mask mirrored = instanced & (instance.integer(26) != LanesI(0));
         handedness = select(mirrored, -handedness, handedness);
     }
+    if (g.has_shapes) {
+        t = select(g.shapes, g.dpdu, t);
+        const Mask turned = dot(cross(g.normal, g.dpdu), g.dpdv) > Lanes(0.0f);
+        handedness = select(g.shapes, select(turned, Lanes(-1.0f), Lanes(1.0f)), handedness);
+    }
     t = normalize(t - g.normal * dot(t, g.normal));
     const Vec3<Lanes> b = cross(g.normal, t) * handedness;
     const Rgba<Lanes> texel = read_slot(scene, g, slot, look);
@@ -129,6 +134,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     HitGeometry g = hit_geometry(scene, hit);
     instance_to_world(scene, hit, g);
     read_first_uv_set(scene, g);
+    shapes_to_world(scene, hit, path, g);
     const Vec3<Lanes> wo = -path.direction;
     const Lanes cos_front = dot(g.ng, wo);
     const Lanes width = path.cone_width + path.cone_spread * hit.t;

@@ -8,16 +8,6 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-inline constexpr int slot_words = static_cast<int>(sizeof(TextureSlot) / 4);
-
-/// First word of a TextureSlot in a Material.
-inline constexpr int base_color_slot = 12;
-inline constexpr int metallic_roughness_slot = base_color_slot + slot_words;
-inline constexpr int normal_slot = metallic_roughness_slot + slot_words;
-inline constexpr int emissive_slot = normal_slot + slot_words;
-static_assert(offsetof(Material, base_color_texture) == base_color_slot * 4);
-static_assert(offsetof(Material, emissive_texture) == emissive_slot * 4);
-
 /// How textures are read: one random texel, or exact bilinear for noise-free quantities.
 enum class Filtering { stochastic, bilinear };
 
@@ -70,7 +60,12 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
     if (none(s.used)) return s;
     s.texture = select(s.used, s.texture, LanesI(0));
     const bool first = none(s.used & (base != g.first_uv.base));
-    const MeshUv mesh = first ? g.first_uv : read_mesh_uv(scene, g, base);
+    MeshUv mesh = first ? g.first_uv : read_mesh_uv(scene, g, base);
+    if (g.has_shapes && !first) {
+        mesh.at = {select(g.shapes, g.first_uv.at.x, mesh.at.x),
+                   select(g.shapes, g.first_uv.at.y, mesh.at.y)};
+        mesh.area2 = select(g.shapes, g.first_uv.area2, mesh.area2);
+    }
     Lanes m[6];
     for (int k = 0; k < 6; ++k)
         m[k] = g.material.number(slot + 2 + k);

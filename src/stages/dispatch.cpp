@@ -2,18 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/dispatch.h"
 
+#include "base/cpu.h"
+
 namespace obscura {
 
 bool has_isa(Isa isa) {
 #if defined(__x86_64__)
-    // Feature by feature: clang 14 does not know the names of the x86-64 levels.
-    const bool v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-    const bool v4 = v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-                    __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
-                    __builtin_cpu_supports("avx512vl");
-    if (isa == Isa::avx2) return v3;
-    if (isa == Isa::avx512) return v4;
+    if (isa == Isa::avx2) return cpu_has_avx2();
+    if (isa == Isa::avx512) return cpu_has_avx512();
     return true;
 #else
     return isa == Isa::automatic || isa == Isa::baseline;

@@ -75,6 +75,8 @@ struct SceneView {
     const float* positions = nullptr;
     const int32_t* indices = nullptr;
     const float* attributes = nullptr;
+    const float* shapes = nullptr;   ///< ShapeRow as words; null: the scene has no shapes at all
+    const float* spheres = nullptr;  ///< see shape/sphere_block.h; null: none
     const int32_t* primitives = nullptr;        ///< Primitive as words
     const float* instances = nullptr;           ///< Instance as words
     const float* materials = nullptr;           ///< Material as words

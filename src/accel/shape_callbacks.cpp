@@ -1,0 +1,203 @@
+// accel/shape_callbacks.cpp - Embree's callbacks for shapes; compiled once per instruction set.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/shape_geometry.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+/// The rays of one call as columns of N numbers, one field after the other.
+struct RayFields {
+    float* field;  ///< RTCRayN
+    int n;
+
+    OBSCURA_INLINE float* column(int number) const { return field + number * n; }
+    OBSCURA_INLINE float* tfar() const { return column(8); }
+    OBSCURA_INLINE unsigned id(int i) const {
+        return static_cast<unsigned>(float_bits(column(10)[i]));
+    }
+    OBSCURA_INLINE ShapeRay<float> ray(int i) const {
+        return {{column(0)[i], column(1)[i], column(2)[i]},
+                {column(4)[i], column(5)[i], column(6)[i]}};
+    }
+    OBSCURA_INLINE Span<float> limits(int i) const { return {column(3)[i], tfar()[i]}; }
+};
+
+/// What one call is about.
+struct Call {
+    const ShapeGeometry& geometry;
+    const QueryContext& context;
+    RayFields rays;
+    const int* valid;
+    unsigned primitive;
+    bool front_only;
+};
+
+struct Found {
+    float t = 0;
+    int32_t row = -1;  ///< -1: nothing
+};
+
+OBSCURA_INLINE bool counts(const Call& call, int i, int32_t row, int root, const Vec3f& position) {
+    if (call.geometry.alpha == nullptr) return true;
+    return is_opaque_there(call.geometry,
+                           call.context,
+                           {call.rays.id(i), call.context.embree.instID[0], row, root, position});
+}
+
+/// One ray against one shape.
+OBSCURA_INLINE Found find_on_shape(const Call& call, int i) {
+    const ShapeRow& row = call.geometry.rows[call.primitive];
+    const ShapeRay<float> ray = call.rays.ray(i);
+    const Span<float> limits = call.rays.limits(i);
+    const Roots<float> roots = intersect_shape<float>(row, ray);
+    for (int k = 0; k < 2; ++k) {
+        const float t = roots.t[k];
+        if (!roots.hit[k] || !(t > limits.low) || !(t <= limits.high)) continue;
+        if (call.front_only && !is_front<float>(row, ray, t, k)) continue;
+        const auto primitive = static_cast<int32_t>(call.primitive);
+        if (counts(call, i, primitive, k, ray.origin + ray.direction * t)) return {t, primitive};
+    }
+    return {};
+}
+
+/// One ray against the spheres of a block one after the other, for alpha may open each of them.
+Found find_in_open_block(const Call& call, int i, const float* block, int32_t first) {
+    const ShapeRay<float> ray = call.rays.ray(i);
+    const Span<float> limits = call.rays.limits(i);
+    Found best{limits.high, -1};
+    for (int s = 0; s < sphere_block; ++s) {
+        const Sphere<float> sphere{{block[s], block[sphere_block + s], block[2 * sphere_block + s]},
+                                   block[3 * sphere_block + s]};
+        const Roots<float> roots = intersect_sphere(sphere, ray);
+        for (int k = 0; k < (call.front_only ? 1 : 2); ++k) {
+            const float t = roots.t[k];
+            if (!roots.hit[k] || !(t > limits.low) || !(t <= best.t)) continue;
+            if (counts(call, i, first + s, k, ray.origin + ray.direction * t)) {
+                best = {t, first + s};
+                break;
+            }
+        }
+    }
+    return best;
+}
+
+OBSCURA_INLINE Found find_in_block(const Call& call, int i) {
+    const auto block_number = static_cast<int32_t>(call.primitive);
+    const int32_t first = block_number * sphere_block;
+    const float* block =
+        call.geometry.spheres + static_cast<int64_t>(block_number) * sphere_block_floats;
+    if (call.geometry.alpha != nullptr) return find_in_open_block(call, i, block, first);
+    const BlockHit hit =
+        intersect_sphere_block(block, call.rays.ray(i), call.rays.limits(i), call.front_only);
+    return {hit.t, hit.sphere < 0 ? -1 : first + hit.sphere};
+}
+
+/// Lanes [i, i + lane_count) that exist and are active.
+OBSCURA_INLINE Mask active_lanes(const Call& call, int i) {
+    alignas(64) int32_t active[lane_count] = {};
+    for (int k = 0; k < lane_count && i + k < call.rays.n; ++k)
+        active[k] = call.valid[i + k];
+    return load(active) != LanesI(0);
+}
+
+/// Sixteen, eight or four rays against one opaque shape; hit(i, found) takes what was found.
+template <typename Hit>
+OBSCURA_INLINE void packet_on_shape(const Call& call, const Hit& hit) {
+    const ShapeRow& row = call.geometry.rows[call.primitive];
+    for (int i = 0; i < call.rays.n; i += lane_count) {
+        // Wider than what is left, a load reads the fields behind: they are there up to tfar.
+        const auto read = [&](int number) { return load(call.rays.column(number) + i); };
+        const ShapeRay<Lanes> ray{{read(0), read(1), read(2)}, {read(4), read(5), read(6)}};
+        Roots<Lanes> roots = intersect_shape<Lanes>(row, ray);
+        if (call.front_only) {
+            roots.hit[0] = roots.hit[0] & is_front<Lanes>(row, ray, roots.t[0], 0);
+            roots.hit[1] = roots.hit[1] & is_front<Lanes>(row, ray, roots.t[1], 1);
+        }
+        const NearHit<Lanes> found = nearest(roots, read(3), read(8));
+        uint32_t bits = mask_bits(found.found & active_lanes(call, i));
+        if (bits == 0) continue;
+        alignas(64) float t[lane_count];
+        store(t, found.t);
+        for (; bits != 0; bits &= bits - 1) {
+            const int lane = __builtin_ctz(bits);
+            hit(i + lane, Found{t[lane], static_cast<int32_t>(call.primitive)});
+        }
+    }
+}
+
+/// All rays of a call, whatever their number.
+template <typename Hit>
+OBSCURA_INLINE void find_hits(const Call& call, const Hit& hit) {
+    const bool is_shape = call.geometry.rows != nullptr;
+    if (is_shape && call.rays.n > 1 && call.geometry.alpha == nullptr) {
+        packet_on_shape(call, hit);
+        return;
+    }
+    for (int i = 0; i < call.rays.n; ++i) {
+        if (call.valid[i] == 0) continue;
+        const Found found = is_shape ? find_on_shape(call, i) : find_in_block(call, i);
+        if (found.row >= 0) hit(i, found);
+    }
+}
+
+void intersect(const RTCIntersectFunctionNArguments* args) {
+    const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
+    const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
+    const unsigned n = args->N;
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
+    const RayFields rays{reinterpret_cast<float*>(RTCRayHitN_RayN(args->rayhit, n)),
+                         static_cast<int>(n)};
+    const bool front_only = context.culls_back_faces && geometry.single_sided;
+    const Call call{geometry, context, rays, args->valid, args->primID, front_only};
+    find_hits(call, [&](int row, const Found& found) {
+        const auto i = static_cast<unsigned>(row);
+        rays.tfar()[row] = found.t;
+        RTCHitN_Ng_x(hits, n, i) = -rays.column(4)[row];
+        RTCHitN_Ng_y(hits, n, i) = -rays.column(5)[row];
+        RTCHitN_Ng_z(hits, n, i) = -rays.column(6)[row];
+        RTCHitN_u(hits, n, i) = 0.0f;
+        RTCHitN_v(hits, n, i) = 0.0f;
+        RTCHitN_primID(hits, n, i) = static_cast<unsigned>(found.row);
+        RTCHitN_geomID(hits, n, i) = args->geomID;
+        copy_instance_stack(context, hits, n, i);
+    });
+}
+
+void occluded(const RTCOccludedFunctionNArguments* args) {
+    const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
+    const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
+    const RayFields rays{reinterpret_cast<float*>(args->ray), static_cast<int>(args->N)};
+    const Call call{geometry, context, rays, args->valid, args->primID, false};
+    find_hits(call, [&](int row, const Found&) { rays.tfar()[row] = -INFINITY; });
+}
+
+void set_bounds(const ShapeBox& box, RTCBounds& out) {
+    out.lower_x = box.low.x;
+    out.lower_y = box.low.y;
+    out.lower_z = box.low.z;
+    out.upper_x = box.high.x;
+    out.upper_y = box.high.y;
+    out.upper_z = box.high.z;
+}
+
+void bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
+    const auto primitive = static_cast<int32_t>(args->primID);
+    if (geometry.rows != nullptr) {
+        set_bounds(shape_bounds(geometry.rows[primitive]), *args->bounds_o);
+        return;
+    }
+    set_bounds(sphere_block_bounds(geometry.spheres +
+                                   static_cast<int64_t>(primitive) * sphere_block_floats),
+               *args->bounds_o);
+}
+
+}  // namespace
+
+extern const ShapeCallbacks shape_callbacks;
+const ShapeCallbacks shape_callbacks = {bounds, intersect, occluded};
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,85 @@
+// accel/shape_geometry.cpp - the parts of shapes' callbacks that are the same for every processor.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/shape_geometry.h"
+
+#include "accel/alpha_filter.h"
+#include "base/cpu.h"
+#include "math/sampler.h"
+
+namespace obscura {
+
+// This file is compiled as baseline, where isa_baseline is the inline namespace.
+inline namespace isa_baseline {
+extern const ShapeCallbacks shape_callbacks;
+}
+namespace isa_avx2 {
+extern const ShapeCallbacks shape_callbacks;
+}
+namespace isa_avx512 {
+extern const ShapeCallbacks shape_callbacks;
+}
+
+const ShapeCallbacks& shape_callbacks_for(const std::string& embree_isa) {
+#if defined(__x86_64__)
+    if (embree_isa == "avx512" || (embree_isa.empty() && cpu_has_avx512())) {
+        return isa_avx512::shape_callbacks;
+    }
+    if (embree_isa == "avx2" || (embree_isa.empty() && cpu_has_avx2())) {
+        return isa_avx2::shape_callbacks;
+    }
+#endif
+    (void)embree_isa;
+    return isa_baseline::shape_callbacks;
+}
+
+namespace {
+
+Vec2f texture_place(const ShapeGeometry& geometry, const ShapeCandidate& candidate) {
+    if (geometry.rows != nullptr) {
+        const ShapeRow& row = geometry.rows[candidate.row];
+        return surface_of_shape<float>(row.kind, UniformShape<float>(row), candidate.position).uv;
+    }
+    const float* at = geometry.spheres + sphere_word(static_cast<int64_t>(candidate.row));
+    const Sphere<float> sphere{{at[0], at[sphere_block], at[2 * sphere_block]},
+                               at[3 * sphere_block]};
+    return surface_of_sphere(sphere, candidate.position - sphere.centre).uv;
+}
+
+}  // namespace
+
+bool is_opaque_there(const ShapeGeometry& geometry,
+                     const QueryContext& context,
+                     const ShapeCandidate& candidate) {
+    const AlphaGeometry& open = *geometry.alpha;
+    const Primitive& primitive = open.scene->primitives[static_cast<size_t>(open.primitive)];
+    const Material& material = open.scene->materials[static_cast<size_t>(primitive.material)];
+    const float alpha = material_alpha(open, material, texture_place(geometry, candidate));
+    // Two places of one shape are two decisions.
+    const auto place =
+        static_cast<unsigned>(candidate.row) * 2U + static_cast<unsigned>(candidate.root);
+    return alpha >= alpha_threshold(open, context, {candidate.ray, candidate.instance, place});
+}
+
+NearHit<float> intersect_endless(const EndlessPlane& plane,
+                                 const QueryContext& context,
+                                 const ShapeRay<float>& ray,
+                                 unsigned id,
+                                 float tfar) {
+    const bool moved = plane.instance >= 0;
+    const ShapeRay<float> own =
+        moved ? ShapeRay<float>{transform_point(plane.object_from_world, ray.origin),
+                                transform_vector(plane.object_from_world, ray.direction)}
+              : ray;
+    const Plane<float> shape = read_plane<float>(UniformShape<float>(plane.row));
+    NearHit<float> hit = nearest(intersect_plane(shape, own), 0.0f, tfar);
+    if (!hit.found) return hit;
+    if (plane.geometry.single_sided && context.culls_back_faces) hit.found = own.direction.y < 0.0f;
+    if (hit.found && plane.geometry.alpha != nullptr) {
+        const auto instance = static_cast<unsigned>(plane.instance);
+        const Vec3f position = own.origin + own.direction * hit.t;
+        hit.found = is_opaque_there(plane.geometry, context, {id, instance, 0, 0, position});
+    }
+    return hit;
+}
+
+}  // namespace obscura

@@ -1,0 +1,40 @@
+// gltf/particles.h - accessors of positions and radii become blocks of spheres.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/accessors.h"
+#include "scene/scene.h"
+
+namespace obscura {
+
+struct ParticleSources {
+    const Document& document;
+    const BufferStore& buffers;
+};
+
+/// Spheres as a primitive counts them; `first` is the first of a block.
+struct ParticleRange {
+    int32_t first = 0;
+    int32_t count = 0;
+};
+
+/// Appends spheres to Scene::spheres in an order in which blocks are small boxes.
+///
+/// In      positions: 3 numbers a sphere; radii: one for all, or one a sphere
+ParticleRange append_spheres(const std::vector<float>& positions,
+                             const std::vector<float>& radii,
+                             Scene& scene);
+
+/// Appends a "spheres" shape.
+///
+/// In      shape_index: for messages
+/// Errors  as add_shapes
+Result<ParticleRange> append_particles(const ParticleSources& sources,
+                                       const GltfShape& shape,
+                                       int shape_index,
+                                       Scene& scene);
+
+/// The box around a primitive of shapes or particles, in its own space.
+ShapeBox primitive_box(const Scene& scene, const Primitive& primitive);
+
+}  // namespace obscura

@@ -1,0 +1,228 @@
+// gltf/shapes.cpp - the analytic shapes of the chosen scene become rows, primitives and instances.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/shapes.h"
+
+#include "gltf/list_text.h"
+#include "gltf/particles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+constexpr double farthest_position = 1e18;
+
+/// A uniform scale and a move; nothing when the map turns, mirrors or stretches.
+std::optional<double> uniform_scale(const Affined& map) {
+    const double s = map.m[0][0];
+    double off = 0;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c)
+            off = std::max(off, std::abs(map.m[r][c] - (r == c ? s : 0)));
+    }
+    if (!(s > 0) || off > 1e-9 * s) return std::nullopt;
+    return s;
+}
+
+class ShapeBuilder {
+public:
+    ShapeBuilder(const MeshSources& sources, MaterialTable& materials, Scene& scene, Log& log)
+        : sources_(sources), materials_(materials), scene_(scene), log_(log) {}
+
+    Result<void> build();
+
+private:
+    const Document& document() const { return sources_.document; }
+    const GltfShape& shape(int index) const {
+        return document().shapes[static_cast<size_t>(index)];
+    }
+    const GltfNode& node(const PlacedNode& place) const {
+        return document().nodes[static_cast<size_t>(place.node)];
+    }
+    int32_t choose_material(int material, bool double_sided);
+    Result<Primitive> make_primitive(const PlacedNode& place, const Affined* baked);
+    Result<void> add_particles(const PlacedNode& place, Primitive& primitive);
+    Result<void> add_to_world(const std::vector<const PlacedNode*>& places);
+    Result<void> add_instance(const PlacedNode& place);
+    Result<void> grow_bounds(const PlacedNode& place, const ShapeBox& box);
+    void count(const GltfShape& shape, int32_t rows);
+
+    const MeshSources& sources_;
+    MaterialTable& materials_;
+    Scene& scene_;
+    Log& log_;
+    std::map<int32_t, int32_t> double_sided_;           ///< material rows made double-sided
+    std::map<std::pair<int, int>, int32_t> instanced_;  ///< mesh of (shape, material)
+    std::map<int32_t, ShapeBox> mesh_boxes_;            ///< by mesh row
+};
+
+int32_t ShapeBuilder::choose_material(int material, bool double_sided) {
+    const int32_t row = material_row(materials_, document(), material, 1U, log_);
+    const auto index = static_cast<size_t>(row);
+    if (!double_sided || (materials_.rows[index].flags & material_double_sided) != 0) return row;
+    const auto [entry, is_new] =
+        double_sided_.try_emplace(row, static_cast<int32_t>(materials_.rows.size()));
+    if (is_new) {
+        Material copy = materials_.rows[index];
+        copy.flags |= material_double_sided;
+        materials_.rows.push_back(copy);
+        materials_.names.push_back(materials_.names[index]);
+        materials_.numbers.push_back(materials_.numbers[index]);
+        materials_.used.push_back(1);
+    }
+    return entry->second;
+}
+
+void ShapeBuilder::count(const GltfShape& counted, int32_t rows) {
+    std::vector<NamedCount>& list = scene_.info.shapes;
+    const auto found = std::find_if(
+        list.begin(), list.end(), [&](const NamedCount& c) { return c.name == counted.type; });
+    if (found == list.end()) {
+        list.push_back({counted.type, static_cast<size_t>(rows)});
+    } else {
+        found->count += static_cast<size_t>(rows);
+    }
+}
+
+Result<void> ShapeBuilder::add_particles(const PlacedNode& place, Primitive& primitive) {
+    const GltfShape& particles = shape(node(place).shape);
+    const Result<ParticleRange> range =
+        append_particles({document(), sources_.buffers}, particles, node(place).shape, scene_);
+    if (!range) return fail(range.error());
+    primitive.geometry = static_cast<int32_t>(GeometryKind::spheres);
+    primitive.first_triangle = range->first;
+    primitive.triangle_count = range->count;
+    return {};
+}
+
+/// The primitive of a node's shape; moved to the world where `baked`.
+Result<Primitive> ShapeBuilder::make_primitive(const PlacedNode& place, const Affined* baked) {
+    const GltfShape& own = shape(node(place).shape);
+    Primitive out;
+    out.material = choose_material(node(place).shape_material, own.double_sided);
+    out.tangent_base = 0;
+    out.uv_base[0] = 0;
+    out.geometry = static_cast<int32_t>(GeometryKind::shapes);
+    if (own.positions >= 0) {
+        const Result<void> added = add_particles(place, out);
+        if (!added) return fail(added.error());
+        return out;
+    }
+    out.first_triangle = static_cast<int32_t>(scene_.shapes.size());
+    out.triangle_count = 1;
+    ShapeRow row = own.row;
+    if (baked != nullptr) {
+        const auto& m = baked->m;
+        row = scaled_and_moved(row, m[0][0], {m[0][3], m[1][3], m[2][3]});
+    }
+    scene_.shapes.push_back(row);
+    return out;
+}
+
+Result<void> ShapeBuilder::grow_bounds(const PlacedNode& place, const ShapeBox& box) {
+    bool in_range = true;
+    const auto cut = [](float v) { return std::isfinite(v) ? v : std::copysign(0.5f, v); };
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d p{cut((corner & 1) != 0 ? box.high.x : box.low.x),
+                      cut((corner & 2) != 0 ? box.high.y : box.low.y),
+                      cut((corner & 4) != 0 ? box.high.z : box.low.z)};
+        const Vec3d moved = transform_point(place.world_from_node, p);
+        in_range = in_range && max_component(abs(moved)) <= farthest_position;
+        const Vec3f v{
+            static_cast<float>(moved.x), static_cast<float>(moved.y), static_cast<float>(moved.z)};
+        Bounds& all = scene_.bounds;
+        all.low = {std::min(all.low.x, v.x), std::min(all.low.y, v.y), std::min(all.low.z, v.z)};
+        all.high = max3(all.high, v);
+    }
+    if (in_range) return {};
+    return fail(ExitCode::bad_data,
+                "E-NODE-RANGE",
+                document().at("nodes", static_cast<size_t>(place.node)),
+                "the node moves its shape beyond 1e18");
+}
+
+/// Primitives in world space come before those of meshes.
+Result<void> ShapeBuilder::add_to_world(const std::vector<const PlacedNode*>& places) {
+    std::vector<Primitive> world;
+    for (const PlacedNode* place : places) {
+        Result<Primitive> primitive = make_primitive(*place, &place->world_from_node);
+        if (!primitive) return fail(std::move(primitive.error()));
+        primitive->node = place->node;
+        const GltfShape& own = shape(node(*place).shape);
+        count(own, 1);
+        const Result<void> grown = grow_bounds(*place, shape_bounds(own.row));
+        if (!grown) return grown;
+        world.push_back(*primitive);
+    }
+    const auto added = static_cast<int32_t>(world.size());
+    scene_.primitives.insert(
+        scene_.primitives.begin() + scene_.world_primitive_count, world.begin(), world.end());
+    scene_.world_primitive_count += added;
+    for (Mesh& mesh : scene_.meshes)
+        mesh.first_primitive += added;
+    return {};
+}
+
+Result<void> ShapeBuilder::add_instance(const PlacedNode& place) {
+    const std::pair<int, int> key{node(place).shape, node(place).shape_material};
+    const auto [entry, is_new] =
+        instanced_.try_emplace(key, static_cast<int32_t>(scene_.meshes.size()));
+    if (is_new) {
+        const Result<Primitive> primitive = make_primitive(place, nullptr);
+        if (!primitive) return fail(primitive.error());
+        scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()), 1});
+        scene_.primitives.push_back(*primitive);
+        mesh_boxes_[entry->second] = primitive_box(scene_, *primitive);
+    }
+    const Mesh& mesh = scene_.meshes[static_cast<size_t>(entry->second)];
+    Instance instance;
+    instance.world_from_object = affine_cast<float>(place.world_from_node);
+    instance.object_from_world = affine_cast<float>(inverse(place.world_from_node));
+    instance.mesh = entry->second;
+    instance.node = place.node;
+    instance.mirrored = determinant(place.world_from_node) < 0 ? 1 : 0;
+    scene_.instances.push_back(instance);
+    count(shape(key.first),
+          scene_.primitives[static_cast<size_t>(mesh.first_primitive)].triangle_count);
+    return grow_bounds(place, mesh_boxes_[entry->second]);
+}
+
+Result<void> ShapeBuilder::build() {
+    std::vector<const PlacedNode*> world;
+    std::vector<const PlacedNode*> moved;
+    std::vector<std::string> flat;
+    for (const PlacedNode& place : sources_.placed) {
+        const int index = node(place).shape;
+        if (index < 0) continue;
+        if (is_singular(place.world_from_node)) {
+            flat.push_back(document().at("nodes", static_cast<size_t>(place.node)));
+            continue;
+        }
+        const bool single = shape(index).positions < 0;
+        (single && uniform_scale(place.world_from_node) ? world : moved).push_back(&place);
+    }
+    if (!flat.empty()) {
+        log_.warn(document().file,
+                  "shapes whose node's scale is zero or whose matrix is singular are not drawn: " +
+                      list_text(flat));
+    }
+    Result<void> done = add_to_world(world);
+    for (size_t i = 0; done && i < moved.size(); ++i)
+        done = add_instance(*moved[i]);
+    return done;
+}
+
+}  // namespace
+
+Result<void> add_shapes(const MeshSources& sources,
+                        MaterialTable& materials,
+                        Scene& scene,
+                        Log& log) {
+    return ShapeBuilder(sources, materials, scene, log).build();
+}
+
+}  // namespace obscura

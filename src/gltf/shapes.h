@@ -1,0 +1,19 @@
+// gltf/shapes.h - the analytic shapes of the chosen scene become rows, primitives and instances.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/meshes.h"
+
+namespace obscura {
+
+/// Adds what OBSCURA_shape and KHR_implicit_shapes place, behind add_meshes. A shape that its node
+/// only moves and scales alike on all axes lies in world space; the others are instances.
+///
+/// Errors  65 E-SHAPE-SPHERES a particle's position is not finite or its radius not above 0,
+///         E-NODE-RANGE; 77 E-LIMIT-SPHERES more than 2^29; as read_floats
+Result<void> add_shapes(const MeshSources& sources,
+                        MaterialTable& materials,
+                        Scene& scene,
+                        Log& log);
+
+}  // namespace obscura

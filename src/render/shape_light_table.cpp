@@ -1,0 +1,152 @@
+// render/shape_light_table.cpp - emissive spheres, rectangles and disks as rows of the light table.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/shape_light_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+double largest_emission(const Material& m) {
+    return static_cast<double>(std::max({m.emission[0], m.emission[1], m.emission[2]}));
+}
+
+/// As for triangles: what has holes or is unlit cannot be sampled.
+bool emits(const Material& material) {
+    constexpr uint32_t unsampled = material_unlit | material_alpha_mask | material_alpha_blend;
+    return (material.flags & unsampled) == 0 && largest_emission(material) > 0;
+}
+
+void store(const Vec3d& v, float* out) {
+    out[0] = static_cast<float>(v.x);
+    out[1] = static_cast<float>(v.y);
+    out[2] = static_cast<float>(v.z);
+}
+
+Vec3d column(const Affined& map, int c) {
+    return {map.m[0][c], map.m[1][c], map.m[2][c]};
+}
+
+/// Whether three axes stay orthogonal and of one length.
+bool stays_round(const Affined& map) {
+    const Vec3d axes[3] = {column(map, 0), column(map, 1), column(map, 2)};
+    const double size = dot(axes[0], axes[0]);
+    for (int i = 0; i < 3; ++i) {
+        if (std::abs(dot(axes[i], axes[i]) - size) > 1e-5 * size) return false;
+        if (std::abs(dot(axes[i], axes[(i + 1) % 3])) > 1e-5 * size) return false;
+    }
+    return true;
+}
+
+std::optional<ShapeLight> sphere_light(const ShapeRow& row, const Affined& world) {
+    if (!stays_round(world)) return std::nullopt;
+    ShapeLight out;
+    const Vec3d axes[3] = {column(world, 0), column(world, 1), column(world, 2)};
+    store(normalize(axes[0]), out.x);
+    store(normalize(axes[1]), out.y);
+    store(normalize(axes[2]), out.z);
+    const double radius = length(axes[0]) * static_cast<double>(row.size[0]);
+    out.radius = static_cast<float>(radius);
+    out.area = static_cast<float>(4 * pi_d * radius * radius);
+    return out;
+}
+
+std::optional<ShapeLight> flat_light(const ShapeRow& row, const Affined& world, bool disk) {
+    if (is_unbounded(row) || (disk && row.size[1] > 0)) return std::nullopt;
+    ShapeLight out;
+    const Vec3d x = column(world, 0) * static_cast<double>(row.size[0]);
+    const Vec3d z = column(world, 2) * static_cast<double>(row.size[disk ? 0 : 1]);
+    const Vec3d upright = cross(z, x);
+    const double squares = length(upright);
+    const bool mirrored = dot(upright, column(world, 1)) < 0;
+    store(x, out.x);
+    store(z, out.z);
+    store(normalize(mirrored ? -upright : upright), out.y);
+    out.area = static_cast<float>((disk ? pi_d : 4.0) * squares);
+    const bool square = std::abs(dot(x, z)) <= 1e-5 * length(x) * length(z);
+    const auto kind = disk     ? ShapeLightKind::ellipse
+                      : square ? ShapeLightKind::rectangle
+                               : ShapeLightKind::parallelogram;
+    out.kind = static_cast<int32_t>(kind);
+    return out;
+}
+
+/// The light of one placing of a shape; nothing where it cannot be sampled.
+std::optional<ShapeLight> light_of(const Scene& scene,
+                                   const Primitive& primitive,
+                                   const Affined& world) {
+    const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+    if (!emits(material)) return std::nullopt;
+    if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) return std::nullopt;
+    const ShapeRow& row = scene.shapes[static_cast<size_t>(primitive.first_triangle)];
+    std::optional<ShapeLight> light;
+    switch (static_cast<ShapeKind>(row.kind)) {
+        case ShapeKind::sphere:
+            light = sphere_light(row, world);
+            break;
+        case ShapeKind::plane:
+            light = flat_light(row, world, false);
+            break;
+        case ShapeKind::disk:
+            light = flat_light(row, world, true);
+            break;
+        default:
+            break;
+    }
+    if (!light || !(light->area > 0) || !std::isfinite(light->area)) return std::nullopt;
+    const Vec3d centre{row.centre[0], row.centre[1], row.centre[2]};
+    store(transform_point(world, centre), light->centre);
+    std::copy_n(material.emission, 3, light->emission);
+    light->texture = material.emissive_texture.texture;
+    std::copy_n(material.emissive_texture.uv_from_mesh, 6, light->uv_from_shape);
+    light->two_sided = (material.flags & material_double_sided) != 0 ? 1 : 0;
+    return light;
+}
+
+}  // namespace
+
+std::vector<ShapeLight> collect_shape_lights(Scene& scene, int32_t first) {
+    std::vector<ShapeLight> lights;
+    const auto next = [&] { return first + static_cast<int32_t>(lights.size()); };
+    for (int32_t i = 0; i < scene.world_primitive_count; ++i) {
+        Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
+        if (is_mesh(primitive)) continue;
+        const auto light = light_of(scene, primitive, {});
+        primitive.light_base = light ? next() : -1;
+        if (light) lights.push_back(*light);
+    }
+    for (Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
+        if (mesh.primitive_count != 1) continue;  // shapes have a mesh of their own
+        Primitive& primitive = scene.primitives[static_cast<size_t>(mesh.first_primitive)];
+        if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) continue;
+        // Whether a shape can be sampled depends on its placing: -1 + 0 says that it cannot.
+        const auto light =
+            light_of(scene, primitive, affine_cast<double>(instance.world_from_object));
+        primitive.light_base = 0;
+        instance.light_base = light ? next() : -1;
+        if (light) lights.push_back(*light);
+    }
+    return lights;
+}
+
+double shape_light_power(const ShapeLight& light) {
+    const double sides = light.two_sided != 0 ? 2.0 : 1.0;
+    const float most = std::max({light.emission[0], light.emission[1], light.emission[2]});
+    return sides * pi_d * static_cast<double>(light.area) * static_cast<double>(most);
+}
+
+double brightest_shape_radiance(const Scene& scene) {
+    double brightest = 0;
+    for (const Primitive& primitive : scene.primitives) {
+        if (is_mesh(primitive)) continue;
+        const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+        brightest = std::max(brightest, largest_emission(material));
+    }
+    return brightest;
+}
+
+}  // namespace obscura

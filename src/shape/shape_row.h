@@ -1,0 +1,204 @@
+// shape/shape_row.h - every analytic shape as one row of a table, and the formulas by its kind.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "shape/box.h"
+#include "shape/capsule.h"
+#include "shape/disk.h"
+#include "shape/frustum.h"
+#include "shape/plane.h"
+#include "shape/quadric.h"
+#include "shape/sphere.h"
+
+#include <cstddef>
+#include <cstdint>
+
+namespace obscura {
+
+/// To add one: a header with its formulas; a name here; its reader, a case in intersect_shape and
+/// surface_of_shape below and in shape_bounds; its members in gltf/document_shapes.cpp, in the
+/// schema and in docs/extensions/OBSCURA_shape/README.md.
+enum class ShapeKind : int32_t {
+    sphere,
+    box,
+    frustum,  ///< cylinders and cones
+    capsule,
+    plane,  ///< finite or not
+    disk,
+    quadric,
+    quadric_from_above,  ///< the same surface with another parametrisation
+};
+
+/// One shape in its primitive's space, 32-bit words only; metres.
+struct ShapeRow {
+    int32_t kind = 0;  ///< ShapeKind
+    float centre[3] = {0, 0, 0};
+    /// sphere: radius; box, quadric: half edges; frustum, capsule: half height, radius at the
+    /// bottom and at the top; plane: half edges along X and Z; disk: outer and inner radius
+    float size[3] = {1, 1, 1};
+    float k[10] = {};  ///< quadric: coefficients relative to the centre
+};
+
+static_assert(sizeof(ShapeRow) == 17 * 4, "read as 32-bit words: no padding");
+
+inline constexpr int shape_words = static_cast<int>(sizeof(ShapeRow) / 4);
+
+/// A box around a shape with room for rounding; infinite for planes without end.
+struct ShapeBox {
+    Vec3f low, high;
+};
+ShapeBox shape_bounds(const ShapeRow& row);
+
+/// The box around the spheres of a block: see sphere_block.h.
+ShapeBox sphere_block_bounds(const float* block);
+
+/// The shape after a uniform scale, about the origin, and a move.
+ShapeRow scaled_and_moved(const ShapeRow& row, double scale, const Vec3d& move);
+
+inline bool is_unbounded(const ShapeRow& row) {
+    return row.kind == static_cast<int32_t>(ShapeKind::plane) &&
+           (row.size[0] >= unbounded || row.size[1] >= unbounded);
+}
+
+inline namespace OBSCURA_ISA {
+
+/// The numbers of one row, the same for all lanes.
+template <typename F>
+class UniformShape {
+public:
+    OBSCURA_INLINE explicit UniformShape(const ShapeRow& row)
+        : words_(reinterpret_cast<const float*>(&row)) {}
+    OBSCURA_INLINE F operator()(int word) const { return F(words_[word]); }
+
+private:
+    const float* words_;
+};
+
+// The shapes' own structs from a row's words, whatever `read` makes of them.
+template <typename F, typename Read>
+OBSCURA_INLINE Vec3<F> shape_centre(const Read& read) {
+    return {read(1), read(2), read(3)};
+}
+template <typename F, typename Read>
+OBSCURA_INLINE Sphere<F> read_sphere(const Read& read) {
+    return {shape_centre<F>(read), read(4)};
+}
+template <typename F, typename Read>
+OBSCURA_INLINE AlignedBox<F> read_box(const Read& read) {
+    return {shape_centre<F>(read), {read(4), read(5), read(6)}};
+}
+template <typename F, typename Read>
+OBSCURA_INLINE Frustum<F> read_frustum(const Read& read) {
+    return {shape_centre<F>(read), read(4), read(5), read(6)};
+}
+template <typename F, typename Read>
+OBSCURA_INLINE Capsule<F> read_capsule(const Read& read) {
+    return {shape_centre<F>(read), read(4), read(5), read(6)};
+}
+template <typename F, typename Read>
+OBSCURA_INLINE Plane<F> read_plane(const Read& read) {
+    return {shape_centre<F>(read), read(4), read(5)};
+}
+template <typename F, typename Read>
+OBSCURA_INLINE Disk<F> read_disk(const Read& read) {
+    return {shape_centre<F>(read), read(4), read(5)};
+}
+template <typename F, typename Read>
+OBSCURA_INLINE Quadric<F> read_quadric(const Read& read) {
+    Quadric<F> q{shape_centre<F>(read), {read(4), read(5), read(6)}, {}};
+    for (int i = 0; i < 10; ++i)
+        q.k[i] = read(7 + i);
+    return q;
+}
+
+/// Both places where a line meets one shape.
+///
+/// In      ray: in the shape's space, metres; finite, with a direction
+/// Out     see Roots
+/// Source  the headers of the shapes
+template <typename F>
+OBSCURA_INLINE Roots<F> intersect_shape(const ShapeRow& row, const ShapeRay<F>& ray) {
+    const UniformShape<F> read(row);
+    switch (static_cast<ShapeKind>(row.kind)) {
+        case ShapeKind::sphere:
+            return intersect_sphere(read_sphere<F>(read), ray);
+        case ShapeKind::box:
+            return intersect_box(read_box<F>(read), ray);
+        case ShapeKind::frustum:
+            return intersect_frustum(read_frustum<F>(read), ray);
+        case ShapeKind::capsule:
+            return intersect_capsule(read_capsule<F>(read), ray);
+        case ShapeKind::plane:
+            return intersect_plane(read_plane<F>(read), ray);
+        case ShapeKind::disk:
+            return intersect_disk(read_disk<F>(read), ray);
+        case ShapeKind::quadric:
+        case ShapeKind::quadric_from_above:
+            break;
+    }
+    return intersect_quadric(read_quadric<F>(read), ray);
+}
+
+/// True where the ray meets the front at root k of intersect_shape: outside of solid shapes, above
+/// flat ones, where its value is positive for a quadric.
+template <typename F>
+OBSCURA_INLINE MaskOf<F> is_front(const ShapeRow& row, const ShapeRay<F>& ray, const F& t, int k) {
+    switch (static_cast<ShapeKind>(row.kind)) {
+        case ShapeKind::plane:
+        case ShapeKind::disk:
+            return ray.direction.y < F(0.0f);
+        case ShapeKind::quadric:
+        case ShapeKind::quadric_from_above:
+            break;
+        default:
+            return MaskOf<F>(k == 0);
+    }
+    const Quadric<F> q = read_quadric<F>(UniformShape<F>(row));
+    const Vec3<F> at = ray.origin - q.centre + ray.direction * t;
+    return dot(quadric_gradient(q, at), ray.direction) < F(0.0f);
+}
+
+/// The place on a shape nearest to a point that is known to be close to it; another shape for every
+/// lane.
+///
+/// In      kind: ShapeKind; read: words of ShapeRow; at: in the shape's space, metres
+template <typename F, typename Read>
+OBSCURA_INLINE SurfacePoint<F> surface_of_shape(const IntOf<F>& kind,
+                                                const Read& read,
+                                                const Vec3<F>& at) {
+    const Vec3<F> centre = shape_centre<F>(read);
+    const Vec3<F> near = at - centre;
+    const auto is = [&](ShapeKind wanted) {
+        return kind == IntOf<F>(static_cast<int32_t>(wanted));
+    };
+    const auto above = is(ShapeKind::quadric_from_above);
+    SurfacePoint<F> out = surface_of_sphere(read_sphere<F>(read), near);
+    if (any(is(ShapeKind::box))) {
+        choose(out, is(ShapeKind::box), surface_of_box(read_box<F>(read), near));
+    }
+    if (any(is(ShapeKind::frustum))) {
+        choose(out, is(ShapeKind::frustum), surface_of_frustum(read_frustum<F>(read), near));
+    }
+    if (any(is(ShapeKind::capsule))) {
+        choose(out, is(ShapeKind::capsule), surface_of_capsule(read_capsule<F>(read), near));
+    }
+    if (any(is(ShapeKind::plane))) {
+        choose(out, is(ShapeKind::plane), surface_of_plane(read_plane<F>(read), near));
+    }
+    if (any(is(ShapeKind::disk))) {
+        choose(out, is(ShapeKind::disk), surface_of_disk(read_disk<F>(read), near));
+    }
+    if (any(is(ShapeKind::quadric) | above)) {
+        choose(out,
+               is(ShapeKind::quadric) | above,
+               surface_of_quadric(read_quadric<F>(read), above, near));
+    }
+    // The way back from the centre rounds too.
+    const Vec3<F> size = abs(centre) + abs(out.position);
+    out.error = out.error + dot(abs(out.normal), size) * F(surface_slack);
+    out.position = out.position + centre;
+    return out;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

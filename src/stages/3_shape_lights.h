@@ -1,0 +1,76 @@
+// stages/3_shape_lights.h - next-event estimation towards emissive shapes, and its density.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "light/light_view.h"
+#include "light/shape_light.h"
+#include "stages/rows.h"
+#include "surface/texture.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+/// A place on one chosen light.
+struct ShapeLightLanes {
+    Vec3<Lanes> direction;
+    Lanes distance;  ///< ends before the light itself
+    Vec3<Lanes> emission;
+    Lanes pdf;  ///< 1/sr, choice included
+};
+
+OBSCURA_INLINE TableRow<Lanes> shape_light_row(const SceneView& scene, LanesI index) {
+    return {scene.lights.shapes, index, words_per_row<ShapeLight>};
+}
+
+/// In      index: rows of the shape light table; from: where rays to lights start
+inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene,
+                                                          const LanesI& index,
+                                                          const Vec2<Lanes>& u,
+                                                          const Vec3<Lanes>& from,
+                                                          ShapeLightLanes& out) {
+    const TableRow<Lanes> row = shape_light_row(scene, index);
+    const ShapeLightSample<Lanes> s = sample_shape_light(read_shape_light(row), u, from);
+    out.emission = light_vector(row, offsetof(ShapeLight, emission));
+    const LanesI texture = row.integer(offsetof(ShapeLight, texture) / 4);
+    const Mask textured = texture >= LanesI(0);
+    if (any(textured)) {
+        const int word = offsetof(ShapeLight, uv_from_shape) / 4;
+        const auto m = [&](int k) { return row.number(word + k); };
+        const Vec2<Lanes> uv{m(0) * s.uv.x + m(1) * s.uv.y + m(2),
+                             m(3) * s.uv.x + m(4) * s.uv.y + m(5)};
+        const Rgba<Lanes> texel = sample_texture_bilinear<Lanes>(
+            scene.textures, select(textured, texture, LanesI(0)), uv, Lanes(0.0f));
+        out.emission = select(textured, out.emission * texel.rgb, out.emission);
+    }
+    const Lanes size = dot(abs(s.normal), abs(s.point) + abs(from));
+    const Lanes clear = Lanes(32.0f / 16777216.0f) * (size + s.distance * Lanes(0.25f));
+    const Lanes cosine = abs(dot(s.normal, s.direction));
+    out.direction = s.direction;
+    out.distance = max(s.distance - clear / max(cosine, Lanes(0.02f)), Lanes(0.0f));
+    out.pdf = s.pdf * row.number(offsetof(ShapeLight, select) / 4);
+}
+
+/// Density with which light sampling would have chosen a direction that met a shape light; `other`
+/// where it met none.
+///
+/// In      light: as ShadingPoint::light; from, direction, distance: the ray that met it; ng: faces
+///         the ray
+inline __attribute__((noinline)) Lanes shape_light_pdf(const SceneView& scene,
+                                                       const LanesI& light,
+                                                       const PathLanes& path,
+                                                       const Vec3<Lanes>& ng,
+                                                       const Vec2<Lanes>& distance_and_other) {
+    const LanesI index = light - LanesI(scene.lights.triangle_count);
+    const Mask known = index >= LanesI(0);
+    const Lanes other = distance_and_other.y;
+    if (none(known)) return other;
+    const TableRow<Lanes> row = shape_light_row(scene, select(known, index, LanesI(0)));
+    ShapeLightRow<Lanes> read = read_shape_light(row);
+    read.two_sided = Mask(true);  // what shines has been decided: the normal faces the ray
+    const Lanes cosine = abs(dot(ng, path.direction));
+    const Lanes pdf = shape_light_density(read, path.origin, distance_and_other.x, cosine);
+    return select(known, pdf * row.number(offsetof(ShapeLight, select) / 4), other);
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

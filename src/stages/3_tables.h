@@ -1,0 +1,52 @@
+// stages/3_tables.h - how shading reads rows of the scene's tables.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "math/gather4.h"
+#include "math/table_row.h"
+#include "scene/scene.h"
+#include "stages/rows.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+inline constexpr int primitive_words = static_cast<int>(sizeof(Primitive) / 4);
+inline constexpr int instance_words = static_cast<int>(sizeof(Instance) / 4);
+inline constexpr int material_words = static_cast<int>(sizeof(Material) / 4);
+inline constexpr int slot_words = static_cast<int>(sizeof(TextureSlot) / 4);
+
+/// First word of a TextureSlot in a Material.
+inline constexpr int base_color_slot = 12;
+inline constexpr int metallic_roughness_slot = base_color_slot + slot_words;
+inline constexpr int normal_slot = metallic_roughness_slot + slot_words;
+inline constexpr int emissive_slot = normal_slot + slot_words;
+static_assert(offsetof(Material, base_color_texture) == base_color_slot * 4);
+static_assert(offsetof(Material, emissive_texture) == emissive_slot * 4);
+
+/// The scene's tables have a word of padding after the last triple.
+OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
+    const Four<Lanes> words = gather4<Lanes>(base, word);
+    return {words.x, words.y, words.z};
+}
+
+OBSCURA_INLINE Vec3<Lanes> read3(const TableRow<Lanes>& row, int word) {
+    return {row.number(word), row.number(word + 1), row.number(word + 2)};
+}
+
+/// The instances of the hits; lanes in world space get the first.
+OBSCURA_INLINE TableRow<Lanes> instance_row(const SceneView& scene, const HitLanes& hit) {
+    return {scene.instances, max(hit.instance, LanesI(0)), instance_words};
+}
+
+/// Row-major 3x4 of an instance.
+OBSCURA_INLINE Affine<Lanes> read_affine(const TableRow<Lanes>& row, int word) {
+    Affine<Lanes> a;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c)
+            a.m[r][c] = row.number(word + r * 4 + c);
+    }
+    return a;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura
