@@ -11,11 +11,6 @@ namespace obscura {
 /// std::allocator, but what is made without a value is left as it is.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
-    template <typename U>
-    struct rebind {
-        using other = UnsetAllocator<U>;
-    };
-
     template <typename U, typename... Arguments>
     void construct(U* at, Arguments&&... arguments) {
         if constexpr (sizeof...(Arguments) == 0) {

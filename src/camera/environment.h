@@ -108,7 +108,8 @@ template <typename F>
 OBSCURA_INLINE CameraRay<F> cubemap_ray(const EnvironmentCamera& camera,
                                         const FilmPoint<F>& point) {
     const F columns = F(static_cast<float>(camera.cube_columns));
-    const F rows = F(static_cast<float>(6 / camera.cube_columns));
+    const int row_count = 6 / camera.cube_columns;
+    const F rows = F(static_cast<float>(row_count));
     const F column = floor(point.pixel_centre.x * columns);
     const F row = floor(point.pixel_centre.y * rows);
     const F face = row * columns + column;

@@ -64,9 +64,11 @@ Film project_cube(const EnvironmentCamera& camera, const Vec3d& p) {
     // What is right and up on each face; see cubemap_ray.
     const double a[6] = {p.z, -p.z, p.x, p.x, -p.x, p.x};
     const double b[6] = {p.y, p.y, p.z, -p.z, p.y, p.y};
-    const double column = face % camera.cube_columns + (a[face] / largest + 1) / 2;
-    const double row = face / camera.cube_columns + (1 - b[face] / largest) / 2;
-    return Vec2<double>{column / camera.cube_columns, row / (6 / camera.cube_columns)};
+    const int column = face % camera.cube_columns;
+    const int row = face / camera.cube_columns;
+    const int row_count = 6 / camera.cube_columns;
+    return Vec2<double>{(column + (a[face] / largest + 1) / 2) / camera.cube_columns,
+                        (row + (1 - b[face] / largest) / 2) / row_count};
 }
 
 }  // namespace
