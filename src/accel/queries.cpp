@@ -246,7 +246,8 @@ void meet_endless_planes(const Accel::Impl& impl,
         for (int i = 0; i < packet; ++i) {
             const int row = first + i;
             if (valid.lane[i] == 0) continue;
-            const float tfar = hits.primitive[row] >= 0 ? hits.t[row] : unlimited;
+            const float longest = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
+            const float tfar = hits.primitive[row] >= 0 ? hits.t[row] : longest;
             const auto hit = intersect_endless(
                 plane, context, shape_ray(rays, row), static_cast<unsigned>(row), tfar);
             if (!hit.found) continue;

@@ -240,6 +240,22 @@ TEST(ShapeScenes, PlanesWithoutEndAreMetBesideTheHierarchy) {
               (std::vector<uint8_t>{1, 1, 0, 1, 0}));
 }
 
+/// As a camera's far distance and the dark corners of a fisheye ask.
+TEST(ShapeScenes, RaysEndBeforePlanesWithoutEnd) {
+    Scene scene = empty_scene({});
+    add_shape(scene, make_shape(ShapeKind::plane, unbounded, unbounded), 0, scaling(1, 1, 1, {}));
+    const BuiltScene built = build(std::move(scene));
+    RayList rays;
+    for (const float tfar : {0.0F, 2.9F, 3.1F})
+        rays.add({0, 3, 0}, {0, -1, 0}, tfar);
+    rays.intersect(built.accel, Coherence::coherent);
+    rays.occlude(built.accel, Coherence::coherent);
+    for (const int row : {0, 1, 2}) {
+        EXPECT_EQ(rays.hit(row), row == 2) << row;
+        EXPECT_EQ(rays.occluded[static_cast<size_t>(row)], row == 2 ? 1 : 0) << row;
+    }
+}
+
 TEST(ShapeScenes, BacksOfSingleSidedShapesAreHiddenFromTheCamera) {
     Scene scene = empty_scene({});
     add_shape(scene, make_shape(ShapeKind::sphere, 1), 0);
