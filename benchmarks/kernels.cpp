@@ -90,8 +90,7 @@ void bsdf_sample(const KernelData& d) {
     for_rows<F>([&](int i) {
         const Vec3<F> wo = read3<F>(d.wo_x, d.wo_y, d.wo_z, i);
         const Vec2<F> u{read<F>(d.u0 + i), read<F>(d.u1 + i)};
-        const BsdfSample<F> sample =
-            sample_bsdf(material<F>(d, i), weights<F>(d, i), wo, u, read<F>(d.u2 + i));
+        const BsdfSample<F> sample = sample_bsdf(material<F>(d, i), weights<F>(d, i), wo, u);
         write(d.out0 + i, sum3(sample.direction) + sample.spread);
         write(d.out1 + i, sum3(sample.at.value_cos) + sample.at.pdf);
     });

@@ -25,29 +25,28 @@ std::vector<double> parts_of(std::span<const double> weights) {
     return parts;
 }
 
-/// First random number of every index, and one past the last, in units of `step`: each index with
-/// a part gets at least one step, the others none.
+/// First random number of every index, and one past the last, in multiples of `step`. Each index
+/// with a part gets one step, and its share of the steps that are left; the others get none.
+///
+/// The one step must come out of all shares alike: taken from the neighbours alone it would starve
+/// the rim of a sun, which shines far more than all the sky before it.
 std::vector<uint64_t> bounds_of(const std::vector<double>& parts, uint64_t step) {
-    const size_t count = parts.size();
-    const uint64_t steps = all_randoms / step;
     double sum = 0;
-    for (const double part : parts)
+    uint64_t possible = 0;
+    for (const double part : parts) {
         sum += part;
-    std::vector<uint64_t> bounds(count + 1, 0);
+        possible += part > 0 ? 1U : 0U;
+    }
+    const auto shared = static_cast<double>(all_randoms / step - possible);
+    std::vector<uint64_t> bounds{0};
     double below = 0;
-    for (size_t i = 0; i < count; ++i) {
-        below += parts[i];
-        const auto end =
-            static_cast<uint64_t>(std::llround(below / sum * static_cast<double>(steps)));
-        bounds[i + 1] = parts[i] > 0 ? std::max(end, bounds[i] + 1) : bounds[i];
+    uint64_t given = 0;
+    for (const double part : parts) {
+        below += part;
+        given += part > 0 ? 1U : 0U;
+        const double share = std::min(below / sum, 1.0);
+        bounds.push_back(step * (given + static_cast<uint64_t>(std::llround(share * shared))));
     }
-    uint64_t most = steps;
-    for (size_t i = count; i > 0 && (i == count || bounds[i] > most || parts[i] <= 0); --i) {
-        bounds[i] = most;
-        most -= parts[i - 1] > 0 ? 1U : 0U;
-    }
-    for (uint64_t& bound : bounds)
-        bound *= step;
     return bounds;
 }
 

@@ -11,7 +11,7 @@ namespace obscura {
 /// use`; bounce 0 is the camera's own.
 ///
 /// To add a use: append it before `count`. Every picture's noise (not its mean) then changes.
-enum class RandomUse : uint32_t { film, bsdf, lobe, light, light_choice, texture, count };
+enum class RandomUse : uint32_t { film, bsdf, roulette, light, light_choice, texture, count };
 
 inline constexpr uint32_t pairs_per_bounce = static_cast<uint32_t>(RandomUse::count);
 

@@ -13,7 +13,8 @@ namespace {
 
 /// The random numbers of one bounce.
 struct BounceRandom {
-    Vec2<Lanes> bsdf, lobe;
+    Vec2<Lanes> bsdf;
+    Lanes roulette;
     LightRandom light;
     Vec3<Lanes> texture;
 };
@@ -33,7 +34,7 @@ OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
     };
     BounceRandom r;
     r.bsdf = unit_pair<Lanes>(pair(RandomUse::bsdf));
-    r.lobe = unit_pair<Lanes>(pair(RandomUse::lobe));
+    r.roulette = bounce < 1 ? Lanes(0.0f) : unit_float<Lanes>(pair(RandomUse::roulette).x);
     r.light.choice = light_count > 1 ? pair(RandomUse::light_choice).x : LanesU(0U);
     r.light.environment = draw;
     // A place between texels, and from the bits that remain one between mip levels.
@@ -146,7 +147,7 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
                                  int bounce,
                                  Lanes distance) {
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
-    const BsdfSample<Lanes> sample = sample_bsdf(s.bsdf, s.lobes, wo, random.bsdf, random.lobe.x);
+    const BsdfSample<Lanes> sample = sample_bsdf(s.bsdf, s.lobes, wo, random.bsdf);
     const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
     Mask goes_on = active & (sample.at.pdf > Lanes(0.0f)) & (dot(direction, s.ng) > Lanes(0.0f));
     if (none(goes_on)) return at;
@@ -154,7 +155,7 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
         sample.at.value_cos * (Lanes(1.0f) / max(sample.at.pdf, Lanes(1e-30f)));
     const Vec3<Lanes> throughput = path.throughput * weight;
     const Lanes survives = survival(throughput, bounce);
-    goes_on = goes_on & (random.lobe.y < survives) & (max_component(throughput) > Lanes(0.0f));
+    goes_on = goes_on & (random.roulette < survives) & (max_component(throughput) > Lanes(0.0f));
     PathLanes next;
     next.origin = s.start;
     next.direction = direction;

@@ -134,26 +134,29 @@ OBSCURA_INLINE Vec3<F> sample_visible_normal(const Vec3<F>& wo, const F& alpha, 
 
 /// Chooses wi for a given wo (wo.z > 0). pdf 0 means that the path ends: below the horizon.
 ///
-/// In      u: the direction; choice: which lobe, in [0,1)
+/// u.x first picks the lobe and is then stretched back over [0, 1): points that are spread evenly
+/// over all samples stay so within each lobe.
 template <typename F>
 OBSCURA_INLINE BsdfSample<F> sample_bsdf(const BsdfParams<F>& p,
                                          const LobeWeights<F>& lobes,
                                          const Vec3<F>& wo,
-                                         const Vec2<F>& u,
-                                         const F& choice) {
-    const auto specular = choice < lobes.specular_probability;
-    const Vec3<F> h = sample_visible_normal(wo, p.alpha, u);
+                                         const Vec2<F>& u) {
+    const F one_below = F(0x1.fffffep-1f);
+    const auto specular = u.x < lobes.specular_probability;
+    const F begin = select(specular, F(0.0f), lobes.specular_probability);
+    const F end = select(specular, lobes.specular_probability, F(1.0f));
+    const Vec2<F> stretched{clamp((u.x - begin) / (end - begin), F(0.0f), one_below), u.y};
+    const Vec3<F> h = sample_visible_normal(wo, p.alpha, stretched);
     const Vec3<F> mirrored = h * (F(2.0f) * dot(wo, h)) - wo;
-    const Vec3<F> wi = select(specular, mirrored, cosine_hemisphere(u));
+    const Vec3<F> wi = select(specular, mirrored, cosine_hemisphere(stretched));
     return {wi, evaluate_bsdf(p, lobes, wo, wi), select(specular, F(0.5f) * p.alpha, F(0.4f))};
 }
 
 template <typename F>
 OBSCURA_INLINE BsdfSample<F> sample_bsdf(const BsdfParams<F>& p,
                                          const Vec3<F>& wo,
-                                         const Vec2<F>& u,
-                                         const F& choice) {
-    return sample_bsdf(p, lobe_weights(p, wo.z), wo, u, choice);
+                                         const Vec2<F>& u) {
+    return sample_bsdf(p, lobe_weights(p, wo.z), wo, u);
 }
 
 }  // namespace OBSCURA_ISA

@@ -97,6 +97,18 @@ TYPED_TEST(CdfTables, TheFaintestEntryIsStillReached) {
         EXPECT_GE(got[i], grain<TypeParam>) << i;
 }
 
+/// The steps that faint indices need must not be taken from a brighter neighbour.
+TYPED_TEST(CdfTables, TheRimOfASunKeepsItsShare) {
+    std::vector<double> weights(1000, 1.0);
+    weights[500] = 1e6;
+    for (const size_t rim : {498U, 499U, 501U, 502U})
+        weights[rim] = 1000;
+    const std::vector<double> got = shares_of(table_for<TypeParam>(weights));
+    const double sum = sum_of(weights);
+    for (const size_t i : {498U, 499U, 500U, 501U, 502U})
+        EXPECT_NEAR(got[i] / (weights[i] / sum), 1.0, 0.05) << i;
+}
+
 TYPED_TEST(CdfTables, WeightsThatAreAllZeroMeanUniform) {
     const std::vector<double> weights(5, 0.0);
     const std::vector<TypeParam> table = table_for<TypeParam>(weights);

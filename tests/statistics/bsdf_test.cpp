@@ -37,7 +37,7 @@ BsdfSample<float> draw(const BsdfParams<float>& p, const Vec3d& wo, Pcg32& rando
         static_cast<float>(wo.x), static_cast<float>(wo.y), static_cast<float>(wo.z)};
     const float x = random.next_float();
     const float y = random.next_float();
-    return sample_bsdf(p, narrow, Vec2f{x, y}, random.next_float());
+    return sample_bsdf(p, narrow, Vec2f{x, y});
 }
 
 /// Samples in float against the density in double; `lie` bends the density to prove the test.

@@ -193,7 +193,7 @@ TEST(Bsdf, RandomParametersNeverLeaveTheNumbers) {
         const BsdfParams<float> p = random_material(random, n % 3 == 0 ? 0.0F : 0.5F);
         const Vec3f wo = random_direction(random);
         const Vec2f u{random_number(random), random_number(random)};
-        expect_sane(sample_bsdf(p, wo, u, random_number(random)));
+        expect_sane(sample_bsdf(p, wo, u));
         if (HasFatalFailure()) {
             FAIL() << "case " << n << ": alpha " << p.alpha << ", metallic " << p.metallic
                    << ", cosine " << wo.z << ", u " << u.x << ", " << u.y;
@@ -211,9 +211,8 @@ TEST(Bsdf, PrecisionsAgree) {
         const BsdfParams<float> p = random_material(random, 0.05F);
         const Vec3f wo = random_direction(random);
         const Vec3f wi =
-            n % 2 == 0
-                ? random_direction(random)
-                : sample_bsdf(p, wo, {random.next_float(), random.next_float()}, 0.0F).direction;
+            n % 2 == 0 ? random_direction(random)
+                       : sample_bsdf(p, wo, {random.next_float(), random.next_float()}).direction;
         if (!(wi.z > 1e-7F)) continue;
         const BsdfValue<double> truth = evaluate_bsdf(widen(p), widen(wo), widen(wi));
         const BsdfValue<float> one = evaluate_bsdf(p, wo, wi);
@@ -236,12 +235,10 @@ TEST(Bsdf, LanesSampleLikeScalars) {
         const BsdfParams<float> p = random_material(random, 0.05F);
         const Vec3f wo = random_direction(random);
         const Vec2f u{random.next_float(), random.next_float()};
-        const float choice = random.next_float();
         const float share = lobe_weights(p, wo.z).specular_probability;
-        if (std::fabs(choice - share) < 1e-5F) continue;  // either lobe may come out
-        const BsdfSample<float> one = sample_bsdf(p, wo, u, choice);
-        const BsdfSample<Lanes> many =
-            sample_bsdf(spread(p), spread(wo), {Lanes(u.x), Lanes(u.y)}, Lanes(choice));
+        if (std::fabs(u.x - share) < 1e-5F) continue;  // either lobe may come out
+        const BsdfSample<float> one = sample_bsdf(p, wo, u);
+        const BsdfSample<Lanes> many = sample_bsdf(spread(p), spread(wo), {Lanes(u.x), Lanes(u.y)});
         ASSERT_LT(length(one.direction - lane(many.direction, 0)), 1e-4F) << n;
         ASSERT_EQ(one.spread, lane(many.spread, lane_count - 1)) << n;
     }
