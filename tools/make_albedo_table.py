@@ -6,11 +6,14 @@
 For a view angle and a roughness, the share of a white sky that the specular lobe of surface/bsdf.h
 sends back is f0 * A + B (Schlick's Fresnel is linear in f0). A and B are means over a regular grid of
 visible normals (Dupuy and Benyoub, 2023), for which BRDF * cosine / density is Fresnel * G1(wi).
+The same for the Charlie lobe of surface/sheen.h with a white colour: an integral over directions, finer
+towards the horizon, where narrow fibres shine.
 """
 import math
 
 COSINES, ROUGHNESSES, GRID = 32, 32, 96
 MIN_ALPHA = 1e-3
+MIN_SHEEN_ALPHA = 0.005
 
 
 def g1(cosine, alpha):
@@ -44,17 +47,58 @@ def entry(cosine, roughness):
     return sum_a / GRID**2, sum_b / GRID**2
 
 
+def charlie_lambda(cosine, alpha):
+    t = (1 - alpha) ** 2
+    a, b, c, d, e = (
+        low + (high - low) * t
+        for low, high in (
+            (21.5473, 25.3245),
+            (3.82987, 3.32435),
+            (0.19823, 0.16801),
+            (-1.97760, -1.27393),
+            (-4.32054, -4.85967),
+        )
+    )
+
+    def fit(x):
+        return a / (1 + b * max(x, 1e-6) ** c) + d * x + e
+
+    return math.exp(fit(cosine) if cosine < 0.5 else 2 * fit(0.5) - fit(1 - cosine))
+
+
+def sheen_entry(cosine, roughness):
+    alpha = max(roughness**2, MIN_SHEEN_ALPHA)
+    sine = math.sqrt(1 - cosine**2)
+    lambda_o = charlie_lambda(cosine, alpha)
+    total = 0.0
+    for i in range(GRID):
+        cos_i = ((i + 0.5) / GRID) ** 2
+        width = ((i + 1) / GRID) ** 2 - (i / GRID) ** 2
+        sin_i = math.sqrt(1 - cos_i**2)
+        visibility = 1 / (4 * cosine * cos_i * (1 + lambda_o + charlie_lambda(cos_i, alpha)))
+        for j in range(GRID):
+            turn = math.pi * (j + 0.5) / GRID
+            hx = sine + sin_i * math.cos(turn)
+            hy = sin_i * math.sin(turn)
+            hz = cosine + cos_i
+            sine2 = (hx * hx + hy * hy) / max(hx * hx + hy * hy + hz * hz, 1e-30)
+            density = (2 + 1 / alpha) * sine2 ** (0.5 / alpha) / (2 * math.pi)
+            total += density * visibility * cos_i * width * 2 * math.pi / GRID
+    return total
+
+
 def rows(values):
     for i in range(0, len(values), 8):
         print("    " + " ".join(f"{v:.6f}f," for v in values[i : i + 8]))
 
 
 def main():
-    table = [
-        entry(max((c / (COSINES - 1)) ** 2, 1e-4), r / (ROUGHNESSES - 1))
+    places = [
+        (max((c / (COSINES - 1)) ** 2, 1e-4), r / (ROUGHNESSES - 1))
         for r in range(ROUGHNESSES)
         for c in range(COSINES)
     ]
+    table = [entry(*place) for place in places]
     print("// surface/albedo_table.cpp - written by tools/make_albedo_table.py; do not edit.")
     print("// SPDX-License-Identifier: Apache-2.0")
     print('#include "surface/albedo_table.h"\n\nnamespace obscura {\n')
@@ -63,6 +107,9 @@ def main():
         print(f"const float specular_albedo_{name}[albedo_cosines * albedo_roughnesses] = {{")
         rows([row[column] for row in table])
         print("};\n")
+    print("const float sheen_albedo_table[albedo_cosines * albedo_roughnesses] = {")
+    rows([sheen_entry(*place) for place in places])
+    print("};\n")
     print("// clang-format on\n\n}  // namespace obscura")
 
 

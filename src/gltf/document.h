@@ -8,7 +8,7 @@
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
 #include "shape/shape_row.h"
-#include "surface/material.h"
+#include "surface/material_layers.h"
 
 #include <array>
 #include <cstdint>
@@ -93,6 +93,7 @@ struct GltfTexture {
 struct GltfMaterial {
     std::string name;
     Material values;
+    std::optional<MaterialLayers> layers = {};  ///< where it has extensions that need them
 };
 
 struct GltfPrimitive {

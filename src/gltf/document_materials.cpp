@@ -1,6 +1,6 @@
 // gltf/document_materials.cpp - reads images, samplers, textures and materials.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/document_parts.h"
+#include "gltf/material_extensions.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,33 +35,6 @@ void read_texture_transform(DocumentReading& reading, const JsonReader& info, Te
     }
 }
 
-/// Reads a textureInfo; a UV set beyond max_uv_sets leaves the slot empty.
-TextureSlot read_slot(DocumentReading& reading, const JsonReader& object, std::string_view key) {
-    TextureSlot slot;
-    if (!object.has(key)) return slot;
-    const JsonReader info = object.child(key);
-    info.require("index");
-    slot.texture = info.index("index", reading.root.count("textures"), "texture");
-    slot.uv_set = static_cast<int32_t>(std::min<uint64_t>(info.size("texCoord", 0), 1U << 20));
-    read_texture_transform(reading, info, slot);
-    if (reading.root.failed()) return TextureSlot{};
-    const GltfTexture& texture = reading.document.textures[static_cast<size_t>(slot.texture)];
-    if (texture.image < 0) {
-        reading.log.warn(reading.document.at(info.pointer()),
-                         texture.needs_basisu
-                             ? "the texture has a KTX2 image and no other; it is ignored"
-                             : "the texture has no image that can be read; it is ignored");
-        return TextureSlot{};
-    }
-    if (slot.uv_set >= max_uv_sets) {
-        reading.log.warn(reading.document.at(info.pointer()),
-                         "TEXCOORD_" + std::to_string(slot.uv_set) +
-                             " is out of reach (TEXCOORD_0 to 7 are read); the texture is ignored");
-        return TextureSlot{};
-    }
-    return slot;
-}
-
 uint32_t read_flags(DocumentReading& reading, const JsonReader& object) {
     uint32_t flags = 0;
     const std::string mode = object.text("alphaMode", "OPAQUE");
@@ -88,10 +61,10 @@ Material read_material_values(DocumentReading& reading, const JsonReader& object
         out.base_color[i] = static_cast<float>(base[i]);
     out.metallic = static_cast<float>(clamped_number(reading, pbr, "metallicFactor", unit));
     out.roughness = static_cast<float>(clamped_number(reading, pbr, "roughnessFactor", unit));
-    out.base_color_texture = read_slot(reading, pbr, "baseColorTexture");
-    out.metallic_roughness_texture = read_slot(reading, pbr, "metallicRoughnessTexture");
+    out.base_color_texture = read_texture_slot(reading, pbr, "baseColorTexture");
+    out.metallic_roughness_texture = read_texture_slot(reading, pbr, "metallicRoughnessTexture");
 
-    out.normal_texture = read_slot(reading, object, "normalTexture");
+    out.normal_texture = read_texture_slot(reading, object, "normalTexture");
     const JsonReader normal = object.child("normalTexture");
     out.normal_scale = static_cast<float>(clamped_number(reading, normal, "scale", {1, -1e4, 1e4}));
 
@@ -105,7 +78,7 @@ Material read_material_values(DocumentReading& reading, const JsonReader& object
     }
     for (size_t i = 0; i < 3; ++i)
         out.emission[i] = static_cast<float>(emission[i] * strength);
-    out.emissive_texture = read_slot(reading, object, "emissiveTexture");
+    out.emissive_texture = read_texture_slot(reading, object, "emissiveTexture");
 
     out.alpha_cutoff = static_cast<float>(
         clamped_number(reading, object, "alphaCutoff", {0.5, 0, largest_factor}));
@@ -114,6 +87,34 @@ Material read_material_values(DocumentReading& reading, const JsonReader& object
 }
 
 }  // namespace
+
+TextureSlot read_texture_slot(DocumentReading& reading,
+                              const JsonReader& object,
+                              std::string_view key) {
+    TextureSlot slot;
+    if (!object.has(key)) return slot;
+    const JsonReader info = object.child(key);
+    info.require("index");
+    slot.texture = info.index("index", reading.root.count("textures"), "texture");
+    slot.uv_set = static_cast<int32_t>(std::min<uint64_t>(info.size("texCoord", 0), 1U << 20));
+    read_texture_transform(reading, info, slot);
+    if (reading.root.failed()) return TextureSlot{};
+    const GltfTexture& texture = reading.document.textures[static_cast<size_t>(slot.texture)];
+    if (texture.image < 0) {
+        reading.log.warn(reading.document.at(info.pointer()),
+                         texture.needs_basisu
+                             ? "the texture has a KTX2 image and no other; it is ignored"
+                             : "the texture has no image that can be read; it is ignored");
+        return TextureSlot{};
+    }
+    if (slot.uv_set >= max_uv_sets) {
+        reading.log.warn(reading.document.at(info.pointer()),
+                         "TEXCOORD_" + std::to_string(slot.uv_set) +
+                             " is out of reach (TEXCOORD_0 to 7 are read); the texture is ignored");
+        return TextureSlot{};
+    }
+    return slot;
+}
 
 void read_images(DocumentReading& reading) {
     const size_t view_count = reading.root.count("bufferViews");
@@ -178,6 +179,7 @@ void read_materials(DocumentReading& reading) {
         out.name = material.text("name");
         if (out.name.empty()) out.name = "material " + std::to_string(index);
         out.values = read_material_values(reading, material);
+        out.layers = read_material_layers(reading, material);
         reading.document.materials.push_back(std::move(out));
     });
 }

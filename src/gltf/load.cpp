@@ -179,9 +179,7 @@ Result<Scene> build_scene(const std::filesystem::path& file, const LoadOptions& 
     done = add_textures({document, *buffers, folder, options.info_only}, materials, scene, log);
     if (!done) return fail(std::move(done.error()));
     scene.info.decode_seconds = seconds_since(decode_start);
-    scene.materials = std::move(materials.rows);
-    scene.material_names = std::move(materials.names);
-    scene.material_numbers = std::move(materials.numbers);
+    move_materials(materials, scene);
     warn_about_whole(document, scene, log);
     return scene;
 }

@@ -2,36 +2,44 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials.h"
 
+#include "scene/media.h"
+
 namespace obscura {
 
-namespace {
-
-constexpr std::array<const char*, slot_count> slot_names = {
-    "baseColorTexture", "metallicRoughnessTexture", "normalTexture", "emissiveTexture"};
-
-}  // namespace
-
-std::array<TextureSlot*, slot_count> slots_of(Material& material) {
-    return {&material.base_color_texture,
-            &material.metallic_roughness_texture,
-            &material.normal_texture,
-            &material.emissive_texture};
-}
-
-std::array<const TextureSlot*, slot_count> slots_of(const Material& material) {
-    return {&material.base_color_texture,
-            &material.metallic_roughness_texture,
-            &material.normal_texture,
-            &material.emissive_texture};
-}
+const std::array<SlotRow, slot_count> slot_rows = {{
+    {"baseColorTexture", true, &Material::base_color_texture, nullptr},
+    {"metallicRoughnessTexture", false, &Material::metallic_roughness_texture, nullptr},
+    {"normalTexture", false, &Material::normal_texture, nullptr},
+    {"emissiveTexture", true, &Material::emissive_texture, nullptr},
+    {"specularTexture", false, nullptr, &MaterialLayers::specular_texture},
+    {"specularColorTexture", true, nullptr, &MaterialLayers::specular_color_texture},
+    {"clearcoatTexture", false, nullptr, &MaterialLayers::clearcoat_texture},
+    {"clearcoatRoughnessTexture", false, nullptr, &MaterialLayers::clearcoat_roughness_texture},
+    {"clearcoatNormalTexture", false, nullptr, &MaterialLayers::clearcoat_normal_texture},
+    {"sheenColorTexture", true, nullptr, &MaterialLayers::sheen_color_texture},
+    {"sheenRoughnessTexture", false, nullptr, &MaterialLayers::sheen_roughness_texture},
+    {"anisotropyTexture", false, nullptr, &MaterialLayers::anisotropy_texture},
+    {"iridescenceTexture", false, nullptr, &MaterialLayers::iridescence_texture},
+    {"iridescenceThicknessTexture", false, nullptr, &MaterialLayers::film_thickness_texture},
+    {"transmissionTexture", false, nullptr, &MaterialLayers::transmission_texture},
+    {"diffuseTransmissionTexture", false, nullptr, &MaterialLayers::diffuse_transmission_texture},
+    {"diffuseTransmissionColorTexture",
+     true,
+     nullptr,
+     &MaterialLayers::diffuse_transmission_color_texture},
+}};
 
 MaterialTable make_material_table(const Document& document) {
     MaterialTable table;
     table.rows.emplace_back();
+    table.layers.emplace_back();
+    table.layered.push_back(0);
     table.names.emplace_back("default material");
     table.numbers.push_back(-1);
     for (const GltfMaterial& material : document.materials) {
         table.rows.push_back(material.values);
+        table.layers.push_back(material.layers.value_or(MaterialLayers{}));
+        table.layered.push_back(material.layers ? 1 : 0);
         table.names.push_back(material.name);
         table.numbers.push_back(static_cast<int32_t>(table.numbers.size()) - 1);
     }
@@ -44,12 +52,12 @@ int material_row(
     const size_t own = static_cast<size_t>(material) + 1;
     uint32_t lost = 0;
     std::string lost_names;
-    const auto slots = slots_of(std::as_const(table.rows[own]));
     for (size_t i = 0; i < slot_count; ++i) {
-        if (slots[i]->texture < 0 || (uv_sets >> slots[i]->uv_set & 1U) != 0) continue;
+        const TextureSlot& slot = *slot_of(i, table.rows[own], table.layers[own]);
+        if (slot.texture < 0 || (uv_sets >> slot.uv_set & 1U) != 0) continue;
         lost |= 1U << i;
-        lost_names += std::string(lost_names.empty() ? "" : ", ") + slot_names[i] + " (TEXCOORD_" +
-                      std::to_string(slots[i]->uv_set) + ")";
+        lost_names += std::string(lost_names.empty() ? "" : ", ") + slot_rows[i].name +
+                      " (TEXCOORD_" + std::to_string(slot.uv_set) + ")";
     }
     int row = static_cast<int>(own);
     if (lost != 0) {
@@ -58,11 +66,13 @@ int material_row(
         row = entry->second;
         if (is_new) {
             Material copy = table.rows[own];
-            const auto copied = slots_of(copy);
+            MaterialLayers layers = table.layers[own];
             for (size_t i = 0; i < slot_count; ++i) {
-                if ((lost >> i & 1U) != 0) *copied[i] = TextureSlot{};
+                if ((lost >> i & 1U) != 0) *slot_of(i, copy, layers) = TextureSlot{};
             }
             table.rows.push_back(copy);
+            table.layers.push_back(layers);
+            table.layered.push_back(table.layered[own]);
             table.names.push_back(table.names[own]);
             table.numbers.push_back(material);
             table.used.push_back(0);
@@ -74,6 +84,18 @@ int material_row(
     }
     table.used[static_cast<size_t>(row)] = 1;
     return row;
+}
+
+void move_materials(MaterialTable& table, Scene& scene) {
+    for (size_t row = 0; row < table.rows.size(); ++row) {
+        if (table.layered[row] == 0) continue;
+        table.rows[row].layers = static_cast<int32_t>(scene.layers.size());
+        scene.layers.push_back(table.layers[row]);
+    }
+    number_media(scene);
+    scene.materials = std::move(table.rows);
+    scene.material_names = std::move(table.names);
+    scene.material_numbers = std::move(table.numbers);
 }
 
 }  // namespace obscura

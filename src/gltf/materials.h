@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gltf/document.h"
+#include "scene/scene.h"
 
 #include <array>
 #include <cstdint>
@@ -13,21 +14,29 @@
 
 namespace obscura {
 
-/// The four slots of a material, in one order everywhere.
-///
-/// To add a slot: append it here and in Material, and say in slot_is_color what its texels are.
-inline constexpr size_t slot_count = 4;
-std::array<TextureSlot*, slot_count> slots_of(Material& material);
-std::array<const TextureSlot*, slot_count> slots_of(const Material& material);
+/// A texture slot of Material (core) or of MaterialLayers (layer).
+struct SlotRow {
+    const char* name;  ///< in glTF
+    bool color;        ///< texels are sRGB-encoded colours, else data
+    TextureSlot Material::*core;
+    TextureSlot MaterialLayers::*layer;
+};
 
-/// True where texels are sRGB-encoded colours, false where they are data.
-constexpr bool slot_is_color(size_t slot) {
-    return slot == 0 || slot == 3;
+/// All slots, in one order everywhere. To add a slot: append it here and in its struct.
+inline constexpr size_t slot_count = 4 + layer_slot_count;
+extern const std::array<SlotRow, slot_count> slot_rows;
+
+template <typename CoreRow, typename LayerRow>
+auto* slot_of(size_t slot, CoreRow& material, LayerRow& layers) {
+    const SlotRow& row = slot_rows[slot];
+    return row.core != nullptr ? &(material.*row.core) : &(layers.*row.layer);
 }
 
 /// Rows as in Scene::materials while meshes are read; slots still hold glTF texture numbers.
 struct MaterialTable {
     std::vector<Material> rows;
+    std::vector<MaterialLayers> layers;  ///< one a row; defaults where it has none
+    std::vector<char> layered;           ///< whether it has any
     std::vector<std::string> names;
     std::vector<int32_t> numbers;  ///< in glTF, -1: the default material
     std::vector<char> used;        ///< by a primitive that is drawn
@@ -42,5 +51,8 @@ MaterialTable make_material_table(const Document& document);
 /// set is absent are taken away, with one warning for each combination.
 int material_row(
     MaterialTable& table, const Document& document, int material, uint32_t uv_sets, Log& log);
+
+/// Hands rows and names over to the scene, and layers to those rows that have any.
+void move_materials(MaterialTable& table, Scene& scene);
 
 }  // namespace obscura

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/mesh_part.h"
 
+#include "gltf/materials.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -242,7 +244,7 @@ Result<void> read_attributes(PartReader& reader, MeshPart& part, const MaterialN
         if ((needs.uv_sets >> set & 1U) != 0)
             done = read(primitive.uv[set], uv_rule, part.uvs[set]);
     }
-    const bool tangents_count = needs.normal_map.texture >= 0 && !part.normals.empty();
+    const bool tangents_count = needs.tangents && !part.normals.empty();
     if (done && tangents_count) done = read(primitive.tangent, tangent_rule, part.tangents);
     if (!done) return done;
     if (primitive.tangent >= 0 && primitive.normal < 0) {
@@ -310,14 +312,23 @@ std::string_view mesh_issue_text(MeshIssue issue) {
 MaterialNeeds material_needs(const Document& document, int material) {
     MaterialNeeds needs;
     if (material < 0) return needs;
-    const Material& values = document.materials[static_cast<size_t>(material)].values;
-    for (const TextureSlot* slot : {&values.base_color_texture,
-                                    &values.metallic_roughness_texture,
-                                    &values.normal_texture,
-                                    &values.emissive_texture}) {
-        if (slot->texture >= 0) needs.uv_sets |= 1U << slot->uv_set;
+    const GltfMaterial& from = document.materials[static_cast<size_t>(material)];
+    const MaterialLayers layers = from.layers.value_or(MaterialLayers{});
+    for (size_t i = 0; i < slot_count; ++i) {
+        const TextureSlot& slot = *slot_of(i, from.values, layers);
+        if (slot.texture >= 0) needs.uv_sets |= 1U << slot.uv_set;
     }
-    needs.normal_map = values.normal_texture;
+    for (const TextureSlot* slot : {&from.values.normal_texture,
+                                    &layers.clearcoat_normal_texture,
+                                    &layers.anisotropy_texture}) {
+        if (slot->texture < 0 || needs.tangents) continue;
+        needs.tangents = true;
+        needs.normal_map = *slot;
+    }
+    if (layers.anisotropy > 0.0F) {  // without a texture the tangents follow TEXCOORD_0
+        needs.tangents = true;
+        needs.uv_sets |= 1U << needs.normal_map.uv_set;
+    }
     return needs;
 }
 

@@ -37,7 +37,8 @@ constexpr uint32_t issue_bit(MeshIssue issue) {
 /// Which optional attributes a material needs.
 struct MaterialNeeds {
     uint32_t uv_sets = 0;    ///< bit n: TEXCOORD_n is looked up
-    TextureSlot normal_map;  ///< texture -1: no tangents are needed
+    bool tangents = false;   ///< a normal map or an anisotropic highlight needs them
+    TextureSlot normal_map;  ///< whose coordinates they follow
 };
 
 MaterialNeeds material_needs(const Document& document, int material);

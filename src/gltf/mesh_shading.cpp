@@ -172,8 +172,8 @@ std::vector<float> transformed_uvs(const std::vector<float>& uvs, const TextureS
 
 void finish_shading(MeshPart& part, const MaterialNeeds& needs) {
     if (!part.normals.empty()) repair_normals(part);
-    const bool has_map = needs.normal_map.texture >= 0 &&
-                         !part.uvs[static_cast<size_t>(needs.normal_map.uv_set)].empty();
+    const bool has_map =
+        needs.tangents && !part.uvs[static_cast<size_t>(needs.normal_map.uv_set)].empty();
     if (!has_map) {
         part.tangents.clear();
         return;

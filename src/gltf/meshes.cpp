@@ -121,7 +121,7 @@ void MeshBuilder::reserve(const std::vector<PartJob>& jobs) {
             document().accessors[static_cast<size_t>(primitive.position)].count, triangles * 3);
         const MaterialNeeds needs = material_needs(document(), primitive.material);
         const int sets = __builtin_popcount(needs.uv_sets);
-        const int tangents = needs.normal_map.texture >= 0 ? 4 : 0;
+        const int tangents = needs.tangents ? 4 : 0;
         const int width =
             2 * sets + tangents + (primitive.normal >= 0 ? 3 : 0) + (primitive.color >= 0 ? 4 : 0);
         vertices += count;

@@ -97,11 +97,11 @@ void TextureBuilder::find_uses() {
         scene_.info.images[i].name = document().images[i].name;
     }
     for (size_t row = 0; row < materials_.rows.size(); ++row) {
-        const auto slots = slots_of(std::as_const(materials_.rows[row]));
-        for (size_t slot = 0; slot < slot_count; ++slot) {
-            if (slots[slot]->texture < 0) continue;
-            const size_t image = static_cast<size_t>(texture(slots[slot]->texture).image);
-            const bool color = slot_is_color(slot);
+        for (size_t i = 0; i < slot_count; ++i) {
+            const TextureSlot& slot = *slot_of(i, materials_.rows[row], materials_.layers[row]);
+            if (slot.texture < 0) continue;
+            const size_t image = static_cast<size_t>(texture(slot.texture).image);
+            const bool color = slot_rows[i].color;
             ImageInfo& info = scene_.info.images[image];
             (color ? info.used_as_color : info.used_as_data) = true;
             if (materials_.used[row] != 0) images_[image].uses[color ? 1 : 0].used = true;
@@ -221,11 +221,10 @@ int TextureBuilder::row_for(const TextureSlot& slot, bool srgb) {
 
 void TextureBuilder::resolve_slots() {
     for (size_t row = 0; row < materials_.rows.size(); ++row) {
-        const auto slots = slots_of(materials_.rows[row]);
-        for (size_t slot = 0; slot < slot_count; ++slot) {
-            if (materials_.used[row] == 0) *slots[slot] = TextureSlot{};
-            if (slots[slot]->texture < 0) continue;
-            slots[slot]->texture = row_for(*slots[slot], slot_is_color(slot));
+        for (size_t i = 0; i < slot_count; ++i) {
+            TextureSlot& slot = *slot_of(i, materials_.rows[row], materials_.layers[row]);
+            if (materials_.used[row] == 0) slot = TextureSlot{};
+            if (slot.texture >= 0) slot.texture = row_for(slot, slot_rows[i].color);
         }
     }
 }

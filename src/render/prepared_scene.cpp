@@ -89,6 +89,8 @@ SceneView PreparedScene::Impl::view() const {
         out.spheres = scene.spheres.empty() ? nullptr : scene.spheres.data();
     }
     out.materials = reinterpret_cast<const float*>(scene.materials.data());
+    out.layers = reinterpret_cast<const float*>(scene.layers.data());
+    out.media = scene.media.size() > 1 ? scene.media.front().absorption : nullptr;
     out.material_numbers = scene.material_numbers.data();
     out.textures = {scene.textures.texels.data(),
                     reinterpret_cast<const int32_t*>(scene.textures.rows.data())};

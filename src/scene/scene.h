@@ -9,7 +9,7 @@
 #include "scene/texture_arena.h"
 #include "shape/shape_row.h"
 #include "shape/sphere_block.h"
-#include "surface/material.h"
+#include "surface/material_layers.h"
 
 #include <cstdint>
 #include <string>
@@ -87,6 +87,12 @@ struct SceneCamera {
     CameraSettings settings = {};  ///< from OBSCURA_camera
 };
 
+/// What fills a body; read as four words.
+struct Medium {
+    float absorption[3] = {0, 0, 0};  ///< 1/m, by channel
+    float ior = 1;
+};
+
 struct Bounds {
     Vec3f low = {INFINITY, INFINITY, INFINITY};
     Vec3f high = {-INFINITY, -INFINITY, -INFINITY};
@@ -109,7 +115,9 @@ struct Scene {
     int32_t world_primitive_count = 0;
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
-    std::vector<Material> materials;  ///< never empty: row 0 exists for primitives without one
+    std::vector<Material> materials;     ///< never empty: row 0 exists for primitives without one
+    std::vector<MaterialLayers> layers;  ///< of the materials that have any; see Material::layers
+    std::vector<Medium> media = {Medium{}};  ///< by MaterialLayers::medium; 0 is air
     std::vector<std::string> material_names;
     /// glTF material of each row, -1: none. A material has several rows where some primitives lack
     /// the texture coordinates that it wants.

@@ -71,6 +71,38 @@ OBSCURA_INLINE void draw_ahead(const SceneView& scene,
         draw_environment_column(scene.environment, draws[g]);
 }
 
+/// The material's value for a direction, and the density with which sample_point chooses it.
+OBSCURA_INLINE BsdfValue<Lanes> evaluate_point(const ShadingPoint& s,
+                                               const Vec3<Lanes>& wo,
+                                               const Vec3<Lanes>& wi) {
+    const BsdfValue<Lanes> core = evaluate_bsdf(s.bsdf, s.lobes, wo, wi);
+    if (!s.any_layers) return core;
+    const LayeredPoint& l = s.layers;
+    const BsdfValue<Lanes> all = evaluate_layered(l.params, l.weights, wo, wi);
+    return {select(l.layered, all.value_cos, core.value_cos), select(l.layered, all.pdf, core.pdf)};
+}
+
+OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
+                                              const Vec3<Lanes>& wo,
+                                              const Vec2<Lanes>& u) {
+    const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, u);
+    if (!s.any_layers) return core;
+    const LayeredPoint& l = s.layers;
+    const BsdfSample<Lanes> all = sample_layered(l.params, l.weights, wo, u);
+    return {select(l.layered, all.direction, core.direction),
+            {select(l.layered, all.at.value_cos, core.at.value_cos),
+             select(l.layered, all.at.pdf, core.at.pdf)},
+            select(l.layered, all.spread, core.spread)};
+}
+
+/// Whether a ray may leave on the side that its direction has of the true surface (`before`: the
+/// viewer's): where light goes through, the shading normal must put it on the same side.
+OBSCURA_INLINE Mask may_leave(const ShadingPoint& s, Mask before, const Vec3<Lanes>& wi) {
+    if (!s.any_layers) return before;
+    const Mask through = s.layers.lets_through & (!before) & (wi.z < Lanes(0.0f));
+    return (before & (wi.z > Lanes(0.0f))) | through;
+}
+
 /// Light that the hit surfaces send towards the viewer themselves.
 OBSCURA_INLINE void add_emission(const SceneView& scene,
                                  const BatchSettings& batch,
@@ -113,9 +145,10 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
     const LightLanes light = sample_light(scene, s, random.light);
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
-    Mask useful = active & light.valid & (dot(light.direction, s.ng) > Lanes(0.0f));
+    const Mask before = dot(light.direction, s.ng) > Lanes(0.0f);
+    Mask useful = active & light.valid & may_leave(s, before, wi);
     if (none(useful)) return at;
-    const BsdfValue<Lanes> bsdf = evaluate_bsdf(s.bsdf, s.lobes, wo, wi);
+    const BsdfValue<Lanes> bsdf = evaluate_point(s, wo, wi);
     const bool both = batch.strategies == (sample_lights | sample_bsdfs);
     const Lanes weight =
         both ? select(light.pdf > Lanes(0.0f), mis_weight(light.pdf, bsdf.pdf), Lanes(1.0f))
@@ -124,11 +157,13 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
         path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
+    const Vec3<Lanes> start =
+        s.any_layers ? select(before, s.light_start, s.start_beyond) : s.light_start;
     return append_shadows(
         rows,
         at,
         useful,
-        {s.light_start, light.direction, light.distance, radiance, path.slot, path.path_key});
+        {start, light.direction, light.distance, radiance, path.slot, path.path_key});
 }
 
 /// Probability of going on after a bounce; the survivors are divided by it.
@@ -147,9 +182,10 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
                                  int bounce,
                                  Lanes distance) {
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
-    const BsdfSample<Lanes> sample = sample_bsdf(s.bsdf, s.lobes, wo, random.bsdf);
+    const BsdfSample<Lanes> sample = sample_point(s, wo, random.bsdf);
     const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
-    Mask goes_on = active & (sample.at.pdf > Lanes(0.0f)) & (dot(direction, s.ng) > Lanes(0.0f));
+    const Mask before = dot(direction, s.ng) > Lanes(0.0f);
+    Mask goes_on = active & (sample.at.pdf > Lanes(0.0f)) & may_leave(s, before, sample.direction);
     if (none(goes_on)) return at;
     const Vec3<Lanes> weight =
         sample.at.value_cos * (Lanes(1.0f) / max(sample.at.pdf, Lanes(1e-30f)));
@@ -167,7 +203,40 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
     next.key = path.key;
     next.sample = path.sample;
     next.path_key = path.path_key;
+    next.bodies = path.bodies;
+    if (s.any_layers) {
+        const Mask passes = goes_on & (!before);
+        next.origin = select(passes, s.start_beyond, next.origin);
+        // A path that was given a wavelength keeps it, reflected or not.
+        const LanesU reflected = path.bodies | (s.layers.boundary.beyond & LanesU(one_wavelength));
+        next.bodies = select(passes, s.layers.boundary.beyond, reflected);
+    }
     return append_paths(rows, at, goes_on, next);
+}
+
+/// Rays go straight on where a body ends inside a denser one that fills the place.
+OBSCURA_INLINE int add_passing_rays(const PathRows& rows,
+                                    int at,
+                                    Mask active,
+                                    const PathLanes& path,
+                                    const ShadingPoint& s,
+                                    Lanes distance) {
+    const Mask passes = active & s.layers.layered & s.layers.boundary.hidden;
+    if (none(passes)) return at;
+    PathLanes next = path;
+    next.origin = s.start_beyond;
+    next.bodies = s.layers.boundary.beyond;
+    next.pdf = Lanes(0.0f);  // light sampling did not see through the surface
+    next.cone_width = path.cone_width + path.cone_spread * distance;
+    return append_paths(rows, at, passes, next);
+}
+
+/// Takes from the paths what the bodies that they came through absorb.
+OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, PathLanes& path) {
+    const Mask inside = exists & (filling_body(path.bodies) > LanesI(0));
+    if (none(inside)) return;
+    const LanesU bodies = select(inside, path.bodies, LanesU(0U));
+    path.throughput = path.throughput * transmittance(scene, bodies, distance);
 }
 
 /// Environment light along a ray that the BSDF chose with density `pdf`, with the MIS weight of
@@ -243,14 +312,20 @@ ShadeCounts shade(const SceneView& scene,
             draw_ahead(scene, rows.paths, bounce, i, min(groups, groups_ahead), draws);
         }
         const Mask exists = rows_in_range(i, sorted.hits);
-        const PathLanes path = load_paths(rows.paths, i);
+        PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_or_first(rows.hits, i, exists);
+        if (scene.media != nullptr) absorb(scene, exists, hit.t, path);
         const BounceRandom random = bounce_random(path, bounce, scene.lights.count, draws[group]);
         const ShadingPoint s =
             shading_point(scene, hit, path, random.texture, Filtering::stochastic);
+        if (s.any_layers) path.throughput = path.throughput * s.layers.tint;
         add_emission(scene, batch, rows, exists, path, s, hit.t);
-        const Mask scatters = exists & (!s.unlit);
+        Mask scatters = exists & (!s.unlit);
         if (bounce > batch.max_bounces || none(scatters)) continue;
+        if (s.any_layers) {
+            out.next = add_passing_rays(rows.next, out.next, scatters, path, s, hit.t);
+            scatters = scatters & (!(s.layers.layered & s.layers.boundary.hidden));
+        }
         out.next = add_next_rays(rows.next, out.next, scatters, path, s, random, bounce, hit.t);
         if (scene.lights.count > 0) {
             out.shadow =

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "stages/3_textures.h"
-#include "surface/bsdf.h"
+#include "stages/3_layers.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -20,6 +19,9 @@ struct ShadingPoint {
     Vec3<Lanes> emission;
     Mask unlit;
     LanesI light;  ///< row in the triangle light table, -1: none
+    bool any_layers = false;
+    LayeredPoint layers;       ///< where any_layers
+    Vec3<Lanes> start_beyond;  ///< of rays that leave on the other side; where any_layers
 };
 
 /// The textures that every hit reads.
@@ -36,55 +38,14 @@ OBSCURA_INLINE FoundSlots find_slots(const SceneView& scene,
             find_slot(scene, g, base_color_slot, look, common)};
 }
 
-/// Bends a normal until the mirror image of `wo` lies above the surface: no black fringes.
-OBSCURA_INLINE Vec3<Lanes> bend_towards_viewer(const Vec3<Lanes>& n,
-                                               const Vec3<Lanes>& ng,
-                                               const Vec3<Lanes>& wo) {
-    const Vec3<Lanes> mirrored = n * (Lanes(2.0f) * dot(n, wo)) - wo;
-    const Lanes height = dot(mirrored, ng);
-    const Lanes needed = min(Lanes(0.01f), dot(wo, ng) * Lanes(0.9f));
-    const Vec3<Lanes> raised = normalize(mirrored + ng * (needed - height));
-    return select(height < needed, normalize(wo + raised), n);
-}
-
 OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
-                                            const HitLanes& hit,
                                             const HitGeometry& g,
+                                            const TangentLanes& tangents,
                                             const LookUp& look,
                                             const FoundSlot& slot) {
     if (none(slot.used)) return g.normal;
-    const LanesI tangent_base = g.primitive.integer(4);
-    const Mask mapped = slot.used & (tangent_base != LanesI(no_attribute));
-    Vec3<Lanes> tangent[3];
-    Lanes handedness = Lanes(1.0f);
-    for (int k = 0; k < 3; ++k) {
-        const LanesI word = select(mapped, tangent_base + g.corner[k] * LanesI(4), LanesI(0));
-        const Four<Lanes> words = gather4<Lanes>(scene.attributes, word);
-        tangent[k] = {words.x, words.y, words.z};
-        if (k == 0) handedness = words.w;
-    }
-    Vec3<Lanes> t = weighted(g, tangent);
-    const Mask instanced = mapped & (hit.instance >= LanesI(0));
-    if (any(instanced)) {
-        const TableRow<Lanes> instance = instance_row(scene, hit);
-        t = select(instanced, transform_vector(read_affine(instance, 0), t), t);
-        const Mask mirrored = instanced & (instance.integer(26) != LanesI(0));
-        handedness = select(mirrored, -handedness, handedness);
-    }
-    if (g.has_shapes) {
-        t = select(g.shapes, g.dpdu, t);
-        const Mask turned = dot(cross(g.normal, g.dpdu), g.dpdv) > Lanes(0.0f);
-        handedness = select(g.shapes, select(turned, Lanes(-1.0f), Lanes(1.0f)), handedness);
-    }
-    t = normalize(t - g.normal * dot(t, g.normal));
-    const Vec3<Lanes> b = cross(g.normal, t) * handedness;
     const Rgba<Lanes> texel = read_slot(scene, g, slot, look);
-    const Lanes scale = g.material.number(6);
-    const Lanes x = (texel.rgb.x * Lanes(2.0f) - Lanes(1.0f)) * scale;
-    const Lanes y = (texel.rgb.y * Lanes(2.0f) - Lanes(1.0f)) * scale;
-    const Lanes z = texel.rgb.z * Lanes(2.0f) - Lanes(1.0f);
-    const Vec3<Lanes> n = normalize(t * x + b * y + g.normal * z);
-    return select(mapped & (dot(n, n) > Lanes(0.5f)), n, g.normal);
+    return tilt_normal(tangents, slot.used, g.normal, texel.rgb, g.material.number(6));
 }
 
 OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
@@ -149,11 +110,24 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     s.ng = select(front, g.ng, -g.ng);
     s.start = g.position + s.ng * g.offset;
     s.light_start = s.start + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
-    const Vec3<Lanes> n = apply_normal_map(scene, hit, g, look, slots.normal);
+    const LanesI layers_row = g.material.integer(layers_word);
+    const Mask layered = layers_row >= LanesI(0);
+    const TangentLanes tangents = read_tangents(scene, hit, g, slots.normal.used | layered);
+    const Vec3<Lanes> n = apply_normal_map(scene, g, tangents, look, slots.normal);
     s.normal = select(dot(n, s.ng) < Lanes(0.0f), -n, n);
     s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, wo));
     s.bsdf = bsdf_params(scene, g, look, slots);
     s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, wo));
+    s.any_layers = filtering == Filtering::stochastic && any(layered);
+    if (s.any_layers) {
+        const Vec3<Lanes> smooth = select(dot(g.normal, s.ng) < Lanes(0.0f), -g.normal, g.normal);
+        LayerPlace place{tangents, s.frame, smooth, s.ng, wo, front, layered};
+        const LayerReader reader(scene, g, look, layered);
+        s.layers = read_layered_point(reader, scene, path, s.bsdf, place);
+        s.frame.tangent = select(layered, place.frame.tangent, s.frame.tangent);
+        s.frame.bitangent = select(layered, place.frame.bitangent, s.frame.bitangent);
+        s.start_beyond = g.position - s.ng * g.offset;
+    }
     s.unlit = has_bits<Lanes>(flags, material_unlit);
 
     s.emission = read3(g.material, 8);

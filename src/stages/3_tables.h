@@ -13,12 +13,15 @@ inline namespace OBSCURA_ISA {
 inline constexpr int primitive_words = static_cast<int>(sizeof(Primitive) / 4);
 inline constexpr int instance_words = static_cast<int>(sizeof(Instance) / 4);
 inline constexpr int material_words = static_cast<int>(sizeof(Material) / 4);
+inline constexpr int layers_words = static_cast<int>(sizeof(MaterialLayers) / 4);
 inline constexpr int slot_words = static_cast<int>(sizeof(TextureSlot) / 4);
 
 /// First word of a TextureSlot in a Material.
-inline constexpr int base_color_slot = 12;
+inline constexpr int base_color_slot = 13;
 inline constexpr int metallic_roughness_slot = base_color_slot + slot_words;
 inline constexpr int normal_slot = metallic_roughness_slot + slot_words;
+inline constexpr int layers_word = 12;
+static_assert(offsetof(Material, layers) == layers_word * 4);
 inline constexpr int emissive_slot = normal_slot + slot_words;
 static_assert(offsetof(Material, base_color_texture) == base_color_slot * 4);
 static_assert(offsetof(Material, emissive_texture) == emissive_slot * 4);

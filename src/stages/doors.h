@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 //   door         bytes/row  written by        read by
-//   PathRows            64  camera, shade     intersect, shade
+//   PathRows            68  camera, shade     intersect, shade
 //   HitRows             24  intersect         shade
 //   MissRows            32  shade (sort)      shade (miss)
 //   ShadowRows          48  shade             shadow, accumulate
@@ -35,6 +35,7 @@ struct PathRows {
     uint32_t* key;       ///< of the pixel's random numbers
     uint32_t* sample;    ///< sample number, bits reversed
     uint32_t* path_key;  ///< of the path: decides at alpha BLEND surfaces
+    uint32_t* bodies;    ///< what the ray travels in, see stages/3_media.h
 };
 
 using HitRows = HitColumns;
@@ -62,7 +63,7 @@ struct SampleRows {
     float *r, *g, *b, *a;
 };
 
-inline constexpr int words_per_path = 16, words_per_hit = 6, words_per_miss = 8,
+inline constexpr int words_per_path = 17, words_per_hit = 6, words_per_miss = 8,
                      words_per_shadow = 12, words_per_sample = 4;
 static_assert(sizeof(PathRows) == words_per_path * sizeof(void*));
 static_assert(sizeof(HitRows) == words_per_hit * sizeof(void*));
@@ -80,6 +81,8 @@ struct SceneView {
     const int32_t* primitives = nullptr;        ///< Primitive as words
     const float* instances = nullptr;           ///< Instance as words
     const float* materials = nullptr;           ///< Material as words
+    const float* layers = nullptr;              ///< MaterialLayers as words
+    const float* media = nullptr;               ///< Medium as words; null: no body has a volume
     const int32_t* material_numbers = nullptr;  ///< in glTF, by row; -1: none
     TextureView textures;
     LightView lights;

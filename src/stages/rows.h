@@ -27,7 +27,7 @@ OBSCURA_INLINE Mask rows_in_range(int first, int count) {
 struct PathLanes {
     Vec3<Lanes> origin, direction, throughput;
     Lanes pdf, cone_width, cone_spread;
-    LanesU slot, key, sample, path_key;
+    LanesU slot, key, sample, path_key, bodies;
 };
 
 OBSCURA_INLINE PathLanes load_paths(const PathRows& rows, int i) {
@@ -40,7 +40,8 @@ OBSCURA_INLINE PathLanes load_paths(const PathRows& rows, int i) {
             load(rows.slot + i),
             load(rows.key + i),
             load(rows.sample + i),
-            load(rows.path_key + i)};
+            load(rows.path_key + i),
+            load(rows.bodies + i)};
 }
 
 OBSCURA_INLINE Vec3<Lanes> pack(const Packer& packer, const Vec3<Lanes>& v) {
@@ -68,6 +69,7 @@ OBSCURA_INLINE int append_paths(const PathRows& rows, int at, Mask mask, const P
     store(rows.key + at, pack(packer, p.key));
     store(rows.sample + at, pack(packer, p.sample));
     store(rows.path_key + at, pack(packer, p.path_key));
+    store(rows.bodies + at, pack(packer, p.bodies));
     return at + count(mask);
 }
 

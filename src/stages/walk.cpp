@@ -35,7 +35,7 @@ private:
 
 void carve_paths(Carver& carve, PathRows& p) {
     carve.all(p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, p.tr, p.tg, p.tb);
-    carve.all(p.pdf, p.cone_width, p.cone_spread, p.slot, p.key, p.sample, p.path_key);
+    carve.all(p.pdf, p.cone_width, p.cone_spread, p.slot, p.key, p.sample, p.path_key, p.bodies);
 }
 
 RayColumns rays_of(const PathRows& p, int count) {

@@ -1,4 +1,4 @@
-// surface/albedo_table.h - how much of a white sky the GGX lobe reflects, by angle and roughness.
+// surface/albedo_table.h - how much of a white sky a lobe reflects, by angle and roughness.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,6 +14,8 @@ inline constexpr int albedo_roughnesses = 32;
 /// f0 at normal incidence is f0 * scale + bias.
 extern const float specular_albedo_scale[albedo_cosines * albedo_roughnesses];
 extern const float specular_albedo_bias[albedo_cosines * albedo_roughnesses];
+/// Of the Charlie lobe (surface/sheen.h) with a white colour.
+extern const float sheen_albedo_table[albedo_cosines * albedo_roughnesses];
 
 inline namespace OBSCURA_ISA {
 

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "math/warp.h"
 #include "surface/albedo_table.h"
+#include "surface/fresnel.h"
+#include "surface/ggx.h"
 
 namespace obscura {
 
@@ -59,14 +60,6 @@ OBSCURA_INLINE F smith_denominator(const F& cosine, const F& alpha) {
     return cosine + sqrt(a2 + (F(1.0f) - a2) * cosine * cosine);
 }
 
-/// Schlick's (1 - cos)^5.
-template <typename F>
-OBSCURA_INLINE F schlick_weight(const F& cosine) {
-    const F m = clamp(F(1.0f) - cosine, F(0.0f), F(1.0f));
-    const F m2 = m * m;
-    return m2 * m2 * m;
-}
-
 /// How the lobes share the light, for one view direction.
 template <typename F>
 OBSCURA_INLINE LobeWeights<F> lobe_weights(const BsdfParams<F>& p, const F& cos_o) {
@@ -119,19 +112,6 @@ OBSCURA_INLINE BsdfValue<F> evaluate_bsdf(const BsdfParams<F>& p,
     return evaluate_bsdf(p, lobe_weights(p, wo.z), wo, wi);
 }
 
-/// A microfacet normal as seen from wo.
-/// Source  Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023
-template <typename F>
-OBSCURA_INLINE Vec3<F> sample_visible_normal(const Vec3<F>& wo, const F& alpha, const Vec2<F>& u) {
-    const Vec3<F> stretched = normalize(Vec3<F>{wo.x * alpha, wo.y * alpha, wo.z});
-    const SinCos<F> turn = sin_cos_turn(u.x);
-    const F z = (F(1.0f) - u.y) * (F(1.0f) + stretched.z) - stretched.z;
-    const F radius = sqrt(max(F(1.0f) - z * z, F(0.0f)));
-    const Vec3<F> cap{radius * turn.cos, radius * turn.sin, z};
-    const Vec3<F> h = cap + stretched;
-    return normalize(Vec3<F>{h.x * alpha, h.y * alpha, max(h.z, F(0.0f))});
-}
-
 /// Chooses wi for a given wo (wo.z > 0). pdf 0 means that the path ends: below the horizon.
 ///
 /// u.x first picks the lobe and is then stretched back over [0, 1): points that are spread evenly
@@ -146,7 +126,7 @@ OBSCURA_INLINE BsdfSample<F> sample_bsdf(const BsdfParams<F>& p,
     const F begin = select(specular, F(0.0f), lobes.specular_probability);
     const F end = select(specular, lobes.specular_probability, F(1.0f));
     const Vec2<F> stretched{clamp((u.x - begin) / (end - begin), F(0.0f), one_below), u.y};
-    const Vec3<F> h = sample_visible_normal(wo, p.alpha, stretched);
+    const Vec3<F> h = sample_visible_normal(wo, {p.alpha, p.alpha}, stretched);
     const Vec3<F> mirrored = h * (F(2.0f) * dot(wo, h)) - wo;
     const Vec3<F> wi = select(specular, mirrored, cosine_hemisphere(stretched));
     return {wi, evaluate_bsdf(p, lobes, wo, wi), select(specular, F(0.5f) * p.alpha, F(0.4f))};

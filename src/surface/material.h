@@ -29,8 +29,7 @@ enum MaterialFlag : uint32_t {
 /// One glTF material. A table of these is read word by word by the shading lanes, so every member
 /// is 32 bits wide and there is no padding.
 ///
-/// To add a lobe: append its factors here, its texture slots below the others, read them in
-/// gltf/materials.cpp, and evaluate them in surface/bsdf.h.
+/// To add a lobe: see surface/material_layers.h.
 struct Material {
     float base_color[4] = {1, 1, 1, 1};  ///< linear Rec.709 and alpha
     float metallic = 1;
@@ -39,12 +38,13 @@ struct Material {
     float alpha_cutoff = 0.5f;
     float emission[3] = {0, 0, 0};           ///< nits: emissiveFactor * emissiveStrength
     uint32_t flags = 0;                      ///< MaterialFlag bits
+    int32_t layers = -1;                     ///< row of Scene::layers, -1: the core material only
     TextureSlot base_color_texture;          ///< sRGB, alpha linear
     TextureSlot metallic_roughness_texture;  ///< G roughness, B metallic
     TextureSlot normal_texture;              ///< tangent space, +Y up
     TextureSlot emissive_texture;            ///< sRGB
 };
 
-static_assert(sizeof(Material) == (12 + 4 * 8) * 4, "gathered as 32-bit words: no padding");
+static_assert(sizeof(Material) == (13 + 4 * 8) * 4, "gathered as 32-bit words: no padding");
 
 }  // namespace obscura

@@ -49,8 +49,10 @@ TEST(Materials, DefaultsAreThoseOfGltf) {
     EXPECT_EQ(material.alpha_cutoff, 0.5f);
     EXPECT_THAT(material.emission, testing::Each(0.0f));
     EXPECT_EQ(material.flags, 0U);
-    for (const TextureSlot* slot : slots_of(material))
-        EXPECT_EQ(slot->texture, -1);
+    const MaterialLayers layers;
+    for (size_t slot = 0; slot < slot_count; ++slot)
+        EXPECT_EQ(slot_of(slot, material, layers)->texture, -1);
+    EXPECT_EQ(material.layers, -1);
 }
 
 TEST(Materials, FactorsAndFlags) {

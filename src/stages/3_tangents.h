@@ -1,0 +1,75 @@
+// stages/3_tangents.h - tangents at hits, and what normal maps do with them.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/3_textures.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+/// The directions in which texture coordinates grow, orthogonal to the smooth normal.
+struct TangentLanes {
+    Mask known;
+    Vec3<Lanes> tangent, bitangent;
+};
+
+/// In  wanted: lanes that have a use for tangents; the others are not known
+OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
+                                          const HitLanes& hit,
+                                          const HitGeometry& g,
+                                          Mask wanted) {
+    const LanesI base = g.primitive.integer(4);
+    TangentLanes out{wanted & (base != LanesI(no_attribute)), g.normal, g.normal};
+    if (none(out.known)) return out;
+    Vec3<Lanes> corners[3];
+    Lanes handedness = Lanes(1.0f);
+    for (int k = 0; k < 3; ++k) {
+        const LanesI word = select(out.known, base + g.corner[k] * LanesI(4), LanesI(0));
+        const Four<Lanes> words = gather4<Lanes>(scene.attributes, word);
+        corners[k] = {words.x, words.y, words.z};
+        if (k == 0) handedness = words.w;
+    }
+    Vec3<Lanes> t = weighted(g, corners);
+    const Mask instanced = out.known & (hit.instance >= LanesI(0));
+    if (any(instanced)) {
+        const TableRow<Lanes> instance = instance_row(scene, hit);
+        t = select(instanced, transform_vector(read_affine(instance, 0), t), t);
+        const Mask mirrored = instanced & (instance.integer(26) != LanesI(0));
+        handedness = select(mirrored, -handedness, handedness);
+    }
+    if (g.has_shapes) {
+        t = select(g.shapes, g.dpdu, t);
+        const Mask turned = dot(cross(g.normal, g.dpdu), g.dpdv) > Lanes(0.0f);
+        handedness = select(g.shapes, select(turned, Lanes(-1.0f), Lanes(1.0f)), handedness);
+    }
+    out.tangent = normalize(t - g.normal * dot(t, g.normal));
+    out.bitangent = cross(g.normal, out.tangent) * handedness;
+    return out;
+}
+
+/// A normal as a tangent-space texel says; where it says nothing usable it stays.
+OBSCURA_INLINE Vec3<Lanes> tilt_normal(const TangentLanes& tangents,
+                                       Mask used,
+                                       const Vec3<Lanes>& normal,
+                                       const Vec3<Lanes>& texel,
+                                       Lanes scale) {
+    const Lanes x = (texel.x * Lanes(2.0f) - Lanes(1.0f)) * scale;
+    const Lanes y = (texel.y * Lanes(2.0f) - Lanes(1.0f)) * scale;
+    const Lanes z = texel.z * Lanes(2.0f) - Lanes(1.0f);
+    const Vec3<Lanes> n = normalize(tangents.tangent * x + tangents.bitangent * y + normal * z);
+    return select(used & tangents.known & (dot(n, n) > Lanes(0.5f)), n, normal);
+}
+
+/// Bends a normal until the mirror image of `wo` lies above the surface: no black fringes.
+OBSCURA_INLINE Vec3<Lanes> bend_towards_viewer(const Vec3<Lanes>& n,
+                                               const Vec3<Lanes>& ng,
+                                               const Vec3<Lanes>& wo) {
+    const Vec3<Lanes> mirrored = n * (Lanes(2.0f) * dot(n, wo)) - wo;
+    const Lanes height = dot(mirrored, ng);
+    const Lanes needed = min(Lanes(0.01f), dot(wo, ng) * Lanes(0.9f));
+    const Vec3<Lanes> raised = normalize(mirrored + ng * (needed - height));
+    return select(height < needed, normalize(wo + raised), n);
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,60 @@
+// surface/material_layers.h - what glTF's material extensions add to a material, as 32-bit words.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "surface/material.h"
+
+namespace obscura {
+
+/// Factors and textures of the KHR_materials extensions that go beyond the core material. Only
+/// materials that use one have such a row (Material::layers); the defaults say "as the core does".
+/// Read word by word by the shading lanes: every member is 32 bits wide, there is no padding.
+///
+/// To add a lobe: append its factors here and its slots at the end, read them in
+/// gltf/material_extensions.cpp, name the slots in gltf/materials.h, turn both into LayeredParams
+/// in stages/3_layers.h, and evaluate them in surface/layered_bsdf.h.
+struct MaterialLayers {
+    float ior = 1.5f;  ///< KHR_materials_ior; 0: always reflects
+    float specular = 1;
+    float specular_color[3] = {1, 1, 1};
+    float clearcoat = 0;
+    float clearcoat_roughness = 0;  ///< perceptual
+    float clearcoat_normal_scale = 1;
+    float sheen_color[3] = {0, 0, 0};
+    float sheen_roughness = 0;    ///< perceptual
+    float anisotropy = 0;         ///< strength
+    float anisotropy_cosine = 1;  ///< of the rotation from the tangent, counter-clockwise
+    float anisotropy_sine = 0;
+    float iridescence = 0;
+    float iridescence_ior = 1.3f;
+    float film_thickness_nm[2] = {100,
+                                  400};  ///< where the texture is 0 and 1; without one: the second
+    float transmission = 0;
+    float diffuse_transmission = 0;
+    float diffuse_transmission_color[3] = {1, 1, 1};
+    float absorption[3] = {0, 0, 0};  ///< KHR_materials_volume: -ln(colour) / distance, 1/m
+    float dispersion = 0;             ///< 20 / Abbe number
+    /// 1 to most_media: bodies with a volume, the greater the index of refraction the greater the
+    /// number (see scene/media.h); 0: a thin wall.
+    int32_t medium = 0;
+    TextureSlot specular_texture;                    ///< A
+    TextureSlot specular_color_texture;              ///< sRGB
+    TextureSlot clearcoat_texture;                   ///< R
+    TextureSlot clearcoat_roughness_texture;         ///< G
+    TextureSlot clearcoat_normal_texture;            ///< tangent space
+    TextureSlot sheen_color_texture;                 ///< sRGB
+    TextureSlot sheen_roughness_texture;             ///< A
+    TextureSlot anisotropy_texture;                  ///< RG direction, B strength
+    TextureSlot iridescence_texture;                 ///< R
+    TextureSlot film_thickness_texture;              ///< G
+    TextureSlot transmission_texture;                ///< R
+    TextureSlot diffuse_transmission_texture;        ///< A
+    TextureSlot diffuse_transmission_color_texture;  ///< sRGB
+};
+
+inline constexpr int layer_slot_count = 13;
+inline constexpr int most_media = 255;
+
+static_assert(sizeof(MaterialLayers) == (29 + layer_slot_count * 8) * 4, "no padding");
+
+}  // namespace obscura
