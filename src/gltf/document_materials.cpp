@@ -180,6 +180,8 @@ void read_materials(DocumentReading& reading) {
         if (out.name.empty()) out.name = "material " + std::to_string(index);
         out.values = read_material_values(reading, material);
         out.layers = read_material_layers(reading, material);
+        // A body has an inside, and a camera in it must see where it ends.
+        if (out.layers && out.layers->medium != 0) out.values.flags |= material_double_sided;
         reading.document.materials.push_back(std::move(out));
     });
 }

@@ -41,6 +41,7 @@ constexpr std::array extension_rows = {
     ExtensionRow{"KHR_animation_pointer", false, "animations are not played"},
     ExtensionRow{"KHR_materials_pbrSpecularGlossiness", false, "the core material is used"},
     ExtensionRow{"KHR_materials_variants", false, "the default variant is drawn"},
+    ExtensionRow{"KHR_materials_volume_scatter", false, "light is not scattered inside"},
     ExtensionRow{"KHR_node_visibility", false, "hidden nodes are drawn"},
     ExtensionRow{"KHR_texture_basisu", false, "the PNG, JPEG or WebP fallback is read"},
     ExtensionRow{"KHR_xmp", false, "metadata are not copied"},

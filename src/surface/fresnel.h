@@ -115,7 +115,7 @@ OBSCURA_INLINE Vec3<F> film_reflectance(const F& cosine,
         return Vec3<F>{of(v.x), of(v.y), of(v.z)};
     };
     const Vec3<F> loop =
-        each(inner * outer, [](const F& r) { return clamp(r, F(1e-5f), F(0.9999f)); });
+        each(inner * outer, [](const F& r) { return clamp(r, F(0.0f), F(0.9999f)); });
     const Vec3<F> inverse = each(loop, [](const F& r) { return F(1.0f) / (F(1.0f) - r); });
     const Vec3<F> series = inner * inverse * (through * through);
     Vec3<F> sum = splat3(outer) + series;

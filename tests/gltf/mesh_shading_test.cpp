@@ -23,6 +23,7 @@ MeshPart square(float fold = 0) {
 MaterialNeeds normal_mapped() {
     MaterialNeeds needs;
     needs.uv_sets = 1;
+    needs.tangents = true;
     needs.normal_map.texture = 0;
     return needs;
 }

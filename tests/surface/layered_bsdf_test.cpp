@@ -1,0 +1,213 @@
+// tests/surface/layered_bsdf_test.cpp - the layers' energy, limits, symmetry and precision.
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/layered_bsdf.h"
+
+#include <gtest/gtest.h>
+
+#include "support/lane_rows.h"
+#include "support/layered_materials.h"
+
+namespace obscura {
+namespace {
+
+using namespace test;
+
+#ifdef OBSCURA_DEBUG
+constexpr int random_cases = 20000;
+constexpr int furnace_samples = 20000;
+#else
+constexpr int random_cases = 1000000;
+constexpr int furnace_samples = 200000;
+#endif
+
+/// What a white sky gives, by sampling, with its standard error.
+struct Furnace {
+    Vec3d mean{0, 0, 0};
+    double error = 0;
+};
+
+Furnace white_furnace(const LayeredParams<float>& p, const Vec3f& wo) {
+    Pcg32 random(5);
+    const LayeredWeights<float> weights = layered_weights(p, wo);
+    Furnace out;
+    double squares = 0;
+    for (int i = 0; i < furnace_samples; ++i) {
+        const float x = random.next_float();
+        const auto sample = sample_layered(p, weights, wo, Vec2f{x, random.next_float()});
+        if (!(sample.at.pdf > 0)) continue;
+        const Vec3f w = sample.at.value_cos * (1.0F / sample.at.pdf);
+        out.mean = out.mean + Vec3d{w.x, w.y, w.z};
+        squares += square(static_cast<double>(max_component(w)));
+    }
+    const double n = furnace_samples;
+    out.mean = out.mean * (1 / n);
+    const double most = max_component(out.mean);
+    out.error = std::sqrt(std::max(0.0, squares / n - most * most) / n);
+    return out;
+}
+
+TEST(Layers, WithoutAnyTheyAreTheCoreMaterial) {
+    Pcg32 random(1);
+    for (int n = 0; n < 20000; ++n) {
+        LayeredParams<double> p = convert<double>(plain_layers(0.01F + random.next_float()));
+        p.base_color = {0.3, 0.6, random.next_double()};
+        p.metallic = n % 3 == 0 ? 0.0 : random.next_double();
+        const BsdfParams<double> core{p.base_color, p.metallic, p.alpha.x};
+        const Vec3d wo = normalize(convert<double>(direction_above(random, 0.01F)));
+        const Vec3d wi = normalize(convert<double>(direction_above(random, 0.01F)));
+        const Vec3d here = evaluate_layered(p, layered_weights(p, wo), wo, wi).value_cos;
+        const Vec3d there = evaluate_bsdf(core, wo, wi).value_cos;
+        ASSERT_NEAR(here.x, there.x, 1e-6 * there.x) << n;
+        ASSERT_NEAR(here.z, there.z, 1e-6 * there.z) << n;
+    }
+}
+
+TEST(Layers, NoMixtureReflectsMoreThanArrives) {
+    Pcg32 random(2);
+    for (int n = 0; n < 150; ++n) {
+        const LayeredParams<float> p = random_layers(random, 0.01F);
+        const Vec3f wo = direction_above(random, 0.1F);
+        const Furnace sky = white_furnace(p, wo);
+        // Tables are interpolated; a thin film's own albedo is taken at the normal's angle.
+        const double slack = p.film.strength > 0 ? 0.03 : 0.006;
+        EXPECT_LT(max_component(sky.mean), 1 + slack + 3 * sky.error) << n << ", " << wo.z;
+    }
+}
+
+TEST(Layers, ClearSmoothGlassLosesNothing) {
+    for (const float eta : {0.0F, 1.5F, 1 / 1.5F, 2.4F, 1.05F}) {
+        for (const float cosine : {1.0F, 0.7F, 0.3F}) {
+            const Vec3f wo{std::sqrt(1 - cosine * cosine), 0, cosine};
+            const Furnace sky = white_furnace(clear_glass(min_ggx_alpha, eta), wo);
+            EXPECT_NEAR(sky.mean.y, 1, 0.005) << "eta " << eta << ", cosine " << cosine;
+        }
+    }
+}
+
+TEST(Layers, WhiteLeavesLoseNothing) {
+    LayeredParams<float> p = plain_layers(1);
+    p.diffuse_transmission = 0.4F;
+    const Furnace sky = white_furnace(p, {0.6F, 0, 0.8F});
+    EXPECT_NEAR(sky.mean.y, 1, 0.005);
+}
+
+TEST(Layers, ACoatDarkensWhatIsUnderIt) {
+    LayeredParams<float> p = plain_layers(1);
+    p.f0 = splat3(0.0F);
+    p.f90 = 0;
+    p.coat = 1;
+    p.coat_alpha = 0.01F;
+    const Vec3f up{0, 0, 1};
+    const Vec3f aside = normalize(Vec3f{1, 0, 1});
+    const Vec3f value = evaluate_layered(p, layered_weights(p, up), up, aside).value_cos;
+    EXPECT_NEAR(value.x, (1 - dielectric_f0) * aside.z / pi_f, 1e-3F);
+    EXPECT_NEAR(white_furnace(p, aside).mean.x, 1, 0.005);
+}
+
+TEST(Layers, SheenIsTheIntegralOfItsTable) {
+    for (const float roughness : {0.3F, 0.5F, 0.8F, 1.0F}) {
+        for (const float cosine : {0.9F, 0.5F, 0.2F}) {
+            LayeredParams<float> p = plain_layers(1);
+            p.base_color = p.f0 = splat3(0.0F);
+            p.f90 = 0;
+            p.sheen_color = splat3(1.0F);
+            p.sheen_alpha = roughness * roughness;
+            const Vec3f wo{std::sqrt(1 - cosine * cosine), 0, cosine};
+            const Furnace sky = white_furnace(p, wo);
+            const float table = sheen_albedo(cosine, p.sheen_alpha).albedo;
+            EXPECT_NEAR(sky.mean.x, static_cast<double>(table), 0.004 + 4 * sky.error)
+                << roughness << ", " << cosine;
+        }
+    }
+}
+
+TEST(Layers, RandomParametersNeverLeaveTheNumbers) {
+    Pcg32 random(3);
+    for (int n = 0; n < random_cases; ++n) {
+        const LayeredParams<float> p = random_layers(random, min_ggx_alpha);
+        const Vec3f wo = direction_above(random, n % 4 == 0 ? 0.0F : 1e-4F);
+        const LayeredWeights<float> weights = layered_weights(p, wo);
+        const float x = random.next_float();
+        const auto sample = sample_layered(p, weights, wo, Vec2f{x, random.next_float()});
+        ASSERT_TRUE(std::isfinite(sample.at.pdf) && sample.at.pdf >= 0) << n;
+        ASSERT_TRUE(std::isfinite(max_component(sample.at.value_cos))) << n;
+        ASSERT_NEAR(length(sample.direction), 1, 1e-3F) << n;
+        Vec3f wi = direction_above(random, 0.0F);
+        if (n % 2 == 0) wi.z = -wi.z;
+        const BsdfValue<float> at = evaluate_layered(p, weights, wo, wi);
+        ASSERT_TRUE(std::isfinite(at.pdf) && at.pdf >= 0) << n;
+        ASSERT_TRUE(std::isfinite(max_component(at.value_cos))) << n;
+        ASSERT_GE(at.value_cos.y, 0.0F) << n;
+    }
+}
+
+TEST(Layers, PrecisionsAgree) {
+    Pcg32 random(4);
+    for (int n = 0; n < 20000; ++n) {
+        LayeredParams<float> p = random_layers(random, 0.05F);
+        const Vec3f wo = direction_above(random, 0.05F);
+        Vec3f wi = direction_above(random, 0.05F);
+        if (n % 2 == 0) wi.z = -wi.z;
+        const auto value = [&](auto zero) {
+            using F = decltype(zero);
+            const LayeredParams<F> q = convert<F>(p);
+            const Vec3<F> o = convert<F>(wo);
+            return evaluate_layered(q, layered_weights(q, o), o, convert<F>(wi));
+        };
+        const BsdfValue<double> truth = value(0.0);
+        const BsdfValue<float> one = value(0.0F);
+        const BsdfValue<Lanes> many = value(Lanes(0.0F));
+        const double bound = 2e-3 * max_component(truth.value_cos) + 1e-5;
+        ASSERT_NEAR(one.value_cos.y, truth.value_cos.y, bound) << n;
+        ASSERT_NEAR(lane(many.value_cos.y, lane_count - 1), truth.value_cos.y, bound) << n;
+        ASSERT_NEAR(one.pdf, truth.pdf, 2e-3 * truth.pdf + 1e-5) << n;
+        ASSERT_NEAR(lane(many.pdf, 0), truth.pdf, 2e-3 * truth.pdf + 1e-5) << n;
+    }
+}
+
+TEST(Layers, StretchedHighlightsAreReciprocal) {
+    Pcg32 random(6);
+    for (int n = 0; n < 20000; ++n) {
+        LayeredParams<double> p = convert<double>(random_layers(random, 0.02F));
+        p.coat = p.transmission = 0;
+        p.diffuse_transmission = 1;  // no diffuse reflection: its share is taken at wo
+        p.film.strength = 0;
+        p.sheen_color = {0, 0, 0};
+        p.solid = false;
+        const Vec3d wo = normalize(convert<double>(direction_above(random, 0.02F)));
+        const Vec3d wi = normalize(convert<double>(direction_above(random, 0.02F)));
+        const double there = evaluate_layered(p, layered_weights(p, wo), wo, wi).value_cos.x / wi.z;
+        const double back = evaluate_layered(p, layered_weights(p, wi), wi, wo).value_cos.x / wo.z;
+        ASSERT_NEAR(there, back, 1e-6 * back + 1e-12) << n;
+    }
+}
+
+TEST(Layers, SmoothGlassFollowsSnell) {
+    for (const float eta : {1.1F, 1.5F, 2.4F, 1 / 1.1F, 1 / 1.5F}) {
+        for (float sine = 0; sine < 0.99F; sine += 0.07F) {
+            const LayeredParams<float> p = clear_glass(min_ggx_alpha, eta);
+            const Vec3f wo{sine, 0, std::sqrt(1 - sine * sine)};
+            const Vec3f through = transmit(p, wo, Vec3f{0, 0, 1});
+            if (sine > eta) {
+                EXPECT_GE(through.z, 0) << "total reflection, eta " << eta;
+                continue;
+            }
+            EXPECT_NEAR(through.x, -sine / eta, 1e-6F);
+            EXPECT_NEAR(length(through), 1, 1e-6F);
+            EXPECT_LT(through.z, 0);
+        }
+    }
+}
+
+TEST(ThinFilm, OfNoThicknessIsTheBaseAndOfSomeHasColours) {
+    const Vec3f base{0.04F, 0.3F, 0.9F};
+    const Vec3f none = film_reflectance(1.0F, ThinFilm<float>{1, 1.3F, 0}, base);
+    EXPECT_NEAR(none.x, base.x, 2e-3F);
+    EXPECT_NEAR(none.y, base.y, 2e-3F);
+    EXPECT_NEAR(none.z, base.z, 2e-3F);
+    const Vec3f some = film_reflectance(1.0F, ThinFilm<float>{1, 1.8F, 300}, splat3(0.04F));
+    EXPECT_GT(max_component(some) - std::min({some.x, some.y, some.z}), 0.05F);
+}
+
+}  // namespace
+}  // namespace obscura
