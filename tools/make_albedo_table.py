@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-# tools/make_albedo_table.py - computes src/surface/albedo_table.cpp: how much light the GGX lobe reflects.
+# tools/make_albedo_table.py - computes how much light a lobe reflects, as tables of src/surface.
 # SPDX-License-Identifier: Apache-2.0
-"""Usage: python3 tools/make_albedo_table.py > src/surface/albedo_table.cpp
+"""Usage: python3 tools/make_albedo_table.py ggx > src/surface/albedo_table.cpp
+       python3 tools/make_albedo_table.py charlie > src/surface/sheen_table.cpp
 
 For a view angle and a roughness, the share of a white sky that the specular lobe of surface/bsdf.h
 sends back is f0 * A + B (Schlick's Fresnel is linear in f0). A and B are means over a regular grid of
@@ -10,6 +11,7 @@ The same for the Charlie lobe of surface/sheen.h with a white colour: an integra
 towards the horizon, where narrow fibres shine.
 """
 import math
+import sys
 
 COSINES, ROUGHNESSES, GRID = 32, 32, 96
 MIN_ALPHA = 1e-3
@@ -92,24 +94,34 @@ def rows(values):
         print("    " + " ".join(f"{v:.6f}f," for v in values[i : i + 8]))
 
 
+def places():
+    for r in range(ROUGHNESSES):
+        for c in range(COSINES):
+            yield max((c / (COSINES - 1)) ** 2, 1e-4), r / (ROUGHNESSES - 1)
+
+
+def ggx_tables():
+    table = [entry(*place) for place in places()]
+    return {f"specular_albedo_{n}": [row[i] for row in table] for i, n in enumerate(("scale", "bias"))}
+
+
+def charlie_tables():
+    return {"sheen_albedo_table": [sheen_entry(*place) for place in places()]}
+
+
 def main():
-    places = [
-        (max((c / (COSINES - 1)) ** 2, 1e-4), r / (ROUGHNESSES - 1))
-        for r in range(ROUGHNESSES)
-        for c in range(COSINES)
-    ]
-    table = [entry(*place) for place in places]
-    print("// surface/albedo_table.cpp - written by tools/make_albedo_table.py; do not edit.")
+    file, tables = {
+        "ggx": ("albedo_table.cpp", ggx_tables),
+        "charlie": ("sheen_table.cpp", charlie_tables),
+    }[sys.argv[1]]
+    print(f"// surface/{file} - written by tools/make_albedo_table.py; do not edit.")
     print("// SPDX-License-Identifier: Apache-2.0")
     print('#include "surface/albedo_table.h"\n\nnamespace obscura {\n')
     print("// clang-format off")
-    for name, column in (("scale", 0), ("bias", 1)):
-        print(f"const float specular_albedo_{name}[albedo_cosines * albedo_roughnesses] = {{")
-        rows([row[column] for row in table])
+    for name, values in tables().items():
+        print(f"const float {name}[albedo_cosines * albedo_roughnesses] = {{")
+        rows(values)
         print("};\n")
-    print("const float sheen_albedo_table[albedo_cosines * albedo_roughnesses] = {")
-    rows([sheen_entry(*place) for place in places])
-    print("};\n")
     print("// clang-format on\n\n}  // namespace obscura")
 
 

@@ -86,6 +86,46 @@ OBSCURA_INLINE BsdfParams<Lanes> bsdf_params(const SceneView& scene,
             max(roughness * roughness, Lanes(min_ggx_alpha))};
 }
 
+/// How a ray looks at an emitter.
+struct EmissionLook {
+    const LookUp& look;
+    Mask front;    ///< from its front
+    Mask by_bsdf;  ///< with a direction that light sampling could have chosen too
+};
+
+/// What the surface sends out by itself, and which light that is.
+///
+/// In   s.unlit; front: lanes that are seen from their front
+OBSCURA_INLINE void read_emission(const SceneView& scene,
+                                  const HitLanes& hit,
+                                  const HitGeometry& g,
+                                  const EmissionLook& seen,
+                                  ShadingPoint& s) {
+    s.emission = read3(g.material, 8);
+    const Mask emits =
+        (max_component(s.emission) > Lanes(0.0f)) &
+        (seen.front | has_bits<Lanes>(g.material.integer(11), material_double_sided)) & (!s.unlit);
+    s.emission = select(emits, s.emission, splat3(Lanes(0.0f)));
+    s.light = LanesI(-1);
+    if (any(emits)) {
+        // Where light sampling may find the same light, both must see the same texels.
+        LookUp sharp = seen.look;
+        sharp.footprint = select(seen.by_bsdf, Lanes(0.0f), seen.look.footprint);
+        const FoundSlot slot = find_slot(scene, g, emissive_slot, sharp, {});
+        if (any(slot.used & emits)) {
+            s.emission =
+                select(slot.used, s.emission * read_slot(scene, g, slot, sharp).rgb, s.emission);
+        }
+        const LanesI base = g.primitive.integer(15);
+        LanesI light = base + hit.triangle;
+        const Mask instanced = hit.instance >= LanesI(0);
+        if (any(instanced)) {
+            light = light + select(instanced, instance_row(scene, hit).integer(27), LanesI(0));
+        }
+        s.light = select(emits & (base >= LanesI(0)), light, LanesI(-1));
+    }
+}
+
 /// Everything about the hits of one group. `wo` points to the viewer.
 OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
                                           const HitLanes& hit,
@@ -130,28 +170,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     }
     s.unlit = has_bits<Lanes>(flags, material_unlit);
 
-    s.emission = read3(g.material, 8);
-    const Mask emits = (max_component(s.emission) > Lanes(0.0f)) &
-                       (front | has_bits<Lanes>(flags, material_double_sided)) & (!s.unlit);
-    s.emission = select(emits, s.emission, splat3(Lanes(0.0f)));
-    s.light = LanesI(-1);
-    if (any(emits)) {
-        // Where light sampling may find the same light, both must see the same texels.
-        LookUp sharp = look;
-        sharp.footprint = select(path.pdf > Lanes(0.0f), Lanes(0.0f), look.footprint);
-        const FoundSlot slot = find_slot(scene, g, emissive_slot, sharp, {});
-        if (any(slot.used & emits)) {
-            s.emission =
-                select(slot.used, s.emission * read_slot(scene, g, slot, sharp).rgb, s.emission);
-        }
-        const LanesI base = g.primitive.integer(15);
-        LanesI light = base + hit.triangle;
-        const Mask instanced = hit.instance >= LanesI(0);
-        if (any(instanced)) {
-            light = light + select(instanced, instance_row(scene, hit).integer(27), LanesI(0));
-        }
-        s.light = select(emits & (base >= LanesI(0)), light, LanesI(-1));
-    }
+    read_emission(scene, hit, g, {look, front, path.pdf > Lanes(0.0f)}, s);
     return s;
 }
 

@@ -1,7 +1,5 @@
-// tests/truth/bodies_test.cpp - light through bodies: absorption, nesting, dispersion, known
-// values. SPDX-License-Identifier: Apache-2.0
-#include "scene/media.h"
-
+// tests/truth/bodies_test.cpp - light through bodies: absorption, nesting, dispersion.
+// SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include "support/scene_builder.h"
