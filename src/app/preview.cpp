@@ -54,6 +54,16 @@ std::array<float, 2> value_range(const Picture& picture, const Layout& layout, s
     return {least, greatest};
 }
 
+/// The value that one pixel in a hundred exceeds: few hot ones must not darken all others.
+float hot_value(const Picture& picture, const Layout& layout, size_t pixels) {
+    std::vector<float> values(pixels);
+    for (size_t i = 0; i < pixels; ++i)
+        values[i] = values_at(picture, layout, i)[0];
+    const auto place = values.begin() + static_cast<long>((pixels - 1) * 99 / 100);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
+}
+
 Rgb depth_color(float depth, const std::array<float, 2>& range) {
     if (depth <= 0) return {0, 0, 0};
     const float span = range[1] - range[0];
@@ -110,6 +120,8 @@ Picture preview_picture(const Picture& picture, Integrator integrator) {
     const Layout layout = layout_of(picture);
     const size_t pixels = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height);
     const std::array<float, 2> range = value_range(picture, layout, pixels);
+    const float hottest =
+        integrator == Integrator::heat ? hot_value(picture, layout, pixels) : 0.0f;
     Picture out;
     out.width = picture.width;
     out.height = picture.height;
@@ -126,7 +138,7 @@ Picture preview_picture(const Picture& picture, Integrator integrator) {
                 color = {fraction(values[0]), fraction(values[1]), 0.0f};
                 break;
             case Integrator::heat:
-                color = heat_color(values[0] / std::max(range[1], 1.0f));
+                color = heat_color(values[0] / std::max(hottest, 1.0f));
                 break;
             case Integrator::depth:
             case Integrator::distance:

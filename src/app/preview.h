@@ -15,7 +15,7 @@ bool needs_preview(Integrator integrator);
 ///  depth, distance  nearest white to farthest dark grey; where nothing is, black
 ///  uv      the fraction of u as red, of v as green
 ///  id      a colour drawn from all numbers of the pixel; where nothing is, black
-///  heat    black, red, yellow to white for the greatest value of the picture
+///  heat    black, red, yellow to white for what one pixel in a hundred exceeds
 ///  albedo, ao, facing, wireframe  encoded by the sRGB curve, without tone mapping; grey but for
 ///          albedo
 ///

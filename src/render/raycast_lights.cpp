@@ -144,9 +144,15 @@ constexpr std::array<double, ambient_terms> term_factors = {
 
 using Terms = std::array<Vec3d, ambient_terms>;
 
-/// One row of the map; dw: solid angle of each of its pixels.
-Terms project_row(const EnvironmentView& map, int32_t row, double cosine, double dw) {
-    Terms sum{};
+/// A horizontal band of directions.
+struct Band {
+    double cosine;      ///< of the polar angle, in the middle
+    double steradians;  ///< of one pixel's part
+};
+
+/// Adds the part of one row of the map that lies in a band.
+void add_row(const EnvironmentView& map, int32_t row, const Band& band, Terms& sum) {
+    const double cosine = band.cosine;
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
     for (int32_t column = 0; column < map.width; ++column) {
         // u = 0.5 is +X and u grows towards +Z; the map is turned about +Y.
@@ -157,7 +163,7 @@ Terms project_row(const EnvironmentView& map, int32_t row, double cosine, double
         const double s = static_cast<double>(map.sin_rotation);
         const Vec3d n{map_x * c + map_z * s, cosine, map_z * c - map_x * s};
         const float* pixel = map.pixels + 4 * (int64_t{row} * map.width + column);
-        const Vec3d light = vector(pixel) * dw;
+        const Vec3d light = vector(pixel) * band.steradians;
         const double terms[ambient_terms] = {1.0,
                                              n.x,
                                              n.y,
@@ -170,7 +176,6 @@ Terms project_row(const EnvironmentView& map, int32_t row, double cosine, double
         for (size_t i = 0; i < sum.size(); ++i)
             sum[i] = sum[i] + light * terms[i];
     }
-    return sum;
 }
 
 }  // namespace
@@ -178,11 +183,16 @@ Terms project_row(const EnvironmentView& map, int32_t row, double cosine, double
 AmbientLight project_environment(const EnvironmentView& map) {
     std::vector<Terms> rows(static_cast<size_t>(map.height));
     parallel_for(rows.size(), [&](size_t y) {
-        const double top = std::cos(pi_d * static_cast<double>(y) / map.height);
-        const double bottom = std::cos(pi_d * static_cast<double>(y + 1) / map.height);
-        const double cosine = 0.5 * (top + bottom);
-        const double dw = 2.0 * pi_d / map.width * (top - bottom);
-        rows[y] = project_row(map, static_cast<int32_t>(y), cosine, dw);
+        // Tall pixels are cut into bands, for the terms change within them.
+        const int bands = 1 + 256 / map.height;
+        const double step = pi_d / (map.height * bands);
+        for (int band = 0; band < bands; ++band) {
+            const double polar = (static_cast<double>(y) * bands + band) * step;
+            const double top = std::cos(polar);
+            const double bottom = std::cos(polar + step);
+            const double dw = 2.0 * pi_d / map.width * (top - bottom);
+            add_row(map, static_cast<int32_t>(y), {0.5 * (top + bottom), dw}, rows[y]);
+        }
     });
     AmbientLight out;
     for (size_t i = 0; i < term_factors.size(); ++i) {

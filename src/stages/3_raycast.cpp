@@ -43,7 +43,9 @@ OBSCURA_INLINE void add_unshadowed(const SceneView& scene,
                             Lanes(headlight_irradiance);
     }
     light = select(s.unlit, s.bsdf.base_color, light);
-    add_radiance(samples, exists, path.slot, path.throughput * light);
+    // A mask made here: GCC 12 reads one kept from before this many registers with wrong high bits.
+    const Mask glows = exists & !(max_component(light) <= Lanes(0.0f));
+    if (any(glows)) add_radiance(samples, glows, path.slot, path.throughput * light);
 }
 
 }  // namespace
