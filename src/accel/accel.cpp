@@ -85,7 +85,8 @@ RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
         geometry, static_cast<unsigned>(shapes.rows != nullptr ? shapes.count : blocks));
     rtcSetGeometryUserData(geometry, &shapes);
     rtcSetGeometryBoundsFunction(geometry, impl.shape_callbacks->bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, impl.shape_callbacks->intersect);
+    rtcSetGeometryIntersectFunction(
+        geometry, impl.counts_tests ? intersect_counted_shape : impl.shape_callbacks->intersect);
     rtcSetGeometryOccludedFunction(geometry, impl.shape_callbacks->occluded);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
@@ -105,7 +106,9 @@ void attach_primitives(Accel::Impl& impl, RTCScene target, Mesh range) {
         const int32_t row = range.first_primitive + i;
         const bool mesh = is_mesh(impl.scene->primitives[static_cast<size_t>(row)]);
         if (!mesh && !fill_shape_geometry(impl, row)) continue;
-        RTCGeometry geometry = mesh ? make_triangles(impl, row) : make_shapes(impl, row);
+        RTCGeometry geometry = !mesh               ? make_shapes(impl, row)
+                               : impl.counts_tests ? make_counted_triangles(impl, row)
+                                                   : make_triangles(impl, row);
         rtcAttachGeometryByID(target, geometry, static_cast<unsigned>(i));
         rtcReleaseGeometry(geometry);
     }
@@ -183,14 +186,34 @@ Result<void> build_scenes(Accel::Impl& impl) {
 
 }  // namespace
 
-Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
+namespace {
+
+Result<std::unique_ptr<Accel::Impl>> build_whole(const Scene& scene,
+                                                 const std::string& embree_isa,
+                                                 bool counts_tests) {
     auto impl = open_device(scene, embree_isa);
-    if (!impl) return fail(impl.error());
+    if (!impl) return impl;
     (*impl)->alpha.resize(scene.primitives.size());
+    (*impl)->counts_tests = counts_tests;
+    if (counts_tests) (*impl)->counted.resize(scene.primitives.size());
     (*impl)->materials_with_holes = find_materials_with_holes(scene);
     (*impl)->fill_primitive_tables();
     const Result<void> built = build_scenes(**impl);
     if (!built) return fail(built.error());
+    return impl;
+}
+
+}  // namespace
+
+Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
+    auto impl = build_whole(scene, embree_isa, false);
+    if (!impl) return fail(impl.error());
+    return Accel(std::move(*impl));
+}
+
+Result<Accel> Accel::build_counting(const Scene& scene, const std::string& embree_isa) {
+    auto impl = build_whole(scene, embree_isa, true);
+    if (!impl) return fail(impl.error());
     return Accel(std::move(*impl));
 }
 

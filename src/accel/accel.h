@@ -47,6 +47,10 @@ public:
     /// them go: a measure for build(). Same errors.
     static Result<BareBuild> build_bare(const Scene& scene, const std::string& embree_isa);
 
+    /// Builds the same boxes with each triangle and shape handed to a callback that counts: for
+    /// count_tests, and for nothing else. Same errors as build().
+    static Result<Accel> build_counting(const Scene& scene, const std::string& embree_isa);
+
     Accel(Accel&&) noexcept;
     Accel& operator=(Accel&&) noexcept;
     ~Accel();
@@ -63,6 +67,14 @@ public:
                  uint8_t* occluded,
                  Coherence coherence,
                  uint32_t segment) const;
+
+    /// How many primitives each ray is tested against until its nearest hit is known: those whose
+    /// box it meets before that hit, in the order in which Embree comes to them. Depends on the
+    /// scene, the ray and Embree's instruction set only. Single-sided backs and alpha as for
+    /// quantities. Returns how many rays were refused; theirs is 0. Thread-safe.
+    ///
+    /// In      this: from build_counting
+    int count_tests(const RayColumns& rays, float* tests) const;
 
     /// Asks bare Embree for all recorded rays of one kind once more, on all threads: see
     /// accel/ray_recording.h.

@@ -20,6 +20,12 @@ struct EmbreeErrors {
     std::string text;
 };
 
+/// The user pointer of triangles that count how often they are tested.
+struct CountedTriangles {
+    const Accel::Impl* impl = nullptr;
+    int32_t primitive = 0;
+};
+
 struct Accel::Impl {
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -41,8 +47,16 @@ struct Accel::Impl {
     std::vector<ShapeGeometry> shapes;  ///< by primitive; filled where it is one of shapes
     const ShapeCallbacks* shape_callbacks = nullptr;
     std::vector<EndlessPlane> endless_planes;
+    bool counts_tests = false;  ///< every primitive is user geometry: see Accel::build_counting
+    std::vector<CountedTriangles> counted;          ///< by primitive, where counts_tests
     std::vector<uint8_t> single_sided;              ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };
+
+/// Triangles as user geometry whose callback counts: see accel/traversal_cost.cpp.
+RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index);
+
+/// Counts, then calls the shape's own callback.
+void intersect_counted_shape(const RTCIntersectFunctionNArguments* args);
 
 }  // namespace obscura

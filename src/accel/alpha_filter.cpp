@@ -110,6 +110,14 @@ bool needs_alpha_filter(const Scene& scene,
            (colored && (scene.materials[row].flags & see_through) != 0);
 }
 
+bool is_opaque_there(const AlphaGeometry& geometry,
+                     const QueryContext& context,
+                     const AlphaPlace& place,
+                     Vec2f barycentric) {
+    return alpha_at(geometry, place.triangle, barycentric) >=
+           alpha_threshold(geometry, context, place);
+}
+
 void alpha_filter(const RTCFilterFunctionNArguments* args) {
     const auto& geometry = *static_cast<const AlphaGeometry*>(args->geometryUserPtr);
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
@@ -119,8 +127,7 @@ void alpha_filter(const RTCFilterFunctionNArguments* args) {
         const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
         const AlphaPlace place{
             RTCRayN_id(args->ray, args->N, i), RTCHitN_instID(args->hit, args->N, i, 0), triangle};
-        const float threshold = alpha_threshold(geometry, context, place);
-        if (alpha_at(geometry, triangle, barycentric) < threshold) args->valid[i] = 0;
+        if (!is_opaque_there(geometry, context, place, barycentric)) args->valid[i] = 0;
     }
 }
 

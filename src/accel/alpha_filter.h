@@ -45,6 +45,12 @@ float alpha_threshold(const AlphaGeometry& geometry,
                       const QueryContext& context,
                       const AlphaPlace& place);
 
+/// False where alpha lets a ray pass a triangle: barycentric weighs its second and third corner.
+bool is_opaque_there(const AlphaGeometry& geometry,
+                     const QueryContext& context,
+                     const AlphaPlace& place,
+                     Vec2f barycentric);
+
 /// Embree filter for intersection and occlusion alike. A BLEND hit counts with probability alpha,
 /// decided by a hash of (ray key, instance, geometry, triangle): the same answer however often and
 /// in whatever order Embree asks.

@@ -11,7 +11,9 @@ struct RayColumns {
     const float *ox, *oy, *oz;  ///< origin, metres
     const float *dx, *dy, *dz;  ///< unit direction
     const float* tfar;          ///< null: unlimited
-    const uint32_t* key;        ///< random key for alpha decisions, another for every path
+    /// random key for alpha decisions, another for every path; null: alpha BLEND is a cut at one
+    /// half
+    const uint32_t* key;
     int count;
 };
 

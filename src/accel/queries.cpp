@@ -286,7 +286,7 @@ int Accel::intersect(const RayColumns& rays,
     // with calls of one ray each (obscura bench shows both).
     Query query(context, coherence == Coherence::coherent);
     context.keys = rays.key;
-    context.fixed_threshold = see_through.fixed_alpha;
+    context.fixed_threshold = see_through.fixed_alpha || rays.key == nullptr;
     context.segment = see_through.segment;
     context.culls_back_faces = see_through.culls_back_faces;
     int refused = 0;
@@ -325,6 +325,7 @@ int Accel::occluded(const RayColumns& rays,
     QueryContext context;
     Query query(context, coherent);
     context.keys = rays.key;
+    context.fixed_threshold = rays.key == nullptr;
     context.segment = segment;
     int refused = 0;
     ValidMask valid;

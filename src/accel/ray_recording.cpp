@@ -17,7 +17,7 @@ void append(const RayColumns& rays, int row, uint32_t segment, RecordedRays& out
     out.dy.push_back(rays.dy[row]);
     out.dz.push_back(rays.dz[row]);
     if (rays.tfar != nullptr) out.tfar.push_back(rays.tfar[row]);
-    out.key.push_back(segment_key(rays.key[row], segment));
+    out.key.push_back(rays.key != nullptr ? segment_key(rays.key[row], segment) : 0U);
 }
 
 }  // namespace

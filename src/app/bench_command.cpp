@@ -14,6 +14,7 @@
 #include "bench/measure_view.h"
 #include "bench/report_json.h"
 #include "bench/report_svg.h"
+#include "render/integrators.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -149,7 +150,7 @@ BenchSettings settings_of(const BenchRequest& request) {
     out.samples_per_pixel = scene.options.samples_per_pixel;
     out.max_bounces = scene.options.max_bounces;
     out.seed = scene.options.seed;
-    out.integrator = integrator_name(scene.options.integrator);
+    out.integrator = row_of(scene.options.integrator).name;
     out.environment = scene.environment.value_or("").string();
     out.repeat = request.repeat;
     return out;

@@ -3,9 +3,9 @@
 #include "app/bench_request.h"
 
 #include "app/numbers.h"
-#include "app/preview.h"
 #include "base/parallel.h"
 #include "bench/asset_files.h"
+#include "render/integrators.h"
 
 #include <algorithm>
 #include <functional>
@@ -153,7 +153,14 @@ Result<RenderRequest> request_for(const BenchArguments& arguments, const std::st
         request->options.width = quantity ? 1920 : 640;
         request->options.height = quantity ? 1080 : 360;
     }
-    if (request && is_quantity(request->options.integrator)) request->options.samples_per_pixel = 1;
+    if (!request) return request;
+    request->options.samples_per_pixel = samples_taken(request->options);
+    if (request->options.integrator == Integrator::heat) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-CHOICE",
+                    "--integrator",
+                    "'heat' asks no rays that could be measured; choose another");
+    }
     return request;
 }
 

@@ -5,6 +5,7 @@
 #include "app/aperture_picture.h"
 #include "app/camera_build.h"
 #include "app/framing.h"
+#include "app/lens_request.h"
 #include "app/numbers.h"
 
 #include <algorithm>
@@ -252,6 +253,9 @@ Result<ChosenCamera> choose_camera(
     const BoundingSphere sphere = bounding_sphere(scene.bounds);
     const Result<Placed> placed = place(scene, request, aspect);
     if (!placed) return fail(placed.error());
+    if (const Result<void> fits = check_model_has(request.settings, placed->model); !fits) {
+        return fail(fits.error());
+    }
 
     ChosenCamera out;
     out.settings = join_settings(*placed, request);

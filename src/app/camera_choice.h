@@ -56,7 +56,8 @@ struct ChosenCamera {
 /// below. Without aspectRatio, yfov is kept. The node's scale is ignored.
 ///
 /// Errors  64 E-CAM-UNKNOWN, E-CAM-AMBIGUOUS (the message lists the names), 64 E-CAM-VIEW eye and
-///         target are the same or up is parallel to the view, those of app/camera_build.h;
+///         target are the same or up is parallel to the view, E-USAGE-CONFLICT the camera's model
+///         does not have what an option says, those of app/camera_build.h;
 ///         65 E-CAM-SINGULAR a node flattens its camera, 65 E-CAM-RANGE it does not fit 32-bit
 ///         floats; 67 E-IMG-* and E-APERTURE-* the picture of an aperture
 Result<ChosenCamera> choose_camera(

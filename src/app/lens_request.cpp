@@ -162,11 +162,13 @@ void read_exposure(const LensArguments& a, CameraSettings& s, OptionSteps& steps
                  "it cannot go together with --shutter or --iso; give one or the other");
 }
 
-/// Options that only some models have.
-void refuse_idle_options(const LensArguments& a, CameraModel model, OptionSteps& steps) {
+}  // namespace
+
+Result<void> check_model_has(const CameraSettings& s, CameraModel model) {
     const std::string name = name_of(camera_model_names, model);
-    const auto only = [&](const OptionText& text, const char* option, bool has_it) {
-        steps.refuse(text && !has_it,
+    OptionSteps steps;
+    const auto only = [&](const auto& setting, const char* option, bool has_it) {
+        steps.refuse(setting && !has_it,
                      option,
                      "a camera of the model " + name +
                          " does not have it; leave it out or choose another --camera-model");
@@ -175,28 +177,26 @@ void refuse_idle_options(const LensArguments& a, CameraModel model, OptionSteps&
     const bool flat = lens || model == CameraModel::pinhole;
     const bool fisheye = model == CameraModel::fisheye;
     const bool around = model == CameraModel::environment;
-    only(a.magnification, "--mag", model == CameraModel::orthographic);
-    only(a.focal_length, "--focal-length", flat);
-    only(a.sensor, "--sensor", flat);
-    only(a.shift, "--shift", flat || fisheye);
-    only(a.distortion, "--distortion", flat);
-    only(a.fstop, "--fstop", lens || a.shutter);
-    only(a.lens_radius, "--lens-radius", lens);
-    only(a.focus_distance, "--focus-distance", lens);
-    only(a.focus_on, "--focus-on", lens);
-    only(a.blades, "--blades", lens);
-    only(a.blade_rotation, "--blade-rotation", lens);
-    only(a.anamorphic, "--anamorphic", lens);
-    only(a.aperture, "--aperture", lens);
-    only(a.fisheye, "--fisheye", fisheye);
-    only(a.fisheye_fit, "--fisheye-fit", fisheye);
-    only(a.fisheye_coefficients, "--fisheye-coefficients", fisheye);
-    only(a.environment, "--environment", around);
-    only(a.stereo, "--stereo", around);
-    only(a.align, "--align", around);
+    only(s.magnification_m, "--mag", model == CameraModel::orthographic);
+    only(s.focal_length_m, "--focal-length", flat);
+    only(s.sensor_m, "--sensor", flat);
+    only(s.shift, "--shift", flat || fisheye);
+    only(s.distortion, "--distortion", flat);
+    only(s.fstop, "--fstop", lens || s.shutter_s);
+    only(s.lens_radius_m, "--lens-radius", lens);
+    only(s.focus_distance_m, "--focus-distance", lens);
+    only(s.blades, "--blades", lens);
+    only(s.blade_rotation_rad, "--blade-rotation", lens);
+    only(s.anamorphic, "--anamorphic", lens);
+    only(s.aperture_file, "--aperture", lens);
+    only(s.fisheye, "--fisheye", fisheye);
+    only(s.fisheye_fit, "--fisheye-fit", fisheye);
+    only(s.fisheye_k, "--fisheye-coefficients", fisheye);
+    only(s.environment, "--environment", around);
+    only(s.stereo_m, "--stereo", around);
+    only(s.align, "--align", around);
+    return steps.done();
 }
-
-}  // namespace
 
 Result<CameraSettings> parse_lens(const LensArguments& arguments,
                                   const std::optional<CameraModel>& model) {
@@ -208,10 +208,13 @@ Result<CameraSettings> parse_lens(const LensArguments& arguments,
     read_exposure(arguments, settings, steps);
     // Only a lens can be focused.
     if (arguments.focus_on && !implied_model(settings)) settings.model = CameraModel::thin_lens;
-    // Without a model in sight the file decides, and its camera may have what the options are for.
+    // Without a model in sight the file decides: then choose_camera asks the same.
     const std::optional<CameraModel> meant = model ? model : implied_model(settings);
-    if (meant) refuse_idle_options(arguments, *meant, steps);
-    const Result<void> done = steps.done();
+    steps.refuse(arguments.focus_on && meant && *meant != CameraModel::thin_lens,
+                 "--focus-on",
+                 "only a thin lens can be focused; leave it out or choose another --camera-model");
+    Result<void> done = steps.done();
+    if (done && meant) done = check_model_has(settings, *meant);
     if (!done) return fail(done.error());
     return settings;
 }

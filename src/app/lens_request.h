@@ -17,4 +17,7 @@ namespace obscura {
 Result<CameraSettings> parse_lens(const LensArguments& arguments,
                                   const std::optional<CameraModel>& model);
 
+/// 64 E-USAGE-CONFLICT when an option says something that a camera of that model does not have.
+Result<void> check_model_has(const CameraSettings& settings, CameraModel model);
+
 }  // namespace obscura

@@ -10,6 +10,7 @@
 #include "camera/exposure.h"
 #include "camera/matrices.h"
 #include "camera/names.h"
+#include "render/integrators.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,7 +71,7 @@ PictureMetadata make_metadata(const RenderRequest& request,
     metadata.software = "Obscura " OBSCURA_VERSION;
     metadata.asset = info.file_name;
     metadata.copyright = info.copyright;
-    metadata.samples_per_pixel = is_quantity(options.integrator) ? 1 : options.samples_per_pixel;
+    metadata.samples_per_pixel = samples_taken(options);
     metadata.seed = options.seed;
     metadata.render_seconds = render_seconds;
     metadata.is_color =
@@ -79,7 +80,7 @@ PictureMetadata make_metadata(const RenderRequest& request,
     std::copy_n(matrices.world_to_camera, 16, metadata.world_to_camera);
     metadata.has_ndc = matrices.has_ndc;
     std::copy_n(matrices.world_to_ndc, 16, metadata.world_to_ndc);
-    metadata.extra = {{"integrator", integrator_name(options.integrator)},
+    metadata.extra = {{"integrator", row_of(options.integrator).name},
                       {"camera", chosen.description},
                       {"cameraModel", name_of(camera_model_names, chosen.camera.model)},
                       {"cameraParameters", camera_parameters(chosen.camera)},

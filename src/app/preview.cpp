@@ -41,17 +41,27 @@ Rgb values_at(const Picture& picture, const Layout& layout, size_t pixel) {
     return values;
 }
 
-/// Depths that count: 0 is where nothing was hit.
-std::array<float, 2> depth_range(const Picture& picture, const Layout& layout, size_t pixels) {
-    float nearest = INFINITY;
-    float farthest = 0;
+/// Least and greatest of the first channel: 0 is where nothing was hit.
+std::array<float, 2> value_range(const Picture& picture, const Layout& layout, size_t pixels) {
+    float least = INFINITY;
+    float greatest = 0;
     for (size_t i = 0; i < pixels; ++i) {
-        const float depth = values_at(picture, layout, i)[0];
-        if (depth <= 0) continue;
-        nearest = std::min(nearest, depth);
-        farthest = std::max(farthest, depth);
+        const float value = values_at(picture, layout, i)[0];
+        if (value <= 0) continue;
+        least = std::min(least, value);
+        greatest = std::max(greatest, value);
     }
-    return {nearest, farthest};
+    return {least, greatest};
+}
+
+/// The value that one pixel in a hundred exceeds: few hot ones must not darken all others.
+float hot_value(const Picture& picture, const Layout& layout, size_t pixels) {
+    std::vector<float> values(pixels);
+    for (size_t i = 0; i < pixels; ++i)
+        values[i] = values_at(picture, layout, i)[0];
+    const auto place = values.begin() + static_cast<long>((pixels - 1) * 99 / 100);
+    std::nth_element(values.begin(), place, values.end());
+    return *place;
 }
 
 Rgb depth_color(float depth, const std::array<float, 2>& range) {
@@ -60,6 +70,16 @@ Rgb depth_color(float depth, const std::array<float, 2>& range) {
     const float share = span > 0 ? (depth - range[0]) / span : 0.0f;
     const float grey = 1.0f - (1.0f - farthest_grey) * share;
     return {grey, grey, grey};
+}
+
+/// The ramp of glowing metal; share in [0, 1].
+Rgb heat_color(float share) {
+    const auto ramp = [&](float begin) { return std::clamp(3.0f * share - begin, 0.0f, 1.0f); };
+    return {ramp(0), ramp(1), ramp(2)};
+}
+
+float fraction(float x) {
+    return x - std::floor(x);
 }
 
 Rgb normal_color(const Rgb& n) {
@@ -92,19 +112,16 @@ Rgb id_color(const Rgb& ids) {
 }  // namespace
 
 bool needs_preview(Integrator integrator) {
-    return integrator != Integrator::path && integrator != Integrator::direct;
-}
-
-bool is_quantity(Integrator integrator) {
-    return needs_preview(integrator) && integrator != Integrator::ao;
+    return integrator != Integrator::path && integrator != Integrator::direct &&
+           integrator != Integrator::raycast;
 }
 
 Picture preview_picture(const Picture& picture, Integrator integrator) {
     const Layout layout = layout_of(picture);
     const size_t pixels = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height);
-    const std::array<float, 2> range = integrator == Integrator::depth
-                                           ? depth_range(picture, layout, pixels)
-                                           : std::array<float, 2>{0, 0};
+    const std::array<float, 2> range = value_range(picture, layout, pixels);
+    const float hottest =
+        integrator == Integrator::heat ? hot_value(picture, layout, pixels) : 0.0f;
     Picture out;
     out.width = picture.width;
     out.height = picture.height;
@@ -117,7 +134,14 @@ Picture preview_picture(const Picture& picture, Integrator integrator) {
             case Integrator::normal:
                 color = normal_color(values);
                 break;
+            case Integrator::uv:
+                color = {fraction(values[0]), fraction(values[1]), 0.0f};
+                break;
+            case Integrator::heat:
+                color = heat_color(values[0] / std::max(hottest, 1.0f));
+                break;
             case Integrator::depth:
+            case Integrator::distance:
                 color = depth_color(values[0], range);
                 break;
             case Integrator::id:

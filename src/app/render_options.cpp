@@ -98,12 +98,16 @@ void add_sampling_options(CLI::App& command,
                arguments.integrator,
                "NAME",
                "path: full light transport; direct: no indirect light;\n"
-               "ao: ambient occlusion; or a quantity, one ray through\n"
-               "each pixel's centre: normal, depth, albedo, id [path]");
+               "raycast: one ray a pixel, hard shadows, no noise; ao:\n"
+               "ambient occlusion; wireframe; or a quantity, one ray\n"
+               "through each pixel's centre: normal, facing, depth,\n"
+               "distance, uv, albedo, id, heat [path]");
     group.text("--ao-distance",
                arguments.ao_distance,
                "METRES",
                "How far ao looks [a fifth of the scene's diagonal]");
+    group.text(
+        "--wire-width", arguments.wire_width, "PIXELS", "Lines of wireframe, 0.01 to 1000 [1]");
 }
 
 void add_camera_options(CLI::App& command, RenderArguments& arguments) {

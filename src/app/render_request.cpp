@@ -7,6 +7,7 @@
 #include "app/option_steps.h"
 #include "app/scene_choice.h"
 #include "camera/names.h"
+#include "render/integrators.h"
 
 #include <algorithm>
 #include <array>
@@ -31,13 +32,6 @@ struct Choice {
     T value;
 };
 
-constexpr std::array<Choice<Integrator>, 7> integrators = {{{"path", Integrator::path},
-                                                            {"direct", Integrator::direct},
-                                                            {"ao", Integrator::ao},
-                                                            {"normal", Integrator::normal},
-                                                            {"depth", Integrator::depth},
-                                                            {"albedo", Integrator::albedo},
-                                                            {"id", Integrator::id}}};
 constexpr std::array<Choice<PixelFilter>, 3> filters = {
     {{"box", PixelFilter::box},
      {"gaussian", PixelFilter::gaussian},
@@ -98,7 +92,9 @@ Result<RenderOptions> parse_background(const std::string& text, RenderOptions op
 void parse_transport(const RenderArguments& arguments, RenderOptions& options, Steps& steps) {
     steps.option(
         arguments.integrator,
-        [](const std::string& text) { return choose_option(text, "--integrator", integrators); },
+        [](const std::string& text) {
+            return choose_option(text, "--integrator", integrator_rows);
+        },
         [&](Integrator integrator) { options.integrator = integrator; });
     steps.option(
         arguments.filter,
@@ -112,6 +108,13 @@ void parse_transport(const RenderArguments& arguments, RenderOptions& options, S
         arguments.ao_distance,
         [](const std::string& text) { return parse_real(text, "--ao-distance", 1e-9, 1e12); },
         [&](double distance) { options.ao_distance_m = distance; });
+    steps.option(
+        arguments.wire_width,
+        [](const std::string& text) { return parse_real(text, "--wire-width", 0.01, 1000); },
+        [&](double width) { options.wire_width_px = width; });
+    steps.refuse(arguments.wire_width && options.integrator != Integrator::wireframe,
+                 "--wire-width",
+                 "it is for --integrator wireframe; leave it out or add that");
     steps.refuse(arguments.ao_distance && options.integrator != Integrator::ao,
                  "--ao-distance",
                  "it is for --integrator ao; leave it out or add that");

@@ -44,7 +44,7 @@ struct RenderArguments {
     std::optional<std::string> scene, camera, camera_model, eye, target, up, fov;
     LensArguments lens;
     std::optional<std::string> env, env_intensity, env_rotation, background;
-    std::optional<std::string> integrator, ao_distance, filter;
+    std::optional<std::string> integrator, ao_distance, wire_width, filter;
     std::optional<std::string> view, display, ocio, exposure, stats;
     bool float32 = false;
     bool writes_pictures = true;  ///< false: no output unless one is named

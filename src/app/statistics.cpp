@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/statistics.h"
 
-#include "app/preview.h"
 #include "base/json_writer.h"
 #include "base/peak_memory.h"
+#include "render/integrators.h"
 
 namespace obscura {
 
@@ -61,7 +61,6 @@ uint64_t total_rays(const RenderCounters& counters) {
 
 std::string statistics_json(const RenderRequest& request, const RenderStatistics& statistics) {
     const RenderOptions& options = request.options;
-    const bool quantity = is_quantity(options.integrator);
     JsonWriter json;
     json.begin_object();
     json.member("version", OBSCURA_VERSION);
@@ -72,10 +71,10 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
     json.end_array();
     json.member("width", options.width);
     json.member("height", options.height);
-    json.member("spp", quantity ? 1 : options.samples_per_pixel);
+    json.member("spp", samples_taken(options));
     json.member("seed", options.seed);
     json.member("depth", options.max_bounces);
-    json.member("integrator", integrator_name(options.integrator));
+    json.member("integrator", row_of(options.integrator).name);
     json.member("threads", statistics.threads);
     json.member("isa", statistics.isa);
     json.member("embree", statistics.embree);
@@ -97,26 +96,6 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
 bool too_many_nonfinite(const RenderCounters& counters) {
     return static_cast<double>(counters.nonfinite_samples) >
            1e-6 * static_cast<double>(counters.paths);
-}
-
-std::string integrator_name(Integrator integrator) {
-    switch (integrator) {
-        case Integrator::path:
-            return "path";
-        case Integrator::direct:
-            return "direct";
-        case Integrator::ao:
-            return "ao";
-        case Integrator::normal:
-            return "normal";
-        case Integrator::depth:
-            return "depth";
-        case Integrator::albedo:
-            return "albedo";
-        case Integrator::id:
-            return "id";
-    }
-    return "unknown";
 }
 
 }  // namespace obscura

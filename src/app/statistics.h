@@ -41,7 +41,4 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
 /// True when more than one sample in a million was not finite: exit code 76.
 bool too_many_nonfinite(const RenderCounters& counters);
 
-/// "path", "ao" ... as on the command line.
-std::string integrator_name(Integrator integrator);
-
 }  // namespace obscura

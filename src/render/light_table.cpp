@@ -104,9 +104,13 @@ TriangleLight light_row(const Emitter& e, int32_t triangle) {
 }
 
 /// least: what a black texture counts as.
+Vec3f emission_of(const Scene& scene, const TriangleLight& row, float least) {
+    const Vec3f emission{row.emission[0], row.emission[1], row.emission[2]};
+    return row.texture < 0 ? emission : emission * (mean_texture(scene, row) + splat3(least));
+}
+
 double triangle_power(const Scene& scene, const TriangleLight& row, float least) {
-    Vec3f emission{row.emission[0], row.emission[1], row.emission[2]};
-    if (row.texture >= 0) emission = emission * (mean_texture(scene, row) + splat3(least));
+    const Vec3f emission = emission_of(scene, row, least);
     const double sides = row.two_sided != 0 ? 2.0 : 1.0;
     return sides * pi_d * static_cast<double>(row.area) *
            static_cast<double>(max_component(emission));
@@ -232,6 +236,10 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
         table.shapes[i].select = static_cast<float>(pdf[first_shape + i]);
     if (has_environment) table.environment_select = table.select_pdf.back();
     return table;
+}
+
+Vec3f mean_emission(const Scene& scene, const TriangleLight& row) {
+    return emission_of(scene, row, 0.0f);
 }
 
 double brightest_mean_radiance(const Scene& scene, const LightTable& table) {

@@ -32,6 +32,9 @@ struct LightTable {
 /// In      environment: null or black: none
 LightTable make_light_table(Scene& scene, const EnvironmentTable* environment);
 
+/// Radiance of a row, with its texture, averaged over the triangle.
+Vec3f mean_emission(const Scene& scene, const TriangleLight& row);
+
 /// Radiance of the emissive surface that has most of it, averaged over its area with its texture:
 /// low where a material glows in name only, with a black texture or a few small spots.
 double brightest_mean_radiance(const Scene& scene, const LightTable& table);

@@ -120,7 +120,8 @@ Result<PreparedScene> PreparedScene::create(Scene scene,
     auto lit = make_lighting(*impl, lighting, log);
     if (!lit) return fail(lit.error());
     const Stopwatch building_bvh;
-    auto accel = Accel::build(impl->scene, embree_isa_for(isa));
+    impl->embree_isa = embree_isa_for(isa);
+    auto accel = Accel::build(impl->scene, impl->embree_isa);
     if (!accel) return fail(accel.error());
     impl->accel = std::move(*accel);
     impl->build_seconds = {building.seconds(), building_bvh.seconds()};

@@ -16,6 +16,7 @@ struct PreparedScene::Impl {
     LightTable lights;
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;
+    std::string embree_isa;  ///< as Accel::build takes it
     BuildSeconds build_seconds;
 
     SceneView view() const;

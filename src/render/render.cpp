@@ -5,7 +5,9 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "render/filter_table.h"
+#include "render/integrators.h"
 #include "render/prepared_scene.h"
+#include "render/raycast_lights.h"
 #include "stages/walk.h"
 
 #include <algorithm>
@@ -15,43 +17,6 @@
 namespace obscura {
 
 namespace {
-
-/// What the film of an integrator holds: channel names, and how many of RGBA they take.
-std::vector<std::string> film_channels(Integrator integrator) {
-    switch (integrator) {
-        case Integrator::normal:
-            return {"N.X", "N.Y", "N.Z"};
-        case Integrator::depth:
-            return {"Z"};
-        case Integrator::id:
-            return {"id.node", "id.material", "id.triangle"};
-        case Integrator::albedo:
-        case Integrator::path:
-        case Integrator::direct:
-        case Integrator::ao:
-            break;
-    }
-    return {"R", "G", "B", "A"};
-}
-
-/// What an integrator named after a quantity finds at pixel centres; none for the others.
-std::optional<Quantity> quantity_of(Integrator integrator) {
-    switch (integrator) {
-        case Integrator::normal:
-            return Quantity::normal;
-        case Integrator::depth:
-            return Quantity::depth;
-        case Integrator::albedo:
-            return Quantity::albedo;
-        case Integrator::id:
-            return Quantity::id;
-        case Integrator::path:
-        case Integrator::direct:
-        case Integrator::ao:
-            break;
-    }
-    return std::nullopt;
-}
 
 WalkInput make_walk(const PreparedScene::Impl& scene,
                     const Camera& camera,
@@ -79,9 +44,11 @@ WalkInput make_walk(const PreparedScene::Impl& scene,
     const float diagonal = bounds.empty() ? 1.0f : length(bounds.high - bounds.low);
     batch.ao_distance =
         options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m) : 0.2f * diagonal;
+    batch.wire_width_px = static_cast<float>(options.wire_width_px);
     if (options.integrator == Integrator::direct) batch.max_bounces = 0;
-    if (options.integrator == Integrator::ao) walk.kind = WalkKind::ao;
-    walk.quantity = quantity_of(options.integrator).value_or(Quantity::normal);
+    walk.kind = row_of(options.integrator).walk;
+    walk.quantity = row_of(options.integrator).quantity;
+    batch.through_centres = walk.kind == WalkKind::raycast;
     return walk;
 }
 
@@ -124,19 +91,6 @@ void fill_pattern(int width, int height, TilePattern& pattern) {
     }
 }
 
-void list_pixels(const Tile& tile,
-                 TilePattern& pattern,
-                 std::vector<int32_t>& xs,
-                 std::vector<int32_t>& ys) {
-    fill_pattern(tile.width, tile.height, pattern);
-    xs.resize(pattern.dx.size());
-    ys.resize(pattern.dy.size());
-    for (size_t i = 0; i < xs.size(); ++i) {
-        xs[i] = tile.x + pattern.dx[i];
-        ys[i] = tile.y + pattern.dy[i];
-    }
-}
-
 /// What one thread keeps from tile to tile.
 struct ThreadState {
     Workspace work;
@@ -147,14 +101,26 @@ struct ThreadState {
     std::unique_ptr<RayRecorder> recorder;  ///< null: nobody wants the rays
 };
 
+/// Lists the tile's pixels, and 16 more, for stages read whole registers. Returns their number.
+int list_pixels(const Tile& tile, ThreadState& state) {
+    fill_pattern(tile.width, tile.height, state.pattern);
+    const size_t count = state.pattern.dx.size();
+    state.xs.assign(count + 16, 0);
+    state.ys.assign(count + 16, 0);
+    for (size_t i = 0; i < count; ++i) {
+        state.xs[i] = tile.x + state.pattern.dx[i];
+        state.ys[i] = tile.y + state.pattern.dy[i];
+    }
+    return static_cast<int>(count);
+}
+
 /// Renders all samples of one tile into state.sums; leaves early when `stop` is set.
 void render_tile(const WalkInput& walk_input,
                  int samples,
                  const Tile& tile,
                  const std::atomic<bool>& stop,
                  ThreadState& state) {
-    list_pixels(tile, state.pattern, state.xs, state.ys);
-    const int pixels = static_cast<int>(state.xs.size());
+    const int pixels = list_pixels(tile, state);
     state.sums.assign(static_cast<size_t>(pixels) * 4, 0.0f);
     WalkInput in = walk_input;
     in.recorder = state.recorder.get();
@@ -199,10 +165,7 @@ void render_quantity_tile(const WalkInput& walk_input,
                           const std::atomic<bool>& stop,
                           ThreadState& state,
                           Film& film) {
-    list_pixels(tile, state.pattern, state.xs, state.ys);
-    const int pixels = static_cast<int>(state.xs.size());
-    state.xs.resize(state.xs.size() + 16);  // stages read whole registers
-    state.ys.resize(state.ys.size() + 16);
+    const int pixels = list_pixels(tile, state);
     WalkInput in = walk_input;
     in.recorder = state.recorder.get();
     for (int first = 0; first < pixels; first += quantity_rows) {
@@ -215,6 +178,9 @@ void render_quantity_tile(const WalkInput& walk_input,
         switch (film.channels.size()) {
             case 1:
                 store_samples<1>(state, first, count, film);
+                break;
+            case 2:
+                store_samples<2>(state, first, count, film);
                 break;
             case 3:
                 store_samples<3>(state, first, count, film);
@@ -229,7 +195,7 @@ void render_quantity_tile(const WalkInput& walk_input,
 void store_tile(const ThreadState& state, int samples, Film& film) {
     const size_t channels = film.channels.size();
     const float scale = 1.0f / static_cast<float>(samples);
-    for (size_t i = 0; i < state.xs.size(); ++i) {
+    for (size_t i = 0; i < state.pattern.dx.size(); ++i) {
         const size_t pixel = static_cast<size_t>(state.ys[i]) * static_cast<size_t>(film.width) +
                              static_cast<size_t>(state.xs[i]);
         for (size_t c = 0; c < channels; ++c) {
@@ -265,6 +231,23 @@ void hand_over(std::vector<std::unique_ptr<ThreadState>>& states, RayRecording& 
     }
 }
 
+/// What an integrator reads besides the prepared scene.
+struct Supplies {
+    RaycastLights raycast;
+    std::optional<Accel> counting;
+};
+
+Result<Supplies> make_supplies(const PreparedScene::Impl& scene, const RenderOptions& options) {
+    Supplies out;
+    if (options.integrator == Integrator::raycast) out.raycast = make_raycast_lights(scene);
+    if (options.integrator == Integrator::heat) {
+        Result<Accel> counting = Accel::build_counting(scene.scene, scene.embree_isa);
+        if (!counting) return fail(counting.error());
+        out.counting = std::move(*counting);
+    }
+    return out;
+}
+
 }  // namespace
 
 Result<RenderResult> render(const PreparedScene& scene,
@@ -273,6 +256,8 @@ Result<RenderResult> render(const PreparedScene& scene,
                             const ProgressFunction& progress,
                             const std::atomic<bool>& stop) {
     const Stopwatch rendering;
+    const Result<Supplies> supplies = make_supplies(scene.impl(), options);
+    if (!supplies) return fail(supplies.error());
     RenderResult result;
     result.film.width = options.width;
     result.film.height = options.height;
@@ -285,7 +270,10 @@ Result<RenderResult> render(const PreparedScene& scene,
     const std::vector<float> filter = make_filter_table(options.filter);
     WalkInput walk_input = make_walk(scene.impl(), camera, options);
     walk_input.batch.filter = filter.empty() ? nullptr : filter.data();
-    const bool quantity = quantity_of(options.integrator).has_value();
+    walk_input.scene.raycast = supplies->raycast.view();
+    walk_input.counting = supplies->counting ? &*supplies->counting : nullptr;
+    const bool quantity = is_quantity(options.integrator);
+    const int samples = samples_taken(options);
     const PixelRect whole{0, 0, options.width, options.height};
     const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), options.tile_size);
 
@@ -298,8 +286,8 @@ Result<RenderResult> render(const PreparedScene& scene,
         if (quantity) {
             render_quantity_tile(walk_input, tiles[i], stop, *state, result.film);
         } else {
-            render_tile(walk_input, options.samples_per_pixel, tiles[i], stop, *state);
-            store_tile(*state, options.samples_per_pixel, result.film);
+            render_tile(walk_input, samples, tiles[i], stop, *state);
+            store_tile(*state, samples, result.film);
         }
         const size_t done = ++finished;
         if (progress) progress(static_cast<double>(done) / static_cast<double>(tiles.size()));

@@ -22,11 +22,25 @@
 
 namespace obscura {
 
-/// To add one: append it here; name it in app/render_request.cpp and app/statistics.cpp; give it
-/// channels and a walk in render/render.cpp. A quantity is computed in stages/3_quantity.cpp and,
-/// for PNG and JPEG, mapped to colours in app/preview.cpp; light transport is a case in
-/// stages/walk.cpp.
-enum class Integrator { path, direct, ao, normal, depth, albedo, id };
+/// To add one: append it here and in render/integrators.h, with a name, channels and a walk. A
+/// quantity is computed in stages/3_quantity.cpp and, for PNG and JPEG, mapped to colours in
+/// app/preview.cpp; light transport is a case in stages/walk.cpp. Then docs/cli.md and the help in
+/// app/render_options.cpp.
+enum class Integrator {
+    path,
+    direct,
+    raycast,
+    ao,
+    normal,
+    facing,
+    depth,
+    distance,
+    uv,
+    albedo,
+    id,
+    wireframe,
+    heat
+};
 
 enum class PixelFilter { box, gaussian, blackman_harris };
 
@@ -55,6 +69,7 @@ struct RenderOptions {
     BackgroundKind background = BackgroundKind::environment;
     float background_color[3] = {0, 0, 0};
     double ao_distance_m = 0;  ///< 0: a fifth of the scene's diagonal
+    double wire_width_px = 1;
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
     int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling
     /// Filled with every ray that was asked, about 32 bytes each; null: nobody wants them.
@@ -132,7 +147,7 @@ using ProgressFunction = std::function<void(double)>;
 /// threads, any tile size and any crop.
 ///
 /// In      stop: when it becomes true, tiles end after the batch they are in
-/// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM
+/// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM; 70 E-EMBREE (heat builds a hierarchy)
 Result<RenderResult> render(const PreparedScene& scene,
                             const Camera& camera,
                             const RenderOptions& options,

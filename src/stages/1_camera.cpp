@@ -21,20 +21,6 @@ OBSCURA_INLINE Lanes filter_offset(const float* inverse_cdf, Lanes u) {
     return lerp(low, high, x - from_int<Lanes>(i));
 }
 
-/// What pixels share in a batch.
-struct FilmScale {
-    Vec2<Lanes> inverse_size;
-
-    explicit FilmScale(const BatchSettings& batch)
-        : inverse_size{Lanes(1.0f / static_cast<float>(batch.width)),
-                       Lanes(1.0f / static_cast<float>(batch.height))} {}
-
-    OBSCURA_INLINE Vec2<Lanes> operator()(LanesI x, LanesI y, const Vec2<Lanes>& offset) const {
-        return {(from_int<Lanes>(x) + Lanes(0.5f) + offset.x) * inverse_size.x,
-                (from_int<Lanes>(y) + Lanes(0.5f) + offset.y) * inverse_size.y};
-    }
-};
-
 /// Writes what every integrator needs of a ray.
 template <typename Maker>
 OBSCURA_INLINE CameraRay<Lanes> store_ray(const BatchSettings& batch,
@@ -58,9 +44,9 @@ void make_centre_rays_of(const BatchSettings& batch,
                          const PathRows& out,
                          float* length_m) {
     const FilmScale scale(batch);
+    const Vec2<Lanes> offset{Lanes(batch.film_offset_px[0]), Lanes(batch.film_offset_px[1])};
     for (int i = 0; i < count; i += lane_count) {
-        const Vec2<Lanes> film =
-            scale(load(batch.pixel_x + i), load(batch.pixel_y + i), {Lanes(0.0f), Lanes(0.0f)});
+        const Vec2<Lanes> film = scale(load(batch.pixel_x + i), load(batch.pixel_y + i), offset);
         store_ray<Maker>(batch, {film, film, {Lanes(0.5f), Lanes(0.5f)}}, i, out, length_m);
     }
 }
@@ -85,8 +71,11 @@ void make_rays_of(const BatchSettings& batch,
         const LanesU index = reverse_bits(as_uint(sample) + LanesU(batch.first_sample));
         const auto u =
             unit_pair<Lanes>(sobol_pair(key, index, static_cast<uint32_t>(RandomUse::film)));
-        const Vec2<Lanes> film =
-            scale(x, y, {filter_offset(batch.filter, u.x), filter_offset(batch.filter, u.y)});
+        Vec2<Lanes> offset{Lanes(0.0f), Lanes(0.0f)};
+        if (!batch.through_centres) {
+            offset = {filter_offset(batch.filter, u.x), filter_offset(batch.filter, u.y)};
+        }
+        const Vec2<Lanes> film = scale(x, y, offset);
         FilmPoint<Lanes> point{film, film, {Lanes(0.5f), Lanes(0.5f)}};
         if constexpr (Maker::model == CameraModel::environment) {
             point.pixel_centre = scale(x, y, {Lanes(0.0f), Lanes(0.0f)});
@@ -115,7 +104,7 @@ void make_camera_rays(const BatchSettings& batch,
                       const PathRows& out,
                       const SampleRows& samples,
                       float* length_m) {
-    visit_model(batch.camera, true, [&](auto maker) {
+    visit_model(batch.camera, !batch.through_centres, [&](auto maker) {
         make_rays_of<decltype(maker)>(batch, count, out, samples, length_m);
     });
 }

@@ -8,6 +8,21 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
+/// From pixels to film coordinates.
+struct FilmScale {
+    Vec2<Lanes> inverse_size;
+
+    OBSCURA_INLINE explicit FilmScale(const BatchSettings& batch)
+        : inverse_size{Lanes(1.0f / static_cast<float>(batch.width)),
+                       Lanes(1.0f / static_cast<float>(batch.height))} {}
+
+    /// offset: from the pixel's centre, in pixels
+    OBSCURA_INLINE Vec2<Lanes> operator()(LanesI x, LanesI y, const Vec2<Lanes>& offset) const {
+        return {(from_int<Lanes>(x) + Lanes(0.5f) + offset.x) * inverse_size.x,
+                (from_int<Lanes>(y) + Lanes(0.5f) + offset.y) * inverse_size.y};
+    }
+};
+
 /// In      batch.pixel_x/y, samples, first_sample: which film points
 /// Out     out: one row a slot, in slot order; throughput 0 where the camera shows nothing;
 ///         samples: cleared; length_m: how far each ray may go, null where !limits_rays(camera)
@@ -19,8 +34,8 @@ void make_camera_rays(const BatchSettings& batch,
                       const SampleRows& samples,
                       float* length_m);
 
-/// For quantities: one ray through the centre of each pixel in the order of batch.pixel_x, as above
-/// but with origin, direction and cone alone.
+/// For quantities: one ray through the centre of each pixel (plus batch.film_offset_px) in the
+/// order of batch.pixel_x, as above but with origin, direction and cone alone.
 void make_centre_rays(const BatchSettings& batch, int count, const PathRows& out, float* length_m);
 
 }  // namespace OBSCURA_ISA

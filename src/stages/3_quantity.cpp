@@ -8,13 +8,38 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// Distance along the camera's view axis; from the eye where the camera has no flat picture. Rays
-/// begin at the near distance.
-OBSCURA_INLINE Lanes axial_depth(const Camera& camera, const PathLanes& path, Lanes distance) {
-    if (measures_from_eye(camera)) return distance + Lanes(camera.near_m);
+/// Between the ray and the axis along which depth and near are measured: 1 where the camera has no
+/// flat picture.
+OBSCURA_INLINE Lanes cosine_to_axis(const Camera& camera, const PathLanes& path) {
+    if (measures_from_eye(camera)) return Lanes(1.0f);
     const auto& m = camera.world_from_camera.m;
     const Vec3<Lanes> forward{Lanes(-m[0][2]), Lanes(-m[1][2]), Lanes(-m[2][2])};
-    return distance * dot(path.direction, forward) + Lanes(camera.near_m);
+    return dot(path.direction, forward);
+}
+
+/// Distance along the camera's view axis. Rays begin at the near distance.
+OBSCURA_INLINE Lanes axial_depth(const Camera& camera, const PathLanes& path, Lanes t) {
+    return t * cosine_to_axis(camera, path) + Lanes(camera.near_m);
+}
+
+/// From the eye, or from the camera's plane where rays are parallel.
+OBSCURA_INLINE Lanes distance_along_ray(const Camera& camera, const PathLanes& path, Lanes t) {
+    return t + Lanes(camera.near_m) / max(cosine_to_axis(camera, path), Lanes(1e-6f));
+}
+
+/// UV set 0 as the mesh has it, or a shape's own parametrisation; 0 where there is none.
+OBSCURA_INLINE Vec3<Lanes> surface_uv(const SceneView& scene,
+                                      const PathLanes& path,
+                                      const HitLanes& hit) {
+    HitGeometry g = hit_geometry(scene, hit);
+    instance_to_world(scene, hit, g);
+    const LanesI base = g.primitive.integer(6);
+    const Mask present = base != LanesI(no_attribute);
+    const Vec3<Lanes> zero = splat3(Lanes(0.0f));
+    if (none(present)) return zero;
+    g.first_uv = read_mesh_uv(scene, g, base);
+    shapes_to_world(scene, hit, path, g);
+    return select(present, Vec3<Lanes>{g.first_uv.at.x, g.first_uv.at.y, Lanes(0.0f)}, zero);
 }
 
 /// Numbers of glTF node, glTF material and triangle, from 1; material 0 is the default one.
@@ -36,14 +61,21 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
                                        const Camera& camera,
                                        const PathLanes& path,
                                        const HitLanes& hit) {
+    const Lanes zero(0.0f);
     if constexpr (quantity == Quantity::depth) {
-        return {axial_depth(camera, path, hit.t), Lanes(0.0f), Lanes(0.0f)};
+        return {axial_depth(camera, path, hit.t), zero, zero};
+    } else if constexpr (quantity == Quantity::distance) {
+        return {distance_along_ray(camera, path, hit.t), zero, zero};
+    } else if constexpr (quantity == Quantity::uv) {
+        return surface_uv(scene, path, hit);
     } else if constexpr (quantity == Quantity::id) {
         return identity(scene, hit);
     } else {
         const ShadingPoint s =
             shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
-        return quantity == Quantity::normal ? s.normal : s.bsdf.base_color;
+        if constexpr (quantity == Quantity::normal) return s.normal;
+        if constexpr (quantity == Quantity::albedo) return s.bsdf.base_color;
+        return {abs(dot(s.normal, path.direction)), zero, zero};
     }
 }
 
@@ -77,12 +109,22 @@ void write_quantity(const SceneView& scene,
     switch (quantity) {
         case Quantity::normal:
             return write_all<Quantity::normal>(scene, batch.camera, count, rows);
+        case Quantity::facing:
+            return write_all<Quantity::facing>(scene, batch.camera, count, rows);
         case Quantity::depth:
             return write_all<Quantity::depth>(scene, batch.camera, count, rows);
+        case Quantity::distance:
+            return write_all<Quantity::distance>(scene, batch.camera, count, rows);
+        case Quantity::uv:
+            return write_all<Quantity::uv>(scene, batch.camera, count, rows);
         case Quantity::albedo:
             return write_all<Quantity::albedo>(scene, batch.camera, count, rows);
         case Quantity::id:
             return write_all<Quantity::id>(scene, batch.camera, count, rows);
+        case Quantity::wireframe:
+            return write_wireframe(scene, batch, count, rows);
+        case Quantity::heat:
+            break;
     }
 }
 

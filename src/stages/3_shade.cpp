@@ -4,7 +4,8 @@
 
 #include "math/sampler.h"
 #include "stages/3_lights.h"
-#include "stages/3_surface.h"
+#include "stages/3_misses.h"
+#include "stages/3_scatter.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -69,38 +70,6 @@ OBSCURA_INLINE void draw_ahead(const SceneView& scene,
         draw_environment_range(scene.environment, draws[g]);
     for (int g = 0; g < groups; ++g)
         draw_environment_column(scene.environment, draws[g]);
-}
-
-/// The material's value for a direction, and the density with which sample_point chooses it.
-OBSCURA_INLINE BsdfValue<Lanes> evaluate_point(const ShadingPoint& s,
-                                               const Vec3<Lanes>& wo,
-                                               const Vec3<Lanes>& wi) {
-    const BsdfValue<Lanes> core = evaluate_bsdf(s.bsdf, s.lobes, wo, wi);
-    if (!s.any_layers) return core;
-    const LayeredPoint& l = s.layers;
-    const BsdfValue<Lanes> all = evaluate_layered(l.params, l.weights, wo, wi);
-    return {select(l.layered, all.value_cos, core.value_cos), select(l.layered, all.pdf, core.pdf)};
-}
-
-OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
-                                              const Vec3<Lanes>& wo,
-                                              const Vec2<Lanes>& u) {
-    const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, u);
-    if (!s.any_layers) return core;
-    const LayeredPoint& l = s.layers;
-    const BsdfSample<Lanes> all = sample_layered(l.params, l.weights, wo, u);
-    return {select(l.layered, all.direction, core.direction),
-            {select(l.layered, all.at.value_cos, core.at.value_cos),
-             select(l.layered, all.at.pdf, core.at.pdf)},
-            select(l.layered, all.spread, core.spread)};
-}
-
-/// Whether a ray may leave on the side that its direction has of the true surface (`before`: the
-/// viewer's): where light goes through, the shading normal must put it on the same side.
-OBSCURA_INLINE Mask may_leave(const ShadingPoint& s, Mask before, const Vec3<Lanes>& wi) {
-    if (!s.any_layers) return before;
-    const Mask through = s.layers.lets_through & (!before) & (wi.z < Lanes(0.0f));
-    return (before & (wi.z > Lanes(0.0f))) | through;
 }
 
 /// Light that the hit surfaces send towards the viewer themselves.
@@ -237,60 +206,6 @@ OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, 
     if (none(inside)) return;
     const LanesU bodies = select(inside, path.bodies, LanesU(0U));
     path.throughput = path.throughput * transmittance(scene, bodies, distance);
-}
-
-/// Environment light along a ray that the BSDF chose with density `pdf`, with the MIS weight of
-/// each pixel that is mixed.
-OBSCURA_INLINE Vec3<Lanes> weighted_environment(const SceneView& scene,
-                                                int strategies,
-                                                const EnvironmentTaps<Lanes>& taps,
-                                                Lanes pdf) {
-    Vec3<Lanes> sum = splat3(Lanes(0.0f));
-    for (int i = 0; i < 4; ++i) {
-        Lanes weight = taps.weight[i];
-        if (strategies == (sample_lights | sample_bsdfs)) {
-            weight = weight * mis_weight(pdf, taps.pdf[i] * Lanes(scene.lights.environment_select));
-        } else if (strategies == sample_lights) {
-            weight = select(taps.pdf[i] > Lanes(0.0f), Lanes(0.0f), weight);
-        }
-        sum = sum + taps.radiance[i] * weight;
-    }
-    return sum;
-}
-
-/// Environment light of the paths that left the scene.
-void shade_misses(const SceneView& scene,
-                  const BatchSettings& batch,
-                  int bounce,
-                  int count_in,
-                  const ShadeRows& rows) {
-    if (!scene.has_environment || (bounce == 0 && !batch.background_visible)) return;
-    for (int i = 0; i < count_in; i += lane_count) {
-        const Mask exists = rows_in_range(i, count_in);
-        const MissRows& m = rows.misses;
-        const Vec3<Lanes> direction =
-            select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
-        const EnvironmentTaps<Lanes> taps = environment_taps(scene.environment, direction);
-        const Vec3<Lanes> light =
-            bounce == 0 ? mix(taps)
-                        : weighted_environment(scene, batch.strategies, taps, load(m.pdf + i));
-        add_radiance(rows.samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
-    }
-}
-
-/// Camera rays that miss take the background colour, if there is one; those that hit are opaque.
-/// Where the camera shows nothing the throughput is 0, and the sample stays clear.
-void set_camera_alpha(const BatchSettings& batch, SortedCounts sorted, const ShadeRows& rows) {
-    for (int i = 0; i < sorted.hits; ++i)
-        rows.samples.a[rows.paths.slot[i]] = 1.0f;
-    for (int i = 0; i < sorted.misses; ++i) {
-        const uint32_t slot = rows.misses.slot[i];
-        if (rows.misses.tr[i] == 0.0f) continue;
-        rows.samples.r[slot] += batch.background[0];
-        rows.samples.g[slot] += batch.background[1];
-        rows.samples.b[slot] += batch.background[2];
-        rows.samples.a[slot] = batch.background[3];
-    }
 }
 
 }  // namespace

@@ -26,12 +26,36 @@ ShadeCounts shade(const SceneView& scene,
 /// Returns the number of shadow rows.
 int shade_ao(const SceneView& scene, const BatchSettings& batch, int count, const ShadeRows& rows);
 
+/// First step of ray casting: parts hits from misses, and gives misses the background.
+/// Returns the number of hits, which are now the first rows.
+int begin_raycast(const SceneView& scene,
+                  const BatchSettings& batch,
+                  int count,
+                  const ShadeRows& rows);
+
+/// Light that reaches some of the hits from some of the lights: one shadow row for each pair, and
+/// with the first light what needs none. Returns the number of shadow rows.
+///
+/// In      range: at most as many pairs as rows.shadows holds
+/// Source  Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968
+int shade_raycast(const SceneView& scene, const RaycastRange& range, const ShadeRows& rows);
+
 /// Quantities of the first hit (see Quantity), without light. Misses leave zero.
 void write_quantity(const SceneView& scene,
                     const BatchSettings& batch,
                     Quantity quantity,
                     int count,
                     const ShadeRows& rows);
+
+/// How much of a line's width lies around each ray: the edges of triangles, and on analytic shapes
+/// the lines on which u or v is a multiple of an eighth. Lines are batch.wire_width_px wide.
+///
+/// In      rows.paths, rows.hits: row i is pixel i of the batch, moved by batch.film_offset_px
+/// Out     rows.samples: r = g = b in [0, 1]; a = 1 where something was hit
+void write_wireframe(const SceneView& scene,
+                     const BatchSettings& batch,
+                     int count,
+                     const ShadeRows& rows);
 
 /// Moves the hits together at the front of their columns and the misses to rows.misses.
 struct SortedCounts {

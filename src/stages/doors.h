@@ -17,6 +17,7 @@
 #include "camera/camera.h"
 #include "light/environment.h"
 #include "light/light_view.h"
+#include "light/raycast_light.h"
 #include "surface/texture.h"
 
 #include <cstdint>
@@ -86,6 +87,7 @@ struct SceneView {
     const int32_t* material_numbers = nullptr;  ///< in glTF, by row; -1: none
     TextureView textures;
     LightView lights;
+    RaycastView raycast;  ///< for --integrator raycast alone
     EnvironmentView environment;
     bool has_environment = false;
 };
@@ -108,6 +110,9 @@ struct BatchSettings {
     bool background_visible = true;      ///< camera rays that miss see the environment
     float background[4] = {0, 0, 0, 0};  ///< added where camera rays miss; premultiplied RGBA
     float ao_distance = 0;
+    bool through_centres = false;      ///< all samples: through the pixel's and the lens' middle
+    float film_offset_px[2] = {0, 0};  ///< of centre rays, from the pixel's centre
+    float wire_width_px = 1;
 };
 
 inline constexpr int filter_entries = 256;

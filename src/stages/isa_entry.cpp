@@ -20,6 +20,8 @@ const StageTable stage_table = {
     make_centre_rays,
     shade,
     shade_ao,
+    begin_raycast,
+    shade_raycast,
     write_quantity,
     add_shadow_light,
     accumulate,

@@ -6,13 +6,29 @@
 
 namespace obscura {
 
-/// What --integrator normal, depth, albedo and id write.
-enum class Quantity : int { normal, depth, albedo, id };
+/// What integrators that are named after a quantity write.
+enum class Quantity : int {
+    normal,
+    facing,
+    depth,
+    distance,
+    uv,
+    albedo,
+    id,
+    wireframe,
+    heat,  ///< not a stage's work: accel/ counts
+};
 
 /// What shade writes besides the samples.
 struct ShadeCounts {
     int next = 0;    ///< rows in the next paths
     int shadow = 0;  ///< rows in the shadow rays
+};
+
+/// Hits and lights that one step of ray casting joins.
+struct RaycastRange {
+    int first_hit = 0, hits = 0;      ///< first_hit: a multiple of 16
+    int first_light = 0, lights = 0;  ///< punctual ones first, then RaycastView::centres
 };
 
 /// The columns that shading one bounce touches.
@@ -44,6 +60,11 @@ struct StageTable {
 
     /// Stage 3 for --integrator ao: one occlusion ray a hit.
     int (*shade_ao)(const SceneView&, const BatchSettings&, int count, const ShadeRows&);
+
+    /// Stage 3 for --integrator raycast: the number of hits, which come to the front; then their
+    /// shadow rays, range by range.
+    int (*begin_raycast)(const SceneView&, const BatchSettings&, int count, const ShadeRows&);
+    int (*shade_raycast)(const SceneView&, const RaycastRange&, const ShadeRows&);
 
     /// Stage 3 for quantities: every sample is written, without light; 0 where nothing was hit.
     void (*quantity)(const SceneView&, const BatchSettings&, Quantity, int count, const ShadeRows&);

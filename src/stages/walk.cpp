@@ -4,6 +4,7 @@
 
 #include "base/stopwatch.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -65,7 +66,8 @@ void intersect(
 /// Stage 4, and its light into the samples.
 void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, WalkCounters& c) {
     const auto segment = 2U * static_cast<uint32_t>(bounce) + 1U;
-    const RayColumns rays = rays_of(work.shadows, count);
+    RayColumns rays = rays_of(work.shadows, count);
+    if (in.kind == WalkKind::raycast) rays.key = nullptr;
     c.shadow_rays += static_cast<uint64_t>(count);
     {
         const SumOfTime time(c.seconds.shadow);
@@ -106,8 +108,62 @@ void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
 }
 
+/// Hits and lights are joined in as many steps as the shadow columns need; for a sample the lights
+/// come in the same order however they are cut.
+void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
+    constexpr int most_lights = batch_rows / 16;
+    intersect(in, count, {true, true, 0}, work, c);
+    int hits = 0;
+    {
+        const SumOfTime time(c.seconds.shade);
+        hits = in.stages->begin_raycast(in.scene, in.batch, count, shade_rows(work));
+    }
+    const int lights = in.scene.lights.punctual_count + in.scene.raycast.centre_count;
+    RaycastRange range;
+    for (range.first_light = 0; range.first_light == 0 || range.first_light < lights;
+         range.first_light += most_lights) {
+        range.lights = std::min(lights - range.first_light, most_lights);
+        const int most_hits = batch_rows / std::max(range.lights, 1) / 16 * 16;
+        for (range.first_hit = 0; range.first_hit < hits; range.first_hit += most_hits) {
+            range.hits = std::min(hits - range.first_hit, most_hits);
+            int shadows = 0;
+            {
+                const SumOfTime time(c.seconds.shade);
+                shadows = in.stages->shade_raycast(in.scene, range, shade_rows(work));
+            }
+            if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
+        }
+    }
+}
+
+/// One quantity a ray of the grid, added up; see wireframe_side.
+void walk_wireframe(
+    const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& c) {
+    WalkInput one = in;
+    for (int i = 0; i < in.batch.samples; ++i) {
+        const int ray = static_cast<int>(in.batch.first_sample) + i;
+        const auto offset = [](int place) {
+            return (static_cast<float>(place) + 0.5f) / wireframe_side - 0.5f;
+        };
+        one.batch.film_offset_px[0] = offset(ray % wireframe_side);
+        one.batch.film_offset_px[1] = offset(ray / wireframe_side);
+        walk_quantity(one, pixels, work, c);
+        const SumOfTime time(c.seconds.accumulate);
+        in.stages->accumulate(pixels, 1, work.samples, sums);
+    }
+}
+
 float* camera_lengths(const WalkInput& in, Workspace& work) {
     return limits_rays(in.batch.camera) ? work.camera_length_m.data() : nullptr;
+}
+
+/// What Accel::count_tests says, as samples.
+void count_heat(const WalkInput& in, int pixels, Workspace& work, WalkCounters& c) {
+    RayColumns rays = rays_of(work.paths[0], pixels);
+    rays.tfar = camera_lengths(in, work);
+    c.camera_rays += static_cast<uint64_t>(pixels);
+    const SumOfTime time(c.seconds.intersect_camera);
+    c.refused_rays += static_cast<uint64_t>(in.counting->count_tests(rays, work.samples.r));
 }
 
 }  // namespace
@@ -133,6 +189,7 @@ Workspace::Workspace() {
 }
 
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {
+    if (in.kind == WalkKind::wireframe) return walk_wireframe(in, pixels, work, sums, counters);
     const int count = pixels * in.batch.samples;
     {
         const SumOfTime time(counters.seconds.camera);
@@ -147,6 +204,12 @@ void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCou
         case WalkKind::ao:
             walk_ao(in, count, work, counters);
             break;
+        case WalkKind::raycast:
+            walk_raycast(in, count, work, counters);
+            break;
+        case WalkKind::wireframe:
+        case WalkKind::quantity:
+            break;
     }
     const SumOfTime time(counters.seconds.accumulate);
     counters.nonfinite_samples +=
@@ -159,6 +222,7 @@ void walk_quantity(const WalkInput& in, int pixels, Workspace& work, WalkCounter
         in.stages->centre_camera(in.batch, pixels, work.paths[0], camera_lengths(in, work));
     }
     counters.paths += static_cast<uint64_t>(pixels);
+    if (in.quantity == Quantity::heat) return count_heat(in, pixels, work, counters);
     intersect(in, pixels, {true, true, 0}, work, counters);
     const SumOfTime time(counters.seconds.shade);
     in.stages->quantity(in.scene, in.batch, in.quantity, pixels, shade_rows(work));

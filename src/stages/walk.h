@@ -14,7 +14,11 @@
 namespace obscura {
 
 /// What a walk computes. To add a quantity: stages/3_quantity.cpp; a transport: a case in walk().
-enum class WalkKind { path, ao };
+enum class WalkKind { path, ao, raycast, wireframe, quantity };
+
+/// A wireframe's pixels are looked at through a grid of so many rays, each for a square of its own.
+inline constexpr int wireframe_side = 4;
+inline constexpr int wireframe_rays = wireframe_side * wireframe_side;
 
 struct WalkCounters {
     uint64_t paths = 0;
@@ -53,13 +57,14 @@ struct WalkInput {
     const Accel* accel;
     SceneView scene;
     BatchSettings batch;
+    const Accel* counting = nullptr;  ///< for Quantity::heat: see Accel::build_counting
     WalkKind kind = WalkKind::path;
     Quantity quantity = Quantity::normal;  ///< of walk_quantity
     RayRecorder* recorder = nullptr;       ///< keeps every ray; of this thread alone; null: nobody
 };
 
 /// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_rows) and adds them
-/// to sums (RGBA per pixel).
+/// to sums (RGBA per pixel). For every kind but quantity.
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters);
 
 /// Rows of a batch of quantities: they stay in the nearest cache.

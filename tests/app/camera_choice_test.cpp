@@ -171,6 +171,22 @@ TEST(CameraChoice, RefusesCamerasThatCannotBe) {
     EXPECT_EQ(choose(scene, {}).error().id, "E-CAM-RANGE");
 }
 
+TEST(CameraChoice, OptionsThatTheFilesCameraDoesNotHaveAreRefused) {
+    const Scene scene = scene_with({perspective("eye", 0, 0), orthographic("plan", 2, 1)});
+    const auto error_of = [&](const char* camera, const CameraSettings& settings) {
+        const auto chosen = choose(scene, {.choice = camera, .settings = settings});
+        return chosen ? std::string("none") : chosen.error().id + " " + chosen.error().where;
+    };
+    CameraSettings shift;
+    shift.shift = {0.1, 0};
+    EXPECT_EQ(error_of("0", shift), "none");
+    EXPECT_EQ(error_of("1", shift), "E-USAGE-CONFLICT --shift");
+    CameraSettings exposure;  // an f-number that only exposes
+    exposure.fstop = 8;
+    exposure.shutter_s = 0.01;
+    EXPECT_EQ(error_of("1", exposure), "none");
+}
+
 TEST(CameraChoice, EmptyScenesAndExtremeScalesWork) {
     for (const float scale : {0.0f, 1e-3f, 1.0f, 1e5f}) {
         Scene scene = scene_with({});

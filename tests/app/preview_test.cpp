@@ -63,14 +63,40 @@ TEST(Preview, ColorsFollowTheSrgbCurve) {
     EXPECT_NEAR(ao.pixels[5], 1, 1e-6f);
 }
 
-TEST(Preview, QuantitiesAreTold) {
-    for (const Integrator light : {Integrator::path, Integrator::direct}) {
+TEST(Preview, UvShowsItsFractions) {
+    const Picture out =
+        preview_picture(picture_of({"UV.U", "UV.V"}, {0.25f, 3.5f, -0.25f, 1}), Integrator::uv);
+    EXPECT_EQ(out.pixels, (UnsetArray<float>{0.25f, 0.5f, 0, 0.75f, 0, 0}));
+}
+
+TEST(Preview, HeatGlowsAndFewHotPixelsDoNotDarkenTheRest) {
+    UnsetArray<float> tests;
+    for (int i = 0; i < 300; ++i)
+        tests.push_back(static_cast<float>(i % 31));
+    tests.push_back(1000);
+    const Picture out = preview_picture(picture_of({"heat"}, tests), Integrator::heat);
+    EXPECT_EQ(out.pixels[0], 0);
+    EXPECT_FLOAT_EQ(out.pixels[3 * 10], 1) << "a third is red";
+    EXPECT_FLOAT_EQ(out.pixels[3 * 10 + 1], 0);
+    EXPECT_FLOAT_EQ(out.pixels[3 * 15 + 1], 0.5f);
+    EXPECT_FLOAT_EQ(out.pixels[3 * 30 + 2], 1) << "white";
+    EXPECT_FLOAT_EQ(out.pixels[3 * 300 + 2], 1);
+}
+
+TEST(Preview, DistanceLooksLikeDepthAndFacingLikeGrey) {
+    const UnsetArray<float> values = {2, 6, 4};
+    EXPECT_EQ(preview_picture(picture_of({"distance"}, values), Integrator::distance).pixels,
+              preview_picture(picture_of({"Z"}, values), Integrator::depth).pixels);
+    const Picture facing =
+        preview_picture(picture_of({"facing"}, {0.2140411f}), Integrator::facing);
+    EXPECT_NEAR(facing.pixels[1], 0.5f, 1e-4f);
+}
+
+TEST(Preview, LightNeedsNone) {
+    for (const Integrator light : {Integrator::path, Integrator::direct, Integrator::raycast})
         EXPECT_FALSE(needs_preview(light));
-        EXPECT_FALSE(is_quantity(light));
-    }
     EXPECT_TRUE(needs_preview(Integrator::ao));
-    EXPECT_FALSE(is_quantity(Integrator::ao));
-    EXPECT_TRUE(is_quantity(Integrator::depth));
+    EXPECT_TRUE(needs_preview(Integrator::wireframe));
 }
 
 }  // namespace

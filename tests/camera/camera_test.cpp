@@ -3,6 +3,7 @@
 #include "camera/camera.h"
 
 #include "camera/matrices.h"
+#include "camera/project.h"
 
 #include <gtest/gtest.h>
 
@@ -123,6 +124,18 @@ TEST(Pinhole, TheCentreLooksDownMinusZAndTheTopCornerIsUpLeft) {
 }
 
 /// The closed form of glTF 2.0, section 3.10.3, for a known point.
+TEST(Orthographic, SizeDoesNotDependOnDistance) {
+    // 6 m are 480 pixels: a metre is 80 of them to the right and upwards, near and far.
+    Camera camera;
+    camera.model = CameraModel::orthographic;
+    camera.orthographic = {4, 3, 6.0f / 480};
+    for (const double distance : {0.1, 1.0, 30.0, 1000.0}) {
+        const Vec2<double> film = project(camera, {1, 1, -distance}).value();
+        EXPECT_NEAR(film.x * 640, 320 + 80, 1e-4) << distance;
+        EXPECT_NEAR(film.y * 480, 240 - 80, 1e-4) << distance;
+    }
+}
+
 TEST(Matrices, AKnownPointLandsOnItsPixel) {
     Camera camera = make_camera(CameraModel::pinhole);
     camera.world_from_camera = affine_cast<float>(turned(0, 0, 0, {1, 2, 3}));

@@ -136,6 +136,7 @@ TEST_F(Bench, RefusesWhatMakesNoSense) {
     refused({"--json", ""}, "E-USAGE-CONFLICT");
     refused({"--json", "box.gltf"}, "E-USAGE-SAMEFILE");
     refused({"--integrator", "magic"}, "E-USAGE-CHOICE");
+    refused({"--integrator", "heat"}, "E-USAGE-CHOICE");
     refused({"--wrong"}, "E-USAGE");
     expect_result(run({"bench", "box.gltf", "--repeat", "0"}), 64, "E-USAGE-RANGE");
 }

@@ -78,7 +78,7 @@ TEST_F(Outputs, TheExrSpeaksAboutItself) {
 
 TEST_F(Outputs, QuantitiesAreFloatsInExrAndReadableInPng) {
     const std::vector<std::pair<std::string, size_t>> quantities = {
-        {"normal", 3}, {"depth", 1}, {"id", 3}};
+        {"normal", 3}, {"depth", 1}, {"id", 3}, {"facing", 1}, {"distance", 1}, {"heat", 1}};
     for (const auto& [name, channels] : quantities) {
         SCOPED_TRACE(name);
         const std::string exr_name = name + ".exr";
@@ -101,7 +101,7 @@ TEST_F(Outputs, QuantitiesAreFloatsInExrAndReadableInPng) {
 }
 
 TEST_F(Outputs, EveryIntegratorRuns) {
-    for (const char* name : {"path", "direct", "ao", "albedo"}) {
+    for (const char* name : {"path", "direct", "ao", "albedo", "raycast"}) {
         SCOPED_TRACE(name);
         expect_result(
             render("quad.gltf", {"--integrator", name, "-o", "a.exr", "-o", "a.jpg"}), 0, "OK");
@@ -109,6 +109,11 @@ TEST_F(Outputs, EveryIntegratorRuns) {
         ASSERT_TRUE(exr);
         EXPECT_GT(middle(*exr)[0], 0.5f);
     }
+    const std::vector<std::string> wires = {
+        "--integrator", "wireframe", "--wire-width", "4", "-o", "a.exr", "-o", "a.png"};
+    expect_result(render("quad.gltf", wires), 0, "OK");
+    EXPECT_EQ(middle(*read_picture(folder_ / "a.exr"))[0], 1) << "the quad's diagonal";
+    EXPECT_EQ(read_picture(folder_ / "a.exr")->spec.get_int_attribute("samplesPerPixel"), 16);
 }
 
 TEST_F(Outputs, BackgroundsAndExposure) {

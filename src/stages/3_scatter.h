@@ -1,0 +1,43 @@
+// stages/3_scatter.h - how light is scattered at a shading point: core material or layers.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/3_surface.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+/// The material's value for a direction, and the density with which sample_point chooses it.
+OBSCURA_INLINE BsdfValue<Lanes> evaluate_point(const ShadingPoint& s,
+                                               const Vec3<Lanes>& wo,
+                                               const Vec3<Lanes>& wi) {
+    const BsdfValue<Lanes> core = evaluate_bsdf(s.bsdf, s.lobes, wo, wi);
+    if (!s.any_layers) return core;
+    const LayeredPoint& l = s.layers;
+    const BsdfValue<Lanes> all = evaluate_layered(l.params, l.weights, wo, wi);
+    return {select(l.layered, all.value_cos, core.value_cos), select(l.layered, all.pdf, core.pdf)};
+}
+
+OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
+                                              const Vec3<Lanes>& wo,
+                                              const Vec2<Lanes>& u) {
+    const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, u);
+    if (!s.any_layers) return core;
+    const LayeredPoint& l = s.layers;
+    const BsdfSample<Lanes> all = sample_layered(l.params, l.weights, wo, u);
+    return {select(l.layered, all.direction, core.direction),
+            {select(l.layered, all.at.value_cos, core.at.value_cos),
+             select(l.layered, all.at.pdf, core.at.pdf)},
+            select(l.layered, all.spread, core.spread)};
+}
+
+/// Whether a ray may leave on the side that its direction has of the true surface (`before`: the
+/// viewer's): where light goes through, the shading normal must put it on the same side.
+OBSCURA_INLINE Mask may_leave(const ShadingPoint& s, Mask before, const Vec3<Lanes>& wi) {
+    if (!s.any_layers) return before;
+    const Mask through = s.layers.lets_through & (!before) & (wi.z < Lanes(0.0f));
+    return (before & (wi.z > Lanes(0.0f))) | through;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura
