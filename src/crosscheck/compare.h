@@ -1,0 +1,55 @@
+// crosscheck/compare.h - whether two answers about one ray agree, and what kind of difference it
+// is. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crosscheck/truth.h"
+
+namespace obscura {
+
+/// What somebody says about a ray.
+struct Answer {
+    double t = INFINITY;
+    Item item;
+    bool any = false;  ///< occlusion: something is hit, and nobody says what
+
+    bool found() const { return any || item.primitive >= 0; }
+};
+
+inline Answer answer_of(const TrueHit& hit) {
+    return {hit.t, hit.item};
+}
+
+/// From best to worst; `agree` to `edge` are what single precision cannot avoid.
+enum class Verdict : int {
+    agree,
+    equal_depth,  ///< another item, but at the same depth: neighbours on a common edge, coplanar
+    edge,         ///< different, and a ray moved by at most 4 ulp has the other answer
+    depth,        ///< the same item at another depth
+    missed,       ///< not hit, or only behind the expected hit
+    false_hit,    ///< hit where nothing is, or in front of the expected hit
+};
+inline constexpr size_t verdicts = 6;
+
+/// How far from an edge answers may differ, and how far hits may lie from the surface; in units of
+/// TrueScene::rounding_m.
+inline constexpr double edge_ulps = 4;
+inline constexpr double depth_ulps = 4;
+
+struct Comparison {
+    Verdict verdict = Verdict::agree;
+    /// Of a difference: how far the ray must be moved to explain it; infinite: no explanation.
+    double ulps = 0;
+};
+
+/// Compares `got` with `expected`.
+///
+/// The ulp is that of the largest number on the ray's way to the hit (TrueScene::rounding_m).
+/// Depths agree when the two points are at most depth_ulps apart along the surface's normal. Any
+/// other difference counts as `edge` when both answers are true for rays that are parallel to this
+/// one, or begin a little earlier or later, at most edge_ulps away.
+Comparison compare(const TrueScene& scene,
+                   const TrueRay& ray,
+                   const Answer& expected,
+                   const Answer& got);
+
+}  // namespace obscura
