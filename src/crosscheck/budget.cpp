@@ -22,7 +22,8 @@ void check_pair(const PairFigures& pair, std::vector<std::string>& faults) {
                         edge_ulps));
     }
     const Tally unaimed = pair.unaimed();
-    if (pair.against_truth && unaimed.mismatches() > mismatches_allowed(unaimed.rays)) {
+    if (pair.standard == Standard::full && pair.against_truth &&
+        unaimed.mismatches() > mismatches_allowed(unaimed.rays)) {
         faults.push_back(
             fmt::format("{} against {}: {} of {} rays aimed at nothing differ, more "
                         "than {:g} of them",
@@ -61,7 +62,7 @@ std::vector<std::string> faults_of(const CheckedScene& scene) {
                         scene.truth.rays));
     }
     for (const PairFigures& pair : scene.pairs) {
-        if (pair.in_budget) check_pair(pair, faults);
+        if (pair.standard != Standard::none) check_pair(pair, faults);
     }
     for (const LeakFigures& kernel : scene.leaks.kernels) {
         const LeakCount& random = kernel.by_aim[static_cast<size_t>(LeakAim::anywhere)];

@@ -47,18 +47,19 @@ struct Comparing {
     CheckedScene& out;
     Log& log;
 
-    void run(const Kernel& kernel, bool in_budget) {
+    void run(const Kernel& kernel, Standard standard) {
         std::vector<const AnswerList*> references = {&truths};
         const bool first = base.answers.empty();
         if (!first) references.push_back(&base);
-        std::vector<PairFigures> pairs = compare_kernel(truth,
-                                                        rays,
-                                                        kernel,
-                                                        references,
-                                                        first ? &base : nullptr,
-                                                        in_budget ? &out.screen : nullptr);
+        std::vector<PairFigures> pairs =
+            compare_kernel(truth,
+                           rays,
+                           kernel,
+                           references,
+                           first ? &base : nullptr,
+                           standard == Standard::full ? &out.screen : nullptr);
         for (PairFigures& pair : pairs) {
-            pair.in_budget = in_budget;
+            pair.standard = standard;
             out.pairs.push_back(std::move(pair));
         }
         log.detail(out.name + ": " + kernel.name + " done");
@@ -71,7 +72,7 @@ Result<void> compare_references(Comparing& comparing, const Scene& scene) {
         if (!built) return fail(built.error());
         const auto shared = std::make_shared<const ReferenceKernels>(std::move(*built));
         for (const PlannedKernel& planned : group.kernels)
-            comparing.run(make_kernel(shared, planned), group.in_budget);
+            comparing.run(make_kernel(shared, planned), group.standard);
     }
     return {};
 }
@@ -81,7 +82,7 @@ Result<void> compare_production(Comparing& comparing, const Scene& scene, Isa is
     if (!accel) return fail(accel.error());
     const auto shared = std::make_shared<const Accel>(std::move(*accel));
     for (const Kernel& kernel : production_kernels(shared))
-        comparing.run(kernel, true);
+        comparing.run(kernel, Standard::full);
     return {};
 }
 

@@ -19,16 +19,20 @@ inline Answer answer_of(const TrueHit& hit) {
     return {hit.t, hit.item};
 }
 
-/// From best to worst; `agree` to `edge` are what single precision cannot avoid.
+/// From best to worst; `agree` to `edge_on` are within 4 ulp of an edge.
 enum class Verdict : int {
     agree,
     equal_depth,  ///< another item, but at the same depth: neighbours on a common edge, coplanar
-    edge,         ///< different, and a ray moved by at most 4 ulp has the other answer
+    edge,         ///< different, and rays moved by at most 4 ulp have the other answer
+    crack,        ///< within 4 ulp of an edge too, but no such ray has both answers: a ray that
+                  ///< went between two neighbours
+    edge_on,      ///< beside a triangle, but within 4 ulp of the endless lines through the edges
+                  ///< that it lies outside of: seen edge-on, or past a sharp corner
     depth,        ///< the same item at another depth
     missed,       ///< not hit, or only behind the expected hit
     false_hit,    ///< hit where nothing is, or in front of the expected hit
 };
-inline constexpr size_t verdicts = 6;
+inline constexpr size_t verdicts = 8;
 
 /// How far from an edge answers may differ, and how far hits may lie from the surface; in units of
 /// TrueScene::rounding_m.
@@ -45,8 +49,11 @@ struct Comparison {
 ///
 /// The ulp is that of the largest number on the ray's way to the hit (TrueScene::rounding_m).
 /// Depths agree when the two points are at most depth_ulps apart along the surface's normal. Any
-/// other difference counts as `edge` when both answers are true for rays that are parallel to this
-/// one, or begin a little earlier or later, at most edge_ulps away.
+/// other difference counts as `edge` when both answers are true for rays that are at most edge_ulps
+/// away from this one, where it begins and where it hits. It counts as `crack` when no such ray has
+/// the answer, but all that was passed by has an edge within edge_ulps, and what was hit is there
+/// within edge_ulps or has an edge there. It counts as `edge_on` when only lines through
+/// edges are as near as that.
 Comparison compare(const TrueScene& scene,
                    const TrueRay& ray,
                    const Answer& expected,

@@ -43,11 +43,11 @@ PlannedKernel planned(const std::string& family, int width, bool occlusion = fal
 }
 
 /// Single rays and packets of 16.
-KernelGroup group_of(const std::string& family, const KernelChoice& choice, bool in_budget) {
+KernelGroup group_of(const std::string& family, const KernelChoice& choice, Standard standard) {
     KernelGroup group;
     group.choice = choice;
     group.kernels = {planned(family, 1), planned(family, 16)};
-    group.in_budget = in_budget;
+    group.standard = standard;
     return group;
 }
 
@@ -80,19 +80,20 @@ std::vector<KernelGroup> plan_kernels(const Scene& scene) {
     groups.push_back(robust);
     KernelChoice fast;
     fast.robust = false;
-    groups.push_back(group_of("fast", fast, false));
+    groups.push_back(group_of("fast", fast, Standard::none));
     for (const std::string& isa : embree_isas()) {
         KernelChoice choice;
         choice.isa = isa;
-        groups.push_back(group_of(isa, choice, true));
+        groups.push_back(group_of(isa, choice, Standard::full));
     }
     const ShapeCounts counts = count_shapes(scene);
     KernelChoice triangles;
     triangles.user_triangles = true;
-    if (counts.triangles > 0) groups.push_back(group_of("user triangles", triangles, true));
+    if (counts.triangles > 0)
+        groups.push_back(group_of("user triangles", triangles, Standard::edges));
     KernelChoice points;
     points.sphere_points = true;
-    if (counts.spheres > 0) groups.push_back(group_of("sphere points", points, false));
+    if (counts.spheres > 0) groups.push_back(group_of("sphere points", points, Standard::edges));
     return groups;
 }
 

@@ -16,13 +16,13 @@ struct PlannedKernel {
     bool occlusion = false;
 };
 
-/// What is asked of one hierarchy.
+/// What is asked of one hierarchy. Embree's fast traversal may leak: nothing is expected of it.
+/// Triangles as user geometry know no neighbours, and spheres as points are not ours to answer for:
+/// they may differ at edges.
 struct KernelGroup {
     KernelChoice choice;
     std::vector<PlannedKernel> kernels;
-    /// False where differences are only published: Embree's fast traversal may leak, and its own
-    /// spheres are not ours to answer for.
-    bool in_budget = true;
+    Standard standard = Standard::full;
 };
 
 /// Every hierarchy and width that says something about this scene. The first kernel of the first

@@ -11,7 +11,9 @@ namespace obscura {
 namespace {
 
 constexpr std::array<const char*, verdicts> verdict_keys{
-    "agree", "equal_depth", "edge", "depth", "missed", "false_hit"};
+    "agree", "equal_depth", "edge", "crack", "edge_on", "depth", "missed", "false_hit"};
+
+constexpr std::array<const char*, 3> standard_names{"full", "edges", "none"};
 
 void add_tally(JsonWriter& out, const Tally& tally) {
     out.member("rays", tally.rays).member("hits", tally.hits);
@@ -36,7 +38,7 @@ void add_pair(JsonWriter& out, const PairFigures& pair) {
     out.begin_object();
     out.member("kernel", pair.got)
         .member("against", pair.expected)
-        .member("in_budget", pair.in_budget);
+        .member("held_to", standard_names[static_cast<size_t>(pair.standard)]);
     add_tally(out, pair.total());
     out.key("by_rays").begin_object();
     for (size_t g = 0; g < ray_groups; ++g) {

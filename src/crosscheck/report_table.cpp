@@ -11,7 +11,7 @@ namespace obscura {
 namespace {
 
 constexpr std::array<const char*, verdicts> names{
-    "agree", "equal depth", "edge", "depth", "missed", "false hit"};
+    "agree", "eq.depth", "edge", "crack", "edge-on", "depth", "missed", "false"};
 
 void add_row(const std::string& got,
              const std::string& expected,
@@ -19,14 +19,14 @@ void add_row(const std::string& got,
              std::string& out) {
     out += fmt::format("  {:<20} {:<18} {:>10} {:>10}", got, expected, tally.rays, tally.hits);
     for (const uint64_t count : tally.counts)
-        out += fmt::format(" {:>11}", count);
+        out += fmt::format(" {:>9}", count);
     out += fmt::format(" {:>7.2g}\n", tally.widest_edge);
 }
 
 void add_head(const char* first, const char* second, std::string& out) {
     out += fmt::format("  {:<20} {:<18} {:>10} {:>10}", first, second, "rays", "hits");
     for (const char* name : names)
-        out += fmt::format(" {:>11}", name);
+        out += fmt::format(" {:>9}", name);
     out += "     ulp\n";
 }
 
@@ -129,7 +129,7 @@ std::string check_table(const CheckedScene& scene) {
             add_row(ray_group_names[g], pair.expected, pair.groups[g], out);
     }
     for (const PairFigures& pair : scene.pairs) {
-        if (pair.in_budget) add_worst(pair, out);
+        if (pair.standard != Standard::none) add_worst(pair, out);
     }
     add_leaks(scene.leaks, out);
     add_spawned(scene.spawned, out);

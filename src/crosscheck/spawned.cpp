@@ -3,6 +3,7 @@
 #include "crosscheck/spawned.h"
 
 #include "base/parallel.h"
+#include "crosscheck/compare.h"
 #include "render/prepared_scene.h"
 #include "stages/walk.h"
 
@@ -24,8 +25,8 @@ class Spawner {
 public:
     explicit Spawner(const PreparedScene& scene) : scene_(scene), view_(scene.impl().view()) {}
 
-    /// items[slot] is what the spawned row with that slot started on. Returns the rows.
-    int spawn(RayBlock& rays, uint32_t key, Workspace& work, std::vector<Item>& items) const {
+    /// starts[slot] is where the spawned row with that slot started. Returns the rows.
+    int spawn(RayBlock& rays, uint32_t key, Workspace& work, std::vector<Answer>& starts) const {
         const PathRows& p = work.paths[0];
         for (int i = 0; i < rays.count(); ++i) {
             const Vec3f o = rays.origin(i);
@@ -47,9 +48,11 @@ public:
                                  work.hits,
                                  Coherence::incoherent,
                                  {});
-        items.clear();
+        starts.clear();
         for (int i = 0; i < rays.count(); ++i) {
-            items.push_back({work.hits.instance[i], work.hits.primitive[i], work.hits.triangle[i]});
+            const HitRows& h = work.hits;
+            starts.push_back(
+                {static_cast<double>(h.t[i]), {h.instance[i], h.primitive[i], h.triangle[i]}});
         }
         BatchSettings batch;
         batch.ao_distance = 3e38f;
@@ -90,21 +93,48 @@ RayBlock shadows_as_rays(const Workspace& work, int count) {
     return out;
 }
 
-/// True when a hit at t on the item that the ray started on is one that the ray should have: the
-/// other side of a shape, seen from its exact surface.
-bool is_true_return(const TrueScene& truth, const Item& item, const TrueRay& ray, double t) {
-    if (truth.is_triangle(item)) return false;
+bool is_flat(const ShapeRow& row) {
+    return row.kind == static_cast<int32_t>(ShapeKind::plane) ||
+           row.kind == static_cast<int32_t>(ShapeKind::disk);
+}
+
+/// A hit of a ray on a shape.
+struct ShapeMeeting {
+    const TrueRay& ray;
+    double t;
+};
+
+/// True where the ray meets the shape's front: which side that is of the root nearest to t.
+bool meets_front(const TrueScene& truth, const Item& item, const ShapeMeeting& meeting) {
     const Affined object = truth.object_from_world(item);
     const ShapeRow row = truth.shape(item);
-    const Vec3d start = transform_point(object, ray.origin);
-    const SurfacePoint<double> on =
-        surface_of_shape<double>(row.kind, UniformShape<double>(row), start);
-    const Roots<double> roots = intersect_shape<double>(
-        row, ShapeRay<double>{on.position, transform_vector(object, ray.direction)});
-    for (int k = 0; k < 2; ++k) {
-        if (roots.hit[k] && roots.t[k] > 0.5 * t && roots.t[k] < 2 * t) return true;
-    }
-    return false;
+    const ShapeRay<double> own{transform_point(object, meeting.ray.origin),
+                               transform_vector(object, meeting.ray.direction)};
+    const Roots<double> roots = intersect_shape<double>(row, own);
+    const auto distance = [&](int k) {
+        return roots.hit[k] ? std::abs(roots.t[k] - meeting.t) : INFINITY;
+    };
+    const int k = distance(1) < distance(0) ? 1 : 0;
+    return is_front<double>(row, own, roots.t[k], k);
+}
+
+/// Below this cosine rounding decides which side of a shape a ray has met.
+constexpr double least_cosine = 1e-3;
+
+/// True when a spawned ray may hit the item again that it started on: the side that it meets must
+/// be the one that it left, which is never so for what is flat.
+bool is_true_return(const TrueScene& truth,
+                    const Item& item,
+                    const ShapeMeeting& before,
+                    const ShapeMeeting& after) {
+    if (truth.is_triangle(item)) return false;
+    const double cosine =
+        dot(truth.normal(item, after.ray.origin), normalize(before.ray.direction));
+    if (std::abs(cosine) < least_cosine) return !is_flat(truth.shape(item));
+    // Which side was left: as the ray met it, or as the normal is where the spawned ray starts.
+    // From far away, and at the edges of boxes, only one of them is right.
+    const bool meets = meets_front(truth, item, after);
+    return meets == meets_front(truth, item, before) || meets == (cosine < 0);
 }
 
 /// Counts of one chunk, merged under a lock; the first ray is the one with the lowest number.
@@ -138,22 +168,25 @@ SpawnedSum self_hits(const Spawner& spawner,
     std::mutex merging;
     parallel_for(rays.chunks(), [&](size_t chunk) {
         RayBlock block;
-        std::vector<Item> items;
+        std::vector<Answer> starts;
         HitBlock hits;
         Workspace& work = workspaces.mine();
         rays.fill(chunk, block);
         const uint64_t first = before + chunk * chunk_rays;
-        const int count = spawner.spawn(block, static_cast<uint32_t>(first), work, items);
+        const int count = spawner.spawn(block, static_cast<uint32_t>(first), work, starts);
         RayBlock spawned = shadows_as_rays(work, count);
         const RayColumns columns = spawned.columns();
         spawner.scene().accel().intersect(columns, hits.columns(count), Coherence::incoherent, {});
         SpawnedSum mine;
         mine.rays = static_cast<uint64_t>(count);
         for (int i = 0; i < count; ++i) {
-            const Item item = hits.item(i);
-            if (item.primitive < 0 || item != items[work.shadows.slot[i]]) continue;
+            const uint32_t slot = work.shadows.slot[i];
+            const Answer& start = starts[slot];
+            if (hits.item(i).primitive < 0 || hits.item(i) != start.item) continue;
+            const TrueRay camera = block.true_ray(static_cast<int>(slot));
             const TrueRay ray = spawned.true_ray(i);
-            if (is_true_return(truth, item, ray, static_cast<double>(hits.t(i)))) continue;
+            const auto t = static_cast<double>(hits.t(i));
+            if (is_true_return(truth, start.item, {camera, start.t}, {ray, t})) continue;
             mine.fault(first + static_cast<uint64_t>(i), ray);
         }
         const std::lock_guard lock(merging);
@@ -238,7 +271,7 @@ SpawnedSum wall_leaks(const Spawner& spawner, const Wall& wall, uint64_t rays, u
     std::mutex merging;
     parallel_for(static_cast<size_t>((rays + chunk_rays - 1) / chunk_rays), [&](size_t chunk) {
         RayBlock block;
-        std::vector<Item> items;
+        std::vector<Answer> starts;
         Workspace& work = workspaces.mine();
         const uint64_t begin = first + chunk * chunk_rays;
         for (uint64_t i = begin; i < begin + chunk_rays; ++i) {
@@ -247,7 +280,7 @@ SpawnedSum wall_leaks(const Spawner& spawner, const Wall& wall, uint64_t rays, u
             const Vec3d origin = wall.at(inside(), inside(), 0.5);
             block.add(origin, normalize(wall.at(inside(), inside(), 0) - origin));
         }
-        const int count = spawner.spawn(block, static_cast<uint32_t>(begin), work, items);
+        const int count = spawner.spawn(block, static_cast<uint32_t>(begin), work, starts);
         RayBlock spawned = shadows_as_rays(work, count);
         std::vector<uint8_t> occluded(static_cast<size_t>(count) + 16);
         spawner.scene().accel().occluded(

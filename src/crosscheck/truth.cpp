@@ -199,6 +199,15 @@ void TrueScene::all_hits(const TrueRay& ray, const std::function<void(double, It
     visit_hits(ray, INFINITY, take);
 }
 
+std::vector<double> TrueScene::meetings(const TrueRay& ray, const Item& item) const {
+    std::vector<double> found;
+    const Object& object = object_of(item);
+    take_roots(object, item, into(object.object_from_world, ray), [&](double t, const Item&) {
+        found.push_back(t);
+    });
+    return found;
+}
+
 const TrueScene::Object& TrueScene::object_of(const Item& item) const {
     return objects_[static_cast<size_t>(item.instance + 1)];
 }
@@ -231,6 +240,12 @@ Triangle<double> TrueScene::triangle(const Item& item) const {
 
 double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) const {
     Vec3d size = abs(ray.origin) + abs(ray.direction) * t;
+    if (item.primitive >= 0 && !is_endless(item)) {
+        const TrueBox box = box_of(item);
+        const Affined world = absolute(object_of(item).world_from_object);
+        const Vec3d corners = transform_point(world, max3(abs(box.low), abs(box.high)));
+        size = max3(size, abs(ray.origin) + corners);
+    }
     if (item.instance >= 0) {
         const Affined world = absolute(object_of(item).world_from_object);
         const Affined object = absolute(object_of(item).object_from_world);
@@ -242,20 +257,28 @@ double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) con
     return max_component(size) * ulp_of_one;
 }
 
-double TrueScene::cosine(const TrueRay& ray, const Item& item, double t) const {
-    const Affined& object = object_of(item).object_from_world;
-    Vec3d normal;
+Vec3d TrueScene::middle(const Item& item) const {
+    Vec3d own;
     if (is_triangle(item)) {
-        const Triangle<double> own = own_triangle(item);
-        normal = cross(own.b - own.a, own.c - own.a);
+        const TrueBox box = box_of(item);
+        own = (box.low + box.high) * 0.5;
     } else {
         const ShapeRow row = shape(item);
-        const Vec3d at = transform_point(object, ray.origin + ray.direction * t);
-        normal = surface_of_shape<double>(row.kind, UniformShape<double>(row), at).normal;
+        own = {row.centre[0], row.centre[1], row.centre[2]};
     }
-    const Vec3d world = transform_normal(object, normal);
-    const double scale = length(world) * length(ray.direction);
-    return scale > 0 ? std::abs(dot(world, ray.direction)) / scale : 0;
+    return transform_point(object_of(item).world_from_object, own);
+}
+
+Vec3d TrueScene::normal(const Item& item, const Vec3d& place) const {
+    const Affined& object = object_of(item).object_from_world;
+    if (is_triangle(item)) {
+        const Triangle<double> own = own_triangle(item);
+        return normalize(transform_normal(object, cross(own.b - own.a, own.c - own.a)));
+    }
+    const ShapeRow row = shape(item);
+    const SurfacePoint<double> on = surface_of_shape<double>(
+        row.kind, UniformShape<double>(row), transform_point(object, place));
+    return normalize(transform_normal(object, on.normal));
 }
 
 }  // namespace obscura

@@ -44,12 +44,18 @@ public:
     /// Calls take(t, item) for every place where the ray meets something, in no order.
     void all_hits(const TrueRay& ray, const std::function<void(double, Item)>& take) const;
 
+    /// Where the ray meets this item, whatever else lies in front of it: no, one or two numbers.
+    std::vector<double> meetings(const TrueRay& ray, const Item& item) const;
+
     /// How far rounding in single precision moves the point at t: one unit in the last place of the
-    /// largest number that meets it on the way into the object's space and back. Metres.
+    /// largest number on the way to it, into the object's space and back, corners included. Metres.
     double rounding_m(const TrueRay& ray, const Item& item, double t) const;
 
-    /// Cosine between the ray and the normal of the item at t.
-    double cosine(const TrueRay& ray, const Item& item, double t) const;
+    /// Of the item's box, in the world; of a plane without end any place on it.
+    Vec3d middle(const Item& item) const;
+
+    /// Unit normal of the item near a place, in the world.
+    Vec3d normal(const Item& item, const Vec3d& place) const;
 
     /// Items in the world; each instance's count.
     size_t item_count() const { return item_ends_.empty() ? 0 : item_ends_.back(); }
