@@ -5,6 +5,7 @@
 #include "app/outcome.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
+#include "crosscheck/report_image.h"
 #include "crosscheck/report_json.h"
 #include "crosscheck/report_table.h"
 
@@ -18,6 +19,9 @@ Result<void> check_files(const CrosscheckRequest& request) {
     if (request.json) {
         if (auto writable = check_file_can_be_written(*request.json); !writable) return writable;
     }
+    if (request.image) {
+        if (auto writable = check_output(*request.image); !writable) return writable;
+    }
     if (!has_isa(request.scenes.front().isa)) return fail(missing_isa());
     return {};
 }
@@ -28,7 +32,10 @@ struct Loaded {
     CheckTask task;
 };
 
-Result<void> load(const RenderRequest& request, uint64_t rays, Log& log, Loaded& out) {
+Result<void> load(const RenderRequest& request,
+                  const CrosscheckRequest& all,
+                  Log& log,
+                  Loaded& out) {
     Result<Scene> scene = load_gltf(request.scene, request.load, log);
     if (!scene) return fail(scene.error());
     out.scene = std::move(*scene);
@@ -39,7 +46,8 @@ Result<void> load(const RenderRequest& request, uint64_t rays, Log& log, Loaded&
     out.task.scene = &out.scene;
     out.task.name = request.scene.stem().string();
     out.task.file = request.scene.string();
-    out.task.rays = {camera->camera, options.width, options.height, rays, options.seed};
+    out.task.rays = {camera->camera, options.width, options.height, all.rays, options.seed};
+    out.task.export_embree = all.export_embree;
     out.task.isa = request.isa;
     return {};
 }
@@ -50,6 +58,18 @@ Result<void> deliver(const CrosscheckRequest& request,
     if (request.json) {
         const std::string text = crosscheck_json(scenes, log.warnings());
         const auto written = write_file_atomically(*request.json, std::as_bytes(std::span(text)));
+        if (!written) return written;
+    }
+    if (request.image) {
+        PictureMetadata metadata;
+        metadata.software = "Obscura " OBSCURA_VERSION;
+        metadata.asset = request.scenes.front().scene.filename().string();
+        metadata.is_color = false;
+        const auto written = write_picture(*request.image,
+                                           screen_picture(scenes.front().screen),
+                                           metadata,
+                                           ExrDepth::float32,
+                                           nullptr);
         if (!written) return written;
     }
     for (const CheckedScene& scene : scenes) {
@@ -66,7 +86,7 @@ Result<void> execute(const CrosscheckRequest& request, Log& log) {
     for (const RenderRequest& scene : request.scenes) {
         log.info("checking " + scene.scene.string());
         Loaded loaded;
-        if (auto done = load(scene, request.rays, log, loaded); !done) return done;
+        if (auto done = load(scene, request, log, loaded); !done) return done;
         if (request.ray) {
             const Result<std::string> lines = replay_ray(loaded.scene, *request.ray, scene.isa);
             if (!lines) return fail(lines.error());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/budget.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -35,6 +36,22 @@ void check_pair(const PairFigures& pair, std::vector<std::string>& faults) {
     }
 }
 
+void check_viewer(const ViewerReport& viewer, std::vector<std::string>& faults) {
+    const double most = 1e-5 * static_cast<double>(viewer.pixels);
+    const uint64_t numbers = std::max(viewer.primitive, viewer.normal);
+    if (viewer.occlusion == 0 && viewer.geometry == 0 && static_cast<double>(numbers) <= most) {
+        return;
+    }
+    faults.push_back(
+        fmt::format("Embree's viewer: of {} pixels {} differ in occlusion, {} in "
+                    "geomID, {} in primID, {} in Ng",
+                    viewer.pixels,
+                    viewer.occlusion,
+                    viewer.geometry,
+                    viewer.primitive,
+                    viewer.normal));
+}
+
 }  // namespace
 
 uint64_t mismatches_allowed(uint64_t rays) {
@@ -61,6 +78,13 @@ std::vector<std::string> faults_of(const CheckedScene& scene) {
                         scene.truth.wrong,
                         scene.truth.rays));
     }
+    if (scene.formulas.wrong > 0) {
+        faults.push_back(
+            fmt::format("the formulas in double precision are wrong about {} of {} "
+                        "segments",
+                        scene.formulas.wrong,
+                        scene.formulas.segments));
+    }
     for (const PairFigures& pair : scene.pairs) {
         if (pair.standard != Standard::none) check_pair(pair, faults);
     }
@@ -81,6 +105,7 @@ std::vector<std::string> faults_of(const CheckedScene& scene) {
         faults.push_back(fmt::format(
             "{} of {} rays passed a wall", scene.spawned.wall_leaks, scene.spawned.wall_rays));
     }
+    if (scene.viewer) check_viewer(*scene.viewer, faults);
     return faults;
 }
 

@@ -98,9 +98,12 @@ Result<CheckedScene> check_scene(const CheckTask& task, Log& log) {
     out.counts = count_shapes(scene);
     out.items_in_world = truth.item_count();
     out.rays = rays.count();
-    out.screen = {task.rays.width, task.rays.height, {}};
-    out.screen.worst.assign(
-        static_cast<size_t>(task.rays.width) * static_cast<size_t>(task.rays.height), -1);
+    const size_t pixels =
+        static_cast<size_t>(task.rays.width) * static_cast<size_t>(task.rays.height);
+    out.screen = {task.rays.width, task.rays.height, {}, {}};
+    out.screen.worst.assign(pixels, -1);
+    out.screen.hit.assign(pixels, 0);
+    out.formulas = check_formulas(truth, rays.count(), task.rays.seed);
     out.truth = check_truth(truth, rays);
     Comparing comparing{truth, rays, {}, {}, out, log};
     compare_kernel(truth, rays, truth_kernel(truth), {}, &comparing.truths, nullptr);
@@ -121,6 +124,12 @@ Result<CheckedScene> check_scene(const CheckTask& task, Log& log) {
     auto spawned = check_spawned(*prepared, truth, rays, task.isa);
     if (!spawned) return fail(spawned.error());
     out.spawned = *spawned;
+    if (task.export_embree) {
+        auto viewer = export_for_embree(
+            scene, task.rays.camera, {task.rays.width, task.rays.height}, *task.export_embree);
+        if (!viewer) return fail(viewer.error());
+        out.viewer = std::move(*viewer);
+    }
     out.faults = faults_of(out);
     return out;
 }

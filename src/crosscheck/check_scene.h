@@ -4,6 +4,8 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "crosscheck/embree_export.h"
+#include "crosscheck/formula_check.h"
 #include "crosscheck/kernel_plan.h"
 #include "crosscheck/leaks.h"
 #include "crosscheck/spawned.h"
@@ -27,9 +29,11 @@ struct CheckedScene {
     size_t items_in_world = 0;
     uint64_t rays = 0;
     TruthCheck truth;
+    FormulaCheck formulas;
     std::vector<PairFigures> pairs;
     LeakReport leaks;
     SpawnedReport spawned;
+    std::optional<ViewerReport> viewer;  ///< where it was asked for
     ScreenVerdicts screen;
     std::vector<std::string> faults;  ///< what is outside of the budget; empty: nothing
 };
@@ -39,7 +43,8 @@ struct CheckTask {
     std::string name;
     std::string file;
     RaySetOptions rays;
-    Isa isa = Isa::automatic;  ///< of the renderer's own queries
+    Isa isa = Isa::automatic;                                 ///< of the renderer's own queries
+    std::optional<std::filesystem::path> export_embree = {};  ///< folder for Embree's programs
 };
 
 /// Runs all checks of one scene. Memory: about 50 bytes a ray, and two hierarchies at a time.

@@ -147,8 +147,8 @@ double line_distance(const TrueRay& ray, const Vec3d& place, const Vec3d& along)
     return length(cross(between, ray.direction)) / length(ray.direction);
 }
 
-/// True when the ray is inside of a triangle but for edges whose endless lines it passes within 4
-/// ulp: the signs on which any test is built are chance there.
+/// True when the ray is inside of a triangle but for edges whose endless lines it passes so closely
+/// that the signs on which any test is built are chance.
 bool is_within_lines(const Question& q, const Item& item) {
     if (!q.scene.is_triangle(item)) return false;
     const Triangle<double> t = q.scene.triangle(item);
@@ -161,7 +161,7 @@ bool is_within_lines(const Question& q, const Item& item) {
     for (int k = 0; k < 3; ++k) {
         const Vec3d edge = corner[(k + 1) % 3] - corner[k];
         const double distance = line_distance(q.ray, corner[k] + q.ray.origin, edge);
-        within = within && (side[k] * facing >= 0 || distance <= edge_ulps * q.unit_m);
+        within = within && (side[k] * facing >= 0 || distance <= line_ulps * q.unit_m);
     }
     return within;
 }

@@ -26,11 +26,11 @@ enum class Verdict : int {
     edge,         ///< different, and rays moved by at most 4 ulp have the other answer
     crack,        ///< within 4 ulp of an edge too, but no such ray has both answers: a ray that
                   ///< went between two neighbours
-    edge_on,      ///< beside a triangle, but within 4 ulp of the endless lines through the edges
-                  ///< that it lies outside of: seen edge-on, or past a sharp corner
-    depth,        ///< the same item at another depth
-    missed,       ///< not hit, or only behind the expected hit
-    false_hit,    ///< hit where nothing is, or in front of the expected hit
+    edge_on,    ///< beside a triangle, but within line_ulps of the endless lines through the edges
+                ///< that it lies outside of: seen edge-on, or past a sharp corner
+    depth,      ///< the same item at another depth
+    missed,     ///< not hit, or only behind the expected hit
+    false_hit,  ///< hit where nothing is, or in front of the expected hit
 };
 inline constexpr size_t verdicts = 8;
 
@@ -38,6 +38,9 @@ inline constexpr size_t verdicts = 8;
 /// TrueScene::rounding_m.
 inline constexpr double edge_ulps = 4;
 inline constexpr double depth_ulps = 4;
+/// How near the endless lines of `edge_on` are: the sides of a ray are sums of products, whose
+/// rounding is relative to the whole triangle and not to its edge.
+inline constexpr double line_ulps = 16;
 
 struct Comparison {
     Verdict verdict = Verdict::agree;

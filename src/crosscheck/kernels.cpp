@@ -25,10 +25,11 @@ void keep_worst(std::vector<Difference>& worst) {
     if (worst.size() > most_worst) worst.resize(most_worst);
 }
 
-void note_on_screen(ScreenVerdicts& screen, ScreenPlace at, Verdict verdict) {
-    int8_t& worst = screen.worst[static_cast<size_t>(at.y) * static_cast<size_t>(screen.width) +
-                                 static_cast<size_t>(at.x)];
-    worst = std::max(worst, static_cast<int8_t>(verdict));
+void note_on_screen(ScreenVerdicts& screen, ScreenPlace at, Verdict verdict, bool hit) {
+    const size_t pixel =
+        static_cast<size_t>(at.y) * static_cast<size_t>(screen.width) + static_cast<size_t>(at.x);
+    screen.worst[pixel] = std::max(screen.worst[pixel], static_cast<int8_t>(verdict));
+    if (hit) screen.hit[pixel] = 1;
 }
 
 /// One chunk's answers beside those of one reference.
@@ -137,7 +138,8 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                 continue;
             }
             for (size_t i = 0; i < seen.size(); ++i)
-                note_on_screen(*screen, rays.place(chunk, static_cast<int>(i)), seen[i]);
+                note_on_screen(
+                    *screen, rays.place(chunk, static_cast<int>(i)), seen[i], answers[i].found());
         }
     });
     return all;

@@ -78,6 +78,7 @@ struct ScreenVerdicts {
     int width = 0;
     int height = 0;
     std::vector<int8_t> worst;
+    std::vector<uint8_t> hit;  ///< 1: a kernel found something
 };
 
 /// Asks a kernel all rays and compares it with others that have been asked. The same figures for

@@ -86,8 +86,22 @@ void add_spawned(JsonWriter& out, const SpawnedReport& spawned) {
     out.key("spawned").begin_object();
     out.member("rays", spawned.rays)
         .member("self_hits", spawned.self_hits)
+        .member("aimed_rays", spawned.aimed_rays)
+        .member("aimed_self_hits", spawned.aimed_self_hits)
         .member("wall_rays", spawned.wall_rays)
         .member("wall_passed", spawned.wall_leaks);
+    out.end_object();
+}
+
+void add_viewer(JsonWriter& out, const ViewerReport& viewer) {
+    out.key("embree_viewer").begin_object();
+    out.member("state", viewer.state)
+        .member("pixels", viewer.pixels)
+        .member("occlusion", viewer.occlusion)
+        .member("geometry", viewer.geometry)
+        .member("primitive", viewer.primitive)
+        .member("normal", viewer.normal)
+        .member("ties", viewer.ties);
     out.end_object();
 }
 
@@ -101,12 +115,16 @@ void add_scene(JsonWriter& out, const CheckedScene& scene) {
     out.key("truth").begin_object();
     out.member("searched_through_everything", scene.truth.rays).member("wrong", scene.truth.wrong);
     out.end_object();
+    out.key("formulas").begin_object();
+    out.member("segments", scene.formulas.segments).member("wrong", scene.formulas.wrong);
+    out.end_object();
     out.key("pairs").begin_array();
     for (const PairFigures& pair : scene.pairs)
         add_pair(out, pair);
     out.end_array();
     add_leaks(out, scene.leaks);
     add_spawned(out, scene.spawned);
+    if (scene.viewer) add_viewer(out, *scene.viewer);
     out.key("faults").begin_array();
     for (const std::string& fault : scene.faults)
         out.value(fault);

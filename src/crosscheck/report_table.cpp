@@ -61,10 +61,12 @@ void add_leaks(const LeakReport& leaks, std::string& out) {
 
 void add_spawned(const SpawnedReport& spawned, std::string& out) {
     out += fmt::format(
-        "  spawned rays: {} self-hits of {}; walls 1e-4 of the size away: {} passed "
-        "of {}\n",
+        "  spawned rays: {} self-hits of {}; at edges, along surfaces and from afar {} of "
+        "{}\n  walls 1e-4 of the size away: {} passed of {}\n",
         spawned.self_hits,
         spawned.rays,
+        spawned.aimed_self_hits,
+        spawned.aimed_rays,
         spawned.wall_leaks,
         spawned.wall_rays);
     if (spawned.first_self_hit) {
@@ -119,6 +121,9 @@ std::string check_table(const CheckedScene& scene) {
         scene.rays,
         scene.truth.rays,
         scene.truth.wrong);
+    out += fmt::format("  formulas in double: {} of {} segments wrong\n",
+                       scene.formulas.wrong,
+                       scene.formulas.segments);
     add_head("kernel", "against", out);
     for (const PairFigures& pair : scene.pairs)
         add_row(pair.got, pair.expected, pair.total(), out);
@@ -133,6 +138,19 @@ std::string check_table(const CheckedScene& scene) {
     }
     add_leaks(scene.leaks, out);
     add_spawned(scene.spawned, out);
+    if (scene.viewer) {
+        const ViewerReport& v = *scene.viewer;
+        out += fmt::format(
+            "  Embree's viewer: {}; {} pixels, differing in occlusion {}, geomID {}, "
+            "primID {}, Ng {}; ties {}\n",
+            v.state,
+            v.pixels,
+            v.occlusion,
+            v.geometry,
+            v.primitive,
+            v.normal,
+            v.ties);
+    }
     out += scene.faults.empty() ? "  within the budget\n" : "  OUTSIDE THE BUDGET\n";
     for (const std::string& fault : scene.faults)
         out += "    " + fault + '\n';

@@ -158,15 +158,15 @@ struct SpawnedSum {
     }
 };
 
-SpawnedSum self_hits(const Spawner& spawner,
-                     const TrueScene& truth,
-                     const RaySet& rays,
-                     uint64_t pass) {
+/// Self-hits of one pass over the rays; aimed: of which half of them.
+SpawnedSum self_hits(
+    const Spawner& spawner, const TrueScene& truth, const RaySet& rays, uint64_t pass, bool aimed) {
     Workspaces workspaces;
     const uint64_t before = pass * rays.count();
     SpawnedSum all;
     std::mutex merging;
     parallel_for(rays.chunks(), [&](size_t chunk) {
+        if (is_unaimed(RaySet::group(chunk)) == aimed) return;
         RayBlock block;
         std::vector<Answer> starts;
         HitBlock hits;
@@ -310,10 +310,13 @@ Result<SpawnedReport> check_spawned(const PreparedScene& scene,
     const Spawner spawner(scene);
     SpawnedSum own;
     for (uint64_t pass = 0; pass < most_passes && own.rays < rays.count(); ++pass)
-        own.add(self_hits(spawner, truth, rays, pass));
+        own.add(self_hits(spawner, truth, rays, pass, false));
+    const SpawnedSum aimed = self_hits(spawner, truth, rays, 0, true);
     report.rays = own.rays;
     report.self_hits = own.faults;
-    report.first_self_hit = own.first;
+    report.aimed_rays = aimed.rays;
+    report.aimed_self_hits = aimed.faults;
+    report.first_self_hit = own.first ? own.first : aimed.first;
     SpawnedSum walls;
     Log silent(Verbosity::quiet);
     const TrueBox box = truth.bounds();

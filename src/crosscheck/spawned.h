@@ -11,8 +11,11 @@ namespace obscura {
 
 /// Rays as the stage for ambient occlusion starts them at the hits of other rays.
 struct SpawnedReport {
-    uint64_t rays = 0;
+    uint64_t rays = 0;       ///< at hits of rays aimed at nothing
     uint64_t self_hits = 0;  ///< met the very triangle or shape that they started on
+    uint64_t aimed_rays =
+        0;  ///< likewise, at hits of rays aimed at edges, along surfaces, from afar
+    uint64_t aimed_self_hits = 0;
     std::optional<TrueRay> first_self_hit;
     uint64_t wall_rays = 0;   ///< started below a wall a ten-thousandth of the scene's size away
     uint64_t wall_leaks = 0;  ///< of these, not occluded by it
