@@ -1,5 +1,5 @@
-// crosscheck/budget.h - how much may differ before a cross-check fails: docs/crosscheck.md says
-// why. SPDX-License-Identifier: Apache-2.0
+// crosscheck/budget.h - how much may differ before a cross-check fails.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "crosscheck/check_scene.h"

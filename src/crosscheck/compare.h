@@ -1,5 +1,5 @@
-// crosscheck/compare.h - whether two answers about one ray agree, and what kind of difference it
-// is. SPDX-License-Identifier: Apache-2.0
+// crosscheck/compare.h - whether two answers about one ray agree, and how they differ.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "crosscheck/truth.h"

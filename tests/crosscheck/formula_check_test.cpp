@@ -1,5 +1,5 @@
-// tests/crosscheck/formula_check_test.cpp - sides of shapes by hand, and formulas held against
-// them. SPDX-License-Identifier: Apache-2.0
+// tests/crosscheck/formula_check_test.cpp - sides of shapes by hand, and formulas against them.
+// SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/formula_check.h"
 
 #include "crosscheck/check_scenes.h"

