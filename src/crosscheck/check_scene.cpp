@@ -59,7 +59,10 @@ struct Comparing {
                            first ? &base : nullptr,
                            standard == Standard::full ? &out.screen : nullptr);
         for (PairFigures& pair : pairs) {
-            pair.standard = standard;
+            // Occlusion does not say what it met, so that nothing can excuse it against the truth:
+            // it is held to what the same rays hit.
+            const bool unnamed = kernel.occlusion && pair.against_truth;
+            pair.standard = unnamed ? Standard::none : standard;
             out.pairs.push_back(std::move(pair));
         }
         log.detail(out.name + ": " + kernel.name + " done");

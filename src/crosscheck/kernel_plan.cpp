@@ -27,14 +27,16 @@ Kernel hit_kernel(std::string name, AskHits ask) {
 }
 
 Kernel occlusion_kernel(std::string name, AskOccluded ask) {
-    return {std::move(name), [ask = std::move(ask)](RayBlock& rays, std::vector<Answer>& answers) {
+    return {std::move(name),
+            [ask = std::move(ask)](RayBlock& rays, std::vector<Answer>& answers) {
                 const RayColumns columns = rays.columns();
                 std::vector<uint8_t> occluded(static_cast<size_t>(columns.count) + 16);
                 ask(columns, occluded.data());
                 answers.assign(static_cast<size_t>(columns.count), {});
                 for (size_t i = 0; i < answers.size(); ++i)
                     answers[i].any = occluded[i] != 0;
-            }};
+            },
+            true};
 }
 
 PlannedKernel planned(const std::string& family, int width, bool occlusion = false) {

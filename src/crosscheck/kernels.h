@@ -17,6 +17,7 @@ namespace obscura {
 struct Kernel {
     std::string name;
     std::function<void(RayBlock& rays, std::vector<Answer>& answers)> ask;
+    bool occlusion = false;  ///< its answers name no item
 };
 
 /// All answers of one kernel, in the order of the rays.
