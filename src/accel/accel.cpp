@@ -1,6 +1,7 @@
 // accel/accel.cpp - builds Embree scenes from a Scene: world-space primitives and instances.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/reference_geometry.h"
 #include "base/stopwatch.h"
 
 #include <algorithm>
@@ -86,7 +87,8 @@ RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
     rtcSetGeometryUserData(geometry, &shapes);
     rtcSetGeometryBoundsFunction(geometry, impl.shape_callbacks->bounds, nullptr);
     rtcSetGeometryIntersectFunction(
-        geometry, impl.counts_tests ? intersect_counted_shape : impl.shape_callbacks->intersect);
+        geometry,
+        impl.kernels.counts_tests ? intersect_counted_shape : impl.shape_callbacks->intersect);
     rtcSetGeometryOccludedFunction(geometry, impl.shape_callbacks->occluded);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
@@ -96,19 +98,29 @@ RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
 
 RTCScene new_scene(const Accel::Impl& impl) {
     RTCScene scene = rtcNewScene(impl.device);
-    rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST | query_filter_flag);
+    const RTCSceneFlags robust = impl.kernels.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
+    rtcSetSceneFlags(scene, robust | query_filter_flag);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
     return scene;
+}
+
+/// Null for a plane without end.
+RTCGeometry make_geometry(Accel::Impl& impl, int32_t row) {
+    if (is_mesh(impl.scene->primitives[static_cast<size_t>(row)])) {
+        if (impl.kernels.counts_tests) return make_counted_triangles(impl, row);
+        return impl.kernels.user_triangles ? make_user_triangles(impl, row)
+                                           : make_triangles(impl, row);
+    }
+    if (!fill_shape_geometry(impl, row)) return nullptr;
+    const bool points = impl.kernels.sphere_points && are_spheres(impl, row);
+    return points ? make_sphere_points(impl, row) : make_shapes(impl, row);
 }
 
 void attach_primitives(Accel::Impl& impl, RTCScene target, Mesh range) {
     for (int32_t i = 0; i < range.primitive_count; ++i) {
         const int32_t row = range.first_primitive + i;
-        const bool mesh = is_mesh(impl.scene->primitives[static_cast<size_t>(row)]);
-        if (!mesh && !fill_shape_geometry(impl, row)) continue;
-        RTCGeometry geometry = !mesh               ? make_shapes(impl, row)
-                               : impl.counts_tests ? make_counted_triangles(impl, row)
-                                                   : make_triangles(impl, row);
+        RTCGeometry geometry = make_geometry(impl, row);
+        if (geometry == nullptr) continue;
         rtcAttachGeometryByID(target, geometry, static_cast<unsigned>(i));
         rtcReleaseGeometry(geometry);
     }
@@ -147,19 +159,19 @@ Accel::Impl::~Impl() {
 
 namespace {
 
-Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene,
-                                                 const std::string& embree_isa) {
+Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const KernelChoice& kernels) {
     auto impl = std::make_unique<Accel::Impl>();
     impl->scene = &scene;
+    impl->kernels = kernels;
     impl->textures = {scene.textures.texels.data(),
                       reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
-    const std::string config = embree_isa.empty() ? "" : "isa=" + embree_isa;
+    const std::string config = kernels.isa.empty() ? "" : "isa=" + kernels.isa;
     impl->device = rtcNewDevice(config.c_str());
     if (impl->device == nullptr) {
         return fail(ExitCode::internal, "E-EMBREE", "rtcNewDevice", "no Embree device: " + config);
     }
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
-    impl->shape_callbacks = &shape_callbacks_for(embree_isa);
+    impl->shape_callbacks = &shape_callbacks_for(kernels.isa);
     rtcSetDeviceMemoryMonitorFunction(impl->device, note_memory, &impl->memory);
     return impl;
 }
@@ -186,39 +198,34 @@ Result<void> build_scenes(Accel::Impl& impl) {
 
 }  // namespace
 
-namespace {
-
-Result<std::unique_ptr<Accel::Impl>> build_whole(const Scene& scene,
-                                                 const std::string& embree_isa,
-                                                 bool counts_tests) {
-    auto impl = open_device(scene, embree_isa);
+Result<std::unique_ptr<Accel::Impl>> build_impl(const Scene& scene, const KernelChoice& kernels) {
+    auto impl = open_device(scene, kernels);
     if (!impl) return impl;
-    (*impl)->alpha.resize(scene.primitives.size());
-    (*impl)->counts_tests = counts_tests;
-    if (counts_tests) (*impl)->counted.resize(scene.primitives.size());
-    (*impl)->materials_with_holes = find_materials_with_holes(scene);
+    if (kernels.filters) {
+        (*impl)->alpha.resize(scene.primitives.size());
+        (*impl)->materials_with_holes = find_materials_with_holes(scene);
+    }
+    if (kernels.counts_tests) (*impl)->counted.resize(scene.primitives.size());
     (*impl)->fill_primitive_tables();
     const Result<void> built = build_scenes(**impl);
     if (!built) return fail(built.error());
     return impl;
 }
 
-}  // namespace
-
 Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
-    auto impl = build_whole(scene, embree_isa, false);
+    auto impl = build_impl(scene, {.isa = embree_isa});
     if (!impl) return fail(impl.error());
     return Accel(std::move(*impl));
 }
 
 Result<Accel> Accel::build_counting(const Scene& scene, const std::string& embree_isa) {
-    auto impl = build_whole(scene, embree_isa, true);
+    auto impl = build_impl(scene, {.isa = embree_isa, .counts_tests = true});
     if (!impl) return fail(impl.error());
     return Accel(std::move(*impl));
 }
 
 Result<BareBuild> Accel::build_bare(const Scene& scene, const std::string& embree_isa) {
-    auto impl = open_device(scene, embree_isa);
+    auto impl = open_device(scene, {.isa = embree_isa, .filters = false});
     if (!impl) return fail(impl.error());
     const Stopwatch building;
     const Result<void> built = build_scenes(**impl);

@@ -5,6 +5,7 @@
 #include "accel/accel.h"
 #include "accel/alpha_filter.h"
 #include "accel/embree.h"
+#include "accel/reference_kernels.h"
 #include "accel/shape_geometry.h"
 
 #include <atomic>
@@ -26,6 +27,12 @@ struct CountedTriangles {
     int32_t primitive = 0;
 };
 
+/// The triangles of one primitive as user geometry; its user pointer.
+struct UserTriangles {
+    const Scene* scene = nullptr;
+    int32_t first_triangle = 0;
+};
+
 struct Accel::Impl {
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -36,6 +43,7 @@ struct Accel::Impl {
     void list_endless_planes();
 
     const Scene* scene = nullptr;
+    KernelChoice kernels;
     TextureView textures;
     EmbreeErrors errors;
     std::atomic<int64_t> memory = 0;
@@ -43,12 +51,12 @@ struct Accel::Impl {
     RTCScene top = nullptr;  ///< geometry ids: world primitives, then instances
     std::vector<RTCScene> mesh_scenes;
     std::vector<uint8_t> materials_with_holes;
-    std::vector<AlphaGeometry> alpha;   ///< by primitive; filled where there is a filter
-    std::vector<ShapeGeometry> shapes;  ///< by primitive; filled where it is one of shapes
+    std::vector<AlphaGeometry> alpha;           ///< by primitive; filled where there is a filter
+    std::vector<ShapeGeometry> shapes;          ///< by primitive; filled where it is one of shapes
+    std::vector<UserTriangles> user_triangles;  ///< by primitive; empty: Embree's own triangles
     const ShapeCallbacks* shape_callbacks = nullptr;
     std::vector<EndlessPlane> endless_planes;
-    bool counts_tests = false;  ///< every primitive is user geometry: see Accel::build_counting
-    std::vector<CountedTriangles> counted;          ///< by primitive, where counts_tests
+    std::vector<CountedTriangles> counted;          ///< by primitive, where kernels.counts_tests
     std::vector<uint8_t> single_sided;              ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };
@@ -58,5 +66,8 @@ RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index);
 
 /// Counts, then calls the shape's own callback.
 void intersect_counted_shape(const RTCIntersectFunctionNArguments* args);
+
+/// Opens a device and builds all scenes on it. Errors as Accel::build.
+Result<std::unique_ptr<Accel::Impl>> build_impl(const Scene& scene, const KernelChoice& kernels);
 
 }  // namespace obscura

@@ -79,11 +79,23 @@ public:
     void intersect1(RTCScene scene, RTCRayHit* ray) {
         rtcIntersect1(scene, ray, &intersect_);
     }
+    void intersect4(const int* valid, RTCScene scene, RTCRayHit4* rays) {
+        rtcIntersect4(valid, scene, rays, &intersect_);
+    }
+    void intersect8(const int* valid, RTCScene scene, RTCRayHit8* rays) {
+        rtcIntersect8(valid, scene, rays, &intersect_);
+    }
     void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays) {
         rtcIntersect16(valid, scene, rays, &intersect_);
     }
     void occluded1(RTCScene scene, RTCRay* ray) {
         rtcOccluded1(scene, ray, &occluded_);
+    }
+    void occluded4(const int* valid, RTCScene scene, RTCRay4* rays) {
+        rtcOccluded4(valid, scene, rays, &occluded_);
+    }
+    void occluded8(const int* valid, RTCScene scene, RTCRay8* rays) {
+        rtcOccluded8(valid, scene, rays, &occluded_);
     }
     void occluded16(const int* valid, RTCScene scene, RTCRay16* rays) {
         rtcOccluded16(valid, scene, rays, &occluded_);
@@ -92,11 +104,23 @@ public:
     void intersect1(RTCScene scene, RTCRayHit* ray) {
         rtcIntersect1(scene, &context_.embree, ray);
     }
+    void intersect4(const int* valid, RTCScene scene, RTCRayHit4* rays) {
+        rtcIntersect4(valid, scene, &context_.embree, rays);
+    }
+    void intersect8(const int* valid, RTCScene scene, RTCRayHit8* rays) {
+        rtcIntersect8(valid, scene, &context_.embree, rays);
+    }
     void intersect16(const int* valid, RTCScene scene, RTCRayHit16* rays) {
         rtcIntersect16(valid, scene, &context_.embree, rays);
     }
     void occluded1(RTCScene scene, RTCRay* ray) {
         rtcOccluded1(scene, &context_.embree, ray);
+    }
+    void occluded4(const int* valid, RTCScene scene, RTCRay4* rays) {
+        rtcOccluded4(valid, scene, &context_.embree, rays);
+    }
+    void occluded8(const int* valid, RTCScene scene, RTCRay8* rays) {
+        rtcOccluded8(valid, scene, &context_.embree, rays);
     }
     void occluded16(const int* valid, RTCScene scene, RTCRay16* rays) {
         rtcOccluded16(valid, scene, &context_.embree, rays);

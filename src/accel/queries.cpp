@@ -1,7 +1,9 @@
 // accel/queries.cpp - columns of rays through Embree, in packets of 16.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/endless_planes.h"
 #include "accel/safe_ray.h"
+#include "accel/scene_rows.h"
 
 #include <algorithm>
 
@@ -96,34 +98,6 @@ Loaded load_packet(const RayColumns& rays, int first, ValidMask& valid, RTCRay16
     }
     const int refused = mark_valid(rays, first, valid);
     return {refused, load_part(rays, first, valid, out)};
-}
-
-/// What a hit lies on, as rows of the scene's tables.
-struct SceneRows {
-    int32_t instance = -1;
-    int32_t primitive = -1;
-};
-
-SceneRows scene_rows(const Accel::Impl& impl, unsigned geometry, unsigned instance_id) {
-    const auto first = static_cast<int32_t>(geometry);
-    if (instance_id == RTC_INVALID_GEOMETRY_ID) return {-1, first};
-    const int32_t instance = static_cast<int32_t>(instance_id) - impl.scene->world_primitive_count;
-    return {instance, first + impl.instance_first_primitive[static_cast<size_t>(instance)]};
-}
-
-/// Writes one row from what Embree found.
-void store_hit(const Accel::Impl& impl, const RTCRayHit& ray, const HitColumns& hits, int row) {
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
-        hits.primitive[row] = -1;
-        return;
-    }
-    const SceneRows rows = scene_rows(impl, ray.hit.geomID, ray.hit.instID[0]);
-    hits.t[row] = ray.ray.tfar;
-    hits.u[row] = ray.hit.u;
-    hits.v[row] = ray.hit.v;
-    hits.instance[row] = rows.instance;
-    hits.primitive[row] = rows.primitive;
-    hits.triangle[row] = static_cast<int32_t>(ray.hit.primID);
 }
 
 /// True when the hit is the back of a single-sided surface. Embree's Ng is in object space, and a
@@ -230,51 +204,6 @@ void pass_hidden_backs_of_packet(const Accel::Impl& impl,
     }
 }
 
-/// The row's ray, as planes without end take it.
-ShapeRay<float> shape_ray(const RayColumns& rays, int row) {
-    return {{rays.ox[row], rays.oy[row], rays.oz[row]}, {rays.dx[row], rays.dy[row], rays.dz[row]}};
-}
-
-/// Planes without end that are nearer than what the BVH found for a packet.
-void meet_endless_planes(const Accel::Impl& impl,
-                         const QueryContext& context,
-                         const RayColumns& rays,
-                         const HitColumns& hits,
-                         const ValidMask& valid,
-                         int first) {
-    for (const EndlessPlane& plane : impl.endless_planes) {
-        for (int i = 0; i < packet; ++i) {
-            const int row = first + i;
-            if (valid.lane[i] == 0) continue;
-            const float longest = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
-            const float tfar = hits.primitive[row] >= 0 ? hits.t[row] : longest;
-            const auto hit = intersect_endless(
-                plane, context, shape_ray(rays, row), static_cast<unsigned>(row), tfar);
-            if (!hit.found) continue;
-            hits.t[row] = hit.t;
-            hits.u[row] = 0.0f;
-            hits.v[row] = 0.0f;
-            hits.instance[row] = plane.instance;
-            hits.primitive[row] = plane.primitive;
-            hits.triangle[row] = 0;
-        }
-    }
-}
-
-/// True when a plane without end lies in (0, tfar) of the row's ray.
-bool endless_plane_hides(const Accel::Impl& impl,
-                         const QueryContext& context,
-                         const RayColumns& rays,
-                         int row) {
-    const float tfar = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
-    return std::any_of(
-        impl.endless_planes.begin(), impl.endless_planes.end(), [&](const EndlessPlane& plane) {
-            return intersect_endless(
-                       plane, context, shape_ray(rays, row), static_cast<unsigned>(row), tfar)
-                .found;
-        });
-}
-
 }  // namespace
 
 int Accel::intersect(const RayColumns& rays,
@@ -309,8 +238,9 @@ int Accel::intersect(const RayColumns& rays,
         if (see_through.culls_back_faces) {
             pass_hidden_backs_of_packet(*impl_, context, rays, block.hit, hits, first);
         }
-        if (!impl_->endless_planes.empty()) {
-            meet_endless_planes(*impl_, context, rays, hits, valid, first);
+        if (impl_->endless_planes.empty()) continue;
+        for (int i = 0; i < packet; ++i) {
+            if (valid.lane[i] != 0) meet_endless_planes(*impl_, context, rays, hits, first + i);
         }
     }
     return refused;

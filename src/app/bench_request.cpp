@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_request.h"
 
+#include "app/asset_choice.h"
 #include "app/numbers.h"
 #include "base/parallel.h"
-#include "bench/asset_files.h"
 #include "render/integrators.h"
 
 #include <algorithm>
 #include <functional>
-#include <system_error>
 
 namespace obscura {
 
@@ -120,24 +119,6 @@ Result<void> check_combinations(const BenchArguments& arguments, const BenchRequ
     return {};
 }
 
-Result<std::vector<std::string>> choose_scenes(const BenchArguments& arguments) {
-    if (!arguments.scenes.empty()) return arguments.scenes;
-    std::error_code error;
-    std::filesystem::path folder = arguments.assets.value_or("");
-    if (!arguments.assets) {
-        const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-        const auto found = find_assets_folder(program.parent_path());
-        if (!found) return fail(found.error());
-        folder = *found;
-    }
-    const auto files = find_assets(folder);
-    if (!files) return fail(files.error());
-    std::vector<std::string> names;
-    for (const std::filesystem::path& file : *files)
-        names.push_back(file.string());
-    return names;
-}
-
 /// One scene's request. Quantities take one sample a pixel, so they get more pixels.
 Result<RenderRequest> request_for(const BenchArguments& arguments, const std::string& scene) {
     RenderArguments render = arguments.render;
@@ -173,7 +154,8 @@ Result<BenchRequest> make_bench_request(const BenchArguments& arguments) {
     if (arguments.compare) request.compare = *arguments.compare;
     if (auto parsed = parse_own(arguments, request); !parsed) return fail(parsed.error());
     if (auto sound = check_combinations(arguments, request); !sound) return fail(sound.error());
-    const Result<std::vector<std::string>> scenes = choose_scenes(arguments);
+    const Result<std::vector<std::string>> scenes =
+        scenes_or_assets(arguments.scenes, arguments.assets);
     if (!scenes) return fail(scenes.error());
     for (const std::string& scene : *scenes) {
         Result<RenderRequest> one = request_for(arguments, scene);

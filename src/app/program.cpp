@@ -4,6 +4,8 @@
 
 #include "app/bench_command.h"
 #include "app/bench_options.h"
+#include "app/crosscheck_command.h"
+#include "app/crosscheck_options.h"
 #include "app/info_command.h"
 #include "app/numbers.h"
 #include "app/outcome.h"
@@ -30,6 +32,7 @@ Examples:
   obscura render helmet.glb --env sky.hdr -o helmet.exr -o helmet.png
   obscura info helmet.glb --json
   obscura bench helmet.glb --json helmet.json
+  obscura crosscheck helmet.glb --rays 10M
 
 `obscura COMMAND --help` explains a command's options.)";
 
@@ -94,8 +97,8 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
             extras.empty() ? "no command was given" : in_quotes(extras.front()) + " is no command";
         return report_usage("command-line",
                             got +
-                                "; expected `obscura render SCENE`, `obscura info SCENE` or "
-                                "`obscura bench`, see `obscura --help`");
+                                "; expected `obscura render SCENE`, `obscura info SCENE`, "
+                                "`obscura bench` or `obscura crosscheck`, see `obscura --help`");
     }
     const CLI::App& command = *chosen.front();
     const std::string hint = "; `obscura " + command.get_name() + " --help` lists what is accepted";
@@ -131,7 +134,11 @@ int run_program(int argc, char** argv) {
     BenchArguments bench_arguments;
     CLI::App* bench = app.add_subcommand("bench", "Measure how fast scenes render");
     add_bench_options(*bench, bench_arguments);
-    for (CLI::App* command : {render, info, bench}) {
+    CrosscheckArguments crosscheck_arguments;
+    CLI::App* crosscheck =
+        app.add_subcommand("crosscheck", "Check intersections against Embree and in double");
+    add_crosscheck_options(*crosscheck, crosscheck_arguments);
+    for (CLI::App* command : {render, info, bench, crosscheck}) {
         command->get_formatter()->column_width(28);
     }
     try {
@@ -146,6 +153,7 @@ int run_program(int argc, char** argv) {
         return report_parse_error(app, error);
     }
     if (bench->parsed()) return run_bench(bench_arguments);
+    if (crosscheck->parsed()) return run_crosscheck(crosscheck_arguments);
     return render->parsed() ? run_render(render_arguments) : run_info(info_arguments);
 }
 

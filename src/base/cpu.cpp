@@ -6,6 +6,14 @@ namespace obscura {
 
 #if defined(__x86_64__)
 
+bool cpu_has_sse42() {
+    return __builtin_cpu_supports("sse4.2");
+}
+
+bool cpu_has_avx() {
+    return __builtin_cpu_supports("avx");
+}
+
 // Feature by feature: clang 14 does not know the names of the x86-64 levels.
 bool cpu_has_avx2() {
     return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
@@ -19,6 +27,14 @@ bool cpu_has_avx512() {
 }
 
 #else
+
+bool cpu_has_sse42() {
+    return false;
+}
+
+bool cpu_has_avx() {
+    return false;
+}
 
 bool cpu_has_avx2() {
     return false;

@@ -14,6 +14,7 @@ namespace obscura {
 /// it.
 enum class ExitCode : int {
     ok = 0,
+    outside_budget = 1,  ///< a cross-check found more differences than it allows
     out_of_memory = 33,
     usage = 64,
     bad_data = 65,       ///< the scene file breaks its format

@@ -16,7 +16,7 @@ inline constexpr size_t max_function_lines = 60;
 inline constexpr size_t max_columns = 100;
 
 /// The rooms in the order of the corridor: each may include itself and those before it.
-inline constexpr std::array<std::string_view, 14> rooms{"base",
+inline constexpr std::array<std::string_view, 15> rooms{"base",
                                                         "math",
                                                         "shape",
                                                         "camera",
@@ -28,6 +28,7 @@ inline constexpr std::array<std::string_view, 14> rooms{"base",
                                                         "accel",
                                                         "stages",
                                                         "render",
+                                                        "crosscheck",
                                                         "bench",
                                                         "app"};
 
@@ -55,7 +56,7 @@ inline constexpr std::array<Owner, 18> owners{{{"tbb/", "base"},
                                                {"embree3/", "accel"},
                                                {"embree4/", "accel"},
                                                {"CLI/", "app"},
-                                               {"fmt/", "image bench app"}}};
+                                               {"fmt/", "image crosscheck bench app"}}};
 
 /// What the operating system and the C library bring along: everybody's.
 inline constexpr std::array<std::string_view, 15> system_headers{"dirent.h",

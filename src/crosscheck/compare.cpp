@@ -1,0 +1,231 @@
+// crosscheck/compare.cpp - two answers about one ray.
+// SPDX-License-Identifier: Apache-2.0
+#include "crosscheck/compare.h"
+
+#include "math/warp.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+/// What one comparison is about.
+struct Question {
+    const TrueScene& scene;
+    const TrueRay& ray;
+    double unit_m;  ///< one ulp
+};
+
+/// Distance of two hits along the surface's normal, in ulp; where the surface turns, along the
+/// steeper normal.
+double depth_gap(const Question& q, const Answer& a, const Answer& b) {
+    const double along = std::abs(a.t - b.t) * length(q.ray.direction);
+    if (along <= q.unit_m) return along / q.unit_m;
+    const Item& item = a.item.primitive >= 0 ? a.item : b.item;
+    const Vec3d forward = normalize(q.ray.direction);
+    const auto cosine = [&](double t) {
+        const Vec3d place = q.ray.origin + q.ray.direction * t;
+        return std::abs(dot(q.scene.normal(item, place), forward));
+    };
+    return along * std::max(cosine(a.t), cosine(b.t)) / q.unit_m;
+}
+
+/// True when `hit`, the truth about a ray that is so many ulp away, is what the answer says.
+bool says_the_same(const Question& q, const Answer& answer, const TrueHit& hit, double ulps) {
+    if (!answer.found() || !hit.found()) return answer.found() == hit.found();
+    return answer.any || depth_gap(q, answer_of(hit), answer) <= depth_ulps + ulps;
+}
+
+/// Calls look(ray) for rays so many ulp away from q.ray: beside it, ahead and behind, and turned so
+/// that they are on one side where they begin and on the other where they hit, at t.
+template <typename Look>
+void look_around(const Question& q, double ulps, const std::array<double, 2>& t, const Look& look) {
+    constexpr int turns = 16;
+    const double distance = ulps * q.unit_m;
+    const Vec3d& origin = q.ray.origin;
+    const Vec3d& direction = q.ray.direction;
+    const Vec3d forward = normalize(direction) * distance;
+    const Frame<double> frame = frame_around(normalize(direction));
+    look(TrueRay{origin + forward, direction});
+    look(TrueRay{origin - forward, direction});
+    for (int i = 0; i < turns; ++i) {
+        const double angle = 2 * pi_d * (i + 0.5) / turns;
+        const Vec3d side =
+            (frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle)) * distance;
+        look(TrueRay{origin + side, direction});
+        look(TrueRay{origin + (side + forward) * 0.70710678, direction});
+        look(TrueRay{origin + (side - forward) * 0.70710678, direction});
+        for (const double at : t) {
+            if (std::isfinite(at)) look(TrueRay{origin - side, direction + side * (2 / at)});
+        }
+    }
+}
+
+/// How far away rays are found that have the answers, up to `most` ulp; infinite where there are
+/// none.
+double explanation(const Question& q, const Answer& expected, const Answer& got, double most) {
+    const TrueHit own = q.scene.nearest(q.ray);
+    bool expected_seen = says_the_same(q, expected, own, 0);
+    bool got_seen = says_the_same(q, got, own, 0);
+    for (double ulps = edge_ulps / 16; ulps <= most; ulps *= 2) {
+        look_around(q, ulps, {expected.t, got.t}, [&](const TrueRay& ray) {
+            if (expected_seen && got_seen) return;
+            const TrueHit hit = q.scene.nearest(ray);
+            expected_seen = expected_seen || says_the_same(q, expected, hit, ulps);
+            got_seen = got_seen || says_the_same(q, got, hit, ulps);
+        });
+        if (expected_seen && got_seen) return ulps;
+    }
+    return INFINITY;
+}
+
+/// Where the ray passes the item's middle: a turned ray must have its sides there.
+double passing(const Question& q, const Item& item) {
+    const double squared = dot(q.ray.direction, q.ray.direction);
+    return dot(q.scene.middle(item) - q.ray.origin, q.ray.direction) / squared;
+}
+
+/// True when rays around hit this item, and others do not.
+bool is_at_its_edge(const Question& q, const Answer& answer) {
+    bool hit = false;
+    bool missed = false;
+    const std::array<double, 2> places = {answer.t, passing(q, answer.item)};
+    for (double ulps = edge_ulps / 16; ulps <= edge_ulps && !(hit && missed); ulps *= 2) {
+        look_around(q, ulps, places, [&](const TrueRay& ray) {
+            const bool found = !q.scene.meetings(ray, answer.item).empty();
+            hit = hit || found;
+            missed = missed || !found;
+        });
+    }
+    return hit && missed;
+}
+
+/// True when the item lies within 4 ulp of the place where the answer says that it is hit: seen
+/// along its own normal, through that place or one beside it.
+bool is_near_its_item(const Question& q, const Answer& answer) {
+    const Vec3d place = q.ray.origin + q.ray.direction * answer.t;
+    const Vec3d normal = q.scene.normal(answer.item, place);
+    const double height = 4 * edge_ulps * q.unit_m;
+    const auto finds = [&](const Vec3d& shift) {
+        const TrueRay down{place + shift + normal * height, -normal};
+        const std::vector<double> found = q.scene.meetings(down, answer.item);
+        return std::any_of(found.begin(), found.end(), [&](double t) {
+            return std::abs(t - height) <= edge_ulps * q.unit_m;
+        });
+    };
+    constexpr int turns = 16;
+    const Frame<double> frame = frame_around(normal);
+    bool found = finds({0, 0, 0});
+    for (int i = 0; i < turns && !found; ++i) {
+        const double angle = 2 * pi_d * i / turns;
+        found = finds((frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle)) *
+                      (edge_ulps * q.unit_m));
+    }
+    return found;
+}
+
+/// True when rays at most 4 ulp away meet the answer's item at its depth, whatever hides it.
+bool is_met_nearby(const Question& q, const Answer& answer) {
+    bool met = is_near_its_item(q, answer);
+    for (double ulps = edge_ulps / 16; ulps <= edge_ulps && !met; ulps *= 2) {
+        look_around(q, ulps, {answer.t, INFINITY}, [&](const TrueRay& ray) {
+            for (const double t : q.scene.meetings(ray, answer.item)) {
+                met = met || depth_gap(q, {t, answer.item}, answer) <= depth_ulps + ulps;
+            }
+        });
+    }
+    return met;
+}
+
+/// Distance between the ray and a line, both without end.
+double line_distance(const TrueRay& ray, const Vec3d& place, const Vec3d& along) {
+    const Vec3d between = place - ray.origin;
+    const Vec3d across = cross(ray.direction, along);
+    const double sine = length(across);
+    if (sine > 1e-12 * length(ray.direction) * length(along)) {
+        return std::abs(dot(between, across)) / sine;
+    }
+    return length(cross(between, ray.direction)) / length(ray.direction);
+}
+
+/// True when the ray passes the endless lines through two or three edges of a triangle so closely
+/// that the signs on which any test is built are chance, and lies outside of no other edge.
+bool is_within_lines(const Question& q, const Item& item) {
+    if (!q.scene.is_triangle(item)) return false;
+    const Triangle<double> t = q.scene.triangle(item);
+    const Vec3d corner[3] = {t.a - q.ray.origin, t.b - q.ray.origin, t.c - q.ray.origin};
+    double side[3];
+    for (int k = 0; k < 3; ++k)
+        side[k] = dot(q.ray.direction, cross(corner[k], corner[(k + 1) % 3]));
+    const double facing = side[0] + side[1] + side[2];
+    bool within = true;
+    int near = 0;
+    for (int k = 0; k < 3; ++k) {
+        const Vec3d edge = corner[(k + 1) % 3] - corner[k];
+        const double distance = line_distance(q.ray, corner[k] + q.ray.origin, edge);
+        const bool near_this = distance <= line_ulps * q.unit_m;
+        within = within && (side[k] * facing >= 0 || near_this);
+        near += near_this ? 1 : 0;
+    }
+    return within && near >= 2;
+}
+
+/// agree: what the answer says is there is there within 4 ulp, and all that it has passed by is at
+/// its edge; edge_on: but for triangles seen edge-on; false_hit: neither.
+Verdict excuse(const Question& q, const Answer& answer) {
+    Verdict worst = Verdict::agree;
+    const auto judge = [&](bool good, const Item& item) {
+        if (good) return;
+        const bool edge_on = is_within_lines(q, item);
+        worst = std::max(worst, edge_on ? Verdict::edge_on : Verdict::false_hit);
+    };
+    if (answer.any) return Verdict::false_hit;  // that nothing was passed by says nothing
+    if (answer.found()) {
+        judge(is_met_nearby(q, answer) || is_at_its_edge(q, answer), answer.item);
+    }
+    q.scene.all_hits(q.ray, [&](double t, const Item& item) {
+        const Answer passed{t, item};
+        if (item == answer.item || t >= answer.t) return;
+        if (answer.found() && depth_gap(q, passed, answer) <= depth_ulps) return;
+        judge(is_at_its_edge(q, passed), item);
+    });
+    return worst;
+}
+
+double rounding_of(const TrueScene& scene, const TrueRay& ray, const Answer& answer) {
+    if (answer.item.primitive < 0) return 0;
+    return scene.rounding_m(ray, answer.item, answer.t);
+}
+
+}  // namespace
+
+Comparison compare(const TrueScene& scene,
+                   const TrueRay& ray,
+                   const Answer& expected,
+                   const Answer& got) {
+    if (!expected.found() && !got.found()) return {};
+    if (expected.found() && got.found() && (expected.any || got.any)) return {};
+    const bool same = expected.item == got.item;
+    if (same && expected.found() == got.found() && expected.t == got.t) return {};
+    double unit = std::max(rounding_of(scene, ray, expected), rounding_of(scene, ray, got));
+    if (unit == 0) unit = scene.rounding_m(ray, {}, 2 * length(scene.bounds().high - ray.origin));
+    const Question question{scene, ray, unit};
+    const bool both = expected.found() && got.found();
+    if (both && depth_gap(question, expected, got) <= depth_ulps) {
+        return {same ? Verdict::agree : Verdict::equal_depth, 0};
+    }
+    double ulps = explanation(question, expected, got, edge_ulps);
+    if (ulps <= edge_ulps) return {Verdict::edge, ulps};
+    const Verdict excused = std::max(excuse(question, expected), excuse(question, got));
+    if (excused == Verdict::agree) return {Verdict::crack, edge_ulps};
+    if (excused == Verdict::edge_on) return {Verdict::edge_on, edge_ulps};
+    ulps = explanation(question, expected, got, 64 * edge_ulps);
+    if (both && same) return {Verdict::depth, depth_gap(question, expected, got)};
+    const bool behind = !got.found() || (both && got.t > expected.t);
+    return {behind ? Verdict::missed : Verdict::false_hit, ulps};
+}
+
+}  // namespace obscura

@@ -1,0 +1,65 @@
+// crosscheck/compare.h - whether two answers about one ray agree, and how they differ.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crosscheck/truth.h"
+
+namespace obscura {
+
+/// What somebody says about a ray.
+struct Answer {
+    double t = INFINITY;
+    Item item;
+    bool any = false;  ///< occlusion: something is hit, and nobody says what
+
+    bool found() const { return any || item.primitive >= 0; }
+};
+
+inline Answer answer_of(const TrueHit& hit) {
+    return {hit.t, hit.item};
+}
+
+/// From best to worst; `agree` to `edge_on` are within 4 ulp of an edge.
+enum class Verdict : int {
+    agree,
+    equal_depth,  ///< another item, but at the same depth: neighbours on a common edge, coplanar
+    edge,         ///< different, and rays moved by at most 4 ulp have the other answer
+    crack,        ///< within 4 ulp of an edge too, but no such ray has both answers: a ray that
+                  ///< went between two neighbours
+    edge_on,    ///< beside a triangle, but within line_ulps of the endless lines through the edges
+                ///< that it lies outside of: seen edge-on, or past a sharp corner
+    depth,      ///< the same item at another depth
+    missed,     ///< not hit, or only behind the expected hit
+    false_hit,  ///< hit where nothing is, or in front of the expected hit
+};
+inline constexpr size_t verdicts = 8;
+
+/// How far from an edge answers may differ, and how far hits may lie from the surface; in units of
+/// TrueScene::rounding_m.
+inline constexpr double edge_ulps = 4;
+inline constexpr double depth_ulps = 4;
+/// How near the endless lines of `edge_on` are: the sides of a ray are sums of products, whose
+/// rounding is relative to the whole triangle and not to its edge.
+inline constexpr double line_ulps = 16;
+
+struct Comparison {
+    Verdict verdict = Verdict::agree;
+    /// Of a difference: how far the ray must be moved to explain it; infinite: no explanation.
+    double ulps = 0;
+};
+
+/// Compares `got` with `expected`.
+///
+/// The ulp is that of the largest number on the ray's way to the hit (TrueScene::rounding_m).
+/// Depths agree when the two points are at most depth_ulps apart along the surface's normal. Any
+/// other difference counts as `edge` when both answers are true for rays that are at most edge_ulps
+/// away from this one, where it begins and where it hits. It counts as `crack` when no such ray has
+/// the answer, but all that was passed by has an edge within edge_ulps, and what was hit is there
+/// within edge_ulps or has an edge there. It counts as `edge_on` when only lines through
+/// edges are as near as that.
+Comparison compare(const TrueScene& scene,
+                   const TrueRay& ray,
+                   const Answer& expected,
+                   const Answer& got);
+
+}  // namespace obscura

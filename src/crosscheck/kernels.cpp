@@ -1,0 +1,156 @@
+// crosscheck/kernels.cpp - asking kernels and comparing what they say.
+// SPDX-License-Identifier: Apache-2.0
+#include "crosscheck/kernels.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace obscura {
+
+namespace {
+
+/// True where a is to be shown before b.
+bool is_worse(const Difference& a, const Difference& b) {
+    if (a.comparison.verdict != b.comparison.verdict) {
+        return a.comparison.verdict > b.comparison.verdict;
+    }
+    if (a.comparison.ulps != b.comparison.ulps) return a.comparison.ulps > b.comparison.ulps;
+    return a.number < b.number;
+}
+
+void keep_worst(std::vector<Difference>& worst) {
+    std::sort(worst.begin(), worst.end(), is_worse);
+    if (worst.size() > most_worst) worst.resize(most_worst);
+}
+
+void note_on_screen(ScreenVerdicts& screen, ScreenPlace at, Verdict verdict, bool hit) {
+    const size_t pixel =
+        static_cast<size_t>(at.y) * static_cast<size_t>(screen.width) + static_cast<size_t>(at.x);
+    screen.worst[pixel] = std::max(screen.worst[pixel], static_cast<int8_t>(verdict));
+    if (hit) screen.hit[pixel] = 1;
+}
+
+/// One chunk's answers beside those of one reference.
+struct ChunkPair {
+    const TrueScene& scene;
+    const RayBlock& rays;
+    const std::vector<Answer>& got;
+    const Answer* expected;
+    RayGroup group;
+    uint64_t first;
+};
+
+/// Adds a chunk to a pair's figures; noted(row, verdict) sees every ray.
+template <typename Noted>
+void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& noted) {
+    Tally& tally = figures.groups[static_cast<size_t>(chunk.group)];
+    for (int i = 0; i < chunk.rays.count(); ++i) {
+        const Answer& got = chunk.got[static_cast<size_t>(i)];
+        const TrueRay ray = chunk.rays.true_ray(i);
+        const Comparison found = compare(chunk.scene, ray, chunk.expected[i], got);
+        ++tally.rays;
+        tally.hits += got.found() ? 1 : 0;
+        ++tally.counts[static_cast<size_t>(found.verdict)];
+        noted(i, found.verdict);
+        if (found.verdict <= Verdict::equal_depth) continue;
+        if (found.verdict == Verdict::edge) {
+            tally.widest_edge = std::max(tally.widest_edge, found.ulps);
+        }
+        figures.worst.push_back({chunk.group,
+                                 chunk.first + static_cast<uint64_t>(i),
+                                 ray,
+                                 chunk.expected[i],
+                                 got,
+                                 found});
+    }
+    keep_worst(figures.worst);
+}
+
+}  // namespace
+
+uint64_t Tally::unexplained() const {
+    return of(Verdict::depth) + of(Verdict::missed) + of(Verdict::false_hit);
+}
+
+void Tally::add(const Tally& other) {
+    rays += other.rays;
+    hits += other.hits;
+    for (size_t i = 0; i < verdicts; ++i)
+        counts[i] += other.counts[i];
+    widest_edge = std::max(widest_edge, other.widest_edge);
+}
+
+Tally PairFigures::total() const {
+    Tally sum;
+    for (const Tally& group : groups)
+        sum.add(group);
+    return sum;
+}
+
+Tally PairFigures::unaimed() const {
+    Tally sum;
+    for (size_t g = 0; g < ray_groups; ++g) {
+        if (is_unaimed(static_cast<RayGroup>(g))) sum.add(groups[g]);
+    }
+    return sum;
+}
+
+std::vector<PairFigures> compare_kernel(const TrueScene& scene,
+                                        const RaySet& rays,
+                                        const Kernel& kernel,
+                                        const std::vector<const AnswerList*>& references,
+                                        AnswerList* kept,
+                                        ScreenVerdicts* screen) {
+    std::vector<PairFigures> all(references.size());
+    for (size_t r = 0; r < references.size(); ++r) {
+        all[r].got = kernel.name;
+        all[r].expected = references[r]->name;
+        all[r].against_truth = references[r]->is_truth;
+    }
+    if (kept != nullptr) {
+        kept->name = kernel.name;
+        kept->answers.resize(static_cast<size_t>(rays.count()));
+    }
+    std::mutex merging;  // sums, and the worst by an order of their own: no order matters
+    parallel_for(rays.chunks(), [&](size_t chunk) {
+        RayBlock block;
+        std::vector<Answer> answers;
+        rays.fill(chunk, block);
+        kernel.ask(block, answers);
+        const size_t first = chunk * chunk_rays;
+        if (kept != nullptr) std::copy(answers.begin(), answers.end(), &kept->answers[first]);
+        const RayGroup group = RaySet::group(chunk);
+        for (size_t r = 0; r < references.size(); ++r) {
+            PairFigures mine;
+            std::vector<Verdict> seen(answers.size());
+            compare_chunk(
+                {scene, block, answers, &references[r]->answers[first], group, first},
+                mine,
+                [&](int row, Verdict verdict) { seen[static_cast<size_t>(row)] = verdict; });
+            const std::lock_guard lock(merging);
+            for (size_t g = 0; g < ray_groups; ++g)
+                all[r].groups[g].add(mine.groups[g]);
+            all[r].worst.insert(all[r].worst.end(), mine.worst.begin(), mine.worst.end());
+            keep_worst(all[r].worst);
+            if (screen == nullptr || group != RayGroup::camera || !references[r]->is_truth) {
+                continue;
+            }
+            for (size_t i = 0; i < seen.size(); ++i)
+                note_on_screen(
+                    *screen, rays.place(chunk, static_cast<int>(i)), seen[i], answers[i].found());
+        }
+    });
+    return all;
+}
+
+Kernel truth_kernel(const TrueScene& scene) {
+    return {"double precision", [&scene](RayBlock& rays, std::vector<Answer>& answers) {
+                answers.resize(static_cast<size_t>(rays.count()));
+                for (int i = 0; i < rays.count(); ++i)
+                    answers[static_cast<size_t>(i)] = answer_of(scene.nearest(rays.true_ray(i)));
+            }};
+}
+
+}  // namespace obscura

@@ -1,0 +1,101 @@
+// crosscheck/kernels.h - whoever answers rays, and how their answers are compared.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crosscheck/compare.h"
+#include "crosscheck/ray_set.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// One that answers rays. `ask` is called from many threads and fills one answer a ray.
+struct Kernel {
+    std::string name;
+    std::function<void(RayBlock& rays, std::vector<Answer>& answers)> ask;
+    bool occlusion = false;  ///< its answers name no item
+};
+
+/// All answers of one kernel, in the order of the rays.
+struct AnswerList {
+    std::string name;
+    std::vector<Answer> answers;
+    bool is_truth = false;
+};
+
+struct Tally {
+    uint64_t rays = 0;
+    uint64_t hits = 0;  ///< of the kernel that is compared
+    std::array<uint64_t, verdicts> counts = {};
+    double widest_edge = 0;  ///< ulp, of those counted as edge
+
+    uint64_t of(Verdict verdict) const { return counts[static_cast<size_t>(verdict)]; }
+    /// Differences that 4 ulp do not explain.
+    uint64_t unexplained() const;
+    /// All but those that agree or are at equal depth.
+    uint64_t mismatches() const {
+        return unexplained() + of(Verdict::edge) + of(Verdict::crack) + of(Verdict::edge_on);
+    }
+    void add(const Tally& other);
+};
+
+/// One ray on which two kernels differ.
+struct Difference {
+    RayGroup group = RayGroup::camera;
+    uint64_t number = 0;  ///< of the ray
+    TrueRay ray;
+    Answer expected, got;
+    Comparison comparison;
+};
+
+/// What a kernel is held to.
+enum class Standard : int {
+    full,   ///< no difference that 4 ulp do not explain, and hardly any other
+    edges,  ///< no difference that 4 ulp do not explain
+    none,   ///< only published
+};
+
+/// A kernel against another or against the truth.
+struct PairFigures {
+    std::string got, expected;
+    bool against_truth = false;
+    Standard standard = Standard::full;
+    std::array<Tally, ray_groups> groups;
+    std::vector<Difference> worst;  ///< at most most_worst, worst first; not those at equal depth
+
+    Tally total() const;
+    /// Of camera rays and of those aimed at nothing.
+    Tally unaimed() const;
+};
+
+inline constexpr size_t most_worst = 8;
+
+/// The worst verdict of every pixel whose camera ray was compared with the truth; -1: none was.
+struct ScreenVerdicts {
+    int width = 0;
+    int height = 0;
+    std::vector<int8_t> worst;
+    std::vector<uint8_t> hit;  ///< 1: a kernel found something
+};
+
+/// Asks a kernel all rays and compares it with others that have been asked. The same figures for
+/// any number of threads.
+///
+/// In      references: may be empty
+/// Out     kept: the kernel's answers, where it is not null; screen: worse verdicts of this pair,
+///         where it is not null
+std::vector<PairFigures> compare_kernel(const TrueScene& scene,
+                                        const RaySet& rays,
+                                        const Kernel& kernel,
+                                        const std::vector<const AnswerList*>& references,
+                                        AnswerList* kept,
+                                        ScreenVerdicts* screen);
+
+/// The truth as a kernel.
+Kernel truth_kernel(const TrueScene& scene);
+
+}  // namespace obscura

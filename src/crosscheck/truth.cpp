@@ -1,0 +1,284 @@
+// crosscheck/truth.cpp - nearest hits in double precision.
+// SPDX-License-Identifier: Apache-2.0
+#include "crosscheck/truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+constexpr double ulp_of_one = 1.0 / 8388608.0;  ///< spacing of floats above 1
+
+Affined absolute(const Affined& a) {
+    Affined out;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c)
+            out.m[r][c] = std::abs(a.m[r][c]);
+    }
+    return out;
+}
+
+ShapeRay<double> into(const Affined& object_from_world, const TrueRay& ray) {
+    return {transform_point(object_from_world, ray.origin),
+            transform_vector(object_from_world, ray.direction)};
+}
+
+Vec3d corner(const Scene& scene, size_t index) {
+    const float* p = &scene.positions[3 * static_cast<size_t>(scene.indices[index])];
+    return {p[0], p[1], p[2]};
+}
+
+}  // namespace
+
+TrueScene::TrueScene(const Scene& scene) : scene_(scene) {
+    groups_.push_back(make_group(0, scene.world_primitive_count));
+    for (const Mesh& mesh : scene.meshes)
+        groups_.push_back(make_group(mesh.first_primitive, mesh.primitive_count));
+    add_object(0, -1);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        add_object(1 + static_cast<size_t>(scene.instances[i].mesh), static_cast<int32_t>(i));
+    }
+    std::vector<TrueBox> boxes;
+    for (size_t i = 0; i < objects_.size(); ++i) {
+        const Group& group = groups_[objects_[i].group];
+        if (!group.endless.empty()) endless_objects_.push_back(i);
+        if (group.items.size() == group.endless.size()) continue;
+        const TrueBox own = group.tree->bounds();
+        TrueBox box;
+        for (int k = 0; k < 8; ++k) {
+            box.add(transform_point(objects_[i].world_from_object,
+                                    {(k & 1) != 0 ? own.high.x : own.low.x,
+                                     (k & 2) != 0 ? own.high.y : own.low.y,
+                                     (k & 4) != 0 ? own.high.z : own.low.z}));
+        }
+        boxes.push_back(box.with_room());
+        boxed_objects_.push_back(i);
+    }
+    objects_tree_.emplace(boxes);
+}
+
+TrueScene::Group TrueScene::make_group(int32_t first_primitive, int32_t count) const {
+    Group group;
+    std::vector<TrueBox> boxes;
+    for (int32_t p = first_primitive; p < first_primitive + count; ++p) {
+        const Primitive& primitive = scene_.primitives[static_cast<size_t>(p)];
+        for (int32_t row = 0; row < primitive.triangle_count; ++row) {
+            const Item item{-1, p, row};
+            group.items.push_back(item);
+            if (is_endless(item)) group.endless.push_back(item);
+        }
+    }
+    std::stable_partition(group.items.begin(), group.items.end(), [&](const Item& item) {
+        return !is_endless(item);
+    });
+    for (size_t i = 0; i + group.endless.size() < group.items.size(); ++i)
+        boxes.push_back(box_of(group.items[i]));
+    group.tree.emplace(boxes);
+    return group;
+}
+
+void TrueScene::add_object(size_t group, int32_t instance) {
+    Object object{group, instance, {}, {}};
+    if (instance >= 0) {
+        // The inverse in double of the very matrix that Embree is given in single precision.
+        const Instance& row = scene_.instances[static_cast<size_t>(instance)];
+        object.world_from_object = affine_cast<double>(row.world_from_object);
+        object.object_from_world = inverse(object.world_from_object);
+    }
+    objects_.push_back(object);
+    item_ends_.push_back(item_count() + groups_[group].items.size());
+}
+
+bool TrueScene::is_triangle(const Item& item) const {
+    return is_mesh(scene_.primitives[static_cast<size_t>(item.primitive)]);
+}
+
+bool TrueScene::is_endless(const Item& item) const {
+    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
+    if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) return false;
+    return is_unbounded(scene_.shapes[static_cast<size_t>(primitive.first_triangle + item.row)]);
+}
+
+ShapeRow TrueScene::shape(const Item& item) const {
+    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
+    const auto row = static_cast<size_t>(primitive.first_triangle + item.row);
+    if (primitive.geometry == static_cast<int32_t>(GeometryKind::shapes)) {
+        return scene_.shapes[row];
+    }
+    ShapeRow sphere;
+    const float* at = &scene_.spheres[sphere_word(row)];
+    for (int c = 0; c < 3; ++c)
+        sphere.centre[c] = at[c * sphere_block];
+    sphere.size[0] = at[3 * sphere_block];
+    return sphere;
+}
+
+Triangle<double> TrueScene::own_triangle(const Item& item) const {
+    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
+    const size_t first = 3 * static_cast<size_t>(primitive.first_triangle + item.row);
+    return {corner(scene_, first), corner(scene_, first + 1), corner(scene_, first + 2)};
+}
+
+TrueBox TrueScene::box_of(const Item& item) const {
+    TrueBox box;
+    if (is_triangle(item)) {
+        const Triangle<double> t = own_triangle(item);
+        for (const Vec3d& p : {t.a, t.b, t.c})
+            box.add(p);
+        return box;
+    }
+    const ShapeBox around = shape_bounds(shape(item));
+    box.add(Vec3d{around.low.x, around.low.y, around.low.z});
+    box.add(Vec3d{around.high.x, around.high.y, around.high.z});
+    return box;
+}
+
+Roots<double> TrueScene::roots(const Item& item, const ShapeRay<double>& ray) const {
+    if (is_triangle(item)) {
+        const TriangleHit<double> hit = intersect_triangle(own_triangle(item), ray);
+        return {{hit.t, hit.t}, {hit.hit, false}};
+    }
+    const ShapeRow row = shape(item);
+    return intersect_shape<double>(row, ray);
+}
+
+template <typename Take>
+void TrueScene::take_roots(const Object& object,
+                           const Item& item,
+                           const ShapeRay<double>& ray,
+                           const Take& take) const {
+    const Roots<double> found = roots(item, ray);
+    for (int k = 0; k < 2; ++k) {
+        if (found.hit[k] && found.t[k] > 0) {
+            take(found.t[k], Item{object.instance, item.primitive, item.row});
+        }
+    }
+}
+
+template <typename Take>
+void TrueScene::visit_hits(const TrueRay& ray, const double& limit, const Take& take) const {
+    objects_tree_->visit(ray, limit, [&](int32_t i) {
+        const Object& object = objects_[boxed_objects_[static_cast<size_t>(i)]];
+        const Group& group = groups_[object.group];
+        const ShapeRay<double> own = into(object.object_from_world, ray);
+        group.tree->visit({own.origin, own.direction}, limit, [&](int32_t k) {
+            take_roots(object, group.items[static_cast<size_t>(k)], own, take);
+        });
+    });
+    for (const size_t i : endless_objects_) {
+        const Object& object = objects_[i];
+        for (const Item& item : groups_[object.group].endless)
+            take_roots(object, item, into(object.object_from_world, ray), take);
+    }
+}
+
+TrueHit TrueScene::nearest(const TrueRay& ray) const {
+    TrueHit best;
+    visit_hits(ray, best.t, [&](double t, const Item& item) {
+        if (t < best.t) best = {t, item};
+    });
+    return best;
+}
+
+TrueHit TrueScene::nearest_of_all(const TrueRay& ray) const {
+    TrueHit best;
+    for (const Object& object : objects_) {
+        const ShapeRay<double> own = into(object.object_from_world, ray);
+        for (const Item& item : groups_[object.group].items) {
+            take_roots(object, item, own, [&](double t, const Item& placed) {
+                if (t < best.t) best = {t, placed};
+            });
+        }
+    }
+    return best;
+}
+
+void TrueScene::all_hits(const TrueRay& ray, const std::function<void(double, Item)>& take) const {
+    visit_hits(ray, INFINITY, take);
+}
+
+std::vector<double> TrueScene::meetings(const TrueRay& ray, const Item& item) const {
+    std::vector<double> found;
+    const Object& object = object_of(item);
+    take_roots(object, item, into(object.object_from_world, ray), [&](double t, const Item&) {
+        found.push_back(t);
+    });
+    return found;
+}
+
+const TrueScene::Object& TrueScene::object_of(const Item& item) const {
+    return objects_[static_cast<size_t>(item.instance + 1)];
+}
+
+Affined TrueScene::world_from_object(const Item& item) const {
+    return object_of(item).world_from_object;
+}
+
+Affined TrueScene::object_from_world(const Item& item) const {
+    return object_of(item).object_from_world;
+}
+
+Item TrueScene::item(size_t number) const {
+    const auto end = std::upper_bound(item_ends_.begin(), item_ends_.end(), number);
+    const auto object = static_cast<size_t>(end - item_ends_.begin());
+    const size_t before = object > 0 ? item_ends_[object - 1] : 0;
+    Item item = groups_[objects_[object].group].items[number - before];
+    item.instance = objects_[object].instance;
+    return item;
+}
+
+Triangle<double> TrueScene::triangle(const Item& item) const {
+    const Triangle<double> own = own_triangle(item);
+    if (item.instance < 0) return own;
+    const Affined& world = object_of(item).world_from_object;
+    return {transform_point(world, own.a),
+            transform_point(world, own.b),
+            transform_point(world, own.c)};
+}
+
+double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) const {
+    Vec3d size = abs(ray.origin) + abs(ray.direction) * t;
+    if (item.primitive >= 0 && !is_endless(item)) {
+        const TrueBox box = box_of(item);
+        const Affined world = absolute(object_of(item).world_from_object);
+        const Vec3d corners = transform_point(world, max3(abs(box.low), abs(box.high)));
+        size = max3(size, abs(ray.origin) + corners);
+    }
+    if (item.instance >= 0) {
+        const Affined world = absolute(object_of(item).world_from_object);
+        const Affined object = absolute(object_of(item).object_from_world);
+        const Vec3d moved{world.m[0][3], world.m[1][3], world.m[2][3]};
+        // Embree rounds the origin less the translation, then what the inverse makes of it.
+        const Vec3d own = transform_vector(object, size + moved);
+        size = max3(size, transform_vector(world, own) + moved);
+    }
+    return max_component(size) * ulp_of_one;
+}
+
+Vec3d TrueScene::middle(const Item& item) const {
+    Vec3d own;
+    if (is_triangle(item)) {
+        const TrueBox box = box_of(item);
+        own = (box.low + box.high) * 0.5;
+    } else {
+        const ShapeRow row = shape(item);
+        own = {row.centre[0], row.centre[1], row.centre[2]};
+    }
+    return transform_point(object_of(item).world_from_object, own);
+}
+
+Vec3d TrueScene::normal(const Item& item, const Vec3d& place) const {
+    const Affined& object = object_of(item).object_from_world;
+    if (is_triangle(item)) {
+        const Triangle<double> own = own_triangle(item);
+        return normalize(transform_normal(object, cross(own.b - own.a, own.c - own.a)));
+    }
+    const ShapeRow row = shape(item);
+    const SurfacePoint<double> on = surface_of_shape<double>(
+        row.kind, UniformShape<double>(row), transform_point(object, place));
+    return normalize(transform_normal(object, on.normal));
+}
+
+}  // namespace obscura

@@ -1,0 +1,114 @@
+// crosscheck/truth.h - the nearest hit of a ray in double precision, with no help from Embree.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crosscheck/box_tree.h"
+#include "scene/scene.h"
+#include "shape/triangle.h"
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+namespace obscura {
+
+/// A triangle or shape in the world, as HitColumns name it.
+struct Item {
+    int32_t instance = -1;
+    int32_t primitive = -1;  ///< -1: none
+    int32_t row = -1;        ///< triangle or shape within the primitive
+
+    bool operator==(const Item&) const = default;
+};
+
+struct TrueHit {
+    double t = INFINITY;
+    Item item;
+
+    bool found() const { return item.primitive >= 0; }
+};
+
+/// A scene for searches in double: all single precision numbers of the scene (corners, shapes,
+/// matrices) are taken as exact. Alpha is not looked at, every surface has two sides.
+class TrueScene {
+public:
+    /// In   scene: outlives this object
+    explicit TrueScene(const Scene& scene);
+
+    /// The nearest hit with t > 0.
+    TrueHit nearest(const TrueRay& ray) const;
+
+    /// The same without boxes: every triangle and every shape is looked at.
+    TrueHit nearest_of_all(const TrueRay& ray) const;
+
+    /// Calls take(t, item) for every place where the ray meets something, in no order.
+    void all_hits(const TrueRay& ray, const std::function<void(double, Item)>& take) const;
+
+    /// Where the ray meets this item, whatever else lies in front of it: no, one or two numbers.
+    std::vector<double> meetings(const TrueRay& ray, const Item& item) const;
+
+    /// How far rounding in single precision moves the point at t: one unit in the last place of the
+    /// largest number on the way to it, into the object's space and back, corners included. Metres.
+    double rounding_m(const TrueRay& ray, const Item& item, double t) const;
+
+    /// Of the item's box, in the world; of a plane without end any place on it.
+    Vec3d middle(const Item& item) const;
+
+    /// Unit normal of the item near a place, in the world.
+    Vec3d normal(const Item& item, const Vec3d& place) const;
+
+    /// Items in the world; each instance's count.
+    size_t item_count() const { return item_ends_.empty() ? 0 : item_ends_.back(); }
+    Item item(size_t number) const;
+
+    /// Corners of a mesh's item, in the world.
+    Triangle<double> triangle(const Item& item) const;
+    bool is_triangle(const Item& item) const;
+    /// The shape of another item, in its own space.
+    ShapeRow shape(const Item& item) const;
+    Affined world_from_object(const Item& item) const;
+    Affined object_from_world(const Item& item) const;
+    bool is_endless(const Item& item) const;
+
+    /// Box of all that has an end.
+    TrueBox bounds() const { return objects_tree_->bounds(); }
+    const Scene& scene() const { return scene_; }
+
+private:
+    /// Primitives that share a space: those of the world, or one mesh.
+    struct Group {
+        std::vector<Item> items;  ///< instance -1
+        std::vector<Item> endless;
+        std::optional<BoxTree> tree;
+    };
+    struct Object {
+        size_t group;
+        int32_t instance;  ///< -1: the world itself
+        Affined world_from_object, object_from_world;
+    };
+
+    Group make_group(int32_t first_primitive, int32_t count) const;
+    void add_object(size_t group, int32_t instance);
+    const Object& object_of(const Item& item) const;
+    Triangle<double> own_triangle(const Item& item) const;
+    TrueBox box_of(const Item& item) const;
+    /// Roots of one item in its own space; t <= 0 means none.
+    Roots<double> roots(const Item& item, const ShapeRay<double>& ray) const;
+    template <typename Take>
+    void take_roots(const Object& object,
+                    const Item& item,
+                    const ShapeRay<double>& ray,
+                    const Take& take) const;
+    template <typename Take>
+    void visit_hits(const TrueRay& ray, const double& limit, const Take& take) const;
+
+    const Scene& scene_;
+    std::vector<Group> groups_;
+    std::vector<Object> objects_;    ///< instance i is objects_[i + 1]
+    std::vector<size_t> item_ends_;  ///< by object
+    std::optional<BoxTree> objects_tree_;
+    std::vector<size_t> boxed_objects_;  ///< those in the tree
+    std::vector<size_t> endless_objects_;
+};
+
+}  // namespace obscura

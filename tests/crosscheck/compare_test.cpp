@@ -1,0 +1,90 @@
+// tests/crosscheck/compare_test.cpp - every verdict about two answers, by hand.
+// SPDX-License-Identifier: Apache-2.0
+#include "crosscheck/compare.h"
+
+#include "crosscheck/check_scenes.h"
+
+#include <gtest/gtest.h>
+
+namespace obscura {
+namespace {
+
+using namespace test;
+
+const Item lower{-1, 0, 0};  ///< with the corner (1, -1)
+const Item upper{-1, 0, 1};
+
+class CompareAnswers : public testing::Test {
+protected:
+    /// Down on the square from z = 4, where one ulp is that of 4.
+    TrueRay down(double x, double y) const { return {{x, y, 4}, {0, 0, -1}}; }
+    Verdict verdict(const TrueRay& ray, const Answer& got) const {
+        return compare(truth_, ray, answer_of(truth_.nearest(ray)), got).verdict;
+    }
+    double ulp(const TrueRay& ray) const { return truth_.rounding_m(ray, lower, 4); }
+
+    Scene scene_ = square_scene();
+    TrueScene truth_{scene_};
+};
+
+TEST_F(CompareAnswers, AnUlpIsThatOfTheLargestNumberOnTheWay) {
+    // Origin and way add up to 8.
+    EXPECT_DOUBLE_EQ(ulp(down(0, 0)), 8.0 / 8388608);
+}
+
+TEST_F(CompareAnswers, TheTruthAgreesWithItself) {
+    const TrueRay ray = down(0.5, -0.5);
+    EXPECT_EQ(truth_.nearest(ray).item, lower);
+    EXPECT_EQ(verdict(ray, {4, lower}), Verdict::agree);
+    EXPECT_EQ(verdict(down(3, 0), {}), Verdict::agree);
+}
+
+TEST_F(CompareAnswers, DepthAgreesWithinFourUlp) {
+    const TrueRay ray = down(0.5, -0.5);
+    EXPECT_EQ(verdict(ray, {4 + 3.9 * ulp(ray), lower}), Verdict::agree);
+    // A ray that begins a few ulp later has it too; one that begins twenty later has not.
+    EXPECT_EQ(verdict(ray, {4 + 20 * ulp(ray), lower}), Verdict::depth);
+    EXPECT_EQ(verdict(ray, {4 - 20 * ulp(ray), lower}), Verdict::depth);
+}
+
+TEST_F(CompareAnswers, ANeighbourAtTheSameDepthIsNoMismatch) {
+    EXPECT_EQ(verdict(down(0.5, -0.5), {4, upper}), Verdict::equal_depth);
+}
+
+TEST_F(CompareAnswers, AtTheOuterEdgeHitAndMissAreBothRight) {
+    const TrueRay inside = down(1 - 3 * ulp(down(0, 0)), 0.25);
+    EXPECT_EQ(verdict(inside, {}), Verdict::edge);
+    const TrueRay outside = down(1 + 3 * ulp(down(0, 0)), 0.25);
+    EXPECT_EQ(verdict(outside, {4, lower}), Verdict::edge);
+}
+
+TEST_F(CompareAnswers, FurtherFromTheEdgeOnlyOneIs) {
+    const TrueRay inside = down(1 - 12 * ulp(down(0, 0)), 0.25);
+    EXPECT_EQ(verdict(inside, {}), Verdict::missed);
+    const TrueRay outside = down(1 + 40 * ulp(down(0, 0)), 0.25);
+    EXPECT_EQ(verdict(outside, {4, lower}), Verdict::false_hit);
+}
+
+TEST_F(CompareAnswers, AMissAtACommonEdgeIsACrack) {
+    const TrueRay ray = down(0.25, 0.25 + ulp(down(0, 0)));
+    EXPECT_EQ(verdict(ray, {}), Verdict::crack);
+    EXPECT_EQ(verdict(down(0.25, 0.3), {}), Verdict::missed);
+}
+
+TEST_F(CompareAnswers, OcclusionKnowsNoDepth) {
+    const TrueRay ray = down(0.5, -0.5);
+    Answer any;
+    any.any = true;
+    EXPECT_EQ(verdict(ray, any), Verdict::agree);
+    EXPECT_EQ(verdict(down(3, 0), any), Verdict::false_hit);
+}
+
+TEST_F(CompareAnswers, EdgeDistanceOfAMismatchIsReported) {
+    const TrueRay inside = down(1 - 12 * ulp(down(0, 0)), 0.25);
+    const Comparison found = compare(truth_, inside, answer_of(truth_.nearest(inside)), {});
+    EXPECT_GE(found.ulps, 12);
+    EXPECT_LE(found.ulps, 32);
+}
+
+}  // namespace
+}  // namespace obscura

@@ -1,0 +1,110 @@
+// tests/crosscheck/wrong_formula_test.cpp - the instrument must fail loudly when somebody is wrong.
+// SPDX-License-Identifier: Apache-2.0
+#include "crosscheck/budget.h"
+#include "crosscheck/check_scenes.h"
+#include "crosscheck/ray_set.h"
+
+#include <gtest/gtest.h>
+
+namespace obscura {
+namespace {
+
+using namespace test;
+
+constexpr uint64_t ray_count = 8192;  // each group of rays once
+
+/// What a check says of a kernel that is right but for `spoil`.
+template <typename Spoil>
+CheckedScene check_spoilt(const Scene& scene, const Spoil& spoil) {
+    const TrueScene truth(scene);
+    const RaySet rays(truth, few_rays(ray_count));
+    AnswerList truths;
+    compare_kernel(truth, rays, truth_kernel(truth), {}, &truths, nullptr);
+    truths.is_truth = true;
+    const Kernel spoilt{"spoilt", [&](RayBlock& block, std::vector<Answer>& answers) {
+                            truth_kernel(truth).ask(block, answers);
+                            for (Answer& answer : answers)
+                                spoil(answer);
+                        }};
+    CheckedScene checked;
+    checked.pairs = compare_kernel(truth, rays, spoilt, {&truths}, nullptr, nullptr);
+    checked.faults = faults_of(checked);
+    return checked;
+}
+
+TEST(WrongFormula, TheTruthItselfIsWithinTheBudget) {
+    const CheckedScene checked = check_spoilt(closed_cube(), [](Answer&) {});
+    EXPECT_TRUE(checked.faults.empty());
+    EXPECT_EQ(checked.pairs.at(0).total().rays, ray_count);
+    EXPECT_GT(checked.pairs.at(0).total().hits, ray_count / 4);
+}
+
+TEST(WrongFormula, DepthOffByAHundredThousandthIsAFault) {
+    const CheckedScene checked =
+        check_spoilt(closed_cube(), [](Answer& answer) { answer.t *= 1.00001; });
+    ASSERT_FALSE(checked.faults.empty());
+    EXPECT_NE(checked.faults[0].find("4 ulp do not explain"), std::string::npos);
+    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::depth), 0U);
+}
+
+TEST(WrongFormula, AMissingTriangleIsAFault) {
+    const CheckedScene checked = check_spoilt(closed_cube(), [](Answer& answer) {
+        if (answer.item.row == 7) answer = {};
+    });
+    EXPECT_FALSE(checked.faults.empty());
+    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::missed), 0U);
+}
+
+TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
+    Scene scene = empty_scene({});
+    add_shape(scene, make_shape(ShapeKind::sphere, 1), 0);
+    Scene larger = empty_scene({});
+    add_shape(larger, make_shape(ShapeKind::sphere, 1.0001F), 0);
+    const TrueScene truth(scene);
+    const TrueScene wrong(larger);
+    const RaySet rays(truth, few_rays(ray_count));
+    AnswerList truths;
+    compare_kernel(truth, rays, truth_kernel(truth), {}, &truths, nullptr);
+    truths.is_truth = true;
+    CheckedScene checked;
+    checked.pairs = compare_kernel(truth, rays, truth_kernel(wrong), {&truths}, nullptr, nullptr);
+    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::depth), 0U);
+    EXPECT_FALSE(faults_of(checked).empty());
+}
+
+TEST(WrongFormula, TheWorstDifferencesCanBeReplayed) {
+    const CheckedScene checked = check_spoilt(closed_cube(), [](Answer& answer) {
+        if (answer.item.row == 7) answer = {};
+    });
+    const PairFigures& pair = checked.pairs.at(0);
+    ASSERT_EQ(pair.worst.size(), most_worst);
+    const Scene cube = closed_cube();
+    const TrueScene truth(cube);
+    for (const Difference& difference : pair.worst)
+        EXPECT_EQ(truth.nearest(difference.ray).item.row, 7);
+}
+
+TEST(WrongFormula, LeaksSelfHitsAndWallsAreFaults) {
+    CheckedScene checked;
+    EXPECT_TRUE(faults_of(checked).empty());
+    checked.spawned.self_hits = 1;
+    checked.spawned.wall_leaks = 1;
+    checked.formulas.wrong = 1;
+    checked.truth.wrong = 1;
+    LeakFigures leaky{"obscura", true, {}, {}};
+    leaky.by_aim[0] = {100, 1};
+    LeakFigures at_vertices{"robust 1", true, {}, {}};
+    at_vertices.by_aim[2] = {100, 50};
+    checked.leaks.kernels = {leaky, at_vertices};
+    EXPECT_EQ(faults_of(checked).size(), 5U);
+}
+
+TEST(Budget, AllowsWhatChanceMakesOfAMillionth) {
+    EXPECT_EQ(mismatches_allowed(1000), 0U);     // e^-0.001 is 0.999
+    EXPECT_EQ(mismatches_allowed(1000000), 5U);  // Poisson of mean 1: 0.9994 at most 5
+    EXPECT_GT(mismatches_allowed(1000000000), 1000U);
+    EXPECT_LT(mismatches_allowed(1000000000), 1110U);
+}
+
+}  // namespace
+}  // namespace obscura
