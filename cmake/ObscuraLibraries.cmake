@@ -43,3 +43,13 @@ if(NOT TARGET OpenColorIO::OpenColorIO)
 endif()
 
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpdemux)
+
+# Draco's CMake file changed its place, its target and its variables from version to version; its
+# header and its library stayed where they were.
+find_path(DRACO_INCLUDE_DIR draco/compression/decode.h REQUIRED)
+find_library(DRACO_LIBRARY draco REQUIRED)
+add_library(draco_decoder INTERFACE)
+target_include_directories(draco_decoder SYSTEM INTERFACE ${DRACO_INCLUDE_DIR})
+target_link_libraries(draco_decoder INTERFACE ${DRACO_LIBRARY})
+
+find_package(meshoptimizer CONFIG REQUIRED)

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/info_command.h"
 
+#include "app/explain_report.h"
 #include "app/info_report.h"
 #include "app/outcome.h"
 #include "app/scene_choice.h"
@@ -22,7 +23,16 @@ the exit codes.
 Examples:
   obscura info helmet.glb
   obscura info helmet.glb --json | jq .triangles_in_world
-      warnings and the closing RESULT line go to standard error, never into the JSON)";
+      warnings and the closing RESULT line go to standard error, never into the JSON
+  obscura info helmet.glb --explain
+      what the file asks for, part by part: honoured, approximated (how), ignored (why))";
+
+std::string report_text(const InfoArguments& arguments, const Scene& scene, const Log& log) {
+    if (arguments.explain) {
+        return arguments.json ? explain_json(scene.info) : explain_table(scene.info);
+    }
+    return arguments.json ? info_json(scene, log.warnings()) : info_table(scene);
+}
 
 }  // namespace
 
@@ -36,19 +46,28 @@ void add_info_options(CLI::App& command, InfoArguments& arguments) {
         .add_option_function<std::string>(
             "--scene", store, "Scene of a file that holds several [the file's default]")
         ->type_name("NAME|INDEX");
+    const auto store_variant = [&arguments](const std::string& given) {
+        arguments.variant = given;
+    };
+    command
+        .add_option_function<std::string>(
+            "--variant", store_variant, "Look of a product [the file's own materials]")
+        ->type_name("NAME");
+    command.add_flag("--explain",
+                     arguments.explain,
+                     "Print what becomes of every extension and feature, part by part");
     command.add_flag("--quiet", arguments.quiet, "Print no warnings");
     command.footer(examples);
 }
 
 int run_info(const InfoArguments& arguments) {
     Log log(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
-    Result<LoadOptions> options = choose_scene(arguments.scene);
+    Result<LoadOptions> options = choose_scene(arguments.scene, arguments.variant);
     if (!options) return report_failure(options.error(), log);
     options->info_only = true;
     const Result<Scene> scene = load_gltf(arguments.scene_file, *options, log);
     if (!scene) return report_failure(scene.error(), log);
-    const Result<void> printed =
-        print_output(arguments.json ? info_json(*scene, log.warnings()) : info_table(*scene));
+    const Result<void> printed = print_output(report_text(arguments, *scene, log));
     if (!printed) return report_failure(printed.error(), log);
     return report_success(arguments.scene_file, log);
 }

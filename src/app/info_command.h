@@ -13,7 +13,8 @@ namespace obscura {
 
 struct InfoArguments {
     std::string scene_file;
-    std::optional<std::string> scene;
+    std::optional<std::string> scene, variant;
+    bool explain = false;
     bool json = false;
     bool quiet = false;
 };
@@ -21,7 +22,7 @@ struct InfoArguments {
 /// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.
 void add_info_options(CLI::App& command, InfoArguments& arguments);
 
-/// Prints what is in the file, as a table or as JSON. Returns the exit code.
+/// Prints what is in the file, or what becomes of it, as a table or as JSON. Returns the exit code.
 int run_info(const InfoArguments& arguments);
 
 }  // namespace obscura

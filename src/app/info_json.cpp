@@ -175,6 +175,8 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     json.member("copyright", info.copyright);
     write_names(json, "scenes", info.scenes);
     json.member("scene", info.scene);
+    write_names(json, "variants", info.variants);
+    json.member("variant", info.variant);
     json.key("bounds");
     if (scene.bounds.empty()) {
         json.value(NAN);

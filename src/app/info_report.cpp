@@ -218,6 +218,11 @@ std::string info_table(const Scene& scene) {
         text += title(i == 0 ? "scenes" : "") +
                 fmt::format("{} {}{}\n", i, quoted_name(info.scenes[i]), shown ? " (shown)" : "");
     }
+    for (size_t i = 0; i < info.variants.size(); ++i) {
+        const bool shown = info.variants[i] == info.variant;
+        text += title(i == 0 ? "variants" : "") +
+                fmt::format("{}{}\n", quoted_name(info.variants[i]), shown ? " (shown)" : "");
+    }
     if (!scene.bounds.empty()) {
         const Vec3f& low = scene.bounds.low;
         const Vec3f& high = scene.bounds.high;

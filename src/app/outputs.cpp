@@ -87,6 +87,8 @@ PictureMetadata make_metadata(const RenderRequest& request,
                       {"isa", prepared.isa_name()},
                       {"embree", prepared.embree_version()},
                       {"warnings", std::to_string(log.warnings().size())}};
+    if (!info.xmp.empty()) metadata.extra.emplace_back("xmp", info.xmp);
+    if (!info.variant.empty()) metadata.extra.emplace_back("variant", info.variant);
     if (chosen.ev100) {
         metadata.extra.emplace_back("ev100", shortest(*chosen.ev100));
         metadata.extra.emplace_back("exposureScale", shortest(exposure_scale(*chosen.ev100)));

@@ -70,6 +70,11 @@ void add_program_options(CLI::App& command, RenderArguments& arguments) {
                arguments.scene,
                "NAME|INDEX",
                "Scene of a file that holds several [the file's default]");
+    group.text("--variant",
+               arguments.variant,
+               "NAME",
+               "Look of a product, as `obscura info` lists them\n"
+               "[the file's own materials]");
     group.text("--threads", arguments.threads, "N", "Threads, 0 to 1024; 0 is every core [0]");
     group.text(
         "--isa", arguments.isa, "NAME", "Instruction set: auto, baseline, avx2, avx512 [auto]");

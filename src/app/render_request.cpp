@@ -282,7 +282,7 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     if (request.outputs.empty() && arguments.writes_pictures) {
         request.outputs.push_back(request.scene.stem().concat(".exr"));
     }
-    steps.take(choose_scene(arguments.scene),
+    steps.take(choose_scene(arguments.scene, arguments.variant),
                [&](const LoadOptions& load) { request.load = load; });
     request.exr_depth = arguments.float32 ? ExrDepth::float32 : ExrDepth::half;
     if (arguments.stats) request.statistics = *arguments.stats;

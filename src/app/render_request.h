@@ -20,7 +20,7 @@ namespace obscura {
 struct RenderRequest {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
-    LoadOptions load;                            ///< --scene
+    LoadOptions load;                            ///< --scene, --variant
     CameraRequest camera;
     std::optional<std::filesystem::path> camera_json;
     bool size_is_given = false;  ///< else --camera-json may have one
@@ -41,7 +41,7 @@ struct RenderArguments {
     std::string scene_file;
     std::vector<std::string> outputs;
     std::optional<std::string> size, spp, depth, seed, threads, isa, tile_size, crop;
-    std::optional<std::string> scene, camera, camera_model, eye, target, up, fov;
+    std::optional<std::string> scene, variant, camera, camera_model, eye, target, up, fov;
     LensArguments lens;
     std::optional<std::string> env, env_intensity, env_rotation, background;
     std::optional<std::string> integrator, ao_distance, wire_width, filter;

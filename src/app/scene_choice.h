@@ -1,4 +1,4 @@
-// app/scene_choice.h - the option --scene, which several commands share.
+// app/scene_choice.h - the options --scene and --variant, which several commands share.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,9 +10,10 @@
 
 namespace obscura {
 
-/// Digits alone are an index, anything else a name; empty: the file's default.
+/// Of a scene's text digits alone are an index, anything else a name; absent: the file's default.
 ///
 /// Errors  64 E-USAGE-RANGE an index too large for any file, 64 E-USAGE-CONFLICT an empty name
-Result<LoadOptions> choose_scene(const std::optional<std::string>& text);
+Result<LoadOptions> choose_scene(const std::optional<std::string>& scene,
+                                 const std::optional<std::string>& variant);
 
 }  // namespace obscura

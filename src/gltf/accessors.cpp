@@ -298,10 +298,12 @@ bool sparse_indices_increase(const Document& document, const BufferStore& store,
 Result<std::vector<float>> read_floats(const Document& document,
                                        const BufferStore& store,
                                        int accessor,
-                                       const ElementChoice& choice) {
+                                       const ElementChoice& choice,
+                                       std::span<const std::byte> packed) {
     const GltfAccessor& row = document.accessors[static_cast<size_t>(accessor)];
     const uint64_t count = choice.all ? row.count : choice.elements.size();
-    if (row.view < 0 && row.count > largest_count_of_zeros) {
+    const bool has_data = row.view >= 0 || !packed.empty();
+    if (!has_data && row.count > largest_count_of_zeros) {
         return fail(ExitCode::refused,
                     "E-LIMIT-COUNT",
                     document.at("accessors", static_cast<size_t>(accessor)) + "/count",
@@ -309,9 +311,11 @@ Result<std::vector<float>> read_floats(const Document& document,
                         std::to_string(largest_count_of_zeros));
     }
     std::vector<float> out;
-    if (row.view >= 0) {
-        const ElementRange range = element_range(document, row);
-        const auto bytes = checked_span(view_bytes(document, store, row.view), range);
+    if (has_data) {
+        const ElementRange range = packed.empty() ? element_range(document, row)
+                                                  : packed_range(0, row.count, element_size(row));
+        const auto bytes =
+            checked_span(packed.empty() ? view_bytes(document, store, row.view) : packed, range);
         if (!bytes) {
             return bad_accessor(document, accessor, "E-ACC-RANGE", "the buffer has too few data");
         }

@@ -35,13 +35,17 @@ struct ElementChoice {
 
 /// Reads elements as floats, component by component; normalised integers become [0,1] or [-1,1].
 ///
+/// In      packed: elements that stand for those of the accessor's view, as decompression made
+/// them;
+///         empty: the view's are read
 /// Out     component_count floats an element
 /// Errors  65 E-ACC-SPARSE a sparse index is not below the count, E-ACC-RANGE data are missing;
 ///         77 E-LIMIT-COUNT too many elements that no data stand for
 Result<std::vector<float>> read_floats(const Document& document,
                                        const BufferStore& store,
                                        int accessor,
-                                       const ElementChoice& choice);
+                                       const ElementChoice& choice,
+                                       std::span<const std::byte> packed = {});
 
 /// Reads a scalar accessor of unsigned integers.
 ///

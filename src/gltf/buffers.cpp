@@ -44,7 +44,7 @@ Result<Bytes> load_from_uri(const GltfBuffer& buffer,
     return std::move(read->bytes);
 }
 
-/// A buffer without uri: the GLB's own chunk, or one that meshopt would fill.
+/// A buffer without uri: the GLB's own chunk.
 Result<std::span<const std::byte>> bytes_without_uri(const Document& document,
                                                      size_t index,
                                                      const BufferSources& sources) {
@@ -60,17 +60,28 @@ Result<std::span<const std::byte>> bytes_without_uri(const Document& document,
         }
         return sources.glb_binary->first(buffer.byte_length);
     }
-    if (buffer.meshopt_fallback) {
-        return fail(ExitCode::unsupported,
-                    "E-MESHOPT-DATA",
-                    where,
-                    "the buffer has no data of its own, only meshopt-compressed ones, which are "
-                    "not supported; save the asset without compression");
-    }
     return fail(ExitCode::bad_data,
                 "E-BUF-SOURCE",
                 where,
                 "the buffer has no uri, and there is no binary chunk of a GLB for it");
+}
+
+/// True for buffers that only uncompressed copies of compressed views lie in.
+std::vector<char> find_placeholders(const Document& document) {
+    enum : char { unused, copies, data };
+    std::vector<char> uses(document.buffers.size(), unused);
+    for (const GltfBufferView& view : document.views) {
+        char& use = uses[static_cast<size_t>(view.buffer)];
+        if (view.meshopt.buffer < 0) {
+            use = data;
+            continue;
+        }
+        if (use == unused) use = copies;
+        uses[static_cast<size_t>(view.meshopt.buffer)] = data;
+    }
+    for (char& use : uses)
+        use = use == copies ? 1 : 0;
+    return uses;
 }
 
 }  // namespace
@@ -79,7 +90,9 @@ Result<BufferStore> load_buffers(const Document& document, const BufferSources& 
     BufferStore store;
     store.buffers.resize(document.buffers.size());
     store.owned.resize(document.buffers.size());
+    const std::vector<char> placeholders = find_placeholders(document);
     for (size_t i = 0; i < document.buffers.size(); ++i) {
+        if (placeholders[i] != 0) continue;
         const GltfBuffer& buffer = document.buffers[i];
         if (buffer.uri) {
             Result<Bytes> bytes = load_from_uri(buffer, sources, document.at("buffers", i));
@@ -123,6 +136,10 @@ std::span<const std::byte> view_bytes(const Document& document,
                                       const BufferStore& store,
                                       int view) {
     const GltfBufferView& row = document.views[static_cast<size_t>(view)];
+    if (row.meshopt.buffer >= 0) {
+        const size_t index = static_cast<size_t>(view);
+        return index < store.decoded.size() ? store.decoded[index] : std::span<const std::byte>();
+    }
     const std::span<const std::byte> buffer = store.buffers[static_cast<size_t>(row.buffer)];
     const auto bytes = checked_span(buffer, {row.byte_offset, 1, row.byte_length, 1});
     return bytes.value_or(std::span<const std::byte>());
@@ -130,15 +147,21 @@ std::span<const std::byte> view_bytes(const Document& document,
 
 void release_geometry(const Document& document, BufferStore& store) {
     std::vector<char> needed(store.buffers.size(), 0);
+    std::vector<Bytes> decoded(store.decoded.size());
     for (const GltfImage& image : document.images) {
         if (image.view < 0) continue;
-        needed[static_cast<size_t>(document.views[static_cast<size_t>(image.view)].buffer)] = 1;
+        const size_t view = static_cast<size_t>(image.view);
+        needed[static_cast<size_t>(document.views[view].buffer)] = 1;
+        if (view < decoded.size() && decoded[view].empty()) {
+            decoded[view].swap(store.decoded[view]);
+        }
     }
     for (size_t i = 0; i < needed.size(); ++i) {
         if (needed[i] != 0) continue;
         store.owned[i] = Bytes();
         store.buffers[i] = {};
     }
+    store.decoded = std::move(decoded);
 }
 
 }  // namespace obscura

@@ -17,6 +17,8 @@ namespace obscura {
 struct BufferStore {
     std::vector<std::span<const std::byte>> buffers;
     std::vector<Bytes> owned;
+    /// By view, once decode_meshopt has run: empty for views that are not compressed.
+    std::vector<Bytes> decoded = {};
 };
 
 /// Where buffers come from.
@@ -25,9 +27,10 @@ struct BufferSources {
     std::optional<std::span<const std::byte>> glb_binary;
 };
 
-/// Loads every buffer. A buffer without data that only meshopt could fill is left empty.
+/// Loads every buffer that something is read from. One that only holds (or would hold) the
+/// uncompressed copy of meshopt-compressed views stays empty.
 ///
-/// Errors  65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 69 E-MESHOPT-DATA; 77 E-URI-REFUSED
+/// Errors  65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED
 Result<BufferStore> load_buffers(const Document& document, const BufferSources& sources, Log& log);
 
 /// A run of equally spaced elements in a block of bytes.
@@ -50,7 +53,7 @@ std::optional<std::span<const std::byte>> checked_span(std::span<const std::byte
 /// Frees the buffers that no image lies in, once the geometry has been read.
 void release_geometry(const Document& document, BufferStore& store);
 
-/// The bytes of a buffer view; empty when its buffer has no data.
+/// The bytes of a buffer view, decompressed; empty when its buffer has no data.
 std::span<const std::byte> view_bytes(const Document& document, const BufferStore& store, int view);
 
 }  // namespace obscura

@@ -6,6 +6,9 @@
 #include "gltf/extensions.h"
 #include "gltf/list_text.h"
 #include "gltf/node_graph.h"
+#include "gltf/report.h"
+#include "gltf/variants.h"
+#include "gltf/xmp.h"
 
 #include <algorithm>
 #include <cmath>
@@ -76,6 +79,7 @@ void read_parts(DocumentReading& reading) {
     read_samplers(reading);
     read_textures(reading);
     read_materials(reading);
+    read_variants(reading);
     read_meshes(reading);
     read_animations(reading);
     read_cameras(reading);
@@ -129,10 +133,16 @@ Result<Document> read_document(const nlohmann::json& tree, const std::string& fi
     }
     DocumentReading reading{root, document, log};
     if (!fault.error) read_parts(reading);
+    if (!fault.error) document.xmp = read_xmp(root, tree);
     if (fault.error) return fail(std::move(*fault.error));
 
     const Result<void> graph = check_node_graph(document);
     if (!graph) return fail(graph.error());
+    document.report = make_report(tree);
+    if (document.xmp.size() > longest_xmp) {
+        log.warn(document.at("/asset"), "the XMP packet is longer than 1 MiB; it is left out");
+        document.xmp.clear();
+    }
     warn_places(reading, reading.clamped, "numbers out of range are clamped: ");
     warn_places(
         reading, reading.misaligned, "data do not start at a multiple of their component's size: ");

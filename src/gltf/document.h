@@ -35,7 +35,20 @@ struct GltfBuffer {
     std::string name;
     std::optional<std::string> uri;
     uint64_t byte_length = 0;
-    bool meshopt_fallback = false;  ///< may lack data: decompression fills it
+};
+
+enum class MeshoptMode { attributes, triangles, indices };
+enum class MeshoptFilter { none, octahedral, quaternion, exponential, color };
+
+/// Where a view's compressed data are and what they hold, by EXT_ and KHR_meshopt_compression.
+struct GltfMeshopt {
+    int buffer = -1;  ///< -1: the view is not compressed
+    uint64_t byte_offset = 0;
+    uint64_t byte_length = 0;
+    uint64_t byte_stride = 0;  ///< of a decoded element
+    uint64_t count = 0;        ///< stride * count is the view's own length
+    MeshoptMode mode = MeshoptMode::attributes;
+    MeshoptFilter filter = MeshoptFilter::none;
 };
 
 struct GltfBufferView {
@@ -43,7 +56,7 @@ struct GltfBufferView {
     uint64_t byte_offset = 0;
     uint64_t byte_length = 0;
     uint64_t byte_stride = 0;  ///< 0: tightly packed
-    bool meshopt = false;      ///< compressed data exist beside these
+    GltfMeshopt meshopt;
 };
 
 struct GltfSparse {
@@ -96,16 +109,29 @@ struct GltfMaterial {
     std::optional<MaterialLayers> layers = {};  ///< where it has extensions that need them
 };
 
-struct GltfPrimitive {
+/// A number for each vertex attribute that is read; -1: it is absent.
+struct GltfAttributes {
     int position = -1;
     int normal = -1;
     int tangent = -1;
     int color = -1;
     std::array<int, max_uv_sets> uv = {-1, -1, -1, -1, -1, -1, -1, -1};
+};
+
+/// KHR_materials_variants: a material that some variants give to a primitive.
+struct GltfVariantMaterial {
+    int material = -1;
+    std::vector<int> variants;  ///< in Document::variants
+};
+
+/// The attributes' numbers are those of accessors.
+struct GltfPrimitive : GltfAttributes {
     int indices = -1;
     int material = -1;
     int mode = 4;
-    bool draco = false;
+    int draco_view = -1;       ///< KHR_draco_mesh_compression; -1: it is not compressed
+    GltfAttributes draco_ids;  ///< the attributes' numbers in the compressed data
+    std::vector<GltfVariantMaterial> variants;
 };
 
 struct GltfMesh {
@@ -123,6 +149,13 @@ struct GltfShape {
     bool double_sided = false;
 };
 
+/// EXT_mesh_gpu_instancing: accessors of as many transforms; all -1: the mesh stands once.
+struct GltfInstancing {
+    int translation = -1;
+    int rotation = -1;
+    int scale = -1;
+};
+
 struct GltfNode {
     std::string name;
     Affined parent_from_node;
@@ -132,6 +165,9 @@ struct GltfNode {
     int skin = -1;
     int shape = -1;  ///< in Document::shapes
     int shape_material = -1;
+    GltfInstancing instancing;
+    bool visible = true;            ///< KHR_node_visibility, of this node alone
+    std::vector<int> lower_levels;  ///< MSFT_lod: nodes that stand for this one far away
     std::vector<int> children;
 };
 
@@ -187,7 +223,10 @@ struct Document {
     std::vector<NamedCount> animations;
     size_t skin_count = 0;
     size_t morphed_mesh_count = 0;
+    std::vector<std::string> variants;  ///< KHR_materials_variants: names
+    std::string xmp;                    ///< the asset's XMP packet as JSON text
     std::vector<ExtensionInfo> extensions;
+    std::vector<ReportRow> report;
 
     /// "scene.glb#/accessors/12", for messages.
     std::string at(std::string_view pointer) const { return file + "#" + std::string(pointer); }

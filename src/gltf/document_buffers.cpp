@@ -7,8 +7,6 @@ namespace obscura {
 
 namespace {
 
-constexpr const char* meshopt_names[] = {"EXT_meshopt_compression", "KHR_meshopt_compression"};
-
 struct Shape {
     const char* name;
     int rows;
@@ -125,12 +123,6 @@ void read_buffers(DocumentReading& reading) {
         out.name = buffer.text("name");
         if (buffer.has("uri")) out.uri = buffer.text("uri");
         out.byte_length = buffer.size("byteLength", 1);
-        for (const char* name : meshopt_names) {
-            if (buffer.has_extension(name)) {
-                out.meshopt_fallback =
-                    out.meshopt_fallback || buffer.extension(name).boolean("fallback", false);
-            }
-        }
         if (out.byte_length == 0) {
             buffer.fault("byteLength", "E-BUF-LENGTH", "the length must be 1 or more");
         }
@@ -148,8 +140,6 @@ void read_views(DocumentReading& reading) {
         out.byte_offset = view.size("byteOffset", 0);
         out.byte_length = view.size("byteLength", 1);
         out.byte_stride = view.size("byteStride", 0);
-        for (const char* name : meshopt_names)
-            out.meshopt = out.meshopt || view.has_extension(name);
         if (reading.root.failed()) return;
         const uint64_t room = reading.document.buffers[static_cast<size_t>(out.buffer)].byte_length;
         if (out.byte_offset > room || out.byte_length > room - out.byte_offset) {
@@ -170,6 +160,7 @@ void read_views(DocumentReading& reading) {
                        std::to_string(out.byte_stride) +
                            " is not accepted: a stride is a multiple of 4 from 4 to 252");
         }
+        read_view_meshopt(reading, view, out);
         reading.document.views.push_back(out);
     });
 }

@@ -1,6 +1,7 @@
 // gltf/document_meshes.cpp - reads meshes, and counts the animations that are not played.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/document_parts.h"
+#include "gltf/variants.h"
 
 namespace obscura {
 
@@ -16,14 +17,39 @@ int uv_set_of(const std::string& attribute) {
     return set < max_uv_sets ? set : -1;
 }
 
-/// Where the accessor of an attribute is kept; nullptr: it is not used.
-int* slot_of(GltfPrimitive& primitive, const std::string& attribute) {
-    if (attribute == "POSITION") return &primitive.position;
-    if (attribute == "NORMAL") return &primitive.normal;
-    if (attribute == "TANGENT") return &primitive.tangent;
-    if (attribute == "COLOR_0") return &primitive.color;
-    const int set = uv_set_of(attribute);
-    return set < 0 ? nullptr : &primitive.uv[static_cast<size_t>(set)];
+/// Where the number of an attribute is kept; nullptr: it is not used.
+int* slot_of(GltfAttributes& attributes, const std::string& name) {
+    if (name == "POSITION") return &attributes.position;
+    if (name == "NORMAL") return &attributes.normal;
+    if (name == "TANGENT") return &attributes.tangent;
+    if (name == "COLOR_0") return &attributes.color;
+    const int set = uv_set_of(name);
+    return set < 0 ? nullptr : &attributes.uv[static_cast<size_t>(set)];
+}
+
+void read_draco(DocumentReading& reading, const JsonReader& object, GltfPrimitive& out) {
+    constexpr const char* name = "KHR_draco_mesh_compression";
+    if (!object.has_extension(name)) return;
+    const JsonReader draco = object.extension(name);
+    draco.require("bufferView");
+    draco.require("attributes");
+    out.draco_view = draco.index("bufferView", reading.root.count("bufferViews"), "buffer view");
+    if (out.mode != 4 && out.mode != 5) {
+        object.fault("mode", "E-DRACO-MODE", "Draco holds triangles: accepted are 4 and 5");
+    }
+    if (out.indices < 0) {
+        object.fault("", "E-DRACO-DATA", "a Draco-compressed primitive must have indices");
+    }
+    const JsonReader ids = draco.child("attributes");
+    const JsonReader accessors = object.child("attributes");
+    ids.each_key([&](const std::string& attribute) {
+        const int id = ids.index(attribute, INT32_MAX, "attribute");
+        if (!accessors.has(attribute)) {
+            ids.fault(attribute, "E-DRACO-DATA", "the primitive has no accessor for it");
+        }
+        int* slot = slot_of(out.draco_ids, attribute);
+        if (slot != nullptr) *slot = id;
+    });
 }
 
 GltfPrimitive read_primitive(DocumentReading& reading, const JsonReader& object) {
@@ -45,7 +71,8 @@ GltfPrimitive read_primitive(DocumentReading& reading, const JsonReader& object)
                      std::to_string(mode) + " is not a primitive mode; accepted are 0 to 6");
     }
     out.mode = static_cast<int>(mode);
-    out.draco = object.has_extension("KHR_draco_mesh_compression");
+    read_draco(reading, object, out);
+    read_variant_materials(reading, object, out);
     return out;
 }
 

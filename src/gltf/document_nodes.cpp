@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/camera_extension.h"
 #include "gltf/document_parts.h"
+#include "gltf/instancing.h"
+#include "gltf/trs.h"
 #include "math/warp.h"
 
 #include <cmath>
@@ -19,32 +21,6 @@ Affined affine_from_columns(const std::array<double, 16>& columns) {
             out.m[r][c] = columns[c * 4 + r];
     }
     return out;
-}
-
-Affined affine_from_trs(const std::array<double, 3>& t,
-                        const std::array<double, 4>& q,
-                        const std::array<double, 3>& s) {
-    const auto [x, y, z, w] = q;
-    const double rotation[3][3] = {
-        {1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-        {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-        {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
-    Affined out;
-    for (size_t r = 0; r < 3; ++r) {
-        for (size_t c = 0; c < 3; ++c)
-            out.m[r][c] = rotation[r][c] * s[c];
-        out.m[r][3] = t[r];
-    }
-    return out;
-}
-
-/// Brings a quaternion to length 1; returns false when it has none.
-bool normalize_quaternion(std::array<double, 4>& q) {
-    const double length = std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3]));
-    if (!(length > 0) || !std::isfinite(length)) return false;
-    for (double& component : q)
-        component /= length;
-    return true;
 }
 
 Affined read_transform(DocumentReading& reading, const JsonReader& node) {
@@ -160,6 +136,13 @@ GltfLight read_light(DocumentReading& reading, const JsonReader& light, size_t i
     return out;
 }
 
+/// What extensions say about a node as a whole.
+void read_node_extensions(const JsonReader& node, size_t node_count, GltfNode& out) {
+    if (!node.has("extensions")) return;
+    out.visible = node.extension("KHR_node_visibility").boolean("visible", true);
+    out.lower_levels = node.extension("MSFT_lod").indices("ids", node_count, "node");
+}
+
 }  // namespace
 
 void read_nodes(DocumentReading& reading) {
@@ -180,6 +163,8 @@ void read_nodes(DocumentReading& reading) {
         if (node.has_extension(punctual_name)) {
             out.light = node.extension(punctual_name).index("light", light_count, "light");
         }
+        read_node_extensions(node, node_count, out);
+        out.instancing = read_instancing(reading, node);
         read_node_shape(reading, node, out);
         reading.document.nodes.push_back(std::move(out));
     });

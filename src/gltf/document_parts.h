@@ -38,6 +38,8 @@ void clamped_numbers(DocumentReading& reading,
 
 void read_buffers(DocumentReading& reading);  // document_buffers.cpp
 void read_views(DocumentReading& reading);
+/// EXT_ and KHR_meshopt_compression of a view whose own numbers are good; document_meshopt.cpp
+void read_view_meshopt(DocumentReading& reading, const JsonReader& view, GltfBufferView& out);
 void read_accessors(DocumentReading& reading);
 void read_images(DocumentReading& reading);  // document_materials.cpp
 void read_samplers(DocumentReading& reading);

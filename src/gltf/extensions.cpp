@@ -15,8 +15,12 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array extension_rows = {
-    ExtensionRow{"EXT_texture_webp", true, ""},
-    ExtensionRow{"KHR_implicit_shapes", true, ""},
+    ExtensionRow{"EXT_mesh_gpu_instancing", true, ""},
+    ExtensionRow{"EXT_meshopt_compression", true, ""},
+    ExtensionRow{"EXT_texture_webp", true, "", "the WebP image is preferred"},
+    ExtensionRow{"KHR_draco_mesh_compression", true, ""},
+    ExtensionRow{"KHR_implicit_shapes", true, "", "drawn where a node's OBSCURA_shape names one"},
+    ExtensionRow{"KHR_interactivity", true, "", "a still picture has none", Verdict::ignored},
     ExtensionRow{"KHR_lights_punctual", true, ""},
     ExtensionRow{"KHR_materials_anisotropy", true, ""},
     ExtensionRow{"KHR_materials_clearcoat", true, ""},
@@ -29,23 +33,26 @@ constexpr std::array extension_rows = {
     ExtensionRow{"KHR_materials_specular", true, ""},
     ExtensionRow{"KHR_materials_transmission", true, ""},
     ExtensionRow{"KHR_materials_unlit", true, ""},
-    ExtensionRow{"KHR_materials_volume", true, ""},
+    ExtensionRow{"KHR_materials_variants", true, "", "chosen by --variant"},
+    ExtensionRow{"KHR_materials_volume",
+                 true,
+                 "",
+                 "absorption follows the rays' real way, not the thickness texture"},
     ExtensionRow{"KHR_mesh_quantization", true, ""},
-    ExtensionRow{"KHR_texture_transform", true, ""},
+    ExtensionRow{"KHR_meshopt_compression", true, ""},
+    ExtensionRow{"KHR_node_hoverability", true, "", "a still picture has none", Verdict::ignored},
+    ExtensionRow{"KHR_node_selectability", true, "", "a still picture has none", Verdict::ignored},
+    ExtensionRow{"KHR_node_visibility", true, ""},
+    ExtensionRow{"KHR_texture_transform", true, "", "on every texture"},
+    ExtensionRow{"KHR_xmp", true, "", "the asset's packet goes into EXR headers"},
+    ExtensionRow{"KHR_xmp_json_ld", true, "", "the asset's packet goes into EXR headers"},
+    ExtensionRow{"MSFT_lod", true, "", "the finest level is drawn"},
     ExtensionRow{"OBSCURA_camera", true, ""},
     ExtensionRow{"OBSCURA_shape", true, ""},
-    ExtensionRow{"EXT_mesh_gpu_instancing", false, "one copy is drawn instead of all"},
-    ExtensionRow{"EXT_meshopt_compression", false, "the uncompressed copy is read"},
-    ExtensionRow{"KHR_meshopt_compression", false, "the uncompressed copy is read"},
-    ExtensionRow{"KHR_draco_mesh_compression", false, "the uncompressed copy is read"},
     ExtensionRow{"KHR_animation_pointer", false, "animations are not played"},
     ExtensionRow{"KHR_materials_pbrSpecularGlossiness", false, "the core material is used"},
-    ExtensionRow{"KHR_materials_variants", false, "the default variant is drawn"},
     ExtensionRow{"KHR_materials_volume_scatter", false, "light is not scattered inside"},
-    ExtensionRow{"KHR_node_visibility", false, "hidden nodes are drawn"},
     ExtensionRow{"KHR_texture_basisu", false, "the PNG, JPEG or WebP fallback is read"},
-    ExtensionRow{"KHR_xmp", false, "metadata are not copied"},
-    ExtensionRow{"KHR_xmp_json_ld", false, "metadata are not copied"},
 };
 
 /// Where one extension occurs.
@@ -66,42 +73,13 @@ std::string object_name(const json& object, std::string_view kind, size_t index)
     return std::string(kind) + " " + std::to_string(index);
 }
 
-/// Collects the extension names anywhere inside one object. The depth of JSON is limited, so the
-/// stack stays small.
-void collect_names(const json& object, std::vector<std::string>& names) {
-    std::vector<const json*> open = {&object};
-    while (!open.empty()) {
-        const json* value = open.back();
-        open.pop_back();
-        if (value->is_array()) {
-            for (const json& element : *value) {
-                if (element.is_structured()) open.push_back(&element);
-            }
-        }
-        if (!value->is_object()) continue;
-        for (const auto& [key, member] : value->items()) {
-            if (key == "extras") continue;
-            if (key == "extensions" && member.is_object()) {
-                for (const auto& extension : member.items())
-                    names.push_back(extension.key());
-            }
-            if (member.is_structured()) open.push_back(&member);
-        }
-    }
-    std::sort(names.begin(), names.end());
-    names.erase(std::unique(names.begin(), names.end()), names.end());
-}
-
 /// Notes every use in one top-level array.
 void collect_uses(const json& tree, const char* array, std::string_view kind, UseMap& uses) {
     const auto found = tree.find(array);
     if (found == tree.end() || !found->is_array()) return;
     size_t index = 0;
-    std::vector<std::string> names;
     for (const json& object : *found) {
-        names.clear();
-        collect_names(object, names);
-        for (const std::string& name : names) {
+        for (const std::string& name : extension_names(object)) {
             Uses& use = uses[name];
             const bool material = kind == "material";
             std::vector<std::string>& list = material ? use.materials : use.others;
@@ -133,15 +111,8 @@ UseMap all_uses(const json& tree) {
     return uses;
 }
 
-const ExtensionRow* find_row(std::string_view name) {
-    for (const ExtensionRow& row : extension_rows) {
-        if (row.name == name) return &row;
-    }
-    return nullptr;
-}
-
 void warn_ignored(const ExtensionInfo& info, const Uses& uses, const Document& document, Log& log) {
-    const ExtensionRow* row = find_row(info.name);
+    const ExtensionRow* row = find_extension(info.name);
     std::string text = info.name + " is not supported";
     if (row != nullptr) text += ": " + std::string(row->without);
     if (!uses.materials.empty()) text += "; materials: " + list_text(uses.materials);
@@ -159,6 +130,38 @@ std::span<const ExtensionRow> extension_table() {
     return extension_rows;
 }
 
+const ExtensionRow* find_extension(std::string_view name) {
+    const auto is_it = [&](const ExtensionRow& row) { return row.name == name; };
+    const auto found = std::find_if(extension_rows.begin(), extension_rows.end(), is_it);
+    return found == extension_rows.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> extension_names(const json& object) {
+    std::vector<std::string> names;
+    std::vector<const json*> open = {&object};  // the depth of JSON is limited: it stays small
+    while (!open.empty()) {
+        const json* value = open.back();
+        open.pop_back();
+        if (value->is_array()) {
+            for (const json& element : *value) {
+                if (element.is_structured()) open.push_back(&element);
+            }
+        }
+        if (!value->is_object()) continue;
+        for (const auto& [key, child] : value->items()) {
+            if (key == "extras") continue;
+            if (key == "extensions" && child.is_object()) {
+                for (const auto& extension : child.items())
+                    names.push_back(extension.key());
+            }
+            if (child.is_structured()) open.push_back(&child);
+        }
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
 Result<void> read_extensions(const JsonReader& root,
                              const json& tree,
                              Document& document,
@@ -174,7 +177,7 @@ Result<void> read_extensions(const JsonReader& root,
 
     std::vector<std::string> missing;
     for (const std::string& name : names) {
-        const ExtensionRow* row = find_row(name);
+        const ExtensionRow* row = find_extension(name);
         ExtensionInfo info;
         info.name = name;
         info.required = contains(required, name);

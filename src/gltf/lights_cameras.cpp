@@ -121,7 +121,7 @@ Result<void> add_lights_and_cameras(const Document& document,
             if (!camera) return fail(std::move(camera.error()));
             scene.cameras.push_back(std::move(*camera));
         }
-        if (node.light < 0) continue;
+        if (node.light < 0 || !place.visible) continue;
         const GltfLight& light = document.lights[static_cast<size_t>(node.light)];
         const std::optional<PunctualLight> placed_light = place_light(light, place.world_from_node);
         if (!placed_light) {

@@ -5,11 +5,14 @@
 #include "gltf/document.h"
 #include "gltf/file_bytes.h"
 #include "gltf/glb.h"
+#include "gltf/instancing.h"
 #include "gltf/json_text.h"
 #include "gltf/lights_cameras.h"
 #include "gltf/meshes.h"
+#include "gltf/meshopt.h"
 #include "gltf/shapes.h"
 #include "gltf/textures.h"
+#include "gltf/variants.h"
 
 #include <algorithm>
 #include <chrono>
@@ -131,6 +134,9 @@ void fill_info(const Document& document, AssetInfo& info) {
         info.node_names.push_back(name.empty() ? "node " + std::to_string(i) : name);
     }
     info.extensions = document.extensions;
+    info.variants = document.variants;
+    info.xmp = document.xmp;
+    info.report = document.report;
 }
 
 void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
@@ -157,18 +163,27 @@ Result<Scene> build_scene(const std::filesystem::path& file, const LoadOptions& 
     const Document& document = asset->document;
     const Result<int> chosen = choose_scene(document, options, log);
     if (!chosen) return fail(chosen.error());
+    Result<void> done;
+    if (!options.variant.empty()) done = choose_variant(options.variant, asset->document);
+    if (!done) return fail(std::move(done.error()));
 
     Scene scene;
     scene.info.file_name = file.filename().string();
     scene.info.scene = std::max(*chosen, 0);
+    scene.info.variant = options.variant;
     fill_info(document, scene.info);
     const std::filesystem::path folder = file.parent_path();
     Result<BufferStore> buffers = load_buffers(document, {folder, asset->glb_binary}, log);
     if (!buffers) return fail(std::move(buffers.error()));
+    done = decode_meshopt(document, *buffers);
+    if (!done) return fail(std::move(done.error()));
 
     const std::vector<PlacedNode> placed = place_nodes(document, *chosen, log);
     MaterialTable materials = make_material_table(document);
-    Result<void> done = add_meshes({document, *buffers, placed}, materials, scene, log);
+    const Result<std::vector<PlacedNode>> placed_meshes =
+        expand_instances(document, *buffers, placed);
+    if (!placed_meshes) return fail(placed_meshes.error());
+    done = add_meshes({document, *buffers, *placed_meshes}, materials, scene, log);
     if (done) done = add_shapes({document, *buffers, placed}, materials, scene, log);
     if (done) done = add_lights_and_cameras(document, placed, scene, log);
     if (!done) return fail(std::move(done.error()));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/mesh_part.h"
 
+#include "gltf/draco_mesh.h"
 #include "gltf/materials.h"
 
 #include <algorithm>
@@ -50,7 +51,8 @@ struct PartReader {
     PartName name;
     uint64_t vertex_count = 0;  ///< as in the file
     ElementChoice choice = {};
-    uint32_t issues = 0;  ///< found while reading attributes
+    uint32_t issues = 0;   ///< found while reading attributes
+    DracoMesh draco = {};  ///< empty: the primitive is not compressed
 
     const GltfPrimitive& primitive() const {
         return document.meshes[static_cast<size_t>(name.mesh)]
@@ -82,8 +84,10 @@ bool rule_allows(const AttributeRule& rule, const GltfAccessor& accessor, bool q
     return ((accessor.normalized ? normalized : plain) & type) != 0;
 }
 
+/// `draco_id` is the attribute's number in the compressed data, -1: it is not in them.
 Result<std::vector<float>> read_attribute(PartReader& reader,
                                           int accessor,
+                                          int draco_id,
                                           const AttributeRule& rule) {
     if (accessor < 0) return std::vector<float>{};
     const GltfAccessor& row = reader.document.accessors[static_cast<size_t>(accessor)];
@@ -103,12 +107,14 @@ Result<std::vector<float>> read_attribute(PartReader& reader,
         !sparse_indices_increase(reader.document, reader.store, accessor)) {
         reader.issues |= issue_bit(MeshIssue::unsorted_sparse);
     }
-    return read_floats(reader.document, reader.store, accessor, reader.choice);
+    return read_floats(
+        reader.document, reader.store, accessor, reader.choice, reader.draco.values(draco_id));
 }
 
 /// The vertex order of a primitive: its indices, or 0, 1, 2...
-Result<std::vector<uint32_t>> read_vertex_order(const PartReader& reader) {
+Result<std::vector<uint32_t>> read_vertex_order(PartReader& reader) {
     const GltfPrimitive& primitive = reader.primitive();
+    if (primitive.draco_view >= 0) return std::move(reader.draco.indices);
     if (primitive.indices < 0) {
         std::vector<uint32_t> order(reader.vertex_count);
         std::iota(order.begin(), order.end(), 0U);
@@ -233,19 +239,21 @@ void finish_uvs(MeshPart& part) {
 /// Reads what the material needs beside positions.
 Result<void> read_attributes(PartReader& reader, MeshPart& part, const MaterialNeeds& needs) {
     const GltfPrimitive& primitive = reader.primitive();
-    const auto read = [&](int accessor, const AttributeRule& rule, std::vector<float>& out) {
-        Result<std::vector<float>> values = read_attribute(reader, accessor, rule);
+    const GltfAttributes& ids = primitive.draco_ids;
+    const auto read = [&](int accessor, int id, const AttributeRule& rule, auto& out) {
+        Result<std::vector<float>> values = read_attribute(reader, accessor, id, rule);
         if (values) out = std::move(*values);
         return values ? Result<void>{} : Result<void>(fail(std::move(values.error())));
     };
-    Result<void> done = read(primitive.normal, normal_rule, part.normals);
-    if (done) done = read(primitive.color, color_rule, part.colors);
+    Result<void> done = read(primitive.normal, ids.normal, normal_rule, part.normals);
+    if (done) done = read(primitive.color, ids.color, color_rule, part.colors);
     for (size_t set = 0; set < part.uvs.size() && done; ++set) {
         if ((needs.uv_sets >> set & 1U) != 0)
-            done = read(primitive.uv[set], uv_rule, part.uvs[set]);
+            done = read(primitive.uv[set], ids.uv[set], uv_rule, part.uvs[set]);
     }
     const bool tangents_count = needs.tangents && !part.normals.empty();
-    if (done && tangents_count) done = read(primitive.tangent, tangent_rule, part.tangents);
+    if (done && tangents_count)
+        done = read(primitive.tangent, ids.tangent, tangent_rule, part.tangents);
     if (!done) return done;
     if (primitive.tangent >= 0 && primitive.normal < 0) {
         part.issues |= issue_bit(MeshIssue::lone_tangents);
@@ -258,17 +266,11 @@ Result<void> read_attributes(PartReader& reader, MeshPart& part, const MaterialN
     return {};
 }
 
-Result<void> check_data_exists(const PartReader& reader) {
+/// Limits what the file declares, and decompresses what is compressed.
+Result<void> prepare(PartReader& reader) {
     const GltfPrimitive& primitive = reader.primitive();
     const GltfAccessor& position =
         reader.document.accessors[static_cast<size_t>(primitive.position)];
-    if (primitive.draco && position.view < 0 && position.sparse.count == 0) {
-        return fail(ExitCode::unsupported,
-                    "E-DRACO-DATA",
-                    reader.where(),
-                    "the primitive has only Draco-compressed data, which are not supported; save "
-                    "the asset without compression");
-    }
     if (position.count > most_vertices) {
         return fail(ExitCode::refused,
                     "E-LIMIT-VERTICES",
@@ -276,6 +278,12 @@ Result<void> check_data_exists(const PartReader& reader) {
                     std::to_string(position.count) + " vertices; at most " +
                         std::to_string(most_vertices) + " are accepted");
     }
+    reader.vertex_count = position.count;
+    if (primitive.draco_view < 0) return {};
+    Result<DracoMesh> mesh =
+        decode_draco({reader.document, reader.store}, primitive, reader.where());
+    if (!mesh) return fail(std::move(mesh.error()));
+    reader.draco = std::move(*mesh);
     return {};
 }
 
@@ -351,20 +359,20 @@ Result<MeshPart> read_mesh_part(const Document& document, const BufferStore& sto
         part.issues |= issue_bit(MeshIssue::no_position);
         return part;
     }
-    Result<void> done = check_data_exists(reader);
+    Result<void> done = prepare(reader);
     if (!done) return fail(std::move(done.error()));
-    const GltfAccessor& position = document.accessors[static_cast<size_t>(primitive.position)];
-    reader.vertex_count = position.count;
 
     Result<std::vector<uint32_t>> order = read_vertex_order(reader);
     if (!order) return fail(std::move(order.error()));
-    part.indices = triangle_list(std::move(*order), primitive.mode, part.issues);
+    // Draco keeps triangles, not the strip that they may have been.
+    const int mode = primitive.draco_view >= 0 ? 4 : primitive.mode;
+    part.indices = triangle_list(std::move(*order), mode, part.issues);
     const std::vector<uint32_t> kept = compact_vertices(part.indices, reader.vertex_count);
     reader.choice = {kept.empty(), kept};
     if (part.indices.empty()) return part;
 
     Result<std::vector<float>> positions =
-        read_attribute(reader, primitive.position, position_rule);
+        read_attribute(reader, primitive.position, primitive.draco_ids.position, position_rule);
     if (!positions) return fail(std::move(positions.error()));
     part.positions = std::move(*positions);
     const MaterialNeeds needs = material_needs(document, primitive.material);

@@ -68,7 +68,7 @@ uint64_t primitive_triangles(const Document& document, const GltfPrimitive& prim
 
 /// Reads one primitive in its mesh's space. Without POSITION the part is empty.
 ///
-/// Errors  65 E-MESH-*, E-ACC-*; 69 E-DRACO-DATA; 77 E-LIMIT-COUNT
+/// Errors  65 E-MESH-*, E-ACC-*, E-DRACO-DATA; 69 E-DRACO-VERSION; 77 E-LIMIT-COUNT
 Result<MeshPart> read_mesh_part(const Document& document, const BufferStore& store, PartName name);
 
 /// Makes normals unit (bad ones become the mean of their triangles') and makes or repairs the

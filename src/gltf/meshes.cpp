@@ -84,7 +84,7 @@ void MeshBuilder::find_uses() {
     for (size_t i = 0; i < sources_.placed.size(); ++i) {
         const PlacedNode& place = sources_.placed[i];
         const GltfNode& node = document().nodes[static_cast<size_t>(place.node)];
-        if (node.mesh < 0) continue;
+        if (node.mesh < 0 || !place.visible) continue;
         if (is_singular(place.world_from_node)) {
             flat_nodes_.add(node.name.empty() ? "node " + std::to_string(place.node) : node.name);
             continue;

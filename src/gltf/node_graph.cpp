@@ -84,6 +84,17 @@ std::vector<int> scene_roots(const Document& document, int scene, Log& log) {
     return roots;
 }
 
+/// Marks the nodes that are a coarser level of another one: the finest is drawn.
+std::vector<char> lower_levels(const Document& document) {
+    std::vector<char> out(document.nodes.size(), 0);
+    for (size_t i = 0; i < document.nodes.size(); ++i) {
+        for (const int level : document.nodes[i].lower_levels) {
+            if (static_cast<size_t>(level) != i) out[static_cast<size_t>(level)] = 1;
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 Result<void> check_node_graph(const Document& document) {
@@ -108,7 +119,7 @@ Result<void> check_node_graph(const Document& document) {
 
 std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& log) {
     std::vector<PlacedNode> out;
-    std::vector<char> seen(document.nodes.size(), 0);
+    std::vector<char> seen = lower_levels(document);
     std::vector<PlacedNode> open;
     for (const int root : scene_roots(document, scene, log)) {
         open.push_back({root, Affined{}});
@@ -120,8 +131,9 @@ std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& lo
             seen[index] = 1;
             const GltfNode& node = document.nodes[index];
             next.world_from_node = compose(next.world_from_node, node.parent_from_node);
+            next.visible = next.visible && node.visible;
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-                open.push_back({*child, next.world_from_node});
+                open.push_back({*child, next.world_from_node, next.visible});
             }
             out.push_back(next);
         }

@@ -12,6 +12,7 @@ namespace obscura {
 struct PlacedNode {
     int node = 0;
     Affined world_from_node;
+    bool visible = true;  ///< false: only its camera counts (KHR_node_visibility)
 };
 
 /// Every node has at most one parent and none is its own ancestor. Linear in the file's size.
@@ -19,7 +20,8 @@ struct PlacedNode {
 /// Errors  65 E-NODE-PARENTS, E-NODE-CYCLE, both naming the nodes
 Result<void> check_node_graph(const Document& document);
 
-/// The nodes that a scene reaches. scene -1: the file has no scenes, all root nodes are taken.
+/// The nodes that a scene reaches, without those that stand for others far away (MSFT_lod) and
+/// what hangs on them. scene -1: the file has no scenes, all root nodes are taken.
 std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& log);
 
 /// True when a transform squashes space to a plane, a line or a point, or is not finite.

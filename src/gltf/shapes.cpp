@@ -197,7 +197,7 @@ Result<void> ShapeBuilder::build() {
     std::vector<std::string> flat;
     for (const PlacedNode& place : sources_.placed) {
         const int index = node(place).shape;
-        if (index < 0) continue;
+        if (index < 0 || !place.visible) continue;
         if (is_singular(place.world_from_node)) {
             flat.push_back(document().at("nodes", static_cast<size_t>(place.node)));
             continue;

@@ -8,11 +8,22 @@
 
 namespace obscura {
 
+/// What became of something that a file asks for.
+enum class Verdict { honoured, approximated, ignored };
+
 struct ExtensionInfo {
     std::string name;
     bool required = false;
     bool supported = false;              ///< false: ignored, with a warning
     std::vector<std::string> materials;  ///< names of the materials that use it, if any
+};
+
+/// One thing that a part of the file asks for.
+struct ReportRow {
+    std::string place;    ///< "material 3 Glass", "asset"
+    std::string feature;  ///< an extension's name or glTF's own word
+    Verdict verdict = Verdict::honoured;
+    std::string note;  ///< how it is approximated, why it is ignored; may be empty
 };
 
 struct ImageInfo {
@@ -37,6 +48,9 @@ struct AssetInfo {
     std::string copyright;
     std::vector<std::string> scenes;  ///< names; unnamed ones are "scene 0"
     int scene = 0;                    ///< the one that was loaded
+    std::vector<std::string> variants;  ///< names from KHR_materials_variants
+    std::string variant;                ///< the chosen one; empty: none
+    std::string xmp;                    ///< the asset's XMP packet as JSON text; may be empty
     std::vector<NamedCount> meshes;   ///< as in the file, triangles counted once
     std::vector<NamedCount> shapes;   ///< by type, every placing counted
     std::vector<NamedCount> animations;
@@ -44,6 +58,7 @@ struct AssetInfo {
     std::vector<std::string> light_names;  ///< beside Scene::lights
     std::vector<ImageInfo> images;
     std::vector<ExtensionInfo> extensions;
+    std::vector<ReportRow> report;  ///< part by part, in file order
     size_t triangles_in_world = 0;  ///< with every instance counted
     size_t skipped_points = 0;      ///< primitives of points and lines that are not drawn
     size_t skipped_lines = 0;

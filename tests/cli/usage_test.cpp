@@ -22,17 +22,20 @@ TEST_F(Usage, HelpIsForPeople) {
     }
     const std::string help = run({"render", "--help"}).out;
     for (const char* option :
-         {"-o,--output",     "--size",        "--spp",         "--depth",       "--seed",
-          "--threads",       "--isa",         "--scene",       "--camera",      "--camera-model",
-          "--eye",           "--target",      "--up",          "--fov",         "--env",
-          "--env-intensity", "--background",  "--integrator",  "--view",        "--display",
-          "--filter",        "--ao-distance", "--ocio",        "--exposure",    "--float",
-          "--tile-size",     "--crop",        "--stats",       "--quiet",       "--verbose",
-          "--env-rotation",  "--fstop",       "--lens-radius", "--focus-on",    "--focus-distance",
-          "--blades",        "--aperture",    "--fisheye",     "--environment", "--stereo",
-          "--align",         "--distortion",  "--shift",       "--sensor",      "--focal-length",
-          "--mag",           "--near",        "--far",         "--ev100",       "--shutter",
-          "--iso",           "--camera-json", "--anamorphic",  "--fisheye-fit"}) {
+         {"-o,--output",     "--size",         "--spp",          "--depth",
+          "--seed",          "--threads",      "--isa",          "--scene",
+          "--variant",       "--camera",       "--camera-model", "--eye",
+          "--target",        "--up",           "--fov",          "--env",
+          "--env-intensity", "--background",   "--integrator",   "--view",
+          "--display",       "--filter",       "--ao-distance",  "--ocio",
+          "--exposure",      "--float",        "--tile-size",    "--crop",
+          "--stats",         "--quiet",        "--verbose",      "--env-rotation",
+          "--fstop",         "--lens-radius",  "--focus-on",     "--focus-distance",
+          "--blades",        "--aperture",     "--fisheye",      "--environment",
+          "--stereo",        "--align",        "--distortion",   "--shift",
+          "--sensor",        "--focal-length", "--mag",          "--near",
+          "--far",           "--ev100",        "--shutter",      "--iso",
+          "--camera-json",   "--anamorphic",   "--fisheye-fit"}) {
         EXPECT_THAT(help, HasSubstr("  " + std::string(option) + " ")) << option;
     }
 }
@@ -89,6 +92,8 @@ const std::vector<Wrong> mistakes = {
     {{"render", "box.gltf", "--env-intensity", "-1"}, "E-USAGE-RANGE", "0 to 1e+09"},
     {{"render", "box.gltf", "--env", ""}, "E-USAGE-CONFLICT", "empty"},
     {{"render", "box.gltf", "--scene", ""}, "E-USAGE-CONFLICT", "empty"},
+    {{"render", "box.gltf", "--variant", ""}, "E-USAGE-CONFLICT", "empty"},
+    {{"render", "box.gltf", "--variant", "Blue"}, "E-VARIANT-UNKNOWN", "none"},
     {{"render", "box.gltf", "--ao-distance", "1"}, "E-USAGE-CONFLICT", "--integrator ao"},
     {{"render", "box.gltf", "--wire-width", "2"}, "E-USAGE-CONFLICT", "--integrator wireframe"},
     {{"render", "box.gltf", "--integrator", "wireframe", "--wire-width", "0"},

@@ -17,8 +17,8 @@ struct Store {
 
     explicit Store(const std::vector<std::byte>& bytes, uint64_t stride = 0) {
         document.file = "a.gltf";
-        document.buffers.push_back({"", {}, bytes.size(), false});
-        document.views.push_back({0, 0, bytes.size(), stride, false});
+        document.buffers.push_back({"", {}, bytes.size()});
+        document.views.push_back({0, 0, bytes.size(), stride, {}});
         buffers.owned.push_back(bytes);
         buffers.buffers.emplace_back(buffers.owned[0]);
     }
@@ -151,7 +151,7 @@ TEST(Accessors, SparseInAnyOrderLastOneCounts) {  // C9
 
 TEST(Accessors, SparseOverNothingReplacesZeros) {
     Store store(bytes_of(std::vector<float>{7, 8}));
-    store.document.views.push_back({0, 0, 8, 0, false});
+    store.document.views.push_back({0, 0, 8, 0, {}});
     GltfAccessor accessor = accessor_of(ComponentType::float32, 3, 1);
     accessor.view = -1;
     EXPECT_EQ(store.floats(accessor), (std::vector<float>{0, 0, 0}));

@@ -108,37 +108,5 @@ TEST(Buffers, BadFilesAreErrors) {
     }
 }
 
-/// The triangle with its positions in a second buffer that meshopt would fill.
-json meshopt_asset(const char* extension) {
-    AssetBuilder builder = triangle_builder();
-    json tree = builder.finished();
-    json fallback = {{"byteLength", 36}};
-    fallback["extensions"][extension]["fallback"] = true;
-    tree["buffers"].push_back(fallback);
-    tree["bufferViews"][0]["buffer"] = 1;
-    tree["bufferViews"][0]["extensions"][extension] = {{"buffer", 0}, {"byteLength", 10}};
-    tree["extensionsUsed"] = {extension};
-    return tree;
-}
-
-TEST(Buffers, MeshoptWithoutFallbackIsUnsupported) {
-    for (const char* extension : {"EXT_meshopt_compression", "KHR_meshopt_compression"}) {
-        const Loaded loaded = load_tree(meshopt_asset(extension));
-        EXPECT_EQ(loaded.code(), 69);
-        EXPECT_EQ(loaded.id(), "E-MESHOPT-DATA");
-    }
-}
-
-TEST(Buffers, MeshoptFallbackDataAreRead) {
-    json tree = meshopt_asset("EXT_meshopt_compression");
-    tree["buffers"][1]["uri"] = "data:application/gltf-buffer;base64," +
-                                base64(raw(std::vector<float>{0, 0, 0, 5, 0, 0, 0, 5, 0}));
-    tree["accessors"][0]["max"] = {5, 5, 0};
-    const Loaded loaded = load_tree(tree);
-    ASSERT_TRUE(loaded.scene) << loaded.text();
-    EXPECT_EQ(position_of(*loaded.scene, 1), (std::vector<float>{5, 0, 0}));
-    EXPECT_TRUE(loaded.warns("EXT_meshopt_compression is not supported"));
-}
-
 }  // namespace
 }  // namespace obscura

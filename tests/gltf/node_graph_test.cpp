@@ -149,5 +149,60 @@ TEST(NodeGraph, TransformsAreTranslationTimesRotationTimesScale) {
               (std::vector<float>{3 + 5, 1 + 6, 2 + 7}));
 }
 
+/// Five triangles at x = 0, 10, 20 ... and a light and a camera on node 1.
+json row_of_nodes() {
+    json tree = triangle_asset();
+    tree["extensions"]["KHR_lights_punctual"]["lights"][0]["type"] = "point";
+    tree["cameras"][0] = {{"type", "perspective"}, {"perspective", {{"yfov", 1}, {"znear", 1}}}};
+    for (int i = 0; i < 5; ++i)
+        tree["nodes"][static_cast<size_t>(i)] = {{"mesh", 0}, {"translation", {10 * i, 0, 0}}};
+    tree["nodes"][1]["camera"] = 0;
+    tree["nodes"][1]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    tree["scenes"][0]["nodes"] = {0, 1, 2, 3, 4};
+    return tree;
+}
+
+/// The nodes that are drawn.
+std::vector<int> drawn(const Loaded& loaded) {
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(loaded.warnings, "");
+    std::vector<int> out;
+    for (const Instance& instance : loaded.scene->instances)
+        out.push_back(instance.node);
+    for (int i = 0; i < loaded.scene->world_primitive_count; ++i)
+        out.push_back(loaded.scene->primitives[static_cast<size_t>(i)].node);
+    return out;
+}
+
+TEST(NodeGraph, HiddenNodesAndWhatHangsOnThemAreNotDrawn) {
+    json tree = row_of_nodes();
+    const char* name = "KHR_node_visibility";
+    tree["nodes"][0]["children"] = {1, 2};
+    tree["scenes"][0]["nodes"] = {0, 3, 4};
+    tree["nodes"][2]["extensions"][name]["visible"] = true;
+    EXPECT_EQ(drawn(load_tree(tree)), (std::vector<int>{0, 1, 2, 3, 4}));
+    EXPECT_EQ(load_tree(tree).scene->lights.size(), 1U);
+    tree["nodes"][0]["extensions"][name]["visible"] = false;
+    tree["nodes"][3]["extensions"][name] = json::object();
+    const Loaded hidden = load_tree(tree);
+    EXPECT_EQ(drawn(hidden), (std::vector<int>{3, 4}));
+    EXPECT_EQ(hidden.scene->lights.size(), 0U);
+    EXPECT_EQ(hidden.scene->cameras.size(), 1U) << "cameras do not hide";
+    tree["nodes"][3]["extensions"][name]["visible"] = "no";
+    EXPECT_EQ(load_tree(tree).id(), "E-JSON-TYPE");
+}
+
+TEST(NodeGraph, OnlyTheFinestLevelOfDetailIsDrawn) {
+    json tree = row_of_nodes();
+    tree["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {2, 3};
+    tree["nodes"][2]["children"] = {4};
+    tree["scenes"][0]["nodes"] = {0, 1, 2, 3};
+    EXPECT_EQ(drawn(load_tree(tree)), (std::vector<int>{0, 1}));
+    tree["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {0};
+    EXPECT_EQ(drawn(load_tree(tree)), (std::vector<int>{0, 1, 2, 4, 3}));
+    tree["nodes"][0]["extensions"]["MSFT_lod"]["ids"] = {5};
+    EXPECT_EQ(load_tree(tree).id(), "E-DOC-INDEX");
+}
+
 }  // namespace
 }  // namespace obscura

@@ -1,0 +1,68 @@
+// app/explain_report.cpp - what `obscura info --explain` says: the fate of every part's wishes.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/explain_report.h"
+
+#include "base/json_writer.h"
+#include "base/log.h"
+#include "gltf/report.h"
+
+#include <array>
+#include <fmt/format.h>
+
+namespace obscura {
+
+namespace {
+
+constexpr std::array verdicts = {Verdict::honoured, Verdict::approximated, Verdict::ignored};
+
+size_t count_of(const AssetInfo& info, Verdict verdict) {
+    size_t out = 0;
+    for (const ReportRow& row : info.report)
+        out += row.verdict == verdict ? 1U : 0U;
+    return out;
+}
+
+}  // namespace
+
+std::string explain_table(const AssetInfo& info) {
+    std::string text;
+    const std::string* place = nullptr;
+    for (const ReportRow& row : info.report) {
+        if (place == nullptr || *place != row.place) text += escape_control(row.place) + "\n";
+        place = &row.place;
+        text += fmt::format("  {:<12} {}{}{}\n",
+                            verdict_name(row.verdict),
+                            escape_control(row.feature),
+                            row.note.empty() ? "" : ": ",
+                            row.note);
+    }
+    std::string counts;
+    for (const Verdict verdict : verdicts) {
+        counts += fmt::format(
+            "{}{} {}", counts.empty() ? "" : ", ", count_of(info, verdict), verdict_name(verdict));
+    }
+    return text + counts + "\n";
+}
+
+std::string explain_json(const AssetInfo& info) {
+    JsonWriter json;
+    json.begin_object();
+    json.member("version", OBSCURA_VERSION);
+    json.member("file", info.file_name);
+    for (const Verdict verdict : verdicts)
+        json.member(verdict_name(verdict), count_of(info, verdict));
+    json.key("report").begin_array();
+    for (const ReportRow& row : info.report) {
+        json.begin_object();
+        json.member("place", row.place);
+        json.member("feature", row.feature);
+        json.member("verdict", verdict_name(row.verdict));
+        json.member("note", row.note);
+        json.end_object();
+    }
+    json.end_array();
+    json.end_object();
+    return std::move(json).take();
+}
+
+}  // namespace obscura

@@ -1,0 +1,76 @@
+// tests/gltf/variants_test.cpp - KHR_materials_variants: the chosen look and no other.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/variants.h"
+
+#include "gltf/gltf_files.h"
+
+#include <gtest/gtest.h>
+
+namespace obscura {
+namespace {
+
+using namespace testing_gltf;
+
+constexpr const char* name = "KHR_materials_variants";
+
+/// Two primitives: the first is Red in "day" and "dusk", Blue in "night"; the second stays Grey.
+json product() {
+    json tree = triangle_asset();
+    for (const char* material : {"Grey", "Red", "Blue"})
+        tree["materials"].push_back({{"name", material}});
+    for (const char* variant : {"day", "dusk", "night"})
+        tree["extensions"][name]["variants"].push_back({{"name", variant}});
+    json& primitives = tree["meshes"][0]["primitives"];
+    primitives[0]["material"] = 0;
+    primitives.push_back(primitives[0]);
+    primitives[0]["extensions"][name]["mappings"] = {{{"material", 1}, {"variants", {0, 1}}},
+                                                     {{"material", 2}, {"variants", {2}}}};
+    return tree;
+}
+
+std::vector<std::string> materials_in(const std::string& variant) {
+    LoadOptions options;
+    options.variant = variant;
+    const Loaded loaded = load_tree(product(), options);
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(loaded.warnings, "");
+    EXPECT_EQ(loaded.scene->info.variants, (std::vector<std::string>{"day", "dusk", "night"}));
+    EXPECT_EQ(loaded.scene->info.variant, variant);
+    std::vector<std::string> out;
+    for (const Primitive& primitive : loaded.scene->primitives)
+        out.push_back(loaded.scene->material_names[static_cast<size_t>(primitive.material)]);
+    return out;
+}
+
+TEST(Variants, GiveEachPrimitiveItsMaterial) {
+    EXPECT_EQ(materials_in(""), (std::vector<std::string>{"Grey", "Grey"}));
+    EXPECT_EQ(materials_in("day"), (std::vector<std::string>{"Red", "Grey"}));
+    EXPECT_EQ(materials_in("dusk"), (std::vector<std::string>{"Red", "Grey"}));
+    EXPECT_EQ(materials_in("night"), (std::vector<std::string>{"Blue", "Grey"}));
+}
+
+TEST(Variants, UnknownOnesAreErrorsThatListTheNames) {
+    LoadOptions options;
+    options.variant = "noon";
+    const Loaded loaded = load_tree(product(), options);
+    EXPECT_EQ(loaded.code(), 64);
+    EXPECT_EQ(loaded.id(), "E-VARIANT-UNKNOWN");
+    EXPECT_NE(loaded.text().find("\"day\", \"dusk\", \"night\""), std::string::npos);
+    EXPECT_NE(load_bytes(triangle_asset().dump(), "a.gltf", options).text().find("none"),
+              std::string::npos);
+}
+
+TEST(Variants, NumbersOutOfRangeAreErrors) {
+    json tree = product();
+    json& mapping = tree["meshes"][0]["primitives"][0]["extensions"][name]["mappings"][0];
+    mapping["variants"] = {3};
+    EXPECT_EQ(load_tree(tree).id(), "E-DOC-INDEX");
+    mapping["variants"] = {0};
+    mapping["material"] = 3;
+    EXPECT_EQ(load_tree(tree).id(), "E-DOC-INDEX");
+    mapping.erase("material");
+    EXPECT_EQ(load_tree(tree).id(), "E-DOC-MISSING");
+}
+
+}  // namespace
+}  // namespace obscura
