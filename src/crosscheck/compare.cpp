@@ -175,14 +175,14 @@ bool is_within_lines(const Question& q, const Item& item) {
 
 /// agree: what the answer says is there is there within 4 ulp, and all that it has passed by is at
 /// its edge; edge_on: but for triangles seen edge-on; false_hit: neither.
-Verdict excuse(const Question& q, const Answer& answer) {
-    Verdict worst = Verdict::agree;
+Finding excuse(const Question& q, const Answer& answer) {
+    Finding worst = Finding::agree;
     const auto judge = [&](bool good, const Item& item) {
         if (good) return;
         const bool edge_on = is_within_lines(q, item);
-        worst = std::max(worst, edge_on ? Verdict::edge_on : Verdict::false_hit);
+        worst = std::max(worst, edge_on ? Finding::edge_on : Finding::false_hit);
     };
-    if (answer.any) return Verdict::false_hit;  // that nothing was passed by says nothing
+    if (answer.any) return Finding::false_hit;  // that nothing was passed by says nothing
     if (answer.found()) {
         judge(is_met_nearby(q, answer) || is_at_its_edge(q, answer), answer.item);
     }
@@ -215,17 +215,17 @@ Comparison compare(const TrueScene& scene,
     const Question question{scene, ray, unit};
     const bool both = expected.found() && got.found();
     if (both && depth_gap(question, expected, got) <= depth_ulps) {
-        return {same ? Verdict::agree : Verdict::equal_depth, 0};
+        return {same ? Finding::agree : Finding::equal_depth, 0};
     }
     double ulps = explanation(question, expected, got, edge_ulps);
-    if (ulps <= edge_ulps) return {Verdict::edge, ulps};
-    const Verdict excused = std::max(excuse(question, expected), excuse(question, got));
-    if (excused == Verdict::agree) return {Verdict::crack, edge_ulps};
-    if (excused == Verdict::edge_on) return {Verdict::edge_on, edge_ulps};
+    if (ulps <= edge_ulps) return {Finding::edge, ulps};
+    const Finding excused = std::max(excuse(question, expected), excuse(question, got));
+    if (excused == Finding::agree) return {Finding::crack, edge_ulps};
+    if (excused == Finding::edge_on) return {Finding::edge_on, edge_ulps};
     ulps = explanation(question, expected, got, 64 * edge_ulps);
-    if (both && same) return {Verdict::depth, depth_gap(question, expected, got)};
+    if (both && same) return {Finding::depth, depth_gap(question, expected, got)};
     const bool behind = !got.found() || (both && got.t > expected.t);
-    return {behind ? Verdict::missed : Verdict::false_hit, ulps};
+    return {behind ? Finding::missed : Finding::false_hit, ulps};
 }
 
 }  // namespace obscura

@@ -20,7 +20,7 @@ inline Answer answer_of(const TrueHit& hit) {
 }
 
 /// From best to worst; `agree` to `edge_on` are within 4 ulp of an edge.
-enum class Verdict : int {
+enum class Finding : int {
     agree,
     equal_depth,  ///< another item, but at the same depth: neighbours on a common edge, coplanar
     edge,         ///< different, and rays moved by at most 4 ulp have the other answer
@@ -43,7 +43,7 @@ inline constexpr double depth_ulps = 4;
 inline constexpr double line_ulps = 16;
 
 struct Comparison {
-    Verdict verdict = Verdict::agree;
+    Finding verdict = Finding::agree;
     /// Of a difference: how far the ray must be moved to explain it; infinite: no explanation.
     double ulps = 0;
 };

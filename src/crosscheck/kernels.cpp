@@ -25,7 +25,7 @@ void keep_worst(std::vector<Difference>& worst) {
     if (worst.size() > most_worst) worst.resize(most_worst);
 }
 
-void note_on_screen(ScreenVerdicts& screen, ScreenPlace at, Verdict verdict, bool hit) {
+void note_on_screen(ScreenVerdicts& screen, ScreenPlace at, Finding verdict, bool hit) {
     const size_t pixel =
         static_cast<size_t>(at.y) * static_cast<size_t>(screen.width) + static_cast<size_t>(at.x);
     screen.worst[pixel] = std::max(screen.worst[pixel], static_cast<int8_t>(verdict));
@@ -54,8 +54,8 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
         tally.hits += got.found() ? 1 : 0;
         ++tally.counts[static_cast<size_t>(found.verdict)];
         noted(i, found.verdict);
-        if (found.verdict <= Verdict::equal_depth) continue;
-        if (found.verdict == Verdict::edge) {
+        if (found.verdict <= Finding::equal_depth) continue;
+        if (found.verdict == Finding::edge) {
             tally.widest_edge = std::max(tally.widest_edge, found.ulps);
         }
         figures.worst.push_back({chunk.group,
@@ -71,7 +71,7 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
 }  // namespace
 
 uint64_t Tally::unexplained() const {
-    return of(Verdict::depth) + of(Verdict::missed) + of(Verdict::false_hit);
+    return of(Finding::depth) + of(Finding::missed) + of(Finding::false_hit);
 }
 
 void Tally::add(const Tally& other) {
@@ -124,11 +124,11 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
         const RayGroup group = RaySet::group(chunk);
         for (size_t r = 0; r < references.size(); ++r) {
             PairFigures mine;
-            std::vector<Verdict> seen(answers.size());
+            std::vector<Finding> seen(answers.size());
             compare_chunk(
                 {scene, block, answers, &references[r]->answers[first], group, first},
                 mine,
-                [&](int row, Verdict verdict) { seen[static_cast<size_t>(row)] = verdict; });
+                [&](int row, Finding verdict) { seen[static_cast<size_t>(row)] = verdict; });
             const std::lock_guard lock(merging);
             for (size_t g = 0; g < ray_groups; ++g)
                 all[r].groups[g].add(mine.groups[g]);

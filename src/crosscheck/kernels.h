@@ -33,12 +33,12 @@ struct Tally {
     std::array<uint64_t, verdicts> counts = {};
     double widest_edge = 0;  ///< ulp, of those counted as edge
 
-    uint64_t of(Verdict verdict) const { return counts[static_cast<size_t>(verdict)]; }
+    uint64_t of(Finding verdict) const { return counts[static_cast<size_t>(verdict)]; }
     /// Differences that 4 ulp do not explain.
     uint64_t unexplained() const;
     /// All but those that agree or are at equal depth.
     uint64_t mismatches() const {
-        return unexplained() + of(Verdict::edge) + of(Verdict::crack) + of(Verdict::edge_on);
+        return unexplained() + of(Finding::edge) + of(Finding::crack) + of(Finding::edge_on);
     }
     void add(const Tally& other);
 };

@@ -10,19 +10,19 @@ namespace {
 
 std::array<float, 3> color_of(int worst, bool hit) {
     if (worst < 0) return {0, 0, 0};
-    switch (static_cast<Verdict>(worst)) {
-        case Verdict::agree:
+    switch (static_cast<Finding>(worst)) {
+        case Finding::agree:
             break;
-        case Verdict::equal_depth:
+        case Finding::equal_depth:
             return {0.2f, 0.4f, 1};
-        case Verdict::edge:
+        case Finding::edge:
             return {0.1f, 0.8f, 0.2f};
-        case Verdict::crack:
-        case Verdict::edge_on:
+        case Finding::crack:
+        case Finding::edge_on:
             return {1, 0.85f, 0};
-        case Verdict::depth:
-        case Verdict::missed:
-        case Verdict::false_hit:
+        case Finding::depth:
+        case Finding::missed:
+        case Finding::false_hit:
             return {1, 0, 0};
     }
     const float grey = hit ? 0.55f : 0.2f;

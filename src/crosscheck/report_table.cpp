@@ -32,7 +32,7 @@ void add_head(const char* first, const char* second, std::string& out) {
 
 void add_worst(const PairFigures& pair, std::string& out) {
     for (const Difference& d : pair.worst) {
-        if (d.comparison.verdict < Verdict::depth) continue;
+        if (d.comparison.verdict < Finding::depth) continue;
         out += fmt::format("    {} ray {} ({}): {}, expected {}; {}\n      {}\n",
                            pair.got,
                            d.number,
@@ -79,7 +79,7 @@ void add_spawned(const SpawnedReport& spawned, std::string& out) {
 
 }  // namespace
 
-const char* verdict_name(Verdict verdict) {
+const char* verdict_name(Finding verdict) {
     return names[static_cast<size_t>(verdict)];
 }
 
@@ -95,7 +95,7 @@ std::string describe(const Answer& answer) {
 
 std::string describe(const Comparison& comparison) {
     const char* name = verdict_name(comparison.verdict);
-    if (comparison.verdict <= Verdict::equal_depth) return name;
+    if (comparison.verdict <= Finding::equal_depth) return name;
     if (std::isinf(comparison.ulps)) return fmt::format("{}, no ray nearby explains it", name);
     return fmt::format("{}, {:.3g} ulp", name, comparison.ulps);
 }

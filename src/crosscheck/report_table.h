@@ -19,6 +19,6 @@ std::string describe(const Comparison& comparison);
 /// The option that traces this one ray again.
 std::string replay_option(const TrueRay& ray);
 
-const char* verdict_name(Verdict verdict);
+const char* verdict_name(Finding verdict);
 
 }  // namespace obscura

@@ -85,7 +85,7 @@ TEST(CheckScene, ReplaysOneRay) {
 }
 
 TEST(CheckScene, ThePictureShowsTheWorstVerdict) {
-    ScreenVerdicts screen{2, 1, {static_cast<int8_t>(Verdict::false_hit), 0}, {1, 1}};
+    ScreenVerdicts screen{2, 1, {static_cast<int8_t>(Finding::false_hit), 0}, {1, 1}};
     const Picture picture = screen_picture(screen);
     EXPECT_EQ(picture.pixels.at(0), 1.0F);
     EXPECT_EQ(picture.pixels.at(1), 0.0F);

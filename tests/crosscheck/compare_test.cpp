@@ -18,7 +18,7 @@ class CompareAnswers : public testing::Test {
 protected:
     /// Down on the square from z = 4, where one ulp is that of 4.
     TrueRay down(double x, double y) const { return {{x, y, 4}, {0, 0, -1}}; }
-    Verdict verdict(const TrueRay& ray, const Answer& got) const {
+    Finding verdict(const TrueRay& ray, const Answer& got) const {
         return compare(truth_, ray, answer_of(truth_.nearest(ray)), got).verdict;
     }
     double ulp(const TrueRay& ray) const { return truth_.rounding_m(ray, lower, 4); }
@@ -35,48 +35,48 @@ TEST_F(CompareAnswers, AnUlpIsThatOfTheLargestNumberOnTheWay) {
 TEST_F(CompareAnswers, TheTruthAgreesWithItself) {
     const TrueRay ray = down(0.5, -0.5);
     EXPECT_EQ(truth_.nearest(ray).item, lower);
-    EXPECT_EQ(verdict(ray, {4, lower}), Verdict::agree);
-    EXPECT_EQ(verdict(down(3, 0), {}), Verdict::agree);
+    EXPECT_EQ(verdict(ray, {4, lower}), Finding::agree);
+    EXPECT_EQ(verdict(down(3, 0), {}), Finding::agree);
 }
 
 TEST_F(CompareAnswers, DepthAgreesWithinFourUlp) {
     const TrueRay ray = down(0.5, -0.5);
-    EXPECT_EQ(verdict(ray, {4 + 3.9 * ulp(ray), lower}), Verdict::agree);
+    EXPECT_EQ(verdict(ray, {4 + 3.9 * ulp(ray), lower}), Finding::agree);
     // A ray that begins a few ulp later has it too; one that begins twenty later has not.
-    EXPECT_EQ(verdict(ray, {4 + 20 * ulp(ray), lower}), Verdict::depth);
-    EXPECT_EQ(verdict(ray, {4 - 20 * ulp(ray), lower}), Verdict::depth);
+    EXPECT_EQ(verdict(ray, {4 + 20 * ulp(ray), lower}), Finding::depth);
+    EXPECT_EQ(verdict(ray, {4 - 20 * ulp(ray), lower}), Finding::depth);
 }
 
 TEST_F(CompareAnswers, ANeighbourAtTheSameDepthIsNoMismatch) {
-    EXPECT_EQ(verdict(down(0.5, -0.5), {4, upper}), Verdict::equal_depth);
+    EXPECT_EQ(verdict(down(0.5, -0.5), {4, upper}), Finding::equal_depth);
 }
 
 TEST_F(CompareAnswers, AtTheOuterEdgeHitAndMissAreBothRight) {
     const TrueRay inside = down(1 - 3 * ulp(down(0, 0)), 0.25);
-    EXPECT_EQ(verdict(inside, {}), Verdict::edge);
+    EXPECT_EQ(verdict(inside, {}), Finding::edge);
     const TrueRay outside = down(1 + 3 * ulp(down(0, 0)), 0.25);
-    EXPECT_EQ(verdict(outside, {4, lower}), Verdict::edge);
+    EXPECT_EQ(verdict(outside, {4, lower}), Finding::edge);
 }
 
 TEST_F(CompareAnswers, FurtherFromTheEdgeOnlyOneIs) {
     const TrueRay inside = down(1 - 12 * ulp(down(0, 0)), 0.25);
-    EXPECT_EQ(verdict(inside, {}), Verdict::missed);
+    EXPECT_EQ(verdict(inside, {}), Finding::missed);
     const TrueRay outside = down(1 + 40 * ulp(down(0, 0)), 0.25);
-    EXPECT_EQ(verdict(outside, {4, lower}), Verdict::false_hit);
+    EXPECT_EQ(verdict(outside, {4, lower}), Finding::false_hit);
 }
 
 TEST_F(CompareAnswers, AMissAtACommonEdgeIsACrack) {
     const TrueRay ray = down(0.25, 0.25 + ulp(down(0, 0)));
-    EXPECT_EQ(verdict(ray, {}), Verdict::crack);
-    EXPECT_EQ(verdict(down(0.25, 0.3), {}), Verdict::missed);
+    EXPECT_EQ(verdict(ray, {}), Finding::crack);
+    EXPECT_EQ(verdict(down(0.25, 0.3), {}), Finding::missed);
 }
 
 TEST_F(CompareAnswers, OcclusionKnowsNoDepth) {
     const TrueRay ray = down(0.5, -0.5);
     Answer any;
     any.any = true;
-    EXPECT_EQ(verdict(ray, any), Verdict::agree);
-    EXPECT_EQ(verdict(down(3, 0), any), Verdict::false_hit);
+    EXPECT_EQ(verdict(ray, any), Finding::agree);
+    EXPECT_EQ(verdict(down(3, 0), any), Finding::false_hit);
 }
 
 TEST_F(CompareAnswers, EdgeDistanceOfAMismatchIsReported) {

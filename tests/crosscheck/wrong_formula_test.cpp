@@ -44,7 +44,7 @@ TEST(WrongFormula, DepthOffByAHundredThousandthIsAFault) {
         check_spoilt(closed_cube(), [](Answer& answer) { answer.t *= 1.00001; });
     ASSERT_FALSE(checked.faults.empty());
     EXPECT_NE(checked.faults[0].find("4 ulp do not explain"), std::string::npos);
-    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::depth), 0U);
+    EXPECT_GT(checked.pairs.at(0).total().of(Finding::depth), 0U);
 }
 
 TEST(WrongFormula, AMissingTriangleIsAFault) {
@@ -52,7 +52,7 @@ TEST(WrongFormula, AMissingTriangleIsAFault) {
         if (answer.item.row == 7) answer = {};
     });
     EXPECT_FALSE(checked.faults.empty());
-    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::missed), 0U);
+    EXPECT_GT(checked.pairs.at(0).total().of(Finding::missed), 0U);
 }
 
 TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
@@ -68,7 +68,7 @@ TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
     truths.is_truth = true;
     CheckedScene checked;
     checked.pairs = compare_kernel(truth, rays, truth_kernel(wrong), {&truths}, nullptr, nullptr);
-    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::depth), 0U);
+    EXPECT_GT(checked.pairs.at(0).total().of(Finding::depth), 0U);
     EXPECT_FALSE(faults_of(checked).empty());
 }
 

@@ -1,5 +1,7 @@
 // tests/truth/bodies_test.cpp - light through bodies: absorption, nesting, dispersion.
 // SPDX-License-Identifier: Apache-2.0
+#include "scene/media.h"
+
 #include <gtest/gtest.h>
 
 #include "support/scene_builder.h"
