@@ -14,7 +14,7 @@ OBSCURA_INLINE BsdfValue<Lanes> evaluate_point(const ShadingPoint& s,
     const BsdfValue<Lanes> core = evaluate_bsdf(s.bsdf, s.lobes, wo, wi);
     if (!s.any_layers) return core;
     const LayeredPoint& l = s.layers;
-    const BsdfValue<Lanes> all = evaluate_layered(l.params, l.weights, wo, wi);
+    const BsdfValue<Lanes> all = evaluate_layers(l, wo, wi);
     return {select(l.layered, all.value_cos, core.value_cos), select(l.layered, all.pdf, core.pdf)};
 }
 
@@ -24,7 +24,7 @@ OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
     const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, u);
     if (!s.any_layers) return core;
     const LayeredPoint& l = s.layers;
-    const BsdfSample<Lanes> all = sample_layered(l.params, l.weights, wo, u);
+    const BsdfSample<Lanes> all = sample_layers(l, wo, u);
     return {select(l.layered, all.direction, core.direction),
             {select(l.layered, all.at.value_cos, core.at.value_cos),
              select(l.layered, all.at.pdf, core.at.pdf)},

@@ -162,8 +162,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     if (s.any_layers) {
         const Vec3<Lanes> smooth = select(dot(g.normal, s.ng) < Lanes(0.0f), -g.normal, g.normal);
         LayerPlace place{tangents, s.frame, smooth, s.ng, wo, front, layered};
-        const LayerReader reader(scene, g, look, layered);
-        s.layers = read_layered_point(reader, scene, path, s.bsdf, place);
+        s.layers = read_layered_point({scene, g, look, path}, s.bsdf, place);
         s.frame.tangent = select(layered, place.frame.tangent, s.frame.tangent);
         s.frame.bitangent = select(layered, place.frame.bitangent, s.frame.bitangent);
         s.start_beyond = g.position - s.ng * g.offset;

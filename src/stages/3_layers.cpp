@@ -1,0 +1,253 @@
+// stages/3_layers.cpp - reads, evaluates and samples the layers of the hit materials.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/3_layers.h"
+
+#include "math/sampler.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+/// Word of a MaterialLayers member.
+#define OBSCURA_LAYER_WORD(member) static_cast<int>(offsetof(MaterialLayers, member) / 4)
+
+/// Reads the layers of one group of hits.
+class LayerReader {
+public:
+    /// In  layered: lanes whose material has layers; the others get what any row says
+    OBSCURA_INLINE LayerReader(const SceneView& scene,
+                               const HitGeometry& g,
+                               const LookUp& look,
+                               Mask layered)
+        : scene_(scene), g_(g), look_(look), layered_(layered) {
+        const LanesI row = select(layered, g.material.integer(layers_word), LanesI(0));
+        g_.material = {scene.layers, row, layers_words};
+    }
+
+    OBSCURA_INLINE Lanes number(int word) const { return g_.material.number(word); }
+    OBSCURA_INLINE LanesI integer(int word) const { return g_.material.integer(word); }
+    OBSCURA_INLINE Vec3<Lanes> color(int word) const { return read3(g_.material, word); }
+
+    /// Lanes whose slot has a texture, and coordinates for it.
+    OBSCURA_INLINE FoundSlot find(int slot) const {
+        FoundSlot found = find_slot(scene_, g_, slot, look_, {});
+        found.used = found.used & layered_;
+        return found;
+    }
+    OBSCURA_INLINE Rgba<Lanes> read(const FoundSlot& found) const {
+        return read_slot(scene_, g_, found, look_);
+    }
+    /// A slot's texel, 1 where there is none.
+    OBSCURA_INLINE Rgba<Lanes> texel(int slot) const {
+        const Rgba<Lanes> white{splat3(Lanes(1.0f)), Lanes(1.0f)};
+        const FoundSlot found = find(slot);
+        if (none(found.used)) return white;
+        const Rgba<Lanes> value = read(found);
+        return {select(found.used, value.rgb, white.rgb),
+                select(found.used, value.alpha, white.alpha)};
+    }
+
+private:
+    const SceneView& scene_;
+    HitGeometry g_;
+    const LookUp& look_;
+    Mask layered_;
+};
+
+/// Reflectance at the dielectric's boundary, and how the surface lets light through.
+OBSCURA_INLINE void read_dielectric(const LayerReader& layers, LayeredParams<Lanes>& p) {
+    const Lanes specular = layers.number(OBSCURA_LAYER_WORD(specular)) *
+                           layers.texel(OBSCURA_LAYER_WORD(specular_texture)).alpha;
+    const Vec3<Lanes> color = layers.color(OBSCURA_LAYER_WORD(specular_color)) *
+                              layers.texel(OBSCURA_LAYER_WORD(specular_color_texture)).rgb;
+    const Vec3<Lanes> f0 = color * normal_reflectance(p.eta);
+    const Lanes one(1.0f);
+    p.f0 = Vec3<Lanes>{min(f0.x, one), min(f0.y, one), min(f0.z, one)} * specular;
+    p.f90 = specular;
+    p.transmission = layers.number(OBSCURA_LAYER_WORD(transmission)) *
+                     layers.texel(OBSCURA_LAYER_WORD(transmission_texture)).rgb.x;
+    p.diffuse_transmission = layers.number(OBSCURA_LAYER_WORD(diffuse_transmission)) *
+                             layers.texel(OBSCURA_LAYER_WORD(diffuse_transmission_texture)).alpha;
+    p.diffuse_transmission_color =
+        layers.color(OBSCURA_LAYER_WORD(diffuse_transmission_color)) *
+        layers.texel(OBSCURA_LAYER_WORD(diffuse_transmission_color_texture)).rgb;
+}
+
+OBSCURA_INLINE void read_sheen(const LayerReader& layers, LayeredParams<Lanes>& p) {
+    p.sheen_color = layers.color(OBSCURA_LAYER_WORD(sheen_color)) *
+                    layers.texel(OBSCURA_LAYER_WORD(sheen_color_texture)).rgb;
+    const Lanes roughness = layers.number(OBSCURA_LAYER_WORD(sheen_roughness)) *
+                            layers.texel(OBSCURA_LAYER_WORD(sheen_roughness_texture)).alpha;
+    p.sheen_alpha = max(roughness * roughness, Lanes(min_sheen_alpha));
+}
+
+OBSCURA_INLINE void read_coat(const LayerReader& layers,
+                              const LayerPlace& at,
+                              LayeredParams<Lanes>& p) {
+    p.coat = layers.number(OBSCURA_LAYER_WORD(clearcoat)) *
+             layers.texel(OBSCURA_LAYER_WORD(clearcoat_texture)).rgb.x;
+    p.coat_alpha = Lanes(1.0f);
+    p.coat_normal = {Lanes(0.0f), Lanes(0.0f), Lanes(1.0f)};
+    if (none(p.coat > Lanes(0.0f))) return;
+    const Lanes roughness = layers.number(OBSCURA_LAYER_WORD(clearcoat_roughness)) *
+                            layers.texel(OBSCURA_LAYER_WORD(clearcoat_roughness_texture)).rgb.y;
+    p.coat_alpha = max(roughness * roughness, Lanes(min_ggx_alpha));
+    Vec3<Lanes> normal = at.smooth_normal;
+    const FoundSlot slot = layers.find(OBSCURA_LAYER_WORD(clearcoat_normal_texture));
+    if (any(slot.used)) {
+        const Lanes scale = layers.number(OBSCURA_LAYER_WORD(clearcoat_normal_scale));
+        normal = tilt_normal(at.tangents, slot.used, normal, layers.read(slot).rgb, scale);
+        normal = select(dot(normal, at.ng) < Lanes(0.0f), -normal, normal);
+    }
+    p.coat_normal = to_local(at.frame, bend_towards_viewer(normal, at.ng, at.wo));
+}
+
+OBSCURA_INLINE void read_film(const LayerReader& layers, LayeredParams<Lanes>& p) {
+    p.film = {layers.number(OBSCURA_LAYER_WORD(iridescence)) *
+                  layers.texel(OBSCURA_LAYER_WORD(iridescence_texture)).rgb.x,
+              layers.number(OBSCURA_LAYER_WORD(iridescence_ior)),
+              Lanes(0.0f)};
+    const Lanes least = layers.number(OBSCURA_LAYER_WORD(film_thickness_nm));
+    const Lanes most = layers.number(OBSCURA_LAYER_WORD(film_thickness_nm) + 1);
+    const Lanes share = layers.texel(OBSCURA_LAYER_WORD(film_thickness_texture)).rgb.y;
+    p.film.thickness_nm = lerp(least, most, share);
+}
+
+/// Stretches the highlight and turns the frame along it. Without tangents the highlight is round.
+OBSCURA_INLINE void read_anisotropy(const LayerReader& layers,
+                                    LayerPlace& at,
+                                    LayeredParams<Lanes>& p) {
+    const Mask stretched = at.tangents.known;
+    Lanes strength = layers.number(OBSCURA_LAYER_WORD(anisotropy));
+    if (none(stretched & (strength > Lanes(0.0f)))) return;
+    Vec2<Lanes> along{Lanes(1.0f), Lanes(0.0f)};
+    const FoundSlot slot = layers.find(OBSCURA_LAYER_WORD(anisotropy_texture));
+    if (any(slot.used)) {
+        const Vec3<Lanes> texel = layers.read(slot).rgb;
+        along.x = select(slot.used, texel.x * Lanes(2.0f) - Lanes(1.0f), along.x);
+        along.y = select(slot.used, texel.y * Lanes(2.0f) - Lanes(1.0f), along.y);
+        strength = select(slot.used, strength * texel.z, strength);
+    }
+    const Lanes c = layers.number(OBSCURA_LAYER_WORD(anisotropy_cosine));
+    const Lanes s = layers.number(OBSCURA_LAYER_WORD(anisotropy_sine));
+    const Vec3<Lanes> direction = at.tangents.tangent * (along.x * c - along.y * s) +
+                                  at.tangents.bitangent * (along.x * s + along.y * c);
+    const Vec3<Lanes>& n = at.frame.normal;
+    const Vec3<Lanes> flat = direction - n * dot(direction, n);
+    const Mask turned = stretched & (dot(flat, flat) > Lanes(1e-12f));
+    const Vec3<Lanes> tangent = normalize(select(turned, flat, at.frame.tangent));
+    at.frame.tangent = select(turned, tangent, at.frame.tangent);
+    at.frame.bitangent = select(turned, cross(n, tangent), at.frame.bitangent);
+    p.alpha.x = select(turned, lerp(p.alpha.x, Lanes(1.0f), strength * strength), p.alpha.x);
+}
+
+/// A path's one wavelength, as numbers that the path is multiplied with.
+struct Wavelength {
+    Lanes nm;
+    Vec3<Lanes> color;  ///< of mean 1 over all paths
+};
+
+/// Wavelengths lie evenly between 430 and 650 nm; each goes to one or two neighbouring channels,
+/// whose peaks are the dominant wavelengths of Rec.709's primaries.
+OBSCURA_INLINE Wavelength wavelength_of(LanesU path_key) {
+    const Lanes share = unit_float<Lanes>(hash_word(LanesU(path_key ^ LanesU(0x5BD1E995U))));
+    const Lanes nm = Lanes(430.0f) + share * Lanes(220.0f);
+    const Lanes green_over_blue =
+        clamp((nm - Lanes(464.0f)) * Lanes(1.0f / 85.0f), Lanes(0.0f), Lanes(1.0f));
+    const Lanes red_over_green =
+        clamp((nm - Lanes(549.0f)) * Lanes(1.0f / 62.0f), Lanes(0.0f), Lanes(1.0f));
+    return {nm,
+            {red_over_green * Lanes(220.0f / 70.0f),
+             (green_over_blue - red_over_green) * Lanes(220.0f / 73.5f),
+             (Lanes(1.0f) - green_over_blue) * Lanes(220.0f / 76.5f)}};
+}
+
+/// How much denser a dispersive medium is for a wavelength than for the Fraunhofer d line.
+/// Source  KHR_materials_dispersion: Cauchy's formula through the Abbe number 20 / dispersion
+OBSCURA_INLINE Lanes relative_ior(Lanes ior, Lanes dispersion, Lanes nm) {
+    const Lanes bend = (ior - Lanes(1.0f)) * dispersion * Lanes(1.0f / 20.0f);
+    const Lanes n = ior + bend * (Lanes(523655.0f) / (nm * nm) - Lanes(1.5168f));
+    return max(n, Lanes(1.0f)) / ior;
+}
+
+/// Bends the boundary for the path's wavelength where the body disperses light.
+OBSCURA_INLINE void disperse(const LayerReader& layers,
+                             LanesU path_key,
+                             Mask entering,
+                             LayeredPoint& out) {
+    const Lanes dispersion = layers.number(OBSCURA_LAYER_WORD(dispersion));
+    const Mask disperses = out.layered & out.params.solid & (dispersion > Lanes(0.0f));
+    if (none(disperses)) return;
+    const Wavelength wavelength = wavelength_of(path_key);
+    const Lanes denser =
+        relative_ior(layers.number(OBSCURA_LAYER_WORD(ior)), dispersion, wavelength.nm);
+    const Lanes eta = out.boundary.eta * select(entering, denser, Lanes(1.0f) / denser);
+    out.boundary.eta = select(disperses, eta, out.boundary.eta);
+    const Mask first = disperses & ((out.boundary.beyond & LanesU(one_wavelength)) == LanesU(0U));
+    out.tint = select(first, wavelength.color, out.tint);
+    out.boundary.beyond =
+        select(disperses, out.boundary.beyond | LanesU(one_wavelength), out.boundary.beyond);
+}
+
+LayeredPoint read_point(const LayerReader& layers,
+                        const SceneView& scene,
+                        const PathLanes& path,
+                        const BsdfParams<Lanes>& base,
+                        LayerPlace& place) {
+    LayeredPoint out;
+    out.layered = place.layered;
+    const LanesI medium = layers.integer(OBSCURA_LAYER_WORD(medium));
+    const LanesI body = select(out.layered, medium, LanesI(0));
+    out.boundary = boundary_at(scene, path.bodies, body, place.front);
+    LayeredParams<Lanes>& p = out.params;
+    p.solid = body > LanesI(0);
+    out.tint = splat3(Lanes(1.0f));
+    disperse(layers, path.path_key, place.front, out);
+    p.base_color = base.base_color;
+    p.metallic = base.metallic;
+    p.alpha = {base.alpha, base.alpha};
+    p.eta = select(p.solid, out.boundary.eta, layers.number(OBSCURA_LAYER_WORD(ior)));
+    read_dielectric(layers, p);
+    read_sheen(layers, p);
+    read_anisotropy(layers, place, p);
+    read_coat(layers, place, p);
+    read_film(layers, p);
+    // Seen from inside, a body has no coat.
+    const Mask inside = p.solid & (!place.front);
+    p.coat = select(inside, Lanes(0.0f), p.coat);
+    p.sheen_color = select(inside, splat3(Lanes(0.0f)), p.sheen_color);
+    p.film.strength = select(inside, Lanes(0.0f), p.film.strength);
+    // The less a boundary bends, the blurrier a facet may be without a difference: see boundary_at.
+    const Lanes blurred = Lanes(5e-5f) / max(abs(p.eta - Lanes(1.0f)), Lanes(1e-3f));
+    p.alpha.x = select(p.solid, max(p.alpha.x, blurred), p.alpha.x);
+    p.alpha.y = select(p.solid, max(p.alpha.y, blurred), p.alpha.y);
+    out.weights = layered_weights(p, to_local(place.frame, place.wo));
+    out.lets_through =
+        out.layered & ((p.transmission > Lanes(0.0f)) | (p.diffuse_transmission > Lanes(0.0f)));
+    return out;
+}
+
+}  // namespace
+
+LayeredPoint read_layered_point(const LayerHit& hit,
+                                const BsdfParams<Lanes>& base,
+                                LayerPlace& place) {
+    const LayerReader reader(hit.scene, hit.geometry, hit.look, place.layered);
+    return read_point(reader, hit.scene, hit.path, base, place);
+}
+
+BsdfValue<Lanes> evaluate_layers(const LayeredPoint& point,
+                                 const Vec3<Lanes>& wo,
+                                 const Vec3<Lanes>& wi) {
+    return evaluate_layered(point.params, point.weights, wo, wi);
+}
+
+BsdfSample<Lanes> sample_layers(const LayeredPoint& point,
+                                const Vec3<Lanes>& wo,
+                                const Vec2<Lanes>& u) {
+    return sample_layered(point.params, point.weights, wo, u);
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura
