@@ -3,6 +3,7 @@
 #include "gltf/meshopt.h"
 
 #include "base/parallel.h"
+#include "gltf/meshopt_attributes.h"
 
 #include <algorithm>
 #include <bit>
@@ -38,11 +39,18 @@ tl::unexpected<Error> bad_data(const Document& document, size_t view, std::strin
     return fail(ExitCode::bad_data, "E-MESHOPT-DATA", where_of(document, view), std::move(message));
 }
 
+/// How data of the attribute codec's version 1 begin.
+constexpr std::byte attributes_v1{0xa1};
+
 /// The library's codes for the three modes; 0 is success.
 int decode_elements(const GltfMeshopt& meshopt, std::span<const std::byte> from, Bytes& out) {
     const auto* data = reinterpret_cast<const unsigned char*>(from.data());
     switch (meshopt.mode) {
         case MeshoptMode::attributes:
+            if (from.front() == attributes_v1) {
+                return decode_attributes_v1(from, {meshopt.count, meshopt.byte_stride}, out) ? 0
+                                                                                             : -1;
+            }
             return meshopt_decodeVertexBuffer(
                 out.data(), meshopt.count, meshopt.byte_stride, data, from.size());
         case MeshoptMode::triangles:
@@ -101,7 +109,7 @@ bool version_is_known(const GltfMeshopt& meshopt, std::byte first) {
     const unsigned header = std::to_integer<unsigned>(first);
     switch (meshopt.mode) {
         case MeshoptMode::attributes:
-            return header == 0xa0;
+            return header == 0xa0 || first == attributes_v1;
         case MeshoptMode::triangles:
             return header == 0xe0 || header == 0xe1;
         case MeshoptMode::indices:
@@ -123,7 +131,7 @@ Result<Bytes> decode_view(const Document& document, const BufferStore& store, si
                         where_of(document, view),
                         "the data begin with the byte " +
                             std::to_string(std::to_integer<unsigned>(from->front())) +
-                            ", which is not their codec's; accepted is 160 (version 0) for "
+                            ", which is not their codec's; accepted is 160 or 161 for "
                             "attributes, 224 or 225 for triangles, 208 or 209 for indices");
         }
         return bad_data(document,

@@ -1,5 +1,5 @@
-// gltf/variants.cpp - KHR_materials_variants: primitives with a material for each look of a
-// product. SPDX-License-Identifier: Apache-2.0
+// gltf/variants.cpp - KHR_materials_variants: a primitive's material for each look of a product.
+// SPDX-License-Identifier: Apache-2.0
 #include "gltf/variants.h"
 
 #include <algorithm>
