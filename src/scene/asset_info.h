@@ -46,13 +46,13 @@ struct AssetInfo {
     std::string version;
     std::string generator;
     std::string copyright;
-    std::vector<std::string> scenes;  ///< names; unnamed ones are "scene 0"
-    int scene = 0;                    ///< the one that was loaded
+    std::vector<std::string> scenes;    ///< names; unnamed ones are "scene 0"
+    int scene = 0;                      ///< the one that was loaded
     std::vector<std::string> variants;  ///< names from KHR_materials_variants
     std::string variant;                ///< the chosen one; empty: none
     std::string xmp;                    ///< the asset's XMP packet as JSON text; may be empty
-    std::vector<NamedCount> meshes;   ///< as in the file, triangles counted once
-    std::vector<NamedCount> shapes;   ///< by type, every placing counted
+    std::vector<NamedCount> meshes;     ///< as in the file, triangles counted once
+    std::vector<NamedCount> shapes;     ///< by type, every placing counted
     std::vector<NamedCount> animations;
     std::vector<std::string> node_names;   ///< by glTF node index
     std::vector<std::string> light_names;  ///< beside Scene::lights

@@ -83,7 +83,8 @@ private:
         for (float* throughput : {p.tr, p.tg, p.tb})
             throughput[i] = static_cast<float>(i + 1);
         p.slot[i] = exists ? static_cast<uint32_t>(count - 1 - i) : 0xFFFFFFFFU;
-        p.key[i] = p.sample[i] = p.path_key[i] = p.bodies[i] = static_cast<uint32_t>(i) * 0x9E3779B9U;
+        p.key[i] = p.sample[i] = p.path_key[i] = p.bodies[i] =
+            static_cast<uint32_t>(i) * 0x9E3779B9U;
         const HitRows& h = work_.hits;
         h.t[i] = hit ? 3.0f : std::nanf("");
         h.u[i] = h.v[i] = hit ? 0.25f : std::nanf("");
