@@ -37,7 +37,8 @@ std::vector<uint64_t> bounds_of(const std::vector<double>& parts, uint64_t step)
         sum += part;
         possible += part > 0 ? 1U : 0U;
     }
-    const auto shared = static_cast<double>(all_randoms / step - possible);
+    const uint64_t steps = all_randoms / step;
+    const auto shared = static_cast<double>(steps - possible);
     std::vector<uint64_t> bounds{0};
     double below = 0;
     uint64_t given = 0;
