@@ -68,15 +68,18 @@ int decode_elements(const GltfMeshopt& meshopt, std::span<const std::byte> from,
 template <typename T>
 void decode_colors(Bytes& bytes) {
     constexpr int largest = std::numeric_limits<T>::max();
-    using Signed = std::make_signed_t<T>;
+    const auto signed_value = [](T bits) {  // two's complement
+        const int value = bits;
+        return value > largest / 2 ? value - largest - 1 : value;
+    };
     for (size_t at = 0; at + 4 * sizeof(T) <= bytes.size(); at += 4 * sizeof(T)) {
         std::array<T, 4> in;
         std::memcpy(in.data(), bytes.data() + at, sizeof(in));
         const int ones = static_cast<int>(std::bit_ceil(in[3] + 1U)) - 1;
         const float scale = static_cast<float>(largest) / static_cast<float>(std::max(ones, 1));
         const int y = in[0];
-        const int co = static_cast<Signed>(in[1]);
-        const int cg = static_cast<Signed>(in[2]);
+        const int co = signed_value(in[1]);
+        const int cg = signed_value(in[2]);
         const int alpha = in[3] & (ones >> 1);
         const std::array<int, 4> rgba = {
             y + co - cg, y + cg, y - co - cg, alpha << 1 | (alpha & 1)};

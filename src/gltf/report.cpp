@@ -154,7 +154,9 @@ constexpr std::array feature_rows = {
 std::string place_name(const json& part, const char* kind, size_t index) {
     std::string out = std::string(kind) + " " + std::to_string(index);
     const json* name = member(part, "name");
-    if (name != nullptr && name->is_string() && *name != "") out += " " + name->get<std::string>();
+    if (name == nullptr || !name->is_string()) return out;
+    const std::string& text = name->get_ref<const std::string&>();
+    if (!text.empty()) out += " " + text;
     return out;
 }
 
