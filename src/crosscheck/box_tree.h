@@ -53,8 +53,8 @@ public:
             const Node& node = nodes_[static_cast<size_t>(stack[--size])];
             if (!boxed.meets(node.box, limit)) continue;
             if (node.count > 0) {
-                for (int32_t i = 0; i < node.count; ++i)
-                    visit(order_[static_cast<size_t>(node.first + i)]);
+                for (int32_t i = node.first; i < node.first + node.count; ++i)
+                    visit(order_[static_cast<size_t>(i)]);
                 continue;
             }
             const double d[3] = {ray.direction.x, ray.direction.y, ray.direction.z};

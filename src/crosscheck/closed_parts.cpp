@@ -164,9 +164,9 @@ void add_parts(const Scene& scene, Mesh range, const Instance* instance, ClosedP
     const WeldedMesh mesh = weld(scene, range.first_primitive, range.primitive_count);
     for (const std::vector<Corners>& triangles : closed_clusters(mesh))
         out.parts.push_back(part_of(mesh, triangles, instance));
-    for (int32_t i = 0; i < range.primitive_count; ++i) {
-        const Primitive& primitive =
-            scene.primitives[static_cast<size_t>(range.first_primitive + i)];
+    for (int32_t i = range.first_primitive; i < range.first_primitive + range.primitive_count;
+         ++i) {
+        const Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
         if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) continue;
         const ShapeRow& row = scene.shapes[static_cast<size_t>(primitive.first_triangle)];
         if (!is_solid(row)) continue;

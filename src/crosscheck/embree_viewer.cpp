@@ -64,9 +64,9 @@ std::vector<Color> read_centres(const fs::path& file, std::array<int, 2> size_px
     for (int y = 0; y < size_px[1]; ++y) {
         for (int x = 0; x < size_px[0]; ++x) {
             // A pixel's ray goes through its corner: that of (2x + 1, 2y + 1) is our centre.
-            const auto row = static_cast<size_t>(2 * y + 1);
+            const auto row = 2 * static_cast<size_t>(y) + 1;
             const size_t at =
-                3 * (row * static_cast<size_t>(width) + static_cast<size_t>(2 * x + 1));
+                3 * (row * static_cast<size_t>(width) + 2 * static_cast<size_t>(x) + 1);
             const auto channel = [&](size_t c) {
                 return static_cast<int>(static_cast<unsigned char>(bytes[at + c]));
             };

@@ -99,7 +99,8 @@ std::vector<KernelGroup> plan_kernels(const Scene& scene) {
     return groups;
 }
 
-Kernel make_kernel(std::shared_ptr<const ReferenceKernels> kernels, const PlannedKernel& planned) {
+Kernel make_kernel(const std::shared_ptr<const ReferenceKernels>& kernels,
+                   const PlannedKernel& planned) {
     const int width = planned.width;
     if (planned.occlusion) {
         return occlusion_kernel(planned.name,
@@ -113,7 +114,7 @@ Kernel make_kernel(std::shared_ptr<const ReferenceKernels> kernels, const Planne
                       });
 }
 
-std::vector<Kernel> production_kernels(std::shared_ptr<const Accel> accel) {
+std::vector<Kernel> production_kernels(const std::shared_ptr<const Accel>& accel) {
     return {hit_kernel("obscura",
                        [accel](const RayColumns& rays, const HitColumns& hits) {
                            accel->intersect(rays, hits, Coherence::incoherent, {});

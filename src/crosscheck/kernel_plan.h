@@ -35,10 +35,11 @@ struct ShapeCounts {
 };
 ShapeCounts count_shapes(const Scene& scene);
 
-Kernel make_kernel(std::shared_ptr<const ReferenceKernels> kernels, const PlannedKernel& planned);
+Kernel make_kernel(const std::shared_ptr<const ReferenceKernels>& kernels,
+                   const PlannedKernel& planned);
 
 /// The renderer's own queries.
-std::vector<Kernel> production_kernels(std::shared_ptr<const Accel> accel);
+std::vector<Kernel> production_kernels(const std::shared_ptr<const Accel>& accel);
 
 /// A copy without cut-outs and with two sides everywhere: what the truth looks at.
 Scene opaque_copy(const Scene& scene);
