@@ -29,10 +29,9 @@ std::vector<Emitter> list_emitters(const Scene& scene) {
         add(scene.primitives[static_cast<size_t>(i)], 0);
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        for (int32_t i = 0; i < mesh.primitive_count; ++i) {
-            add(scene.primitives[static_cast<size_t>(mesh.first_primitive + i)],
-                instance.light_base);
-        }
+        const int32_t end = mesh.first_primitive + mesh.primitive_count;
+        for (int32_t i = mesh.first_primitive; i < end; ++i)
+            add(scene.primitives[static_cast<size_t>(i)], instance.light_base);
     }
     return list;
 }
