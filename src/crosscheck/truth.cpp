@@ -98,13 +98,14 @@ bool TrueScene::is_triangle(const Item& item) const {
 bool TrueScene::is_endless(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) return false;
-    return is_unbounded(scene_.shapes[static_cast<size_t>(primitive.first_triangle) +
-                                      static_cast<size_t>(item.row)]);
+    const int32_t row = primitive.first_triangle + item.row;
+    return is_unbounded(scene_.shapes[static_cast<size_t>(row)]);
 }
 
 ShapeRow TrueScene::shape(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
-    const auto row = static_cast<size_t>(primitive.first_triangle) + static_cast<size_t>(item.row);
+    const int32_t number = primitive.first_triangle + item.row;
+    const auto row = static_cast<size_t>(number);
     if (primitive.geometry == static_cast<int32_t>(GeometryKind::shapes)) {
         return scene_.shapes[row];
     }
@@ -118,8 +119,7 @@ ShapeRow TrueScene::shape(const Item& item) const {
 
 Triangle<double> TrueScene::own_triangle(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
-    const size_t first =
-        3 * static_cast<size_t>(primitive.first_triangle) + static_cast<size_t>(item.row);
+    const size_t first = 3 * static_cast<size_t>(primitive.first_triangle + item.row);
     return {corner(scene_, first), corner(scene_, first + 1), corner(scene_, first + 2)};
 }
 
@@ -211,7 +211,7 @@ std::vector<double> TrueScene::meetings(const TrueRay& ray, const Item& item) co
 }
 
 const TrueScene::Object& TrueScene::object_of(const Item& item) const {
-    const int32_t number = item.instance + 1;  // the world's own primitives come first
+    const int32_t number = item.instance + 1;
     return objects_[static_cast<size_t>(number)];
 }
 
