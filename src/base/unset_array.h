@@ -1,16 +1,40 @@
-// base/unset_array.h - a vector that does not clear its memory.
+// base/unset_array.h - a vector for large arrays: it does not clear its memory, and asks for large
+// pages.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <utility>
 #include <vector>
 
 namespace obscura {
 
+/// Memory that is aligned to a large page and, where the system has them, consists of such: 2 MiB
+/// are then brought in by one page fault in place of 512. Errors: throws std::bad_alloc
+void* allocate_large_pages(size_t bytes);
+void free_large_pages(void* memory);
+
 /// std::allocator, but what is made without a value is left as it is.
 template <typename T>
 struct UnsetAllocator : std::allocator<T> {
+    static constexpr size_t smallest_large = 4U << 20U;  // two large pages; less would waste one
+
+    T* allocate(size_t count) {
+        const bool large = count >= smallest_large / sizeof(T);
+        if (!large || count > PTRDIFF_MAX / sizeof(T)) return std::allocator<T>::allocate(count);
+        return static_cast<T*>(allocate_large_pages(count * sizeof(T)));
+    }
+
+    void deallocate(T* memory, size_t count) {
+        const bool large = count >= smallest_large / sizeof(T);
+        if (large) {
+            free_large_pages(memory);
+        } else {
+            std::allocator<T>::deallocate(memory, count);
+        }
+    }
+
     template <typename U, typename... Arguments>
     void construct(U* at, Arguments&&... arguments) {
         if constexpr (sizeof...(Arguments) == 0) {
