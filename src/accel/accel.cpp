@@ -108,7 +108,7 @@ RTCScene new_scene(const Accel::Impl& impl) {
 RTCGeometry make_geometry(Accel::Impl& impl, int32_t row) {
     if (is_mesh(impl.scene->primitives[static_cast<size_t>(row)])) {
         if (impl.kernels.counts_tests) return make_counted_triangles(impl, row);
-        return impl.kernels.user_triangles ? make_user_triangles(impl, row)
+        return impl.kernels.user_triangles ? make_checked_triangles(impl, row)
                                            : make_triangles(impl, row);
     }
     if (!fill_shape_geometry(impl, row)) return nullptr;
@@ -205,7 +205,6 @@ Result<std::unique_ptr<Accel::Impl>> build_impl(const Scene& scene, const Kernel
         (*impl)->alpha.resize(scene.primitives.size());
         (*impl)->materials_with_holes = find_materials_with_holes(scene);
     }
-    if (kernels.counts_tests) (*impl)->counted.resize(scene.primitives.size());
     (*impl)->fill_primitive_tables();
     const Result<void> built = build_scenes(**impl);
     if (!built) return fail(built.error());

@@ -21,16 +21,10 @@ struct EmbreeErrors {
     std::string text;
 };
 
-/// The user pointer of triangles that count how often they are tested.
-struct CountedTriangles {
-    const Accel::Impl* impl = nullptr;
-    int32_t primitive = 0;
-};
-
 /// The triangles of one primitive as user geometry; its user pointer.
 struct UserTriangles {
-    const Scene* scene = nullptr;
-    int32_t first_triangle = 0;
+    const Accel::Impl* impl = nullptr;
+    int32_t primitive = 0;
 };
 
 struct Accel::Impl {
@@ -56,7 +50,6 @@ struct Accel::Impl {
     std::vector<UserTriangles> user_triangles;  ///< by primitive; empty: Embree's own triangles
     const ShapeCallbacks* shape_callbacks = nullptr;
     std::vector<EndlessPlane> endless_planes;
-    std::vector<CountedTriangles> counted;          ///< by primitive, where kernels.counts_tests
     std::vector<uint8_t> single_sided;              ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };

@@ -13,6 +13,6 @@ bool are_spheres(const Accel::Impl& impl, int32_t primitive);
 RTCGeometry make_sphere_points(Accel::Impl& impl, int32_t primitive);
 
 /// The triangles of a primitive as user geometry that runs intersect_triangle in float.
-RTCGeometry make_user_triangles(Accel::Impl& impl, int32_t primitive);
+RTCGeometry make_checked_triangles(Accel::Impl& impl, int32_t primitive);
 
 }  // namespace obscura

@@ -1,0 +1,77 @@
+// accel/user_triangles.cpp - a primitive's triangles as user geometry, for callbacks of our own.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/user_triangles.h"
+
+namespace obscura {
+
+namespace {
+
+void triangle_bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& triangles = *static_cast<const UserTriangles*>(args->geometryUserPtr);
+    const Triangle<float> t = read_corners(triangles, args->primID);
+    const Vec3f high = max3(t.a, max3(t.b, t.c));
+    const Vec3f low = -max3(-t.a, max3(-t.b, -t.c));
+    *args->bounds_o = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
+}
+
+}  // namespace
+
+RTCGeometry make_user_triangles(Accel::Impl& impl,
+                                int32_t primitive,
+                                const TriangleCallbacks& callbacks) {
+    const auto row = static_cast<size_t>(primitive);
+    impl.user_triangles.resize(impl.scene->primitives.size());  // once: pointers stay
+    impl.user_triangles[row] = {&impl, primitive};
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(
+        geometry, static_cast<unsigned>(impl.scene->primitives[row].triangle_count));
+    rtcSetGeometryUserData(geometry, &impl.user_triangles[row]);
+    rtcSetGeometryBoundsFunction(geometry, triangle_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, callbacks.intersect);
+    rtcSetGeometryOccludedFunction(geometry, callbacks.occluded);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
+Triangle<float> read_corners(const UserTriangles& triangles, unsigned number) {
+    const Scene& scene = *triangles.impl->scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(triangles.primitive)];
+    const uint32_t* corners =
+        &scene.indices[3 * (static_cast<size_t>(primitive.first_triangle) + number)];
+    const auto at = [&](int k) {
+        const float* p = &scene.positions[3 * static_cast<size_t>(corners[k])];
+        return Vec3f{p[0], p[1], p[2]};
+    };
+    return {at(0), at(1), at(2)};
+}
+
+TriangleHit<float> meet(const Triangle<float>& triangle, RTCRayN* rays, unsigned n, unsigned i) {
+    const ShapeRay<float> ray{
+        {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+        {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)}};
+    TriangleHit<float> hit = intersect_triangle(triangle, ray);
+    hit.hit = hit.hit && hit.t > RTCRayN_tnear(rays, n, i) && hit.t <= RTCRayN_tfar(rays, n, i);
+    return hit;
+}
+
+void write_hit(const RTCIntersectFunctionNArguments* args,
+               const Triangle<float>& triangle,
+               const TriangleHit<float>& hit,
+               unsigned i) {
+    const unsigned n = args->N;
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
+    const Vec3f ng = cross(triangle.b - triangle.a, triangle.c - triangle.a);
+    RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, n), n, i) = hit.t;
+    RTCHitN_Ng_x(hits, n, i) = ng.x;
+    RTCHitN_Ng_y(hits, n, i) = ng.y;
+    RTCHitN_Ng_z(hits, n, i) = ng.z;
+    RTCHitN_u(hits, n, i) = hit.beta;
+    RTCHitN_v(hits, n, i) = hit.gamma;
+    RTCHitN_primID(hits, n, i) = args->primID;
+    RTCHitN_geomID(hits, n, i) = args->geomID;
+    copy_instance_stack(*reinterpret_cast<const QueryContext*>(args->context), hits, n, i);
+}
+
+}  // namespace obscura
