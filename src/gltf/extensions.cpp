@@ -38,6 +38,10 @@ constexpr std::array extension_rows = {
                  true,
                  "",
                  "absorption follows the rays' real way, not the thickness texture"},
+    ExtensionRow{"KHR_materials_volume_scatter",
+                 true,
+                 "",
+                 "light walks at random inside bodies; a thin wall scatters nothing"},
     ExtensionRow{"KHR_mesh_quantization", true, ""},
     ExtensionRow{"KHR_meshopt_compression", true, ""},
     ExtensionRow{"KHR_node_hoverability", true, "", "a still picture has none", Verdict::ignored},
@@ -51,7 +55,6 @@ constexpr std::array extension_rows = {
     ExtensionRow{"OBSCURA_shape", true, ""},
     ExtensionRow{"KHR_animation_pointer", false, "animations are not played"},
     ExtensionRow{"KHR_materials_pbrSpecularGlossiness", false, "the core material is used"},
-    ExtensionRow{"KHR_materials_volume_scatter", false, "light is not scattered inside"},
     ExtensionRow{"KHR_texture_basisu", false, "the PNG, JPEG or WebP fallback is read"},
 };
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/material_extensions.h"
 
+#include "surface/scattering.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -108,12 +110,23 @@ void read_volume(const LayerReader& from, MaterialLayers& out) {
     from.color("attenuationColor", color, default_one);
     for (size_t i = 0; i < 3; ++i) {
         const double sigma = -std::log(std::max(static_cast<double>(color[i]), darkest)) / distance;
-        out.absorption[i] = static_cast<float>(std::min(sigma, 1e20));
+        out.attenuation[i] = static_cast<float>(std::min(sigma, 1e20));
     }
 }
 
 void read_dispersion(const LayerReader& from, MaterialLayers& out) {
     out.dispersion = from.number("dispersion", {0, 0, 1e3});
+}
+
+void read_volume_scatter(const LayerReader& from, MaterialLayers& out) {
+    float color[3] = {0, 0, 0};
+    from.color("multiscatterColor", color, zero_to_one);
+    for (size_t i = 0; i < 3; ++i) {
+        out.scatter_albedo[i] =
+            static_cast<float>(single_scatter_albedo(static_cast<double>(color[i])));
+    }
+    constexpr double most = 0.999;  // beyond, light would never turn
+    out.scatter_anisotropy = from.number("scatterAnisotropy", {0, -most, most});
 }
 
 struct LayerRow {
@@ -132,6 +145,7 @@ constexpr LayerRow layer_rows[] = {
     {"KHR_materials_specular", read_specular},
     {"KHR_materials_transmission", read_transmission},
     {"KHR_materials_volume", read_volume},
+    {"KHR_materials_volume_scatter", read_volume_scatter},
 };
 
 }  // namespace

@@ -157,6 +157,7 @@ OBSCURA_INLINE Lanes min(Lanes a, Lanes b) { return xs::min(a.v, b.v); }
 OBSCURA_INLINE Lanes max(Lanes a, Lanes b) { return xs::max(a.v, b.v); }
 OBSCURA_INLINE Lanes floor(Lanes a) { return xs::floor(a.v); }
 OBSCURA_INLINE Lanes exp(Lanes a) { return xs::exp(a.v); }
+OBSCURA_INLINE Lanes log(Lanes a) { return xs::log(a.v); }
 OBSCURA_INLINE Lanes log2(Lanes a) { return xs::log2(a.v); }
 OBSCURA_INLINE Lanes acos(Lanes a) { return xs::acos(a.v); }
 OBSCURA_INLINE Lanes atan2(Lanes y, Lanes x) { return xs::atan2(y.v, x.v); }
@@ -201,6 +202,8 @@ OBSCURA_INLINE float cos(float a) { return __builtin_cosf(a); }
 OBSCURA_INLINE double cos(double a) { return __builtin_cos(a); }
 OBSCURA_INLINE float exp(float a) { return __builtin_expf(a); }
 OBSCURA_INLINE double exp(double a) { return __builtin_exp(a); }
+OBSCURA_INLINE float log(float a) { return __builtin_logf(a); }
+OBSCURA_INLINE double log(double a) { return __builtin_log(a); }
 OBSCURA_INLINE float log2(float a) { return __builtin_log2f(a); }
 OBSCURA_INLINE double log2(double a) { return __builtin_log2(a); }
 OBSCURA_INLINE float acos(float a) { return __builtin_acosf(a); }

@@ -7,6 +7,8 @@
 #include "render/shape_light_table.h"
 #include "scene/alike_textures.h"
 
+#include <algorithm>
+
 namespace obscura {
 
 namespace {
@@ -90,7 +92,8 @@ SceneView PreparedScene::Impl::view() const {
     }
     out.materials = reinterpret_cast<const float*>(scene.materials.data());
     out.layers = reinterpret_cast<const float*>(scene.layers.data());
-    out.media = scene.media.size() > 1 ? scene.media.front().absorption : nullptr;
+    out.media = scene.media.size() > 1 ? scene.media.front().extinction : nullptr;
+    out.scatters = std::any_of(scene.media.begin(), scene.media.end(), scatters);
     out.material_numbers = scene.material_numbers.data();
     out.textures = {scene.textures.texels.data(),
                     reinterpret_cast<const int32_t*>(scene.textures.rows.data())};

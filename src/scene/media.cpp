@@ -6,6 +6,21 @@
 
 namespace obscura {
 
+namespace {
+
+Medium medium_of(const MaterialLayers& body) {
+    Medium out;
+    for (size_t i = 0; i < 3; ++i) {
+        out.extinction[i] = body.attenuation[i];
+        out.albedo[i] = body.scatter_albedo[i];
+    }
+    out.ior = body.ior > 0.0F ? body.ior : 1.5F;
+    out.anisotropy = body.scatter_anisotropy;
+    return out;
+}
+
+}  // namespace
+
 void number_media(Scene& scene) {
     std::vector<MaterialLayers*> bodies;
     for (MaterialLayers& layers : scene.layers) {
@@ -16,8 +31,7 @@ void number_media(Scene& scene) {
     scene.media.assign(1, Medium{});  // number 0: air
     for (MaterialLayers* body : bodies) {
         if (scene.media.size() <= most_media) {
-            scene.media.push_back({{body->absorption[0], body->absorption[1], body->absorption[2]},
-                                   body->ior > 0.0F ? body->ior : 1.5F});
+            scene.media.push_back(medium_of(*body));
         }
         body->medium = static_cast<int32_t>(scene.media.size()) - 1;
     }

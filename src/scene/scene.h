@@ -87,11 +87,20 @@ struct SceneCamera {
     CameraSettings settings = {};  ///< from OBSCURA_camera
 };
 
-/// What fills a body; read as four words.
+/// What fills a body; read as eight words.
 struct Medium {
-    float absorption[3] = {0, 0, 0};  ///< 1/m, by channel
+    float extinction[3] = {0, 0, 0};  ///< by absorption and scattering together, 1/m, by channel
     float ior = 1;
+    float albedo[3] = {0, 0, 0};  ///< share of the extinction that is scattering
+    float anisotropy = 0;         ///< mean cosine of a scattering, in (-1, 1)
 };
+
+inline constexpr int medium_words = 8;
+static_assert(sizeof(Medium) == medium_words * 4, "no padding");
+
+inline bool scatters(const Medium& medium) {
+    return medium.albedo[0] > 0 || medium.albedo[1] > 0 || medium.albedo[2] > 0;
+}
 
 struct Bounds {
     Vec3f low = {INFINITY, INFINITY, INFINITY};

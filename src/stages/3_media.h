@@ -48,9 +48,18 @@ OBSCURA_INLINE LanesU leave_body(LanesU bodies, LanesI body) {
                        select(is_third, LanesI(0), third));
 }
 
-/// Absorption per metre, and the index of refraction in w.
+/// Extinction per metre, and the index of refraction in w.
 OBSCURA_INLINE Four<Lanes> read_medium(const SceneView& scene, LanesI body) {
-    return gather4<Lanes>(scene.media, LanesI(body * LanesI(4)));
+    return gather4<Lanes>(scene.media, LanesI(body * LanesI(medium_words)));
+}
+
+/// Share of the extinction that is scattering, and the mean cosine of a scattering in w.
+OBSCURA_INLINE Four<Lanes> read_scattering(const SceneView& scene, LanesI body) {
+    return gather4<Lanes>(scene.media, LanesI(body * LanesI(medium_words) + LanesI(4)));
+}
+
+OBSCURA_INLINE Mask scatters(const Four<Lanes>& scattering) {
+    return max(scattering.x, max(scattering.y, scattering.z)) > Lanes(0.0f);
 }
 
 /// What is left of light after a way through what fills the place.

@@ -102,6 +102,19 @@ OBSCURA_INLINE void add_emission(const SceneView& scene,
     if (any(any_light)) add_radiance(rows.samples, any_light, path.slot, path.throughput * light);
 }
 
+/// What a body leaves of the light of a lamp inside it. Lamps without end of the way lie outside:
+/// what is between, the shadow ray finds.
+OBSCURA_INLINE Vec3<Lanes> way_to_light(const SceneView& scene,
+                                        Mask useful,
+                                        LanesU bodies,
+                                        Lanes distance) {
+    const Lanes farthest(1e18f);
+    const Mask inside = useful & (filling_body(bodies) > LanesI(0)) & (distance < farthest);
+    if (none(inside)) return splat3(Lanes(1.0f));
+    const Lanes way = select(inside, distance, Lanes(0.0f));
+    return transmittance(scene, select(inside, bodies, LanesU(0U)), way);
+}
+
 /// Writes the shadow rays of one group; returns the new number of rows.
 OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
                                    const BatchSettings& batch,
@@ -122,8 +135,12 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
     const Lanes weight =
         both ? select(light.pdf > Lanes(0.0f), mis_weight(light.pdf, bsdf.pdf), Lanes(1.0f))
              : Lanes(1.0f);
-    const Vec3<Lanes> radiance =
-        path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
+    Vec3<Lanes> radiance = path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
+    if (scene.media != nullptr) {
+        const LanesU bodies =
+            s.any_layers ? select(before, path.bodies, s.layers.boundary.beyond) : path.bodies;
+        radiance = radiance * way_to_light(scene, useful, bodies, light.distance);
+    }
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
     const Vec3<Lanes> start =
@@ -200,10 +217,13 @@ OBSCURA_INLINE int add_passing_rays(const PathRows& rows,
     return append_paths(rows, at, passes, next);
 }
 
-/// Takes from the paths what the bodies that they came through absorb.
+/// Takes from the paths what the bodies that they came through absorb. Where a body scatters light,
+/// stage 2 has done so.
 OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, PathLanes& path) {
-    const Mask inside = exists & (filling_body(path.bodies) > LanesI(0));
+    const LanesI body = filling_body(path.bodies);
+    Mask inside = exists & (body > LanesI(0));
     if (none(inside)) return;
+    if (scene.scatters) inside = inside & (!scatters(read_scattering(scene, body)));
     const LanesU bodies = select(inside, path.bodies, LanesU(0U));
     path.throughput = path.throughput * transmittance(scene, bodies, distance);
 }

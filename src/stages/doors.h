@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 //   door         bytes/row  written by        read by
-//   PathRows            68  camera, shade     intersect, shade
-//   HitRows             24  intersect         shade
+//   PathRows            68  camera, shade     intersect, scatter, shade
+//   HitRows             24  intersect         scatter, shade
 //   MissRows            32  shade (sort)      shade (miss)
 //   ShadowRows          48  shade             shadow, accumulate
 //   SampleRows          16  camera, shade,    accumulate
@@ -84,6 +84,7 @@ struct SceneView {
     const float* materials = nullptr;           ///< Material as words
     const float* layers = nullptr;              ///< MaterialLayers as words
     const float* media = nullptr;               ///< Medium as words; null: no body has a volume
+    bool scatters = false;                      ///< some medium scatters light
     const int32_t* material_numbers = nullptr;  ///< in glTF, by row; -1: none
     TextureView textures;
     LightView lights;

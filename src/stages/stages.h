@@ -41,6 +41,22 @@ struct ShadeRows {
     SampleRows samples;  ///< in and out
 };
 
+/// Paths on their way through bodies that scatter light.
+struct ScatterRows {
+    PathRows paths;       ///< in and out: all paths of a bounce
+    HitRows hits;         ///< in and out: what they hit
+    PathRows walkers;     ///< those of them inside such bodies, packed
+    HitRows walker_hits;  ///< what these hit
+    uint32_t* row;        ///< of a walker, in `paths`
+};
+
+/// One flight between two scatterings.
+struct Flight {
+    int bounce = 0;
+    int number = 0;  ///< since the last surface
+    bool last = false;
+};
+
 /// One instruction set's stages. To add a stage: declare it here, define it in its own numbered
 /// file, list it in isa_entry.cpp and call it from walk.cpp.
 struct StageTable {
@@ -53,6 +69,10 @@ struct StageTable {
 
     /// Stage 1 for quantities: one ray a pixel, and of its row only what they need.
     void (*centre_camera)(const BatchSettings&, int count, const PathRows&, float* length_m);
+
+    /// Stage 2, inside bodies that scatter light: which paths are, then one flight of each.
+    int (*begin_scatter)(const SceneView&, int count, const ScatterRows&);
+    int (*scatter)(const SceneView&, const Flight&, int count, const ScatterRows&);
 
     /// Stage 3: hits become radiance, shadow rays and next rays; misses see the environment.
     ShadeCounts (*shade)(

@@ -47,20 +47,56 @@ RayColumns rays_of(const ShadowRows& s, int count) {
     return {s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.path_key, count};
 }
 
-/// Stage 2: what the paths' rays hit.
-void intersect(
-    const WalkInput& in, int count, SeeThrough see_through, Workspace& work, WalkCounters& c) {
+/// Stage 2: what rays hit.
+void intersect_rays(const WalkInput& in,
+                    const RayColumns& rays,
+                    const HitRows& hits,
+                    SeeThrough see_through,
+                    WalkCounters& c) {
     const bool camera = see_through.segment == 0;
-    RayColumns rays = rays_of(work.paths[0], count);
-    if (camera && limits_rays(in.batch.camera)) rays.tfar = work.camera_length_m.data();
+    const int count = rays.count;
     (camera ? c.camera_rays : c.bounce_rays) += static_cast<uint64_t>(count);
     {
         const SumOfTime time(camera ? c.seconds.intersect_camera : c.seconds.intersect_bounce);
         const Coherence coherence = camera ? Coherence::coherent : Coherence::incoherent;
         c.refused_rays +=
-            static_cast<uint64_t>(in.accel->intersect(rays, work.hits, coherence, see_through));
+            static_cast<uint64_t>(in.accel->intersect(rays, hits, coherence, see_through));
     }
-    if (in.recorder != nullptr) in.recorder->add_hits(rays, work.hits, see_through);
+    if (in.recorder != nullptr) in.recorder->add_hits(rays, hits, see_through);
+}
+
+/// Stage 2 for the paths of this bounce.
+void intersect(
+    const WalkInput& in, int count, SeeThrough see_through, Workspace& work, WalkCounters& c) {
+    RayColumns rays = rays_of(work.paths[0], count);
+    if (see_through.segment == 0 && limits_rays(in.batch.camera)) {
+        rays.tfar = work.camera_length_m.data();
+    }
+    intersect_rays(in, rays, work.hits, see_through, c);
+}
+
+/// Stage 2 inside bodies that scatter light: their paths fly from scattering to scattering until
+/// they come to a surface. However many flights that takes, it is one bounce.
+void scatter_in_bodies(
+    const WalkInput& in, int count, int bounce, Workspace& work, WalkCounters& c) {
+    constexpr int most_flights = 4096;
+    const ScatterRows rows{
+        work.paths[0], work.hits, work.paths[1], work.walker_hits, work.walker_row.data()};
+    const SeeThrough see_through{false, false, 2U * static_cast<uint32_t>(bounce)};
+    int walkers = 0;
+    {
+        const SumOfTime time(c.seconds.shade);
+        walkers = in.stages->begin_scatter(in.scene, count, rows);
+    }
+    for (int number = 0; walkers > 0; ++number) {
+        {
+            const SumOfTime time(c.seconds.shade);
+            const Flight flight{bounce, number, number + 1 == most_flights};
+            walkers = in.stages->scatter(in.scene, flight, walkers, rows);
+        }
+        if (walkers == 0) return;
+        intersect_rays(in, rays_of(rows.walkers, walkers), rows.walker_hits, see_through, c);
+    }
 }
 
 /// Stage 4, and its light into the samples.
@@ -87,6 +123,7 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
     // One more segment than there are bounces: the last one only collects emitted light.
     for (int bounce = 0; count > 0 && bounce <= in.batch.max_bounces + 1; ++bounce) {
         intersect(in, count, {bounce == 0, false, 2U * static_cast<uint32_t>(bounce)}, work, c);
+        if (in.scene.scatters) scatter_in_bodies(in, count, bounce, work, c);
         ShadeCounts out;
         {
             const SumOfTime time(c.seconds.shade);
@@ -169,8 +206,8 @@ void count_heat(const WalkInput& in, int pixels, Workspace& work, WalkCounters& 
 }  // namespace
 
 Workspace::Workspace() {
-    constexpr size_t words =
-        2 * words_per_path + words_per_hit + words_per_miss + words_per_shadow + words_per_sample;
+    constexpr size_t words = 2 * words_per_path + 2 * words_per_hit + words_per_miss +
+                             words_per_shadow + words_per_sample;
     memory_.resize(words * (padded_rows * 4 + alignment) + alignment);
     void* start = memory_.data();
     size_t space = memory_.size();
@@ -179,11 +216,14 @@ Workspace::Workspace() {
     for (PathRows& p : paths)
         carve_paths(carve, p);
     carve.all(hits.t, hits.u, hits.v, hits.instance, hits.primitive, hits.triangle);
+    carve.all(walker_hits.t, walker_hits.u, walker_hits.v);
+    carve.all(walker_hits.instance, walker_hits.primitive, walker_hits.triangle);
     carve.all(misses.dx, misses.dy, misses.dz, misses.tr, misses.tg, misses.tb);
     carve.all(misses.pdf, misses.slot);
     carve.all(shadows.ox, shadows.oy, shadows.oz, shadows.dx, shadows.dy, shadows.dz);
     carve.all(shadows.tfar, shadows.r, shadows.g, shadows.b, shadows.slot, shadows.path_key);
     carve.all(samples.r, samples.g, samples.b, samples.a);
+    walker_row.resize(padded_rows);
     occluded.resize(padded_rows);
     camera_length_m.resize(padded_rows);
 }

@@ -41,6 +41,8 @@ public:
 
     PathRows paths[2];
     HitRows hits;
+    HitRows walker_hits;  ///< inside bodies that scatter light
+    std::vector<uint32_t> walker_row;
     MissRows misses;
     ShadowRows shadows;
     SampleRows samples;

@@ -32,8 +32,10 @@ struct MaterialLayers {
     float transmission = 0;
     float diffuse_transmission = 0;
     float diffuse_transmission_color[3] = {1, 1, 1};
-    float absorption[3] = {0, 0, 0};  ///< KHR_materials_volume: -ln(colour) / distance, 1/m
-    float dispersion = 0;             ///< 20 / Abbe number
+    float attenuation[3] = {0, 0, 0};     ///< KHR_materials_volume: -ln(colour) / distance, 1/m
+    float scatter_albedo[3] = {0, 0, 0};  ///< of one scattering
+    float scatter_anisotropy = 0;
+    float dispersion = 0;  ///< 20 / Abbe number
     /// 1 to most_media: bodies with a volume, the greater the index of refraction the greater the
     /// number (see scene/media.h); 0: a thin wall.
     int32_t medium = 0;
@@ -55,6 +57,6 @@ struct MaterialLayers {
 inline constexpr int layer_slot_count = 13;
 inline constexpr int most_media = 255;
 
-static_assert(sizeof(MaterialLayers) == (29 + layer_slot_count * 8) * 4, "no padding");
+static_assert(sizeof(MaterialLayers) == (33 + layer_slot_count * 8) * 4, "no padding");
 
 }  // namespace obscura

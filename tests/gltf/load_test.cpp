@@ -126,7 +126,7 @@ TEST(Load, TellsWhatTheFileHolds) {
 TEST(Load, ControlCharactersInNamesAreEscapedInWarnings) {  // B13
     json tree = triangle_asset();
     tree["materials"][0] = {{"name", "red\x1B[31m\n"},
-                            {"extensions", {{"KHR_materials_volume_scatter", json::object()}}}};
+                            {"extensions", {{"VENDOR_materials_glow", json::object()}}}};
     const Loaded loaded = load_tree(tree);
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_TRUE(loaded.warns("red\\x1b[31m\\x0a")) << loaded.warnings;

@@ -56,7 +56,7 @@ TEST(MaterialExtensions, EmptyOnesMeanTheirDefaults) {
     EXPECT_EQ(all.iridescence_ior, 1.3F);
     EXPECT_THAT(all.film_thickness_nm, testing::ElementsAre(100.0F, 400.0F));
     EXPECT_EQ(all.transmission, 0.0F);
-    EXPECT_THAT(all.absorption, testing::Each(0.0F));
+    EXPECT_THAT(all.attenuation, testing::Each(0.0F));
     EXPECT_EQ(all.medium, 0);
 }
 
@@ -70,9 +70,9 @@ TEST(MaterialExtensions, FactorsAreRead) {
     EXPECT_EQ(glass.ior, 1.33F);
     EXPECT_EQ(glass.transmission, 0.75F);
     EXPECT_EQ(glass.dispersion, 0.5F);
-    EXPECT_NEAR(glass.absorption[0], std::log(2.0) / 2, 1e-6);
-    EXPECT_EQ(glass.absorption[1], 0.0F);
-    EXPECT_NEAR(glass.absorption[2], std::log(4.0) / 2, 1e-6);
+    EXPECT_NEAR(glass.attenuation[0], std::log(2.0) / 2, 1e-6);
+    EXPECT_EQ(glass.attenuation[1], 0.0F);
+    EXPECT_NEAR(glass.attenuation[2], std::log(4.0) / 2, 1e-6);
     EXPECT_EQ(glass.medium, 1);
     const MaterialLayers brushed = layers_of(json::parse(R"({
         "KHR_materials_anisotropy": {"anisotropyStrength": 0.5, "anisotropyRotation": 1.5707963},
