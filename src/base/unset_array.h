@@ -1,5 +1,4 @@
-// base/unset_array.h - a vector for large arrays: it does not clear its memory, and asks for large
-// pages.
+// base/unset_array.h - a vector for large arrays: not cleared, and in large pages.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,5 +1,5 @@
-// stages/2_scatter.h - stage 2, inside bodies that scatter light: from surface to surface in
-// flights. SPDX-License-Identifier: Apache-2.0
+// stages/2_scatter.h - stage 2, inside bodies that scatter light: flights between surfaces.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "stages/stages.h"
