@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "render/camera_bodies.h"
 #include "render/filter_table.h"
 #include "render/integrators.h"
 #include "render/prepared_scene.h"
@@ -45,6 +46,8 @@ WalkInput make_walk(const PreparedScene::Impl& scene,
     batch.ao_distance =
         options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m) : 0.2f * diagonal;
     batch.wire_width_px = static_cast<float>(options.wire_width_px);
+    const auto& eye = camera.world_from_camera.m;
+    batch.bodies = bodies_around(*scene.accel, scene.scene, {eye[0][3], eye[1][3], eye[2][3]});
     if (options.integrator == Integrator::direct) batch.max_bounces = 0;
     walk.kind = row_of(options.integrator).walk;
     walk.quantity = row_of(options.integrator).quantity;

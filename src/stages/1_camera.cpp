@@ -90,7 +90,7 @@ void make_rays_of(const BatchSettings& batch,
         store(out.slot + i, as_uint(slot));
         store(out.key + i, key);
         store(out.sample + i, index);
-        store(out.bodies + i, LanesU(0U));
+        store(out.bodies + i, LanesU(batch.bodies));
         store(out.path_key + i, hash_word(key + index * LanesU(0x9E3779B9U)));
         store3(samples.r, samples.g, samples.b, i, splat3(Lanes(0.0f)));
         store(samples.a + i, Lanes(0.0f));

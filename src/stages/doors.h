@@ -107,6 +107,7 @@ struct BatchSettings {
     uint32_t seed_low = 0, seed_high = 0;
     const float* filter = nullptr;  ///< inverse CDF, filter_entries + 1 offsets; null: box
     int max_bounces = 8;
+    uint32_t bodies = 0;  ///< around the camera, see stages/3_media.h
     int strategies = sample_lights | sample_bsdfs;
     bool background_visible = true;      ///< camera rays that miss see the environment
     float background[4] = {0, 0, 0, 0};  ///< added where camera rays miss; premultiplied RGBA

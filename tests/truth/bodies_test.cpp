@@ -77,11 +77,28 @@ TEST(Bodies, LampsInsideShineThroughTheBody) {
     EXPECT_NEAR(lit_wall(0.5f) / lit_wall(0.0f), std::exp(-1.5), 0.005);
 }
 
-TEST(Bodies, ACameraInsideSeesThroughTheWall) {
+/// The camera stands 1000 m from the origin, 500 m behind the wall in the body.
+TEST(Bodies, BetweenACameraInsideAndTheWallLightIsAbsorbed) {
+    for (const float absorption : {0.0f, 1e-3f}) {
+        BodyScene scene;
+        const int32_t row = scene.add(body(1.5f, {absorption, absorption, absorption}));
+        scene.box({-9000, -9000, 500}, {9000, 9000, 20000}, row);
+        const double r = square(0.5 / 2.5);
+        const double way = std::exp(-500 * static_cast<double>(absorption));
+        const double back = std::exp(-19500 * static_cast<double>(absorption));
+        const double reflected = r * back * ((1 - r) / (1 - r * back));
+        EXPECT_NEAR(seen_from_front(scene.take()).x, way * (1 - r + reflected), 0.005);
+    }
+}
+
+/// The denser of two bodies around the camera fills the place.
+TEST(Bodies, ACameraMayBeInsideTwoBodies) {
     BodyScene scene;
-    const int32_t row = scene.add(body(1.5f, {0.0f, 0.0f, 0.0f}));
-    scene.box({-9, -9, -2000}, {9, 9, 2000}, row);
-    EXPECT_NEAR(seen_from_front(scene.take()).x, 1, 0.005);
+    const int32_t thin = scene.add(body(1.01f, {1, 1, 1}));
+    const int32_t dense = scene.add(body(1.02f, {1e-3f, 1e-3f, 1e-3f}));
+    scene.box({-9000, -9000, -1}, {9000, 9000, 20000}, dense);
+    scene.box({-800, -800, 700}, {800, 800, 1300}, thin);
+    EXPECT_NEAR(seen_from_front(scene.take()).x, std::exp(-1.001), 0.01);
 }
 
 TEST(Bodies, DispersionHasNoColourWhereNothingBends) {
