@@ -80,11 +80,16 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_quadric(const Quadric<F>& q,
                                                   const MaskOf<F>& from_above,
                                                   const Vec3<F>& near) {
     SurfacePoint<F> out;
-    const Vec3<F> first = quadric_gradient(q, near);
-    const F steep = max(dot(first, first), F(1e-30f));
-    const Vec3<F> step = first * (quadric_value(q, near) / steep);
+    // Newton's steps, as many as a point needs that was found from a hundred thousand sizes away.
     const F most = max_component(q.half) * F(1e-3f);
-    const Vec3<F> p = select(length(step) < most, near - step, near);
+    const F longest = max_component(q.half) * F(0.1f);
+    Vec3<F> p = near;
+    for (int i = 0; i < 3; ++i) {
+        const Vec3<F> up_hill = quadric_gradient(q, p);
+        const F steep = max(dot(up_hill, up_hill), F(1e-30f));
+        const Vec3<F> step = up_hill * (quadric_value(q, p) / steep);
+        p = select(length(step) < longest, p - step, p);
+    }
     const Vec3<F> gradient = quadric_gradient(q, p);
     const F slope = length(gradient);
     const auto smooth = slope > F(1e-18f);
