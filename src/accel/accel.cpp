@@ -1,6 +1,7 @@
 // accel/accel.cpp - builds Embree scenes from a Scene: world-space primitives and instances.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/moving_geometry.h"
 #include "accel/reference_geometry.h"
 #include "base/stopwatch.h"
 
@@ -25,10 +26,7 @@ bool note_memory(void* user, ssize_t bytes, bool) {
     return true;
 }
 
-RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
-    const Scene& scene = *impl.scene;
-    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
-    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeometry geometry) {
     rtcSetSharedGeometryBuffer(geometry,
                                RTC_BUFFER_TYPE_VERTEX,
                                0,
@@ -45,6 +43,17 @@ RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
                                static_cast<size_t>(primitive.first_triangle) * 3 * sizeof(uint32_t),
                                3 * sizeof(uint32_t),
                                static_cast<size_t>(primitive.triangle_count));
+}
+
+RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (moves(primitive)) {
+        set_moving_triangles(scene, primitive, geometry);
+    } else {
+        set_still_triangles(scene, primitive, geometry);
+    }
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
     if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
@@ -130,8 +139,7 @@ void attach_instance(Accel::Impl& impl, size_t index) {
     const Instance& instance = impl.scene->instances[index];
     RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, impl.mesh_scenes[static_cast<size_t>(instance.mesh)]);
-    rtcSetGeometryTransform(
-        geometry, 0, RTC_FORMAT_FLOAT3X4_ROW_MAJOR, &instance.world_from_object.m[0][0]);
+    set_instance_transforms(*impl.scene, instance, geometry);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
     rtcCommitGeometry(geometry);
     const auto id =

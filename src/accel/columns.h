@@ -15,6 +15,7 @@ struct RayColumns {
     /// half
     const uint32_t* key;
     int count;
+    const float* time = nullptr;  ///< in [0, 1]; null: 0. What moves does so from 0 to 1
 };
 
 /// Hits as columns, padded like the rays: whole blocks are written. primitive -1 is a miss; the

@@ -4,6 +4,7 @@
 #include "accel/endless_planes.h"
 #include "accel/safe_ray.h"
 #include "accel/scene_rows.h"
+#include "scene/motion.h"
 
 #include <algorithm>
 
@@ -59,6 +60,7 @@ void load_whole(const RayColumns& rays, int first, RTCRay16& out) {
     } else {
         std::fill_n(out.tfar, packet, unlimited);
     }
+    if (rays.time != nullptr) std::copy_n(rays.time + first, packet, out.time);
     for (int i = 0; i < packet; ++i)
         out.id[i] = static_cast<unsigned>(first + i);
 }
@@ -79,6 +81,7 @@ bool load_part(const RayColumns& rays, int first, const ValidMask& valid, RTCRay
         out.dir_y[i] = rays.dy[row];
         out.dir_z[i] = rays.dz[row];
         out.tfar[i] = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
+        if (rays.time != nullptr) out.time[i] = rays.time[row];
         out.id[i] = static_cast<unsigned>(first + i);
     }
     return true;
@@ -100,23 +103,35 @@ Loaded load_packet(const RayColumns& rays, int first, ValidMask& valid, RTCRay16
     return {refused, load_part(rays, first, valid, out)};
 }
 
+/// A direction in the world, at a time.
+struct TimedDirection {
+    Vec3f world;
+    float time;
+};
+
+TimedDirection direction_of(const RayColumns& rays, int row) {
+    return {{rays.dx[row], rays.dy[row], rays.dz[row]},
+            rays.time != nullptr ? rays.time[row] : 0.0f};
+}
+
 /// True when the hit is the back of a single-sided surface. Embree's Ng is in object space, and a
 /// mirroring instance turns both the winding and glTF's rule: only the object-space sign matters.
 bool is_hidden_back(const Accel::Impl& impl,
                     const SceneRows& rows,
                     const Vec3f& ng,
-                    const Vec3f& direction_world) {
+                    const TimedDirection& direction) {
     if (impl.single_sided[static_cast<size_t>(rows.primitive)] == 0) return false;
-    if (rows.instance < 0) return dot(ng, direction_world) > 0.0f;
-    const Instance& instance = impl.scene->instances[static_cast<size_t>(rows.instance)];
-    return dot(ng, transform_vector(instance.object_from_world, direction_world)) > 0.0f;
+    if (rows.instance < 0) return dot(ng, direction.world) > 0.0f;
+    const Affinef map = object_from_world_at(
+        *impl.scene, impl.scene->instances[static_cast<size_t>(rows.instance)], direction.time);
+    return dot(ng, transform_vector(map, direction.world)) > 0.0f;
 }
 
 /// A query of one ray that passes hidden backs. The common part must come first.
 struct CullingContext {
     QueryContext common;
     const Accel::Impl* impl;
-    Vec3f direction_world;
+    TimedDirection direction;
 };
 
 /// Embree filter function: hidden backs do not count.
@@ -130,7 +145,7 @@ void pass_hidden_backs(const RTCFilterFunctionNArguments* args) {
         const Vec3f ng{RTCHitN_Ng_x(args->hit, args->N, i),
                        RTCHitN_Ng_y(args->hit, args->N, i),
                        RTCHitN_Ng_z(args->hit, args->N, i)};
-        if (is_hidden_back(*context.impl, rows, ng, context.direction_world)) args->valid[i] = 0;
+        if (is_hidden_back(*context.impl, rows, ng, context.direction)) args->valid[i] = 0;
     }
 }
 
@@ -141,7 +156,7 @@ void look_behind(const Accel::Impl& impl,
                  const RayColumns& rays,
                  const HitColumns& hits,
                  int row) {
-    CullingContext context{common, &impl, {rays.dx[row], rays.dy[row], rays.dz[row]}};
+    CullingContext context{common, &impl, direction_of(rays, row)};
     Query query(context.common, false);
     query.set_filter(pass_hidden_backs);
     RTCRayHit ray;
@@ -198,9 +213,9 @@ void pass_hidden_backs_of_packet(const Accel::Impl& impl,
         const int row = first + i;
         if (hits.primitive[row] < 0) continue;
         const Vec3f ng{hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]};
-        const Vec3f direction{rays.dx[row], rays.dy[row], rays.dz[row]};
         const SceneRows rows{hits.instance[row], hits.primitive[row]};
-        if (is_hidden_back(impl, rows, ng, direction)) look_behind(impl, context, rays, hits, row);
+        if (is_hidden_back(impl, rows, ng, direction_of(rays, row)))
+            look_behind(impl, context, rays, hits, row);
     }
 }
 

@@ -33,7 +33,7 @@ inline void load_ray(const RayColumns& rays, int row, RTCRay& out) {
     out.dir_z = rays.dz[row];
     out.tnear = 0.0f;
     out.tfar = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
-    out.time = 0.0f;
+    out.time = rays.time != nullptr ? rays.time[row] : 0.0f;
     out.mask = 0xFFFFFFFFU;
     out.id = static_cast<unsigned>(row);
     out.flags = 0;

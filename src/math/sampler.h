@@ -19,6 +19,9 @@ inline constexpr uint32_t pairs_per_bounce = static_cast<uint32_t>(RandomUse::co
 /// draw what they always did.
 inline constexpr uint32_t lens_pair = 0x4C454E53U;
 
+/// Likewise of the time while the shutter is open.
+inline constexpr uint32_t shutter_pair = 0x53485554U;
+
 inline namespace OBSCURA_ISA {
 
 /// A bijection of 32-bit words in which every output bit depends on every input bit.

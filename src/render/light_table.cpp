@@ -132,7 +132,8 @@ void collect_world_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
     for (int32_t i = 0; i < scene.world_primitive_count; ++i) {
         Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-        if (!emits(material) || !is_mesh(primitive)) continue;
+        // Light sampling knows one place for a light: those that move shine by rays that meet them.
+        if (!emits(material) || !is_mesh(primitive) || moves(primitive)) continue;
         primitive.light_base = static_cast<int32_t>(rows.size());
         append_rows({scene, primitive, material, nullptr}, rows);
     }
@@ -145,7 +146,7 @@ void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
         const int32_t end = mesh.first_primitive + mesh.primitive_count;
         for (int32_t i = mesh.first_primitive; i < end; ++i) {
             Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
-            const bool glows = is_mesh(primitive) &&
+            const bool glows = is_mesh(primitive) && !moves(primitive) &&
                                emits(scene.materials[static_cast<size_t>(primitive.material)]);
             primitive.light_base = glows ? within : -1;
             within += glows ? primitive.triangle_count : 0;
@@ -153,7 +154,8 @@ void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
     }
     for (Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        instance.light_base = static_cast<int32_t>(rows.size());
+        instance.light_base = moves(instance) ? no_light_base : static_cast<int32_t>(rows.size());
+        if (moves(instance)) continue;
         const int32_t end = mesh.first_primitive + mesh.primitive_count;
         for (int32_t i = mesh.first_primitive; i < end; ++i) {
             const Primitive& primitive = scene.primitives[static_cast<size_t>(i)];

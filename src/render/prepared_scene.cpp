@@ -16,13 +16,14 @@ namespace {
 /// Surfaces that glow less than this on average are no lamps (the studio's radiance is about 0.7).
 constexpr double least_lamp_radiance = 0.05;
 
-/// Emitters with alpha are not in the light table.
-bool has_holed_emitter(const Scene& scene) {
+/// Emitters with alpha, and those that move, are not in the light table.
+bool has_unlisted_emitter(const Scene& scene) {
     return std::any_of(
         scene.primitives.begin(), scene.primitives.end(), [&](const Primitive& primitive) {
             const Material& m = scene.materials[static_cast<size_t>(primitive.material)];
             const bool holed = (m.flags & (material_alpha_mask | material_alpha_blend)) != 0;
-            return holed && std::max({m.emission[0], m.emission[1], m.emission[2]}) > 0;
+            const bool unlisted = holed || moves(primitive) || !scene.motion.instances.empty();
+            return unlisted && std::max({m.emission[0], m.emission[1], m.emission[2]}) > 0;
         });
 }
 
@@ -35,7 +36,7 @@ bool needs_studio(const Scene& scene, const LightTable& lights) {
     };
     const auto& all = scene.primitives;
     if (!all.empty() && std::all_of(all.begin(), all.end(), is_unlit)) return false;
-    return !has_holed_emitter(scene) &&
+    return !has_unlisted_emitter(scene) &&
            brightest_mean_radiance(scene, lights) < least_lamp_radiance &&
            brightest_shape_radiance(scene) < least_lamp_radiance;
 }
@@ -95,6 +96,13 @@ SceneView PreparedScene::Impl::view() const {
     out.media = scene.media.size() > 1 ? scene.media.front().extinction : nullptr;
     out.scatters = std::any_of(scene.media.begin(), scene.media.end(), scatters);
     out.material_numbers = scene.material_numbers.data();
+    const Motion& motion = scene.motion;
+    out.motion.steps = motion.steps;
+    if (!motion.positions.empty()) {
+        out.motion.positions = motion.positions.data();
+        out.motion.normals = motion.normals.data();
+    }
+    if (!motion.instances.empty()) out.motion.instances = &motion.instances.front().m[0][0];
     out.textures = {scene.textures.texels.data(),
                     reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
     out.lights = lights.view();

@@ -21,7 +21,7 @@ struct Emitter {
 std::vector<Emitter> list_emitters(const Scene& scene) {
     std::vector<Emitter> list;
     const auto add = [&](const Primitive& primitive, int32_t base) {
-        if (primitive.light_base < 0 || !is_mesh(primitive)) return;
+        if (primitive.light_base < 0 || base < 0 || !is_mesh(primitive)) return;
         list.push_back({static_cast<size_t>(base + primitive.light_base),
                         static_cast<size_t>(primitive.triangle_count)});
     };

@@ -238,10 +238,22 @@ void hand_over(std::vector<std::unique_ptr<ThreadState>>& states, RayRecording& 
 struct Supplies {
     RaycastLights raycast;
     std::optional<Accel> counting;
+    std::vector<Affinef> camera;  ///< MotionView::camera
 };
+
+/// What the camera has moved by, at each time: a map of the world.
+std::vector<Affinef> camera_motion(const std::vector<Affined>& world_from_camera) {
+    std::vector<Affinef> moved;
+    for (const Affined& placing : world_from_camera) {
+        moved.push_back(affine_cast<float>(compose(placing, inverse(world_from_camera.front()))));
+    }
+    if (moved.size() < 2) moved.clear();
+    return moved;
+}
 
 Result<Supplies> make_supplies(const PreparedScene::Impl& scene, const RenderOptions& options) {
     Supplies out;
+    out.camera = camera_motion(options.moving_camera);
     if (options.integrator == Integrator::raycast) out.raycast = make_raycast_lights(scene);
     if (options.integrator == Integrator::heat) {
         Result<Accel> counting = Accel::build_counting(scene.scene, scene.embree_isa);
@@ -274,6 +286,10 @@ Result<RenderResult> render(const PreparedScene& scene,
     WalkInput walk_input = make_walk(scene.impl(), camera, options);
     walk_input.batch.filter = filter.empty() ? nullptr : filter.data();
     walk_input.scene.raycast = supplies->raycast.view();
+    if (!supplies->camera.empty()) {
+        walk_input.scene.motion.camera = &supplies->camera.front().m[0][0];
+        walk_input.scene.motion.camera_steps = static_cast<int>(supplies->camera.size());
+    }
     walk_input.counting = supplies->counting ? &*supplies->counting : nullptr;
     const bool quantity = is_quantity(options.integrator);
     const int samples = samples_taken(options);

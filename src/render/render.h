@@ -68,6 +68,9 @@ struct RenderOptions {
     PixelFilter filter = PixelFilter::box;
     BackgroundKind background = BackgroundKind::environment;
     float background_color[3] = {0, 0, 0};
+    /// The camera's placing at evenly spaced times while the shutter is open, the first one as in
+    /// Camera; empty: it stands still.
+    std::vector<Affined> moving_camera;
     double ao_distance_m = 0;  ///< 0: a fifth of the scene's diagonal
     double wire_width_px = 1;
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.

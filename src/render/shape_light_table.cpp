@@ -123,12 +123,13 @@ std::vector<ShapeLight> collect_shape_lights(Scene& scene, int32_t first) {
         if (mesh.primitive_count != 1) continue;  // shapes have a mesh of their own
         Primitive& primitive = scene.primitives[static_cast<size_t>(mesh.first_primitive)];
         if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) continue;
-        // Whether a shape can be sampled depends on its placing: -1 + 0 says that it cannot.
+        // Whether a shape can be sampled depends on its placing.
         const auto light =
             light_of(scene, primitive, affine_cast<double>(instance.world_from_object));
         primitive.light_base = 0;
-        instance.light_base = light ? next() : -1;
-        if (light) lights.push_back(*light);
+        const bool known = light && !moves(instance);
+        instance.light_base = known ? next() : no_light_base;
+        if (known) lights.push_back(*light);
     }
     return lights;
 }

@@ -45,9 +45,15 @@ struct Primitive {
     int32_t node = -1;  ///< glTF node, for primitives in world space; -1 when reached by instances
     int32_t light_base = -1;  ///< first row in the light table when it emits; set by render
     int32_t geometry = 0;     ///< GeometryKind
+    int32_t motion_base = no_attribute;  ///< in Motion; no_attribute: the vertices stand still
+    int32_t motion_stride = 0;           ///< floats from one time to the next
 };
 
-static_assert(sizeof(Primitive) == 17 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(Primitive) == 19 * 4, "read as 32-bit words: no padding");
+
+inline bool moves(const Primitive& primitive) {
+    return primitive.motion_base != no_attribute;
+}
 
 inline bool is_mesh(const Primitive& primitive) {
     return primitive.geometry == static_cast<int32_t>(GeometryKind::triangles);
@@ -67,9 +73,17 @@ struct Instance {
     int32_t node = -1;       ///< glTF node
     int32_t mirrored = 0;    ///< 1 when the determinant is negative: front faces are clockwise
     int32_t light_base = 0;  ///< added to Primitive::light_base for this instance; set by render
+    int32_t motion = -1;     ///< first row in Motion::instances; -1: it stands still
 };
 
-static_assert(sizeof(Instance) == 28 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(Instance) == 29 * 4, "read as 32-bit words: no padding");
+
+inline bool moves(const Instance& instance) {
+    return instance.motion >= 0;
+}
+
+/// An Instance::light_base of lights that no number stands for: the sum stays negative.
+inline constexpr int32_t no_light_base = INT32_MIN / 2;
 
 enum class SceneCameraType { perspective, orthographic };
 
@@ -102,6 +116,17 @@ inline bool scatters(const Medium& medium) {
     return medium.albedo[0] > 0 || medium.albedo[1] > 0 || medium.albedo[2] > 0;
 }
 
+/// What moves while the shutter is open, at `steps` times evenly spaced from its opening to its
+/// closing; in between, everything moves in straight lines. Scene's own arrays are the first time.
+struct Motion {
+    int32_t steps = 1;  ///< 1: nothing moves
+    /// 3 floats a vertex of moving primitives: vertex v at time s starts at motion_base + s *
+    /// motion_stride + 3 v. Ends with the padding of pad_tables.
+    std::vector<float> positions;
+    std::vector<float> normals;      ///< as positions; zeros where the primitive has none
+    std::vector<Affinef> instances;  ///< world_from_object of moving instances, `steps` rows each
+};
+
 struct Bounds {
     Vec3f low = {INFINITY, INFINITY, INFINITY};
     Vec3f high = {-INFINITY, -INFINITY, -INFINITY};
@@ -124,6 +149,7 @@ struct Scene {
     int32_t world_primitive_count = 0;
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
+    Motion motion;
     std::vector<Material> materials;     ///< never empty: row 0 exists for primitives without one
     std::vector<MaterialLayers> layers;  ///< of the materials that have any; see Material::layers
     std::vector<Medium> media = {Medium{}};  ///< by MaterialLayers::medium; 0 is air

@@ -8,7 +8,8 @@ namespace obscura {
 
 size_t vertex_bytes(const Scene& scene) {
     return scene.positions.size() * sizeof(float) + scene.attributes.size() * sizeof(float) +
-           scene.indices.size() * sizeof(uint32_t);
+           scene.indices.size() * sizeof(uint32_t) +
+           (scene.motion.positions.size() + scene.motion.normals.size()) * sizeof(float);
 }
 
 size_t geometry_bytes(const Scene& scene) {

@@ -74,6 +74,12 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
         if (g.has_shapes) g.corner[k] = select(g.shapes, LanesI(0), g.corner[k]);
         p[k] = gather3(scene.positions, g.corner[k] * LanesI(3));
     }
+    if (scene.motion.positions != nullptr) {
+        const CornerVectors moved = moved_corners(
+            scene, scene.motion.positions, g.primitive, hit.time, g.corner, {{p[0], p[1], p[2]}});
+        for (int k = 0; k < 3; ++k)
+            p[k] = moved.at[k];
+    }
     g.weight[0] = Lanes(1.0f) - hit.u - hit.v;
     g.weight[1] = hit.u;
     g.weight[2] = hit.v;
@@ -91,6 +97,12 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
             const LanesI word = normal_base + g.corner[k] * LanesI(3);
             n[k] = gather3(scene.attributes, select(smooth, word, LanesI(0)));
         }
+        if (scene.motion.normals != nullptr) {
+            const CornerVectors moved = moved_corners(
+                scene, scene.motion.normals, g.primitive, hit.time, g.corner, {{n[0], n[1], n[2]}});
+            for (int k = 0; k < 3; ++k)
+                n[k] = moved.at[k];
+        }
         g.normal = select(smooth, normalize(weighted(g, n)), g.ng);
         g.smooth_shift =
             select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
@@ -107,9 +119,9 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
 OBSCURA_INLINE void instance_to_world(const SceneView& scene, const HitLanes& hit, HitGeometry& g) {
     const Mask instanced = hit.instance >= LanesI(0);
     if (none(instanced)) return;
-    const TableRow<Lanes> instance = instance_row(scene, hit);
-    const Affine<Lanes> world = read_affine(instance, 0);
-    const Affine<Lanes> object = read_affine(instance, 12);
+    const InstanceMaps maps = instance_maps(scene, hit.instance, hit.time);
+    const Affine<Lanes>& world = maps.world_from_object;
+    const Affine<Lanes>& object = maps.object_from_world;
     const Vec3<Lanes> position = transform_point(world, g.position);
     const Vec3<Lanes> normal_scaled = transform_normal(object, g.ng);
     const Vec3<Lanes> ng = normalize(normal_scaled);

@@ -91,7 +91,8 @@ void write_all(const SceneView& scene, const Camera& camera, int count, const Sh
             store(out.a + i, Lanes(0.0f));
             continue;
         }
-        const HitLanes hit = hits_or_first(rows.hits, i, hits);
+        HitLanes hit = hits_or_first(rows.hits, i, hits);
+        if (rows.time != nullptr) hit.time = load(rows.time + i);  // row i is pixel i
         const PathLanes path = load_paths(rows.paths, i);
         const Vec3<Lanes> value = quantity_of<quantity>(scene, camera, path, hit);
         store3(out.r, out.g, out.b, i, select(hits, value, splat3(Lanes(0.0f))));

@@ -66,7 +66,7 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Shade
     for (int i = range.first_hit; i < end; i += lane_count) {
         const Mask exists = rows_in_range(i, end);
         const PathLanes path = load_paths(rows.paths, i);
-        const HitLanes hit = hits_or_first(rows.hits, i, exists);
+        const HitLanes hit = hits_of_paths(rows, i, exists, path);
         const ShadingPoint s =
             shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
         if (range.first_light == 0) add_unshadowed(scene, rows.samples, exists, path, s);

@@ -248,7 +248,7 @@ ShadeCounts shade(const SceneView& scene,
         }
         const Mask exists = rows_in_range(i, sorted.hits);
         PathLanes path = load_paths(rows.paths, i);
-        const HitLanes hit = hits_or_first(rows.hits, i, exists);
+        const HitLanes hit = hits_of_paths(rows, i, exists, path);
         if (scene.media != nullptr) absorb(scene, exists, hit.t, path);
         const BounceRandom random = bounce_random(path, bounce, scene.lights.count, draws[group]);
         const ShadingPoint s =
@@ -280,7 +280,7 @@ int shade_ao(const SceneView& scene,
     for (int i = 0; i < sorted.hits; i += lane_count) {
         const Mask exists = rows_in_range(i, sorted.hits);
         const PathLanes path = load_paths(rows.paths, i);
-        const HitLanes hit = hits_or_first(rows.hits, i, exists);
+        const HitLanes hit = hits_of_paths(rows, i, exists, path);
         const BounceRandom random = bounce_random(path, 0, 0, {});
         const ShadingPoint s =
             shading_point(scene, hit, path, random.texture, Filtering::stochastic);

@@ -2,11 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "math/lanes.h"
+#include "stages/rows.h"
 #include "stages/stages.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
+
+/// The hits of one group at their paths' times; see hits_or_first.
+OBSCURA_INLINE HitLanes hits_of_paths(const ShadeRows& rows,
+                                      int i,
+                                      Mask exists,
+                                      const PathLanes& path) {
+    HitLanes hit = hits_or_first(rows.hits, i, exists);
+    if (rows.time != nullptr) {
+        hit.time = gather<Lanes>(rows.time, select(exists, as_int(path.slot), LanesI(0)));
+    }
+    return hit;
+}
 
 /// One bounce of path tracing.
 ///

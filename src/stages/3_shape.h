@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "stages/3_tables.h"
+#include "stages/3_motion.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -23,6 +23,7 @@ struct ShapeQuery {
     LanesI instance;
     Vec3<Lanes> origin, direction;
     Lanes t;
+    Lanes time;
 };
 
 /// A table's row as ShapeRow's words; particles lie in blocks and know no other kind.
@@ -68,12 +69,11 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
     const ShapeWords words(scene, q);
     const Mask instanced = q.shapes & (q.instance >= LanesI(0));
     ShapeRay<Lanes> ray{q.origin, q.direction};
-    Affine<Lanes> world;
-    Affine<Lanes> object;
+    InstanceMaps maps;
+    const Affine<Lanes>& world = maps.world_from_object;
+    const Affine<Lanes>& object = maps.object_from_world;
     if (any(instanced)) {
-        const TableRow<Lanes> row(scene.instances, max(q.instance, LanesI(0)), instance_words);
-        world = read_affine(row, 0);
-        object = read_affine(row, 12);
+        maps = instance_maps(scene, q.instance, q.time);
         ray.origin = select(instanced, transform_point(object, q.origin), q.origin);
         ray.direction = select(instanced, transform_vector(object, q.direction), q.direction);
     }
@@ -122,7 +122,8 @@ OBSCURA_INLINE void shapes_to_world(const SceneView& scene,
                            hit.instance,
                            path.origin,
                            path.direction,
-                           hit.t};
+                           hit.t,
+                           hit.time};
     ShapeLanes s;
     find_shape_lanes(scene, query, s);
     const Mask m = g.shapes;

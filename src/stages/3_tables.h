@@ -12,6 +12,10 @@ inline namespace OBSCURA_ISA {
 
 inline constexpr int primitive_words = static_cast<int>(sizeof(Primitive) / 4);
 inline constexpr int instance_words = static_cast<int>(sizeof(Instance) / 4);
+inline constexpr int motion_base_word = 17;
+static_assert(offsetof(Primitive, motion_base) == motion_base_word * 4);
+inline constexpr int instance_motion_word = 28;
+static_assert(offsetof(Instance, motion) == instance_motion_word * 4);
 inline constexpr int material_words = static_cast<int>(sizeof(Material) / 4);
 inline constexpr int layers_words = static_cast<int>(sizeof(MaterialLayers) / 4);
 inline constexpr int slot_words = static_cast<int>(sizeof(TextureSlot) / 4);

@@ -33,7 +33,8 @@ OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
     const Mask instanced = out.known & (hit.instance >= LanesI(0));
     if (any(instanced)) {
         const TableRow<Lanes> instance = instance_row(scene, hit);
-        t = select(instanced, transform_vector(read_affine(instance, 0), t), t);
+        const InstanceMaps maps = instance_maps(scene, hit.instance, hit.time);
+        t = select(instanced, transform_vector(maps.world_from_object, t), t);
         const Mask mirrored = instanced & (instance.integer(26) != LanesI(0));
         handedness = select(mirrored, -handedness, handedness);
     }

@@ -67,9 +67,15 @@ OBSCURA_INLINE Lanes edge_distance_px(const SceneView& scene,
     Vec3<Lanes> p[3];
     for (int k = 0; k < 3; ++k)
         p[k] = gather3(scene.positions, g.corner[k] * LanesI(3));
+    if (scene.motion.positions != nullptr) {
+        const CornerVectors moved = moved_corners(
+            scene, scene.motion.positions, g.primitive, hit.time, g.corner, {{p[0], p[1], p[2]}});
+        for (int k = 0; k < 3; ++k)
+            p[k] = moved.at[k];
+    }
     const Mask instanced = hit.instance >= LanesI(0);
     if (any(instanced)) {
-        const Affine<Lanes> world = read_affine(instance_row(scene, hit), 0);
+        const Affine<Lanes> world = instance_maps(scene, hit.instance, hit.time).world_from_object;
         for (Vec3<Lanes>& corner : p)
             corner = select(instanced, transform_point(world, corner), corner);
     }
@@ -134,7 +140,8 @@ void write_all_wires(const SceneView& scene,
         store3(out.r, out.g, out.b, i, splat3(zero));
         store(out.a + i, select(hits, Lanes(1.0f), zero));
         if (none(hits)) continue;
-        const HitLanes hit = hits_or_first(rows.hits, i, hits);
+        HitLanes hit = hits_or_first(rows.hits, i, hits);
+        if (rows.time != nullptr) hit.time = load(rows.time + i);  // row i is pixel i
         const PathLanes path = load_paths(rows.paths, i);
         HitGeometry g = hit_geometry(scene, hit);
         instance_to_world(scene, hit, g);

@@ -72,6 +72,23 @@ static_assert(sizeof(MissRows) == words_per_miss * sizeof(void*));
 static_assert(sizeof(ShadowRows) == words_per_shadow * sizeof(void*));
 static_assert(sizeof(SampleRows) == words_per_sample * sizeof(void*));
 
+inline constexpr int affine_words = 12;
+
+/// What moves while the shutter is open: see Motion in scene/scene.h.
+struct MotionView {
+    int steps = 1;
+    const float* positions = nullptr;  ///< null: no vertex moves
+    const float* normals = nullptr;
+    const float* instances = nullptr;  ///< rows of affine_words; null: no instance moves
+    int camera_steps = 1;
+    /// Rows of affine_words: what the camera has moved by since the shutter opened; null: it stands
+    const float* camera = nullptr;
+};
+
+inline bool moves(const MotionView& motion) {
+    return motion.steps > 1 || motion.camera_steps > 1;
+}
+
 /// The scene as the stages see it: raw tables, all read by gathers.
 struct SceneView {
     const float* positions = nullptr;
@@ -86,6 +103,7 @@ struct SceneView {
     const float* media = nullptr;               ///< Medium as words; null: no body has a volume
     bool scatters = false;                      ///< some medium scatters light
     const int32_t* material_numbers = nullptr;  ///< in glTF, by row; -1: none
+    MotionView motion;
     TextureView textures;
     LightView lights;
     RaycastView raycast;  ///< for --integrator raycast alone

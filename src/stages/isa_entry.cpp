@@ -1,6 +1,7 @@
 // stages/isa_entry.cpp - the table of one instruction set; compiled once for each.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/1_camera.h"
+#include "stages/1_shutter.h"
 #include "stages/2_scatter.h"
 #include "stages/3_shade.h"
 #include "stages/5_accumulate.h"
@@ -19,6 +20,7 @@ const StageTable stage_table = {
     lane_count,
     make_camera_rays,
     make_centre_rays,
+    open_shutter,
     begin_scatter,
     scatter,
     shade,

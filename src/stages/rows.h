@@ -76,6 +76,7 @@ OBSCURA_INLINE int append_paths(const PathRows& rows, int at, Mask mask, const P
 struct HitLanes {
     Lanes t, u, v;
     LanesI instance, primitive, triangle;
+    Lanes time = Lanes(0.0f);  ///< 0 when the shutter opens, 1 when it closes
 };
 
 OBSCURA_INLINE HitLanes load_hits(const HitRows& rows, int i) {

@@ -39,6 +39,7 @@ struct ShadeRows {
     PathRows next;       ///< out
     ShadowRows shadows;  ///< out
     SampleRows samples;  ///< in and out
+    const float* time = nullptr;  ///< by slot; null: nothing moves
 };
 
 /// Paths on their way through bodies that scatter light.
@@ -69,6 +70,10 @@ struct StageTable {
 
     /// Stage 1 for quantities: one ray a pixel, and of its row only what they need.
     void (*centre_camera)(const BatchSettings&, int count, const PathRows&, float* length_m);
+
+    /// Stage 1, where something moves: the time of every slot.
+    void (*open_shutter)(
+        const SceneView&, bool through_centres, int count, const PathRows&, float* time);
 
     /// Stage 2, inside bodies that scatter light: which paths are, then one flight of each.
     int (*begin_scatter)(const SceneView&, int count, const ScatterRows&);

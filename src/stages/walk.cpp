@@ -47,6 +47,14 @@ RayColumns rays_of(const ShadowRows& s, int count) {
     return {s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.path_key, count};
 }
 
+/// The times of rays, where something moves.
+const float* times_of(const WalkInput& in, const uint32_t* slot, int count, Workspace& work) {
+    if (!moves(in.scene.motion)) return nullptr;
+    for (int i = 0; i < count; ++i)
+        work.ray_time[static_cast<size_t>(i)] = work.slot_time[slot[i]];
+    return work.ray_time.data();
+}
+
 /// Stage 2: what rays hit.
 void intersect_rays(const WalkInput& in,
                     const RayColumns& rays,
@@ -72,6 +80,12 @@ void intersect(
     if (see_through.segment == 0 && limits_rays(in.batch.camera)) {
         rays.tfar = work.camera_length_m.data();
     }
+    // Rays of quantities have no slot: row i is pixel i.
+    if (in.kind == WalkKind::quantity || in.kind == WalkKind::wireframe) {
+        rays.time = moves(in.scene.motion) ? work.slot_time.data() : nullptr;
+    } else {
+        rays.time = times_of(in, work.paths[0].slot, count, work);
+    }
     intersect_rays(in, rays, work.hits, see_through, c);
 }
 
@@ -95,7 +109,9 @@ void scatter_in_bodies(
             walkers = in.stages->scatter(in.scene, flight, walkers, rows);
         }
         if (walkers == 0) return;
-        intersect_rays(in, rays_of(rows.walkers, walkers), rows.walker_hits, see_through, c);
+        RayColumns rays = rays_of(rows.walkers, walkers);
+        rays.time = times_of(in, rows.walkers.slot, walkers, work);
+        intersect_rays(in, rays, rows.walker_hits, see_through, c);
     }
 }
 
@@ -104,6 +120,7 @@ void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, 
     const auto segment = 2U * static_cast<uint32_t>(bounce) + 1U;
     RayColumns rays = rays_of(work.shadows, count);
     if (in.kind == WalkKind::raycast) rays.key = nullptr;
+    rays.time = times_of(in, work.shadows.slot, count, work);
     c.shadow_rays += static_cast<uint64_t>(count);
     {
         const SumOfTime time(c.seconds.shadow);
@@ -115,8 +132,14 @@ void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, 
     in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
 }
 
-ShadeRows shade_rows(const Workspace& work) {
-    return {work.paths[0], work.hits, work.misses, work.paths[1], work.shadows, work.samples};
+ShadeRows shade_rows(const WalkInput& in, const Workspace& work) {
+    return {work.paths[0],
+            work.hits,
+            work.misses,
+            work.paths[1],
+            work.shadows,
+            work.samples,
+            moves(in.scene.motion) ? work.slot_time.data() : nullptr};
 }
 
 void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
@@ -127,7 +150,7 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
         ShadeCounts out;
         {
             const SumOfTime time(c.seconds.shade);
-            out = in.stages->shade(in.scene, in.batch, bounce, count, shade_rows(work));
+            out = in.stages->shade(in.scene, in.batch, bounce, count, shade_rows(in, work));
         }
         if (out.shadow > 0) trace_shadows(in, out.shadow, bounce, work, c);
         std::swap(work.paths[0], work.paths[1]);
@@ -140,7 +163,7 @@ void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     int shadows = 0;
     {
         const SumOfTime time(c.seconds.shade);
-        shadows = in.stages->shade_ao(in.scene, in.batch, count, shade_rows(work));
+        shadows = in.stages->shade_ao(in.scene, in.batch, count, shade_rows(in, work));
     }
     if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
 }
@@ -153,7 +176,7 @@ void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters&
     int hits = 0;
     {
         const SumOfTime time(c.seconds.shade);
-        hits = in.stages->begin_raycast(in.scene, in.batch, count, shade_rows(work));
+        hits = in.stages->begin_raycast(in.scene, in.batch, count, shade_rows(in, work));
     }
     const int lights = in.scene.lights.punctual_count + in.scene.raycast.centre_count;
     RaycastRange range;
@@ -166,7 +189,7 @@ void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters&
             int shadows = 0;
             {
                 const SumOfTime time(c.seconds.shade);
-                shadows = in.stages->shade_raycast(in.scene, range, shade_rows(work));
+                shadows = in.stages->shade_raycast(in.scene, range, shade_rows(in, work));
             }
             if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
         }
@@ -226,6 +249,8 @@ Workspace::Workspace() {
     walker_row.resize(padded_rows);
     occluded.resize(padded_rows);
     camera_length_m.resize(padded_rows);
+    slot_time.resize(padded_rows);
+    ray_time.resize(padded_rows);
 }
 
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {
@@ -235,6 +260,10 @@ void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCou
         const SumOfTime time(counters.seconds.camera);
         float* length_m = camera_lengths(in, work);
         in.stages->camera(in.batch, count, work.paths[0], work.samples, length_m);
+        if (moves(in.scene.motion)) {
+            const bool centres = in.batch.through_centres;
+            in.stages->open_shutter(in.scene, centres, count, work.paths[0], work.slot_time.data());
+        }
     }
     counters.paths += static_cast<uint64_t>(count);
     switch (in.kind) {
@@ -260,12 +289,15 @@ void walk_quantity(const WalkInput& in, int pixels, Workspace& work, WalkCounter
     {
         const SumOfTime time(counters.seconds.camera);
         in.stages->centre_camera(in.batch, pixels, work.paths[0], camera_lengths(in, work));
+        if (moves(in.scene.motion)) {
+            in.stages->open_shutter(in.scene, true, pixels, work.paths[0], work.slot_time.data());
+        }
     }
     counters.paths += static_cast<uint64_t>(pixels);
     if (in.quantity == Quantity::heat) return count_heat(in, pixels, work, counters);
     intersect(in, pixels, {true, true, 0}, work, counters);
     const SumOfTime time(counters.seconds.shade);
-    in.stages->quantity(in.scene, in.batch, in.quantity, pixels, shade_rows(work));
+    in.stages->quantity(in.scene, in.batch, in.quantity, pixels, shade_rows(in, work));
     counters.nonfinite_samples += in.stages->clear_nonfinite(pixels, work.samples);
 }
 

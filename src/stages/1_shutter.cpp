@@ -1,0 +1,51 @@
+// stages/1_shutter.cpp - stage 1, where something moves: the time of every path.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/1_shutter.h"
+
+#include "math/sampler.h"
+#include "stages/moment.h"
+#include "stages/rows.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+/// What the camera has moved by since the shutter opened.
+OBSCURA_INLINE Affine<Lanes> camera_moved(const MotionView& motion, Lanes time) {
+    const Moment moment = moment_of(motion.camera_steps, time);
+    const LanesI word = moment.step * LanesI(affine_words);
+    Affine<Lanes> before;
+    Affine<Lanes> after;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c) {
+            before.m[r][c] = gather<Lanes>(motion.camera + r * 4 + c, word);
+            after.m[r][c] = gather<Lanes>(motion.camera + affine_words + r * 4 + c, word);
+        }
+    }
+    return blend(before, after, moment.share);
+}
+
+}  // namespace
+
+void open_shutter(
+    const SceneView& scene, bool through_centres, int count, const PathRows& paths, float* time) {
+    for (int i = 0; i < count; i += lane_count) {
+        Lanes at(0.5f);
+        if (!through_centres) {
+            const Vec2<LanesU> bits =
+                sobol_pair(load(paths.key + i), load(paths.sample + i), shutter_pair);
+            at = unit_float<Lanes>(bits.x);
+        }
+        store(time + i, at);
+        if (scene.motion.camera == nullptr) continue;
+        const Affine<Lanes> moved = camera_moved(scene.motion, at);
+        const Vec3<Lanes> origin = load3(paths.ox, paths.oy, paths.oz, i);
+        const Vec3<Lanes> direction = load3(paths.dx, paths.dy, paths.dz, i);
+        store3(paths.ox, paths.oy, paths.oz, i, transform_point(moved, origin));
+        store3(paths.dx, paths.dy, paths.dz, i, normalize(transform_vector(moved, direction)));
+    }
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,58 @@
+// stages/3_motion.cpp - where moving things are at the time of a hit.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/3_motion.h"
+
+#include "stages/moment.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+InstanceMaps moved_instance(const SceneView& scene,
+                            LanesI row,
+                            Lanes time,
+                            const InstanceMaps& still) {
+    const Mask moves = row >= LanesI(0);
+    if (none(moves)) return still;
+    const Moment moment = moment_of(scene.motion.steps, time);
+    const LanesI before = select(moves, row + moment.step, LanesI(0));
+    const LanesI after = select(moves, before + LanesI(1), LanesI(0));
+    const Affine<Lanes> world =
+        blend(read_affine({scene.motion.instances, before, affine_words}, 0),
+              read_affine({scene.motion.instances, after, affine_words}, 0),
+              moment.share);
+    const Affine<Lanes> object = inverse(world);
+    InstanceMaps out;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c) {
+            out.world_from_object.m[r][c] =
+                select(moves, world.m[r][c], still.world_from_object.m[r][c]);
+            out.object_from_world.m[r][c] =
+                select(moves, object.m[r][c], still.object_from_world.m[r][c]);
+        }
+    }
+    return out;
+}
+
+CornerVectors moved_corners(const SceneView& scene,
+                            const float* table,
+                            const TableRow<Lanes>& primitive,
+                            Lanes time,
+                            const LanesI (&corner)[3],
+                            const CornerVectors& still) {
+    const LanesI base = primitive.integer(motion_base_word);
+    const Mask moves = base != LanesI(no_attribute);
+    if (none(moves)) return still;
+    const LanesI stride = primitive.integer(motion_base_word + 1);
+    const Moment moment = moment_of(scene.motion.steps, time);
+    CornerVectors out;
+    for (int k = 0; k < 3; ++k) {
+        const LanesI word = base + moment.step * stride + corner[k] * LanesI(3);
+        const Vec3<Lanes> before = gather3(table, select(moves, word, LanesI(0)));
+        const Vec3<Lanes> after = gather3(table, select(moves, word + stride, LanesI(0)));
+        out.at[k] = select(moves, before + (after - before) * moment.share, still.at[k]);
+    }
+    return out;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura
