@@ -139,7 +139,11 @@ bool join_motion(Scene& first, std::span<const Scene> later) {
         first.bounds.low = -max3(-first.bounds.low, -pose.bounds.low);
         first.bounds.high = max3(first.bounds.high, pose.bounds.high);
     }
-    if (first.motion.positions.empty() && first.motion.instances.empty()) first.motion.steps = 1;
+    Motion& motion = first.motion;
+    if (motion.positions.empty() && motion.instances.empty()) motion.steps = 1;
+    if (motion.positions.empty()) return true;
+    for (std::vector<float>* table : {&motion.positions, &motion.normals})
+        table->insert(table->end(), 4, 0.0F);  // as pad_tables
     return true;
 }
 

@@ -20,7 +20,7 @@ inline Affinef object_from_world_at(const Scene& scene, const Instance& instance
 /// Keeps of later poses what differs from the first one: vertices, normals and instances. Textures
 /// and tangents stay those of the first pose; bounds grow to hold all.
 ///
-/// In      first: not yet padded nor moving; later: the same scene at evenly spaced later times
+/// In      first: not yet moving; later: the same scene at evenly spaced later times
 /// Returns false, and leaves `first` as it was, when the poses are not made of the same parts (a
 ///         node appears or a triangle collapses meanwhile).
 bool join_motion(Scene& first, std::span<const Scene> later);

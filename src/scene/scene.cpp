@@ -8,10 +8,6 @@ void pad_tables(Scene& scene) {
     scene.positions.insert(scene.positions.end(), 4, 0.0f);
     scene.attributes.insert(scene.attributes.end(), 4, 0.0f);
     scene.indices.push_back(0);
-    if (!scene.motion.positions.empty()) {
-        scene.motion.positions.insert(scene.motion.positions.end(), 4, 0.0f);
-        scene.motion.normals.insert(scene.motion.normals.end(), 4, 0.0f);
-    }
 }
 
 }  // namespace obscura

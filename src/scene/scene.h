@@ -121,7 +121,7 @@ inline bool scatters(const Medium& medium) {
 struct Motion {
     int32_t steps = 1;  ///< 1: nothing moves
     /// 3 floats a vertex of moving primitives: vertex v at time s starts at motion_base + s *
-    /// motion_stride + 3 v. Ends with the padding of pad_tables.
+    /// motion_stride + 3 v. Ends with four more floats, as Scene's own.
     std::vector<float> positions;
     std::vector<float> normals;      ///< as positions; zeros where the primitive has none
     std::vector<Affinef> instances;  ///< world_from_object of moving instances, `steps` rows each
