@@ -18,7 +18,8 @@ sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from generator import analytic, cameras, instances, plain_scenes, showcase, sky  # noqa: E402
+from generator import (analytic, cameras, instances, motion, plain_scenes,  # noqa: E402
+                       showcase, sky)
 
 MAKERS = {
     'environments': lambda folder: sky.write_sky(os.path.join(folder, 'environments')),
@@ -31,6 +32,7 @@ MAKERS = {
     'cameras': cameras.write_cameras,
     'analytic': analytic.write_analytic,
     'particles': analytic.write_particles,
+    'motion': motion.write_motion,
 }
 
 

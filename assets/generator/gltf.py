@@ -7,8 +7,8 @@ import struct
 import sys
 
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
-_UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5123, 5125, 5126
-_TYPES = {1: 'SCALAR', 2: 'VEC2', 3: 'VEC3', 4: 'VEC4'}
+_UNSIGNED_BYTE, _UNSIGNED_SHORT, _UNSIGNED_INT, _FLOAT = 5121, 5123, 5125, 5126
+_TYPES = {1: 'SCALAR', 2: 'VEC2', 3: 'VEC3', 4: 'VEC4', 16: 'MAT4'}
 
 
 def _little_endian(values):
@@ -34,15 +34,16 @@ class GltfFile:
 
     def _view(self, data, target):
         self.binary += b'\0' * (-len(self.binary) % 4)
-        view = {'buffer': 0, 'byteOffset': len(self.binary), 'byteLength': len(data),
-                'target': target}
+        view = {'buffer': 0, 'byteOffset': len(self.binary), 'byteLength': len(data)}
+        if target:
+            view['target'] = target
         self.binary += data
         return self._append('bufferViews', view)
 
-    def _floats(self, tuples, bounds=False):
+    def _floats(self, tuples, bounds=False, target=_ARRAY_BUFFER):
         values = array.array('f', [x for t in tuples for x in t])
         width = len(tuples[0])
-        accessor = {'bufferView': self._view(_little_endian(values), _ARRAY_BUFFER),
+        accessor = {'bufferView': self._view(_little_endian(values), target),
                     'componentType': _FLOAT, 'count': len(tuples), 'type': _TYPES[width]}
         if bounds:
             columns = [array.array('f', [t[c] for t in tuples]) for c in range(width)]
@@ -68,6 +69,50 @@ class GltfFile:
             attributes['COLOR_0'] = self._floats(mesh.colors)
         return {'attributes': attributes, 'indices': self._indices(mesh.indices),
                 'material': material}
+
+    def skinned(self, primitive, joints, weights):
+        """The primitive with four joints and four weights for each vertex."""
+        data = bytes(joint for four in joints for joint in four)
+        accessor = self._append('accessors', {
+            'bufferView': self._view(data, _ARRAY_BUFFER), 'componentType': _UNSIGNED_BYTE,
+            'count': len(joints), 'type': 'VEC4'})
+        attributes = dict(primitive['attributes'], JOINTS_0=accessor,
+                          WEIGHTS_0=self._floats(weights))
+        return dict(primitive, attributes=attributes)
+
+    def morphed(self, primitive, mesh, shapes):
+        """The primitive with a morph target for each of the other shapes of the same mesh."""
+        targets = []
+        for shape in shapes:
+            moved = [[b - a for a, b in zip(p, q)]
+                     for p, q in zip(mesh.positions, shape.positions)]
+            turned = [[b - a for a, b in zip(p, q)] for p, q in zip(mesh.normals, shape.normals)]
+            targets.append({'POSITION': self._floats(moved, bounds=True),
+                            'NORMAL': self._floats(turned)})
+        return dict(primitive, targets=targets)
+
+    def skin(self, name, joints, joint_from_bind):
+        """joint_from_bind: a column-major 4x4 matrix for each joint."""
+        return self._append('skins', {
+            'name': name, 'joints': joints, 'skeleton': joints[0],
+            'inverseBindMatrices': self._floats(joint_from_bind, target=None)})
+
+    def animation(self, name, channels):
+        """channels: (target, interpolation, times, values), where target is (node, path) or a JSON
+        pointer, and values are tuples."""
+        samplers, out = [], []
+        for target, interpolation, times, values in channels:
+            samplers.append({'input': self._floats([(t,) for t in times], True, None),
+                             'output': self._floats(values, target=None),
+                             'interpolation': interpolation})
+            if isinstance(target, str):
+                self.use('KHR_animation_pointer')
+                goal = {'path': 'pointer',
+                        'extensions': {'KHR_animation_pointer': {'pointer': target}}}
+            else:
+                goal = {'node': target[0], 'path': target[1]}
+            out.append({'sampler': len(samplers) - 1, 'target': goal})
+        return self._append('animations', {'name': name, 'samplers': samplers, 'channels': out})
 
     def mesh(self, name, primitives):
         return self._append('meshes', {'name': name, 'primitives': primitives})
@@ -132,6 +177,11 @@ class GltfFile:
                                        for k, v in properties.items()})
         self.json['scenes'][0]['nodes'].append(index)
         return index
+
+    def child(self, **properties):
+        """Adds a node that another one will name among its children."""
+        return self._append('nodes', {k: list(v) if isinstance(v, tuple) else v
+                                      for k, v in properties.items()})
 
     def perspective_camera(self, name, yfov_rad, znear=0.01, aspect=None):
         lens = {'yfov': yfov_rad, 'znear': znear}

@@ -115,11 +115,16 @@ double flat_yfov(const CameraRequest& request) {
     return angle < pi_d ? angle : default_yfov_rad;
 }
 
+const Bounds& framed_bounds(const Scene& scene, const CameraRequest& request) {
+    return request.framed ? *request.framed : scene.bounds;
+}
+
 Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect) {
     const bool orthographic =
         wanted_model(request) == CameraModel::orthographic && !request.yfov_rad;
-    return orthographic ? frame_orthographic(scene.bounds, aspect)
-                        : frame_perspective(scene.bounds, flat_yfov(request), aspect);
+    const Bounds& bounds = framed_bounds(scene, request);
+    return orthographic ? frame_orthographic(bounds, aspect)
+                        : frame_perspective(bounds, flat_yfov(request), aspect);
 }
 
 /// The viewpoint of the options over the framing's. Where --up is not given, a view straight up or
@@ -217,7 +222,7 @@ CameraSettings join_settings(const Placed& placed, const CameraRequest& request)
 
 /// Asks each source in turn; the first that has a say decides.
 Result<Placed> place(const Scene& scene, const CameraRequest& request, double aspect) {
-    const BoundingSphere sphere = bounding_sphere(scene.bounds);
+    const BoundingSphere sphere = bounding_sphere(framed_bounds(scene, request));
     const bool by_hand = request.eye_m || request.target_m || request.up;
     Result<Placed> placed = Placed{};
     if (request.loaded) {
@@ -250,7 +255,7 @@ Result<void> add_aperture(ChosenCamera& out, Log& log) {
 Result<ChosenCamera> choose_camera(
     const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log) {
     const double aspect = static_cast<double>(width_px) / height_px;
-    const BoundingSphere sphere = bounding_sphere(scene.bounds);
+    const BoundingSphere sphere = bounding_sphere(framed_bounds(scene, request));
     const Result<Placed> placed = place(scene, request, aspect);
     if (!placed) return fail(placed.error());
     if (const Result<void> fits = check_model_has(request.settings, placed->model); !fits) {

@@ -25,6 +25,9 @@ struct CameraRequest {
     CameraSettings settings = {};         ///< all else; its model is `model`
     /// --focus-on: pixel from the top left; the caller finds the distance (app/autofocus.h).
     std::optional<std::array<int, 2>> focus_on_px = {};
+    /// What the automatic framing shows in place of the whole scene: in a sequence the first
+    /// frame's bounds, so that the view stands still while things move.
+    std::optional<Bounds> framed = {};
     /// --camera-json: takes the place of the file's cameras.
     std::optional<SceneCamera> loaded = {};
 };

@@ -31,6 +31,15 @@ void write_counts(JsonWriter& json,
     json.end_array();
 }
 
+void write_animations(JsonWriter& json, const AssetInfo& info) {
+    json.key("animations").begin_array();
+    for (const AnimationInfo& animation : info.animations) {
+        json.begin_object().member("name", animation.name).member("channels", animation.channels);
+        json.member("duration_s", animation.end_s).end_object();
+    }
+    json.end_array();
+}
+
 /// A 4x4 matrix for column vectors, row by row.
 void write_matrix(JsonWriter& json, const char* key, const Affined& matrix) {
     json.key(key).begin_array();
@@ -199,7 +208,7 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     write_images(json, info);
     write_lights(json, scene);
     write_cameras(json, scene);
-    write_counts(json, "animations", "channels", info.animations);
+    write_animations(json, info);
     write_extensions(json, info);
     json.member("parse_s", info.parse_seconds);
     write_names(json, "warnings", warnings);

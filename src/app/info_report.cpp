@@ -134,10 +134,11 @@ void append_cameras(const Scene& scene, std::string& text) {
 void append_rest(const AssetInfo& info, std::string& text) {
     text += title("animations") + fmt::format("{}\n", info.animations.size());
     for (size_t i = 0; i < info.animations.size(); ++i) {
-        text += fmt::format("  {:>4} {}: {} channels\n",
+        text += fmt::format("  {:>4} {}: {:g} s, {} channels\n",
                             i,
                             quoted_name(info.animations[i].name),
-                            info.animations[i].count);
+                            info.animations[i].end_s,
+                            info.animations[i].channels);
     }
     text += title("extensions") + fmt::format("{}\n", info.extensions.size());
     for (const ExtensionInfo& extension : info.extensions) {

@@ -31,7 +31,8 @@ bool is_exr(const std::filesystem::path& file) {
 }  // namespace
 
 Result<void> check_outputs(const RenderRequest& request) {
-    for (const std::filesystem::path& output : request.outputs) {
+    // A sequence's files lie in one folder: the first frame's stand for all.
+    for (const std::filesystem::path& output : frames_of(request).front().outputs) {
         if (auto writable = check_output(output); !writable) return writable;
     }
     if (request.statistics) return check_file_can_be_written(*request.statistics);
@@ -88,6 +89,7 @@ PictureMetadata make_metadata(const RenderRequest& request,
                       {"embree", prepared.embree_version()},
                       {"warnings", std::to_string(log.warnings().size())}};
     if (!info.xmp.empty()) metadata.extra.emplace_back("xmp", info.xmp);
+    if (info.time_s) metadata.extra.emplace_back("timeSeconds", shortest(*info.time_s));
     if (!info.variant.empty()) metadata.extra.emplace_back("variant", info.variant);
     if (chosen.ev100) {
         metadata.extra.emplace_back("ev100", shortest(*chosen.ev100));

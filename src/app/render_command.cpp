@@ -16,6 +16,7 @@
 #include "gltf/load.h"
 #include "scene/scene_memory.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <span>
 
@@ -23,30 +24,31 @@ namespace obscura {
 
 namespace {
 
-/// Loads and builds everything that rendering reads.
-Result<PreparedScene> prepare(const RenderRequest& request,
-                              Log& log,
-                              RenderStatistics& statistics) {
-    const Stopwatch loading;
-    Result<Scene> scene = load_gltf(request.scene, request.load, log);
-    if (!scene) return fail(scene.error());
-    Result<LightingOptions> lighting = load_lighting(request, log);
-    if (!lighting) return fail(lighting.error());
-    statistics.load_s = loading.seconds();
-    statistics.parse_s = scene->info.parse_seconds;
-    statistics.decode_s = scene->info.decode_seconds;
-    statistics.geometry_bytes = geometry_bytes(*scene);
-    statistics.texture_bytes = texture_bytes(*scene);
+/// Later frames say mostly what the first one said: only what is new goes to the command's log.
+class RepeatedLog {
+public:
+    explicit RepeatedLog(Log& log) : log_(log) {}
+    ~RepeatedLog() { end(); }
+    RepeatedLog(const RepeatedLog&) = delete;
+    RepeatedLog& operator=(const RepeatedLog&) = delete;
 
-    Result<PreparedScene> prepared =
-        PreparedScene::create(std::move(*scene), *lighting, request.isa, log);
-    if (!prepared) return prepared;
-    statistics.build_s = prepared->build_seconds().all;
-    statistics.bvh_bytes = prepared->bvh_bytes();
-    statistics.isa = prepared->isa_name();
-    statistics.embree = prepared->embree_version();
-    return prepared;
-}
+    /// The log of the next frame.
+    Log& begin() { return own_.emplace(Verbosity::quiet); }
+    void end() {
+        if (!own_) return;
+        const std::vector<std::string> told = log_.warnings();
+        for (const std::string& line : own_->warnings()) {
+            if (std::find(told.begin(), told.end(), line) != told.end()) continue;
+            const size_t colon = line.find(": ");
+            log_.warn(line.substr(0, colon), line.substr(colon + 2));
+        }
+        own_.reset();
+    }
+
+private:
+    Log& log_;
+    std::optional<Log> own_;
+};
 
 /// Reads --camera-json; without --size its picture has the size that the file names.
 Result<void> load_requested_camera(RenderRequest& request, Log& log) {
@@ -62,45 +64,134 @@ Result<void> load_requested_camera(RenderRequest& request, Log& log) {
     return check_crop(request.options);
 }
 
-/// One rendering from the request to the statistics.
+/// One command from the request to the statistics.
 struct Job {
-    const RenderRequest& request;
+    Log& log;               ///< the command's; frames may have their own
+    RenderRequest request;  ///< its outputs and camera.framed change from frame to frame
     std::optional<DisplayTransform> display;
+    std::optional<PosedAsset> asset;
+    LightingOptions lighting;
     RenderStatistics statistics;
+    std::optional<StopOnSignal> stop;  ///< until the first picture a signal ends the program
 };
 
+/// Which of so many pictures is rendered.
+struct Turn {
+    size_t index;
+    size_t count;
+    bool is_last() const { return index + 1 == count; }
+};
+
+/// Poses the asset and builds everything that rendering reads; frees the asset after its last pose.
+Result<PreparedScene> prepare(Job& job, const Frame& frame, const Turn& turn, Log& log) {
+    RenderStatistics& statistics = job.statistics;
+    const Stopwatch loading;
+    Result<Scene> scene = job.asset->scene_at(frame.time_s, turn.is_last(), log);
+    if (!scene) return fail(scene.error());
+    if (turn.is_last()) job.asset.reset();
+    statistics.load_s += loading.seconds();
+    statistics.parse_s += scene->info.parse_seconds;
+    statistics.decode_s += scene->info.decode_seconds;
+    statistics.geometry_bytes = geometry_bytes(*scene);
+    statistics.texture_bytes = texture_bytes(*scene);
+    if (turn.count > 1 && turn.index == 0) job.request.camera.framed = scene->bounds;
+
+    Result<PreparedScene> prepared =
+        PreparedScene::create(std::move(*scene), job.lighting, job.request.isa, log);
+    if (!prepared) return prepared;
+    statistics.build_s += prepared->build_seconds().all;
+    statistics.bvh_bytes = prepared->bvh_bytes();
+    statistics.isa = prepared->isa_name();
+    statistics.embree = prepared->embree_version();
+    return prepared;
+}
+
 /// Renders, then writes the pictures; a signal stops it between two tiles or two files.
-Result<void> render_and_write(Job& job,
-                              const PreparedScene& prepared,
-                              Log& log,
-                              Progress& progress) {
+Result<void> render_and_write(
+    Job& job, const PreparedScene& prepared, const Turn& turn, Log& log, Progress& progress) {
     const RenderRequest& request = job.request;
     RenderStatistics& statistics = job.statistics;
-    const RenderOptions& options = request.options;
     const Result<ChosenCamera> chosen = choose_focused_camera(prepared, request, log);
     if (!chosen) return fail(chosen.error());
     if (const Result<void> exposed = expose_display(*chosen, request, job.display, log); !exposed) {
         return exposed;
     }
 
-    const StopOnSignal stop;
-    progress.begin();
-    const auto on_progress = [&](double share) { progress.update(share); };
+    if (!job.stop) {
+        job.stop.emplace();
+        progress.begin();
+    }
+    const auto on_progress = [&](double share) {
+        progress.update((static_cast<double>(turn.index) + share) /
+                        static_cast<double>(turn.count));
+    };
     Result<RenderResult> result =
-        render(prepared, chosen->camera, options, on_progress, stop.flag());
+        render(prepared, chosen->camera, request.options, on_progress, job.stop->flag());
     if (!result) return fail(result.error());
-    statistics.render_s = result->render_seconds;
-    statistics.counters = result->counters;
+    statistics.render_s += result->render_seconds;
+    add_counters(result->counters, statistics.counters);
     statistics.film_bytes = result->film.pixels.size() * sizeof(float);
 
     const Stopwatch writing;
     FinishedPicture finished;
-    finished.metadata = make_metadata(request, prepared, *chosen, result->render_seconds, log);
+    finished.metadata = make_metadata(request, prepared, *chosen, result->render_seconds, job.log);
     Film& film = result->film;
     finished.picture = {film.width, film.height, std::move(film.channels), std::move(film.pixels)};
-    const Result<void> written = write_outputs(request, finished, job.display, stop.flag());
-    statistics.write_s = writing.seconds();
-    if (!written) return written;
+    const Result<void> written = write_outputs(request, finished, job.display, job.stop->flag());
+    statistics.write_s += writing.seconds();
+    return written;
+}
+
+/// What a frame has added to the sums.
+FrameStatistics frame_statistics(const Frame& frame,
+                                 const RenderStatistics& before,
+                                 const RenderStatistics& after) {
+    return {frame.number.value_or(0),
+            frame.time_s,
+            after.load_s - before.load_s,
+            after.build_s - before.build_s,
+            after.render_s - before.render_s,
+            after.write_s - before.write_s};
+}
+
+/// Reads the asset and the environment, once for all pictures.
+Result<void> load(Job& job) {
+    const LoadOptions& options = job.request.load;
+    const bool has_time = options.time_s || job.request.frames;
+    const Stopwatch loading;
+    Result<PosedAsset> asset = PosedAsset::open(job.request.scene, options, has_time, job.log);
+    if (!asset) return fail(asset.error());
+    job.asset = std::move(*asset);
+    Result<LightingOptions> lighting = load_lighting(job.request, job.log);
+    if (!lighting) return fail(lighting.error());
+    job.lighting = std::move(*lighting);
+    job.statistics.load_s = loading.seconds();
+    return {};
+}
+
+/// Renders one picture after the other.
+Result<void> render_all(Job& job, Progress& progress) {
+    const std::vector<Frame> frames = frames_of(job.request);
+    if (const Result<void> loaded = load(job); !loaded) return loaded;
+    RepeatedLog later(job.log);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const RenderStatistics before = job.statistics;
+        const Turn turn{i, frames.size()};
+        Log& log = i == 0 ? job.log : later.begin();
+        job.request.outputs = frames[i].outputs;
+        Result<PreparedScene> prepared = prepare(job, frames[i], turn, log);
+        if (!prepared) return fail(prepared.error());
+        const Result<void> done = render_and_write(job, *prepared, turn, log, progress);
+        if (!done) return done;
+        if (job.asset) job.asset->take_textures(std::move(*prepared).take_scene());
+        later.end();
+        if (!frames[i].number) continue;
+        job.statistics.frames.push_back(frame_statistics(frames[i], before, job.statistics));
+        job.log.info(fmt::format("frame {} of {} to {} is written",
+                                 *frames[i].number,
+                                 job.request.frames->first,
+                                 job.request.frames->last));
+    }
     progress.finish();
     return {};
 }
@@ -114,7 +205,10 @@ void log_summary(const RenderRequest& request, const RenderStatistics& statistic
     const auto millions = [&](uint64_t count) {
         return static_cast<double>(count) / seconds * 1e-6;
     };
-    log.info(fmt::format("rendered in {:.2f} s: {:.2f} M paths/s, {:.2f} M rays/s; wrote {}",
+    const std::string what =
+        request.frames ? fmt::format("rendered {} frames", request.frames->count()) : "rendered";
+    log.info(fmt::format("{} in {:.2f} s: {:.2f} M paths/s, {:.2f} M rays/s; wrote {}",
+                         what,
                          statistics.render_s,
                          millions(statistics.counters.paths),
                          millions(total_rays(statistics.counters)),
@@ -144,13 +238,11 @@ Result<void> execute(const RenderRequest& request, Log& log) {
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);
-    Job job{request, std::move(*display), {}};
+    Job job{log, request, std::move(*display), {}, {}, {}, {}};
     RenderStatistics& statistics = job.statistics;
     statistics.threads = threads.threads();
     Progress progress(request.verbosity);
-    const Result<PreparedScene> prepared = prepare(request, log, statistics);
-    if (!prepared) return fail(prepared.error());
-    const Result<void> done = render_and_write(job, *prepared, log, progress);
+    const Result<void> done = render_all(job, progress);
     if (!done) return done;
     statistics.total_s = total.seconds();
     statistics.warnings = log.warnings();

@@ -20,6 +20,9 @@ Examples:
   obscura render room.gltf --camera Door --size 1920x1080 --exposure 1.5 -o room.jpg
   obscura render part.glb --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
 
+  obscura render walk.glb --frames 1-48 --fps 24 -o walk.####.exr
+      48 files, walk.0001.exr to walk.0048.exr, from one reading of the asset
+
 Exit codes: 0 done, 33 out of memory, 64 usage, 65 bad scene data, 66 scene missing,
 67 referenced file missing or corrupt, 69 unsupported, 70 internal error, 73 output
 cannot be created, 74 I/O error, 76 too many non-finite samples, 77 refused by a limit
@@ -50,6 +53,26 @@ void add_picture_options(CLI::App& command, RenderArguments& arguments) {
                "a linear colour R,G,B [env]");
     group.text(
         "--filter", arguments.filter, "NAME", "Pixel filter: box, gaussian, blackman-harris [box]");
+}
+
+void add_time_options(CLI::App& command, RenderArguments& arguments) {
+    OptionGroup group(command, "Time");
+    group.text("--time",
+               arguments.time,
+               "SECONDS",
+               "Show the scene as its animations have it then; before their\n"
+               "beginning and after their end they stand still [as stored]");
+    group.text("--animation",
+               arguments.animation,
+               "NAME|INDEX",
+               "Which animation plays: a name or an index, all, or none [the\n"
+               "first with --time or --frames, else none]");
+    group.text("--frames",
+               arguments.frames,
+               "FIRST-LAST",
+               "Render a sequence; the ### in the names of outputs become\n"
+               "each frame's number. Frame n is at n / fps seconds");
+    group.text("--fps", arguments.fps, "X", "Frames per second of --frames [24]");
 }
 
 void add_display_options(CLI::App& command, RenderArguments& arguments) {
@@ -162,6 +185,7 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
         ->type_name("")
         ->required();
     add_picture_options(command, arguments);
+    add_time_options(command, arguments);
     add_sampling_options(command, arguments, "64");
     add_camera_options(command, arguments);
     add_lens_options(command, arguments.lens);

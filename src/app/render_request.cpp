@@ -183,6 +183,36 @@ void parse_light_and_display(const RenderArguments& arguments,
     request.display.view = arguments.view.value_or("");
 }
 
+void parse_time(const RenderArguments& arguments, RenderRequest& request, Steps& steps) {
+    request.load.animation = arguments.animation;
+    steps.option(
+        arguments.time,
+        [](const std::string& text) { return parse_real(text, "--time", -1e6, 1e6); },
+        [&](double seconds) { request.load.time_s = seconds; });
+    steps.option(
+        arguments.frames,
+        [](const std::string& text) { return parse_frames(text, "--frames"); },
+        [&](const FrameRange& frames) { request.frames = frames; });
+    steps.refuse(arguments.frames && arguments.time,
+                 "--frames",
+                 "it cannot go together with --time; give one or the other");
+    steps.refuse(arguments.fps && !arguments.frames,
+                 "--fps",
+                 "it is for --frames; leave it out or add that");
+    steps.option(
+        arguments.fps,
+        [](const std::string& text) { return parse_real(text, "--fps", 1e-3, 1e5); },
+        [&](double fps) {
+            if (request.frames) request.frames->fps = fps;
+        });
+    for (const std::filesystem::path& output : request.outputs) {
+        steps.refuse(request.frames && !frame_file(output, 0),
+                     output.string(),
+                     "with --frames a file's name must say where the frame's number goes; expected "
+                     "one run of #, such as shot.####.exr");
+    }
+}
+
 void parse_program(const RenderArguments& arguments, RenderRequest& request, Steps& steps) {
     steps.option(
         arguments.threads,
@@ -197,8 +227,9 @@ void parse_program(const RenderArguments& arguments, RenderRequest& request, Ste
 
 /// Names of things and files; an empty one is most likely an unset variable of a script.
 void refuse_empty_names(const RenderArguments& arguments, Steps& steps) {
-    const std::array<std::pair<const char*, const Text*>, 8> names = {
-        {{"--camera", &arguments.camera},
+    const std::array<std::pair<const char*, const Text*>, 9> names = {
+        {{"--animation", &arguments.animation},
+         {"--camera", &arguments.camera},
          {"--camera-json", &arguments.lens.camera_json},
          {"--aperture", &arguments.lens.aperture},
          {"--env", &arguments.env},
@@ -218,7 +249,9 @@ void refuse_empty_names(const RenderArguments& arguments, Steps& steps) {
 
 /// No output may replace something that is read, nor another output.
 Result<void> check_distinct_files(const RenderRequest& request) {
-    std::vector<std::filesystem::path> written = request.outputs;
+    std::vector<std::filesystem::path> written;
+    for (const Frame& frame : frames_of(request))
+        written.insert(written.end(), frame.outputs.begin(), frame.outputs.end());
     if (request.statistics) written.push_back(*request.statistics);
     std::vector<std::filesystem::path> read = {request.scene};
     if (request.camera_json) read.push_back(*request.camera_json);
@@ -243,6 +276,18 @@ Result<void> check_distinct_files(const RenderRequest& request) {
 }
 
 }  // namespace
+
+std::vector<Frame> frames_of(const RenderRequest& request) {
+    if (!request.frames) return {{{}, request.load.time_s.value_or(0), request.outputs}};
+    std::vector<Frame> out;
+    for (int number = request.frames->first; number <= request.frames->last; ++number) {
+        Frame frame{number, request.frames->time_s(number), {}};
+        for (const std::filesystem::path& pattern : request.outputs)
+            frame.outputs.push_back(frame_file(pattern, number).value_or(pattern));
+        out.push_back(std::move(frame));
+    }
+    return out;
+}
 
 Result<void> check_crop(const RenderOptions& options) {
     const PixelRect crop = options.crop.value_or(PixelRect{});
@@ -280,7 +325,8 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     refuse_empty_names(arguments, steps);
     request.outputs.assign(arguments.outputs.begin(), arguments.outputs.end());
     if (request.outputs.empty() && arguments.writes_pictures) {
-        request.outputs.push_back(request.scene.stem().concat(".exr"));
+        const char* ending = arguments.frames ? ".####.exr" : ".exr";
+        request.outputs.push_back(request.scene.stem().concat(ending));
     }
     steps.take(choose_scene(arguments.scene, arguments.variant),
                [&](const LoadOptions& load) { request.load = load; });
@@ -293,6 +339,7 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     parse_camera(arguments, request.camera, steps);
     parse_light_and_display(arguments, request, steps);
     parse_program(arguments, request, steps);
+    parse_time(arguments, request, steps);
     const Result<void> parsed = steps.done();
     if (!parsed) return fail(parsed.error());
     const Result<void> distinct = check_distinct_files(request);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/camera_choice.h"
+#include "app/frames.h"
 #include "app/lens_options.h"
 #include "base/log.h"
 #include "gltf/load.h"
@@ -20,7 +21,8 @@ namespace obscura {
 struct RenderRequest {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
-    LoadOptions load;                            ///< --scene, --variant
+    LoadOptions load;                            ///< --scene, --variant, --animation, --time
+    std::optional<FrameRange> frames;            ///< then the outputs are patterns; see frame_file
     CameraRequest camera;
     std::optional<std::filesystem::path> camera_json;
     bool size_is_given = false;  ///< else --camera-json may have one
@@ -46,6 +48,7 @@ struct RenderArguments {
     std::optional<std::string> env, env_intensity, env_rotation, background;
     std::optional<std::string> integrator, ao_distance, wire_width, filter;
     std::optional<std::string> view, display, ocio, exposure, stats;
+    std::optional<std::string> animation, time, frames, fps;
     bool float32 = false;
     bool writes_pictures = true;  ///< false: no output unless one is named
     bool quiet = false;
@@ -57,6 +60,9 @@ struct RenderArguments {
 /// Errors  64, each with the option and what it accepts: E-USAGE-NUMBER, E-USAGE-RANGE,
 ///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
+
+/// The pictures that a request asks for: one, or one for each frame.
+std::vector<Frame> frames_of(const RenderRequest& request);
 
 /// 64 E-USAGE-CONFLICT when the part to render reaches beyond the picture.
 Result<void> check_crop(const RenderOptions& options);

@@ -53,7 +53,36 @@ void write_memory(const RenderStatistics& statistics, JsonWriter& json) {
     json.end_object();
 }
 
+void write_frames(const RenderRequest& request,
+                  const RenderStatistics& statistics,
+                  JsonWriter& json) {
+    if (!request.frames) return;
+    json.member("fps", request.frames->fps);
+    json.key("frames").begin_array();
+    for (const FrameStatistics& frame : statistics.frames) {
+        json.begin_object();
+        json.member("frame", frame.number);
+        json.member("time_s", frame.time_s);
+        json.member("load_s", frame.load_s);
+        json.member("build_s", frame.build_s);
+        json.member("render_s", frame.render_s);
+        json.member("write_s", frame.write_s);
+        json.end_object();
+    }
+    json.end_array();
+}
+
 }  // namespace
+
+void add_counters(const RenderCounters& from, RenderCounters& to) {
+    to.paths += from.paths;
+    to.camera_rays += from.camera_rays;
+    to.bounce_rays += from.bounce_rays;
+    to.shadow_rays += from.shadow_rays;
+    to.refused_rays += from.refused_rays;
+    to.nonfinite_samples += from.nonfinite_samples;
+    to.stages.add(from.stages);
+}
 
 uint64_t total_rays(const RenderCounters& counters) {
     return counters.camera_rays + counters.bounce_rays + counters.shadow_rays;
@@ -85,6 +114,7 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
     json.member("refused_rays", statistics.counters.refused_rays);
     json.member("nonfinite_samples", statistics.counters.nonfinite_samples);
     json.end_object();
+    write_frames(request, statistics, json);
     json.key("warnings").begin_array();
     for (const std::string& warning : statistics.warnings)
         json.value(warning);

@@ -12,7 +12,18 @@
 
 namespace obscura {
 
-/// Everything that --stats writes beside the request.
+/// What one frame of a sequence took.
+struct FrameStatistics {
+    int number = 0;
+    double time_s = 0;
+    double load_s = 0;
+    double build_s = 0;
+    double render_s = 0;
+    double write_s = 0;
+};
+
+/// Everything that --stats writes beside the request; of a sequence the sums of all frames and the
+/// memory of the last one.
 struct RenderStatistics {
     std::string isa;
     std::string embree;
@@ -30,7 +41,11 @@ struct RenderStatistics {
     size_t texture_bytes = 0;
     size_t film_bytes = 0;
     std::vector<std::string> warnings;
+    std::vector<FrameStatistics> frames;  ///< empty: it was one picture
 };
+
+/// Adds what one more frame has counted.
+void add_counters(const RenderCounters& from, RenderCounters& to);
 
 /// Rays of every kind.
 uint64_t total_rays(const RenderCounters& counters);

@@ -81,11 +81,12 @@ void read_parts(DocumentReading& reading) {
     read_materials(reading);
     read_variants(reading);
     read_meshes(reading);
-    read_animations(reading);
+    read_skins(reading);
     read_cameras(reading);
     read_lights(reading);
     read_shapes(reading);
     read_nodes(reading);
+    read_animations(reading);
     read_scenes(reading);
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "gltf/document_animation.h"
 #include "math/transform.h"
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
@@ -116,6 +117,8 @@ struct GltfAttributes {
     int tangent = -1;
     int color = -1;
     std::array<int, max_uv_sets> uv = {-1, -1, -1, -1, -1, -1, -1, -1};
+    std::vector<int> joints = {};  ///< JOINTS_n, by set
+    std::vector<int> weights = {};
 };
 
 /// KHR_materials_variants: a material that some variants give to a primitive.
@@ -132,11 +135,14 @@ struct GltfPrimitive : GltfAttributes {
     int draco_view = -1;       ///< KHR_draco_mesh_compression; -1: it is not compressed
     GltfAttributes draco_ids;  ///< the attributes' numbers in the compressed data
     std::vector<GltfVariantMaterial> variants;
+    std::vector<GltfAttributes> targets;  ///< accessors of differences, by morph target
 };
 
 struct GltfMesh {
     std::string name;
     std::vector<GltfPrimitive> primitives;
+    size_t target_count = 0;      ///< morph targets, the same for all primitives
+    std::vector<double> weights;  ///< of the targets; empty: all are 0
 };
 
 /// A shape of OBSCURA_shape or KHR_implicit_shapes.
@@ -158,7 +164,10 @@ struct GltfInstancing {
 
 struct GltfNode {
     std::string name;
+    GltfTrs trs;              ///< what parent_from_node is made of, unless has_matrix
+    bool has_matrix = false;  ///< such a node cannot be animated
     Affined parent_from_node;
+    std::vector<double> weights;  ///< of its mesh's morph targets; empty: the mesh's own
     int mesh = -1;
     int camera = -1;
     int light = -1;
@@ -220,9 +229,8 @@ struct Document {
     std::vector<GltfLight> lights;
     std::vector<GltfShape> shapes;  ///< of OBSCURA_shape, then those of KHR_implicit_shapes
     size_t first_khronos_shape = 0;
-    std::vector<NamedCount> animations;
-    size_t skin_count = 0;
-    size_t morphed_mesh_count = 0;
+    std::vector<GltfSkin> skins;
+    std::vector<GltfAnimation> animations;
     std::vector<std::string> variants;  ///< KHR_materials_variants: names
     std::string xmp;                    ///< the asset's XMP packet as JSON text
     std::vector<ExtensionInfo> extensions;

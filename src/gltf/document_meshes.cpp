@@ -1,4 +1,4 @@
-// gltf/document_meshes.cpp - reads meshes, and counts the animations that are not played.
+// gltf/document_meshes.cpp - reads meshes with their morph targets.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/document_parts.h"
 #include "gltf/variants.h"
@@ -17,12 +17,30 @@ int uv_set_of(const std::string& attribute) {
     return set < max_uv_sets ? set : -1;
 }
 
+/// The place of "JOINTS_3" in the list of such sets; nullptr: the name is another one.
+int* set_slot(std::vector<int>& sets, const std::string& name, std::string_view prefix) {
+    constexpr size_t most_digits = 3;
+    if (name.rfind(prefix, 0) != 0) return nullptr;
+    const std::string digits = name.substr(prefix.size());
+    if (digits.empty() || digits.size() > most_digits ||
+        digits.find_first_not_of("0123456789") != std::string::npos) {
+        return nullptr;
+    }
+    const auto set = static_cast<size_t>(std::stoi(digits));
+    if (sets.size() <= set) sets.resize(set + 1, -1);
+    return &sets[set];
+}
+
 /// Where the number of an attribute is kept; nullptr: it is not used.
 int* slot_of(GltfAttributes& attributes, const std::string& name) {
     if (name == "POSITION") return &attributes.position;
     if (name == "NORMAL") return &attributes.normal;
     if (name == "TANGENT") return &attributes.tangent;
     if (name == "COLOR_0") return &attributes.color;
+    int* joint_slot = set_slot(attributes.joints, name, "JOINTS_");
+    if (joint_slot != nullptr) return joint_slot;
+    int* weight_slot = set_slot(attributes.weights, name, "WEIGHTS_");
+    if (weight_slot != nullptr) return weight_slot;
     const int set = uv_set_of(name);
     return set < 0 ? nullptr : &attributes.uv[static_cast<size_t>(set)];
 }
@@ -52,15 +70,22 @@ void read_draco(DocumentReading& reading, const JsonReader& object, GltfPrimitiv
     });
 }
 
-GltfPrimitive read_primitive(DocumentReading& reading, const JsonReader& object) {
-    object.require("attributes");
-    const size_t accessor_count = reading.root.count("accessors");
-    GltfPrimitive out;
-    const JsonReader attributes = object.child("attributes");
+/// Accessors by attribute, of a primitive or of one of its morph targets.
+void read_attributes(const JsonReader& attributes, size_t accessor_count, GltfAttributes& out) {
     attributes.each_key([&](const std::string& name) {
         const int accessor = attributes.index(name, accessor_count, "accessor");
         int* slot = slot_of(out, name);
         if (slot != nullptr) *slot = accessor;
+    });
+}
+
+GltfPrimitive read_primitive(DocumentReading& reading, const JsonReader& object) {
+    object.require("attributes");
+    const size_t accessor_count = reading.root.count("accessors");
+    GltfPrimitive out;
+    read_attributes(object.child("attributes"), accessor_count, out);
+    object.each("targets", [&](const JsonReader& target, size_t) {
+        read_attributes(target, accessor_count, out.targets.emplace_back());
     });
     out.indices = object.index("indices", accessor_count, "accessor");
     out.material = object.index("material", reading.root.count("materials"), "material");
@@ -85,41 +110,35 @@ void read_meshes(DocumentReading& reading) {
         GltfMesh out;
         out.name = mesh.text("name");
         if (out.name.empty()) out.name = "mesh " + std::to_string(index);
-        bool morphed = false;
-        mesh.each("primitives", [&](const JsonReader& primitive, size_t) {
-            out.primitives.push_back(read_primitive(reading, primitive));
-            morphed = morphed || primitive.count("targets") != 0;
+        mesh.each("primitives", [&](const JsonReader& object, size_t number) {
+            GltfPrimitive primitive = read_primitive(reading, object);
+            if (number == 0) out.target_count = primitive.targets.size();
+            if (primitive.targets.size() != out.target_count) {
+                object.fault("targets",
+                             "E-MESH-TARGETS",
+                             "the primitive has " + std::to_string(primitive.targets.size()) +
+                                 " morph targets and the first one " +
+                                 std::to_string(out.target_count) + "; they must agree");
+            }
+            out.primitives.push_back(std::move(primitive));
         });
-        if (morphed) ++document.morphed_mesh_count;
+        out.weights = read_morph_weights(mesh, out.target_count);
         document.meshes.push_back(std::move(out));
     });
-    if (document.morphed_mesh_count != 0) {
-        reading.log.warn(document.file,
-                         "morph targets are not supported: base shapes are drawn (meshes: " +
-                             std::to_string(document.morphed_mesh_count) + ")");
-    }
 }
 
-void read_animations(DocumentReading& reading) {
-    Document& document = reading.document;
-    reading.root.each("animations", [&](const JsonReader& animation, size_t index) {
-        const std::string name = animation.text("name");
-        document.animations.push_back({name.empty() ? "animation " + std::to_string(index) : name,
-                                       animation.count("channels")});
-    });
-    if (!document.animations.empty()) {
-        reading.log.warn(
-            document.file,
-            "animations are not supported: the pose of the nodes is drawn (animations: " +
-                std::to_string(document.animations.size()) + ")");
+std::vector<double> read_morph_weights(const JsonReader& object, size_t target_count) {
+    if (!object.has("weights")) return {};
+    std::vector<double> out(object.count("weights"));
+    if (out.size() != target_count) {
+        object.fault("weights",
+                     "E-MESH-TARGETS",
+                     "there are " + std::to_string(out.size()) + " weights and " +
+                         std::to_string(target_count) + " morph targets; they must agree");
+        return {};
     }
-    document.skin_count = reading.root.count("skins");
-    if (document.skin_count != 0) {
-        reading.log.warn(
-            document.file,
-            "skins are not supported: meshes are drawn unposed, placed by their nodes (skins: " +
-                std::to_string(document.skin_count) + ")");
-    }
+    object.numbers("weights", out);
+    return out;
 }
 
 }  // namespace obscura

@@ -23,14 +23,11 @@ Affined affine_from_columns(const std::array<double, 16>& columns) {
     return out;
 }
 
-Affined read_transform(DocumentReading& reading, const JsonReader& node) {
+void read_transform(DocumentReading& reading, const JsonReader& node, GltfNode& out) {
     std::array<double, 16> columns = {};
-    std::array<double, 3> translation = {0, 0, 0};
-    std::array<double, 4> rotation = {0, 0, 0, 1};
-    std::array<double, 3> scale = {1, 1, 1};
-    const bool t = node.numbers("translation", translation);
-    const bool r = node.numbers("rotation", rotation);
-    const bool s = node.numbers("scale", scale);
+    const bool t = node.numbers("translation", out.trs.translation);
+    const bool r = node.numbers("rotation", out.trs.rotation);
+    const bool s = node.numbers("scale", out.trs.scale);
     if (node.numbers("matrix", columns)) {
         if (t || r || s) {
             reading.log.warn(reading.document.at(node.pointer()),
@@ -41,12 +38,14 @@ Affined read_transform(DocumentReading& reading, const JsonReader& node) {
             reading.log.warn(reading.document.at(node.pointer()),
                              "the matrix's last row is not 0 0 0 1; it is ignored");
         }
-        return affine_from_columns(columns);
+        out.has_matrix = true;
+        out.parent_from_node = affine_from_columns(columns);
+        return;
     }
-    if (!normalize_quaternion(rotation)) {
+    if (!normalize_quaternion(out.trs.rotation)) {
         node.fault("rotation", "E-NODE-ROTATION", "the quaternion has no length");
     }
-    return affine_from_trs(translation, rotation, scale);
+    out.parent_from_node = affine_from_trs(out.trs);
 }
 
 GltfCamera read_perspective(const JsonReader& object) {
@@ -155,10 +154,15 @@ void read_nodes(DocumentReading& reading) {
     root.each("nodes", [&](const JsonReader& node, size_t) {
         GltfNode out;
         out.name = node.text("name");
-        out.parent_from_node = read_transform(reading, node);
+        read_transform(reading, node, out);
         out.mesh = node.index("mesh", mesh_count, "mesh");
+        if (reading.root.failed()) return;
+        if (out.mesh >= 0) {
+            const GltfMesh& mesh = reading.document.meshes[static_cast<size_t>(out.mesh)];
+            out.weights = read_morph_weights(node, mesh.target_count);
+        }
         out.camera = node.index("camera", camera_count, "camera");
-        out.skin = node.index("skin", reading.document.skin_count, "skin");
+        out.skin = node.index("skin", reading.document.skins.size(), "skin");
         out.children = node.indices("children", node_count, "node");
         if (node.has_extension(punctual_name)) {
             out.light = node.extension(punctual_name).index("light", light_count, "light");

@@ -46,6 +46,10 @@ void read_samplers(DocumentReading& reading);
 void read_textures(DocumentReading& reading);
 void read_materials(DocumentReading& reading);
 void read_meshes(DocumentReading& reading);  // document_meshes.cpp
+/// "weights" of a mesh or node, checked against the number of its morph targets;
+/// document_meshes.cpp
+std::vector<double> read_morph_weights(const JsonReader& object, size_t target_count);
+void read_skins(DocumentReading& reading);  // document_animations.cpp
 void read_animations(DocumentReading& reading);
 void read_nodes(DocumentReading& reading);  // document_nodes.cpp
 void read_scenes(DocumentReading& reading);

@@ -219,6 +219,10 @@ Result<DracoMesh> decode_draco(const DracoSources& sources,
     if (done) done = read_attribute(reader, **mesh, primitive.color, ids.color, out);
     for (size_t set = 0; set < primitive.uv.size() && done; ++set)
         done = read_attribute(reader, **mesh, primitive.uv[set], ids.uv[set], out);
+    for (size_t set = 0; set < ids.joints.size() && done; ++set)
+        done = read_attribute(reader, **mesh, primitive.joints[set], ids.joints[set], out);
+    for (size_t set = 0; set < ids.weights.size() && done; ++set)
+        done = read_attribute(reader, **mesh, primitive.weights[set], ids.weights[set], out);
     if (!done) return fail(std::move(done.error()));
     // Attributes beside the compressed ones are read as usual, and checked against POSITION's
     // count.

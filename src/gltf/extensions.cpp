@@ -18,6 +18,7 @@ constexpr std::array extension_rows = {
     ExtensionRow{"EXT_mesh_gpu_instancing", true, ""},
     ExtensionRow{"EXT_meshopt_compression", true, ""},
     ExtensionRow{"EXT_texture_webp", true, "", "the WebP image is preferred"},
+    ExtensionRow{"KHR_animation_pointer", true, "", "played by --time and --frames"},
     ExtensionRow{"KHR_draco_mesh_compression", true, ""},
     ExtensionRow{"KHR_implicit_shapes", true, "", "drawn where a node's OBSCURA_shape names one"},
     ExtensionRow{"KHR_interactivity", true, "", "a still picture has none", Verdict::ignored},
@@ -53,7 +54,6 @@ constexpr std::array extension_rows = {
     ExtensionRow{"MSFT_lod", true, "", "the finest level is drawn"},
     ExtensionRow{"OBSCURA_camera", true, ""},
     ExtensionRow{"OBSCURA_shape", true, ""},
-    ExtensionRow{"KHR_animation_pointer", false, "animations are not played"},
     ExtensionRow{"KHR_materials_pbrSpecularGlossiness", false, "the core material is used"},
     ExtensionRow{"KHR_texture_basisu", false, "the PNG, JPEG or WebP fallback is read"},
 };

@@ -62,6 +62,7 @@ public:
     void require(std::string_view key) const;
 
     const std::string& pointer() const { return pointer_; }
+    const nlohmann::json& object() const { return *object_; }
 
 private:
     const nlohmann::json* find(std::string_view key) const;

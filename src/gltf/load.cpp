@@ -10,6 +10,7 @@
 #include "gltf/lights_cameras.h"
 #include "gltf/meshes.h"
 #include "gltf/meshopt.h"
+#include "gltf/pose.h"
 #include "gltf/shapes.h"
 #include "gltf/textures.h"
 #include "gltf/variants.h"
@@ -49,6 +50,7 @@ Result<Bytes> read_asset_file(const std::filesystem::path& file) {
 struct OpenedAsset {
     Bytes file;  ///< what glb_binary points into
     std::optional<std::span<const std::byte>> glb_binary;
+    nlohmann::json tree;  ///< kept for animations only
     Document document;
 };
 
@@ -80,6 +82,7 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path, Log& log) {
     Result<Document> document = read_document(*tree, where, log);
     if (!document) return fail(std::move(document.error()));
     asset.document = std::move(*document);
+    if (!asset.document.animations.empty()) asset.tree = std::move(*tree);
     return asset;
 }
 
@@ -127,7 +130,6 @@ void fill_info(const Document& document, AssetInfo& info) {
         }
         info.meshes.push_back({mesh.name, triangles});
     }
-    info.animations = document.animations;
     info.node_names.reserve(document.nodes.size());
     for (size_t i = 0; i < document.nodes.size(); ++i) {
         const std::string& name = document.nodes[i].name;
@@ -156,67 +158,163 @@ void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
     }
 }
 
-Result<Scene> build_scene(const std::filesystem::path& file, const LoadOptions& options, Log& log) {
-    const auto start = std::chrono::steady_clock::now();
-    Result<OpenedAsset> asset = open_asset(file, log);
-    if (!asset) return fail(std::move(asset.error()));
-    const Document& document = asset->document;
-    const Result<int> chosen = choose_scene(document, options, log);
-    if (!chosen) return fail(chosen.error());
-    Result<void> done;
-    if (!options.variant.empty()) done = choose_variant(options.variant, asset->document);
-    if (!done) return fail(std::move(done.error()));
-
-    Scene scene;
-    scene.info.file_name = file.filename().string();
-    scene.info.scene = std::max(*chosen, 0);
-    scene.info.variant = options.variant;
-    fill_info(document, scene.info);
-    const std::filesystem::path folder = file.parent_path();
-    Result<BufferStore> buffers = load_buffers(document, {folder, asset->glb_binary}, log);
-    if (!buffers) return fail(std::move(buffers.error()));
-    done = decode_meshopt(document, *buffers);
-    if (!done) return fail(std::move(done.error()));
-
-    const std::vector<PlacedNode> placed = place_nodes(document, *chosen, log);
-    MaterialTable materials = make_material_table(document);
-    const Result<std::vector<PlacedNode>> placed_meshes =
-        expand_instances(document, *buffers, placed);
-    if (!placed_meshes) return fail(placed_meshes.error());
-    done = add_meshes({document, *buffers, *placed_meshes}, materials, scene, log);
-    if (done) done = add_shapes({document, *buffers, placed}, materials, scene, log);
-    if (done) done = add_lights_and_cameras(document, placed, scene, log);
-    if (!done) return fail(std::move(done.error()));
-    release_geometry(document, *buffers);
-    scene.info.parse_seconds = seconds_since(start);
-
-    const auto decode_start = std::chrono::steady_clock::now();
-    done = add_textures({document, *buffers, folder, options.info_only}, materials, scene, log);
-    if (!done) return fail(std::move(done.error()));
-    scene.info.decode_seconds = seconds_since(decode_start);
-    move_materials(materials, scene);
-    warn_about_whole(document, scene, log);
-    return scene;
+/// Where the last keyframe of each animation is.
+Result<std::vector<AnimationInfo>> animation_infos(const Document& document,
+                                                   const BufferStore& buffers) {
+    std::vector<AnimationInfo> out;
+    for (const GltfAnimation& animation : document.animations) {
+        const Result<double> end = animation_end(document, buffers, animation);
+        if (!end) return fail(end.error());
+        out.push_back({animation.name, animation.channels.size(), *end});
+    }
+    return out;
 }
 
-}  // namespace
-
-Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& options, Log& log) {
+/// Turns what the standard library throws into errors.
+template <typename Work>
+auto guarded(const std::string& file, const Work& work) -> decltype(work()) {
     try {
-        return build_scene(file, options, log);
+        return work();
     } catch (const std::bad_alloc&) {
         return fail(ExitCode::out_of_memory,
                     "E-MEMORY",
-                    file.string(),
+                    file,
                     "there is not enough memory to load the scene");
     } catch (const std::length_error&) {
         return fail(ExitCode::out_of_memory,
                     "E-MEMORY",
-                    file.string(),
+                    file,
                     "the scene asks for more memory than any machine has");
     } catch (const std::exception& problem) {
-        return fail(ExitCode::internal, "E-INTERNAL", file.string(), problem.what());
+        return fail(ExitCode::internal, "E-INTERNAL", file, problem.what());
     }
+}
+
+}  // namespace
+
+struct PosedAsset::Impl {
+    std::filesystem::path file;
+    LoadOptions options;
+    OpenedAsset asset;
+    int scene = -1;  ///< the chosen one; -1: the file has none
+    BufferStore buffers;
+    Animator animator;
+    AssetInfo info;  ///< what all scenes of the asset have in common
+    TextureStore textures;
+    double open_seconds = 0;  ///< not yet told in a scene
+
+    Result<void> open(bool has_time, Log& log);
+    Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log) const;
+    Result<Scene> scene_at(double time_s, bool last, Log& log);
+};
+
+Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
+    const auto start = std::chrono::steady_clock::now();
+    Result<OpenedAsset> opened = open_asset(file, log);
+    if (!opened) return fail(std::move(opened.error()));
+    asset = std::move(*opened);
+    Document& document = asset.document;
+    const Result<int> chosen = choose_scene(document, options, log);
+    if (!chosen) return fail(chosen.error());
+    scene = *chosen;
+    Result<void> done;
+    if (!options.variant.empty()) done = choose_variant(options.variant, document);
+    if (!done) return done;
+    const auto animations = choose_animations(document, options.animation, has_time);
+    if (!animations) return fail(animations.error());
+    if (has_time && document.animations.empty()) {
+        log.warn(document.file, "the asset has no animation; it is the same at every time");
+    }
+    Result<BufferStore> loaded =
+        load_buffers(document, {file.parent_path(), asset.glb_binary}, log);
+    if (!loaded) return fail(std::move(loaded.error()));
+    buffers = std::move(*loaded);
+    done = decode_meshopt(document, buffers);
+    if (!done) return done;
+    Result<Animator> made = Animator::create(asset.tree, document, buffers, *animations);
+    if (!made) return fail(std::move(made.error()));
+    animator = std::move(*made);
+    asset.tree = nullptr;
+
+    info.file_name = file.filename().string();
+    info.scene = std::max(scene, 0);
+    info.variant = options.variant;
+    fill_info(document, info);
+    Result<std::vector<AnimationInfo>> infos = animation_infos(document, buffers);
+    if (!infos) return fail(std::move(infos.error()));
+    info.animations = std::move(*infos);
+    open_seconds = seconds_since(start);
+    return {};
+}
+
+/// Everything but textures.
+Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out, Log& log) const {
+    const Document& document = asset.document;
+    const std::vector<PlacedNode> placed = place_nodes(document, scene, log);
+    const Result<std::vector<PlacedNode>> placed_meshes =
+        expand_instances(document, buffers, placed);
+    if (!placed_meshes) return fail(placed_meshes.error());
+    Result<void> done = add_meshes({document, buffers, *placed_meshes}, materials, out, log);
+    if (done) done = add_shapes({document, buffers, placed}, materials, out, log);
+    if (done) done = add_lights_and_cameras(document, placed, out, log);
+    return done;
+}
+
+Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
+    const auto start = std::chrono::steady_clock::now();
+    Document& document = asset.document;
+    Scene out;
+    out.info = info;
+    Result<void> done = animator.pose(document, time_s);
+    if (!done) return fail(std::move(done.error()));
+    if (!animator.empty()) out.info.time_s = time_s;
+    MaterialTable materials = make_material_table(document);
+    done = add_geometry(materials, out, log);
+    if (!done) return fail(std::move(done.error()));
+    if (last) release_geometry(document, buffers);
+    out.info.parse_seconds = open_seconds + seconds_since(start);
+    open_seconds = 0;
+
+    const auto decode_start = std::chrono::steady_clock::now();
+    done = add_textures(
+        {document, buffers, file.parent_path(), textures, options.info_only}, materials, out, log);
+    if (!done) return fail(std::move(done.error()));
+    out.info.decode_seconds = seconds_since(decode_start);
+    move_materials(materials, out);
+    warn_about_whole(document, out, log);
+    return out;
+}
+
+PosedAsset::PosedAsset(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+PosedAsset::PosedAsset(PosedAsset&&) noexcept = default;
+PosedAsset& PosedAsset::operator=(PosedAsset&&) noexcept = default;
+PosedAsset::~PosedAsset() = default;
+
+Result<PosedAsset> PosedAsset::open(const std::filesystem::path& file,
+                                    const LoadOptions& options,
+                                    bool has_time,
+                                    Log& log) {
+    auto impl = std::make_unique<Impl>();
+    impl->file = file;
+    impl->options = options;
+    const Result<void> done =
+        guarded(file.string(), [&]() -> Result<void> { return impl->open(has_time, log); });
+    if (!done) return fail(done.error());
+    return PosedAsset(std::move(impl));
+}
+
+Result<Scene> PosedAsset::scene_at(double time_s, bool last, Log& log) {
+    return guarded(impl_->file.string(), [&] { return impl_->scene_at(time_s, last, log); });
+}
+
+void PosedAsset::take_textures(Scene&& scene) {
+    impl_->textures.texels = std::move(scene.textures.texels);
+}
+
+Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& options, Log& log) {
+    Result<PosedAsset> asset = PosedAsset::open(file, options, options.time_s.has_value(), log);
+    if (!asset) return fail(std::move(asset.error()));
+    return asset->scene_at(options.time_s.value_or(0), true, log);
 }
 
 }  // namespace obscura

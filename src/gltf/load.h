@@ -7,6 +7,8 @@
 #include "scene/scene.h"
 
 #include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace obscura {
@@ -15,6 +17,10 @@ struct LoadOptions {
     int scene = -1;  ///< number of the scene in the file; -1: scene_name, else the file's own
     std::string scene_name;  ///< used when not empty and `scene` is -1
     std::string variant;     ///< of KHR_materials_variants; empty: the primitives' own materials
+    /// --animation: "all", "none", a name or an index. Without it the first one is played where a
+    /// time is given.
+    std::optional<std::string> animation = {};
+    std::optional<double> time_s = {};  ///< of load_gltf; nothing: as stored, or 0 with `animation`
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
 };
 
@@ -24,12 +30,43 @@ struct LoadOptions {
 /// (behind them come copies without textures whose UV set a primitive lacks). Materials that the
 /// chosen scene does not use keep their factors and lose their textures.
 ///
-/// Errors  64 E-SCENE-UNKNOWN, E-VARIANT-UNKNOWN; 65 E-GLB-*, E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*,
-/// E-MESH-*, E-NODE-*,
-///         E-MESHOPT-*, E-DRACO-*;
+/// Errors  64 E-SCENE-UNKNOWN, E-VARIANT-UNKNOWN, E-ANIM-UNKNOWN, E-ANIM-AMBIGUOUS; 65 E-GLB-*,
+/// E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*, E-MESH-*, E-NODE-*,
+///         E-MESHOPT-*, E-DRACO-*, E-SKIN-*, E-ANIM-*;
 ///         66 E-SCENE-MISSING; 67 E-RES-MISSING, E-RES-SHORT, E-IMG-*; 69 E-VERSION,
 ///         E-EXT-REQUIRED, E-MESHOPT-VERSION, E-DRACO-VERSION; 77 E-URI-REFUSED, E-LIMIT-*; 33
 ///         E-MEMORY
 Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& options, Log& log);
+
+/// An asset that is read once and posed at many times: the file is parsed, and its images are
+/// decoded, only once.
+class PosedAsset {
+public:
+    /// Reads and checks the file and everything that it refers to but the images.
+    ///
+    /// In      options: as for load_gltf, but for time_s; has_time: scenes at times will be asked
+    /// for Errors  those of load_gltf
+    static Result<PosedAsset> open(const std::filesystem::path& file,
+                                   const LoadOptions& options,
+                                   bool has_time,
+                                   Log& log);
+    PosedAsset(PosedAsset&&) noexcept;
+    PosedAsset& operator=(PosedAsset&&) noexcept;
+    ~PosedAsset();
+
+    /// The scene as the chosen animations have it at a time; equal times give equal scenes.
+    ///
+    /// In      last: no further scene will be asked for; memory is given back sooner
+    /// Errors  those of load_gltf
+    Result<Scene> scene_at(double time_s, bool last, Log& log);
+
+    /// Takes the decoded images back out of a scene that is no longer needed, for the next one.
+    void take_textures(Scene&& scene);
+
+private:
+    struct Impl;
+    explicit PosedAsset(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace obscura

@@ -1,5 +1,6 @@
 // gltf/mesh_append.cpp - moves one primitive to the world and adds it to the scene's arrays.
 // SPDX-License-Identifier: Apache-2.0
+#include "gltf/cofactors.h"
 #include "gltf/meshes.h"
 
 #include <cmath>
@@ -13,22 +14,6 @@ namespace {
 constexpr size_t most_vertices = (1U << 29) - 1;  // four floats a vertex stay below 2^31
 constexpr size_t most_words = (1U << 31) - 1;     // what an int32 offset reaches
 constexpr float farthest_position = 1e18f;
-
-/// Adjugate transposed: determinant times the inverse transpose, without a division.
-Affined cofactors(const Affined& a) {
-    const auto& m = a.m;
-    Affined out;
-    for (size_t r = 0; r < 3; ++r) {
-        const size_t r1 = (r + 1) % 3;
-        const size_t r2 = (r + 2) % 3;
-        for (size_t c = 0; c < 3; ++c) {
-            const size_t c1 = (c + 1) % 3;
-            const size_t c2 = (c + 2) % 3;
-            out.m[r][c] = m[r1][c1] * m[r2][c2] - m[r1][c2] * m[r2][c1];
-        }
-    }
-    return out;
-}
 
 /// Transforms a direction in place and makes it unit; the zero vector stays.
 void turn(float* v, const Affined& map, double sign) {

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/mesh_part.h"
 
-#include "gltf/draco_mesh.h"
+#include "gltf/deform.h"
 #include "gltf/materials.h"
+#include "gltf/part_reader.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,100 +17,6 @@ namespace {
 
 constexpr float farthest_position = 1e18f;  // Embree drops triangles beyond 1.8e18
 constexpr uint64_t most_vertices = (1U << 29) - 1;
-
-constexpr uint32_t type_bit(ComponentType type) {
-    return 1U << (static_cast<uint32_t>(type) - 5120U);
-}
-
-constexpr uint32_t float_type = type_bit(ComponentType::float32);
-constexpr uint32_t unsigned_types =
-    type_bit(ComponentType::uint8) | type_bit(ComponentType::uint16);
-constexpr uint32_t signed_types = type_bit(ComponentType::int8) | type_bit(ComponentType::int16);
-
-/// What a vertex attribute may be made of, in the core and with KHR_mesh_quantization.
-struct AttributeRule {
-    const char* name;
-    int least_rows;
-    int most_rows;
-    uint32_t normalized;            ///< component types that may be normalized
-    uint32_t quantized_normalized;  ///< the same with the extension
-    uint32_t quantized_plain;       ///< integers as they are, with the extension
-};
-
-constexpr AttributeRule position_rule = {
-    "POSITION", 3, 3, 0, unsigned_types | signed_types, unsigned_types | signed_types};
-constexpr AttributeRule normal_rule = {"NORMAL", 3, 3, 0, signed_types, 0};
-constexpr AttributeRule tangent_rule = {"TANGENT", 4, 4, 0, signed_types, 0};
-constexpr AttributeRule uv_rule = {
-    "TEXCOORD", 2, 2, unsigned_types, unsigned_types | signed_types, unsigned_types | signed_types};
-constexpr AttributeRule color_rule = {"COLOR_0", 3, 4, unsigned_types, unsigned_types, 0};
-
-/// Reads the attributes of one primitive.
-struct PartReader {
-    const Document& document;
-    const BufferStore& store;
-    PartName name;
-    uint64_t vertex_count = 0;  ///< as in the file
-    ElementChoice choice = {};
-    uint32_t issues = 0;   ///< found while reading attributes
-    DracoMesh draco = {};  ///< empty: the primitive is not compressed
-
-    const GltfPrimitive& primitive() const {
-        return document.meshes[static_cast<size_t>(name.mesh)]
-            .primitives[static_cast<size_t>(name.primitive)];
-    }
-    std::string where() const {
-        return document.at("meshes", static_cast<size_t>(name.mesh)) + "/primitives/" +
-               std::to_string(name.primitive);
-    }
-    tl::unexpected<Error> bad(const char* id, std::string message) const {
-        return fail(ExitCode::bad_data, id, where(), std::move(message));
-    }
-};
-
-bool has_quantization(const Document& document) {
-    const auto is_it = [](const ExtensionInfo& info) {
-        return info.name == "KHR_mesh_quantization";
-    };
-    return std::any_of(document.extensions.begin(), document.extensions.end(), is_it);
-}
-
-bool rule_allows(const AttributeRule& rule, const GltfAccessor& accessor, bool quantization) {
-    if (accessor.columns != 1) return false;
-    if (accessor.rows < rule.least_rows || accessor.rows > rule.most_rows) return false;
-    const uint32_t type = type_bit(accessor.component);
-    if (type == float_type) return !accessor.normalized;
-    const uint32_t normalized = rule.normalized | (quantization ? rule.quantized_normalized : 0U);
-    const uint32_t plain = quantization ? rule.quantized_plain : 0U;
-    return ((accessor.normalized ? normalized : plain) & type) != 0;
-}
-
-/// `draco_id` is the attribute's number in the compressed data, -1: it is not in them.
-Result<std::vector<float>> read_attribute(PartReader& reader,
-                                          int accessor,
-                                          int draco_id,
-                                          const AttributeRule& rule) {
-    if (accessor < 0) return std::vector<float>{};
-    const GltfAccessor& row = reader.document.accessors[static_cast<size_t>(accessor)];
-    if (!rule_allows(rule, row, has_quantization(reader.document))) {
-        return reader.bad("E-MESH-ATTRIBUTE",
-                          std::string(rule.name) + " is accessor " + std::to_string(accessor) +
-                              ", whose type, component type or normalization glTF does not allow "
-                              "there (other integers need KHR_mesh_quantization)");
-    }
-    if (row.count != reader.vertex_count) {
-        return reader.bad("E-MESH-COUNT",
-                          std::string(rule.name) + " has " + std::to_string(row.count) +
-                              " elements and POSITION " + std::to_string(reader.vertex_count) +
-                              "; they must agree");
-    }
-    if (row.sparse.count != 0 &&
-        !sparse_indices_increase(reader.document, reader.store, accessor)) {
-        reader.issues |= issue_bit(MeshIssue::unsorted_sparse);
-    }
-    return read_floats(
-        reader.document, reader.store, accessor, reader.choice, reader.draco.values(draco_id));
-}
 
 /// The vertex order of a primitive: its indices, or 0, 1, 2...
 Result<std::vector<uint32_t>> read_vertex_order(PartReader& reader) {
@@ -311,6 +218,11 @@ std::string_view mesh_issue_text(MeshIssue issue) {
             return "sparse indices are not in increasing order";
         case MeshIssue::lone_tangents:
             return "TANGENT without NORMAL is ignored";
+        case MeshIssue::bad_weights:
+            return "skin weights that are below 0, not finite or do not sum to 1 are repaired";
+        case MeshIssue::no_joints:
+            return "without JOINTS_0 and WEIGHTS_0 a skin cannot move them: drawn where their node "
+                   "is";
         case MeshIssue::count:
             break;
     }
@@ -351,7 +263,10 @@ uint64_t primitive_triangles(const Document& document, const GltfPrimitive& prim
     return triangle_count(primitive.mode, document.accessors[static_cast<size_t>(order)].count);
 }
 
-Result<MeshPart> read_mesh_part(const Document& document, const BufferStore& store, PartName name) {
+Result<MeshPart> read_mesh_part(const Document& document,
+                                const BufferStore& store,
+                                PartName name,
+                                const PartPose& pose) {
     PartReader reader{document, store, name};
     const GltfPrimitive& primitive = reader.primitive();
     MeshPart part;
@@ -380,6 +295,12 @@ Result<MeshPart> read_mesh_part(const Document& document, const BufferStore& sto
     if (done) done = read_attributes(reader, part, needs);
     if (!done) return fail(std::move(done.error()));
     check_declared_bounds(reader, part);
+    done = deform_part(reader, pose, part);
+    if (done && part.keeps_layout) {
+        done = check_positions(reader, part);
+        finish_uvs(part);
+    }
+    if (!done) return fail(std::move(done.error()));
     part.issues |= reader.issues;
     finish_shading(part, needs);
     return part;

@@ -25,6 +25,8 @@ enum class MeshIssue : uint32_t {
     missing_bounds,
     unsorted_sparse,
     lone_tangents,
+    bad_weights,
+    no_joints,
     count
 };
 
@@ -52,6 +54,14 @@ struct MeshPart {
     std::vector<float> colors;                        ///< 4
     std::array<std::vector<float>, max_uv_sets> uvs;  ///< 2
     uint32_t issues = 0;                              ///< issue_bit
+    bool in_world = false;                            ///< a skin moved it there
+    bool keeps_layout = false;  ///< it is bent: as many vertices, in one order, in every pose
+};
+
+/// How a primitive is bent before it is placed.
+struct PartPose {
+    std::span<const double> weights = {};           ///< of the morph targets; empty: all are 0
+    std::span<const Affined> world_from_bind = {};  ///< by joint; empty: it has no skin
 };
 
 /// Names one primitive of the document.
@@ -66,10 +76,15 @@ uint64_t triangle_count(int mode, uint64_t vertex_count);
 /// As listed in the file, before degenerate ones are dropped.
 uint64_t primitive_triangles(const Document& document, const GltfPrimitive& primitive);
 
-/// Reads one primitive in its mesh's space. Without POSITION the part is empty.
+/// Reads one primitive in its mesh's space; a skinned one in the world. Without POSITION the part
+/// is empty.
 ///
-/// Errors  65 E-MESH-*, E-ACC-*, E-DRACO-DATA; 69 E-DRACO-VERSION; 77 E-LIMIT-COUNT
-Result<MeshPart> read_mesh_part(const Document& document, const BufferStore& store, PartName name);
+/// Errors  65 E-MESH-*, E-SKIN-JOINT, E-ACC-*, E-DRACO-DATA; 69 E-DRACO-VERSION;
+///         77 E-LIMIT-COUNT
+Result<MeshPart> read_mesh_part(const Document& document,
+                                const BufferStore& store,
+                                PartName name,
+                                const PartPose& pose = {});
 
 /// Makes normals unit (bad ones become the mean of their triangles') and makes or repairs the
 /// tangents that the material needs. mesh_shading.cpp

@@ -101,7 +101,7 @@ uint32_t append_vertex(MeshPart& part, size_t vertex) {
     return static_cast<uint32_t>(part.positions.size() / 3 - 1);
 }
 
-/// Gives every corner its own vertex, for flat normals.
+/// Gives every corner its own vertex.
 void unweld(MeshPart& part) {
     const auto spread = [&](std::vector<float>& values, size_t width) {
         if (values.empty()) return;
@@ -114,11 +114,17 @@ void unweld(MeshPart& part) {
         values = std::move(out);
     };
     spread(part.positions, 3);
+    spread(part.normals, 3);
     spread(part.colors, 4);
     for (std::vector<float>& set : part.uvs)
         spread(set, 2);
     for (size_t i = 0; i < part.indices.size(); ++i)
         part.indices[i] = static_cast<uint32_t>(i);
+}
+
+/// Gives every triangle its own normal.
+void make_flat(MeshPart& part) {
+    unweld(part);
     part.normals.resize(part.positions.size());
     for (size_t i = 0; i < part.indices.size(); ++i) {
         store3(part.normals, i, unit_or_z(triangle_normal(part, i / 3)));
@@ -182,11 +188,17 @@ void finish_shading(MeshPart& part, const MaterialNeeds& needs) {
         if (normalize_tangents(part)) return;
         part.issues |= issue_bit(MeshIssue::bad_tangents);
     }
-    if (part.normals.empty()) unweld(part);
+    if (part.normals.empty()) make_flat(part);
     const std::vector<float> uvs =
         transformed_uvs(part.uvs[static_cast<size_t>(needs.normal_map.uv_set)], needs.normal_map);
     const TangentMesh mesh{part.positions, part.normals, uvs, part.indices};
-    weld_tangents(part, make_tangents(mesh));
+    std::vector<float> corners = make_tangents(mesh);
+    if (!part.keeps_layout) {
+        weld_tangents(part, corners);
+        return;
+    }
+    unweld(part);  // which corners may share a vertex would change from pose to pose
+    part.tangents = std::move(corners);
 }
 
 }  // namespace obscura

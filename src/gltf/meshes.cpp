@@ -4,6 +4,8 @@
 
 #include "base/parallel.h"
 #include "gltf/list_text.h"
+#include "gltf/mesh_uses.h"
+#include "gltf/skins.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +21,7 @@ constexpr double farthest_position = 1e18;
 /// One primitive to be read; baked to the world when `placed` is not -1.
 struct PartJob {
     PartName name;
+    const MeshUse* use = nullptr;
     int placed = -1;
 };
 
@@ -49,14 +52,14 @@ private:
     }
     const GltfMesh& mesh(int index) const { return document().meshes[static_cast<size_t>(index)]; }
 
-    void find_uses();
-    void add_jobs(int mesh_index, int placed_index, std::vector<PartJob>& jobs);
+    Result<void> find_uses();
+    void add_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs);
     void reserve(const std::vector<PartJob>& jobs);
     size_t batch_end(const std::vector<PartJob>& jobs, size_t begin) const;
     Result<void> run(const std::vector<PartJob>& jobs);
     Result<MeshPart> read_job(const PartJob& job) const;
     Result<void> append(const PartJob& job, const MeshPart& part);
-    Result<void> build_shared(int mesh_index);
+    Result<void> build_shared(const MeshUse& use);
     Result<void> add_instance(int mesh_row, int placed_index, const Bounds& box, size_t triangles);
     void note_issues(const PartJob& job, const MeshPart& part);
     void warn();
@@ -65,9 +68,9 @@ private:
     MaterialTable& materials_;
     Scene& scene_;
     Log& log_;
-    std::vector<std::vector<int>> uses_;  ///< placed nodes of each mesh
-    std::vector<int> order_;              ///< used meshes in the order they are met
-    Bounds part_bounds_;                  ///< grows while parts are appended
+    std::vector<MeshUse> uses_;                ///< in the order they are met
+    std::vector<std::vector<Affined>> skins_;  ///< matrices; empty: no mesh that is drawn has it
+    Bounds part_bounds_;                       ///< grows while parts are appended
     std::map<MeshIssue, NameList> issues_;
     NameList flat_nodes_, lined_meshes_;
 };
@@ -79,27 +82,30 @@ void grow(Bounds& bounds, const Vec3f& p) {
         std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y), std::max(bounds.high.z, p.z)};
 }
 
-void MeshBuilder::find_uses() {
-    uses_.resize(document().meshes.size());
-    for (size_t i = 0; i < sources_.placed.size(); ++i) {
-        const PlacedNode& place = sources_.placed[i];
-        const GltfNode& node = document().nodes[static_cast<size_t>(place.node)];
-        if (node.mesh < 0 || !place.visible) continue;
-        if (is_singular(place.world_from_node)) {
-            flat_nodes_.add(node.name.empty() ? "node " + std::to_string(place.node) : node.name);
-            continue;
-        }
-        std::vector<int>& uses = uses_[static_cast<size_t>(node.mesh)];
-        if (uses.empty()) order_.push_back(node.mesh);
-        uses.push_back(static_cast<int>(i));
+Result<void> MeshBuilder::find_uses() {
+    MeshUses found = find_mesh_uses(document(), sources_.placed);
+    uses_ = std::move(found.uses);
+    for (const std::string& name : found.flat_nodes)
+        flat_nodes_.add(name);
+    skins_.resize(document().skins.size());
+    std::vector<Affined> world_from_node;
+    for (const MeshUse& use : uses_) {
+        if (use.skin < 0 || !skins_[static_cast<size_t>(use.skin)].empty()) continue;
+        if (world_from_node.empty()) world_from_node = world_transforms(document());
+        Result<std::vector<Affined>> matrices =
+            skin_matrices(document(), sources_.buffers, world_from_node, use.skin);
+        if (!matrices) return fail(std::move(matrices.error()));
+        skins_[static_cast<size_t>(use.skin)] = std::move(*matrices);
     }
+    return {};
 }
 
-void MeshBuilder::add_jobs(int mesh_index, int placed_index, std::vector<PartJob>& jobs) {
+void MeshBuilder::add_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs) {
+    const int mesh_index = use.mesh;
     const std::vector<GltfPrimitive>& primitives = mesh(mesh_index).primitives;
     for (size_t i = 0; i < primitives.size(); ++i) {
         if (primitives[i].mode >= 4) {
-            jobs.push_back({{mesh_index, static_cast<int>(i)}, placed_index});
+            jobs.push_back({{mesh_index, static_cast<int>(i)}, &use, placed_index});
             continue;
         }
         ++(primitives[i].mode == 0 ? scene_.info.skipped_points : scene_.info.skipped_lines);
@@ -150,8 +156,10 @@ size_t MeshBuilder::batch_end(const std::vector<PartJob>& jobs, size_t begin) co
 }
 
 Result<MeshPart> MeshBuilder::read_job(const PartJob& job) const {
-    Result<MeshPart> part = read_mesh_part(document(), sources_.buffers, job.name);
-    if (!part || job.placed < 0) return part;
+    PartPose pose{job.use->weights, {}};
+    if (job.use->skin >= 0) pose.world_from_bind = skins_[static_cast<size_t>(job.use->skin)];
+    Result<MeshPart> part = read_mesh_part(document(), sources_.buffers, job.name, pose);
+    if (!part || job.placed < 0 || part->in_world) return part;
     const PlacedNode& place = placed(job.placed);
     if (!bake_part(*part, place.world_from_node)) {
         return fail(ExitCode::bad_data,
@@ -204,9 +212,9 @@ Result<void> MeshBuilder::append(const PartJob& job, const MeshPart& part) {
     return {};
 }
 
-Result<void> MeshBuilder::build_shared(int mesh_index) {
+Result<void> MeshBuilder::build_shared(const MeshUse& use) {
     std::vector<PartJob> jobs;
-    add_jobs(mesh_index, -1, jobs);
+    add_jobs(use, -1, jobs);
     Mesh row;
     row.first_primitive = static_cast<int32_t>(scene_.primitives.size());
     const size_t corners = scene_.indices.size();
@@ -218,8 +226,8 @@ Result<void> MeshBuilder::build_shared(int mesh_index) {
     const int mesh_row = static_cast<int>(scene_.meshes.size());
     scene_.meshes.push_back(row);
     const size_t triangles = (scene_.indices.size() - corners) / 3;
-    for (const int use : uses_[static_cast<size_t>(mesh_index)]) {
-        const Result<void> added = add_instance(mesh_row, use, part_bounds_, triangles);
+    for (const int placed_index : use.placed) {
+        const Result<void> added = add_instance(mesh_row, placed_index, part_bounds_, triangles);
         if (!added) return added;
     }
     return {};
@@ -293,28 +301,28 @@ void MeshBuilder::warn() {
 }
 
 Result<void> MeshBuilder::build() {
-    find_uses();
+    Result<void> done = find_uses();
+    if (!done) return done;
     std::vector<PartJob> world;
-    for (const int used : order_) {
-        const std::vector<int>& uses = uses_[static_cast<size_t>(used)];
-        if (uses.size() == 1) add_jobs(used, uses[0], world);
+    for (const MeshUse& use : uses_) {
+        if (use.placed.size() == 1) add_jobs(use, use.placed[0], world);
     }
     std::vector<PartJob> all = world;
-    for (const int used : order_) {
-        if (uses_[static_cast<size_t>(used)].size() == 1) continue;
-        for (size_t i = 0; i < mesh(used).primitives.size(); ++i) {
-            all.push_back({{used, static_cast<int>(i)}, -1});
+    for (const MeshUse& use : uses_) {
+        if (use.placed.size() == 1) continue;
+        for (size_t i = 0; i < mesh(use.mesh).primitives.size(); ++i) {
+            all.push_back({{use.mesh, static_cast<int>(i)}, &use, -1});
         }
     }
     reserve(all);
-    Result<void> done = run(world);
+    done = run(world);
     if (!done) return done;
     scene_.world_primitive_count = static_cast<int32_t>(scene_.primitives.size());
     scene_.info.triangles_in_world = scene_.indices.size() / 3;
     scene_.bounds = part_bounds_;
-    for (const int used : order_) {
-        if (uses_[static_cast<size_t>(used)].size() == 1) continue;
-        done = build_shared(used);
+    for (const MeshUse& use : uses_) {
+        if (use.placed.size() == 1) continue;
+        done = build_shared(use);
         if (!done) return done;
     }
     pad_tables(scene_);

@@ -75,11 +75,7 @@ constexpr Verdict honoured = Verdict::honoured;
 constexpr Verdict ignored = Verdict::ignored;
 
 constexpr std::array feature_rows = {
-    FeatureRow{"nodes",
-               "skin",
-               ignored,
-               "the mesh is drawn unposed, placed by its node",
-               [](const json& node) { return has(node, "skin"); }},
+    FeatureRow{"nodes", "skin", honoured, "", [](const json& node) { return has(node, "skin"); }},
     FeatureRow{"cameras", "camera", honoured, "", [](const json&) { return true; }},
     FeatureRow{"meshes",
                "points",
@@ -93,8 +89,8 @@ constexpr std::array feature_rows = {
                [](const json& mesh) { return has_mode(mesh, 1, 3); }},
     FeatureRow{"meshes",
                "morph targets",
-               ignored,
-               "the base shape is drawn",
+               honoured,
+               "",
                [](const json& mesh) {
                    return any_primitive(mesh, [](const json& p) { return has(p, "targets"); });
                }},
@@ -140,8 +136,8 @@ constexpr std::array feature_rows = {
                [](const json& m) { return text_is(m, "alphaMode", "BLEND"); }},
     FeatureRow{"animations",
                "animation",
-               ignored,
-               "the pose of the nodes is drawn",
+               honoured,
+               "played by --time and --frames, chosen by --animation",
                [](const json&) { return true; }},
     FeatureRow{"accessors",
                "sparse",

@@ -25,20 +25,6 @@ struct EncodedImage {
     std::string mime;  ///< what the asset says it is
 };
 
-/// One image as colour (1) or as data (0).
-struct ImageUse {
-    bool used = false;
-    size_t base = 0;  ///< first texel in the arena
-};
-
-struct ImageState {
-    std::array<ImageUse, 2> uses;  ///< by srgb
-    int width = 0;
-    int height = 0;
-
-    bool used() const { return uses[0].used || uses[1].used; }
-};
-
 class TextureBuilder {
 public:
     TextureBuilder(const TextureSources& sources, MaterialTable& materials, Scene& scene, Log& log)
@@ -53,6 +39,8 @@ private:
     }
 
     void find_uses();
+    bool take_stored();
+    Result<void> decode_afresh();
     Result<EncodedImage> load_encoded(size_t image) const;
     Result<ImageRgba8> probe(size_t image) const;
     Result<void> probe_all();
@@ -264,13 +252,42 @@ Result<void> TextureBuilder::decode_all() {
     return {};
 }
 
-Result<void> TextureBuilder::build() {
-    find_uses();
+/// What an earlier scene has left is taken over, if it has all that this one needs; what that one
+/// needed is decoded again beside the rest, else two scenes could take turns in decoding.
+bool TextureBuilder::take_stored() {
+    TextureStore& store = sources_.store;
+    if (store.images.empty()) return false;
+    bool has_all = !store.texels.empty() || sources_.measure_only;
+    for (size_t i = 0; i < images_.size(); ++i) {
+        for (size_t srgb = 0; srgb < 2; ++srgb) {
+            ImageUse& use = images_[i].uses[srgb];
+            has_all = has_all && (!use.used || store.images[i].uses[srgb].used);
+            use.used = use.used || store.images[i].uses[srgb].used;
+        }
+    }
+    if (!has_all) return false;
+    images_ = store.images;
+    scene_.info.images = store.infos;
+    scene_.textures.texels = std::move(store.texels);
+    store.texels = {};
+    resolve_slots();
+    return true;
+}
+
+Result<void> TextureBuilder::decode_afresh() {
+    sources_.store.texels = {};
     Result<void> done = probe_all();
     if (done) done = lay_out();
     if (!done) return done;
     resolve_slots();
+    sources_.store.images = images_;
+    sources_.store.infos = scene_.info.images;
     return sources_.measure_only ? Result<void>{} : decode_all();
+}
+
+Result<void> TextureBuilder::build() {
+    find_uses();
+    return take_stored() ? Result<void>{} : decode_afresh();
 }
 
 }  // namespace

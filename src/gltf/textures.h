@@ -10,11 +10,33 @@
 
 namespace obscura {
 
+/// One image as colour (1) or as data (0).
+struct ImageUse {
+    bool used = false;
+    size_t base = 0;  ///< first texel in the arena
+};
+
+struct ImageState {
+    std::array<ImageUse, 2> uses;  ///< by srgb
+    int width = 0;
+    int height = 0;
+
+    bool used() const { return uses[0].used || uses[1].used; }
+};
+
+/// Decoded images, on their way from one scene of an asset to the next.
+struct TextureStore {
+    std::vector<ImageState> images;  ///< empty: nothing was decoded yet
+    std::vector<ImageInfo> infos;
+    std::vector<uint32_t> texels;  ///< empty while a scene has them
+};
+
 /// What add_textures reads.
 struct TextureSources {
     const Document& document;
     const BufferStore& buffers;
     std::filesystem::path folder;  ///< the asset's
+    TextureStore& store;           ///< images that it holds are not decoded again
     bool measure_only = false;     ///< rows are made, texels are not decoded
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gltf/document_animation.h"
 #include "math/transform.h"
 
 #include <array>
@@ -26,6 +27,10 @@ inline Affined affine_from_trs(const std::array<double, 3>& t,
         out.m[r][3] = t[r];
     }
     return out;
+}
+
+inline Affined affine_from_trs(const GltfTrs& trs) {
+    return affine_from_trs(trs.translation, trs.rotation, trs.scale);
 }
 
 /// Brings a quaternion to length 1; returns false when it has none.

@@ -147,6 +147,9 @@ PreparedScene::~PreparedScene() = default;
 const Scene& PreparedScene::scene() const {
     return impl_->scene;
 }
+Scene PreparedScene::take_scene() && {
+    return std::move(impl_->scene);
+}
 BuildSeconds PreparedScene::build_seconds() const {
     return impl_->build_seconds;
 }

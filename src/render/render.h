@@ -132,6 +132,9 @@ public:
     std::string isa_name() const;  ///< "avx512"
     std::string embree_version() const;
 
+    /// Gives the scene back, for its textures; nothing can be rendered any more.
+    Scene take_scene() &&;
+
     struct Impl;
     const Impl& impl() const { return *impl_; }
 

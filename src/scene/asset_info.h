@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,13 @@ struct ImageInfo {
 
 struct NamedCount {
     std::string name;
-    size_t count = 0;  ///< triangles of a mesh, channels of an animation
+    size_t count = 0;  ///< triangles of a mesh, placings of a shape
+};
+
+struct AnimationInfo {
+    std::string name;
+    size_t channels = 0;  ///< that can be played
+    double end_s = 0;     ///< when the last keyframe comes
 };
 
 /// Counts and names from the file, in file order.
@@ -53,7 +60,8 @@ struct AssetInfo {
     std::string xmp;                    ///< the asset's XMP packet as JSON text; may be empty
     std::vector<NamedCount> meshes;     ///< as in the file, triangles counted once
     std::vector<NamedCount> shapes;     ///< by type, every placing counted
-    std::vector<NamedCount> animations;
+    std::vector<AnimationInfo> animations;
+    std::optional<double> time_s;          ///< the scene is posed at it; nothing: as it is stored
     std::vector<std::string> node_names;   ///< by glTF node index
     std::vector<std::string> light_names;  ///< beside Scene::lights
     std::vector<ImageInfo> images;

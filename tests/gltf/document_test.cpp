@@ -319,9 +319,6 @@ constexpr Oddity oddities[] = {
     {"F9_range", R"({"/extensions/KHR_lights_punctual/lights/0/range": 0})", "unlimited"},
     {"G6_negative_xmag", R"({"/cameras/1/orthographic/xmag": -2})", "absolute value"},
     {"mode_without_triangle", R"({"/accessors/3/count": 2})", "do not make a triangle"},
-    {"skins", R"({"/skins": [{"joints": [0]}]})", "skins are not supported"},
-    {"morph_targets", R"({"/meshes/0/primitives/0/targets": [{"POSITION": 0}]})", "morph targets"},
-    {"animations", R"({"/animations": [{"channels": [], "samplers": []}]})", "animations are not"},
 };
 
 class OddAsset : public testing::TestWithParam<Oddity> {};

@@ -49,7 +49,8 @@ TEST(Report, NamesEveryPartWithWhatItAsksFor) {
                   "that nearby geometry blocks)",
                   "material 0 Glass: alphaMode MASK honoured",
                   "material 0 Glass: KHR_materials_unlit honoured",
-                  "animation 0: animation ignored (the pose of the nodes is drawn)"}));
+                  "animation 0: animation honoured (played by --time and --frames, chosen by "
+                  "--animation)"}));
 }
 
 TEST(Report, ExtensionsInsidePartsAreFound) {

@@ -1,0 +1,47 @@
+// app/frames.cpp - the frames of a sequence: their numbers, times and file names.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/frames.h"
+
+#include "app/numbers.h"
+
+namespace obscura {
+
+namespace {
+
+constexpr int64_t last_frame = 999999;
+
+}  // namespace
+
+Result<FrameRange> parse_frames(std::string_view text, std::string_view option) {
+    const size_t dash = text.find('-');
+    const std::string_view last_text =
+        dash == std::string_view::npos ? text : text.substr(dash + 1);
+    const Result<int64_t> first = parse_integer(text.substr(0, dash), option, 0, last_frame);
+    if (!first) return fail(first.error());
+    const Result<int64_t> last = parse_integer(last_text, option, 0, last_frame);
+    if (!last) return fail(last.error());
+    if (*last < *first) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-RANGE",
+                    std::string(option),
+                    in_quotes(text) + " ends before it begins; expected FIRST-LAST such as 1-120");
+    }
+    FrameRange out;
+    out.first = static_cast<int>(*first);
+    out.last = static_cast<int>(*last);
+    return out;
+}
+
+std::optional<std::filesystem::path> frame_file(const std::filesystem::path& pattern, int frame) {
+    const std::string name = pattern.filename().string();
+    const size_t begin = name.find('#');
+    if (begin == std::string::npos) return std::nullopt;
+    const size_t end = std::min(name.find_first_not_of('#', begin), name.size());
+    if (name.find('#', end) != std::string::npos) return std::nullopt;
+    std::string digits = std::to_string(frame);
+    const size_t width = end - begin;
+    if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
+    return pattern.parent_path() / (name.substr(0, begin) + digits + name.substr(end));
+}
+
+}  // namespace obscura

@@ -1,0 +1,56 @@
+// gltf/animation.h - keyframes and their values at a time.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/accessors.h"
+
+#include <array>
+#include <span>
+#include <vector>
+
+namespace obscura {
+
+/// How values lie between keyframes.
+struct KeyframeKind {
+    Interpolation interpolation = Interpolation::linear;
+    size_t width = 1;         ///< numbers in a value
+    bool quaternion = false;  ///< values are unit quaternions (x, y, z, w)
+};
+
+/// A value over time. CUBICSPLINE has three values a key: tangent in, value, tangent out.
+struct Keyframes {
+    KeyframeKind kind;
+    std::vector<float> times;  ///< seconds, never falling
+    std::vector<float> values;
+};
+
+/// The value at a time, in double; before the first and after the last key it is theirs.
+///
+/// Out     kind.width numbers; a quaternion is unit
+/// Source  glTF 2.0, appendix C: step, linear, spherical linear (the short way), cubic spline
+std::vector<double> sample(const Keyframes& keys, double time_s);
+
+/// Turns from a to b the short way, at a constant rate; both unit.
+///
+/// Source  Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985
+std::array<double, 4> slerp(const std::array<double, 4>& a,
+                            const std::array<double, 4>& b,
+                            double share);
+
+/// Reads a sampler's times and values.
+///
+/// Errors  65 E-ANIM-TIMES times fall or are not finite, E-ANIM-VALUE values are not finite, a
+///         quaternion has no length; those of read_floats
+Result<Keyframes> read_keyframes(const Document& document,
+                                 const BufferStore& buffers,
+                                 const GltfAnimationSampler& sampler,
+                                 const KeyframeKind& kind);
+
+/// When the last key of an animation comes, in seconds; 0: it has none.
+///
+/// Errors  as read_keyframes, of the times
+Result<double> animation_end(const Document& document,
+                             const BufferStore& buffers,
+                             const GltfAnimation& animation);
+
+}  // namespace obscura

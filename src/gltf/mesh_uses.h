@@ -1,0 +1,27 @@
+// gltf/mesh_uses.h - which nodes show a mesh, and in which shape.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/node_graph.h"
+
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// Placed nodes that show a mesh in one and the same shape.
+struct MeshUse {
+    int mesh = 0;
+    int skin = -1;                ///< then there is one node, and its own place does not count
+    std::vector<double> weights;  ///< of the morph targets; empty: all are 0
+    std::vector<int> placed;      ///< in the list of placed nodes
+};
+
+struct MeshUses {
+    std::vector<MeshUse> uses;            ///< in the order they are met
+    std::vector<std::string> flat_nodes;  ///< nodes that squash their mesh: not drawn
+};
+
+MeshUses find_mesh_uses(const Document& document, const std::vector<PlacedNode>& placed);
+
+}  // namespace obscura

@@ -1,0 +1,79 @@
+// gltf/skins.cpp - the matrices by which joints move the vertices that hang on them.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/skins.h"
+
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+constexpr size_t matrix_floats = 16;
+
+/// A column-major 4x4 matrix whose last row is 0 0 0 1; false: a number is not finite.
+bool read_matrix(const float* columns, Affined& out) {
+    bool finite = true;
+    for (size_t r = 0; r < 3; ++r) {
+        for (size_t c = 0; c < 4; ++c) {
+            out.m[r][c] = double{columns[c * 4 + r]};
+            finite = finite && std::isfinite(out.m[r][c]);
+        }
+    }
+    return finite;
+}
+
+}  // namespace
+
+std::vector<Affined> world_transforms(const Document& document) {
+    const size_t count = document.nodes.size();
+    std::vector<char> is_child(count, 0);
+    for (const GltfNode& node : document.nodes) {
+        for (const int child : node.children)
+            is_child[static_cast<size_t>(child)] = 1;
+    }
+    std::vector<Affined> out(count);
+    std::vector<size_t> open;
+    for (size_t i = 0; i < count; ++i) {
+        if (is_child[i] != 0) continue;
+        out[i] = document.nodes[i].parent_from_node;
+        open.push_back(i);
+    }
+    while (!open.empty()) {
+        const size_t parent = open.back();
+        open.pop_back();
+        for (const int number : document.nodes[parent].children) {
+            const auto child = static_cast<size_t>(number);
+            out[child] = compose(out[parent], document.nodes[child].parent_from_node);
+            open.push_back(child);
+        }
+    }
+    return out;
+}
+
+Result<std::vector<Affined>> skin_matrices(const Document& document,
+                                           const BufferStore& buffers,
+                                           const std::vector<Affined>& world_from_node,
+                                           int skin) {
+    const GltfSkin& row = document.skins[static_cast<size_t>(skin)];
+    std::vector<Affined> out;
+    out.reserve(row.joints.size());
+    for (const int joint : row.joints)
+        out.push_back(world_from_node[static_cast<size_t>(joint)]);
+    if (row.inverse_bind_matrices < 0) return out;
+    const Result<std::vector<float>> matrices =
+        read_floats(document, buffers, row.inverse_bind_matrices, {});
+    if (!matrices) return fail(matrices.error());
+    for (size_t i = 0; i < out.size(); ++i) {
+        Affined joint_from_bind;
+        if (!read_matrix(&(*matrices)[i * matrix_floats], joint_from_bind)) {
+            return fail(ExitCode::bad_data,
+                        "E-SKIN-MATRICES",
+                        document.at("skins", static_cast<size_t>(skin)),
+                        "inverse bind matrix " + std::to_string(i) + " is not finite");
+        }
+        out[i] = compose(out[i], joint_from_bind);
+    }
+    return out;
+}
+
+}  // namespace obscura

@@ -1,0 +1,22 @@
+// gltf/skins.h - the matrices by which joints move the vertices that hang on them.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/accessors.h"
+
+#include <vector>
+
+namespace obscura {
+
+/// World transforms of all nodes, whatever scene they are in: joints need not be in the drawn one.
+std::vector<Affined> world_transforms(const Document& document);
+
+/// For each joint of a skin: the world from the pose that the mesh was bound in.
+///
+/// Errors  65 E-SKIN-MATRICES an inverse bind matrix is not finite; those of read_floats
+Result<std::vector<Affined>> skin_matrices(const Document& document,
+                                           const BufferStore& buffers,
+                                           const std::vector<Affined>& world_from_node,
+                                           int skin);
+
+}  // namespace obscura

@@ -1,0 +1,150 @@
+// tests/cli/sequence_test.cpp - animated scenes at a time, and as a sequence of files.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli.h"
+#include <nlohmann/json.hpp>
+
+namespace obscura {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+
+/// The box slides from x = -1 to x = 1 in two seconds, seen by the camera "Front".
+std::string sliding_box() {
+    json tree = json::parse(gltf_text(box_scene()));
+    const std::vector<float> numbers = {0, 2, -1, 0, 0, 1, 0, 0};
+    const std::string bytes(reinterpret_cast<const char*>(numbers.data()), numbers.size() * 4);
+    tree["buffers"].push_back({{"byteLength", bytes.size()},
+                               {"uri", "data:application/octet-stream;base64," + base64(bytes)}});
+    tree["bufferViews"].push_back({{"buffer", 1}, {"byteLength", 8}});
+    tree["bufferViews"].push_back({{"buffer", 1}, {"byteOffset", 8}, {"byteLength", 24}});
+    tree["accessors"].push_back({{"bufferView", 2},
+                                 {"componentType", 5126},
+                                 {"type", "SCALAR"},
+                                 {"count", 2},
+                                 {"min", {0}},
+                                 {"max", {2}}});
+    tree["accessors"].push_back(
+        {{"bufferView", 3}, {"componentType", 5126}, {"type", "VEC3"}, {"count", 2}});
+    tree["animations"] = json::array(
+        {{{"name", "Slide"},
+          {"samplers", json::array({{{"input", 2}, {"output", 3}}})},
+          {"channels",
+           json::array({{{"sampler", 0}, {"target", {{"node", 0}, {"path", "translation"}}}}})}}});
+    return tree.dump();
+}
+
+class Sequence : public Cli {
+protected:
+    void SetUp() override {
+        Cli::SetUp();
+        folder_.write("slide.gltf", sliding_box());
+    }
+    std::vector<float> pixels(const std::string& name) const {
+        const auto picture = read_picture(folder_ / name);
+        EXPECT_TRUE(picture) << name;
+        return picture ? picture->pixels : std::vector<float>();
+    }
+};
+
+TEST_F(Sequence, AMovedBoxIsSeenElsewhere) {
+    const std::vector<std::string> depth = {"--integrator", "depth", "--time"};
+    const auto at = [&](const char* time, const char* file) {
+        std::vector<std::string> more = depth;
+        more.insert(more.end(), {time, "-o", file});
+        expect_result(render("slide.gltf", more), 0, "OK");
+        return pixels(file);
+    };
+    const std::vector<float> left = at("0", "left.exr");
+    const std::vector<float> right = at("2", "right.exr");
+    ASSERT_EQ(left.size(), 24U * 16U);
+    const size_t row = 8U * 24U;
+    EXPECT_NEAR(left[row + 8], 5, 0.01) << "the front face, 6 m - 1 m away";
+    EXPECT_EQ(right[row + 8], 0);
+    EXPECT_NEAR(right[row + 15], 5, 0.01);
+    EXPECT_EQ(left[row + 15], 0);
+    expect_result(render("slide.gltf", {"--integrator", "depth", "-o", "rest.exr"}), 0, "OK");
+    EXPECT_NEAR(pixels("rest.exr")[row + 12], 5, 0.01) << "as stored: in the middle";
+}
+
+TEST_F(Sequence, FramesAreEqualToSinglePictures) {
+    expect_result(render("slide.gltf",
+                         {"--frames", "1-3", "--fps", "2", "-o", "f.##.exr", "--stats", "s.json"}),
+                  0,
+                  "OK");
+    const char* times[] = {"0.5", "1", "1.5"};
+    for (int frame = 1; frame <= 3; ++frame) {
+        const std::string file = "f.0" + std::to_string(frame) + ".exr";
+        expect_result(render("slide.gltf", {"--time", times[frame - 1], "-o", "one.exr"}), 0, "OK");
+        EXPECT_EQ(pixels(file), pixels("one.exr")) << file;
+        EXPECT_EQ(read_picture(folder_ / file)->spec.get_string_attribute("timeSeconds"),
+                  times[frame - 1]);
+    }
+    EXPECT_NE(pixels("f.01.exr"), pixels("f.03.exr"));
+    const json stats = json::parse(read_whole_file(folder_ / "s.json"));
+    EXPECT_EQ(stats["fps"], 2);
+    ASSERT_EQ(stats["frames"].size(), 3U);
+    EXPECT_EQ(stats["frames"][2]["frame"], 3);
+    EXPECT_EQ(stats["frames"][2]["time_s"], 1.5);
+    EXPECT_EQ(stats["paths"], 3 * 24 * 16 * 2);
+}
+
+TEST_F(Sequence, TheAutomaticViewStandsStill) {
+    json tree = json::parse(sliding_box());
+    tree.erase("cameras");
+    for (json& node : tree["nodes"])
+        node.erase("camera");
+    folder_.write("free.gltf", tree.dump());
+    expect_result(render("free.gltf",
+                         {"--frames", "0-4", "--fps", "2", "--integrator", "depth", "-o", "#.exr"}),
+                  0,
+                  "OK");
+    EXPECT_NE(pixels("0.exr"), pixels("4.exr")) << "a view that followed would see no change";
+}
+
+TEST_F(Sequence, WhatContradictsIsRefused) {
+    const ProgramRun got = render("slide.gltf", {"--frames", "1-2", "-o", "a.exr"});
+    expect_result(got, 64, "E-USAGE-CONFLICT");
+    EXPECT_THAT(got.err, HasSubstr("shot.####.exr"));
+    expect_result(render("slide.gltf", {"--animation", "Jump"}), 64, "E-ANIM-UNKNOWN");
+}
+
+TEST_F(Sequence, InfoListsAnimations) {
+    const ProgramRun text = run({"info", "slide.gltf"});
+    EXPECT_THAT(text.out, HasSubstr("0 'Slide': 2 s, 1 channels"));
+    const json data = json::parse(run({"info", "slide.gltf", "--json"}).out);
+    EXPECT_EQ(data["animations"][0]["name"], "Slide");
+    EXPECT_EQ(data["animations"][0]["duration_s"], 2);
+    EXPECT_EQ(data["animations"][0]["channels"], 1);
+}
+
+TEST_F(Sequence, ASignalStopsBetweenFramesToo) {
+    ProgramSetup program = setup({"render",
+                                  "slide.gltf",
+                                  "--size",
+                                  "64x48",
+                                  "--spp",
+                                  "256",
+                                  "--frames",
+                                  "0-99",
+                                  "-o",
+                                  "s.#.exr",
+                                  "--stats",
+                                  "s.json"},
+                                 folder_);
+    program.on_output = [sent = false](const std::string& out, pid_t process) mutable {
+        static const std::regex form("Progress: [0-9]+%\n(.|\n)*Progress");
+        if (sent || !std::regex_search(out, form)) return;
+        sent = true;
+        kill(process, SIGTERM);
+    };
+    const ProgramRun got = run_program_with(program);
+    EXPECT_EQ(got.code, 143);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "s.99.exr"));
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "s.json"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
+        EXPECT_NE(entry.path().extension(), ".part") << entry.path();
+}
+
+}  // namespace
+}  // namespace obscura
