@@ -247,15 +247,21 @@ Affined environment_place(const Affined& place, const CameraSettings& s) {
 
 }  // namespace
 
+Affined camera_place(const Affined& world_from_camera,
+                     CameraModel model,
+                     const CameraSettings& settings) {
+    if (model != CameraModel::environment) return world_from_camera;
+    return environment_place(world_from_camera, settings);
+}
+
 Result<Camera> make_camera(const CameraBasis& basis,
                            CameraModel model,
                            const CameraSettings& settings,
                            PictureSize size) {
     Camera out;
     out.model = model;
-    const bool round = model == CameraModel::environment;
-    out.world_from_camera = affine_cast<float>(
-        round ? environment_place(basis.world_from_camera, settings) : basis.world_from_camera);
+    out.world_from_camera =
+        affine_cast<float>(camera_place(basis.world_from_camera, model, settings));
     out.near_m = narrow(settings.near_m.value_or(0));
     out.far_m = narrow(settings.far_m.value_or(0));
     if (out.far_m > 0 && !(out.far_m > out.near_m)) {

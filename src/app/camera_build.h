@@ -25,6 +25,12 @@ struct PictureSize {
 ///
 /// Errors  64 E-CAM-LENS a lens that cannot be, E-CAM-FISHEYE an angle that its law cannot show,
 ///         E-CAM-SIZE a picture that does not suit the projection, E-CAM-CLIP far before near
+/// Where a camera of a model stands that is placed so: one that sees all around may keep to the
+/// world's axes.
+Affined camera_place(const Affined& world_from_camera,
+                     CameraModel model,
+                     const CameraSettings& settings);
+
 Result<Camera> make_camera(const CameraBasis& basis,
                            CameraModel model,
                            const CameraSettings& settings,

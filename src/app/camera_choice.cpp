@@ -19,6 +19,7 @@ namespace {
 /// height, and the distance at which one turns into the other.
 struct Placed {
     Affined world_from_camera;
+    std::vector<Affined> moving;  ///< the same while the shutter is open; empty: it stands still
     CameraModel model = CameraModel::pinhole;
     double tan_half_yfov = 0;
     double half_height_m = 0;
@@ -81,6 +82,11 @@ Result<Placed> place_as_given(const SceneCamera& source,
     if (!rigid) return fail(rigid.error());
     Placed placed;
     placed.world_from_camera = *rigid;
+    for (const Affined& placing : source.moving) {
+        const Result<Affined> moved = rigid_part(placing, where);
+        if (!moved) return fail(moved.error());
+        placed.moving.push_back(*moved);
+    }
     placed.znear_m = source.znear_m;
     placed.zfar_m = source.zfar_m;
     placed.settings = source.settings;
@@ -275,6 +281,8 @@ Result<ChosenCamera> choose_camera(
         make_camera(basis, placed->model, out.settings, {width_px, height_px});
     if (!camera) return fail(camera.error());
     out.camera = *camera;
+    for (const Affined& placing : placed->moving)
+        out.moving.push_back(camera_place(placing, placed->model, out.settings));
     if (!fits_float(out.camera)) {
         return fail(ExitCode::bad_data,
                     "E-CAM-RANGE",

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -34,7 +35,8 @@ struct CameraRequest {
 
 struct ChosenCamera {
     Camera camera;
-    double znear_m = 0.01;  ///< for the NDC matrix; what is clipped is in `camera`
+    std::vector<Affined> moving;  ///< RenderOptions::moving_camera
+    double znear_m = 0.01;        ///< for the NDC matrix; what is clipped is in `camera`
     double zfar_m = 1000;
     CameraSettings settings;      ///< those of the file and of the options together
     std::optional<double> ev100;  ///< the exposure that was asked for

@@ -10,7 +10,29 @@ namespace {
 
 constexpr int64_t last_frame = 999999;
 
+constexpr double most_frames_open = 1000;
+
 }  // namespace
+
+bool is_shutter_interval(std::string_view text) {
+    return text.find(',') != std::string_view::npos;
+}
+
+Result<ShutterFractions> parse_shutter_interval(const std::string& text) {
+    const NumberList list{"OPEN,CLOSE such as 0,0.5, the second greater than the first",
+                          2,
+                          2,
+                          -most_frames_open,
+                          most_frames_open};
+    const Result<std::vector<double>> numbers = parse_numbers(text, "--shutter", list);
+    if (!numbers) return fail(numbers.error());
+    const ShutterFractions out{(*numbers)[0], (*numbers)[1]};
+    if (out.open < out.close) return out;
+    return fail(ExitCode::usage,
+                "E-USAGE-RANGE",
+                "--shutter",
+                in_quotes(text) + " closes before it opens; expected OPEN,CLOSE such as 0,0.5");
+}
 
 Result<FrameRange> parse_frames(std::string_view text, std::string_view option) {
     const size_t dash = text.find('-');

@@ -92,7 +92,12 @@ void add_wide_options(CLI::App& command, LensArguments& a) {
 
 void add_exposure_options(CLI::App& command, LensArguments& a) {
     OptionGroup group(command, "Photographic exposure (PNG and JPEG only)");
-    group.text("--shutter", a.shutter, "SECONDS", "Such as 0.008 or 1/125; needs --fstop");
+    group.text("--shutter",
+               a.shutter,
+               "SECONDS",
+               "Such as 0.008 or 1/125; needs --fstop. Or OPEN,CLOSE, in\n"
+               "frames from the picture's time, such as 0,0.5: motion blur\n"
+               "in every kind of picture");
     group.text("--iso", a.iso, "N", "Sensitivity [100]");
     group.text("--ev100", a.ev100, "EV", "Exposure value at ISO 100, instead of these");
 }

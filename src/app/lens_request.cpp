@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/lens_request.h"
 
+#include "app/frames.h"
 #include "app/option_steps.h"
 #include "camera/names.h"
 
@@ -154,10 +155,13 @@ void read_wide(const LensArguments& a, CameraSettings& s, OptionSteps& steps) {
 
 void read_exposure(const LensArguments& a, CameraSettings& s, OptionSteps& steps) {
     Reader read(steps);
-    steps.option(a.shutter, parse_shutter, [&](double seconds) { s.shutter_s = seconds; });
+    const bool exposes = a.shutter && !is_shutter_interval(*a.shutter);
+    if (exposes) {
+        steps.option(a.shutter, parse_shutter, [&](double seconds) { s.shutter_s = seconds; });
+    }
     read.real(a.iso, {"--iso", 1e-3, 1e9}, s.iso);
     read.real(a.ev100, {"--ev100", -60, 60}, s.ev100);
-    steps.refuse(a.ev100 && (a.shutter || a.iso),
+    steps.refuse(a.ev100 && (exposes || a.iso),
                  "--ev100",
                  "it cannot go together with --shutter or --iso; give one or the other");
 }

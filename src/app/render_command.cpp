@@ -82,11 +82,21 @@ struct Turn {
     bool is_last() const { return index + 1 == count; }
 };
 
+Result<Scene> pose(Job& job, const SequenceFrame& frame, const Turn& turn, Log& log) {
+    const std::optional<ShutterFractions>& shutter = job.request.shutter;
+    if (!shutter) return job.asset->scene_at(frame.time_s, turn.is_last(), log);
+    const double frame_s = 1 / job.request.fps;
+    return job.asset->scene_between(
+        {frame.time_s + shutter->open * frame_s, frame.time_s + shutter->close * frame_s},
+        turn.is_last(),
+        log);
+}
+
 /// Poses the asset and builds everything that rendering reads; frees the asset after its last pose.
-Result<PreparedScene> prepare(Job& job, const Frame& frame, const Turn& turn, Log& log) {
+Result<PreparedScene> prepare(Job& job, const SequenceFrame& frame, const Turn& turn, Log& log) {
     RenderStatistics& statistics = job.statistics;
     const Stopwatch loading;
-    Result<Scene> scene = job.asset->scene_at(frame.time_s, turn.is_last(), log);
+    Result<Scene> scene = pose(job, frame, turn, log);
     if (!scene) return fail(scene.error());
     if (turn.is_last()) job.asset.reset();
     statistics.load_s += loading.seconds();
@@ -111,8 +121,10 @@ Result<void> render_and_write(
     Job& job, const PreparedScene& prepared, const Turn& turn, Log& log, Progress& progress) {
     const RenderRequest& request = job.request;
     RenderStatistics& statistics = job.statistics;
+    RenderOptions options = request.options;
     const Result<ChosenCamera> chosen = choose_focused_camera(prepared, request, log);
     if (!chosen) return fail(chosen.error());
+    options.moving_camera = chosen->moving;
     if (const Result<void> exposed = expose_display(*chosen, request, job.display, log); !exposed) {
         return exposed;
     }
@@ -126,7 +138,7 @@ Result<void> render_and_write(
                         static_cast<double>(turn.count));
     };
     Result<RenderResult> result =
-        render(prepared, chosen->camera, request.options, on_progress, job.stop->flag());
+        render(prepared, chosen->camera, options, on_progress, job.stop->flag());
     if (!result) return fail(result.error());
     statistics.render_s += result->render_seconds;
     add_counters(result->counters, statistics.counters);
@@ -143,7 +155,7 @@ Result<void> render_and_write(
 }
 
 /// What a frame has added to the sums.
-FrameStatistics frame_statistics(const Frame& frame,
+FrameStatistics frame_statistics(const SequenceFrame& frame,
                                  const RenderStatistics& before,
                                  const RenderStatistics& after) {
     return {frame.number.value_or(0),
@@ -157,7 +169,7 @@ FrameStatistics frame_statistics(const Frame& frame,
 /// Reads the asset and the environment, once for all pictures.
 Result<void> load(Job& job) {
     const LoadOptions& options = job.request.load;
-    const bool has_time = options.time_s || job.request.frames;
+    const bool has_time = options.time_s || job.request.frames || job.request.shutter;
     const Stopwatch loading;
     Result<PosedAsset> asset = PosedAsset::open(job.request.scene, options, has_time, job.log);
     if (!asset) return fail(asset.error());
@@ -171,7 +183,7 @@ Result<void> load(Job& job) {
 
 /// Renders one picture after the other.
 Result<void> render_all(Job& job, Progress& progress) {
-    const std::vector<Frame> frames = frames_of(job.request);
+    const std::vector<SequenceFrame> frames = frames_of(job.request);
     if (const Result<void> loaded = load(job); !loaded) return loaded;
     RepeatedLog later(job.log);
     for (size_t i = 0; i < frames.size(); ++i) {

@@ -72,7 +72,7 @@ void add_time_options(CLI::App& command, RenderArguments& arguments) {
                "FIRST-LAST",
                "Render a sequence; the ### in the names of outputs become\n"
                "each frame's number. Frame n is at n / fps seconds");
-    group.text("--fps", arguments.fps, "X", "Frames per second of --frames [24]");
+    group.text("--fps", arguments.fps, "X", "Frames per second of --frames and --shutter [24]");
 }
 
 void add_display_options(CLI::App& command, RenderArguments& arguments) {

@@ -196,13 +196,20 @@ void parse_time(const RenderArguments& arguments, RenderRequest& request, Steps&
     steps.refuse(arguments.frames && arguments.time,
                  "--frames",
                  "it cannot go together with --time; give one or the other");
-    steps.refuse(arguments.fps && !arguments.frames,
+    const Text& shutter = arguments.lens.shutter;
+    if (shutter && is_shutter_interval(*shutter)) {
+        steps.option(shutter, parse_shutter_interval, [&](const ShutterFractions& fractions) {
+            request.shutter = fractions;
+        });
+    }
+    steps.refuse(arguments.fps && !arguments.frames && !request.shutter,
                  "--fps",
-                 "it is for --frames; leave it out or add that");
+                 "it is for --frames and --shutter OPEN,CLOSE; leave it out or add one of them");
     steps.option(
         arguments.fps,
         [](const std::string& text) { return parse_real(text, "--fps", 1e-3, 1e5); },
         [&](double fps) {
+            request.fps = fps;
             if (request.frames) request.frames->fps = fps;
         });
     for (const std::filesystem::path& output : request.outputs) {
@@ -250,7 +257,7 @@ void refuse_empty_names(const RenderArguments& arguments, Steps& steps) {
 /// No output may replace something that is read, nor another output.
 Result<void> check_distinct_files(const RenderRequest& request) {
     std::vector<std::filesystem::path> written;
-    for (const Frame& frame : frames_of(request))
+    for (const SequenceFrame& frame : frames_of(request))
         written.insert(written.end(), frame.outputs.begin(), frame.outputs.end());
     if (request.statistics) written.push_back(*request.statistics);
     std::vector<std::filesystem::path> read = {request.scene};
@@ -277,11 +284,11 @@ Result<void> check_distinct_files(const RenderRequest& request) {
 
 }  // namespace
 
-std::vector<Frame> frames_of(const RenderRequest& request) {
+std::vector<SequenceFrame> frames_of(const RenderRequest& request) {
     if (!request.frames) return {{{}, request.load.time_s.value_or(0), request.outputs}};
-    std::vector<Frame> out;
+    std::vector<SequenceFrame> out;
     for (int number = request.frames->first; number <= request.frames->last; ++number) {
-        Frame frame{number, request.frames->time_s(number), {}};
+        SequenceFrame frame{number, request.frames->time_s(number), {}};
         for (const std::filesystem::path& pattern : request.outputs)
             frame.outputs.push_back(frame_file(pattern, number).value_or(pattern));
         out.push_back(std::move(frame));

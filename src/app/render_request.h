@@ -23,6 +23,8 @@ struct RenderRequest {
     std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
     LoadOptions load;                            ///< --scene, --variant, --animation, --time
     std::optional<FrameRange> frames;            ///< then the outputs are patterns; see frame_file
+    std::optional<ShutterFractions> shutter;     ///< --shutter OPEN,CLOSE
+    double fps = 24;
     CameraRequest camera;
     std::optional<std::filesystem::path> camera_json;
     bool size_is_given = false;  ///< else --camera-json may have one
@@ -62,7 +64,7 @@ struct RenderArguments {
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
 
 /// The pictures that a request asks for: one, or one for each frame.
-std::vector<Frame> frames_of(const RenderRequest& request);
+std::vector<SequenceFrame> frames_of(const RenderRequest& request);
 
 /// 64 E-USAGE-CONFLICT when the part to render reaches beyond the picture.
 Result<void> check_crop(const RenderOptions& options);

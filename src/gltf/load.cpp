@@ -14,6 +14,7 @@
 #include "gltf/shapes.h"
 #include "gltf/textures.h"
 #include "gltf/variants.h"
+#include "scene/motion.h"
 
 #include <algorithm>
 #include <chrono>
@@ -205,7 +206,10 @@ struct PosedAsset::Impl {
 
     Result<void> open(bool has_time, Log& log);
     Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log) const;
+    Result<Scene> pose_at(double time_s, MaterialTable& materials, Log& log);
+    Result<void> finish(MaterialTable& materials, bool last, Scene& out, Log& log);
     Result<Scene> scene_at(double time_s, bool last, Log& log);
+    Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
 };
 
 Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
@@ -260,7 +264,8 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
     return done;
 }
 
-Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
+/// A scene without textures and materials.
+Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials, Log& log) {
     const auto start = std::chrono::steady_clock::now();
     Document& document = asset.document;
     Scene out;
@@ -268,20 +273,60 @@ Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
     Result<void> done = animator.pose(document, time_s);
     if (!done) return fail(std::move(done.error()));
     if (!animator.empty()) out.info.time_s = time_s;
-    MaterialTable materials = make_material_table(document);
+    materials = make_material_table(document);
     done = add_geometry(materials, out, log);
     if (!done) return fail(std::move(done.error()));
-    if (last) release_geometry(document, buffers);
     out.info.parse_seconds = open_seconds + seconds_since(start);
     open_seconds = 0;
+    return out;
+}
 
+Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene& out, Log& log) {
+    Document& document = asset.document;
+    if (last) release_geometry(document, buffers);
     const auto decode_start = std::chrono::steady_clock::now();
-    done = add_textures(
+    const Result<void> done = add_textures(
         {document, buffers, file.parent_path(), textures, options.info_only}, materials, out, log);
-    if (!done) return fail(std::move(done.error()));
+    if (!done) return done;
     out.info.decode_seconds = seconds_since(decode_start);
     move_materials(materials, out);
     warn_about_whole(document, out, log);
+    return {};
+}
+
+Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
+    MaterialTable materials;
+    Result<Scene> out = pose_at(time_s, materials, log);
+    if (!out) return out;
+    const Result<void> done = finish(materials, last, *out, log);
+    if (!done) return fail(done.error());
+    return out;
+}
+
+Result<Scene> PosedAsset::Impl::scene_between(const ShutterTimes& shutter, bool last, Log& log) {
+    constexpr int steps = 9;  // half a turn in eight straight lines: 2 % of the radius off its arc
+    std::vector<Scene> later;
+    double parse_seconds = 0;
+    MaterialTable materials;
+    Log quiet(Verbosity::quiet);  // the first pose says what there is to say
+    for (int step = 1; step < steps && !animator.empty(); ++step) {
+        const double share = static_cast<double>(step) / (steps - 1);
+        const double time_s = shutter.open_s + (shutter.close_s - shutter.open_s) * share;
+        Result<Scene> pose = pose_at(time_s, materials, quiet);
+        if (!pose) return pose;
+        parse_seconds += pose->info.parse_seconds;
+        later.push_back(std::move(*pose));
+    }
+    Result<Scene> out = pose_at(shutter.open_s, materials, log);
+    if (!out) return out;
+    out->info.parse_seconds += parse_seconds;
+    if (!join_motion(*out, later)) {
+        log.warn(asset.document.file,
+                 "something appears or vanishes while the shutter is open; everything stands still "
+                 "as at its opening");
+    }
+    const Result<void> done = finish(materials, last, *out, log);
+    if (!done) return fail(done.error());
     return out;
 }
 
@@ -305,6 +350,10 @@ Result<PosedAsset> PosedAsset::open(const std::filesystem::path& file,
 
 Result<Scene> PosedAsset::scene_at(double time_s, bool last, Log& log) {
     return guarded(impl_->file.string(), [&] { return impl_->scene_at(time_s, last, log); });
+}
+
+Result<Scene> PosedAsset::scene_between(const ShutterTimes& shutter, bool last, Log& log) {
+    return guarded(impl_->file.string(), [&] { return impl_->scene_between(shutter, last, log); });
 }
 
 void PosedAsset::take_textures(Scene&& scene) {

@@ -38,6 +38,12 @@ struct LoadOptions {
 ///         E-MEMORY
 Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& options, Log& log);
 
+/// While a shutter is open.
+struct ShutterTimes {
+    double open_s = 0;
+    double close_s = 0;
+};
+
 /// An asset that is read once and posed at many times: the file is parsed, and its images are
 /// decoded, only once.
 class PosedAsset {
@@ -59,6 +65,12 @@ public:
     /// In      last: no further scene will be asked for; memory is given back sooner
     /// Errors  those of load_gltf
     Result<Scene> scene_at(double time_s, bool last, Log& log);
+
+    /// The scene with what moves while a shutter is open (scene/motion.h). When something appears
+    /// or vanishes meanwhile, a warning says that the scene stands still as at the opening.
+    ///
+    /// Errors  those of load_gltf
+    Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
 
     /// Takes the decoded images back out of a scene that is no longer needed, for the next one.
     void take_textures(Scene&& scene);

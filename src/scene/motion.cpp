@@ -17,8 +17,8 @@ bool have_same_parts(const Scene& a, const Scene& b) {
     const auto same_instance = [](const Instance& p, const Instance& q) {
         return p.mesh == q.mesh && p.mirrored == q.mirrored;
     };
-    return a.positions.size() == b.positions.size() && a.indices == b.indices &&
-           a.attributes.size() == b.attributes.size() &&
+    return a.positions.size() == b.positions.size() && a.cameras.size() == b.cameras.size() &&
+           a.indices == b.indices && a.attributes.size() == b.attributes.size() &&
            std::equal(a.primitives.begin(),
                       a.primitives.end(),
                       b.primitives.begin(),
@@ -109,6 +109,18 @@ void join_instance(Scene& first, std::span<const Scene> later, size_t row) {
         first.motion.instances.push_back(pose.instances[row].world_from_object);
 }
 
+void join_camera(SceneCamera& first, std::span<const Scene> later, size_t row) {
+    const auto differs = [&](const Scene& pose) {
+        return std::memcmp(&first.world_from_camera,
+                           &pose.cameras[row].world_from_camera,
+                           sizeof(Affined)) != 0;
+    };
+    if (std::none_of(later.begin(), later.end(), differs)) return;
+    first.moving = {first.world_from_camera};
+    for (const Scene& pose : later)
+        first.moving.push_back(pose.cameras[row].world_from_camera);
+}
+
 }  // namespace
 
 Affinef world_from_object_at(const Scene& scene, const Instance& instance, float time) {
@@ -135,6 +147,8 @@ bool join_motion(Scene& first, std::span<const Scene> later) {
     }
     for (size_t row = 0; row < first.instances.size(); ++row)
         join_instance(first, later, row);
+    for (size_t row = 0; row < first.cameras.size(); ++row)
+        join_camera(first.cameras[row], later, row);
     for (const Scene& pose : later) {
         first.bounds.low = -max3(-first.bounds.low, -pose.bounds.low);
         first.bounds.high = max3(first.bounds.high, pose.bounds.high);

@@ -17,8 +17,8 @@ inline Affinef object_from_world_at(const Scene& scene, const Instance& instance
     return inverse(world_from_object_at(scene, instance, time));
 }
 
-/// Keeps of later poses what differs from the first one: vertices, normals and instances. Textures
-/// and tangents stay those of the first pose; bounds grow to hold all.
+/// Keeps of later poses what differs from the first one: vertices, normals, instances and cameras.
+/// Textures and tangents stay those of the first pose; bounds grow to hold all.
 ///
 /// In      first: not yet moving; later: the same scene at evenly spaced later times
 /// Returns false, and leaves `first` as it was, when the poses are not made of the same parts (a

@@ -92,6 +92,8 @@ struct SceneCamera {
     std::string name;  ///< the camera's, else the node's name
     SceneCameraType type = SceneCameraType::perspective;
     Affined world_from_camera;
+    /// The same at evenly spaced times while the shutter is open; empty: it stands still.
+    std::vector<Affined> moving = {};
     double yfov_rad = 0.785398;
     double aspect = 0;  ///< width / height; 0: not given, use the picture's
     double xmag_m = 1;
