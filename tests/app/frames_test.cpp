@@ -45,6 +45,29 @@ TEST(Frames, NumbersFillTheirPlace) {
     EXPECT_FALSE(frame_file("#.#.exr", 7));
 }
 
+TEST(Shutter, AnIntervalBlursAndSecondsExpose) {
+    RenderArguments arguments = arguments_of({"a.exr"});
+    arguments.lens.shutter = "-0.25,0.5";
+    arguments.fps = "30";
+    const Result<RenderRequest> blurred = make_render_request(arguments);
+    ASSERT_TRUE(blurred) << blurred.error().message;
+    EXPECT_EQ(blurred->shutter->open, -0.25);
+    EXPECT_EQ(blurred->shutter->close, 0.5);
+    EXPECT_EQ(blurred->fps, 30);
+    EXPECT_FALSE(blurred->camera.settings.shutter_s);
+    for (const char* text : {"0,0", "0.5,0", "0,", ",1", "0,1,2", "a,b", "0,1e9"}) {
+        arguments.lens.shutter = text;
+        EXPECT_THAT(id_of(make_render_request(arguments)), testing::StartsWith("E-USAGE-")) << text;
+    }
+    arguments.fps.reset();
+    arguments.lens.shutter = "1/125";
+    arguments.lens.fstop = "8";
+    const Result<RenderRequest> exposed = make_render_request(arguments);
+    ASSERT_TRUE(exposed) << exposed.error().message;
+    EXPECT_FALSE(exposed->shutter);
+    EXPECT_EQ(exposed->camera.settings.shutter_s, 1.0 / 125);
+}
+
 TEST(Frames, ARequestBecomesItsPictures) {
     RenderArguments arguments = arguments_of({"a.##.exr", "a.##.png"});
     arguments.frames = "9-10";

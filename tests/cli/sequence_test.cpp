@@ -47,6 +47,22 @@ protected:
     }
 };
 
+/// The mean over the shutter's time lies between; what stands still is the same to the last bit.
+TEST_F(Sequence, AShutterBlursWhatMoves) {
+    const auto at = [&](const std::vector<std::string>& options, const char* file) {
+        std::vector<std::string> more = {"--spp", "64", "--time", "0", "-o", file};
+        more.insert(more.end(), options.begin(), options.end());
+        expect_result(render("slide.gltf", more), 0, "OK");
+        return pixels(file);
+    };
+    const std::vector<float> sharp = at({}, "sharp.exr");
+    const std::vector<float> blurred = at({"--shutter", "0,48"}, "blurred.exr");
+    EXPECT_NE(sharp, blurred);
+    EXPECT_EQ(at({"--animation", "none"}, "a.exr"),
+              at({"--animation", "none", "--shutter", "0,48"}, "b.exr"));
+    expect_result(render("slide.gltf", {"--shutter", "1,0", "-o", "c.exr"}), 64, "E-USAGE-RANGE");
+}
+
 TEST_F(Sequence, AMovedBoxIsSeenElsewhere) {
     const std::vector<std::string> depth = {"--integrator", "depth", "--time"};
     const auto at = [&](const char* time, const char* file) {

@@ -82,13 +82,16 @@ TEST(Extensions, UsesAreFoundWhereverTheyAre) {
 
 TEST(Extensions, SupportedOnesAreSilent) {
     json tree = triangle_asset();
+    size_t supported = 0;
     for (const ExtensionRow& row : extension_table()) {
-        if (row.supported) tree["extensionsRequired"].push_back(std::string(row.name));
+        if (!row.supported) continue;
+        tree["extensionsRequired"].push_back(std::string(row.name));
+        ++supported;
     }
     const Loaded loaded = load_tree(tree);
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_EQ(loaded.warnings, "");
-    EXPECT_EQ(loaded.scene->info.extensions.size(), 32U);
+    EXPECT_EQ(loaded.scene->info.extensions.size(), supported);
     for (const ExtensionInfo& info : loaded.scene->info.extensions)
         EXPECT_TRUE(info.supported);
 }

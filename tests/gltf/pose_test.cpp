@@ -263,5 +263,28 @@ TEST(PosedAsset, GivesScenesInAnyOrder) {
     }
 }
 
+/// While a shutter is open the triangle slides by a quarter of its way: nine poses of it are kept.
+TEST(PosedAsset, KeepsWhatMovesWhileAShutterIsOpen) {
+    AssetBuilder builder = pointed_asset();
+    add_animation(
+        builder, "Slide", {{node_target(0, "translation"), {0, 2}, "VEC3", {0, 0, 0, 4, 0, 0}}});
+    const TempFolder folder;
+    const auto file = folder.write("scene.gltf", builder.finished().dump());
+    Log log(Verbosity::quiet);
+    Result<PosedAsset> asset = PosedAsset::open(file, {}, true, log);
+    ASSERT_TRUE(asset);
+    const Result<Scene> scene = asset->scene_between({0.5, 1.0}, true, log);
+    ASSERT_TRUE(scene);
+    EXPECT_EQ(scene->positions, load_at(builder.finished(), 0.5).scene->positions);
+    const Loaded closing = load_at(builder.finished(), 1.0);
+    EXPECT_EQ(scene->motion.steps, 9);
+    const Primitive& primitive = scene->primitives[0];
+    ASSERT_TRUE(moves(primitive));
+    const size_t last = static_cast<size_t>(primitive.motion_base + 8 * primitive.motion_stride);
+    for (size_t i = 0; i < 9; ++i)
+        EXPECT_EQ(scene->motion.positions[last + i], closing.scene->positions[i]) << i;
+    EXPECT_FALSE(scene->materials.empty());
+}
+
 }  // namespace
 }  // namespace obscura
