@@ -83,7 +83,7 @@ struct Turn {
 };
 
 /// Poses the asset and builds everything that rendering reads; frees the asset after its last pose.
-Result<PreparedScene> prepare(Job& job, const Frame& frame, const Turn& turn, Log& log) {
+Result<PreparedScene> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
     RenderStatistics& statistics = job.statistics;
     const Stopwatch loading;
     Result<Scene> scene = job.asset->scene_at(frame.time_s, turn.is_last(), log);
@@ -143,7 +143,7 @@ Result<void> render_and_write(
 }
 
 /// What a frame has added to the sums.
-FrameStatistics frame_statistics(const Frame& frame,
+FrameStatistics frame_statistics(const MovieFrame& frame,
                                  const RenderStatistics& before,
                                  const RenderStatistics& after) {
     return {frame.number.value_or(0),
@@ -171,7 +171,7 @@ Result<void> load(Job& job) {
 
 /// Renders one picture after the other.
 Result<void> render_all(Job& job, Progress& progress) {
-    const std::vector<Frame> frames = frames_of(job.request);
+    const std::vector<MovieFrame> frames = frames_of(job.request);
     if (const Result<void> loaded = load(job); !loaded) return loaded;
     RepeatedLog later(job.log);
     for (size_t i = 0; i < frames.size(); ++i) {
