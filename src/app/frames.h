@@ -47,7 +47,7 @@ Result<FrameRange> parse_frames(std::string_view text, std::string_view option);
 std::optional<std::filesystem::path> frame_file(const std::filesystem::path& pattern, int frame);
 
 /// One picture of a command: where it goes and when it is.
-struct SequenceFrame {
+struct MovieFrame {
     std::optional<int> number;  ///< of a sequence
     double time_s = 0;
     std::vector<std::filesystem::path> outputs;

@@ -31,7 +31,7 @@ bool is_exr(const std::filesystem::path& file) {
 }  // namespace
 
 Result<void> check_outputs(const RenderRequest& request) {
-    const std::vector<SequenceFrame> frames = frames_of(request);
+    const std::vector<MovieFrame> frames = frames_of(request);
     // A sequence's files lie in one folder: the first frame's stand for all.
     for (const std::filesystem::path& output : frames.front().outputs) {
         if (auto writable = check_output(output); !writable) return writable;

@@ -82,7 +82,7 @@ struct Turn {
     bool is_last() const { return index + 1 == count; }
 };
 
-Result<Scene> pose(Job& job, const SequenceFrame& frame, const Turn& turn, Log& log) {
+Result<Scene> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
     const std::optional<ShutterFractions>& shutter = job.request.shutter;
     if (!shutter) return job.asset->scene_at(frame.time_s, turn.is_last(), log);
     const double frame_s = 1 / job.request.fps;
@@ -93,7 +93,7 @@ Result<Scene> pose(Job& job, const SequenceFrame& frame, const Turn& turn, Log& 
 }
 
 /// Poses the asset and builds everything that rendering reads; frees the asset after its last pose.
-Result<PreparedScene> prepare(Job& job, const SequenceFrame& frame, const Turn& turn, Log& log) {
+Result<PreparedScene> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
     RenderStatistics& statistics = job.statistics;
     const Stopwatch loading;
     Result<Scene> scene = pose(job, frame, turn, log);
@@ -155,7 +155,7 @@ Result<void> render_and_write(
 }
 
 /// What a frame has added to the sums.
-FrameStatistics frame_statistics(const SequenceFrame& frame,
+FrameStatistics frame_statistics(const MovieFrame& frame,
                                  const RenderStatistics& before,
                                  const RenderStatistics& after) {
     return {frame.number.value_or(0),
@@ -183,7 +183,7 @@ Result<void> load(Job& job) {
 
 /// Renders one picture after the other.
 Result<void> render_all(Job& job, Progress& progress) {
-    const std::vector<SequenceFrame> frames = frames_of(job.request);
+    const std::vector<MovieFrame> frames = frames_of(job.request);
     if (const Result<void> loaded = load(job); !loaded) return loaded;
     RepeatedLog later(job.log);
     for (size_t i = 0; i < frames.size(); ++i) {

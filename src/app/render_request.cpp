@@ -257,7 +257,7 @@ void refuse_empty_names(const RenderArguments& arguments, Steps& steps) {
 /// No output may replace something that is read, nor another output.
 Result<void> check_distinct_files(const RenderRequest& request) {
     std::vector<std::filesystem::path> written;
-    for (const SequenceFrame& frame : frames_of(request))
+    for (const MovieFrame& frame : frames_of(request))
         written.insert(written.end(), frame.outputs.begin(), frame.outputs.end());
     if (request.statistics) written.push_back(*request.statistics);
     std::vector<std::filesystem::path> read = {request.scene};
@@ -284,11 +284,11 @@ Result<void> check_distinct_files(const RenderRequest& request) {
 
 }  // namespace
 
-std::vector<SequenceFrame> frames_of(const RenderRequest& request) {
+std::vector<MovieFrame> frames_of(const RenderRequest& request) {
     if (!request.frames) return {{{}, request.load.time_s.value_or(0), request.outputs}};
-    std::vector<SequenceFrame> out;
+    std::vector<MovieFrame> out;
     for (int number = request.frames->first; number <= request.frames->last; ++number) {
-        SequenceFrame frame{number, request.frames->time_s(number), {}};
+        MovieFrame frame{number, request.frames->time_s(number), {}};
         for (const std::filesystem::path& pattern : request.outputs)
             frame.outputs.push_back(frame_file(pattern, number).value_or(pattern));
         out.push_back(std::move(frame));

@@ -64,7 +64,7 @@ struct RenderArguments {
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
 
 /// The pictures that a request asks for: one, or one for each frame.
-std::vector<SequenceFrame> frames_of(const RenderRequest& request);
+std::vector<MovieFrame> frames_of(const RenderRequest& request);
 
 /// 64 E-USAGE-CONFLICT when the part to render reaches beyond the picture.
 Result<void> check_crop(const RenderOptions& options);

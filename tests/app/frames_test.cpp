@@ -74,7 +74,7 @@ TEST(Frames, ARequestBecomesItsPictures) {
     arguments.fps = "5";
     const Result<RenderRequest> request = make_render_request(arguments);
     ASSERT_TRUE(request) << request.error().message;
-    const std::vector<SequenceFrame> frames = frames_of(*request);
+    const std::vector<MovieFrame> frames = frames_of(*request);
     ASSERT_EQ(frames.size(), 2U);
     EXPECT_EQ(frames[1].number, 10);
     EXPECT_EQ(frames[1].time_s, 2);
@@ -87,7 +87,7 @@ TEST(Frames, AStillIsOnePictureAndMayHaveHashesInItsName) {
     const Result<RenderRequest> request = make_render_request(arguments);
     ASSERT_TRUE(request);
     EXPECT_EQ(request->load.time_s, 1.5);
-    const std::vector<SequenceFrame> frames = frames_of(*request);
+    const std::vector<MovieFrame> frames = frames_of(*request);
     ASSERT_EQ(frames.size(), 1U);
     EXPECT_FALSE(frames[0].number);
     EXPECT_EQ(frames[0].time_s, 1.5);

@@ -217,7 +217,7 @@ TEST(Pose, BrokenAnimationsAreRefused) {
     const BadAnimation rows[] = {
         {{node_target(0, "translation"), {1, 0}, "VEC3", {0, 0, 0, 1, 1, 1}}, "E-ANIM-TIMES"},
         {{node_target(0, "translation"), {0, NAN}, "VEC3", {0, 0, 0, 1, 1, 1}}, "E-ANIM-TIMES"},
-        {{node_target(0, "translation"), {0}, "VEC3", {0, INFINITY, 0}}, "E-ANIM-VALUE"},
+        {{node_target(0, "rotation"), {0}, "VEC4", {0, INFINITY, 0, 1}}, "E-ANIM-VALUE"},
         {{node_target(0, "rotation"), {0}, "VEC4", {0, 0, 0, 0}}, "E-ANIM-VALUE"},
         {{node_target(0, "translation"), {0, 1}, "VEC3", {0, 0, 0}}, "E-ANIM-COUNT"},
         {{node_target(0, "scale"), {0}, "VEC3", {0, 0, 0}, "CUBICSPLINE"}, "E-ANIM-COUNT"},
