@@ -12,7 +12,7 @@ bool are_spheres(const Accel::Impl& impl, int32_t primitive);
 /// The spheres of a primitive as RTC_GEOMETRY_TYPE_SPHERE_POINT, numbered as ours.
 RTCGeometry make_sphere_points(Accel::Impl& impl, int32_t primitive);
 
-/// The triangles of a primitive as user geometry that runs intersect_triangle in float.
+/// The triangles of a primitive as user geometry that runs intersect_triangle.
 RTCGeometry make_checked_triangles(Accel::Impl& impl, int32_t primitive);
 
 }  // namespace obscura

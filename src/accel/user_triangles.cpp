@@ -48,10 +48,16 @@ Triangle<float> read_corners(const UserTriangles& triangles, unsigned number) {
 }
 
 TriangleHit<float> meet(const Triangle<float>& triangle, RTCRayN* rays, unsigned n, unsigned i) {
-    const ShapeRay<float> ray{
+    const ShapeRay<double> ray{
         {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
         {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)}};
-    TriangleHit<float> hit = intersect_triangle(triangle, ray);
+    const auto exact = [](const Vec3f& p) { return Vec3d{p.x, p.y, p.z}; };
+    const TriangleHit<double> found =
+        intersect_triangle<double>({exact(triangle.a), exact(triangle.b), exact(triangle.c)}, ray);
+    TriangleHit<float> hit{static_cast<float>(found.t),
+                           static_cast<float>(found.beta),
+                           static_cast<float>(found.gamma),
+                           found.hit};
     hit.hit = hit.hit && hit.t > RTCRayN_tnear(rays, n, i) && hit.t <= RTCRayN_tfar(rays, n, i);
     return hit;
 }

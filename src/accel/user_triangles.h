@@ -21,7 +21,8 @@ RTCGeometry make_user_triangles(Accel::Impl& impl,
 /// Corners in the primitive's own space.
 Triangle<float> read_corners(const UserTriangles& triangles, unsigned number);
 
-/// Ray i of a packet against a triangle, within the ray's limits.
+/// Ray i of a packet against a triangle, within the ray's limits. In double precision: what then
+/// differs from the truth is Embree's way through its boxes, not the formula.
 TriangleHit<float> meet(const Triangle<float>& triangle, RTCRayN* rays, unsigned n, unsigned i);
 
 /// Writes a hit of meet() into ray i of the packet that a callback was given.
