@@ -43,6 +43,7 @@ if(NOT TARGET OpenColorIO::OpenColorIO)
 endif()
 
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpdemux)
+pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 
 # Draco's CMake file changed its place, its target and its variables from version to version; its
 # header and its library stayed where they were.

@@ -10,7 +10,7 @@
 
 namespace obscura {
 
-/// Reads a PNG, JPEG or WebP picture: the lens lets light through where it is bright (linear
+/// Reads a PNG, JPEG, WebP or KTX2 picture: the lens lets light through where it is bright (linear
 /// luminance times alpha).
 ///
 /// Errors  67 E-APERTURE-MISSING, E-APERTURE-BLACK, and those of decode_image

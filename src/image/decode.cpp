@@ -1,8 +1,9 @@
-// image/decode.cpp - PNG, JPEG and WebP in memory become straight-alpha RGBA8.
+// image/decode.cpp - PNG, JPEG, WebP and KTX2 in memory become straight-alpha RGBA8.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/decode.h"
 
 #include "image/image_header.h"
+#include "image/ktx2.h"
 #include "image/oiio_input.h"
 #include "image/strip_metadata.h"
 
@@ -88,20 +89,36 @@ Result<void> decode_first_webp_frame(Bytes bytes, ImageRgba8& image, const std::
     return {};
 }
 
+Result<ImageRgba8> decode_levels(Bytes bytes,
+                                 MipLevels levels,
+                                 const std::string& where,
+                                 Log& log) {
+    Result<Ktx2Header> header = read_ktx2_header(bytes, where);
+    if (!header) return fail(std::move(header.error()));
+    if (levels == MipLevels::base) header->levels = 1;
+    return decode_ktx2(*header, where, log);
+}
+
 }  // namespace
 
 Result<ImageRgba8> probe_image(Bytes bytes, const std::string& where) {
     const Result<ImageHeader> header = read_image_header(bytes, where);
     if (!header) return fail(header.error());
-    return ImageRgba8{header->width, header->height, {}, format_name(header->format)};
+    return ImageRgba8{header->width,
+                      header->height,
+                      {},
+                      format_name(header->format),
+                      header->levels,
+                      header->encoding};
 }
 
-Result<ImageRgba8> decode_image(Bytes bytes, const std::string& where, Log& log) {
+Result<ImageRgba8> decode_image(Bytes bytes, const std::string& where, Log& log, MipLevels levels) {
     const Result<ImageHeader> header = read_image_header(bytes, where);
     if (!header) return fail(header.error());
     ImageRgba8 image{header->width, header->height, {}, format_name(header->format)};
     if (header->animated) log.warn(where, "animated: only its first frame is used");
     try {
+        if (header->format == ImageFormat::ktx2) return decode_levels(bytes, levels, where, log);
         const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
         image.texels.assign(count, 0xFF000000U);  // opaque, when the picture has no alpha
         Result<void> decoded = header->format != ImageFormat::webp

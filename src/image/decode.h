@@ -13,22 +13,28 @@
 
 namespace obscura {
 
-/// Decodes PNG, JPEG or WebP (told apart by their first bytes, not by name) to straight-alpha
+/// Which mip levels of a picture to decode.
+enum class MipLevels { base, stored };
+
+/// Decodes PNG, JPEG, WebP or KTX2 (told apart by their first bytes, not by name) to straight-alpha
 /// RGBA8.
 ///
-/// In      where: file with JSON pointer, for messages
+/// In      where: file with JSON pointer, for messages; levels: only KTX2 stores more than one
 /// Grey, palette, 16-bit and CMYK pictures are converted; of an animation the first frame is taken,
 /// with a warning. Thread-safe: different pictures may be decoded at the same time.
 ///
-/// Errors  67 E-IMG-CORRUPT truncated or broken, 67 E-IMG-FORMAT not one of the three,
-///         69 E-IMG-FEATURE a 12-bit, lossless or hierarchical JPEG,
+/// Errors  67 E-IMG-CORRUPT truncated or broken, 67 E-IMG-FORMAT not one of the four,
+///         69 E-IMG-FEATURE a 12-bit, lossless or hierarchical JPEG, a KTX2 file that is not a
+///         still 2D picture in a coding that glTF allows,
 ///         77 E-IMG-LIMIT a side over 65536 or over 2^29 pixels (checked before allocating),
 ///         33 E-IMG-MEMORY
 Result<ImageRgba8> decode_image(std::span<const std::byte> bytes,
                                 const std::string& where,
-                                Log& log);
+                                Log& log,
+                                MipLevels levels = MipLevels::base);
 
-/// Width, height and format from the header only; texels stays empty. Loads no library.
+/// Width, height, format, number of stored levels and encoding from the header only; texels stays
+/// empty. Loads no library.
 ///
 /// Errors  as decode_image, as far as the header shows them
 Result<ImageRgba8> probe_image(std::span<const std::byte> bytes, const std::string& where);

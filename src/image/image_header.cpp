@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/image_header.h"
 
+#include "image/ktx2_header.h"
+
 #include <algorithm>
 #include <cstring>
 #include <string_view>
@@ -46,7 +48,7 @@ const char* looks_like(Bytes bytes) {
         const char* name;
     };
     static constexpr Magic known[] = {
-        {0, std::string_view("\xABKTX 20", 7), "KTX2"},
+        {0, std::string_view("\xABKTX 20", 7), "KTX2, damaged"},
         {0, std::string_view("\xABKTX 11", 7), "KTX"},
         {0, "DDS ", "DDS"},
         {0, "GIF8", "GIF"},
@@ -213,6 +215,13 @@ Result<ImageHeader> read_webp(Bytes bytes, const std::string& where) {
         ImageFormat::webp, features.width, features.height, features.has_animation != 0};
 }
 
+Result<ImageHeader> read_ktx2(Bytes bytes, const std::string& where) {
+    const Result<Ktx2Header> header = read_ktx2_header(bytes, where);
+    if (!header) return fail(header.error());
+    return ImageHeader{
+        ImageFormat::ktx2, header->width, header->height, false, header->levels, header->encoding};
+}
+
 }  // namespace
 
 const char* format_name(ImageFormat format) {
@@ -223,6 +232,8 @@ const char* format_name(ImageFormat format) {
             return "jpeg";
         case ImageFormat::webp:
             return "webp";
+        case ImageFormat::ktx2:
+            return "ktx2";
     }
     return "";
 }
@@ -255,11 +266,12 @@ Result<ImageHeader> read_image_header(Bytes bytes, const std::string& where) {
     if (starts_with(bytes, std::string_view("\x89PNG\r\n\x1A\n", 8))) return read_png(bytes, where);
     if (starts_with(bytes, "\xFF\xD8\xFF")) return read_jpeg(bytes, where);
     if (starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8)) return read_webp(bytes, where);
+    if (is_ktx2(bytes)) return read_ktx2(bytes, where);
     return fail(ExitCode::bad_resource,
                 "E-IMG-FORMAT",
                 where,
                 std::string("not a picture that can be read: it looks like ") + looks_like(bytes) +
-                    "; accepted are PNG, JPEG and WebP");
+                    "; accepted are PNG, JPEG, WebP and KTX2");
 }
 
 }  // namespace obscura

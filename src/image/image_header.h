@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "image/pixels.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,25 +12,27 @@
 
 namespace obscura {
 
-enum class ImageFormat { png, jpeg, webp };
+enum class ImageFormat { png, jpeg, webp, ktx2 };
 
 struct ImageHeader {
     ImageFormat format = ImageFormat::png;
     int width = 0;
     int height = 0;
     bool animated = false;
+    int levels = 1;  ///< mip levels that it stores
+    ImageEncoding encoding = ImageEncoding::unsaid;
 };
 
-/// "png", "jpeg" or "webp".
+/// "png", "jpeg", "webp" or "ktx2".
 const char* format_name(ImageFormat format);
 
-/// Tells PNG, JPEG and WebP apart by their first bytes and reads the size. No library is touched
-/// and nothing is allocated, so that a header that promises too much costs nothing.
+/// Tells PNG, JPEG, WebP and KTX2 apart by their first bytes and reads the size. No library is
+/// touched and nothing is allocated, so that a header that promises too much costs nothing.
 ///
-/// Errors  67 E-IMG-FORMAT none of the three (says what it looks like), 67 E-IMG-CORRUPT the
+/// Errors  67 E-IMG-FORMAT none of the four (says what it looks like), 67 E-IMG-CORRUPT the
 ///         header is cut off or broken, 69 E-IMG-FEATURE a JPEG process that is not read
-///         (12 bits, lossless, hierarchical), 77 E-IMG-LIMIT a side over 65536, over 2^29 pixels,
-///         or a JPEG of more than 1000 scans
+///         (12 bits, lossless, hierarchical) or a kind of KTX2 file that is not, 77 E-IMG-LIMIT a
+///         side over 65536, over 2^29 pixels, or a JPEG of more than 1000 scans
 Result<ImageHeader> read_image_header(std::span<const std::byte> bytes, const std::string& where);
 
 /// Refuses pictures that are too large to decode, before anything is allocated.

@@ -8,12 +8,17 @@
 
 namespace obscura {
 
+/// What a file says of its colours' numbers.
+enum class ImageEncoding { unsaid, linear, srgb };
+
 /// 8 bits a channel, rows from the top, alpha not premultiplied; R in the lowest byte of a texel.
 struct ImageRgba8 {
     int width = 0;
     int height = 0;
     std::vector<uint32_t> texels;
-    std::string format;  ///< "png", "jpeg", "webp"
+    std::string format;  ///< "png", "jpeg", "webp", "ktx2"
+    int levels = 1;      ///< mip levels in `texels`, one behind the other, level 0 first
+    ImageEncoding encoding = ImageEncoding::unsaid;
 };
 
 /// Linear Rec.709 RGB, 3 floats a pixel, rows from the top.

@@ -29,7 +29,7 @@ struct ReportRow {
 
 struct ImageInfo {
     std::string name;    ///< its name, URI or "image 3"
-    std::string format;  ///< "png", "jpeg", "webp"
+    std::string format;  ///< "png", "jpeg", "webp", "ktx2"
     int width = 0;
     int height = 0;
     bool used_as_color = false;

@@ -102,7 +102,7 @@ TEST(ImageHeader, OtherFormatsAre67AndNamed) {
         EXPECT_EQ(error.code, ExitCode::bad_resource);
         EXPECT_EQ(error.id, "E-IMG-FORMAT");
         EXPECT_NE(error.message.find(name), std::string::npos) << error.message;
-        EXPECT_NE(error.message.find("PNG, JPEG and WebP"), std::string::npos);
+        EXPECT_NE(error.message.find("PNG, JPEG, WebP and KTX2"), std::string::npos);
     }
 }
 

@@ -39,7 +39,7 @@ struct Owner {
 };
 
 /// To add a library: one line here, one in third_party/README.md, one in third_party/packages.txt.
-inline constexpr std::array<Owner, 18> owners{{{"tbb/", "base"},
+inline constexpr std::array<Owner, 19> owners{{{"tbb/", "base"},
                                                {"oneapi/", "base"},
                                                {"tl/", "base"},
                                                {"xsimd", "math"},
@@ -50,6 +50,7 @@ inline constexpr std::array<Owner, 18> owners{{{"tbb/", "base"},
                                                {"Imath/", "image"},
                                                {"OpenColorIO/", "image"},
                                                {"webp/", "image"},
+                                               {"zstd", "image"},
                                                {"nlohmann/", "gltf"},
                                                {"draco/", "gltf"},
                                                {"meshoptimizer", "gltf"},
