@@ -99,8 +99,7 @@ struct GltfSampler {
 
 struct GltfTexture {
     int sampler = -1;
-    int image = -1;             ///< after EXT_texture_webp's choice; -1: none that can be read
-    bool needs_basisu = false;  ///< the only image is KTX2
+    int image = -1;  ///< KTX2 before WebP before the core one; -1: none that can be read
 };
 
 /// Factors are final; the slots' `texture` is still a glTF texture.

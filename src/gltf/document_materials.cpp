@@ -102,9 +102,7 @@ TextureSlot read_texture_slot(DocumentReading& reading,
     const GltfTexture& texture = reading.document.textures[static_cast<size_t>(slot.texture)];
     if (texture.image < 0) {
         reading.log.warn(reading.document.at(info.pointer()),
-                         texture.needs_basisu
-                             ? "the texture has a KTX2 image and no other; it is ignored"
-                             : "the texture has no image that can be read; it is ignored");
+                         "the texture has no image that can be read; it is ignored");
         return TextureSlot{};
     }
     if (slot.uv_set >= max_uv_sets) {
@@ -156,19 +154,18 @@ void read_samplers(DocumentReading& reading) {
 }
 
 void read_textures(DocumentReading& reading) {
-    constexpr const char* webp = "EXT_texture_webp";
-    constexpr const char* basisu = "KHR_texture_basisu";
+    constexpr const char* better_images[] = {"EXT_texture_webp", "KHR_texture_basisu"};
     const size_t image_count = reading.root.count("images");
     const size_t sampler_count = reading.root.count("samplers");
     reading.root.each("textures", [&](const JsonReader& texture, size_t) {
         GltfTexture out;
         out.sampler = texture.index("sampler", sampler_count, "sampler");
         out.image = texture.index("source", image_count, "image");
-        if (texture.has_extension(webp)) {
-            const int better = texture.extension(webp).index("source", image_count, "image");
+        for (const char* extension : better_images) {
+            if (!texture.has_extension(extension)) continue;
+            const int better = texture.extension(extension).index("source", image_count, "image");
             if (better >= 0) out.image = better;
         }
-        out.needs_basisu = out.image < 0 && texture.has_extension(basisu);
         reading.document.textures.push_back(out);
     });
 }

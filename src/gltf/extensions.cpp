@@ -48,6 +48,8 @@ constexpr std::array extension_rows = {
     ExtensionRow{"KHR_node_hoverability", true, "", "a still picture has none", Verdict::ignored},
     ExtensionRow{"KHR_node_selectability", true, "", "a still picture has none", Verdict::ignored},
     ExtensionRow{"KHR_node_visibility", true, ""},
+    ExtensionRow{
+        "KHR_texture_basisu", true, "", "the KTX2 image is preferred, mip levels as stored"},
     ExtensionRow{"KHR_texture_transform", true, "", "on every texture"},
     ExtensionRow{"KHR_xmp", true, "", "the asset's packet goes into EXR headers"},
     ExtensionRow{"KHR_xmp_json_ld", true, "", "the asset's packet goes into EXR headers"},
@@ -55,7 +57,6 @@ constexpr std::array extension_rows = {
     ExtensionRow{"OBSCURA_camera", true, ""},
     ExtensionRow{"OBSCURA_shape", true, ""},
     ExtensionRow{"KHR_materials_pbrSpecularGlossiness", false, "the core material is used"},
-    ExtensionRow{"KHR_texture_basisu", false, "the PNG, JPEG or WebP fallback is read"},
 };
 
 /// Where one extension occurs.

@@ -45,6 +45,7 @@ private:
     Result<ImageRgba8> probe(size_t image) const;
     Result<void> probe_all();
     void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
+    void warn_wrong_encoding(size_t image, ImageEncoding encoding) const;
     Result<void> lay_out();
     int row_for(const TextureSlot& slot, bool srgb);
     void resolve_slots();
@@ -115,7 +116,8 @@ Result<EncodedImage> TextureBuilder::load_encoded(size_t image) const {
                         "E-URI-DATA",
                         where + "/uri",
                         "the media type \"" + read->mime +
-                            "\" is not an image's; accepted are image/png, image/jpeg, image/webp");
+                            "\" is not an image's; accepted are image/png, image/jpeg, image/webp, "
+                            "image/ktx2");
         }
         out.mime = read->mime;
     }
@@ -130,6 +132,20 @@ void TextureBuilder::warn_wrong_mime(size_t image,
     if (mime.empty() || mime == "image/" + format) return;
     log_.warn(document().at("images", image),
               "the media type is \"" + mime + "\" but the data are " + format + "; the data count");
+}
+
+void TextureBuilder::warn_wrong_encoding(size_t image, ImageEncoding encoding) const {
+    const std::array<ImageUse, 2>& uses = images_[image].uses;
+    if (encoding == ImageEncoding::srgb && uses[0].used) {
+        log_.warn(document().at("images", image),
+                  "the image says that it is sRGB, but a material reads it as data; it is read as "
+                  "data");
+    }
+    if (encoding == ImageEncoding::linear && uses[1].used) {
+        log_.warn(document().at("images", image),
+                  "the image says that it is linear, but a material reads it as colour, which is "
+                  "sRGB in glTF; it is read as sRGB");
+    }
 }
 
 Result<ImageRgba8> TextureBuilder::probe(size_t image) const {
@@ -152,6 +168,7 @@ Result<void> TextureBuilder::probe_all() {
                       header.error().message + "; no drawn material uses the image");
             continue;
         }
+        warn_wrong_encoding(i, header->encoding);
         images_[i].width = header->width;
         images_[i].height = header->height;
         ImageInfo& info = scene_.info.images[i];
@@ -223,10 +240,15 @@ Result<void> TextureBuilder::decode(size_t image) {
     const std::string where = document().at("images", image);
     Result<EncodedImage> encoded = load_encoded(image);
     if (!encoded) return fail(std::move(encoded.error()));
-    Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_);
+    Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_, MipLevels::stored);
     if (!decoded) return fail(std::move(decoded.error()));
     encoded->owned = Bytes();
-    const size_t texels = static_cast<size_t>(state.width) * static_cast<size_t>(state.height);
+    // Levels that the file stores are taken as they are; the others are made from its last one.
+    const int width = std::max(state.width >> (decoded->levels - 1), 1);
+    const int height = std::max(state.height >> (decoded->levels - 1), 1);
+    const size_t last_level =
+        mip_chain_texels(state.width, state.height) - mip_chain_texels(width, height);
+    const size_t texels = last_level + static_cast<size_t>(width) * static_cast<size_t>(height);
     if (decoded->width != state.width || decoded->height != state.height ||
         decoded->texels.size() != texels) {
         return fail(ExitCode::bad_resource,
@@ -238,7 +260,7 @@ Result<void> TextureBuilder::decode(size_t image) {
         if (!state.uses[srgb].used) continue;
         uint32_t* base = scene_.textures.texels.data() + state.uses[srgb].base;
         std::copy(decoded->texels.begin(), decoded->texels.end(), base);
-        build_mip_chain(base, state.width, state.height, srgb == 1);
+        build_mip_chain(base + last_level, width, height, srgb == 1);
     }
     return {};
 }

@@ -33,11 +33,11 @@ inline void write_block(
     const int width = std::min(block_side, level.width - block_side * column);
     const int height = std::min(block_side, level.height - block_side * row);
     for (int y = 0; y < height; ++y) {
-        const size_t line = static_cast<size_t>(block_side * row + y);
-        uint32_t* out = level.texels + line * static_cast<size_t>(level.width) +
-                        static_cast<size_t>(block_side * column);
+        const ptrdiff_t line = ptrdiff_t{block_side} * row + y;
+        uint32_t* out = level.texels + line * level.width + ptrdiff_t{block_side} * column;
+        const uint32_t* from = &block[static_cast<size_t>(y) * block_side];
         for (int x = 0; x < width; ++x) {
-            const uint32_t texel = block[static_cast<size_t>(block_side * y + x)];
+            const uint32_t texel = from[x];
             out[x] = (out[x] & ~mask) | (texel & mask);
         }
     }

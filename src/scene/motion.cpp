@@ -95,12 +95,15 @@ void join_primitive(Scene& first, std::span<const Scene> later, Primitive& primi
         append_pose(pose, primitive, range, first.motion);
 }
 
+template <typename F>
+bool is_same(const Affine<F>& a, const Affine<F>& b) {
+    return std::equal(&a.m[0][0], &a.m[0][0] + 12, &b.m[0][0]);
+}
+
 void join_instance(Scene& first, std::span<const Scene> later, size_t row) {
     Instance& instance = first.instances[row];
     const auto differs = [&](const Scene& pose) {
-        return std::memcmp(&instance.world_from_object,
-                           &pose.instances[row].world_from_object,
-                           sizeof(Affinef)) != 0;
+        return !is_same(instance.world_from_object, pose.instances[row].world_from_object);
     };
     if (std::none_of(later.begin(), later.end(), differs)) return;
     instance.motion = static_cast<int32_t>(first.motion.instances.size());
@@ -111,9 +114,7 @@ void join_instance(Scene& first, std::span<const Scene> later, size_t row) {
 
 void join_camera(SceneCamera& first, std::span<const Scene> later, size_t row) {
     const auto differs = [&](const Scene& pose) {
-        return std::memcmp(&first.world_from_camera,
-                           &pose.cameras[row].world_from_camera,
-                           sizeof(Affined)) != 0;
+        return !is_same(first.world_from_camera, pose.cameras[row].world_from_camera);
     };
     if (std::none_of(later.begin(), later.end(), differs)) return;
     first.moving = {first.world_from_camera};

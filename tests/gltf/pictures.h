@@ -3,8 +3,10 @@
 #pragma once
 
 #include "gltf/gltf_files.h"
+#include "image/ktx2_builder.h"
 #include "image/png_builder.h"
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,27 @@ inline std::string webp_bytes() {
                                               0x00, 0x00, 0x2F, 0x00, 0x00, 0x00, 0x10, 0x07, 0x10,
                                               0x11, 0x11, 0x88, 0x88, 0xFE, 0x07, 0x00};
     return {reinterpret_cast<const char*>(bytes), sizeof(bytes)};
+}
+
+inline std::string ktx2_uri(const testing_pictures::Ktx2Parts& parts) {
+    const auto bytes = testing_pictures::ktx2_file(parts);
+    return "data:image/ktx2;base64," +
+           base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
+/// sRGB, `width` x 1, each level of one grey: 10, 20, 30 ...
+inline testing_pictures::Ktx2Parts ktx2_greys(unsigned width, unsigned levels) {
+    testing_pictures::Ktx2Parts parts;
+    parts.format = 43;
+    parts.transfer = 2;
+    parts.width = width;
+    for (unsigned level = 0; level < levels; ++level) {
+        const unsigned grey = 10 * (level + 1);
+        parts.levels.emplace_back();
+        for (unsigned x = 0; x < std::max(width >> level, 1U); ++x)
+            testing_pictures::append(parts.levels.back(), {grey, grey, grey, 255});
+    }
+    return parts;
 }
 
 }  // namespace obscura::testing_gltf

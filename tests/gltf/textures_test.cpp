@@ -236,21 +236,65 @@ TEST(Textures, WebpIsPreferred) {
     EXPECT_EQ(loaded.scene->textures.rows[0].width, 1);
 }
 
-TEST(Textures, BasisuFallsBackOrLeavesTheSlotEmpty) {  // F11
+TEST(Textures, Ktx2IsPreferredAndNeedsNoFallback) {  // F11
     json tree = one_texture();
-    tree["images"] = {{{"uri", png_uri(2, 2)}}, {{"uri", "a.ktx2"}}};
-    tree["textures"][0]["extensions"]["KHR_texture_basisu"]["source"] = 1;
+    tree["images"] = {{{"uri", png_uri(2, 2)}},
+                      {{"uri", "data:image/webp;base64," + base64(webp_bytes())}},
+                      {{"uri", ktx2_uri(ktx2_greys(4, 3))}}};
+    tree["textures"][0]["extensions"]["EXT_texture_webp"]["source"] = 1;
+    tree["textures"][0]["extensions"]["KHR_texture_basisu"]["source"] = 2;
     const Loaded with = load_tree(tree);
     ASSERT_TRUE(with.scene) << with.text();
-    EXPECT_EQ(with.scene->textures.rows.size(), 1U);
-    EXPECT_TRUE(with.warns("KHR_texture_basisu is not supported"));
+    EXPECT_EQ(with.scene->info.images[2].format, "ktx2");
+    EXPECT_FALSE(with.scene->info.images[0].used_as_color);
+    EXPECT_EQ(with.scene->textures.rows.at(0).width, 4);
 
     tree["textures"][0].erase("source");
+    tree["extensionsUsed"] = {"KHR_texture_basisu", "EXT_texture_webp"};
+    tree["extensionsRequired"] = {"KHR_texture_basisu"};
     const Loaded without = load_tree(tree);
     ASSERT_TRUE(without.scene) << without.text();
-    EXPECT_TRUE(without.scene->textures.rows.empty());
-    EXPECT_EQ(without.scene->materials[1].emissive_texture.texture, -1);
-    EXPECT_TRUE(without.warns("KTX2 image and no other"));
+    EXPECT_EQ(without.scene->textures.rows.at(0).width, 4);
+    EXPECT_TRUE(without.warnings.empty()) << without.warnings;
+}
+
+TEST(Textures, Ktx2LevelsAreTakenAndMissingOnesMade) {
+    for (const unsigned stored : {4U, 2U}) {
+        const Loaded loaded = load_image({{"uri", ktx2_uri(ktx2_greys(8, stored))}});
+        ASSERT_TRUE(loaded.scene) << loaded.text();
+        const TextureArena& arena = loaded.scene->textures;
+        ASSERT_EQ(arena.rows.at(0).levels, 4);
+        for (unsigned level = 0; level < 4; ++level) {
+            const unsigned grey = 10 * (std::min(level, stored - 1) + 1);
+            const auto at = static_cast<size_t>(arena.rows[0].level_offset[level]);
+            EXPECT_EQ(arena.texels.at(at), 0xFF000000U | grey * 0x010101U) << level;
+        }
+    }
+}
+
+TEST(Textures, Ktx2ThatIsNotWhatTheMaterialReadsWarns) {
+    auto linear = ktx2_greys(1, 1);
+    linear.format = 37;
+    linear.transfer = 1;
+    const Loaded color = load_image({{"uri", ktx2_uri(linear)}});
+    ASSERT_TRUE(color.scene) << color.text();
+    EXPECT_TRUE(color.warns("says that it is linear")) << color.warnings;
+
+    json tree = textured({{"normalTexture", {{"index", 0}}}});
+    tree["textures"][0]["extensions"]["KHR_texture_basisu"]["source"] = 0;
+    tree["images"][0]["uri"] = ktx2_uri(ktx2_greys(1, 1));
+    const Loaded data = load_tree(tree);
+    ASSERT_TRUE(data.scene) << data.text();
+    EXPECT_TRUE(data.warns("says that it is sRGB")) << data.warnings;
+    EXPECT_FALSE(color.warns("says that it is sRGB")) << color.warnings;
+}
+
+TEST(Textures, Ktx2ThatIsNotAPictureIsRefused) {
+    auto cube = ktx2_greys(1, 1);
+    cube.faces = 6;
+    const Loaded loaded = load_image({{"uri", ktx2_uri(cube)}});
+    EXPECT_EQ(loaded.code(), 69) << loaded.text();
+    EXPECT_EQ(loaded.id(), "E-IMG-FEATURE") << loaded.text();
 }
 
 }  // namespace
