@@ -21,8 +21,10 @@ constexpr std::array group_pattern = {RayGroup::camera,
 /// Steps through all pixels of a picture of any size up to its own: scattered, each once.
 constexpr uint64_t pixel_step = 2654435761;  ///< prime
 
+/// Any direction where a triangle without area has no normal.
 Vec3d tangent_to(const Vec3d& normal, RandomStream& random) {
-    return normalize(cross(normal, random.direction()));
+    const Vec3d tangent = cross(normal, random.direction());
+    return dot(tangent, tangent) > 0 ? normalize(tangent) : random.direction();
 }
 
 }  // namespace
