@@ -84,13 +84,16 @@ def write_motion(folder):
     ground = shapes.rounded_box((1.5, 0.05, 1.5), 0.01, 2).moved((0.0, -0.05, 0.0))
     gltf.node(name='Ground', mesh=gltf.mesh('Ground', [gltf.primitive(
         ground, gltf.material('Ground', color=(0.35, 0.33, 0.30), roughness=0.8))]))
+    wall = shapes.rounded_box((1.5, 1.0, 0.05), 0.01, 2).moved((0.0, 1.0, -1.2))
+    gltf.node(name='Wall', mesh=gltf.mesh('Wall', [gltf.primitive(
+        wall, gltf.material('Wall', color=(0.55, 0.52, 0.48), roughness=0.9))]))
     joints = _reed(gltf)
     ball = _ball(gltf)
     block = gltf.node(name='Block', translation=(0.55, 0.13, -0.05), mesh=gltf.mesh('Block', [
         gltf.primitive(shapes.rounded_box((0.13, 0.13, 0.13), 0.012, 3),
                        gltf.material('Block', color=(0.08, 0.20, 0.45), roughness=0.3))]))
     lamp = gltf.material('Lamp', color=(0, 0, 0), emission=(30.0, 18.0, 8.0))
-    gltf.node(name='Lamp', translation=(0.15, 1.25, -0.5),
+    gltf.node(name='Lamp', translation=(-0.05, 1.05, -0.75),
               mesh=gltf.mesh('Lamp', [gltf.primitive(_sphere(0.09), lamp)]))
     gltf.node(name='Sun', rotation=look_at((1.0, 2.0, 1.5), (0.0, 0.0, 0.0)),
               extensions=gltf.light(name='Sun', type='directional', intensity=2.0,

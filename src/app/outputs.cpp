@@ -31,9 +31,9 @@ bool is_exr(const std::filesystem::path& file) {
 }  // namespace
 
 Result<void> check_outputs(const RenderRequest& request) {
-    const std::vector<MovieFrame> frames = frames_of(request);
     // A sequence's files lie in one folder: the first frame's stand for all.
-    for (const std::filesystem::path& output : frames.front().outputs) {
+    const MovieFrame first = frames_of(request).front();
+    for (const std::filesystem::path& output : first.outputs) {
         if (auto writable = check_output(output); !writable) return writable;
     }
     if (request.statistics) return check_file_can_be_written(*request.statistics);
