@@ -1,5 +1,4 @@
-// tests/image/uastc_encoder.h - UASTC blocks from given numbers, and what ASTC makes of those: a
-// second statement of the format, by its printed tables.
+// tests/image/uastc_encoder.h - UASTC stated again, by its printed tables: blocks and texels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

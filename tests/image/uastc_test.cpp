@@ -1,5 +1,4 @@
-// tests/image/uastc_test.cpp - every mode of UASTC, against another program's texels and against
-// ASTC's formulas in double.
+// tests/image/uastc_test.cpp - every mode of UASTC against other decoders and ASTC's formulas.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/uastc.h"
 
