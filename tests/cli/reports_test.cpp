@@ -99,8 +99,7 @@ TEST_F(Reports, WarningsAreCountedAndKept) {
     ASSERT_TRUE(result_of(got));
     EXPECT_EQ(result_of(got)->warnings, 1) << got.err;
     const json stats = json::parse(read_whole_file(folder_ / "s.json"));
-    EXPECT_THAT(stats.at("warnings").at(0).get<std::string>(),
-                HasSubstr("VENDOR_materials_glow"));
+    EXPECT_THAT(stats.at("warnings").at(0).get<std::string>(), HasSubstr("VENDOR_materials_glow"));
 }
 
 TEST_F(Reports, InfoAsJson) {
