@@ -78,6 +78,8 @@ constexpr PropertyRow property_rows[] = {
     {"/materials/*/extensions/KHR_materials_volume/attenuationColor", 3},
     {"/materials/*/extensions/KHR_materials_volume/attenuationDistance", 1},
     {"/materials/*/extensions/KHR_materials_volume/thicknessFactor", 1},
+    {"/materials/*/extensions/KHR_materials_volume_scatter/multiscatterColor", 3},
+    {"/materials/*/extensions/KHR_materials_volume_scatter/scatterAnisotropy", 1},
 };
 
 /// What lies behind a texture's own path.
