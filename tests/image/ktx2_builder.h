@@ -13,8 +13,8 @@
 namespace obscura::testing_pictures {
 
 inline void append_little_endian(ByteVector& out, uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i)
-        append(out, {static_cast<unsigned>(value >> 8 * i & 0xFF)});
+    for (int i = 0; i < bytes; ++i, value >>= 8)
+        append(out, {static_cast<unsigned>(value & 0xFF)});
 }
 
 /// What a file says; the defaults are one opaque texel of R8G8B8A8_UNORM without levels.
