@@ -21,7 +21,7 @@ struct EmbreeErrors {
     std::string text;
 };
 
-/// The user pointer of triangles that count how often they are tested.
+/// The user pointer of triangles or pieces of lines that count how often they are tested.
 struct CountedTriangles {
     const Accel::Impl* impl = nullptr;
     int32_t primitive = 0;
@@ -63,6 +63,9 @@ struct Accel::Impl {
 
 /// Triangles as user geometry whose callback counts: see accel/traversal_cost.cpp.
 RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index);
+
+/// Likewise for lines, as capsules of our own.
+RTCGeometry make_counted_curves(Accel::Impl& impl, int32_t primitive_index);
 
 /// Counts, then calls the shape's own callback.
 void intersect_counted_shape(const RTCIntersectFunctionNArguments* args);

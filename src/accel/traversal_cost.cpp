@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/safe_ray.h"
+#include "shape/segment.h"
 #include "shape/triangle.h"
 
 namespace obscura {
@@ -56,11 +57,35 @@ bool counts_as_hit(const CountedTriangles& triangles,
         {impl.scene, impl.textures, triangles.primitive}, context, place, barycentric);
 }
 
+ShapeRay<float> read_ray(RTCRayN* rays, unsigned n, unsigned i) {
+    return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+            {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)}};
+}
+
+struct CountedHit {
+    float t;
+    Vec3f ng;
+    Vec2f uv;
+};
+
+void write_hit(const RTCIntersectFunctionNArguments* args, unsigned i, const CountedHit& hit) {
+    const unsigned n = args->N;
+    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
+    RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, n), n, i) = hit.t;
+    RTCHitN_Ng_x(hits, n, i) = hit.ng.x;
+    RTCHitN_Ng_y(hits, n, i) = hit.ng.y;
+    RTCHitN_Ng_z(hits, n, i) = hit.ng.z;
+    RTCHitN_u(hits, n, i) = hit.uv.x;
+    RTCHitN_v(hits, n, i) = hit.uv.y;
+    RTCHitN_primID(hits, n, i) = args->primID;
+    RTCHitN_geomID(hits, n, i) = args->geomID;
+    copy_instance_stack(counting_context(args).common, hits, n, i);
+}
+
 /// Embree's callback; rays come one at a time, for count_tests asks so.
 void intersect_counted_triangle(const RTCIntersectFunctionNArguments* args) {
     const unsigned n = args->N;
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
-    RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
     CountingContext& context = counting_context(args);
     const auto& triangles = *static_cast<const CountedTriangles*>(args->geometryUserPtr);
     const Triangle<float> triangle = read_corners(triangles, args->primID);
@@ -68,9 +93,7 @@ void intersect_counted_triangle(const RTCIntersectFunctionNArguments* args) {
     for (unsigned i = 0; i < n; ++i) {
         if (args->valid[i] == 0) continue;
         ++context.tests;
-        const ShapeRay<float> ray{
-            {RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
-            {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)}};
+        const ShapeRay<float> ray = read_ray(rays, n, i);
         const TriangleHit<float> hit = intersect_triangle(triangle, ray);
         const bool within = hit.t > RTCRayN_tnear(rays, n, i) && hit.t <= RTCRayN_tfar(rays, n, i);
         if (!hit.hit || !within) continue;
@@ -80,33 +103,83 @@ void intersect_counted_triangle(const RTCIntersectFunctionNArguments* args) {
         if (!counts_as_hit(triangles, context.common, place, from_behind, {hit.beta, hit.gamma})) {
             continue;
         }
-        RTCRayN_tfar(rays, n, i) = hit.t;
-        RTCHitN_Ng_x(hits, n, i) = ng.x;
-        RTCHitN_Ng_y(hits, n, i) = ng.y;
-        RTCHitN_Ng_z(hits, n, i) = ng.z;
-        RTCHitN_u(hits, n, i) = hit.beta;
-        RTCHitN_v(hits, n, i) = hit.gamma;
-        RTCHitN_primID(hits, n, i) = args->primID;
-        RTCHitN_geomID(hits, n, i) = args->geomID;
-        copy_instance_stack(context.common, hits, n, i);
+        write_hit(args, i, {hit.t, ng, {hit.beta, hit.gamma}});
     }
 }
 
-}  // namespace
+/// One piece of a line, in the world.
+Segment<float> read_segment(const CountedTriangles& lines, unsigned number) {
+    const Scene& scene = *lines.impl->scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(lines.primitive)];
+    const size_t row = static_cast<size_t>(primitive.first_triangle) + number;
+    const float* p = &scene.curve_points[4 * static_cast<size_t>(scene.curve_segments[row])];
+    return {{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]};
+}
 
-RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index) {
+void segment_bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& lines = *static_cast<const CountedTriangles*>(args->geometryUserPtr);
+    const Segment<float> s = read_segment(lines, args->primID);
+    const Vec3f from = splat3(s.radius_from);
+    const Vec3f to = splat3(s.radius_to);
+    const Vec3f high = max3(s.from + from, s.to + to);
+    const Vec3f low = -max3(from - s.from, to - s.to);
+    *args->bounds_o = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
+}
+
+/// As intersect_counted_triangle. What is inside a line is seen as well as its outside.
+void intersect_counted_curve(const RTCIntersectFunctionNArguments* args) {
+    const unsigned n = args->N;
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
+    CountingContext& context = counting_context(args);
+    const auto& lines = *static_cast<const CountedTriangles*>(args->geometryUserPtr);
+    const SegmentFrame<float> frame = frame_of(read_segment(lines, args->primID));
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        ++context.tests;
+        const ShapeRay<float> ray = read_ray(rays, n, i);
+        const NearHit<float> hit = nearest(
+            intersect_segment(frame, ray), RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i));
+        if (!hit.found) continue;
+        const Vec3f own = into_frame(frame, ray.origin + ray.direction * hit.t - frame.centre);
+        const Vec2f along{share_of_way(frame, own.y), 0.0f};
+        const AlphaPlace place{
+            RTCRayN_id(rays, n, i), context.common.embree.instID[0], args->primID};
+        if (!counts_as_hit(lines, context.common, place, false, along)) continue;
+        write_hit(args, i, {hit.t, -ray.direction, along});
+    }
+}
+
+/// The two callbacks of a kind of geometry that counts.
+struct CountingCallbacks {
+    RTCBoundsFunction bounds;
+    RTCIntersectFunctionN intersect;
+};
+
+RTCGeometry make_counted(Accel::Impl& impl,
+                         int32_t primitive_index,
+                         const CountingCallbacks& callbacks) {
     const auto row = static_cast<size_t>(primitive_index);
     impl.counted[row] = {&impl, primitive_index};
     RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(
         geometry, static_cast<unsigned>(impl.scene->primitives[row].triangle_count));
     rtcSetGeometryUserData(geometry, &impl.counted[row]);
-    rtcSetGeometryBoundsFunction(geometry, triangle_bounds, nullptr);
-    rtcSetGeometryIntersectFunction(geometry, intersect_counted_triangle);
+    rtcSetGeometryBoundsFunction(geometry, callbacks.bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry, callbacks.intersect);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
     rtcCommitGeometry(geometry);
     return geometry;
+}
+
+}  // namespace
+
+RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index) {
+    return make_counted(impl, primitive_index, {triangle_bounds, intersect_counted_triangle});
+}
+
+RTCGeometry make_counted_curves(Accel::Impl& impl, int32_t primitive_index) {
+    return make_counted(impl, primitive_index, {segment_bounds, intersect_counted_curve});
 }
 
 void intersect_counted_shape(const RTCIntersectFunctionNArguments* args) {

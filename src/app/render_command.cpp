@@ -9,6 +9,7 @@
 #include "app/progress.h"
 #include "app/signals.h"
 #include "app/statistics.h"
+#include "app/stroke_scaling.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -30,6 +31,8 @@ Result<PreparedScene> prepare(const RenderRequest& request,
     const Stopwatch loading;
     Result<Scene> scene = load_gltf(request.scene, request.load, log);
     if (!scene) return fail(scene.error());
+    const Result<void> scaled = scale_strokes(request, *scene);
+    if (!scaled) return fail(scaled.error());
     Result<LightingOptions> lighting = load_lighting(request, log);
     if (!lighting) return fail(lighting.error());
     statistics.load_s = loading.seconds();

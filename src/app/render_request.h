@@ -9,6 +9,7 @@
 #include "image/display.h"
 #include "image/write.h"
 #include "render/render.h"
+#include "render/stroke_sizes.h"
 
 #include <filesystem>
 #include <optional>
@@ -23,6 +24,7 @@ struct RenderRequest {
     LoadOptions load;                            ///< --scene, --variant
     CameraRequest camera;
     std::optional<std::filesystem::path> camera_json;
+    StrokeSizes strokes;         ///< --point-size, --line-width
     bool size_is_given = false;  ///< else --camera-json may have one
     RenderOptions options;
     std::optional<std::filesystem::path> environment;
@@ -45,6 +47,7 @@ struct RenderArguments {
     LensArguments lens;
     std::optional<std::string> env, env_intensity, env_rotation, background;
     std::optional<std::string> integrator, ao_distance, wire_width, filter;
+    std::optional<std::string> point_size, line_width;
     std::optional<std::string> view, display, ocio, exposure, stats;
     bool float32 = false;
     bool writes_pictures = true;  ///< false: no output unless one is named

@@ -13,6 +13,7 @@
 #include "gltf/shapes.h"
 #include "gltf/textures.h"
 #include "gltf/variants.h"
+#include "scene/stroke_radii.h"
 
 #include <algorithm>
 #include <chrono>
@@ -142,7 +143,8 @@ void fill_info(const Document& document, AssetInfo& info) {
 void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
     if (scene.bounds.empty()) {
         log.warn(document.file,
-                 "the scene has no triangles and no shapes; only its surroundings will be seen");
+                 "the scene has no triangles, shapes, points or lines; only its surroundings will "
+                 "be seen");
         return;
     }
     const Vec3f extent = scene.bounds.high - scene.bounds.low;
@@ -187,6 +189,7 @@ Result<Scene> build_scene(const std::filesystem::path& file, const LoadOptions& 
     if (done) done = add_shapes({document, *buffers, placed}, materials, scene, log);
     if (done) done = add_lights_and_cameras(document, placed, scene, log);
     if (!done) return fail(std::move(done.error()));
+    if (!scene.bounds.empty()) set_default_stroke_radii(scene);
     release_geometry(document, *buffers);
     scene.info.parse_seconds = seconds_since(start);
 

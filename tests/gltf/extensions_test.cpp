@@ -88,7 +88,7 @@ TEST(Extensions, SupportedOnesAreSilent) {
     const Loaded loaded = load_tree(tree);
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_EQ(loaded.warnings, "");
-    EXPECT_EQ(loaded.scene->info.extensions.size(), 31U);
+    EXPECT_EQ(loaded.scene->info.extensions.size(), 33U);
     for (const ExtensionInfo& info : loaded.scene->info.extensions)
         EXPECT_TRUE(info.supported);
 }
