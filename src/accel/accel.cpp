@@ -26,6 +26,19 @@ bool note_memory(void* user, ssize_t bytes, bool) {
     return true;
 }
 
+void set_alpha_filter(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    if (impl.alpha.empty() || !needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
+        return;
+    }
+    AlphaGeometry& alpha = impl.alpha[static_cast<size_t>(primitive_index)];
+    alpha = {impl.scene, impl.textures, primitive_index};
+    rtcSetGeometryUserData(geometry, &alpha);
+    rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
+    rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
+}
+
 void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeometry geometry) {
     rtcSetSharedGeometryBuffer(geometry,
                                RTC_BUFFER_TYPE_VERTEX,
@@ -56,13 +69,35 @@ RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
     }
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
-        AlphaGeometry& alpha = impl.alpha[static_cast<size_t>(primitive_index)];
-        alpha = {impl.scene, impl.textures, primitive_index};
-        rtcSetGeometryUserData(geometry, &alpha);
-        rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
-        rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
-    }
+    set_alpha_filter(impl, primitive_index, geometry);
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
+/// Lines as Embree's own capsules; which of them hang together it sees from their numbers.
+RTCGeometry make_curves(Accel::Impl& impl, int32_t primitive_index) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_VERTEX,
+                               0,
+                               RTC_FORMAT_FLOAT4,
+                               scene.curve_points.data(),
+                               0,
+                               4 * sizeof(float),
+                               scene.curve_points.size() / 4);
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_INDEX,
+                               0,
+                               RTC_FORMAT_UINT,
+                               scene.curve_segments.data(),
+                               static_cast<size_t>(primitive.first_triangle) * sizeof(uint32_t),
+                               sizeof(uint32_t),
+                               static_cast<size_t>(primitive.triangle_count));
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    set_alpha_filter(impl, primitive_index, geometry);
     rtcCommitGeometry(geometry);
     return geometry;
 }
@@ -115,6 +150,10 @@ RTCScene new_scene(const Accel::Impl& impl) {
 
 /// Null for a plane without end.
 RTCGeometry make_geometry(Accel::Impl& impl, int32_t row) {
+    const int32_t kind = impl.scene->primitives[static_cast<size_t>(row)].geometry;
+    if (kind == static_cast<int32_t>(GeometryKind::curves)) {
+        return impl.kernels.counts_tests ? make_counted_curves(impl, row) : make_curves(impl, row);
+    }
     if (is_mesh(impl.scene->primitives[static_cast<size_t>(row)])) {
         if (impl.kernels.counts_tests) return make_counted_triangles(impl, row);
         return impl.kernels.user_triangles ? make_checked_triangles(impl, row)
@@ -177,6 +216,15 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     impl->device = rtcNewDevice(config.c_str());
     if (impl->device == nullptr) {
         return fail(ExitCode::internal, "E-EMBREE", "rtcNewDevice", "no Embree device: " + config);
+    }
+    const bool lines = !scene.curve_segments.empty();
+    if (lines &&
+        !rtcGetDeviceProperty(impl->device, RTC_DEVICE_PROPERTY_CURVE_GEOMETRY_SUPPORTED)) {
+        return fail(ExitCode::unsupported,
+                    "E-EMBREE-CURVES",
+                    "Embree",
+                    "the scene has lines and this Embree was built without curves; one built with "
+                    "EMBREE_GEOMETRY_CURVE is needed");
     }
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
     impl->shape_callbacks = &shape_callbacks_for(kernels.isa);

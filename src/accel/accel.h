@@ -40,7 +40,7 @@ public:
     ///
     /// In      scene: outlives this object; its vertex and index arrays are shared, not copied
     ///         embree_isa: "" or an Embree isa name such as "avx2"
-    /// Errors  33 E-MEM; 70 E-EMBREE
+    /// Errors  33 E-MEM; 69 E-EMBREE-CURVES lines, and an Embree without curves; 70 E-EMBREE
     static Result<Accel> build(const Scene& scene, const std::string& embree_isa);
 
     /// Builds the same triangles and instances as build(), with no filters and no tables, and lets

@@ -21,8 +21,8 @@ struct EmbreeErrors {
     std::string text;
 };
 
-/// The triangles of one primitive as user geometry; its user pointer.
-struct UserTriangles {
+/// The triangles or pieces of lines of one primitive as user geometry; its user pointer.
+struct UserElements {
     const Accel::Impl* impl = nullptr;
     int32_t primitive = 0;
 };
@@ -45,9 +45,9 @@ struct Accel::Impl {
     RTCScene top = nullptr;  ///< geometry ids: world primitives, then instances
     std::vector<RTCScene> mesh_scenes;
     std::vector<uint8_t> materials_with_holes;
-    std::vector<AlphaGeometry> alpha;           ///< by primitive; filled where there is a filter
-    std::vector<ShapeGeometry> shapes;          ///< by primitive; filled where it is one of shapes
-    std::vector<UserTriangles> user_triangles;  ///< by primitive; empty: Embree's own triangles
+    std::vector<AlphaGeometry> alpha;         ///< by primitive; filled where there is a filter
+    std::vector<ShapeGeometry> shapes;        ///< by primitive; filled where it is one of shapes
+    std::vector<UserElements> user_elements;  ///< by primitive; empty: Embree's own kinds
     const ShapeCallbacks* shape_callbacks = nullptr;
     std::vector<EndlessPlane> endless_planes;
     std::vector<uint8_t> single_sided;              ///< by primitive
@@ -56,6 +56,9 @@ struct Accel::Impl {
 
 /// Triangles as user geometry whose callback counts: see accel/traversal_cost.cpp.
 RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index);
+
+/// Likewise for lines, as capsules of our own.
+RTCGeometry make_counted_curves(Accel::Impl& impl, int32_t primitive_index);
 
 /// Counts, then calls the shape's own callback.
 void intersect_counted_shape(const RTCIntersectFunctionNArguments* args);

@@ -6,14 +6,35 @@
 #include "math/sampler.h"
 
 #include <algorithm>
+#include <array>
 
 namespace obscura {
 
 namespace {
 
+using Corners = std::array<uint32_t, 3>;
+
+/// The vertices that a hit lies between; of points one, and of lines two.
+Corners corners_of(const Scene& scene, const Primitive& primitive, unsigned row) {
+    const size_t at = static_cast<size_t>(primitive.first_triangle) + row;
+    switch (static_cast<GeometryKind>(primitive.geometry)) {
+        case GeometryKind::triangles:
+            return {scene.indices[3 * at], scene.indices[3 * at + 1], scene.indices[3 * at + 2]};
+        case GeometryKind::curves: {
+            const uint32_t first = scene.curve_segments[at];
+            return {first, first + 1, first};
+        }
+        case GeometryKind::shapes:
+        case GeometryKind::spheres:
+            break;
+    }
+    const auto vertex = static_cast<uint32_t>(at);
+    return {vertex, vertex, vertex};
+}
+
 /// Interpolates one attribute's component over a triangle.
-float interpolate(const Scene& scene, const uint32_t* corners, int32_t base, int width, Vec2f uv) {
-    const auto at = [&](int corner) {
+float interpolate(const Scene& scene, const Corners& corners, int32_t base, int width, Vec2f uv) {
+    const auto at = [&](size_t corner) {
         const auto index = base + static_cast<int64_t>(corners[corner]) * width;
         return scene.attributes[static_cast<size_t>(index)];
     };
@@ -31,8 +52,7 @@ float alpha_at(const AlphaGeometry& geometry, unsigned triangle, Vec2f barycentr
     const Scene& scene = *geometry.scene;
     const Primitive& primitive = scene.primitives[static_cast<size_t>(geometry.primitive)];
     const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-    const uint32_t* corners =
-        &scene.indices[3 * (static_cast<size_t>(primitive.first_triangle) + triangle)];
+    const Corners corners = corners_of(scene, primitive, triangle);
     float alpha = material.base_color[3];
     if (primitive.color_base != no_attribute) {
         alpha *= interpolate(scene, corners, primitive.color_base + 3, 4, barycentric);

@@ -35,7 +35,8 @@ bool needs_alpha_filter(const Scene& scene,
 /// transform).
 float material_alpha(const AlphaGeometry& geometry, const Material& material, Vec2f uv);
 
-/// What decides at one place: a ray's number, Embree's instance id, and the triangle.
+/// What decides at one place: a ray's number, Embree's instance id, and the triangle, point or
+/// piece of a line.
 struct AlphaPlace {
     unsigned ray, instance, triangle;
 };
@@ -45,7 +46,8 @@ float alpha_threshold(const AlphaGeometry& geometry,
                       const QueryContext& context,
                       const AlphaPlace& place);
 
-/// False where alpha lets a ray pass a triangle: barycentric weighs its second and third corner.
+/// False where alpha lets a ray pass a triangle, point or piece of a line: barycentric weighs its
+/// second and third corner.
 bool is_opaque_there(const AlphaGeometry& geometry,
                      const QueryContext& context,
                      const AlphaPlace& place,

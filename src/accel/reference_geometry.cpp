@@ -2,25 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/reference_geometry.h"
 
-#include "accel/user_triangles.h"
+#include "accel/user_elements.h"
 
 namespace obscura {
 
 namespace {
 
 void intersect_triangles(const RTCIntersectFunctionNArguments* args) {
-    const auto& triangles = *static_cast<const UserTriangles*>(args->geometryUserPtr);
+    const auto& triangles = *static_cast<const UserElements*>(args->geometryUserPtr);
     const Triangle<float> triangle = read_corners(triangles, args->primID);
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const TriangleHit<float> hit = meet(triangle, rays, args->N, i);
-        if (hit.hit) write_hit(args, triangle, hit, i);
+        if (hit.hit) write_hit(args, user_hit(triangle, hit), i);
     }
 }
 
 void occlude_triangles(const RTCOccludedFunctionNArguments* args) {
-    const auto& triangles = *static_cast<const UserTriangles*>(args->geometryUserPtr);
+    const auto& triangles = *static_cast<const UserElements*>(args->geometryUserPtr);
     const Triangle<float> triangle = read_corners(triangles, args->primID);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0 || !meet(triangle, args->ray, args->N, i).hit) continue;
@@ -57,7 +57,8 @@ RTCGeometry make_sphere_points(Accel::Impl& impl, int32_t primitive) {
 }
 
 RTCGeometry make_checked_triangles(Accel::Impl& impl, int32_t primitive) {
-    return make_user_triangles(impl, primitive, {intersect_triangles, occlude_triangles});
+    return make_user_elements(
+        impl, primitive, {triangle_bounds, intersect_triangles, occlude_triangles});
 }
 
 }  // namespace obscura

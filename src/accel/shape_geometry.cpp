@@ -53,10 +53,13 @@ bool is_opaque_there(const ShapeGeometry& geometry,
     const AlphaGeometry& open = *geometry.alpha;
     const Primitive& primitive = open.scene->primitives[static_cast<size_t>(open.primitive)];
     const Material& material = open.scene->materials[static_cast<size_t>(primitive.material)];
+    const auto row = static_cast<unsigned>(candidate.row);
+    if (is_point_or_line(primitive)) {
+        return is_opaque_there(open, context, {candidate.ray, candidate.instance, row}, {0, 0});
+    }
     const float alpha = material_alpha(open, material, texture_place(geometry, candidate));
     // Two places of one shape are two decisions.
-    const auto place =
-        static_cast<unsigned>(candidate.row) * 2U + static_cast<unsigned>(candidate.root);
+    const auto place = row * 2U + static_cast<unsigned>(candidate.root);
     return alpha >= alpha_threshold(open, context, {candidate.ray, candidate.instance, place});
 }
 

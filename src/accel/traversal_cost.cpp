@@ -1,7 +1,8 @@
 // accel/traversal_cost.cpp - how many primitives a ray is tested against, counted by callbacks.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/safe_ray.h"
-#include "accel/user_triangles.h"
+#include "accel/user_elements.h"
+#include "shape/segment.h"
 
 namespace obscura {
 
@@ -20,7 +21,7 @@ CountingContext& counting_context(const Arguments* args) {
 }
 
 /// True when the ray stops at the hit: neither a hidden back nor a hole.
-bool counts_as_hit(const UserTriangles& triangles,
+bool counts_as_hit(const UserElements& triangles,
                    const QueryContext& context,
                    const AlphaPlace& place,
                    bool from_behind,
@@ -34,34 +35,84 @@ bool counts_as_hit(const UserTriangles& triangles,
         {impl.scene, impl.textures, triangles.primitive}, context, place, barycentric);
 }
 
+ShapeRay<float> read_ray(RTCRayN* rays, unsigned n, unsigned i) {
+    return {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+            {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)}};
+}
+
 /// Embree's callback; rays come one at a time, for count_tests asks so.
 void intersect_counted_triangle(const RTCIntersectFunctionNArguments* args) {
     const unsigned n = args->N;
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
     CountingContext& context = counting_context(args);
-    const auto& triangles = *static_cast<const UserTriangles*>(args->geometryUserPtr);
+    const auto& triangles = *static_cast<const UserElements*>(args->geometryUserPtr);
     const Triangle<float> triangle = read_corners(triangles, args->primID);
-    const Vec3f ng = cross(triangle.b - triangle.a, triangle.c - triangle.a);
     for (unsigned i = 0; i < n; ++i) {
         if (args->valid[i] == 0) continue;
         ++context.tests;
         const TriangleHit<float> hit = meet(triangle, rays, n, i);
         if (!hit.hit) continue;
+        const UserHit found = user_hit(triangle, hit);
         const AlphaPlace place{
             RTCRayN_id(rays, n, i), context.common.embree.instID[0], args->primID};
-        const Vec3f direction{
-            RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)};
-        const bool from_behind = dot(ng, direction) > 0.0f;
-        if (counts_as_hit(triangles, context.common, place, from_behind, {hit.beta, hit.gamma})) {
-            write_hit(args, triangle, hit, i);
-        }
+        const bool from_behind = dot(found.ng, read_ray(rays, n, i).direction) > 0.0f;
+        if (!counts_as_hit(triangles, context.common, place, from_behind, found.uv)) continue;
+        write_hit(args, found, i);
+    }
+}
+
+/// One piece of a line, in the world.
+Segment<float> read_segment(const UserElements& lines, unsigned number) {
+    const Scene& scene = *lines.impl->scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(lines.primitive)];
+    const size_t row = static_cast<size_t>(primitive.first_triangle) + number;
+    const float* p = &scene.curve_points[4 * static_cast<size_t>(scene.curve_segments[row])];
+    return {{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]};
+}
+
+void segment_bounds(const RTCBoundsFunctionArguments* args) {
+    const auto& lines = *static_cast<const UserElements*>(args->geometryUserPtr);
+    const Segment<float> s = read_segment(lines, args->primID);
+    const Vec3f from = splat3(s.radius_from);
+    const Vec3f to = splat3(s.radius_to);
+    const Vec3f high = max3(s.from + from, s.to + to);
+    const Vec3f low = -max3(from - s.from, to - s.to);
+    *args->bounds_o = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
+}
+
+/// As intersect_counted_triangle. What is inside a line is seen as well as its outside.
+void intersect_counted_curve(const RTCIntersectFunctionNArguments* args) {
+    const unsigned n = args->N;
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
+    CountingContext& context = counting_context(args);
+    const auto& lines = *static_cast<const UserElements*>(args->geometryUserPtr);
+    const SegmentFrame<float> frame = frame_of(read_segment(lines, args->primID));
+    for (unsigned i = 0; i < n; ++i) {
+        if (args->valid[i] == 0) continue;
+        ++context.tests;
+        const ShapeRay<float> ray = read_ray(rays, n, i);
+        const NearHit<float> hit = nearest(
+            intersect_segment(frame, ray), RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i));
+        if (!hit.found) continue;
+        const Vec3f own = into_frame(frame, ray.origin + ray.direction * hit.t - frame.centre);
+        const Vec2f along{share_of_way(frame, own.y), 0.0f};
+        const AlphaPlace place{
+            RTCRayN_id(rays, n, i), context.common.embree.instID[0], args->primID};
+        if (!counts_as_hit(lines, context.common, place, false, along)) continue;
+        write_hit(args, {hit.t, -ray.direction, along}, i);
     }
 }
 
 }  // namespace
 
-RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive) {
-    return make_user_triangles(impl, primitive, {intersect_counted_triangle, nullptr});
+RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index) {
+    return make_user_elements(
+        impl, primitive_index, {triangle_bounds, intersect_counted_triangle, nullptr});
+}
+
+RTCGeometry make_counted_curves(Accel::Impl& impl, int32_t primitive_index) {
+    return make_user_elements(
+        impl, primitive_index, {segment_bounds, intersect_counted_curve, nullptr});
 }
 
 void intersect_counted_shape(const RTCIntersectFunctionNArguments* args) {

@@ -202,8 +202,8 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     json.member("triangles_in_world", info.triangles_in_world);
     write_counts(json, "shapes", "placed", info.shapes);
     json.member("instances", scene.instances.size());
-    json.member("skipped_points", info.skipped_points);
-    json.member("skipped_lines", info.skipped_lines);
+    json.member("points", info.points_in_world);
+    json.member("line_segments", info.line_segments_in_world);
     write_names(json, "materials", file_materials(scene));
     write_images(json, info);
     write_lights(json, scene);

@@ -57,10 +57,10 @@ void append_meshes(const Scene& scene, std::string& text) {
     }
     if (!shapes.empty()) text += title("shapes") + shapes + "\n";
     text += title("instances") + fmt::format("{}\n", scene.instances.size());
-    if (info.skipped_points + info.skipped_lines > 0) {
-        text += title("not drawn") + fmt::format("{} primitives of points, {} of lines\n",
-                                                 info.skipped_points,
-                                                 info.skipped_lines);
+    if (info.points_in_world + info.line_segments_in_world > 0) {
+        text += title("strokes") + fmt::format("{} points, {} line segments\n",
+                                               info.points_in_world,
+                                               info.line_segments_in_world);
     }
 }
 

@@ -98,6 +98,27 @@ Result<double> parse_real(std::string_view text, std::string_view option, double
     return number;
 }
 
+Result<ParsedLength> parse_length(std::string_view text, std::string_view option) {
+    const std::string accepted =
+        "metres from 1e-9 to 1e9, such as 0.01 or 0.01m, or pixels from 0.01 to 1000, such as 3px";
+    const auto ends_with = [&](std::string_view unit) {
+        return text.size() > unit.size() && text.substr(text.size() - unit.size()) == unit;
+    };
+    const bool pixels = ends_with("px");
+    const size_t unit = pixels ? 2 : (ends_with("m") ? 1 : 0);
+    double number = 0;
+    const Reading reading = read_all(text.substr(0, text.size() - unit), number);
+    if (reading == Reading::garbage || std::isnan(number)) {
+        return not_a_number(text, option, accepted);
+    }
+    const double low = pixels ? 0.01 : 1e-9;
+    const double high = pixels ? 1000 : 1e9;
+    if (reading == Reading::overflow || number < low || number > high) {
+        return out_of_range(text, option, accepted);
+    }
+    return ParsedLength{number, pixels};
+}
+
 Result<std::array<int, 2>> parse_size(std::string_view text, std::string_view option) {
     const std::string accepted =
         "WIDTHxHEIGHT in pixels, such as 1280x720, each from 1 to 65536, at most 536870912 pixels "

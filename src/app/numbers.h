@@ -25,6 +25,15 @@ Result<int64_t> parse_integer(std::string_view text,
 Result<uint64_t> parse_unsigned(std::string_view text, std::string_view option);
 Result<double> parse_real(std::string_view text, std::string_view option, double low, double high);
 
+/// A length and what it is counted in.
+struct ParsedLength {
+    double value = 0;
+    bool pixels = false;  ///< else metres
+};
+
+/// "0.01" or "0.01m" in metres, from 1e-9 to 1e9; "3px" in pixels, from 0.01 to 1000.
+Result<ParsedLength> parse_length(std::string_view text, std::string_view option);
+
 /// "1280x720": width and height in pixels, each in [1, 65536], at most 2^29 pixels in all.
 Result<std::array<int, 2>> parse_size(std::string_view text, std::string_view option);
 

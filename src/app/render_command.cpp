@@ -9,6 +9,7 @@
 #include "app/progress.h"
 #include "app/signals.h"
 #include "app/statistics.h"
+#include "app/stroke_scaling.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -105,6 +106,8 @@ Result<PreparedScene> prepare(Job& job, const MovieFrame& frame, const Turn& tur
     statistics.geometry_bytes = geometry_bytes(*scene);
     statistics.texture_bytes = texture_bytes(*scene);
     if (turn.count > 1 && turn.index == 0) job.request.camera.framed = scene->bounds;
+    const Result<void> scaled = scale_strokes(job.request, *scene);
+    if (!scaled) return fail(scaled.error());
 
     Result<PreparedScene> prepared =
         PreparedScene::create(std::move(*scene), job.lighting, job.request.isa, log);

@@ -53,6 +53,13 @@ void add_picture_options(CLI::App& command, RenderArguments& arguments) {
                "a linear colour R,G,B [env]");
     group.text(
         "--filter", arguments.filter, "NAME", "Pixel filter: box, gaussian, blackman-harris [box]");
+    group.text("--point-size",
+               arguments.point_size,
+               "LENGTH",
+               "Diameter of glTF's points: metres (0.01 or 0.01m) or\n"
+               "pixels (3px) [3px]");
+    group.text(
+        "--line-width", arguments.line_width, "LENGTH", "Diameter of glTF's lines, likewise [2px]");
 }
 
 void add_time_options(CLI::App& command, RenderArguments& arguments) {

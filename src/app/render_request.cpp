@@ -120,6 +120,19 @@ void parse_transport(const RenderArguments& arguments, RenderOptions& options, S
                  "it is for --integrator ao; leave it out or add that");
 }
 
+void parse_strokes(const RenderArguments& arguments, StrokeSizes& strokes, Steps& steps) {
+    const auto length = [](const char* name) {
+        return [=](const std::string& text) { return parse_length(text, name); };
+    };
+    const auto into = [](StrokeSize& size) {
+        return [&size](const ParsedLength& parsed) {
+            size = {parsed.value, parsed.pixels ? LengthUnit::pixels : LengthUnit::metres};
+        };
+    };
+    steps.option(arguments.point_size, length("--point-size"), into(strokes.points));
+    steps.option(arguments.line_width, length("--line-width"), into(strokes.lines));
+}
+
 void parse_camera(const RenderArguments& arguments, CameraRequest& camera, Steps& steps) {
     const auto point = [](const char* name) {
         return [=](const std::string& text) { return parse_point(text, name); };
@@ -343,6 +356,7 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     request.size_is_given = arguments.size.has_value();
     parse_picture(arguments, request.options, steps);
     parse_transport(arguments, request.options, steps);
+    parse_strokes(arguments, request.strokes, steps);
     parse_camera(arguments, request.camera, steps);
     parse_light_and_display(arguments, request, steps);
     parse_program(arguments, request, steps);

@@ -10,6 +10,7 @@
 #include "image/display.h"
 #include "image/write.h"
 #include "render/render.h"
+#include "render/stroke_sizes.h"
 
 #include <filesystem>
 #include <optional>
@@ -27,6 +28,7 @@ struct RenderRequest {
     double fps = 24;
     CameraRequest camera;
     std::optional<std::filesystem::path> camera_json;
+    StrokeSizes strokes;         ///< --point-size, --line-width
     bool size_is_given = false;  ///< else --camera-json may have one
     RenderOptions options;
     std::optional<std::filesystem::path> environment;
@@ -49,6 +51,7 @@ struct RenderArguments {
     LensArguments lens;
     std::optional<std::string> env, env_intensity, env_rotation, background;
     std::optional<std::string> integrator, ao_distance, wire_width, filter;
+    std::optional<std::string> point_size, line_width;
     std::optional<std::string> view, display, ocio, exposure, stats;
     std::optional<std::string> animation, time, frames, fps;
     bool float32 = false;

@@ -64,6 +64,7 @@ ShapeCounts count_shapes(const Scene& scene) {
             continue;
         }
         out.shapes += rows;
+        if (primitive.geometry == static_cast<int32_t>(GeometryKind::curves)) continue;
         const bool shape = primitive.geometry == static_cast<int32_t>(GeometryKind::shapes);
         const auto first = static_cast<size_t>(primitive.first_triangle);
         const auto sphere = static_cast<int32_t>(ShapeKind::sphere);

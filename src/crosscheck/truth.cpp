@@ -25,6 +25,19 @@ ShapeRay<double> into(const Affined& object_from_world, const TrueRay& ray) {
             transform_vector(object_from_world, ray.direction)};
 }
 
+/// From a line's piece to the world, where all lines are.
+Affined world_from(const SegmentFrame<double>& frame) {
+    Affined out;
+    const Vec3d columns[4] = {
+        frame.axes.tangent, frame.axes.normal, -frame.axes.bitangent, frame.centre};
+    for (int c = 0; c < 4; ++c) {
+        out.m[0][c] = columns[c].x;
+        out.m[1][c] = columns[c].y;
+        out.m[2][c] = columns[c].z;
+    }
+    return out;
+}
+
 Vec3d corner(const Scene& scene, size_t index) {
     const float* p = &scene.positions[3 * static_cast<size_t>(scene.indices[index])];
     return {p[0], p[1], p[2]};
@@ -102,12 +115,34 @@ bool TrueScene::is_endless(const Item& item) const {
     return is_unbounded(scene_.shapes[static_cast<size_t>(row)]);
 }
 
+bool TrueScene::is_curve(const Item& item) const {
+    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
+    return primitive.geometry == static_cast<int32_t>(GeometryKind::curves);
+}
+
+SegmentFrame<double> TrueScene::curve_frame(const Item& item) const {
+    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
+    const int32_t row = primitive.first_triangle + item.row;
+    const uint32_t point = scene_.curve_segments[static_cast<size_t>(row)];
+    const float* p = &scene_.curve_points[4 * static_cast<size_t>(point)];
+    return frame_of<double>({{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]});
+}
+
 ShapeRow TrueScene::shape(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     const int32_t number = primitive.first_triangle + item.row;
     const auto row = static_cast<size_t>(number);
     if (primitive.geometry == static_cast<int32_t>(GeometryKind::shapes)) {
         return scene_.shapes[row];
+    }
+    if (is_curve(item)) {
+        const Capsule<double> own = curve_frame(item).capsule;
+        ShapeRow capsule;
+        capsule.kind = static_cast<int32_t>(ShapeKind::capsule);
+        capsule.size[0] = static_cast<float>(own.half_height);
+        capsule.size[1] = static_cast<float>(own.bottom);
+        capsule.size[2] = static_cast<float>(own.top);
+        return capsule;
     }
     ShapeRow sphere;
     const float* at = &scene_.spheres[sphere_word(row)];
@@ -131,6 +166,17 @@ TrueBox TrueScene::box_of(const Item& item) const {
             box.add(p);
         return box;
     }
+    if (is_curve(item)) {
+        const SegmentFrame<double> frame = curve_frame(item);
+        for (const double end : {-1.0, 1.0}) {
+            const Vec3d middle =
+                frame.centre + frame.axes.normal * (end * frame.capsule.half_height);
+            const double radius = end < 0 ? frame.capsule.bottom : frame.capsule.top;
+            box.add(middle + splat3(radius));
+            box.add(middle - splat3(radius));
+        }
+        return box.with_room();
+    }
     const ShapeBox around = shape_bounds(shape(item));
     box.add(Vec3d{around.low.x, around.low.y, around.low.z});
     box.add(Vec3d{around.high.x, around.high.y, around.high.z});
@@ -142,6 +188,7 @@ Roots<double> TrueScene::roots(const Item& item, const ShapeRay<double>& ray) co
         const TriangleHit<double> hit = intersect_triangle(own_triangle(item), ray);
         return {{hit.t, hit.t}, {hit.hit, false}};
     }
+    if (is_curve(item)) return intersect_segment(curve_frame(item), ray);
     const ShapeRow row = shape(item);
     return intersect_shape<double>(row, ray);
 }
@@ -216,10 +263,12 @@ const TrueScene::Object& TrueScene::object_of(const Item& item) const {
 }
 
 Affined TrueScene::world_from_object(const Item& item) const {
+    if (is_curve(item)) return world_from(curve_frame(item));
     return object_of(item).world_from_object;
 }
 
 Affined TrueScene::object_from_world(const Item& item) const {
+    if (is_curve(item)) return inverse(world_from(curve_frame(item)));
     return object_of(item).object_from_world;
 }
 
@@ -265,6 +314,8 @@ Vec3d TrueScene::middle(const Item& item) const {
     if (is_triangle(item)) {
         const TrueBox box = box_of(item);
         own = (box.low + box.high) * 0.5;
+    } else if (is_curve(item)) {
+        own = curve_frame(item).centre;
     } else {
         const ShapeRow row = shape(item);
         own = {row.centre[0], row.centre[1], row.centre[2]};
@@ -273,7 +324,7 @@ Vec3d TrueScene::middle(const Item& item) const {
 }
 
 Vec3d TrueScene::normal(const Item& item, const Vec3d& place) const {
-    const Affined& object = object_of(item).object_from_world;
+    const Affined object = object_from_world(item);
     if (is_triangle(item)) {
         const Triangle<double> own = own_triangle(item);
         return normalize(transform_normal(object, cross(own.b - own.a, own.c - own.a)));

@@ -4,6 +4,7 @@
 
 #include "crosscheck/box_tree.h"
 #include "scene/scene.h"
+#include "shape/segment.h"
 #include "shape/triangle.h"
 
 #include <functional>
@@ -64,7 +65,7 @@ public:
     /// Corners of a mesh's item, in the world.
     Triangle<double> triangle(const Item& item) const;
     bool is_triangle(const Item& item) const;
-    /// The shape of another item, in its own space.
+    /// The shape of another item, in its own space; of lines that is the capsule's.
     ShapeRow shape(const Item& item) const;
     Affined world_from_object(const Item& item) const;
     Affined object_from_world(const Item& item) const;
@@ -91,6 +92,8 @@ private:
     void add_object(size_t group, int32_t instance);
     const Object& object_of(const Item& item) const;
     Triangle<double> own_triangle(const Item& item) const;
+    bool is_curve(const Item& item) const;
+    SegmentFrame<double> curve_frame(const Item& item) const;
     TrueBox box_of(const Item& item) const;
     /// Roots of one item in its own space; t <= 0 means none.
     Roots<double> roots(const Item& item, const ShapeRay<double>& ray) const;

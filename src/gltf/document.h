@@ -88,6 +88,9 @@ struct GltfImage {
     std::optional<std::string> uri;
     int view = -1;
     std::string mime;
+    /// Of a copy that holds roughness: what the glossiness is multiplied by, and whose copy it is.
+    double glossiness = 0;
+    int glossiness_of = -1;
 };
 
 struct GltfSampler {
@@ -115,6 +118,8 @@ struct GltfAttributes {
     int normal = -1;
     int tangent = -1;
     int color = -1;
+    int splat_color = -1;  ///< KHR_gaussian_splatting: SH_DEGREE_0_COEF_0
+    int splat_opacity = -1;
     std::array<int, max_uv_sets> uv = {-1, -1, -1, -1, -1, -1, -1, -1};
     std::vector<int> joints = {};  ///< JOINTS_n, by set
     std::vector<int> weights = {};
@@ -131,8 +136,9 @@ struct GltfPrimitive : GltfAttributes {
     int indices = -1;
     int material = -1;
     int mode = 4;
-    int draco_view = -1;       ///< KHR_draco_mesh_compression; -1: it is not compressed
-    GltfAttributes draco_ids;  ///< the attributes' numbers in the compressed data
+    bool splats_are_linear = false;  ///< KHR_gaussian_splatting: colours without the sRGB curve
+    int draco_view = -1;             ///< KHR_draco_mesh_compression; -1: it is not compressed
+    GltfAttributes draco_ids;        ///< the attributes' numbers in the compressed data
     std::vector<GltfVariantMaterial> variants;
     std::vector<GltfAttributes> targets;  ///< accessors of differences, by morph target
 };

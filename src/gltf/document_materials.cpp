@@ -1,6 +1,7 @@
 // gltf/document_materials.cpp - reads images, samplers, textures and materials.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/material_extensions.h"
+#include "gltf/specular_glossiness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,6 +178,7 @@ void read_materials(DocumentReading& reading) {
         if (out.name.empty()) out.name = "material " + std::to_string(index);
         out.values = read_material_values(reading, material);
         out.layers = read_material_layers(reading, material);
+        read_specular_glossiness(reading, material, out);
         // A body has an inside, and a camera in it must see where it ends.
         if (out.layers && out.layers->medium != 0) out.values.flags |= material_double_sided;
         reading.document.materials.push_back(std::move(out));

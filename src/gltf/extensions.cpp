@@ -20,6 +20,11 @@ constexpr std::array extension_rows = {
     ExtensionRow{"EXT_texture_webp", true, "", "the WebP image is preferred"},
     ExtensionRow{"KHR_animation_pointer", true, "", "played by --time and --frames"},
     ExtensionRow{"KHR_draco_mesh_compression", true, ""},
+    ExtensionRow{"KHR_gaussian_splatting",
+                 true,
+                 "",
+                 "drawn as points in their diffuse colour",
+                 Verdict::approximated},
     ExtensionRow{"KHR_implicit_shapes", true, "", "drawn where a node's OBSCURA_shape names one"},
     ExtensionRow{"KHR_interactivity", true, "", "a still picture has none", Verdict::ignored},
     ExtensionRow{"KHR_lights_punctual", true, ""},
@@ -30,6 +35,7 @@ constexpr std::array extension_rows = {
     ExtensionRow{"KHR_materials_emissive_strength", true, ""},
     ExtensionRow{"KHR_materials_ior", true, ""},
     ExtensionRow{"KHR_materials_iridescence", true, ""},
+    ExtensionRow{"KHR_materials_pbrSpecularGlossiness", true, ""},
     ExtensionRow{"KHR_materials_sheen", true, ""},
     ExtensionRow{"KHR_materials_specular", true, ""},
     ExtensionRow{"KHR_materials_transmission", true, ""},
@@ -56,7 +62,6 @@ constexpr std::array extension_rows = {
     ExtensionRow{"MSFT_lod", true, "", "the finest level is drawn"},
     ExtensionRow{"OBSCURA_camera", true, ""},
     ExtensionRow{"OBSCURA_shape", true, ""},
-    ExtensionRow{"KHR_materials_pbrSpecularGlossiness", false, "the core material is used"},
 };
 
 /// Where one extension occurs.

@@ -15,6 +15,7 @@
 #include "gltf/textures.h"
 #include "gltf/variants.h"
 #include "scene/motion.h"
+#include "scene/stroke_radii.h"
 
 #include <algorithm>
 #include <chrono>
@@ -145,7 +146,8 @@ void fill_info(const Document& document, AssetInfo& info) {
 void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
     if (scene.bounds.empty()) {
         log.warn(document.file,
-                 "the scene has no triangles and no shapes; only its surroundings will be seen");
+                 "the scene has no triangles, shapes, points or lines; only its surroundings will "
+                 "be seen");
         return;
     }
     const Vec3f extent = scene.bounds.high - scene.bounds.low;
@@ -261,6 +263,7 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
     Result<void> done = add_meshes({document, buffers, *placed_meshes}, materials, out, log);
     if (done) done = add_shapes({document, buffers, placed}, materials, out, log);
     if (done) done = add_lights_and_cameras(document, placed, out, log);
+    if (done && !out.bounds.empty()) set_default_stroke_radii(out);
     return done;
 }
 

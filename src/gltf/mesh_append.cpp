@@ -68,7 +68,7 @@ bool bake_part(MeshPart& part, const Affined& world_from_mesh) {
         turn(&part.tangents[i], world_from_mesh, 1);
         part.tangents[i + 3] *= static_cast<float>(sign);
     }
-    if (sign < 0) {
+    if (sign < 0 && part.corners == 3) {
         for (size_t i = 0; i < part.indices.size(); i += 3) {
             std::swap(part.indices[i + 1], part.indices[i + 2]);
         }

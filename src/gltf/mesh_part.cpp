@@ -5,6 +5,8 @@
 #include "gltf/deform.h"
 #include "gltf/materials.h"
 #include "gltf/part_reader.h"
+#include "gltf/primitive_modes.h"
+#include "gltf/splats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +19,9 @@ namespace {
 
 constexpr float farthest_position = 1e18f;  // Embree drops triangles beyond 1.8e18
 constexpr uint64_t most_vertices = (1U << 29) - 1;
+
+constexpr AttributeRule splat_color_rule = {"SH_DEGREE_0_COEF_0", 3, 3, 0, 0, 0};
+constexpr AttributeRule splat_opacity_rule = {"OPACITY", 1, 1, unsigned_types, unsigned_types, 0};
 
 /// The vertex order of a primitive: its indices, or 0, 1, 2...
 Result<std::vector<uint32_t>> read_vertex_order(PartReader& reader) {
@@ -38,29 +43,6 @@ Result<std::vector<uint32_t>> read_vertex_order(PartReader& reader) {
                               std::to_string(reader.vertex_count));
     }
     return order;
-}
-
-/// Lists, strips and fans as a list. In strips and fans, triangles with a repeated vertex only
-/// turn corners and are left out.
-std::vector<uint32_t> triangle_list(std::vector<uint32_t> order, int mode, uint32_t& issues) {
-    const size_t triangles = triangle_count(mode, order.size());
-    if (mode == 4) {
-        if (order.size() % 3 != 0) issues |= issue_bit(MeshIssue::leftover_vertices);
-        order.resize(triangles * 3);
-        return order;
-    }
-    if (triangles == 0) issues |= issue_bit(MeshIssue::leftover_vertices);
-    std::vector<uint32_t> out;
-    out.reserve(triangles * 3);
-    for (size_t i = 0; i < triangles; ++i) {
-        uint32_t a = mode == 5 ? order[i] : order[0];
-        uint32_t b = order[i + 1];
-        uint32_t c = order[i + 2];
-        if (mode == 5 && i % 2 == 1) std::swap(b, c);  // glTF 2.0 section 3.7.2.1: i, i+2, i+1
-        if (a == b || b == c || a == c) continue;
-        out.insert(out.end(), {a, b, c});
-    }
-    return out;
 }
 
 /// Keeps the vertices that triangles use, where they are few: many primitives may share one long
@@ -87,7 +69,7 @@ Result<void> check_positions(const PartReader& reader, MeshPart& part) {
     for (const uint32_t vertex : part.indices) {
         if (is_good(vertex)) continue;
         return reader.bad("E-MESH-POSITION",
-                          "a triangle uses a position that is not finite or beyond 1e18");
+                          "a position is used that is not finite or beyond 1e18");
     }
     for (size_t vertex = 0; vertex < part.positions.size() / 3; ++vertex) {
         if (!is_good(vertex)) std::fill_n(&part.positions[3 * vertex], 3, 0.0f);
@@ -173,6 +155,21 @@ Result<void> read_attributes(PartReader& reader, MeshPart& part, const MaterialN
     return {};
 }
 
+/// The colours of Gaussian splats that bring no COLOR_0.
+Result<void> read_splat_colors(PartReader& reader, MeshPart& part) {
+    const GltfPrimitive& primitive = reader.primitive();
+    if (primitive.color >= 0 || primitive.splat_color < 0) return {};
+    Result<std::vector<float>> harmonics =
+        read_attribute(reader, primitive.splat_color, -1, splat_color_rule);
+    if (!harmonics) return fail(std::move(harmonics.error()));
+    const Result<std::vector<float>> opacities =
+        read_attribute(reader, primitive.splat_opacity, -1, splat_opacity_rule);
+    if (!opacities) return fail(opacities.error());
+    part.colors = splat_colors(*harmonics, *opacities, primitive.splats_are_linear);
+    finish_colors(part, 4);
+    return {};
+}
+
 /// Limits what the file declares, and decompresses what is compressed.
 Result<void> prepare(PartReader& reader) {
     const GltfPrimitive& primitive = reader.primitive();
@@ -201,7 +198,7 @@ std::string_view mesh_issue_text(MeshIssue issue) {
         case MeshIssue::no_position:
             return "primitives without POSITION are not drawn";
         case MeshIssue::leftover_vertices:
-            return "the last vertices do not make a triangle";
+            return "the last vertices do not make a triangle or a line";
         case MeshIssue::bad_normals:
             return "normals without length or not finite are replaced by the triangles' own";
         case MeshIssue::bad_tangents:
@@ -252,11 +249,6 @@ MaterialNeeds material_needs(const Document& document, int material) {
     return needs;
 }
 
-uint64_t triangle_count(int mode, uint64_t vertex_count) {
-    if (mode == 4) return vertex_count / 3;
-    return mode > 4 && vertex_count > 2 ? vertex_count - 2 : 0;
-}
-
 uint64_t primitive_triangles(const Document& document, const GltfPrimitive& primitive) {
     const int order = primitive.indices >= 0 ? primitive.indices : primitive.position;
     if (order < 0) return 0;
@@ -280,8 +272,11 @@ Result<MeshPart> read_mesh_part(const Document& document,
     Result<std::vector<uint32_t>> order = read_vertex_order(reader);
     if (!order) return fail(std::move(order.error()));
     // Draco keeps triangles, not the strip that they may have been.
-    const int mode = primitive.draco_view >= 0 ? 4 : primitive.mode;
-    part.indices = triangle_list(std::move(*order), mode, part.issues);
+    const int mode = primitive.draco_view >= 0 ? triangles_mode : primitive.mode;
+    part.corners = element_corners(mode);
+    ElementList elements = element_list(std::move(*order), mode);
+    part.indices = std::move(elements.vertices);
+    if (elements.leftover) part.issues |= issue_bit(MeshIssue::leftover_vertices);
     const std::vector<uint32_t> kept = compact_vertices(part.indices, reader.vertex_count);
     reader.choice = {kept.empty(), kept};
     if (part.indices.empty()) return part;
@@ -290,9 +285,12 @@ Result<MeshPart> read_mesh_part(const Document& document,
         read_attribute(reader, primitive.position, primitive.draco_ids.position, position_rule);
     if (!positions) return fail(std::move(positions.error()));
     part.positions = std::move(*positions);
-    const MaterialNeeds needs = material_needs(document, primitive.material);
+    const bool has_surface = !is_point_or_line_mode(mode);
+    const MaterialNeeds needs =
+        has_surface ? material_needs(document, primitive.material) : MaterialNeeds{};
     done = check_positions(reader, part);
     if (done) done = read_attributes(reader, part, needs);
+    if (done && mode == points_mode) done = read_splat_colors(reader, part);
     if (!done) return fail(std::move(done.error()));
     check_declared_bounds(reader, part);
     done = deform_part(reader, pose, part);
@@ -302,7 +300,11 @@ Result<MeshPart> read_mesh_part(const Document& document,
     }
     if (!done) return fail(std::move(done.error()));
     part.issues |= reader.issues;
-    finish_shading(part, needs);
+    if (has_surface) {
+        finish_shading(part, needs);
+    } else {
+        part.normals.clear();  // spheres and capsules have their own
+    }
     return part;
 }
 

@@ -46,8 +46,10 @@ struct MaterialNeeds {
 MaterialNeeds material_needs(const Document& document, int material);
 
 /// Arrays are empty where the attribute is absent. No vertex that is not in a triangle matters.
+/// Points and lines have positions and colours alone.
 struct MeshPart {
-    std::vector<uint32_t> indices;                    ///< 3 a triangle
+    size_t corners = 3;                               ///< of a triangle; 2: lines, 1: points
+    std::vector<uint32_t> indices;                    ///< `corners` an element
     std::vector<float> positions;                     ///< 3 a vertex, finite
     std::vector<float> normals;                       ///< 3, unit
     std::vector<float> tangents;                      ///< 4, unit and handedness
@@ -69,9 +71,6 @@ struct PartName {
     int mesh = 0;
     int primitive = 0;
 };
-
-/// Triangles that a primitive makes from so many vertices; 0 for points and lines.
-uint64_t triangle_count(int mode, uint64_t vertex_count);
 
 /// As listed in the file, before degenerate ones are dropped.
 uint64_t primitive_triangles(const Document& document, const GltfPrimitive& primitive);

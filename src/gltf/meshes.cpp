@@ -6,6 +6,8 @@
 #include "gltf/list_text.h"
 #include "gltf/mesh_uses.h"
 #include "gltf/skins.h"
+#include "gltf/primitive_modes.h"
+#include "gltf/strokes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,7 +55,8 @@ private:
     const GltfMesh& mesh(int index) const { return document().meshes[static_cast<size_t>(index)]; }
 
     Result<void> find_uses();
-    void add_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs);
+    void add_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs) const;
+    void add_stroke_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs) const;
     void reserve(const std::vector<PartJob>& jobs);
     size_t batch_end(const std::vector<PartJob>& jobs, size_t begin) const;
     Result<void> run(const std::vector<PartJob>& jobs);
@@ -72,7 +75,7 @@ private:
     std::vector<std::vector<Affined>> skins_;  ///< matrices; empty: no mesh that is drawn has it
     Bounds part_bounds_;                       ///< grows while parts are appended
     std::map<MeshIssue, NameList> issues_;
-    NameList flat_nodes_, lined_meshes_;
+    NameList flat_nodes_;
 };
 
 void grow(Bounds& bounds, const Vec3f& p) {
@@ -100,16 +103,22 @@ Result<void> MeshBuilder::find_uses() {
     return {};
 }
 
-void MeshBuilder::add_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs) {
-    const int mesh_index = use.mesh;
-    const std::vector<GltfPrimitive>& primitives = mesh(mesh_index).primitives;
+void MeshBuilder::add_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs) const {
+    const std::vector<GltfPrimitive>& primitives = mesh(use.mesh).primitives;
     for (size_t i = 0; i < primitives.size(); ++i) {
-        if (primitives[i].mode >= 4) {
-            jobs.push_back({{mesh_index, static_cast<int>(i)}, &use, placed_index});
-            continue;
-        }
-        ++(primitives[i].mode == 0 ? scene_.info.skipped_points : scene_.info.skipped_lines);
-        lined_meshes_.add(mesh(mesh_index).name);
+        if (is_point_or_line_mode(primitives[i].mode)) continue;
+        jobs.push_back({{use.mesh, static_cast<int>(i)}, &use, placed_index});
+    }
+}
+
+/// Points and lines, whose radius no node may stretch: in the world wherever they are placed.
+void MeshBuilder::add_stroke_jobs(const MeshUse& use,
+                                  int placed_index,
+                                  std::vector<PartJob>& jobs) const {
+    const std::vector<GltfPrimitive>& primitives = mesh(use.mesh).primitives;
+    for (size_t i = 0; i < primitives.size(); ++i) {
+        if (!is_point_or_line_mode(primitives[i].mode)) continue;
+        jobs.push_back({{use.mesh, static_cast<int>(i)}, &use, placed_index});
     }
 }
 
@@ -194,8 +203,10 @@ Result<void> MeshBuilder::append(const PartJob& job, const MeshPart& part) {
     if (part.indices.empty()) return {};
     const std::string where = document().at("meshes", static_cast<size_t>(job.name.mesh)) +
                               "/primitives/" + std::to_string(job.name.primitive);
-    Result<Primitive> primitive = append_part(scene_, part, where);
+    Result<Primitive> primitive =
+        part.corners == 3 ? append_part(scene_, part, where) : append_strokes(scene_, part, where);
     if (!primitive) return fail(std::move(primitive.error()));
+    if (primitive->triangle_count == 0) return {};  // lines of no length
     uint32_t uv_sets = 0;
     for (size_t set = 0; set < part.uvs.size(); ++set) {
         if (!part.uvs[set].empty()) uv_sets |= 1U << set;
@@ -291,13 +302,6 @@ void MeshBuilder::warn() {
                   "nodes whose scale is zero or whose matrix is singular are not drawn: " +
                       flat_nodes_.text());
     }
-    if (!lined_meshes_.empty()) {
-        log_.warn(document().file,
-                  "points and lines are not supported and not drawn (" +
-                      std::to_string(scene_.info.skipped_points) + " and " +
-                      std::to_string(scene_.info.skipped_lines) +
-                      " primitives); meshes: " + lined_meshes_.text());
-    }
 }
 
 Result<void> MeshBuilder::build() {
@@ -306,6 +310,8 @@ Result<void> MeshBuilder::build() {
     std::vector<PartJob> world;
     for (const MeshUse& use : uses_) {
         if (use.placed.size() == 1) add_jobs(use, use.placed[0], world);
+        for (const int placed_index : use.placed)
+            add_stroke_jobs(use, placed_index, world);
     }
     std::vector<PartJob> all = world;
     for (const MeshUse& use : uses_) {

@@ -13,8 +13,6 @@ namespace obscura {
 namespace {
 
 constexpr double farthest_position = 1e18;
-constexpr size_t most_spheres = size_t{1} << 29;  // their words have 31-bit numbers
-
 /// Splits spheres along the longest edge of their box until each part fills one block: boxes around
 /// blocks get smaller than along any curve.
 void split_into_blocks(const std::vector<float>& positions, std::span<uint32_t> order) {
@@ -70,13 +68,14 @@ ParticleRange append_spheres(const std::vector<float>& positions,
                              const std::vector<float>& radii,
                              Scene& scene) {
     const size_t count = positions.size() / 3;
-    const ParticleRange range{static_cast<int32_t>(scene.spheres.size() / 4),
-                              static_cast<int32_t>(count)};
+    ParticleRange range{static_cast<int32_t>(scene.spheres.size() / 4),
+                        static_cast<int32_t>(count),
+                        block_order(positions)};
     const size_t blocks = (count + sphere_block - 1) / sphere_block;
     const size_t base = scene.spheres.size();
     scene.spheres.resize(base + blocks * sphere_block_floats,
                          std::numeric_limits<float>::quiet_NaN());
-    const std::vector<uint32_t> order = block_order(positions);
+    const std::vector<uint32_t>& order = range.order;
     for (size_t i = 0; i < count; ++i) {
         float* at = &scene.spheres[base + sphere_word(i)];
         for (size_t c = 0; c < 3; ++c)

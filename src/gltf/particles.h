@@ -16,7 +16,10 @@ struct ParticleSources {
 struct ParticleRange {
     int32_t first = 0;
     int32_t count = 0;
+    std::vector<uint32_t> order = {};  ///< which one of the input each row holds
 };
+
+inline constexpr size_t most_spheres = size_t{1} << 29;  ///< their words have 31-bit numbers
 
 /// Appends spheres to Scene::spheres in an order in which blocks are small boxes.
 ///

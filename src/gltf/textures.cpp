@@ -3,6 +3,7 @@
 #include "gltf/textures.h"
 
 #include "base/parallel.h"
+#include "gltf/specular_glossiness.h"
 #include "gltf/uri.h"
 #include "image/decode.h"
 
@@ -256,6 +257,8 @@ Result<void> TextureBuilder::decode(size_t image) {
                     where,
                     "the image's size is not what its header said a moment ago");
     }
+    const GltfImage& source = document().images[image];
+    if (source.glossiness_of >= 0) roughness_from_glossiness(decoded->texels, source.glossiness);
     for (size_t srgb = 0; srgb < 2; ++srgb) {
         if (!state.uses[srgb].used) continue;
         uint32_t* base = scene_.textures.texels.data() + state.uses[srgb].base;

@@ -79,7 +79,7 @@ SceneView PreparedScene::Impl::view() const {
     out.attributes = scene.attributes.data();
     out.primitives = reinterpret_cast<const int32_t*>(scene.primitives.data());
     out.instances = reinterpret_cast<const float*>(scene.instances.data());
-    if (!scene.shapes.empty() || !scene.spheres.empty()) {
+    if (!scene.shapes.empty() || !scene.spheres.empty() || !scene.curve_points.empty()) {
         // Lanes that hit shapes read mesh tables at 0, whatever is there.
         static constexpr float zeros[16] = {};
         static constexpr ShapeRow no_shape = {};
@@ -90,6 +90,8 @@ SceneView PreparedScene::Impl::view() const {
         out.shapes =
             reinterpret_cast<const float*>(scene.shapes.empty() ? &no_shape : scene.shapes.data());
         out.spheres = scene.spheres.empty() ? nullptr : scene.spheres.data();
+        out.curve_points = scene.curve_points.empty() ? nullptr : scene.curve_points.data();
+        out.curve_segments = reinterpret_cast<const int32_t*>(scene.curve_segments.data());
     }
     out.materials = reinterpret_cast<const float*>(scene.materials.data());
     out.layers = reinterpret_cast<const float*>(scene.layers.data());

@@ -68,8 +68,8 @@ struct AssetInfo {
     std::vector<ExtensionInfo> extensions;
     std::vector<ReportRow> report;  ///< part by part, in file order
     size_t triangles_in_world = 0;  ///< with every instance counted
-    size_t skipped_points = 0;      ///< primitives of points and lines that are not drawn
-    size_t skipped_lines = 0;
+    size_t points_in_world = 0;     ///< likewise
+    size_t line_segments_in_world = 0;
     double parse_seconds = 0;
     double decode_seconds = 0;  ///< images
 };

@@ -19,14 +19,16 @@ namespace obscura {
 
 inline constexpr int32_t no_attribute = INT32_MIN;
 
-/// What a primitive's rows are: triangles of Scene::indices, rows of Scene::shapes or spheres of
-/// Scene::spheres. Shapes have attributes of their own: for them UV set 0 and tangents are 0, the
-/// others no_attribute.
-enum class GeometryKind : int32_t { triangles, shapes, spheres };
+/// What a primitive's rows are: triangles of Scene::indices, rows of Scene::shapes, spheres of
+/// Scene::spheres or pieces of lines of Scene::curve_segments. Shapes have attributes of their own:
+/// for them UV set 0 and tangents are 0, the others no_attribute. glTF's points (spheres) and lines
+/// have colours at most: see is_point_or_line.
+enum class GeometryKind : int32_t { triangles, shapes, spheres, curves };
 
 /// A run of triangles (or shapes) with one material. Attribute bases are float offsets such that
 /// vertex v (an absolute vertex number, as stored in Scene::indices) starts at base + v *
-/// components; a base may be negative, no_attribute means that the attribute is absent.
+/// components; a base may be negative, no_attribute means that the attribute is absent. The vertex
+/// of a point is its sphere's row in Scene::spheres.
 struct Primitive {
     int32_t first_triangle = 0;
     int32_t triangle_count = 0;
@@ -57,6 +59,14 @@ inline bool moves(const Primitive& primitive) {
 
 inline bool is_mesh(const Primitive& primitive) {
     return primitive.geometry == static_cast<int32_t>(GeometryKind::triangles);
+}
+
+/// True for what the file has as points or lines, in world space: how thick they are is chosen
+/// together with the camera (render/stroke_sizes.h). Shapes have tangents of their own.
+inline bool is_point_or_line(const Primitive& primitive) {
+    const auto kind = static_cast<GeometryKind>(primitive.geometry);
+    return kind == GeometryKind::curves ||
+           (kind == GeometryKind::spheres && primitive.tangent_base == no_attribute);
 }
 
 /// A run of primitives that share one object space.
@@ -145,8 +155,10 @@ struct Scene {
     /// 3 absolute vertex numbers a triangle, counter-clockwise from the front (before mirroring).
     std::vector<uint32_t> indices;
     std::vector<ShapeRow> shapes;
-    std::vector<float> spheres;     ///< particles in blocks: see shape/sphere_block.h
-    std::vector<float> attributes;  ///< normals, tangents, UVs and colours; see Primitive
+    std::vector<float> spheres;            ///< particles in blocks: see shape/sphere_block.h
+    std::vector<float> curve_points;       ///< x, y, z and radius, in metres
+    std::vector<uint32_t> curve_segments;  ///< each goes from this curve point to the next one
+    std::vector<float> attributes;         ///< normals, tangents, UVs and colours; see Primitive
     std::vector<Primitive> primitives;
     int32_t world_primitive_count = 0;
     std::vector<Mesh> meshes;

@@ -15,6 +15,8 @@ size_t vertex_bytes(const Scene& scene) {
 size_t geometry_bytes(const Scene& scene) {
     return vertex_bytes(scene) + scene.primitives.size() * sizeof(Primitive) +
            scene.shapes.size() * sizeof(ShapeRow) + scene.spheres.size() * sizeof(float) +
+           scene.curve_points.size() * sizeof(float) +
+           scene.curve_segments.size() * sizeof(uint32_t) +
            scene.instances.size() * sizeof(Instance) + scene.materials.size() * sizeof(Material) +
            scene.layers.size() * sizeof(MaterialLayers) + scene.media.size() * sizeof(Medium);
 }

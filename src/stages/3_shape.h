@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "shape/segment.h"
 #include "stages/3_motion.h"
 
 namespace obscura {
@@ -13,6 +14,9 @@ struct ShapeLanes {
     Vec3<Lanes> dpdu, dpdv;
     Vec2<Lanes> uv;
     Lanes offset;  ///< distance along the normal at which rays start clear of the shape
+    /// Of points and lines: the vertices on both sides, and the share of the way to the second.
+    LanesI vertex, next_vertex;
+    Lanes share;
 };
 
 /// Where and on what the lanes hit; copies, so that the caller's own stay in registers.
@@ -26,11 +30,45 @@ struct ShapeQuery {
     Lanes time;
 };
 
-/// A table's row as ShapeRow's words; particles lie in blocks and know no other kind.
+/// The lanes that hit pieces of lines, each in a frame of its own.
+struct CurveLanes {
+    bool any = false;
+    Mask lanes;
+    LanesI first_point;
+    SegmentFrame<Lanes> frame;
+};
+
+OBSCURA_INLINE CurveLanes read_curves(const SceneView& scene, Mask lanes, LanesI row) {
+    CurveLanes out;
+    if (scene.curve_points == nullptr || none(lanes)) return out;
+    out.any = true;
+    out.lanes = lanes;
+    const LanesI none(0);
+    out.first_point = gather<Lanes>(scene.curve_segments, select(lanes, row, none));
+    const Four<Lanes> from = gather4<Lanes>(scene.curve_points, out.first_point * LanesI(4));
+    const Four<Lanes> to = gather4<Lanes>(scene.curve_points + 4, out.first_point * LanesI(4));
+    out.frame = frame_of<Lanes>({{from.x, from.y, from.z}, {to.x, to.y, to.z}, from.w, to.w});
+    return out;
+}
+
+/// Brings what is known of a place on a line's piece back to where the piece is.
+OBSCURA_INLINE void leave_frame(const CurveLanes& curves, SurfacePoint<Lanes>& s) {
+    const SegmentFrame<Lanes>& frame = curves.frame;
+    const Mask m = curves.lanes;
+    s.position = select(m, frame.centre + out_of_frame(frame, s.position), s.position);
+    s.normal = select(m, out_of_frame(frame, s.normal), s.normal);
+    s.dpdu = select(m, out_of_frame(frame, s.dpdu), s.dpdu);
+    s.dpdv = select(m, out_of_frame(frame, s.dpdv), s.dpdv);
+}
+
+/// A table's row as ShapeRow's words; particles lie in blocks and know no other kind, and pieces of
+/// lines are capsules around their own origin.
 class ShapeWords {
 public:
     OBSCURA_INLINE ShapeWords(const SceneView& scene, const ShapeQuery& q) {
         const LanesI row = q.first + q.row;
+        const Mask lines = q.geometry == LanesI(static_cast<int32_t>(GeometryKind::curves));
+        curves_ = read_curves(scene, q.shapes & lines, row);
         particles_ = q.geometry == LanesI(static_cast<int32_t>(GeometryKind::spheres));
         if (scene.spheres != nullptr && any(particles_)) {
             const LanesI word = select(particles_, sphere_word(row), LanesI(0));
@@ -39,19 +77,32 @@ public:
             has_particles_ = true;
         }
         const LanesI none(0);
-        row_ = {scene.shapes, select(q.shapes & (!particles_), row, none), shape_words};
+        row_ = {scene.shapes, select(q.shapes & (!(particles_ | lines)), row, none), shape_words};
     }
 
     OBSCURA_INLINE LanesI kind() const {
-        return select(particles_, LanesI(static_cast<int32_t>(ShapeKind::sphere)), row_.integer(0));
+        const LanesI sphere(static_cast<int32_t>(ShapeKind::sphere));
+        const LanesI own = select(particles_, sphere, row_.integer(0));
+        if (!curves_.any) return own;
+        return select(curves_.lanes, LanesI(static_cast<int32_t>(ShapeKind::capsule)), own);
     }
     OBSCURA_INLINE Lanes operator()(int word) const {
-        const Lanes from_row = row_.number(word);
-        if (!has_particles_ || word > 4) return from_row;
-        return select(particles_, sphere_[word - 1], from_row);
+        Lanes value = row_.number(word);
+        if (has_particles_ && word <= 4) value = select(particles_, sphere_[word - 1], value);
+        if (curves_.any) value = select(curves_.lanes, capsule_word(word), value);
+        return value;
     }
+    OBSCURA_INLINE const CurveLanes& curves() const { return curves_; }
 
 private:
+    OBSCURA_INLINE Lanes capsule_word(int word) const {
+        const Capsule<Lanes>& capsule = curves_.frame.capsule;
+        if (word == 4) return capsule.half_height;
+        if (word == 5) return capsule.bottom;
+        return word == 6 ? capsule.top : Lanes(0.0f);
+    }
+
+    CurveLanes curves_;
     TableRow<Lanes> row_;
     Lanes sphere_[4];
     Mask particles_;
@@ -77,16 +128,34 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
         ray.origin = select(instanced, transform_point(object, q.origin), q.origin);
         ray.direction = select(instanced, transform_vector(object, q.direction), q.direction);
     }
-    const Vec3<Lanes> at{multiply_add(q.t, ray.direction.x, ray.origin.x),
-                         multiply_add(q.t, ray.direction.y, ray.origin.y),
-                         multiply_add(q.t, ray.direction.z, ray.origin.z)};
-    const SurfacePoint<Lanes> s = surface_of_shape<Lanes>(words.kind(), words, at);
+    Vec3<Lanes> at{multiply_add(q.t, ray.direction.x, ray.origin.x),
+                   multiply_add(q.t, ray.direction.y, ray.origin.y),
+                   multiply_add(q.t, ray.direction.z, ray.origin.z)};
+    const CurveLanes& curves = words.curves();
+    if (curves.any) {
+        at = select(curves.lanes, into_frame(curves.frame, at - curves.frame.centre), at);
+    }
+    SurfacePoint<Lanes> s = surface_of_shape<Lanes>(words.kind(), words, at);
+    out.vertex = q.first + q.row;
+    out.next_vertex = out.vertex;
+    out.share = Lanes(0.0f);
+    if (curves.any) {
+        const Lanes share = share_of_way(curves.frame, s.position.y);
+        out.vertex = select(curves.lanes, curves.first_point, out.vertex);
+        out.next_vertex = select(curves.lanes, curves.first_point + LanesI(1), out.next_vertex);
+        out.share = select(curves.lanes, share, out.share);
+        leave_frame(curves, s);
+    }
     constexpr float steps = 32.0f / 16777216.0f;
     const Vec3<Lanes> half{words(4), words(5), words(6)};
     const Lanes extent = min(max_component(abs(half)), max_component(abs(s.position)));
-    out = {s.position, s.normal, s.dpdu, s.dpdv, s.uv, s.error * Lanes(4.0f)};
-    out.offset =
-        out.offset + Lanes(steps) * (dot(abs(s.normal), abs(s.position)) + extent * Lanes(0.25f));
+    out.position = s.position;
+    out.normal = s.normal;
+    out.dpdu = s.dpdu;
+    out.dpdv = s.dpdv;
+    out.uv = s.uv;
+    out.offset = s.error * Lanes(4.0f) +
+                 Lanes(steps) * (dot(abs(s.normal), abs(s.position)) + extent * Lanes(0.25f));
     if (none(instanced)) return;
     const Vec3<Lanes> p = abs(s.position);
     const auto row_size = [&](int r) {
@@ -139,6 +208,15 @@ OBSCURA_INLINE void shapes_to_world(const SceneView& scene,
     g.first_uv.area2 = select(m, Lanes(1.0f), g.first_uv.area2);
     g.dpdu = s.dpdu;
     g.dpdv = s.dpdv;
+    // Of all shapes, points and lines alone have colours: their vertices are the corners.
+    const Mask colored = m & (g.primitive.integer(5) != LanesI(no_attribute));
+    if (none(colored)) return;
+    g.corner[0] = select(colored, s.vertex, g.corner[0]);
+    g.corner[1] = select(colored, s.next_vertex, g.corner[1]);
+    g.corner[2] = select(colored, s.vertex, g.corner[2]);
+    g.weight[0] = select(colored, Lanes(1.0f) - s.share, g.weight[0]);
+    g.weight[1] = select(colored, s.share, g.weight[1]);
+    g.weight[2] = select(colored, Lanes(0.0f), g.weight[2]);
 }
 
 }  // namespace OBSCURA_ISA

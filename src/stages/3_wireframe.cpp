@@ -145,11 +145,11 @@ void write_all_wires(const SceneView& scene,
         const PathLanes path = load_paths(rows.paths, i);
         HitGeometry g = hit_geometry(scene, hit);
         instance_to_world(scene, hit, g);
-        g.first_uv = {};
-        shapes_to_world(scene, hit, path, g);
         RaysAround around;
         find_rays_around<Maker>(batch, i, around);
         Lanes nearest = edge_distance_px(scene, hit, g, {path.origin, path.direction}, around);
+        g.first_uv = {};
+        shapes_to_world(scene, hit, path, g);
         if (g.has_shapes) nearest = select(g.shapes, iso_line_distance_px(g, around), nearest);
         const Lanes line = select(hits, coverage(batch, nearest), zero);
         store3(out.r, out.g, out.b, i, splat3(line));

@@ -96,6 +96,8 @@ struct SceneView {
     const float* attributes = nullptr;
     const float* shapes = nullptr;   ///< ShapeRow as words; null: the scene has no shapes at all
     const float* spheres = nullptr;  ///< see shape/sphere_block.h; null: none
+    const float* curve_points = nullptr;        ///< x, y, z, radius; null: there are no lines
+    const int32_t* curve_segments = nullptr;    ///< first point of each
     const int32_t* primitives = nullptr;        ///< Primitive as words
     const float* instances = nullptr;           ///< Instance as words
     const float* materials = nullptr;           ///< Material as words

@@ -54,6 +54,27 @@ TEST(Numbers, RealsAreFiniteAndWhole) {
     }
 }
 
+TEST(Numbers, LengthsHaveAUnit) {
+    for (const char* text : {"0.01", "0.01m", "1e-2m"}) {
+        const Result<ParsedLength> metres = parse_length(text, "--it");
+        ASSERT_TRUE(metres) << text;
+        EXPECT_EQ(metres->value, 0.01);
+        EXPECT_FALSE(metres->pixels);
+    }
+    const Result<ParsedLength> pixels = parse_length("2.5px", "--it");
+    ASSERT_TRUE(pixels);
+    EXPECT_EQ(pixels->value, 2.5);
+    EXPECT_TRUE(pixels->pixels);
+    for (const char* text : {"", "m", "px", "3 px", "3pt", "3cm", "3mm", "nan", "3pxm"}) {
+        SCOPED_TRACE(text);
+        expect_refused(parse_length(text, "--it"), "E-USAGE-NUMBER", "such as 3px");
+    }
+    for (const char* text : {"0", "-1px", "0px", "1001px", "1e10m", "1e999"}) {
+        SCOPED_TRACE(text);
+        expect_refused(parse_length(text, "--it"), "E-USAGE-RANGE", "such as 0.01 or 0.01m");
+    }
+}
+
 TEST(Numbers, Sizes) {
     const Result<std::array<int, 2>> good = parse_size("1280x720", "--it");
     ASSERT_TRUE(good);

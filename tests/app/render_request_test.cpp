@@ -31,6 +31,9 @@ TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(request->exr_depth, ExrDepth::half);
     EXPECT_EQ(request->load.scene, -1);
     EXPECT_EQ(request->verbosity, Verbosity::normal);
+    EXPECT_EQ(request->strokes.points.diameter, 3);
+    EXPECT_EQ(request->strokes.lines.diameter, 2);
+    EXPECT_EQ(request->strokes.lines.unit, LengthUnit::pixels);
     EXPECT_FALSE(request->camera.yfov_rad || request->camera.eye_m || request->camera.model);
 }
 
@@ -56,6 +59,8 @@ RenderArguments every_option() {
     a.env_intensity = "2";
     a.env_rotation = "-45";
     a.background = "0.5,0.25,1";
+    a.point_size = "0.25";
+    a.line_width = "5px";
     a.integrator = "ao";
     a.ao_distance = "0.5";
     a.filter = "gaussian";
@@ -88,6 +93,10 @@ TEST(RenderRequest, PictureAndSamplingOptionsArrive) {
     EXPECT_EQ(request->load.scene, 3);
     EXPECT_EQ(options.integrator, Integrator::ao);
     EXPECT_EQ(options.ao_distance_m, 0.5);
+    EXPECT_EQ(request->strokes.points.diameter, 0.25);
+    EXPECT_EQ(request->strokes.points.unit, LengthUnit::metres);
+    EXPECT_EQ(request->strokes.lines.diameter, 5);
+    EXPECT_EQ(request->strokes.lines.unit, LengthUnit::pixels);
     EXPECT_EQ(options.filter, PixelFilter::gaussian);
 }
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/truth.h"
 
+#include "accel/accel.h"
 #include "crosscheck/check_scenes.h"
 #include "crosscheck/random.h"
+#include "crosscheck/ray_set.h"
 
 #include <gtest/gtest.h>
 
+#include "support/stroke_scenes.h"
 #include <cmath>
 
 namespace obscura {
@@ -69,6 +72,59 @@ TEST(TrueScene, TheTreeLeavesNothingOut) {
         const TrueRay ray{random.direction() * 2.0, random.direction()};
         EXPECT_EQ(truth.nearest(ray).t, truth.nearest_of_all(ray).t) << i;
     }
+}
+
+TEST(TrueScene, LinesAreCapsules) {
+    Scene scene = empty_scene({});
+    add_strip(scene, {{{-2, 0, 0}}, {{2, 0, 0}}, {{2, 3, 0}}}, 0.5F);
+    const TrueScene truth(scene);
+    const TrueHit side = truth.nearest({{1, 0.25, 5}, {0, 0, -1}});
+    EXPECT_NEAR(side.t, 5 - std::sqrt(0.25 - 0.0625), 1e-12);
+    EXPECT_EQ(side.item, (Item{-1, 0, 0}));
+    const Vec3d normal = truth.normal(side.item, {1, 0.25, 5 - side.t});
+    EXPECT_NEAR(normal.y, 0.5, 1e-12);
+    EXPECT_NEAR(truth.nearest({{-9, 0, 0}, {1, 0, 0}}).t, 6.5, 1e-12);
+    EXPECT_EQ(truth.nearest({{2, 9, 0}, {0, -1, 0}}).item, (Item{-1, 0, 1}));
+    EXPECT_NEAR(length(truth.middle({-1, 0, 1}) - Vec3d{2, 1.5, 0}), 0, 1e-12);
+    EXPECT_FALSE(truth.nearest({{1, 0.51, 5}, {0, 0, -1}}).found());
+}
+
+/// A bent tube of changing thickness, met by Embree's capsules and by ours.
+TEST(TrueScene, EmbreesLinesLieWhereOursDo) {
+    Scene scene = empty_scene({});
+    std::vector<Dot> dots;
+    for (int i = 0; i < 30; ++i) {
+        const float angle = 0.4F * static_cast<float>(i);
+        dots.push_back({{std::cos(angle), 0.1F * static_cast<float>(i) - 1.5F, std::sin(angle)}});
+    }
+    add_strip(scene, dots, 1);
+    for (size_t i = 0; i < 30; ++i)
+        scene.curve_points[4 * i + 3] = 0.05F + 0.002F * static_cast<float>(i);
+    const TrueScene truth(scene);
+    const Result<Accel> accel = Accel::build(scene, "");
+    ASSERT_TRUE(accel);
+    RayBlock rays;
+    for (uint64_t i = 0; i < 4000; ++i) {
+        RandomStream random(i);
+        const Vec3d from = random.direction() * 4.0;
+        const Vec3d way = normalize(random.direction() * 1.2 - from);
+        rays.add(from, way);
+    }
+    HitBlock hits;
+    const RayColumns columns = rays.columns();
+    accel->intersect(columns, hits.columns(columns.count), Coherence::incoherent, {});
+    int both = 0;
+    int apart = 0;
+    for (int i = 0; i < columns.count; ++i) {
+        const TrueHit hit = truth.nearest(rays.true_ray(i));
+        const bool found = hits.item(i).primitive >= 0;
+        apart += found != hit.found() ? 1 : 0;
+        if (!found || !hit.found()) continue;
+        ++both;
+        EXPECT_NEAR(hits.t(i), hit.t, 2e-4) << i;
+    }
+    EXPECT_GT(both, 300);
+    EXPECT_LE(apart, 2) << "at the silhouette rounding decides";
 }
 
 TEST(TrueScene, NumbersEveryInstancesItems) {

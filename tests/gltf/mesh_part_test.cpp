@@ -3,6 +3,7 @@
 #include "gltf/mesh_part.h"
 
 #include "gltf/gltf_files.h"
+#include "gltf/primitive_modes.h"
 
 #include <gtest/gtest.h>
 
@@ -62,23 +63,6 @@ TEST(MeshPart, ListsStripsAndFans) {
 TEST(MeshPart, StripsTurnAtRepeatedVertices) {
     EXPECT_EQ(corners_of(5, {0, 1, 2, 2, 3, 3, 4, 5}), (Corners{0, 1, 2, 3, 5, 4}));
     EXPECT_EQ(corners_of(5, {0, 1, 2, 3, 3, 4, 5}), (Corners{0, 1, 2, 1, 3, 2, 3, 4, 5}));
-}
-
-TEST(MeshPart, PointsAndLinesAreCountedAndNamed) {
-    AssetBuilder builder = curve(6);
-    for (const int mode : {0, 1, 2, 3, 4}) {
-        builder.add_mesh({{"attributes", {{"POSITION", 0}}}, {"mode", mode}});
-        builder.tree["meshes"].back()["name"] = "mesh of mode " + std::to_string(mode);
-        builder.add_root({{"mesh", mode}});
-    }
-    const Loaded loaded = load_tree(builder.finished());
-    ASSERT_TRUE(loaded.scene) << loaded.text();
-    EXPECT_EQ(loaded.scene->info.skipped_points, 1U);
-    EXPECT_EQ(loaded.scene->info.skipped_lines, 3U);
-    EXPECT_EQ(loaded.scene->primitives.size(), 1U);
-    EXPECT_TRUE(
-        loaded.warns("meshes: mesh of mode 0, mesh of mode 1, mesh of mode 2, mesh of mode 3"))
-        << loaded.warnings;
 }
 
 TEST(MeshPart, IndicesOf8And32Bits) {

@@ -1,32 +1,28 @@
-// accel/user_triangles.cpp - a primitive's triangles as user geometry, for callbacks of our own.
+// accel/user_elements.cpp - a primitive's triangles or lines as user geometry.
 // SPDX-License-Identifier: Apache-2.0
-#include "accel/user_triangles.h"
+#include "accel/user_elements.h"
 
 namespace obscura {
 
-namespace {
-
 void triangle_bounds(const RTCBoundsFunctionArguments* args) {
-    const auto& triangles = *static_cast<const UserTriangles*>(args->geometryUserPtr);
+    const auto& triangles = *static_cast<const UserElements*>(args->geometryUserPtr);
     const Triangle<float> t = read_corners(triangles, args->primID);
     const Vec3f high = max3(t.a, max3(t.b, t.c));
     const Vec3f low = -max3(-t.a, max3(-t.b, -t.c));
     *args->bounds_o = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
 }
 
-}  // namespace
-
-RTCGeometry make_user_triangles(Accel::Impl& impl,
-                                int32_t primitive,
-                                const TriangleCallbacks& callbacks) {
+RTCGeometry make_user_elements(Accel::Impl& impl,
+                               int32_t primitive,
+                               const UserCallbacks& callbacks) {
     const auto row = static_cast<size_t>(primitive);
-    impl.user_triangles.resize(impl.scene->primitives.size());  // once: pointers stay
-    impl.user_triangles[row] = {&impl, primitive};
+    impl.user_elements.resize(impl.scene->primitives.size());  // once: pointers stay
+    impl.user_elements[row] = {&impl, primitive};
     RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(
         geometry, static_cast<unsigned>(impl.scene->primitives[row].triangle_count));
-    rtcSetGeometryUserData(geometry, &impl.user_triangles[row]);
-    rtcSetGeometryBoundsFunction(geometry, triangle_bounds, nullptr);
+    rtcSetGeometryUserData(geometry, &impl.user_elements[row]);
+    rtcSetGeometryBoundsFunction(geometry, callbacks.bounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry, callbacks.intersect);
     rtcSetGeometryOccludedFunction(geometry, callbacks.occluded);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
@@ -35,7 +31,7 @@ RTCGeometry make_user_triangles(Accel::Impl& impl,
     return geometry;
 }
 
-Triangle<float> read_corners(const UserTriangles& triangles, unsigned number) {
+Triangle<float> read_corners(const UserElements& triangles, unsigned number) {
     const Scene& scene = *triangles.impl->scene;
     const Primitive& primitive = scene.primitives[static_cast<size_t>(triangles.primitive)];
     const uint32_t* corners =
@@ -62,19 +58,20 @@ TriangleHit<float> meet(const Triangle<float>& triangle, RTCRayN* rays, unsigned
     return hit;
 }
 
-void write_hit(const RTCIntersectFunctionNArguments* args,
-               const Triangle<float>& triangle,
-               const TriangleHit<float>& hit,
-               unsigned i) {
+UserHit user_hit(const Triangle<float>& triangle, const TriangleHit<float>& hit) {
+    const Vec3f ng = cross(triangle.b - triangle.a, triangle.c - triangle.a);
+    return {hit.t, ng, {hit.beta, hit.gamma}};
+}
+
+void write_hit(const RTCIntersectFunctionNArguments* args, const UserHit& hit, unsigned i) {
     const unsigned n = args->N;
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
-    const Vec3f ng = cross(triangle.b - triangle.a, triangle.c - triangle.a);
     RTCRayN_tfar(RTCRayHitN_RayN(args->rayhit, n), n, i) = hit.t;
-    RTCHitN_Ng_x(hits, n, i) = ng.x;
-    RTCHitN_Ng_y(hits, n, i) = ng.y;
-    RTCHitN_Ng_z(hits, n, i) = ng.z;
-    RTCHitN_u(hits, n, i) = hit.beta;
-    RTCHitN_v(hits, n, i) = hit.gamma;
+    RTCHitN_Ng_x(hits, n, i) = hit.ng.x;
+    RTCHitN_Ng_y(hits, n, i) = hit.ng.y;
+    RTCHitN_Ng_z(hits, n, i) = hit.ng.z;
+    RTCHitN_u(hits, n, i) = hit.uv.x;
+    RTCHitN_v(hits, n, i) = hit.uv.y;
     RTCHitN_primID(hits, n, i) = args->primID;
     RTCHitN_geomID(hits, n, i) = args->geomID;
     copy_instance_stack(*reinterpret_cast<const QueryContext*>(args->context), hits, n, i);

@@ -1,0 +1,83 @@
+// gltf/specular_glossiness.cpp - specular-glossiness materials in the terms of the other model.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/specular_glossiness.h"
+
+#include "gltf/material_extensions.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+/// A texture whose image is a copy, as roughness, of the one that `texture` has.
+int add_roughness_texture(Document& document, int texture, double factor) {
+    GltfTexture copy = document.textures[static_cast<size_t>(texture)];
+    const auto same = [&](const GltfImage& image) {
+        return image.glossiness == factor && image.glossiness_of == copy.image;
+    };
+    const auto found = std::find_if(document.images.begin(), document.images.end(), same);
+    const auto number = static_cast<int>(found - document.images.begin());
+    if (found == document.images.end()) {
+        GltfImage image = document.images[static_cast<size_t>(copy.image)];
+        image.name += ", as roughness";
+        image.glossiness = factor;
+        image.glossiness_of = copy.image;
+        document.images.push_back(std::move(image));
+    }
+    copy.image = number;
+    document.textures.push_back(copy);
+    return static_cast<int>(document.textures.size()) - 1;
+}
+
+}  // namespace
+
+void read_specular_glossiness(DocumentReading& reading,
+                              const JsonReader& material,
+                              GltfMaterial& out) {
+    constexpr const char* name = "KHR_materials_pbrSpecularGlossiness";
+    if (!material.has_extension(name) || (out.values.flags & material_unlit) != 0) return;
+    const JsonReader object = material.extension(name);
+    const NumberRange unit = {1, 0, 1};
+    std::array<double, 4> diffuse = {1, 1, 1, 1};
+    std::array<double, 3> specular = {1, 1, 1};
+    clamped_numbers(reading, object, "diffuseFactor", diffuse, unit);
+    clamped_numbers(reading, object, "specularFactor", specular, unit);
+    const double glossiness = clamped_number(reading, object, "glossinessFactor", unit);
+    const TextureSlot both = read_texture_slot(reading, object, "specularGlossinessTexture");
+
+    Material& values = out.values;
+    for (size_t i = 0; i < 4; ++i)
+        values.base_color[i] = static_cast<float>(diffuse[i]);
+    values.base_color_texture = read_texture_slot(reading, object, "diffuseTexture");
+    values.metallic = 0;
+    values.roughness = static_cast<float>(1 - glossiness);
+    values.metallic_roughness_texture = both;
+    if (both.texture >= 0) {
+        values.roughness = 1;
+        values.metallic_roughness_texture.texture =
+            add_roughness_texture(reading.document, both.texture, glossiness);
+    }
+    MaterialLayers layers = out.layers.value_or(MaterialLayers{});
+    layers.ior = 0;
+    layers.specular = 1;
+    layers.specular_texture = {};
+    for (size_t i = 0; i < 3; ++i)
+        layers.specular_color[i] = static_cast<float>(specular[i]);
+    layers.specular_color_texture = both;
+    out.layers = layers;
+}
+
+void roughness_from_glossiness(std::span<uint32_t> texels, double factor) {
+    constexpr double most = 255;
+    uint32_t roughness[256];
+    for (size_t alpha = 0; alpha < 256; ++alpha) {
+        const double value = most - factor * static_cast<double>(alpha);
+        roughness[alpha] = static_cast<uint32_t>(std::lround(value)) << 8;
+    }
+    for (uint32_t& texel : texels)
+        texel = roughness[texel >> 24] | 0xFF000000U;
+}
+
+}  // namespace obscura

@@ -1,0 +1,26 @@
+// gltf/specular_glossiness.h - KHR_materials_pbrSpecularGlossiness in the terms of the other model.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/document_parts.h"
+
+#include <cstdint>
+#include <span>
+
+namespace obscura {
+
+/// Puts the extension's material, where there is one and it is not unlit, in place of the core's: a
+/// dielectric whose reflectance at normal incidence is the specular colour, over the diffuse one.
+/// A specular-glossiness texture becomes the specular colour's texture, and a copy of its image the
+/// roughness' (GltfImage::glossiness).
+///
+/// In      out: as the core and the other extensions have it
+/// Source  KHR_materials_specular, "Specular-glossiness materials": ior 0
+void read_specular_glossiness(DocumentReading& reading,
+                              const JsonReader& material,
+                              GltfMaterial& out);
+
+/// Turns RGBA8 texels of glossiness (in A) into those of roughness (in G): 1 - factor * A.
+void roughness_from_glossiness(std::span<uint32_t> texels, double factor);
+
+}  // namespace obscura

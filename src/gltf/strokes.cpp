@@ -1,0 +1,102 @@
+// gltf/strokes.cpp - glTF's points become spheres, its lines pieces of round curves.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/strokes.h"
+
+#include "gltf/meshes.h"
+#include "gltf/particles.h"
+
+#include <algorithm>
+
+namespace obscura {
+
+namespace {
+
+constexpr float unset_radius = 1;
+
+/// Appends the colours of vertices that have the numbers from `first` on.
+int32_t append_colors(Scene& scene,
+                      const MeshPart& part,
+                      const std::vector<uint32_t>& vertices,
+                      size_t first) {
+    if (part.colors.empty()) return no_attribute;
+    const int64_t base =
+        static_cast<int64_t>(scene.attributes.size()) - static_cast<int64_t>(first * 4);
+    for (const uint32_t vertex : vertices) {
+        const auto color = part.colors.begin() + static_cast<std::ptrdiff_t>(size_t{vertex} * 4);
+        scene.attributes.insert(scene.attributes.end(), color, color + 4);
+    }
+    return static_cast<int32_t>(base);
+}
+
+Primitive append_points(Scene& scene, const MeshPart& part) {
+    std::vector<float> positions;
+    positions.reserve(part.indices.size() * 3);
+    for (const uint32_t vertex : part.indices) {
+        const float* p = &part.positions[size_t{vertex} * 3];
+        positions.insert(positions.end(), p, p + 3);
+    }
+    const ParticleRange range = append_spheres(positions, {unset_radius}, scene);
+    std::vector<uint32_t> vertices;
+    for (const uint32_t point : range.order)
+        vertices.push_back(part.indices[point]);
+    Primitive out;
+    out.geometry = static_cast<int32_t>(GeometryKind::spheres);
+    out.first_triangle = range.first;
+    out.triangle_count = range.count;
+    out.color_base = append_colors(scene, part, vertices, static_cast<size_t>(range.first));
+    return out;
+}
+
+/// Pieces that follow each other share a point, so that Embree sees that they hang together.
+Primitive append_lines(Scene& scene, const MeshPart& part) {
+    const auto place = [&](uint32_t vertex) { return &part.positions[size_t{vertex} * 3]; };
+    const size_t first = scene.curve_points.size() / 4;
+    Primitive out;
+    out.geometry = static_cast<int32_t>(GeometryKind::curves);
+    out.first_triangle = static_cast<int32_t>(scene.curve_segments.size());
+    std::vector<uint32_t> vertices;
+    const auto add_point = [&](uint32_t vertex) {
+        const float* p = place(vertex);
+        scene.curve_points.insert(scene.curve_points.end(), {p[0], p[1], p[2], unset_radius});
+        vertices.push_back(vertex);
+    };
+    for (size_t i = 0; i + 1 < part.indices.size(); i += 2) {
+        const uint32_t from = part.indices[i];
+        const uint32_t to = part.indices[i + 1];
+        if (std::equal(place(from), place(from) + 3, place(to))) continue;
+        if (vertices.empty() || vertices.back() != from) add_point(from);
+        const size_t point = first + vertices.size() - 1;
+        scene.curve_segments.push_back(static_cast<uint32_t>(point));
+        add_point(to);
+        ++out.triangle_count;
+    }
+    out.color_base = append_colors(scene, part, vertices, first);
+    return out;
+}
+
+}  // namespace
+
+Result<Primitive> append_strokes(Scene& scene, const MeshPart& part, const std::string& where) {
+    const bool points = part.corners == 1;
+    const size_t added = part.indices.size();
+    if (points && added > most_spheres - scene.spheres.size() / 4) {
+        return fail(
+            ExitCode::refused, "E-LIMIT-SPHERES", where, "at most 2^29 spheres are accepted");
+    }
+    const size_t vertices = points ? 0 : scene.curve_points.size() / 4 + added;
+    const size_t floats = scene.attributes.size() + (part.colors.empty() ? 0 : added * 4);
+    const char* limit = broken_limit({vertices, 0, floats});
+    if (limit != nullptr) {
+        return fail(ExitCode::refused,
+                    limit,
+                    where,
+                    "the scene is too large for 32-bit numbers; accepted are 2^29 - 1 points on "
+                    "lines and 2^31 - 1 attribute floats");
+    }
+    const Primitive out = points ? append_points(scene, part) : append_lines(scene, part);
+    (points ? scene.info.points_in_world : scene.info.line_segments_in_world) +=
+        static_cast<size_t>(out.triangle_count);
+    return out;
+}
+
+}  // namespace obscura

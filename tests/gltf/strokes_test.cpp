@@ -1,0 +1,206 @@
+// tests/gltf/strokes_test.cpp - points and lines of every mode, where they lie and what colour.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/strokes.h"
+
+#include "gltf/gltf_files.h"
+#include "gltf/primitive_modes.h"
+#include "gltf/splats.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+
+namespace obscura {
+namespace {
+
+using namespace testing_gltf;
+
+using Indices = std::vector<uint32_t>;
+
+TEST(PrimitiveModes, PointsAndLinesAsLists) {
+    EXPECT_EQ(element_list({4, 5, 6}, 0).vertices, (Indices{4, 5, 6}));
+    EXPECT_EQ(element_list({4, 5, 6, 7}, 1).vertices, (Indices{4, 5, 6, 7}));
+    EXPECT_EQ(element_list({4, 5, 6}, 1).vertices, (Indices{4, 5}));
+    EXPECT_TRUE(element_list({4, 5, 6}, 1).leftover);
+    EXPECT_EQ(element_list({4, 5, 6}, 2).vertices, (Indices{4, 5, 5, 6, 6, 4}));
+    EXPECT_EQ(element_list({4, 5, 6}, 3).vertices, (Indices{4, 5, 5, 6}));
+    EXPECT_EQ(element_list({4, 4, 6}, 3).vertices, (Indices{4, 6}));
+    EXPECT_TRUE(element_list({4}, 3).leftover);
+    EXPECT_FALSE(element_list({4, 5}, 3).leftover);
+}
+
+/// Vertex n is at (n, n * n, 0) and has the red n / 8.
+AssetBuilder curve(size_t vertices, int mode, const std::vector<uint16_t>& indices = {}) {
+    AssetBuilder builder;
+    std::vector<float> positions;
+    std::vector<float> colors;
+    for (size_t i = 0; i < vertices; ++i) {
+        const auto x = static_cast<float>(i);
+        positions.insert(positions.end(), {x, x * x, 0});
+        colors.insert(colors.end(), {x / 8, 0.5F, 1});
+    }
+    const int position = builder.add_accessor("VEC3", 5126, positions);
+    const int color = builder.add_accessor("VEC3", 5126, colors);
+    json primitive = {{"attributes", {{"POSITION", position}, {"COLOR_0", color}}}, {"mode", mode}};
+    if (!indices.empty()) primitive["indices"] = builder.add_accessor("SCALAR", 5123, indices);
+    builder.add_mesh(primitive);
+    builder.add_root({{"mesh", 0}});
+    return builder;
+}
+
+Scene load_curve(const AssetBuilder& builder) {
+    Loaded loaded = load_tree(builder.finished());
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(loaded.warnings, "");
+    return loaded.scene ? std::move(*loaded.scene) : Scene{};
+}
+
+/// The pieces of a scene's lines as pairs of x.
+std::vector<std::pair<int, int>> pieces(const Scene& scene) {
+    std::vector<std::pair<int, int>> out;
+    for (const uint32_t from : scene.curve_segments) {
+        const float* p = &scene.curve_points[size_t{from} * 4];
+        EXPECT_EQ(p[1], p[0] * p[0]);
+        EXPECT_EQ(p[5], p[4] * p[4]);
+        out.emplace_back(static_cast<int>(p[0]), static_cast<int>(p[4]));
+    }
+    return out;
+}
+
+using Pieces = std::vector<std::pair<int, int>>;
+
+TEST(Strokes, LinesLoopsAndStrips) {
+    EXPECT_EQ(pieces(load_curve(curve(4, 1))), (Pieces{{0, 1}, {2, 3}}));
+    EXPECT_EQ(pieces(load_curve(curve(4, 2))), (Pieces{{0, 1}, {1, 2}, {2, 3}, {3, 0}}));
+    EXPECT_EQ(pieces(load_curve(curve(4, 3))), (Pieces{{0, 1}, {1, 2}, {2, 3}}));
+    EXPECT_EQ(pieces(load_curve(curve(5, 3, {4, 0, 2}))), (Pieces{{4, 0}, {0, 2}}));
+    EXPECT_EQ(pieces(load_curve(curve(5, 1, {4, 0, 2, 3}))), (Pieces{{4, 0}, {2, 3}}));
+}
+
+/// What hangs together shares points, what does not has none in common: Embree looks at that.
+TEST(Strokes, NeighboursShareAPoint) {
+    EXPECT_EQ(load_curve(curve(4, 1)).curve_segments, (Indices{0, 2}));
+    EXPECT_EQ(load_curve(curve(4, 3)).curve_segments, (Indices{0, 1, 2}));
+    EXPECT_EQ(load_curve(curve(5, 1, {0, 1, 1, 2, 3, 4})).curve_segments, (Indices{0, 1, 3}));
+}
+
+TEST(Strokes, ColoursFollowTheVertices) {
+    const Scene lines = load_curve(curve(5, 3, {4, 0, 2}));
+    ASSERT_EQ(lines.primitives.size(), 1U);
+    const Primitive& primitive = lines.primitives[0];
+    EXPECT_EQ(primitive.geometry, static_cast<int32_t>(GeometryKind::curves));
+    EXPECT_TRUE(is_point_or_line(primitive));
+    EXPECT_EQ(attribute_of(lines, primitive.color_base, 0, 4),
+              (std::vector<float>{0.5F, 0.5F, 1, 1}));
+    EXPECT_EQ(attribute_of(lines, primitive.color_base, 2, 4),
+              (std::vector<float>{0.25F, 0.5F, 1, 1}));
+
+    const Scene points = load_curve(curve(40, 0));
+    ASSERT_EQ(points.primitives.size(), 1U);
+    EXPECT_EQ(points.info.points_in_world, 40U);
+    for (uint32_t i = 0; i < 40; ++i) {
+        const float x = points.spheres[sphere_word(size_t{i})];
+        const std::vector<float> color =
+            attribute_of(points, points.primitives[0].color_base, i, 4);
+        EXPECT_EQ(color[0], x / 8) << i;
+    }
+}
+
+/// A stretched node moves the vertices, and several nodes place one mesh: all is in the world.
+TEST(Strokes, EveryNodePlacesThemInTheWorld) {
+    AssetBuilder builder = curve(3, 3);
+    builder.tree["meshes"][0]["primitives"].push_back(
+        {{"attributes", {{"POSITION", 0}}}, {"mode", 0}});
+    builder.tree["meshes"][0]["primitives"].push_back({{"attributes", {{"POSITION", 0}}}});
+    builder.add_root({{"mesh", 0}, {"scale", {-1, 3, 1}}, {"translation", {0, 0, 5}}});
+    const Scene scene = load_curve(builder);
+    EXPECT_EQ(scene.world_primitive_count, 4);
+    EXPECT_EQ(scene.instances.size(), 2U) << "the triangles are shared";
+    ASSERT_EQ(scene.curve_segments.size(), 4U);
+    const float* second = &scene.curve_points[size_t{scene.curve_segments[3]} * 4];
+    EXPECT_EQ((std::vector<float>{second[4], second[5], second[6]}),
+              (std::vector<float>{-2, 12, 5}));
+    EXPECT_EQ(scene.info.points_in_world, 6U);
+    EXPECT_EQ(scene.info.line_segments_in_world, 4U);
+    EXPECT_EQ(scene.primitives[0].node, 0);
+    EXPECT_EQ(scene.primitives[3].node, 1);
+    EXPECT_EQ(scene.bounds.low.x, -2);
+    EXPECT_EQ(scene.bounds.high.y, 12);
+}
+
+TEST(Strokes, PiecesWithoutLengthAreLeftOut) {
+    AssetBuilder builder;
+    const int position = builder.add_accessor(
+        "VEC3", 5126, std::vector<float>{0, 0, 0, 0, 0, 0, 1, 0, 0, 7, 7, 7, 7, 7, 7});
+    builder.add_mesh({{"attributes", {{"POSITION", position}}}, {"mode", 3}});
+    builder.add_mesh(
+        {{"attributes", {{"POSITION", position}}},
+         {"mode", 1},
+         {"indices", builder.add_accessor("SCALAR", 5121, std::vector<uint8_t>{3, 4})}});
+    builder.add_root({{"mesh", 0}});
+    builder.add_root({{"mesh", 1}});
+    const Scene scene = load_curve(builder);
+    EXPECT_EQ(scene.curve_segments.size(), 2U);
+    EXPECT_EQ(scene.primitives.size(), 1U);
+}
+
+TEST(Strokes, HaveARadiusBeforeAnyCamera) {
+    const Scene scene = load_curve(curve(4, 3));
+    const double diagonal = std::sqrt(9.0 + 81.0);
+    for (size_t i = 3; i < scene.curve_points.size(); i += 4) {
+        EXPECT_NEAR(scene.curve_points[i], diagonal / 1000, 1e-6);
+    }
+    const Scene alone = load_curve(curve(1, 0));
+    EXPECT_NEAR(alone.spheres[3 * sphere_block], 0.005, 1e-7);
+}
+
+TEST(Strokes, FaultsAreFoundAsInMeshes) {
+    AssetBuilder builder = curve(4, 3, {0, 9});
+    EXPECT_EQ(load_tree(builder.finished()).id(), "E-MESH-INDEX");
+    builder = curve(4, 0);
+    builder.tree["accessors"][1]["count"] = 2;
+    EXPECT_EQ(load_tree(builder.finished()).id(), "E-MESH-COUNT");
+}
+
+TEST(Splats, ColourOfTheConstantHarmonic) {
+    const std::vector<float> linear = splat_colors({0, 1, -9}, {0.25F}, true);
+    EXPECT_NEAR(linear[0], 0.5, 1e-6);
+    EXPECT_NEAR(linear[1], 0.5 + 0.5 * std::sqrt(1 / 3.14159265358979), 1e-6);
+    EXPECT_EQ(linear[2], 0);
+    EXPECT_EQ(linear[3], 0.25F);
+    const std::vector<float> display = splat_colors({0, 0, 0}, {}, false);
+    EXPECT_NEAR(display[0], std::pow((0.5 + 0.055) / 1.055, 2.4), 1e-6);
+    EXPECT_EQ(display[3], 1);
+}
+
+TEST(Splats, ArePointsInTheirOwnColourOrInColor0) {
+    AssetBuilder builder;
+    builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 0, 1, 0, 0});
+    builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 0, 9, 9, 9});
+    builder.add_accessor("SCALAR", 5126, std::vector<float>{1, 1});
+    json primitive = {{"attributes",
+                       {{"POSITION", 0},
+                        {"KHR_gaussian_splatting:SH_DEGREE_0_COEF_0", 1},
+                        {"KHR_gaussian_splatting:OPACITY", 2}}},
+                      {"mode", 0}};
+    primitive["extensions"]["KHR_gaussian_splatting"] = {{"kernel", "ellipse"},
+                                                         {"colorSpace", "lin_rec709_display"}};
+    builder.add_mesh(primitive);
+    builder.add_root({{"mesh", 0}});
+    builder.tree["extensionsUsed"] = {"KHR_gaussian_splatting"};
+    const Scene scene = load_curve(builder);
+    ASSERT_EQ(scene.primitives.size(), 1U);
+    const int32_t base = scene.primitives[0].color_base;
+    EXPECT_NEAR(attribute_of(scene, base, 0, 4)[0], 0.5, 1e-6);
+    EXPECT_EQ(attribute_of(scene, base, 1, 4)[0], 1);
+    primitive["attributes"]["COLOR_0"] =
+        builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 1, 0, 0, 1});
+    builder.tree["meshes"][0]["primitives"][0] = primitive;
+    const Scene with_colors = load_curve(builder);
+    EXPECT_EQ(attribute_of(with_colors, with_colors.primitives[0].color_base, 0, 4),
+              (std::vector<float>{0, 0, 1, 1}));
+}
+
+}  // namespace
+}  // namespace obscura
