@@ -22,6 +22,7 @@ struct TrueBox {
     void add(const TrueBox& other);
     /// Room for what rounds in double, a billion times more than is needed near the box.
     TrueBox with_room() const;
+    TrueBox grown(double room) const { return {low - splat3(room), high + splat3(room)}; }
 };
 
 /// A ray as boxes want it.
@@ -41,9 +42,10 @@ class BoxTree {
 public:
     explicit BoxTree(const std::vector<TrueBox>& boxes);
 
-    /// Calls visit(i) for every box that the ray may meet before `limit`, which visit may lower.
+    /// Calls visit(i) for every box that the ray may meet before `limit`, which visit may lower;
+    /// with room, for every one that it may pass as closely as that.
     template <typename Visit>
-    void visit(const TrueRay& ray, const double& limit, const Visit& visit) const {
+    void visit(const TrueRay& ray, const double& limit, const Visit& visit, double room = 0) const {
         if (nodes_.empty()) return;
         const BoxRay boxed(ray);
         int32_t stack[64];
@@ -51,7 +53,7 @@ public:
         stack[size++] = 0;
         while (size > 0) {
             const Node& node = nodes_[static_cast<size_t>(stack[--size])];
-            if (!boxed.meets(node.box, limit)) continue;
+            if (!boxed.meets(node.box.grown(room), limit)) continue;
             if (node.count > 0) {
                 for (int32_t i = node.first; i < node.first + node.count; ++i)
                     visit(order_[static_cast<size_t>(i)]);

@@ -88,6 +88,7 @@ std::vector<std::string> faults_of(const CheckedScene& scene) {
     for (const PairFigures& pair : scene.pairs) {
         if (pair.standard != Standard::none) check_pair(pair, faults);
     }
+    if (scene.twins.figures) check_pair(*scene.twins.figures, faults);
     for (const LeakFigures& kernel : scene.leaks.kernels) {
         const LeakCount& random = kernel.by_aim[static_cast<size_t>(LeakAim::anywhere)];
         if (!kernel.in_budget || random.leaks == 0) continue;

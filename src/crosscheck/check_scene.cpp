@@ -59,10 +59,7 @@ struct Comparing {
                            first ? &base : nullptr,
                            standard == Standard::full ? &out.screen : nullptr);
         for (PairFigures& pair : pairs) {
-            // Occlusion does not say what it met, so that nothing can excuse it against the truth:
-            // it is held to what the same rays hit.
-            const bool unnamed = kernel.occlusion && pair.against_truth;
-            pair.standard = unnamed ? Standard::none : standard;
+            pair.standard = standard;
             out.pairs.push_back(std::move(pair));
         }
         log.detail(out.name + ": " + kernel.name + " done");
@@ -116,6 +113,10 @@ Result<CheckedScene> check_scene(const CheckTask& task, Log& log) {
     if (auto done = compare_production(comparing, scene, task.isa); !done) {
         return fail(done.error());
     }
+    auto twins = check_twins(scene, rays.count(), embree_isa_for(task.isa));
+    if (!twins) return fail(twins.error());
+    out.twins = std::move(*twins);
+    log.detail(out.name + ": shapes compared with meshes");
     const ClosedParts parts = find_closed_parts(scene, most_parts);
     auto leaks = count_leaks(parts, 10 * rays.count(), task.rays.seed);
     if (!leaks) return fail(leaks.error());

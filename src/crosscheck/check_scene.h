@@ -9,6 +9,7 @@
 #include "crosscheck/kernel_plan.h"
 #include "crosscheck/leaks.h"
 #include "crosscheck/spawned.h"
+#include "crosscheck/twins.h"
 #include "stages/dispatch.h"
 
 #include <string>
@@ -31,6 +32,7 @@ struct CheckedScene {
     TruthCheck truth;
     FormulaCheck formulas;
     std::vector<PairFigures> pairs;
+    TwinReport twins;
     LeakReport leaks;
     SpawnedReport spawned;
     std::optional<ViewerReport> viewer;  ///< where it was asked for

@@ -173,6 +173,20 @@ bool is_within_lines(const Question& q, const Item& item) {
     return within && near >= 2;
 }
 
+/// Occlusion does not say what it met: the best excuse of all that lies beside the ray.
+Finding excuse_occlusion(const Question& q) {
+    Finding best = Finding::false_hit;
+    q.scene.near_items(q.ray, line_ulps * q.unit_m, [&](const Item& item) {
+        if (best == Finding::agree) return;
+        if (is_at_its_edge(q, {passing(q, item), item, true})) {
+            best = Finding::agree;
+        } else if (is_within_lines(q, item)) {
+            best = Finding::edge_on;
+        }
+    });
+    return best;
+}
+
 /// agree: what the answer says is there is there within 4 ulp, and all that it has passed by is at
 /// its edge; edge_on: but for triangles seen edge-on; false_hit: neither.
 Finding excuse(const Question& q, const Answer& answer) {
@@ -182,7 +196,7 @@ Finding excuse(const Question& q, const Answer& answer) {
         const bool edge_on = is_within_lines(q, item);
         worst = std::max(worst, edge_on ? Finding::edge_on : Finding::false_hit);
     };
-    if (answer.any) return Finding::false_hit;  // that nothing was passed by says nothing
+    if (answer.any) return excuse_occlusion(q);
     if (answer.found()) {
         judge(is_met_nearby(q, answer) || is_at_its_edge(q, answer), answer.item);
     }

@@ -55,7 +55,8 @@ struct Comparison {
 /// other difference counts as `edge` when both answers are true for rays that are at most edge_ulps
 /// away from this one, where it begins and where it hits. It counts as `crack` when no such ray has
 /// the answer, but all that was passed by has an edge within edge_ulps, and what was hit is there
-/// within edge_ulps or has an edge there. It counts as `edge_on` when only lines through
+/// within edge_ulps or has an edge there; of occlusion, which says not what was hit, something must
+/// have an edge within edge_ulps. It counts as `edge_on` when only lines through
 /// edges are as near as that.
 Comparison compare(const TrueScene& scene,
                    const TrueRay& ray,

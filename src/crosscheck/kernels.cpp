@@ -20,11 +20,6 @@ bool is_worse(const Difference& a, const Difference& b) {
     return a.number < b.number;
 }
 
-void keep_worst(std::vector<Difference>& worst) {
-    std::sort(worst.begin(), worst.end(), is_worse);
-    if (worst.size() > most_worst) worst.resize(most_worst);
-}
-
 void note_on_screen(ScreenVerdicts& screen, ScreenPlace at, Finding verdict, bool hit) {
     const size_t pixel =
         static_cast<size_t>(at.y) * static_cast<size_t>(screen.width) + static_cast<size_t>(at.x);
@@ -69,6 +64,11 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
 }
 
 }  // namespace
+
+void keep_worst(std::vector<Difference>& worst) {
+    std::sort(worst.begin(), worst.end(), is_worse);
+    if (worst.size() > most_worst) worst.resize(most_worst);
+}
 
 uint64_t Tally::unexplained() const {
     return of(Finding::depth) + of(Finding::missed) + of(Finding::false_hit);

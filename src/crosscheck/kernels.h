@@ -74,6 +74,9 @@ struct PairFigures {
 
 inline constexpr size_t most_worst = 8;
 
+/// Puts the worst first and leaves out what comes after most_worst of them.
+void keep_worst(std::vector<Difference>& worst);
+
 /// The worst verdict of every pixel whose camera ray was compared with the truth; -1: none was.
 struct ScreenVerdicts {
     int width = 0;

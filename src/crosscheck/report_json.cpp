@@ -63,6 +63,17 @@ void add_pair(JsonWriter& out, const PairFigures& pair) {
     out.end_object();
 }
 
+void add_twins(JsonWriter& out, const TwinReport& twins) {
+    out.key("twins").begin_object();
+    out.member("shapes", twins.shapes)
+        .member("skipped", twins.skipped)
+        .member("triangles", twins.triangles);
+    out.key("pairs").begin_array();
+    if (twins.figures) add_pair(out, *twins.figures);
+    out.end_array();
+    out.end_object();
+}
+
 void add_leaks(JsonWriter& out, const LeakReport& leaks) {
     out.key("leaks").begin_object();
     out.member("closed_parts", leaks.parts_found).member("parts_used", leaks.parts_used);
@@ -122,6 +133,7 @@ void add_scene(JsonWriter& out, const CheckedScene& scene) {
     for (const PairFigures& pair : scene.pairs)
         add_pair(out, pair);
     out.end_array();
+    add_twins(out, scene.twins);
     add_leaks(out, scene.leaks);
     add_spawned(out, scene.spawned);
     if (scene.viewer) add_viewer(out, *scene.viewer);

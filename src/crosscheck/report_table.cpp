@@ -44,6 +44,17 @@ void add_worst(const PairFigures& pair, std::string& out) {
     }
 }
 
+void add_twins(const TwinReport& twins, std::string& out) {
+    if (twins.shapes + twins.skipped == 0) return;
+    out += fmt::format("  shapes beside fine meshes: {} of {}, {} triangles; ulp: of the mesh\n",
+                       twins.shapes,
+                       twins.shapes + twins.skipped,
+                       twins.triangles);
+    if (!twins.figures) return;
+    add_row(twins.figures->got, twins.figures->expected, twins.figures->total(), out);
+    add_worst(*twins.figures, out);
+}
+
 void add_leaks(const LeakReport& leaks, std::string& out) {
     out += fmt::format(
         "  closed parts: {} found, {} with room inside\n", leaks.parts_found, leaks.parts_used);
@@ -136,6 +147,7 @@ std::string check_table(const CheckedScene& scene) {
     for (const PairFigures& pair : scene.pairs) {
         if (pair.standard != Standard::none) add_worst(pair, out);
     }
+    add_twins(scene.twins, out);
     add_leaks(scene.leaks, out);
     add_spawned(scene.spawned, out);
     if (scene.viewer) {

@@ -45,7 +45,7 @@ Vec3d corner(const Scene& scene, size_t index) {
 
 }  // namespace
 
-TrueScene::TrueScene(const Scene& scene) : scene_(scene) {
+TrueScene::TrueScene(const Scene& scene, double slack_m) : scene_(scene), slack_m_(slack_m) {
     groups_.push_back(make_group(0, scene.world_primitive_count));
     for (const Mesh& mesh : scene.meshes)
         groups_.push_back(make_group(mesh.first_primitive, mesh.primitive_count));
@@ -248,6 +248,24 @@ void TrueScene::all_hits(const TrueRay& ray, const std::function<void(double, It
     visit_hits(ray, INFINITY, take);
 }
 
+void TrueScene::near_items(const TrueRay& ray,
+                           double room_m,
+                           const std::function<void(const Item&)>& take) const {
+    const auto visit_object = [&](int32_t i) {
+        const Object& object = objects_[boxed_objects_[static_cast<size_t>(i)]];
+        const Group& group = groups_[object.group];
+        const ShapeRay<double> own = into(object.object_from_world, ray);
+        const double room =
+            max_component(transform_vector(absolute(object.object_from_world), splat3(room_m)));
+        const auto visit_item = [&](int32_t k) {
+            const Item& item = group.items[static_cast<size_t>(k)];
+            take(Item{object.instance, item.primitive, item.row});
+        };
+        group.tree->visit({own.origin, own.direction}, INFINITY, visit_item, room);
+    };
+    objects_tree_->visit(ray, INFINITY, visit_object, room_m);
+}
+
 std::vector<double> TrueScene::meetings(const TrueRay& ray, const Item& item) const {
     std::vector<double> found;
     const Object& object = object_of(item);
@@ -306,7 +324,9 @@ double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) con
         const Vec3d own = transform_vector(object, size + moved);
         size = max3(size, transform_vector(world, own) + moved);
     }
-    return max_component(size) * ulp_of_one;
+    const double rounding = max_component(size) * ulp_of_one;
+    // Two that are compared by way of this scene, as with slack they are, may each be as far off.
+    return slack_m_ > 0 ? std::max(slack_m_, 2 * rounding) : rounding;
 }
 
 Vec3d TrueScene::middle(const Item& item) const {

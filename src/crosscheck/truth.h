@@ -33,8 +33,9 @@ struct TrueHit {
 /// matrices) are taken as exact. Alpha is not looked at, every surface has two sides.
 class TrueScene {
 public:
-    /// In   scene: outlives this object
-    explicit TrueScene(const Scene& scene);
+    /// In   scene: outlives this object; slack_m: how far what is compared with it may lie from it,
+    ///      more than by rounding
+    explicit TrueScene(const Scene& scene, double slack_m = 0);
 
     /// The nearest hit with t > 0.
     TrueHit nearest(const TrueRay& ray) const;
@@ -45,11 +46,18 @@ public:
     /// Calls take(t, item) for every place where the ray meets something, in no order.
     void all_hits(const TrueRay& ray, const std::function<void(double, Item)>& take) const;
 
+    /// Calls take(item) for everything with an end whose box the ray passes at most room_m away,
+    /// and more, in no order.
+    void near_items(const TrueRay& ray,
+                    double room_m,
+                    const std::function<void(const Item&)>& take) const;
+
     /// Where the ray meets this item, whatever else lies in front of it: no, one or two numbers.
     std::vector<double> meetings(const TrueRay& ray, const Item& item) const;
 
     /// How far rounding in single precision moves the point at t: one unit in the last place of the
-    /// largest number on the way to it, into the object's space and back, corners included. Metres.
+    /// largest number on the way to it, into the object's space and back, corners included; with
+    /// slack, twice that and at least the slack. Metres.
     double rounding_m(const TrueRay& ray, const Item& item, double t) const;
 
     /// Of the item's box, in the world; of a plane without end any place on it.
@@ -106,6 +114,7 @@ private:
     void visit_hits(const TrueRay& ray, const double& limit, const Take& take) const;
 
     const Scene& scene_;
+    double slack_m_;
     std::vector<Group> groups_;
     std::vector<Object> objects_;    ///< instance i is objects_[i + 1]
     std::vector<size_t> item_ends_;  ///< by object

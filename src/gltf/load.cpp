@@ -15,6 +15,7 @@
 #include "gltf/textures.h"
 #include "gltf/variants.h"
 #include "scene/motion.h"
+#include "scene/split_curves.h"
 #include "scene/stroke_radii.h"
 
 #include <algorithm>
@@ -263,7 +264,6 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
     Result<void> done = add_meshes({document, buffers, *placed_meshes}, materials, out, log);
     if (done) done = add_shapes({document, buffers, placed}, materials, out, log);
     if (done) done = add_lights_and_cameras(document, placed, out, log);
-    if (done && !out.bounds.empty()) set_default_stroke_radii(out);
     return done;
 }
 
@@ -287,6 +287,10 @@ Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials,
 Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene& out, Log& log) {
     Document& document = asset.document;
     if (last) release_geometry(document, buffers);
+    if (!out.bounds.empty()) {
+        set_default_stroke_radii(out);
+        split_long_curves(out);
+    }
     const auto decode_start = std::chrono::steady_clock::now();
     const Result<void> done = add_textures(
         {document, buffers, file.parent_path(), textures, options.info_only}, materials, out, log);

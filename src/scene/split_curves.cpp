@@ -1,14 +1,21 @@
-// scene/split_curves.cpp - gives lines a point of their own where they pass a surface.
+// scene/split_curves.cpp - more points for lines that pass a surface or are long.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/split_curves.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace obscura {
 
 namespace {
 
-using Side = std::function<double(const Vec3d& place_m)>;
+/// Where a piece of a line, two rows of Scene::curve_points, is cut: shares of the way from its
+/// first point to its second, in (0, 1), rising.
+using Cuts = std::function<std::vector<double>(const float* ends)>;
+
+Vec3d place(const float* point) {
+    return {point[0], point[1], point[2]};
+}
 
 /// A place between two points: `share` of the way from `first` to the next one.
 struct Vertex {
@@ -23,7 +30,7 @@ double mix(double a, double b, double share) {
 /// The points and pieces of all lines, made anew.
 class CurveSplitter {
 public:
-    CurveSplitter(Scene& scene, const Side& side) : scene_(scene), side_(side) {}
+    CurveSplitter(Scene& scene, const Cuts& cuts) : scene_(scene), cuts_(cuts) {}
 
     void run() {
         for (Primitive& primitive : scene_.primitives) {
@@ -34,11 +41,6 @@ public:
     }
 
 private:
-    double side_of(uint32_t point) const {
-        const float* p = &scene_.curve_points[size_t{point} * 4];
-        return side_({p[0], p[1], p[2]});
-    }
-
     void add_point(const Vertex& vertex) {
         const float* p = &scene_.curve_points[size_t{vertex.first} * 4];
         for (size_t c = 0; c < 4; ++c) {
@@ -78,9 +80,8 @@ private:
             const uint32_t from = scene_.curve_segments[i];
             const bool goes_on = i > begin && scene_.curve_segments[i - 1] + 1 == from;
             if (!goes_on) add_point({from, 0});
-            const double here = side_of(from);
-            const double there = side_of(from + 1);
-            if (here * there < 0) add_segment({from, here / (here - there)});
+            for (const double share : cuts_(&scene_.curve_points[size_t{from} * 4]))
+                add_segment({from, share});
             add_segment({from + 1, 0});
         }
         primitive.first_triangle = static_cast<int32_t>(first_segment);
@@ -89,23 +90,44 @@ private:
     }
 
     Scene& scene_;
-    const Side& side_;
+    const Cuts& cuts_;
     std::vector<float> points_;
     std::vector<uint32_t> segments_;
     std::vector<Vertex> vertices_;  ///< of one primitive's points, in the old table
 };
 
+void split(Scene& scene, const Cuts& cuts) {
+    const bool any =
+        std::any_of(scene.curve_segments.begin(), scene.curve_segments.end(), [&](uint32_t from) {
+            return !cuts(&scene.curve_points[size_t{from} * 4]).empty();
+        });
+    if (any) CurveSplitter(scene, cuts).run();
+}
+
 }  // namespace
 
-void split_curves(Scene& scene, const Side& side) {
-    bool crosses = false;
-    const auto side_at = [&](size_t point) {
-        const float* p = &scene.curve_points[point * 4];
-        return side({p[0], p[1], p[2]});
-    };
-    for (const uint32_t from : scene.curve_segments)
-        crosses = crosses || side_at(from) * side_at(size_t{from} + 1) < 0;
-    if (crosses) CurveSplitter(scene, side).run();
+void split_curves(Scene& scene, const std::function<double(const Vec3d& place_m)>& side) {
+    split(scene, [&](const float* ends) -> std::vector<double> {
+        const double here = side(place(ends));
+        const double there = side(place(ends + 4));
+        if (here * there >= 0) return {};
+        return {here / (here - there)};
+    });
+}
+
+void split_long_curves(Scene& scene) {
+    // Squares of half the length round by 2^-22 of themselves: this is 1 % of the radius' square.
+    constexpr double longest = 400;  // in radii
+    constexpr double most_pieces = 64;
+    split(scene, [&](const float* ends) {
+        const auto radius = static_cast<double>(std::min(ends[3], ends[7]));
+        const double thin = length(place(ends + 4) - place(ends)) / (radius * longest);
+        const int pieces = static_cast<int>(std::clamp(std::ceil(thin), 1.0, most_pieces));
+        std::vector<double> shares;
+        for (int i = 1; i < pieces; ++i)
+            shares.push_back(static_cast<double>(i) / pieces);
+        return shares;
+    });
 }
 
 }  // namespace obscura

@@ -109,6 +109,23 @@ private:
     bool has_particles_ = false;
 };
 
+/// The vertices that colours come from.
+///
+/// In   position: in the frame of the line's piece, for lanes that hit one
+OBSCURA_INLINE void find_vertices(const ShapeQuery& q,
+                                  const CurveLanes& curves,
+                                  const Vec3<Lanes>& position,
+                                  ShapeLanes& out) {
+    out.vertex = q.first + q.row;
+    out.next_vertex = out.vertex;
+    out.share = Lanes(0.0f);
+    if (!curves.any) return;
+    const Lanes share = share_of_way(curves.frame, position.y);
+    out.vertex = select(curves.lanes, curves.first_point, out.vertex);
+    out.next_vertex = select(curves.lanes, curves.first_point + LanesI(1), out.next_vertex);
+    out.share = select(curves.lanes, share, out.share);
+}
+
 /// The hit point, brought onto the shape, with its normal and parametrisation.
 ///
 /// In      q: rays in world space; at least one lane of q.shapes
@@ -136,16 +153,8 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
         at = select(curves.lanes, into_frame(curves.frame, at - curves.frame.centre), at);
     }
     SurfacePoint<Lanes> s = surface_of_shape<Lanes>(words.kind(), words, at);
-    out.vertex = q.first + q.row;
-    out.next_vertex = out.vertex;
-    out.share = Lanes(0.0f);
-    if (curves.any) {
-        const Lanes share = share_of_way(curves.frame, s.position.y);
-        out.vertex = select(curves.lanes, curves.first_point, out.vertex);
-        out.next_vertex = select(curves.lanes, curves.first_point + LanesI(1), out.next_vertex);
-        out.share = select(curves.lanes, share, out.share);
-        leave_frame(curves, s);
-    }
+    find_vertices(q, curves, s.position, out);
+    if (curves.any) leave_frame(curves, s);
     constexpr float steps = 32.0f / 16777216.0f;
     const Vec3<Lanes> half{words(4), words(5), words(6)};
     const Lanes extent = min(max_component(abs(half)), max_component(abs(s.position)));

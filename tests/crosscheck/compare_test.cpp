@@ -79,6 +79,16 @@ TEST_F(CompareAnswers, OcclusionKnowsNoDepth) {
     EXPECT_EQ(verdict(down(3, 0), any), Finding::false_hit);
 }
 
+TEST_F(CompareAnswers, OcclusionOfARayAlongATriangleIsChance) {
+    Answer any;
+    any.any = true;
+    const double height = ulp(down(0, 0)) / 4;
+    const TrueRay along{{-3, 0.2, height}, {1, 0.05, 0}};
+    EXPECT_FALSE(truth_.nearest(along).found());
+    EXPECT_EQ(verdict(along, any), Finding::crack);
+    EXPECT_EQ(verdict({{-3, 0.2, 100 * height}, {1, 0.05, 0}}, any), Finding::false_hit);
+}
+
 TEST_F(CompareAnswers, EdgeDistanceOfAMismatchIsReported) {
     const TrueRay inside = down(1 - 12 * ulp(down(0, 0)), 0.25);
     const Comparison found = compare(truth_, inside, answer_of(truth_.nearest(inside)), {});

@@ -60,6 +60,22 @@ TEST(SplitCurves, LinesOnOneSideStay) {
     EXPECT_EQ(scene.primitives[1].color_base, 0);
 }
 
+TEST(SplitCurves, LongThinPiecesBecomeShortOnes) {
+    Scene scene = two_lines();
+    for (size_t point = 0; point < 5; ++point)
+        scene.curve_points[point * 4 + 3] = 0.00501F;
+    scene.curve_points[7] = 0.00701F;  // the first piece is 4 long: 798 of its least radii
+    split_long_curves(scene);
+    EXPECT_EQ(scene.curve_segments, (std::vector<uint32_t>{0, 1, 2, 4}));
+    EXPECT_EQ(scene.curve_points[4], 1.0F);
+    EXPECT_FLOAT_EQ(scene.curve_points[7], 0.00601F);
+    EXPECT_EQ(red_of(scene, scene.primitives[0], 1), 1.0F);
+    for (float* at = scene.curve_points.data(); at < &scene.curve_points.back(); at += 4)
+        at[3] = 1e-18F;
+    split_long_curves(scene);
+    EXPECT_EQ(scene.curve_segments.size(), 4 * 64U);
+}
+
 TEST(StrokeRadii, ShapesKeepTheirs) {
     Scene scene = two_lines();
     scene.spheres.assign(2 * sphere_block_floats, 7.0F);

@@ -1,0 +1,146 @@
+// crosscheck/twins.cpp - analytic shapes beside fine meshes of the same form.
+// SPDX-License-Identifier: Apache-2.0
+#include "crosscheck/twins.h"
+
+#include "accel/accel.h"
+#include "crosscheck/kernel_plan.h"
+
+#include <algorithm>
+
+namespace obscura {
+
+namespace {
+
+bool is_same(const ShapeRow& a, const ShapeRow& b) {
+    return std::equal(std::begin(a.size), std::end(a.size), std::begin(b.size)) &&
+           std::equal(std::begin(a.centre), std::end(a.centre), std::begin(b.centre)) &&
+           std::equal(std::begin(a.k), std::end(a.k), std::begin(b.k)) && a.kind == b.kind;
+}
+
+/// The rows of all analytic shapes, equal ones once. Particles are spheres as the others are.
+std::vector<ShapeRow> distinct_shapes(const Scene& scene) {
+    std::vector<ShapeRow> out;
+    for (const Primitive& primitive : scene.primitives) {
+        if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) continue;
+        for (int32_t i = 0; i < primitive.triangle_count; ++i) {
+            const int32_t number = primitive.first_triangle + i;
+            const ShapeRow& row = scene.shapes[static_cast<size_t>(number)];
+            const auto same = [&](const ShapeRow& other) { return is_same(row, other); };
+            if (std::none_of(out.begin(), out.end(), same)) out.push_back(row);
+        }
+    }
+    return out;
+}
+
+/// One primitive in the world, with a material that has two sides.
+Scene scene_around(const Primitive& primitive, const Bounds& bounds) {
+    Scene scene;
+    Material material;
+    material.flags = material_double_sided;
+    scene.materials.push_back(material);
+    scene.material_names.emplace_back();
+    scene.material_numbers.push_back(-1);
+    scene.primitives.push_back(primitive);
+    scene.world_primitive_count = 1;
+    scene.bounds = bounds;
+    return scene;
+}
+
+Scene scene_of_shape(const ShapeRow& row) {
+    Primitive primitive;
+    primitive.geometry = static_cast<int32_t>(GeometryKind::shapes);
+    primitive.triangle_count = 1;
+    const ShapeBox box = shape_bounds(row);
+    Scene scene = scene_around(primitive, {box.low, box.high});
+    scene.shapes.push_back(row);
+    pad_tables(scene);
+    return scene;
+}
+
+Scene scene_of_mesh(const ShapeMesh& mesh, const Bounds& bounds) {
+    Primitive primitive;
+    primitive.triangle_count = static_cast<int32_t>(mesh.triangles.size());
+    Scene scene = scene_around(primitive, bounds);
+    for (const std::array<Vec3d, 3>& triangle : mesh.triangles) {
+        for (const Vec3d& p : triangle) {
+            scene.indices.push_back(static_cast<uint32_t>(scene.positions.size() / 3));
+            for (const double x : {p.x, p.y, p.z})
+                scene.positions.push_back(static_cast<float>(x));
+        }
+    }
+    pad_tables(scene);
+    return scene;
+}
+
+/// The nearest hits of a scene with one item, as that item whatever triangle was hit.
+Kernel kernel_of(std::string name, const Accel& accel) {
+    return {std::move(name), [&accel](RayBlock& rays, std::vector<Answer>& answers) {
+                HitBlock hits;
+                const RayColumns columns = rays.columns();
+                accel.intersect(columns, hits.columns(columns.count), Coherence::incoherent, {});
+                answers.assign(static_cast<size_t>(columns.count), {});
+                for (int i = 0; i < columns.count; ++i) {
+                    if (hits.item(i).primitive < 0) continue;
+                    answers[static_cast<size_t>(i)] = {static_cast<double>(hits.t(i)), {-1, 0, 0}};
+                }
+            }};
+}
+
+void add_figures(PairFigures&& one, TwinReport& report) {
+    if (!report.figures) {
+        report.figures = std::move(one);
+        return;
+    }
+    for (size_t g = 0; g < ray_groups; ++g)
+        report.figures->groups[g].add(one.groups[g]);
+    std::vector<Difference>& worst = report.figures->worst;
+    worst.insert(worst.end(), one.worst.begin(), one.worst.end());
+    keep_worst(worst);
+}
+
+}  // namespace
+
+Result<PairFigures> compare_with_mesh(const ShapeRow& row,
+                                      const ShapeMesh& mesh,
+                                      uint64_t rays,
+                                      const std::string& embree_isa) {
+    const Scene shape = scene_of_shape(row);
+    const Scene twin = scene_of_mesh(mesh, shape.bounds);
+    const auto shape_accel = Accel::build(shape, embree_isa);
+    if (!shape_accel) return fail(shape_accel.error());
+    const auto twin_accel = Accel::build(twin, embree_isa);
+    if (!twin_accel) return fail(twin_accel.error());
+    const TrueScene truth(shape, mesh.error_m / edge_ulps);
+    RaySetOptions options;
+    options.rays = rays;
+    const RaySet set(truth, options);
+    AnswerList own;
+    compare_kernel(truth, set, kernel_of("obscura", *shape_accel), {}, &own, nullptr);
+    std::vector<PairFigures> pairs = compare_kernel(
+        truth, set, kernel_of("tessellated twins", *twin_accel), {&own}, nullptr, nullptr);
+    pairs[0].standard = Standard::edges;
+    return std::move(pairs[0]);
+}
+
+Result<TwinReport> check_twins(const Scene& scene, uint64_t rays, const std::string& embree_isa) {
+    const std::vector<ShapeRow> shapes = distinct_shapes(scene);
+    const size_t count = std::min(shapes.size(), most_twins);
+    TwinReport report;
+    report.skipped = shapes.size() - count;
+    for (size_t i = 0; i < count; ++i) {
+        const uint64_t each = std::max<uint64_t>(rays / count, 1);
+        const ShapeMesh mesh = tessellate(shapes[i]);
+        if (mesh.triangles.empty()) {
+            ++report.skipped;
+            continue;
+        }
+        Result<PairFigures> one = compare_with_mesh(shapes[i], mesh, each, embree_isa);
+        if (!one) return fail(one.error());
+        add_figures(std::move(*one), report);
+        ++report.shapes;
+        report.triangles += mesh.triangles.size();
+    }
+    return report;
+}
+
+}  // namespace obscura
