@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/kernel_plan.h"
 
+#include "scene/split_curves.h"
+
 namespace obscura {
 
 namespace {
@@ -131,6 +133,7 @@ std::vector<Kernel> production_kernels(const std::shared_ptr<const Accel>& accel
 
 Scene opaque_copy(const Scene& scene) {
     Scene out = scene;
+    split_long_curves(out);  // as PreparedScene does
     for (Material& material : out.materials) {
         material.flags &= ~(material_alpha_mask | material_alpha_blend);
         material.flags |= material_double_sided;

@@ -15,7 +15,6 @@
 #include "gltf/textures.h"
 #include "gltf/variants.h"
 #include "scene/motion.h"
-#include "scene/split_curves.h"
 #include "scene/stroke_radii.h"
 
 #include <algorithm>
@@ -287,10 +286,7 @@ Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials,
 Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene& out, Log& log) {
     Document& document = asset.document;
     if (last) release_geometry(document, buffers);
-    if (!out.bounds.empty()) {
-        set_default_stroke_radii(out);
-        split_long_curves(out);
-    }
+    if (!out.bounds.empty()) set_default_stroke_radii(out);
     const auto decode_start = std::chrono::steady_clock::now();
     const Result<void> done = add_textures(
         {document, buffers, file.parent_path(), textures, options.info_only}, materials, out, log);

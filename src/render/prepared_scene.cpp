@@ -6,6 +6,7 @@
 #include "light/studio.h"
 #include "render/shape_light_table.h"
 #include "scene/alike_textures.h"
+#include "scene/split_curves.h"
 
 #include <algorithm>
 
@@ -129,6 +130,7 @@ Result<PreparedScene> PreparedScene::create(Scene scene,
     auto impl = std::make_unique<Impl>();
     impl->scene = std::move(scene);
     mark_alike_textures(impl->scene);
+    split_long_curves(impl->scene);
     impl->stages = &stage_table_for(isa);
     auto lit = make_lighting(*impl, lighting, log);
     if (!lit) return fail(lit.error());

@@ -62,7 +62,6 @@ void size_strokes(const StrokeSizes& sizes, const Camera& camera, Scene& scene) 
         split_curves(scene, [&](const Vec3d& place_m) { return depth_m(camera, place_m); });
     }
     set_stroke_radii(scene, radius_of(sizes.points, camera), radius_of(sizes.lines, camera));
-    split_long_curves(scene);
 }
 
 }  // namespace obscura

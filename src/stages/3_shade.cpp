@@ -12,6 +12,10 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
+/// The first bounces bring most of the light, and the rare bright paths among them most of the
+/// noise: ending some of them saves few rays and makes the others brighter still.
+constexpr int bounces_before_roulette = 2;
+
 /// The random numbers of one bounce.
 struct BounceRandom {
     Vec2<Lanes> bsdf;
@@ -35,7 +39,8 @@ OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
     };
     BounceRandom r;
     r.bsdf = unit_pair<Lanes>(pair(RandomUse::bsdf));
-    r.roulette = bounce < 1 ? Lanes(0.0f) : unit_float<Lanes>(pair(RandomUse::roulette).x);
+    r.roulette = bounce < bounces_before_roulette ? Lanes(0.0f)
+                                                  : unit_float<Lanes>(pair(RandomUse::roulette).x);
     r.light.choice = light_count > 1 ? pair(RandomUse::light_choice).x : LanesU(0U);
     r.light.environment = draw;
     // A place between texels, and from the bits that remain one between mip levels.
@@ -154,7 +159,7 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
 
 /// Probability of going on after a bounce; the survivors are divided by it.
 OBSCURA_INLINE Lanes survival(const Vec3<Lanes>& throughput, int bounce) {
-    if (bounce < 1) return Lanes(1.0f);
+    if (bounce < bounces_before_roulette) return Lanes(1.0f);
     return clamp(max_component(throughput), Lanes(0.05f), Lanes(1.0f));
 }
 
