@@ -5,6 +5,7 @@
 #include "app/lighting.h"
 #include "app/outcome.h"
 #include "app/signals.h"
+#include "app/skipped_scenes.h"
 #include "app/statistics.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
@@ -206,18 +207,21 @@ Result<void> execute(const BenchRequest& request, Log& log) {
     report.machine = describe_machine();
     report.settings = settings_of(request);
     bool nonfinite = false;
+    SkippedScenes skipped(request.scenes.size(), log);
     for (const RenderRequest& scene : request.scenes) {
         SceneBench bench{request, scene, log};
         bench.figures.name = free_name(scene.scene, report.scenes);
         const Result<std::string> embree = measure_scene(bench);
+        if (!embree && skipped.skip(embree.error())) continue;
         if (!embree) return fail(embree.error());
         report.machine.embree = *embree;
         report.scenes.push_back(std::move(bench.figures));
         nonfinite = nonfinite || bench.nonfinite;
     }
+    if (report.scenes.empty()) return skipped.result();
     report.warnings = log.warnings();
     if (auto delivered = deliver(request, report, *old, log); !delivered) return delivered;
-    if (!nonfinite) return {};
+    if (!nonfinite) return skipped.result();
     return fail(ExitCode::too_many_nonfinite,
                 "E-NONFINITE",
                 "bench",

@@ -3,6 +3,7 @@
 #include "app/crosscheck_command.h"
 
 #include "app/outcome.h"
+#include "app/skipped_scenes.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "crosscheck/report_image.h"
@@ -83,10 +84,14 @@ Result<void> execute(const CrosscheckRequest& request, Log& log) {
     if (auto sound = check_files(request); !sound) return sound;
     const ThreadLimit threads(request.scenes.front().threads);
     std::vector<CheckedScene> checked;
+    SkippedScenes skipped(request.scenes.size(), log);
     for (const RenderRequest& scene : request.scenes) {
         log.info("checking " + scene.scene.string());
         Loaded loaded;
-        if (auto done = load(scene, request, log, loaded); !done) return done;
+        if (auto done = load(scene, request, log, loaded); !done) {
+            if (skipped.skip(done.error())) continue;
+            return done;
+        }
         if (request.ray) {
             const Result<std::string> lines = replay_ray(loaded.scene, *request.ray, scene.isa);
             if (!lines) return fail(lines.error());
@@ -97,7 +102,8 @@ Result<void> execute(const CrosscheckRequest& request, Log& log) {
         if (auto printed = print_output(check_table(*one)); !printed) return printed;
         checked.push_back(std::move(*one));
     }
-    return deliver(request, checked, log);
+    if (auto delivered = deliver(request, checked, log); !delivered) return delivered;
+    return skipped.result();
 }
 
 }  // namespace

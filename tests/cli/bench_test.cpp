@@ -118,6 +118,14 @@ TEST_F(Bench, TakesEveryAssetOfAFolderAndAnOwnView) {
     }
 }
 
+TEST_F(Bench, GoesOnAfterASceneThatCannotBeUsed) {
+    expect_result(bench({"missing.gltf", "box.gltf", "--json", "b.json"}), 66, "E-SCENE-MISSING");
+    const json whole = report("b.json");
+    ASSERT_EQ(whole.at("scenes").size(), 1U);
+    EXPECT_EQ(whole.at("scenes").at(0).at("name"), "box");
+    EXPECT_THAT(whole.at("warnings").dump(), HasSubstr("missing.gltf: left out"));
+}
+
 TEST_F(Bench, RefusesWhatMakesNoSense) {
     const auto refused = [&](const std::vector<std::string>& more, const std::string& id) {
         std::vector<std::string> arguments = {"box.gltf"};

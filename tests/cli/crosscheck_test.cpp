@@ -62,6 +62,12 @@ TEST_F(Crosscheck, ChecksTheProjectsOwnShapes) {
     EXPECT_THAT(got.out, HasSubstr("sphere points 16"));
 }
 
+TEST_F(Crosscheck, GoesOnAfterASceneThatCannotBeUsed) {
+    const ProgramRun got = run({"crosscheck", "none.gltf", "box.gltf", "--rays", "10k"});
+    expect_result(got, 66, "E-SCENE-MISSING");
+    EXPECT_THAT(got.out, HasSubstr("within the budget"));
+}
+
 TEST_F(Crosscheck, RefusesWhatMakesNoSense) {
     expect_result(run({"crosscheck", "box.gltf", "--rays", "ten"}), 64, "E-USAGE-NUMBER");
     expect_result(run({"crosscheck", "box.gltf", "--ray", "1,2"}), 64, "E-USAGE-NUMBER");
