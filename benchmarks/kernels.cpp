@@ -101,7 +101,8 @@ void ggx_sample_normal(const KernelData& d) {
     for_rows<F>([&](int i) {
         const Vec3<F> wo = read3<F>(d.wo_x, d.wo_y, d.wo_z, i);
         const Vec2<F> u{read<F>(d.u0 + i), read<F>(d.u1 + i)};
-        write(d.out0 + i, sum3(sample_visible_normal(wo, read<F>(d.alpha + i), u)));
+        const F alpha = read<F>(d.alpha + i);
+        write(d.out0 + i, sum3(sample_visible_normal<F>(wo, {alpha, alpha}, u)));
     });
 }
 

@@ -29,12 +29,29 @@ struct BlockHit {
     int sphere = -1;  ///< in the block; -1: none
 };
 
+/// The spheres that the ray's line may meet: a rough distance, with room for its rounding. Most
+/// blocks whose box a ray passes hold none, and end here.
+OBSCURA_INLINE Mask may_meet(const float* block,
+                             const ShapeRay<float>& ray,
+                             const Vec3<Lanes>& d,
+                             float inverse_square) {
+    const auto offset = [&](float origin, int column) {
+        return Lanes(origin) - load(block + column * sphere_block);
+    };
+    const Vec3<Lanes> p{offset(ray.origin.x, 0), offset(ray.origin.y, 1), offset(ray.origin.z, 2)};
+    const Vec3<Lanes> across = cross(p, d);
+    const Lanes rounding = (abs(p.x) + abs(p.y) + abs(p.z)) * Lanes(1e-6f);
+    const Lanes reach = load(block + 3 * sphere_block) + rounding;
+    return dot(across, across) * Lanes(inverse_square) <= reach * reach;
+}
+
 /// Both roots of one ray with the spheres in the lanes; as intersect_sphere, but that the ray's own
 /// numbers are computed once, and nothing more where all lanes pass by.
 OBSCURA_INLINE Roots<Lanes> roots_in_lanes(const float* block,
                                            const ShapeRay<float>& ray,
                                            float inverse_square) {
     const Vec3<Lanes> d{Lanes(ray.direction.x), Lanes(ray.direction.y), Lanes(ray.direction.z)};
+    if (none(may_meet(block, ray, d, inverse_square))) return {{}, {Mask(false), Mask(false)}};
     const auto offset = [&](float origin, int column) {
         return two_sum(Lanes(origin), Lanes(-load(block + column * sphere_block)));
     };
