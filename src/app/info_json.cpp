@@ -207,6 +207,7 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     write_names(json, "materials", file_materials(scene));
     write_images(json, info);
     write_lights(json, scene);
+    json.member("environment", info.environment);
     write_cameras(json, scene);
     write_animations(json, info);
     write_extensions(json, info);

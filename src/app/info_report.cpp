@@ -155,6 +155,7 @@ void append_rest(const AssetInfo& info, std::string& text) {
 }  // namespace
 
 const char* light_type_name(const PunctualLight& light) {
+    if (light.profile >= 0) return "profile";
     switch (static_cast<PunctualType>(light.type)) {
         case PunctualType::point:
             return "point";
@@ -167,6 +168,7 @@ const char* light_type_name(const PunctualLight& light) {
 }
 
 const char* light_unit_name(const PunctualLight& light) {
+    if (light.profile >= 0) return "times the profile";
     return static_cast<PunctualType>(light.type) == PunctualType::directional ? "lux" : "candela";
 }
 
@@ -238,6 +240,9 @@ std::string info_table(const Scene& scene) {
     append_meshes(scene, text);
     append_materials(scene, text);
     append_lights(scene, text);
+    if (!info.environment.empty()) {
+        text += title("environment") + quoted_name(info.environment) + "\n";
+    }
     append_cameras(scene, text);
     append_rest(info, text);
     return text;

@@ -25,8 +25,8 @@ std::vector<std::string> file_materials(const Scene& scene);
 /// Each mesh counted once.
 size_t triangles_in_file(const AssetInfo& info);
 
-const char* light_type_name(const PunctualLight& light);   ///< "point", "spot", "directional"
-const char* light_unit_name(const PunctualLight& light);   ///< "candela", "lux"
+const char* light_type_name(const PunctualLight& light);   ///< "point", "directional", "profile"
+const char* light_unit_name(const PunctualLight& light);   ///< "candela", "lux", "times the ..."
 const char* camera_type_name(const SceneCamera& camera);   ///< "perspective", "orthographic"
 const char* camera_model_name(const SceneCamera& camera);  ///< as --camera-model has it
 

@@ -179,7 +179,8 @@ void add_light_options(CLI::App& command, RenderArguments& arguments) {
                arguments.env,
                "FILE",
                "Latitude-longitude environment, .hdr or .exr\n"
-               "[a neutral studio if the scene has no light, else none]");
+               "[the file's own, else a neutral studio if the scene has\n"
+               "no light]");
     group.text("--env-intensity", arguments.env_intensity, "X", "Multiplies the environment [1]");
     group.text("--env-rotation",
                arguments.env_rotation,

@@ -84,6 +84,8 @@ void read_parts(DocumentReading& reading) {
     read_skins(reading);
     read_cameras(reading);
     read_lights(reading);
+    read_light_profiles(reading);
+    read_environments(reading);
     read_shapes(reading);
     read_nodes(reading);
     read_animations(reading);

@@ -167,6 +167,13 @@ struct GltfInstancing {
     int scale = -1;
 };
 
+/// EXT_lights_ies of a node.
+struct GltfProfileUse {
+    int profile = -1;  ///< in Document::profiles; -1: none
+    double multiplier = 1;
+    std::array<double, 3> color = {1, 1, 1};
+};
+
 struct GltfNode {
     std::string name;
     GltfTrs trs;              ///< what parent_from_node is made of, unless has_matrix
@@ -176,6 +183,7 @@ struct GltfNode {
     int mesh = -1;
     int camera = -1;
     int light = -1;
+    GltfProfileUse ies;
     int skin = -1;
     int shape = -1;  ///< in Document::shapes
     int shape_material = -1;
@@ -188,6 +196,7 @@ struct GltfNode {
 struct GltfScene {
     std::string name;
     std::vector<int> nodes;
+    int environment = -1;  ///< in Document::environments
 };
 
 struct GltfCamera {
@@ -214,6 +223,22 @@ struct GltfLight {
     double outer_cone_rad = 0.785398163397448;
 };
 
+/// EXT_lights_ies: where a photometric file is.
+struct GltfLightProfile {
+    std::string name;
+    std::optional<std::string> uri;
+    int view = -1;
+};
+
+/// EXT_lights_image_based, as far as a path tracer needs it.
+struct GltfEnvironment {
+    std::string name;
+    double intensity = 1;
+    std::array<double, 4> rotation = {0, 0, 0, 1};  ///< unit
+    std::array<int, 6> images = {};                 ///< of mip level 0: +X, -X, +Y, -Y, +Z, -Z
+    uint64_t side = 0;                              ///< that they say to have
+};
+
 struct Document {
     std::string file;  ///< as the user named it, for messages
     std::string version;
@@ -232,6 +257,8 @@ struct Document {
     int scene = -1;  ///< the file's own choice
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
+    std::vector<GltfLightProfile> profiles;
+    std::vector<GltfEnvironment> environments;
     std::vector<GltfShape> shapes;  ///< of OBSCURA_shape, then those of KHR_implicit_shapes
     size_t first_khronos_shape = 0;
     std::vector<GltfSkin> skins;

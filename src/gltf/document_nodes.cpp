@@ -167,6 +167,7 @@ void read_nodes(DocumentReading& reading) {
         if (node.has_extension(punctual_name)) {
             out.light = node.extension(punctual_name).index("light", light_count, "light");
         }
+        out.ies = read_node_profile(reading, node);
         read_node_extensions(node, node_count, out);
         out.instancing = read_instancing(reading, node);
         read_node_shape(reading, node, out);
@@ -181,6 +182,9 @@ void read_scenes(DocumentReading& reading) {
         out.name = scene.text("name");
         if (out.name.empty()) out.name = "scene " + std::to_string(index);
         out.nodes = scene.indices("nodes", node_count, "node");
+        out.environment =
+            scene.extension("EXT_lights_image_based")
+                .index("light", reading.document.environments.size(), "image-based light");
         reading.document.scenes.push_back(std::move(out));
     });
     reading.document.scene = reading.root.index("scene", reading.root.count("scenes"), "scene");

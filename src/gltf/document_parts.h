@@ -55,6 +55,9 @@ void read_nodes(DocumentReading& reading);  // document_nodes.cpp
 void read_scenes(DocumentReading& reading);
 void read_cameras(DocumentReading& reading);
 void read_lights(DocumentReading& reading);
+void read_light_profiles(DocumentReading& reading);  // document_lights.cpp
+GltfProfileUse read_node_profile(DocumentReading& reading, const JsonReader& node);
+void read_environments(DocumentReading& reading);
 void read_shapes(DocumentReading& reading);  // document_shapes.cpp
 void read_node_shape(DocumentReading& reading, const JsonReader& node, GltfNode& out);
 

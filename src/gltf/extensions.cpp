@@ -15,6 +15,11 @@ namespace {
 using nlohmann::json;
 
 constexpr std::array extension_rows = {
+    ExtensionRow{"EXT_lights_ies", true, ""},
+    ExtensionRow{"EXT_lights_image_based",
+                 true,
+                 "",
+                 "the finest level is the environment; --env takes its place"},
     ExtensionRow{"EXT_mesh_gpu_instancing", true, ""},
     ExtensionRow{"EXT_meshopt_compression", true, ""},
     ExtensionRow{"EXT_texture_webp", true, "", "the WebP image is preferred"},

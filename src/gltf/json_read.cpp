@@ -177,6 +177,20 @@ std::vector<int> JsonReader::indices(std::string_view key,
     return out;
 }
 
+std::vector<std::vector<int>> JsonReader::index_lists(std::string_view key,
+                                                      size_t count,
+                                                      std::string_view what) const {
+    std::vector<std::vector<int>> out;
+    const size_t lists = this->count(key);
+    for (size_t i = 0; i < lists && !failed(); ++i) {
+        const std::string number = std::to_string(i);
+        const json wrapped = {{number, (*find(key))[i]}};
+        const JsonReader list(wrapped, pointer_ + pointer_part(key), *fault_);
+        out.push_back(list.indices(number, count, what));
+    }
+    return out;
+}
+
 std::vector<std::string> JsonReader::texts(std::string_view key) const {
     std::vector<std::string> out;
     const json* value = find(key);

@@ -41,6 +41,10 @@ public:
     /// Exactly out.size() numbers; false when absent or wrong, then `out` is as before.
     bool numbers(std::string_view key, std::span<double> out) const;
     std::vector<int> indices(std::string_view key, size_t count, std::string_view what) const;
+    /// An array of such arrays.
+    std::vector<std::vector<int>> index_lists(std::string_view key,
+                                              size_t count,
+                                              std::string_view what) const;
     std::vector<std::string> texts(std::string_view key) const;
 
     /// The member object; absent: an empty one.

@@ -108,6 +108,56 @@ std::optional<PunctualLight> place_light(const GltfLight& light, const Affined& 
     return out;
 }
 
+/// EXT_lights_ies, "Coordinate System Mapping": the lamp is aimed at -Z, and the plane of
+/// horizontal angle 0 is that of X and Z. Angles count counter-clockwise seen from behind the lamp
+/// in type C, clockwise in A and B, whose polar axis is X.
+std::optional<PunctualLight> place_profile(const GltfProfileUse& use,
+                                           const LightProfile& profile,
+                                           const Affined& world) {
+    const std::optional<Affined> rigid = rigid_part(world);
+    if (!rigid) return std::nullopt;
+    const Vec3d aim = transform_vector(*rigid, Vec3d{0, 0, -1});
+    const Vec3d side = transform_vector(*rigid, Vec3d{1, 0, 0});
+    const Vec3d& polar = profile.polar_is_aim ? aim : side;
+    const Vec3d& zero = profile.polar_is_aim ? side : aim;
+    PunctualLight out;
+    out.type = static_cast<int32_t>(PunctualType::point);
+    out.profile = use.profile;
+    const auto store = [](const Vec3d& v, float* to) {
+        to[0] = static_cast<float>(v.x);
+        to[1] = static_cast<float>(v.y);
+        to[2] = static_cast<float>(v.z);
+    };
+    store({rigid->m[0][3], rigid->m[1][3], rigid->m[2][3]}, out.position);
+    store(polar, out.direction);
+    store(zero, out.zero_axis);
+    store(Vec3d{use.color[0], use.color[1], use.color[2]} * use.multiplier, out.intensity);
+    return out;
+}
+
+/// What stands in a node becomes lights of the scene.
+void add_lights(const Document& document, const PlacedNode& place, Scene& scene, Log& log) {
+    const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
+    const auto add = [&](const std::optional<PunctualLight>& light, const std::string& name) {
+        if (!light) {
+            log.warn(document.at("nodes", static_cast<size_t>(place.node)),
+                     "the node's matrix gives the light no place or direction; it is left out");
+            return;
+        }
+        scene.lights.push_back(*light);
+        scene.info.light_names.push_back(name);
+    };
+    if (node.light >= 0) {
+        const GltfLight& light = document.lights[static_cast<size_t>(node.light)];
+        add(place_light(light, place.world_from_node), light.name);
+    }
+    if (node.ies.profile >= 0) {
+        const auto profile = static_cast<size_t>(node.ies.profile);
+        add(place_profile(node.ies, scene.light_profiles[profile], place.world_from_node),
+            document.profiles[profile].name);
+    }
+}
+
 }  // namespace
 
 Result<void> add_lights_and_cameras(const Document& document,
@@ -121,16 +171,7 @@ Result<void> add_lights_and_cameras(const Document& document,
             if (!camera) return fail(std::move(camera.error()));
             scene.cameras.push_back(std::move(*camera));
         }
-        if (node.light < 0 || !place.visible) continue;
-        const GltfLight& light = document.lights[static_cast<size_t>(node.light)];
-        const std::optional<PunctualLight> placed_light = place_light(light, place.world_from_node);
-        if (!placed_light) {
-            log.warn(document.at("nodes", static_cast<size_t>(place.node)),
-                     "the node's matrix gives the light no place or direction; it is left out");
-            continue;
-        }
-        scene.lights.push_back(*placed_light);
-        scene.info.light_names.push_back(light.name);
+        if (place.visible) add_lights(document, place, scene, log);
     }
     return {};
 }

@@ -3,10 +3,12 @@
 #include "gltf/load.h"
 
 #include "gltf/document.h"
+#include "gltf/environment_light.h"
 #include "gltf/file_bytes.h"
 #include "gltf/glb.h"
 #include "gltf/instancing.h"
 #include "gltf/json_text.h"
+#include "gltf/light_profiles.h"
 #include "gltf/lights_cameras.h"
 #include "gltf/meshes.h"
 #include "gltf/meshopt.h"
@@ -204,7 +206,9 @@ struct PosedAsset::Impl {
     Animator animator;
     AssetInfo info;  ///< what all scenes of the asset have in common
     TextureStore textures;
-    double open_seconds = 0;  ///< not yet told in a scene
+    std::vector<LightProfile> light_profiles;
+    std::shared_ptr<const ImageRgb32f> environment;  ///< null: not read yet, or there is none
+    double open_seconds = 0;                         ///< not yet told in a scene
 
     Result<void> open(bool has_time, Log& log);
     Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log) const;
@@ -237,6 +241,9 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     buffers = std::move(*loaded);
     done = decode_meshopt(document, buffers);
     if (!done) return done;
+    auto profiles = load_light_profiles(document, buffers, file.parent_path());
+    if (!profiles) return fail(std::move(profiles.error()));
+    light_profiles = std::move(*profiles);
     Result<Animator> made = Animator::create(asset.tree, document, buffers, *animations);
     if (!made) return fail(std::move(made.error()));
     animator = std::move(*made);
@@ -272,6 +279,7 @@ Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials,
     Document& document = asset.document;
     Scene out;
     out.info = info;
+    out.light_profiles = light_profiles;
     Result<void> done = animator.pose(document, time_s);
     if (!done) return fail(std::move(done.error()));
     if (!animator.empty()) out.info.time_s = time_s;
@@ -288,8 +296,11 @@ Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene
     if (last) release_geometry(document, buffers);
     if (!out.bounds.empty()) set_default_stroke_radii(out);
     const auto decode_start = std::chrono::steady_clock::now();
-    const Result<void> done = add_textures(
-        {document, buffers, file.parent_path(), textures, options.info_only}, materials, out, log);
+    const std::filesystem::path folder = file.parent_path();
+    Result<void> done =
+        add_textures({document, buffers, folder, textures, options.info_only}, materials, out, log);
+    const ImageSources sources{document, buffers, folder, options.info_only};
+    if (done) done = add_environment_light(sources, scene, environment, out, log);
     if (!done) return done;
     out.info.decode_seconds = seconds_since(decode_start);
     move_materials(materials, out);

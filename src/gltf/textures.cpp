@@ -3,8 +3,8 @@
 #include "gltf/textures.h"
 
 #include "base/parallel.h"
+#include "gltf/encoded_image.h"
 #include "gltf/specular_glossiness.h"
-#include "gltf/uri.h"
 #include "image/decode.h"
 
 #include <algorithm>
@@ -17,14 +17,6 @@ namespace obscura {
 namespace {
 
 constexpr size_t most_texels = (1U << 31) - 1;
-constexpr uint64_t largest_image_file = 1U << 30;
-
-/// An image's encoded bytes: owned, or inside a buffer.
-struct EncodedImage {
-    Bytes owned;
-    std::span<const std::byte> bytes;
-    std::string mime;  ///< what the asset says it is
-};
 
 class TextureBuilder {
 public:
@@ -35,6 +27,9 @@ public:
 
 private:
     const Document& document() const { return sources_.document; }
+    ImageSources image_sources() const {
+        return {sources_.document, sources_.buffers, sources_.folder, sources_.measure_only};
+    }
     const GltfTexture& texture(int index) const {
         return document().textures[static_cast<size_t>(index)];
     }
@@ -42,7 +37,6 @@ private:
     void find_uses();
     bool take_stored();
     Result<void> decode_afresh();
-    Result<EncodedImage> load_encoded(size_t image) const;
     Result<ImageRgba8> probe(size_t image) const;
     Result<void> probe_all();
     void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
@@ -99,34 +93,6 @@ void TextureBuilder::find_uses() {
     }
 }
 
-Result<EncodedImage> TextureBuilder::load_encoded(size_t image) const {
-    const GltfImage& row = document().images[image];
-    const std::string where = document().at("images", image);
-    EncodedImage out;
-    out.mime = row.mime;
-    if (!row.uri) {
-        out.bytes = view_bytes(document(), sources_.buffers, row.view);
-        return out;
-    }
-    const UriContext context{sources_.folder, where + "/uri"};
-    Result<UriBytes> read = read_uri(*row.uri, context, {largest_image_file, UINT64_MAX});
-    if (!read) return fail(std::move(read.error()));
-    if (is_data_uri(*row.uri)) {
-        if (read->mime.rfind("image/", 0) != 0) {
-            return fail(ExitCode::bad_data,
-                        "E-URI-DATA",
-                        where + "/uri",
-                        "the media type \"" + read->mime +
-                            "\" is not an image's; accepted are image/png, image/jpeg, image/webp, "
-                            "image/ktx2");
-        }
-        out.mime = read->mime;
-    }
-    out.owned = std::move(read->bytes);
-    out.bytes = out.owned;
-    return out;
-}
-
 void TextureBuilder::warn_wrong_mime(size_t image,
                                      const std::string& mime,
                                      const std::string& format) const {
@@ -150,7 +116,7 @@ void TextureBuilder::warn_wrong_encoding(size_t image, ImageEncoding encoding) c
 }
 
 Result<ImageRgba8> TextureBuilder::probe(size_t image) const {
-    Result<EncodedImage> encoded = load_encoded(image);
+    Result<EncodedImage> encoded = load_encoded(image_sources(), image);
     if (!encoded) return fail(std::move(encoded.error()));
     Result<ImageRgba8> header = probe_image(encoded->bytes, document().at("images", image));
     if (header) warn_wrong_mime(image, encoded->mime, header->format);
@@ -239,7 +205,7 @@ Result<void> TextureBuilder::decode(size_t image) {
     const ImageState& state = images_[image];
     if (!state.used()) return {};
     const std::string where = document().at("images", image);
-    Result<EncodedImage> encoded = load_encoded(image);
+    Result<EncodedImage> encoded = load_encoded(image_sources(), image);
     if (!encoded) return fail(std::move(encoded.error()));
     Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_, MipLevels::stored);
     if (!decoded) return fail(std::move(decoded.error()));

@@ -8,8 +8,6 @@
 #include "math/vec.h"
 #include "math/warp.h"
 
-#include <type_traits>
-
 namespace obscura {
 
 /// What the lanes see of an EnvironmentTable (light/environment_table.h), which owns the arrays.
@@ -42,16 +40,6 @@ struct EnvironmentPoint {
     F x, y;  ///< in [0, width], [0, height]
     F sin_theta;
 };
-
-/// A constant with all the digits that F has.
-template <typename F>
-OBSCURA_INLINE F exact_constant(double value) {
-    if constexpr (std::is_same_v<F, double>) {
-        return value;
-    } else {
-        return F(static_cast<float>(value));
-    }
-}
 
 /// Finds a world direction on the map. The polar angle comes from an arc tangent: the arc cosine
 /// would lose half the digits near the poles.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "light/light_profile.h"
+
 #include <cstdint>
 
 namespace obscura {
@@ -24,6 +26,7 @@ struct LightView {
     int32_t shape_count = 0;
     const ShapeLight* shapes = nullptr;
     float environment_select = 0;  ///< probability of choosing the environment
+    LightProfileView profiles;     ///< of punctual lights
 };
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// light/punctual.h - KHR_lights_punctual: point, spot and directional lights.
+// light/punctual.h - lights without size: KHR_lights_punctual, and EXT_lights_ies by a profile.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,14 +12,16 @@ enum class PunctualType : int32_t { point = 0, spot = 1, directional = 2 };
 struct PunctualLight {
     int32_t type = 0;  ///< PunctualType
     float position[3] = {0, 0, 0};
-    float direction[3] = {0, 0, -1};  ///< unit, the way the light shines
-    /// colour * intensity: candela (point, spot) or lux (directional)
+    float direction[3] = {0, 0, -1};  ///< unit, the way the light shines; a profile's polar axis
+    /// colour * intensity: candela (point, spot) or lux (directional); factors of a profile
     float intensity[3] = {1, 1, 1};
     float range = 0;        ///< metres; 0 is unlimited
     float spot_scale = 0;   ///< lightAngleScale of the extension's formula
     float spot_offset = 1;  ///< lightAngleOffset; scale 0, offset 1 is no cone
+    int32_t profile = -1;   ///< of a point: a LightProfile that holds the candela; -1: none
+    float zero_axis[3] = {1, 0, 0};  ///< of the profile, unit, at right angles to direction
 };
 
-static_assert(sizeof(PunctualLight) == 13 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(PunctualLight) == 17 * 4, "read as 32-bit words: no padding");
 
 }  // namespace obscura

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "light/light_profile.h"
 #include "light/punctual.h"
 #include "light/row_words.h"
 #include "math/vec.h"
@@ -23,14 +24,15 @@ struct PunctualSample {
 /// There is one direction only, so there is no density: add bsdf * cosine * irradiance, divided
 /// by the probability of choosing this light.
 ///
-/// In      index must be in range for idle lanes too
+/// In      index must be in range for idle lanes too; profiles: of lights that have one
 /// Out     finite at any distance for intensities up to 1e20 cd: nearer than 1e-9 m, the light is
 ///         treated as that far away
-/// Source  KHR_lights_punctual: range window, inverse square law and spot cone
+/// Source  KHR_lights_punctual: range window, inverse square law and spot cone; EXT_lights_ies
 template <typename F>
 OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,
                                                  const IntOf<F>& index,
-                                                 const Vec3<F>& from) {
+                                                 const Vec3<F>& from,
+                                                 const LightProfileView& profiles = {}) {
     const IntOf<F> word = index * IntOf<F>(words_per_row<PunctualLight>);
     const auto read = [&](size_t offset) {
         return gather<F>(member_words<float>(rows, offset), word);
@@ -55,7 +57,20 @@ OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,
                              read(offsetof(PunctualLight, spot_offset)),
                          F(0.0f),
                          F(1.0f));
-    const F angular = select(spot, cone * cone, F(1.0f));
+    F angular = select(spot, cone * cone, F(1.0f));
+    if (profiles.rows != nullptr) {
+        const auto profile =
+            gather<F>(member_words<int32_t>(rows, offsetof(PunctualLight, profile)), word);
+        const MaskOf<F> measured = profile >= IntOf<F>(0);
+        if (any(measured)) {
+            const F candela =
+                profile_candela<F>(profiles,
+                                   max(profile, IntOf<F>(0)),
+                                   {shines, read3(offsetof(PunctualLight, zero_axis))},
+                                   -towards);
+            angular = select(measured, candela, angular);
+        }
+    }
     const F attenuation = limited * angular / max(distance * distance, F(1e-18f));
     const F factor = select(directional, F(1.0f), attenuation);
     return {select(directional, -shines, towards),

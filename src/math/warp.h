@@ -13,6 +13,16 @@ inline constexpr double pi_d = 3.14159265358979324;
 
 inline namespace OBSCURA_ISA {
 
+/// A constant with all the digits that F has.
+template <typename F>
+OBSCURA_INLINE F exact_constant(double value) {
+    if constexpr (std::is_same_v<F, double>) {
+        return value;
+    } else {
+        return F(static_cast<float>(value));
+    }
+}
+
 template <typename F>
 struct SinCos {
     F sin, cos;

@@ -20,10 +20,13 @@ double scene_radius(const Bounds& bounds) {
     return std::max(0.5 * static_cast<double>(length(size)), 1e-6);
 }
 
-double punctual_power(const PunctualLight& light, double radius) {
+double punctual_power(const Scene& scene, const PunctualLight& light, double radius) {
     const double intensity = static_cast<double>(
         luminance(Vec3f{light.intensity[0], light.intensity[1], light.intensity[2]}));
     const bool directional = light.type == static_cast<int32_t>(PunctualType::directional);
+    if (light.profile >= 0) {
+        return intensity * profile_lumens(scene.light_profiles[static_cast<size_t>(light.profile)]);
+    }
     return directional ? pi_d * radius * radius * intensity : 4.0 * pi_d * intensity;
 }
 
@@ -201,6 +204,7 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
 LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     LightTable table;
     table.punctual = scene.lights;
+    table.profiles = pack_light_profiles(scene.light_profiles);
     collect_world_emitters(scene, table.triangles);
     collect_instance_emitters(scene, table.triangles);
     table.shapes = collect_shape_lights(scene, static_cast<int32_t>(table.triangles.size()));
@@ -208,7 +212,7 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     const double radius = scene_radius(scene.bounds);
     std::vector<double> punctual;
     for (const PunctualLight& light : table.punctual) {
-        punctual.push_back(punctual_power(light, radius));
+        punctual.push_back(punctual_power(scene, light, radius));
     }
     std::vector<double> triangles(table.triangles.size());
     parallel_ranges(triangles.size(), 1024, [&](size_t begin, size_t end) {
@@ -274,7 +278,8 @@ LightView LightTable::view() const {
             triangles.data(),
             static_cast<int32_t>(shapes.size()),
             shapes.data(),
-            environment_select};
+            environment_select,
+            profiles.view()};
 }
 
 }  // namespace obscura

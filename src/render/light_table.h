@@ -19,6 +19,7 @@ struct LightTable {
     std::vector<PunctualLight> punctual;
     std::vector<TriangleLight> triangles;
     std::vector<ShapeLight> shapes;
+    LightProfileTable profiles;  ///< of punctual lights
     std::vector<float> select_pdf;
     std::vector<CdfEntry> choice;
     float environment_select = 0;

@@ -42,29 +42,30 @@ bool needs_studio(const Scene& scene, const LightTable& lights) {
            brightest_shape_radiance(scene) < least_lamp_radiance;
 }
 
-Result<EnvironmentTable> make_environment(const LightingOptions& lighting) {
-    EnvironmentImage image;
-    std::vector<float> studio_pixels;
-    if (lighting.environment) {
-        image = {lighting.environment->width,
-                 lighting.environment->height,
-                 lighting.environment->pixels.data()};
-    } else {
-        studio_pixels = make_studio_pixels();
-        image = {studio_width, studio_height, studio_pixels.data()};
-    }
-    return EnvironmentTable::create(
-        image, lighting.environment_intensity, lighting.environment_rotation_deg);
+EnvironmentImage image_of(const ImageRgb32f& image) {
+    return {image.width, image.height, image.pixels.data()};
 }
 
-/// Lights and environment; the studio when nothing lights the scene.
+/// The environment that the user chose, else the scene's own, else the studio, when nothing lights
+/// the scene.
 Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
-    if (!lighting.environment) {
+    const bool has_own = impl.scene.environment != nullptr;
+    std::vector<float> studio_pixels;
+    EnvironmentImage image;
+    if (lighting.environment) {
+        image = image_of(*lighting.environment);
+        if (has_own) log.info("--env takes the place of the environment that the file brings");
+    } else if (has_own) {
+        image = image_of(*impl.scene.environment);
+    } else {
         impl.lights = make_light_table(impl.scene, nullptr);
         if (!needs_studio(impl.scene, impl.lights)) return {};
         log.info("the scene has no light: using the built-in studio (--env FILE chooses another)");
+        studio_pixels = make_studio_pixels();
+        image = {studio_width, studio_height, studio_pixels.data()};
     }
-    auto environment = make_environment(lighting);
+    auto environment = EnvironmentTable::create(
+        image, lighting.environment_intensity, lighting.environment_rotation_deg);
     if (!environment) return fail(environment.error());
     impl.environment = std::move(*environment);
     impl.lights = make_light_table(impl.scene, &*impl.environment);

@@ -51,9 +51,9 @@ struct PixelRect {
 };
 
 struct LightingOptions {
-    std::optional<ImageRgb32f> environment;  ///< none: the scene's lights, else the studio
-    double environment_intensity = 1;
-    double environment_rotation_deg = 0;  ///< about +Y, counter-clockwise seen from above
+    std::optional<ImageRgb32f> environment;  ///< none: the scene's own, else the studio
+    double environment_intensity = 1;        ///< of any environment
+    double environment_rotation_deg = 0;     ///< about +Y, counter-clockwise seen from above
 };
 
 struct RenderOptions {

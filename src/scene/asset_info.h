@@ -64,6 +64,7 @@ struct AssetInfo {
     std::optional<double> time_s;          ///< the scene is posed at it; nothing: as it is stored
     std::vector<std::string> node_names;   ///< by glTF node index
     std::vector<std::string> light_names;  ///< beside Scene::lights
+    std::string environment;               ///< name of the scene's image-based light; empty: none
     std::vector<ImageInfo> images;
     std::vector<ExtensionInfo> extensions;
     std::vector<ReportRow> report;  ///< part by part, in file order

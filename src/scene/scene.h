@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "image/pixels.h"
+#include "light/light_profile.h"
 #include "light/punctual.h"
 #include "math/transform.h"
 #include "scene/asset_info.h"
@@ -12,6 +14,7 @@
 #include "surface/material_layers.h"
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -145,7 +148,8 @@ struct Bounds {
     bool empty() const { return !(low.x <= high.x); }
 };
 
-/// Everything that a picture needs but the environment and the camera's choice.
+/// Everything that a picture needs but the camera's choice, and an environment that is not the
+/// file's own.
 ///
 /// Primitives [0, world_primitive_count) lie in world space and appear once; the others belong to
 /// `meshes` and appear through `instances` only.
@@ -173,6 +177,9 @@ struct Scene {
     std::vector<int32_t> material_numbers;
     TextureArena textures;
     std::vector<PunctualLight> lights;
+    std::vector<LightProfile> light_profiles;  ///< by PunctualLight::profile
+    /// The file's own environment, latitude-longitude in the world; null: it has none.
+    std::shared_ptr<const ImageRgb32f> environment;
     std::vector<SceneCamera> cameras;
     Bounds
         bounds;  ///< world space, of all triangles and shapes; a plane without end counts as 1 m^2

@@ -130,7 +130,7 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     if (any(punctual)) {
         const LanesI row = select(punctual, index, LanesI(0));
         const PunctualSample<Lanes> s =
-            sample_punctual<Lanes>(lights.punctual, row, point.light_start);
+            sample_punctual<Lanes>(lights.punctual, row, point.light_start, lights.profiles);
         const Lanes select_pdf = gather<Lanes>(lights.select_pdf, row);
         choose(out,
                punctual,

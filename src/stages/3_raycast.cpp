@@ -75,7 +75,8 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Shade
             const int centre = k - scene.lights.punctual_count;
             const PunctualSample<Lanes> light =
                 centre < 0
-                    ? sample_punctual<Lanes>(scene.lights.punctual, LanesI(k), s.light_start)
+                    ? sample_punctual<Lanes>(
+                          scene.lights.punctual, LanesI(k), s.light_start, scene.lights.profiles)
                     : sample_centre_light<Lanes>(scene.raycast.centres, centre, s.light_start);
             const Vec3<Lanes> wi = to_local(s.frame, light.direction);
             const Vec3<Lanes> radiance = path.throughput * light.irradiance *
