@@ -56,7 +56,7 @@ struct OpenedAsset {
     Document document;
 };
 
-Result<OpenedAsset> open_asset(const std::filesystem::path& path, Log& log) {
+Result<OpenedAsset> open_asset(const std::filesystem::path& path, Problems& problems, Log& log) {
     const std::string where = path.string();
     Result<Bytes> bytes = read_asset_file(path);
     if (!bytes) return fail(std::move(bytes.error()));
@@ -81,7 +81,7 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path, Log& log) {
     Result<nlohmann::json> tree = parse_json_text(text, where, log);
     if (!tree) return fail(std::move(tree.error()));
     if (!is_glb(all)) asset.file = Bytes();
-    Result<Document> document = read_document(*tree, where, log);
+    Result<Document> document = read_document(*tree, where, problems, log);
     if (!document) return fail(std::move(document.error()));
     asset.document = std::move(*document);
     if (!asset.document.animations.empty()) asset.tree = std::move(*tree);
@@ -204,19 +204,23 @@ struct PosedAsset::Impl {
     Animator animator;
     AssetInfo info;  ///< what all scenes of the asset have in common
     TextureStore textures;
+    Problems problems;
+    Degraded degraded;        ///< of the latest scene
     double open_seconds = 0;  ///< not yet told in a scene
 
     Result<void> open(bool has_time, Log& log);
-    Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log) const;
+    Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log);
     Result<Scene> pose_at(double time_s, MaterialTable& materials, Log& log);
     Result<void> finish(MaterialTable& materials, bool last, Scene& out, Log& log);
     Result<Scene> scene_at(double time_s, bool last, Log& log);
     Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
+    Result<Scene> settled(Result<Scene> made, Log& log);
 };
 
 Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     const auto start = std::chrono::steady_clock::now();
-    Result<OpenedAsset> opened = open_asset(file, log);
+    problems = Problems(options.lenient);
+    Result<OpenedAsset> opened = open_asset(file, problems, log);
     if (!opened) return fail(std::move(opened.error()));
     asset = std::move(*opened);
     Document& document = asset.document;
@@ -254,15 +258,17 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
 }
 
 /// Everything but textures.
-Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out, Log& log) const {
+Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out, Log& log) {
     const Document& document = asset.document;
     const std::vector<PlacedNode> placed = place_nodes(document, scene, log);
     const Result<std::vector<PlacedNode>> placed_meshes =
         expand_instances(document, buffers, placed);
     if (!placed_meshes) return fail(placed_meshes.error());
-    Result<void> done = add_meshes({document, buffers, *placed_meshes}, materials, out, log);
-    if (done) done = add_shapes({document, buffers, placed}, materials, out, log);
-    if (done) done = add_lights_and_cameras(document, placed, out, log);
+    Result<void> done =
+        add_meshes({document, buffers, *placed_meshes}, materials, problems, out, log);
+    if (!done) return done;
+    add_shapes({document, buffers, placed}, materials, problems, out, log);
+    done = add_lights_and_cameras(document, placed, out, log);
     if (done && !out.bounds.empty()) set_default_stroke_radii(out);
     return done;
 }
@@ -288,13 +294,22 @@ Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene
     Document& document = asset.document;
     if (last) release_geometry(document, buffers);
     const auto decode_start = std::chrono::steady_clock::now();
-    const Result<void> done = add_textures(
-        {document, buffers, file.parent_path(), textures, options.info_only}, materials, out, log);
+    const TextureSources sources{
+        document, buffers, file.parent_path(), textures, options.info_only};
+    const Result<void> done = add_textures(sources, materials, problems, out, log);
     if (!done) return done;
     out.info.decode_seconds = seconds_since(decode_start);
     move_materials(materials, out);
-    warn_about_whole(document, out, log);
     return {};
+}
+
+/// A finished scene, unless there are problems that forbid it.
+Result<Scene> PosedAsset::Impl::settled(Result<Scene> made, Log& log) {
+    const Result<Degraded> lost = problems.settle(made ? nullptr : &made.error(), log);
+    if (!lost) return fail(lost.error());
+    degraded = *lost;
+    warn_about_whole(asset.document, *made, log);
+    return made;
 }
 
 Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
@@ -347,16 +362,22 @@ Result<PosedAsset> PosedAsset::open(const std::filesystem::path& file,
     impl->options = options;
     const Result<void> done =
         guarded(file.string(), [&]() -> Result<void> { return impl->open(has_time, log); });
-    if (!done) return fail(done.error());
+    if (!done) return fail(impl->problems.settle(&done.error(), log).error());
     return PosedAsset(std::move(impl));
 }
 
 Result<Scene> PosedAsset::scene_at(double time_s, bool last, Log& log) {
-    return guarded(impl_->file.string(), [&] { return impl_->scene_at(time_s, last, log); });
+    return guarded(impl_->file.string(),
+                   [&] { return impl_->settled(impl_->scene_at(time_s, last, log), log); });
 }
 
 Result<Scene> PosedAsset::scene_between(const ShutterTimes& shutter, bool last, Log& log) {
-    return guarded(impl_->file.string(), [&] { return impl_->scene_between(shutter, last, log); });
+    return guarded(impl_->file.string(),
+                   [&] { return impl_->settled(impl_->scene_between(shutter, last, log), log); });
+}
+
+const Degraded& PosedAsset::degraded() const {
+    return impl_->degraded;
 }
 
 void PosedAsset::take_textures(Scene&& scene) {
