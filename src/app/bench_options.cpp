@@ -79,6 +79,7 @@ void add_bench_options(CLI::App& command, BenchArguments& arguments) {
     add_sampling_options(command, arguments.render, "4");
     add_camera_options(command, arguments.render);
     add_light_options(command, arguments.render);
+    add_fault_options(command, arguments.render);
     command.footer(examples);
 }
 

@@ -76,6 +76,7 @@ void add_crosscheck_options(CLI::App& command, CrosscheckArguments& arguments) {
     add_check_options(command, arguments);
     add_report_options(command, arguments);
     add_camera_options(command, arguments.render);
+    add_fault_options(command, arguments.render);
     command.footer(examples);
 }
 

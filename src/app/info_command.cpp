@@ -56,6 +56,8 @@ void add_info_options(CLI::App& command, InfoArguments& arguments) {
     command.add_flag("--explain",
                      arguments.explain,
                      "Print what becomes of every extension and feature, part by part");
+    command.add_flag(
+        "--lenient", arguments.lenient, "Make do with faults as `obscura render --lenient` does");
     command.add_flag("--quiet", arguments.quiet, "Print no warnings");
     command.footer(examples);
 }
@@ -65,6 +67,7 @@ int run_info(const InfoArguments& arguments) {
     Result<LoadOptions> options = choose_scene(arguments.scene, arguments.variant);
     if (!options) return report_failure(options.error(), log);
     options->info_only = true;
+    options->lenient = arguments.lenient;
     const Result<Scene> scene = load_gltf(arguments.scene_file, *options, log);
     if (!scene) return report_failure(scene.error(), log);
     const Result<void> printed = print_output(report_text(arguments, *scene, log));

@@ -17,6 +17,7 @@ struct InfoArguments {
     bool explain = false;
     bool json = false;
     bool quiet = false;
+    bool lenient = false;
 };
 
 /// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.

@@ -25,6 +25,13 @@ std::string one_word(const std::string& text) {
     return out.empty() ? "-" : out;
 }
 
+/// "ERROR where: message [E-ID]"; a sum of others has neither place nor id.
+std::string error_line(const Error& error) {
+    const std::string where = error.where.empty() ? "" : escape_control(error.where) + ": ";
+    const std::string id = error.id.empty() ? "" : " [" + error.id + "]";
+    return "ERROR " + where + escape_control(error.message) + id;
+}
+
 /// Whole lines in one call each, so that they do not mix with other threads' lines.
 void print_error_line(const std::string& line) {
     std::fflush(stdout);
@@ -50,8 +57,9 @@ Result<void> print_output(const std::string& text) {
 
 int report_failure(const Error& error, const Log& log) {
     const int code = static_cast<int>(error.code);
-    const std::string where = error.where.empty() ? "" : escape_control(error.where) + ": ";
-    print_error_line("ERROR " + where + escape_control(error.message));
+    print_error_line(error_line(error));
+    for (const Error& other : error.also)
+        print_error_line(error_line(other));
     print_error_line(result_line(code, error.id, error.where, log.warnings().size()));
     return code;
 }

@@ -18,7 +18,8 @@ std::string result_line(int code, const std::string& id, const std::string& wher
 /// Errors  74 E-OUT-WRITE such as a full disk
 Result<void> print_output(const std::string& text);
 
-/// Prints "ERROR where: message" and the result line to standard error; returns the exit code.
+/// Prints "ERROR where: message [id]", the same for each of error.also, and the result line of the
+/// first to standard error; returns the exit code.
 int report_failure(const Error& error, const Log& log);
 
 /// Prints the result line with code 0 unless quiet; returns 0.

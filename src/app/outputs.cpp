@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace obscura {
 
@@ -97,6 +98,13 @@ PictureMetadata make_metadata(const RenderRequest& request,
         metadata.extra.emplace_back("exposureScale", shortest(exposure_scale(*chosen.ev100)));
     }
     return metadata;
+}
+
+std::string degraded_text(const Degraded& degraded) {
+    return fmt::format("textures={} primitives={} triangles={}",
+                       degraded.textures,
+                       degraded.primitives,
+                       degraded.triangles);
 }
 
 Result<void> write_outputs(const RenderRequest& request,

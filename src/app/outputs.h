@@ -36,6 +36,9 @@ PictureMetadata make_metadata(const RenderRequest& request,
                               double render_seconds,
                               const Log& log);
 
+/// The EXR attribute `degraded`: "textures=2 primitives=0 triangles=17".
+std::string degraded_text(const Degraded& degraded);
+
 /// What write_outputs puts into every file.
 struct FinishedPicture {
     Picture picture;

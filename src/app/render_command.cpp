@@ -16,6 +16,7 @@
 #include "gltf/camera_json.h"
 #include "gltf/load.h"
 #include "scene/scene_memory.h"
+#include "stages/dispatch.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -72,6 +73,7 @@ struct Job {
     std::optional<DisplayTransform> display;
     std::optional<PosedAsset> asset;
     LightingOptions lighting;
+    Degraded degraded;  ///< what the latest scene lacks
     RenderStatistics statistics;
     std::optional<StopOnSignal> stop;  ///< until the first picture a signal ends the program
 };
@@ -99,6 +101,8 @@ Result<PreparedScene> prepare(Job& job, const MovieFrame& frame, const Turn& tur
     const Stopwatch loading;
     Result<Scene> scene = pose(job, frame, turn, log);
     if (!scene) return fail(scene.error());
+    job.degraded = job.asset->degraded();
+    add_degraded(job.degraded, statistics.degraded);
     if (turn.is_last()) job.asset.reset();
     statistics.load_s += loading.seconds();
     statistics.parse_s += scene->info.parse_seconds;
@@ -150,6 +154,9 @@ Result<void> render_and_write(
     const Stopwatch writing;
     FinishedPicture finished;
     finished.metadata = make_metadata(request, prepared, *chosen, result->render_seconds, job.log);
+    if (request.load.lenient) {
+        finished.metadata.extra.emplace_back("degraded", degraded_text(job.degraded));
+    }
     Film& film = result->film;
     finished.picture = {film.width, film.height, std::move(film.channels), std::move(film.pixels)};
     const Result<void> written = write_outputs(request, finished, job.display, job.stop->flag());
@@ -211,6 +218,30 @@ Result<void> render_all(Job& job, Progress& progress) {
     return {};
 }
 
+/// --check: for every picture all that comes before the BVH.
+Result<void> check_all(Job& job) {
+    const RenderOptions& options = job.request.options;
+    if (const Result<void> loaded = load(job); !loaded) return loaded;
+    const std::vector<MovieFrame> frames = frames_of(job.request);
+    RepeatedLog later(job.log);
+    for (size_t i = 0; i < frames.size(); ++i) {
+        Log& log = i == 0 ? job.log : later.begin();
+        Result<Scene> scene = pose(job, frames[i], {i, frames.size()}, log);
+        if (!scene) return fail(scene.error());
+        if (frames.size() > 1 && i == 0) job.request.camera.framed = scene->bounds;
+        const Result<ChosenCamera> chosen =
+            choose_camera(*scene, job.request.camera, options.width, options.height, log);
+        if (!chosen) return fail(chosen.error());
+        const Result<void> exposed = expose_display(*chosen, job.request, job.display, log);
+        if (!exposed) return exposed;
+        job.asset->take_textures(std::move(*scene));
+        later.end();
+    }
+    if (!has_isa(job.request.isa)) return fail(missing_isa());
+    job.log.info("checked: nothing forbids to render it; nothing was written");
+    return {};
+}
+
 void log_summary(const RenderRequest& request, const RenderStatistics& statistics, Log& log) {
     std::string names;
     for (const std::filesystem::path& output : request.outputs) {
@@ -253,9 +284,10 @@ Result<void> execute(const RenderRequest& request, Log& log) {
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);
-    Job job{log, request, std::move(*display), {}, {}, {}, {}};
+    Job job{log, request, std::move(*display), {}, {}, {}, {}, {}};
     RenderStatistics& statistics = job.statistics;
     statistics.threads = threads.threads();
+    if (request.check) return check_all(job);
     Progress progress(request.verbosity);
     const Result<void> done = render_all(job, progress);
     if (!done) return done;

@@ -20,6 +20,8 @@ Examples:
   obscura render room.gltf --camera Door --size 1920x1080 --exposure 1.5 -o room.jpg
   obscura render part.glb --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
 
+  obscura render walk.glb --check
+      says all that is wrong with the file and what belongs to it, in seconds
   obscura render walk.glb --frames 1-48 --fps 24 -o walk.####.exr
       48 files, walk.0001.exr to walk.0048.exr, from one reading of the asset
 
@@ -173,6 +175,19 @@ void add_camera_options(CLI::App& command, RenderArguments& arguments) {
                "the target");
 }
 
+void add_fault_options(CLI::App& command, RenderArguments& arguments) {
+    OptionGroup group(command, "Faulty scenes");
+    group.flag("--strict",
+               arguments.strict,
+               "Refuse what would silently change the picture, such as a\n"
+               "texture that cannot be read; every problem is listed before\n"
+               "anything is rendered. This is the default");
+    group.flag("--lenient",
+               arguments.lenient,
+               "Make do instead, with a warning each: magenta textures,\n"
+               "skipped primitives, dropped triangles");
+}
+
 void add_light_options(CLI::App& command, RenderArguments& arguments) {
     OptionGroup group(command, "Light");
     group.text("--env",
@@ -199,6 +214,12 @@ void add_render_options(CLI::App& command, RenderArguments& arguments) {
     add_lens_options(command, arguments.lens);
     add_light_options(command, arguments);
     add_display_options(command, arguments);
+    add_fault_options(command, arguments);
+    OptionGroup(command, "Faulty scenes")
+        .flag("--check",
+              arguments.check,
+              "Load and report only: nothing is rendered or written; the\n"
+              "exit code is the one that rendering would begin with");
     add_program_options(command, arguments);
     command.footer(examples);
 }

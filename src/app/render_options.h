@@ -14,11 +14,12 @@ namespace obscura {
 void add_render_options(CLI::App& command, RenderArguments& arguments);
 
 /// Options that other subcommands share: --spp to --ao-distance, --camera to --camera-model,
-/// --env to --env-rotation.
+/// --env to --env-rotation, --strict and --lenient.
 void add_sampling_options(CLI::App& command,
                           RenderArguments& arguments,
                           const std::string& default_spp);
 void add_camera_options(CLI::App& command, RenderArguments& arguments);
 void add_light_options(CLI::App& command, RenderArguments& arguments);
+void add_fault_options(CLI::App& command, RenderArguments& arguments);
 
 }  // namespace obscura

@@ -243,6 +243,11 @@ void parse_program(const RenderArguments& arguments, RenderRequest& request, Ste
                  "--quiet",
                  "it cannot go together with --verbose; give one or the other");
     request.verbosity = verbosity_of(arguments);
+    steps.refuse(arguments.strict && arguments.lenient,
+                 "--strict",
+                 "it cannot go together with --lenient; give one or the other");
+    request.load.lenient = arguments.lenient;
+    request.check = arguments.check;
 }
 
 /// Names of things and files; an empty one is most likely an unset variable of a script.
@@ -344,7 +349,7 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     request.scene = arguments.scene_file;
     refuse_empty_names(arguments, steps);
     request.outputs.assign(arguments.outputs.begin(), arguments.outputs.end());
-    if (request.outputs.empty() && arguments.writes_pictures) {
+    if (request.outputs.empty() && arguments.writes_pictures && !arguments.check) {
         const char* ending = arguments.frames ? ".####.exr" : ".exr";
         request.outputs.push_back(request.scene.stem().concat(ending));
     }

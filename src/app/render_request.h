@@ -22,9 +22,9 @@ namespace obscura {
 struct RenderRequest {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
-    LoadOptions load;                            ///< --scene, --variant, --animation, --time
-    std::optional<FrameRange> frames;            ///< then the outputs are patterns; see frame_file
-    std::optional<ShutterFractions> shutter;     ///< --shutter OPEN,CLOSE
+    LoadOptions load;                  ///< --scene, --variant, --animation, --time, --lenient
+    std::optional<FrameRange> frames;  ///< then the outputs are patterns; see frame_file
+    std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
     double fps = 24;
     CameraRequest camera;
     std::optional<std::filesystem::path> camera_json;
@@ -40,6 +40,7 @@ struct RenderRequest {
     ExrDepth exr_depth = ExrDepth::half;
     std::optional<std::filesystem::path> statistics;
     Verbosity verbosity = Verbosity::normal;
+    bool check = false;  ///< --check: nothing is built, rendered or written
 };
 
 /// The texts of the options as they stood on the command line; an empty optional was not given.
@@ -58,6 +59,9 @@ struct RenderArguments {
     bool writes_pictures = true;  ///< false: no output unless one is named
     bool quiet = false;
     bool verbose = false;
+    bool strict = false;  ///< what is so without it, too
+    bool lenient = false;
+    bool check = false;
 };
 
 /// Reads the texts; touches no file but to find out whether two names mean the same one.

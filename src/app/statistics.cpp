@@ -6,6 +6,8 @@
 #include "base/peak_memory.h"
 #include "render/integrators.h"
 
+#include <algorithm>
+
 namespace obscura {
 
 namespace {
@@ -53,6 +55,15 @@ void write_memory(const RenderStatistics& statistics, JsonWriter& json) {
     json.end_object();
 }
 
+void write_degraded(const RenderRequest& request, const Degraded& degraded, JsonWriter& json) {
+    json.member("lenient", request.load.lenient);
+    json.key("degraded").begin_object();
+    json.member("textures", degraded.textures);
+    json.member("primitives", degraded.primitives);
+    json.member("triangles", degraded.triangles);
+    json.end_object();
+}
+
 void write_frames(const RenderRequest& request,
                   const RenderStatistics& statistics,
                   JsonWriter& json) {
@@ -82,6 +93,12 @@ void add_counters(const RenderCounters& from, RenderCounters& to) {
     to.refused_rays += from.refused_rays;
     to.nonfinite_samples += from.nonfinite_samples;
     to.stages.add(from.stages);
+}
+
+void add_degraded(const Degraded& from, Degraded& to) {
+    to.textures = std::max(from.textures, to.textures);
+    to.primitives = std::max(from.primitives, to.primitives);
+    to.triangles = std::max(from.triangles, to.triangles);
 }
 
 uint64_t total_rays(const RenderCounters& counters) {
@@ -114,6 +131,7 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
     json.member("refused_rays", statistics.counters.refused_rays);
     json.member("nonfinite_samples", statistics.counters.nonfinite_samples);
     json.end_object();
+    write_degraded(request, statistics.degraded, json);
     write_frames(request, statistics, json);
     json.key("warnings").begin_array();
     for (const std::string& warning : statistics.warnings)

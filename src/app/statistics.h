@@ -41,11 +41,15 @@ struct RenderStatistics {
     size_t texture_bytes = 0;
     size_t film_bytes = 0;
     std::vector<std::string> warnings;
+    Degraded degraded;                    ///< of a sequence the most of any frame
     std::vector<FrameStatistics> frames;  ///< empty: it was one picture
 };
 
 /// Adds what one more frame has counted.
 void add_counters(const RenderCounters& from, RenderCounters& to);
+
+/// Keeps the greater of each count.
+void add_degraded(const Degraded& from, Degraded& to);
 
 /// Rays of every kind.
 uint64_t total_rays(const RenderCounters& counters);

@@ -5,6 +5,7 @@
 #include <string>
 #include <tl/expected.hpp>
 #include <utility>
+#include <vector>
 
 namespace obscura {
 
@@ -37,6 +38,7 @@ struct Error {
     std::string id;
     std::string where;
     std::string message;
+    std::vector<Error> also = {};  ///< further failures that were found together with this one
 };
 
 template <typename T>
@@ -53,6 +55,14 @@ inline tl::unexpected<Error> fail(ExitCode code,
 /// Hands an error on to the caller's own Result type.
 inline tl::unexpected<Error> fail(Error error) {
     return tl::make_unexpected(std::move(error));
+}
+
+/// Several failures as one: the first, with the others in `also`. There is at least one.
+inline Error joined(std::vector<Error> errors) {
+    Error first = std::move(errors.front());
+    for (size_t i = 1; i < errors.size(); ++i)
+        first.also.push_back(std::move(errors[i]));
+    return first;
 }
 
 }  // namespace obscura

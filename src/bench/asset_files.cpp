@@ -33,7 +33,8 @@ Result<Document> read_document_of(const fs::path& file) {
     }
     const Result<nlohmann::json> tree = parse_json_text(text, where, silent);
     if (!tree) return fail(tree.error());
-    return read_document(*tree, where, silent);
+    Problems problems(true);  // whoever loads the asset tells them
+    return read_document(*tree, where, problems, silent);
 }
 
 void add_file(const fs::path& folder,

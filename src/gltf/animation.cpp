@@ -89,6 +89,9 @@ Result<std::vector<float>> read_times(const Document& document,
                                       int accessor) {
     Result<std::vector<float>> times = read_floats(document, buffers, accessor, {});
     if (!times) return times;
+    if (times->empty()) {
+        return bad_keys(document, accessor, "E-ANIM-TIMES", "there are no keyframes");
+    }
     for (size_t i = 0; i < times->size(); ++i) {
         const float time = (*times)[i];
         if (std::isfinite(time) && (i == 0 || time >= (*times)[i - 1])) continue;

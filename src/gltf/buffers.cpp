@@ -91,20 +91,22 @@ Result<BufferStore> load_buffers(const Document& document, const BufferSources& 
     store.buffers.resize(document.buffers.size());
     store.owned.resize(document.buffers.size());
     const std::vector<char> placeholders = find_placeholders(document);
+    std::vector<Error> errors;
     for (size_t i = 0; i < document.buffers.size(); ++i) {
         if (placeholders[i] != 0) continue;
         const GltfBuffer& buffer = document.buffers[i];
         if (buffer.uri) {
             Result<Bytes> bytes = load_from_uri(buffer, sources, document.at("buffers", i));
-            if (!bytes) return fail(std::move(bytes.error()));
-            store.owned[i] = std::move(*bytes);
+            if (bytes) store.owned[i] = std::move(*bytes);
+            if (!bytes) errors.push_back(std::move(bytes.error()));
             store.buffers[i] = store.owned[i];
         } else {
             const auto bytes = bytes_without_uri(document, i, sources);
-            if (!bytes) return fail(bytes.error());
-            store.buffers[i] = *bytes;
+            if (bytes) store.buffers[i] = *bytes;
+            if (!bytes) errors.push_back(bytes.error());
         }
     }
+    if (!errors.empty()) return fail(joined(std::move(errors)));
     if (sources.glb_binary && document.buffers.empty()) {
         log.warn(document.file, "no buffer refers to the GLB's binary chunk");
     }

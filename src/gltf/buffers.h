@@ -30,7 +30,8 @@ struct BufferSources {
 /// Loads every buffer that something is read from. One that only holds (or would hold) the
 /// uncompressed copy of meshopt-compressed views stays empty.
 ///
-/// Errors  65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED
+/// Errors  65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED; the first buffer's, with
+///         those of all others in Error::also
 Result<BufferStore> load_buffers(const Document& document, const BufferSources& sources, Log& log);
 
 /// A run of equally spaced elements in a block of bytes.

@@ -121,7 +121,10 @@ void clamped_numbers(DocumentReading& reading,
     }
 }
 
-Result<Document> read_document(const nlohmann::json& tree, const std::string& file, Log& log) {
+Result<Document> read_document(const nlohmann::json& tree,
+                               const std::string& file,
+                               Problems& problems,
+                               Log& log) {
     JsonFault fault;
     fault.file = file;
     Document document;
@@ -131,13 +134,20 @@ Result<Document> read_document(const nlohmann::json& tree, const std::string& fi
     const Result<void> version = read_asset(root, document);
     if (!version) return fail(version.error());
     if (!fault.error) {
-        const Result<void> extensions = read_extensions(root, tree, document, log);
+        const Result<void> extensions =
+            read_extensions(root, tree, problems.lenient(), document, log);
         if (!extensions) return fail(extensions.error());
     }
     DocumentReading reading{root, document, log};
     if (!fault.error) read_parts(reading);
     if (!fault.error) document.xmp = read_xmp(root, tree);
     if (fault.error) return fail(std::move(*fault.error));
+    for (const std::string& place : reading.empty) {
+        const std::string where = document.at(place + "/count");
+        problems.add(
+            {ExitCode::bad_data, "E-ACC-COUNT", where, "the count is 0; it must be 1 or more"},
+            {Loss::nothing, "what needs the accessor is left out"});
+    }
 
     const Result<void> graph = check_node_graph(document);
     if (!graph) return fail(graph.error());

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "gltf/document_animation.h"
+#include "gltf/problems.h"
 #include "math/transform.h"
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
@@ -276,9 +277,12 @@ struct Document {
 };
 
 /// Reads and checks a whole asset: types, ranges, indices, version, required extensions, the node
-/// graph. Says once what is ignored.
+/// graph. Says once what is ignored. Accessors without elements go to `problems` (E-ACC-COUNT).
 ///
-/// Errors  65 E-JSON-TYPE, E-DOC-*, E-NODE-*; 69 E-VERSION, E-EXT-REQUIRED
-Result<Document> read_document(const nlohmann::json& root, const std::string& file, Log& log);
+/// Errors  65 E-JSON-TYPE, E-DOC-*, E-NODE-*; 69 E-VERSION, and E-EXT-REQUIRED unless lenient
+Result<Document> read_document(const nlohmann::json& root,
+                               const std::string& file,
+                               Problems& problems,
+                               Log& log);
 
 }  // namespace obscura

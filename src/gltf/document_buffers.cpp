@@ -87,7 +87,7 @@ void read_accessor(DocumentReading& reading, const JsonReader& accessor) {
     out.normalized = accessor.boolean("normalized", false);
     out.count = accessor.size("count", 0);
     read_shape(accessor, out);
-    if (out.count == 0) accessor.fault("count", "E-ACC-COUNT", "the count must be 1 or more");
+    if (out.count == 0) reading.empty.push_back(accessor.pointer());
     read_sparse(reading, accessor, out);
     const bool vector3 = out.rows == 3 && out.columns == 1;
     out.has_bounds =

@@ -15,6 +15,7 @@ struct DocumentReading {
     Log& log;
     std::vector<std::string> clamped = {};     ///< places of numbers outside their range
     std::vector<std::string> misaligned = {};  ///< places of accessors
+    std::vector<std::string> empty = {};       ///< places of accessors without elements
 };
 
 struct NumberRange {

@@ -131,6 +131,7 @@ void warn_ignored(const ExtensionInfo& info, const Uses& uses, const Document& d
     if (row != nullptr) text += ": " + std::string(row->without);
     if (!uses.materials.empty()) text += "; materials: " + list_text(uses.materials);
     if (!uses.others.empty()) text += "; used by " + list_text(uses.others);
+    if (info.required) text += "; the asset says that it cannot be drawn without";
     log.warn(document.file, text);
 }
 
@@ -176,10 +177,8 @@ std::vector<std::string> extension_names(const json& object) {
     return names;
 }
 
-Result<void> read_extensions(const JsonReader& root,
-                             const json& tree,
-                             Document& document,
-                             Log& log) {
+Result<void> read_extensions(
+    const JsonReader& root, const json& tree, bool lenient, Document& document, Log& log) {
     std::vector<std::string> names = root.texts("extensionsUsed");
     const std::vector<std::string> required = root.texts("extensionsRequired");
     UseMap uses = all_uses(tree);
@@ -200,11 +199,12 @@ Result<void> read_extensions(const JsonReader& root,
         if (info.required && !info.supported) missing.push_back(name);
         document.extensions.push_back(std::move(info));
     }
-    if (!missing.empty()) {
+    if (!missing.empty() && !lenient) {
         return fail(ExitCode::unsupported,
                     "E-EXT-REQUIRED",
                     document.at("/extensionsRequired"),
-                    "the asset requires " + list_text(missing) + ", which is not supported");
+                    "the asset requires " + list_text(missing) +
+                        ", which is not supported; --lenient renders without");
     }
     for (const ExtensionInfo& info : document.extensions) {
         if (!info.supported) warn_ignored(info, uses[info.name], document, log);

@@ -31,10 +31,8 @@ std::vector<std::string> extension_names(const nlohmann::json& object);
 /// Fills document.extensions from extensionsUsed, extensionsRequired and the objects themselves,
 /// and warns once about each that is ignored, naming the materials and other objects that use it.
 ///
-/// Errors  69 E-EXT-REQUIRED, listing all that are missing
-Result<void> read_extensions(const JsonReader& root,
-                             const nlohmann::json& tree,
-                             Document& document,
-                             Log& log);
+/// Errors  69 E-EXT-REQUIRED, listing all that are missing; not where `lenient`
+Result<void> read_extensions(
+    const JsonReader& root, const nlohmann::json& tree, bool lenient, Document& document, Log& log);
 
 }  // namespace obscura

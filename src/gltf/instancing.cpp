@@ -32,7 +32,12 @@ int read_transform_accessor(const DocumentReading& reading,
     return number;
 }
 
-/// The number of instances; 0: no attribute tells it.
+/// True where the mesh stands more often than once, or not at all.
+bool is_instanced(const GltfInstancing& instancing) {
+    return instancing.translation >= 0 || instancing.rotation >= 0 || instancing.scale >= 0;
+}
+
+/// The number of instances; 0 also where no attribute tells it.
 uint64_t instance_count(const Document& document, const GltfInstancing& instancing) {
     for (const int number : {instancing.translation, instancing.rotation, instancing.scale}) {
         if (number >= 0) return document.accessors[static_cast<size_t>(number)].count;
@@ -147,7 +152,7 @@ Result<std::vector<PlacedNode>> expand_instances(const Document& document,
     for (const PlacedNode& place : placed) {
         const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
         if (node.mesh < 0 || !place.visible) continue;
-        if (instance_count(document, node.instancing) == 0) {
+        if (!is_instanced(node.instancing)) {
             out.push_back(place);
             continue;
         }

@@ -20,4 +20,17 @@ inline std::string list_text(const std::vector<std::string>& names) {
     return out;
 }
 
+/// Names in the order they came, neighbours once, for one warning of many.
+class NameList {
+public:
+    void add(const std::string& name) {
+        if (names_.empty() || names_.back() != name) names_.push_back(name);
+    }
+    bool empty() const { return names_.empty(); }
+    std::string text() const { return list_text(names_); }
+
+private:
+    std::vector<std::string> names_;
+};
+
 }  // namespace obscura

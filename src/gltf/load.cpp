@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/load.h"
 
-#include "gltf/document.h"
+#include "gltf/asset_file.h"
 #include "gltf/environment_light.h"
-#include "gltf/file_bytes.h"
-#include "gltf/glb.h"
 #include "gltf/instancing.h"
-#include "gltf/json_text.h"
 #include "gltf/light_profiles.h"
 #include "gltf/lights_cameras.h"
 #include "gltf/meshes.h"
@@ -32,62 +29,8 @@ namespace obscura {
 
 namespace {
 
-constexpr uint64_t largest_asset_file = UINT32_MAX;  // what a GLB header can count
-
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-Result<Bytes> read_asset_file(const std::filesystem::path& file) {
-    FileBytes read = read_file_bytes(file, {largest_asset_file, UINT64_MAX});
-    if (read.fault == FileFault::none) return std::move(read.bytes);
-    if (read.fault == FileFault::too_large) {
-        return fail(ExitCode::bad_data, "E-GLB-SIZE", file.string(), "the file has " + read.reason);
-    }
-    return fail(ExitCode::missing_scene,
-                "E-SCENE-MISSING",
-                file.string(),
-                "the scene cannot be read: " + read.reason + "; accepted are .gltf and .glb files");
-}
-
-/// An asset's file taken apart, with its JSON already read.
-struct OpenedAsset {
-    Bytes file;  ///< what glb_binary points into
-    std::optional<std::span<const std::byte>> glb_binary;
-    nlohmann::json tree;  ///< kept for animations only
-    Document document;
-};
-
-Result<OpenedAsset> open_asset(const std::filesystem::path& path, Log& log) {
-    const std::string where = path.string();
-    Result<Bytes> bytes = read_asset_file(path);
-    if (!bytes) return fail(std::move(bytes.error()));
-    OpenedAsset asset;
-    asset.file = std::move(*bytes);
-    const std::span<const std::byte> all = asset.file;
-    const std::string_view foreign = guess_foreign_format(all);
-    if (all.empty() || !foreign.empty()) {
-        const std::string what = all.empty() ? "is empty" : "looks like " + std::string(foreign);
-        return fail(ExitCode::bad_data,
-                    "E-GLB-FORMAT",
-                    where,
-                    "the file " + what + "; accepted are glTF 2.0 as JSON text or GLB");
-    }
-    std::string_view text(reinterpret_cast<const char*>(all.data()), all.size());
-    if (is_glb(all)) {
-        const Result<GlbParts> parts = split_glb(all, where, log);
-        if (!parts) return fail(parts.error());
-        text = parts->json;
-        asset.glb_binary = parts->binary;
-    }
-    Result<nlohmann::json> tree = parse_json_text(text, where, log);
-    if (!tree) return fail(std::move(tree.error()));
-    if (!is_glb(all)) asset.file = Bytes();
-    Result<Document> document = read_document(*tree, where, log);
-    if (!document) return fail(std::move(document.error()));
-    asset.document = std::move(*document);
-    if (!asset.document.animations.empty()) asset.tree = std::move(*tree);
-    return asset;
 }
 
 tl::unexpected<Error> unknown_scene(const Document& document, const std::string& asked) {
@@ -208,19 +151,23 @@ struct PosedAsset::Impl {
     TextureStore textures;
     std::vector<LightProfile> light_profiles;
     std::shared_ptr<const ImageRgb32f> environment;  ///< null: not read yet, or there is none
-    double open_seconds = 0;                         ///< not yet told in a scene
+    Problems problems;
+    Degraded degraded;        ///< of the latest scene
+    double open_seconds = 0;  ///< not yet told in a scene
 
     Result<void> open(bool has_time, Log& log);
-    Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log) const;
+    Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log);
     Result<Scene> pose_at(double time_s, MaterialTable& materials, Log& log);
     Result<void> finish(MaterialTable& materials, bool last, Scene& out, Log& log);
     Result<Scene> scene_at(double time_s, bool last, Log& log);
     Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
+    Result<Scene> settled(Result<Scene> made, Log& log);
 };
 
 Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     const auto start = std::chrono::steady_clock::now();
-    Result<OpenedAsset> opened = open_asset(file, log);
+    problems = Problems(options.lenient);
+    Result<OpenedAsset> opened = open_asset(file, problems, log);
     if (!opened) return fail(std::move(opened.error()));
     asset = std::move(*opened);
     Document& document = asset.document;
@@ -261,15 +208,17 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
 }
 
 /// Everything but textures.
-Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out, Log& log) const {
+Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out, Log& log) {
     const Document& document = asset.document;
     const std::vector<PlacedNode> placed = place_nodes(document, scene, log);
     const Result<std::vector<PlacedNode>> placed_meshes =
         expand_instances(document, buffers, placed);
     if (!placed_meshes) return fail(placed_meshes.error());
-    Result<void> done = add_meshes({document, buffers, *placed_meshes}, materials, out, log);
-    if (done) done = add_shapes({document, buffers, placed}, materials, out, log);
-    if (done) done = add_lights_and_cameras(document, placed, out, log);
+    Result<void> done =
+        add_meshes({document, buffers, *placed_meshes}, materials, problems, out, log);
+    if (!done) return done;
+    add_shapes({document, buffers, placed}, materials, problems, out, log);
+    done = add_lights_and_cameras(document, placed, out, log);
     return done;
 }
 
@@ -297,15 +246,23 @@ Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene
     if (!out.bounds.empty()) set_default_stroke_radii(out);
     const auto decode_start = std::chrono::steady_clock::now();
     const std::filesystem::path folder = file.parent_path();
-    Result<void> done =
-        add_textures({document, buffers, folder, textures, options.info_only}, materials, out, log);
-    const ImageSources sources{document, buffers, folder, options.info_only};
-    if (done) done = add_environment_light(sources, scene, environment, out, log);
+    const TextureSources sources{document, buffers, folder, textures, options.info_only};
+    Result<void> done = add_textures(sources, materials, problems, out, log);
+    const ImageSources images{document, buffers, folder, options.info_only};
+    if (done) done = add_environment_light(images, scene, environment, out, log);
     if (!done) return done;
     out.info.decode_seconds = seconds_since(decode_start);
     move_materials(materials, out);
-    warn_about_whole(document, out, log);
     return {};
+}
+
+/// A finished scene, unless there are problems that forbid it.
+Result<Scene> PosedAsset::Impl::settled(Result<Scene> made, Log& log) {
+    const Result<Degraded> lost = problems.settle(made ? nullptr : &made.error(), log);
+    if (!lost) return fail(lost.error());
+    degraded = *lost;
+    warn_about_whole(asset.document, *made, log);
+    return made;
 }
 
 Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
@@ -358,16 +315,22 @@ Result<PosedAsset> PosedAsset::open(const std::filesystem::path& file,
     impl->options = options;
     const Result<void> done =
         guarded(file.string(), [&]() -> Result<void> { return impl->open(has_time, log); });
-    if (!done) return fail(done.error());
+    if (!done) return fail(impl->problems.settle(&done.error(), log).error());
     return PosedAsset(std::move(impl));
 }
 
 Result<Scene> PosedAsset::scene_at(double time_s, bool last, Log& log) {
-    return guarded(impl_->file.string(), [&] { return impl_->scene_at(time_s, last, log); });
+    return guarded(impl_->file.string(),
+                   [&] { return impl_->settled(impl_->scene_at(time_s, last, log), log); });
 }
 
 Result<Scene> PosedAsset::scene_between(const ShutterTimes& shutter, bool last, Log& log) {
-    return guarded(impl_->file.string(), [&] { return impl_->scene_between(shutter, last, log); });
+    return guarded(impl_->file.string(),
+                   [&] { return impl_->settled(impl_->scene_between(shutter, last, log), log); });
+}
+
+const Degraded& PosedAsset::degraded() const {
+    return impl_->degraded;
 }
 
 void PosedAsset::take_textures(Scene&& scene) {

@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "gltf/problems.h"
 #include "scene/scene.h"
 
 #include <filesystem>
@@ -22,6 +23,9 @@ struct LoadOptions {
     std::optional<std::string> animation = {};
     std::optional<double> time_s = {};  ///< of load_gltf; nothing: as stored, or 0 with `animation`
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
+    /// What would change the picture is made do with and warned of, not refused: see
+    /// gltf/problems.h.
+    bool lenient = false;
 };
 
 /// Reads, checks and converts one asset with everything that it refers to.
@@ -29,6 +33,9 @@ struct LoadOptions {
 /// Material 0 is the default material, for primitives without one; glTF material m is row m + 1
 /// (behind them come copies without textures whose UV set a primitive lacks). Materials that the
 /// chosen scene does not use keep their factors and lose their textures.
+///
+/// All that is wrong with meshes and images comes together: the first with the others in
+/// Error::also, in the order of gltf/problems.h: accessors, meshes as the scene shows them, images.
 ///
 /// Errors  64 E-SCENE-UNKNOWN, E-VARIANT-UNKNOWN, E-ANIM-UNKNOWN, E-ANIM-AMBIGUOUS; 65 E-GLB-*,
 /// E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*, E-MESH-*, E-NODE-*,
@@ -71,6 +78,9 @@ public:
     ///
     /// Errors  those of load_gltf
     Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
+
+    /// What the latest scene lacks; nothing unless LoadOptions::lenient.
+    const Degraded& degraded() const;
 
     /// Takes the decoded images back out of a scene that is no longer needed, for the next one.
     void take_textures(Scene&& scene);

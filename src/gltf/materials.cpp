@@ -47,23 +47,22 @@ MaterialTable make_material_table(const Document& document) {
     return table;
 }
 
-int material_row(
-    MaterialTable& table, const Document& document, int material, uint32_t uv_sets, Log& log) {
+MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets) {
     const size_t own = static_cast<size_t>(material) + 1;
+    MaterialChoice choice{static_cast<int>(own)};
     uint32_t lost = 0;
-    std::string lost_names;
     for (size_t i = 0; i < slot_count; ++i) {
         const TextureSlot& slot = *slot_of(i, table.rows[own], table.layers[own]);
         if (slot.texture < 0 || (uv_sets >> slot.uv_set & 1U) != 0) continue;
         lost |= 1U << i;
-        lost_names += std::string(lost_names.empty() ? "" : ", ") + slot_rows[i].name +
-                      " (TEXCOORD_" + std::to_string(slot.uv_set) + ")";
+        choice.lost += std::string(choice.lost.empty() ? "" : ", ") + slot_rows[i].name +
+                       " (TEXCOORD_" + std::to_string(slot.uv_set) + ")";
     }
-    int row = static_cast<int>(own);
     if (lost != 0) {
         const auto [entry, is_new] =
             table.reduced.try_emplace({material, lost}, static_cast<int>(table.rows.size()));
-        row = entry->second;
+        choice.row = entry->second;
+        choice.is_new = is_new;
         if (is_new) {
             Material copy = table.rows[own];
             MaterialLayers layers = table.layers[own];
@@ -76,14 +75,15 @@ int material_row(
             table.names.push_back(table.names[own]);
             table.numbers.push_back(material);
             table.used.push_back(0);
-            log.warn(document.at("materials", static_cast<size_t>(material)),
-                     "primitives with \"" + table.names[own] +
-                         "\" lack texture coordinates; there these textures are left out: " +
-                         lost_names);
         }
     }
-    table.used[static_cast<size_t>(row)] = 1;
-    return row;
+    table.used[static_cast<size_t>(choice.row)] = 1;
+    return choice;
+}
+
+std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice) {
+    return "the material \"" + table.names[static_cast<size_t>(choice.row)] +
+           "\" needs texture coordinates that are absent: " + choice.lost;
 }
 
 void move_materials(MaterialTable& table, Scene& scene) {

@@ -47,10 +47,19 @@ struct MaterialTable {
 /// Row 0 is the default material, row m + 1 is glTF material m.
 MaterialTable make_material_table(const Document& document);
 
+/// A primitive's row of the material table.
+struct MaterialChoice {
+    int row = 0;
+    std::string lost = {};  ///< "baseColorTexture (TEXCOORD_1)": slots taken away; mostly empty
+    bool is_new = false;    ///< the first time that they are taken away
+};
+
 /// The row for a primitive that has `uv_sets` (bit n: TEXCOORD_n); -1 is no material. Slots whose
-/// set is absent are taken away, with one warning for each combination.
-int material_row(
-    MaterialTable& table, const Document& document, int material, uint32_t uv_sets, Log& log);
+/// set is absent are taken away.
+MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets);
+
+/// "the material "Glass" needs ...", for messages about slots that were taken away.
+std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice);
 
 /// Hands rows and names over to the scene, and layers to those rows that have any.
 void move_materials(MaterialTable& table, Scene& scene);

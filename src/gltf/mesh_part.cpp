@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace obscura {
@@ -32,17 +33,35 @@ Result<std::vector<uint32_t>> read_vertex_order(PartReader& reader) {
         std::iota(order.begin(), order.end(), 0U);
         return order;
     }
-    Result<std::vector<uint32_t>> order =
-        read_indices(reader.document, reader.store, primitive.indices);
-    if (!order) return order;
-    for (size_t i = 0; i < order->size(); ++i) {
-        if ((*order)[i] < reader.vertex_count) continue;
-        return reader.bad("E-MESH-INDEX",
-                          "index " + std::to_string(i) + " is vertex " +
-                              std::to_string((*order)[i]) + ", but there are only " +
-                              std::to_string(reader.vertex_count));
+    return read_indices(reader.document, reader.store, primitive.indices);
+}
+
+/// The first index of a vertex that does not exist.
+std::optional<Error> find_bad_index(const PartReader& reader, const std::vector<uint32_t>& order) {
+    const uint64_t count = reader.vertex_count;
+    const auto is_bad = [&](uint32_t vertex) { return vertex >= count; };
+    const auto found = std::find_if(order.begin(), order.end(), is_bad);
+    if (found == order.end()) return std::nullopt;
+    return reader
+        .bad("E-MESH-INDEX",
+             "index " + std::to_string(found - order.begin()) + " is vertex " +
+                 std::to_string(*found) + ", but there are only " + std::to_string(count) +
+                 "; every index must be below that")
+        .value();
+}
+
+/// Leaves out the elements with a vertex that is not good, and says so once.
+template <typename IsGood>
+void drop_elements(MeshPart& part, const IsGood& is_good, const Error& error) {
+    size_t kept = 0;
+    for (size_t i = 0; i < part.indices.size(); i += part.corners) {
+        const uint32_t* first = &part.indices[i];
+        if (!std::all_of(first, first + part.corners, is_good)) continue;
+        std::copy_n(first, part.corners, &part.indices[kept]);
+        kept += part.corners;
     }
-    return order;
+    part.faults.push_back({error, (part.indices.size() - kept) / part.corners});
+    part.indices.resize(kept);
 }
 
 /// Keeps the vertices that triangles use, where they are few: many primitives may share one long
@@ -60,21 +79,20 @@ std::vector<uint32_t> compact_vertices(std::vector<uint32_t>& indices, uint64_t 
 }
 
 /// Finite and not too far away, where triangles use them; others are set to 0.
-Result<void> check_positions(const PartReader& reader, MeshPart& part) {
+void check_positions(const PartReader& reader, const char* what, MeshPart& part) {
     const auto is_good = [&](size_t vertex) {
         const float* p = &part.positions[3 * vertex];
         return std::abs(p[0]) <= farthest_position && std::abs(p[1]) <= farthest_position &&
                std::abs(p[2]) <= farthest_position;
     };
-    for (const uint32_t vertex : part.indices) {
-        if (is_good(vertex)) continue;
-        return reader.bad("E-MESH-POSITION",
-                          "a position is used that is not finite or beyond 1e18");
+    if (!std::all_of(part.indices.begin(), part.indices.end(), is_good)) {
+        const std::string message =
+            std::string(what) + " not finite or beyond 1e18; accepted are numbers within that";
+        drop_elements(part, is_good, reader.bad("E-MESH-POSITION", message).value());
     }
     for (size_t vertex = 0; vertex < part.positions.size() / 3; ++vertex) {
         if (!is_good(vertex)) std::fill_n(&part.positions[3 * vertex], 3, 0.0f);
     }
-    return {};
 }
 
 /// Compares POSITION's min and max with the data; ours are used in any case.
@@ -183,12 +201,34 @@ Result<void> prepare(PartReader& reader) {
                         std::to_string(most_vertices) + " are accepted");
     }
     reader.vertex_count = position.count;
+    const bool no_indices =
+        primitive.indices >= 0 &&
+        reader.document.accessors[static_cast<size_t>(primitive.indices)].count == 0;
+    if (position.count == 0 || no_indices) {
+        return reader.bad("E-MESH-EMPTY", "the primitive has no vertices; 1 or more are expected");
+    }
     if (primitive.draco_view < 0) return {};
     Result<DracoMesh> mesh =
         decode_draco({reader.document, reader.store}, primitive, reader.where());
     if (!mesh) return fail(std::move(mesh.error()));
     reader.draco = std::move(*mesh);
     return {};
+}
+
+/// Fills part.indices with numbers among the vertices that it returns; empty: all are kept.
+Result<std::vector<uint32_t>> read_elements(PartReader& reader, int mode, MeshPart& part) {
+    Result<std::vector<uint32_t>> order = read_vertex_order(reader);
+    if (!order) return order;
+    const std::optional<Error> bad_index = find_bad_index(reader, *order);
+    part.corners = element_corners(mode);
+    ElementList elements = element_list(std::move(*order), mode);
+    part.indices = std::move(elements.vertices);
+    if (bad_index) {
+        const auto exists = [&](uint32_t vertex) { return vertex < reader.vertex_count; };
+        drop_elements(part, exists, *bad_index);
+    }
+    if (elements.leftover) part.issues |= issue_bit(MeshIssue::leftover_vertices);
+    return compact_vertices(part.indices, reader.vertex_count);
 }
 
 }  // namespace
@@ -269,16 +309,11 @@ Result<MeshPart> read_mesh_part(const Document& document,
     Result<void> done = prepare(reader);
     if (!done) return fail(std::move(done.error()));
 
-    Result<std::vector<uint32_t>> order = read_vertex_order(reader);
-    if (!order) return fail(std::move(order.error()));
     // Draco keeps triangles, not the strip that they may have been.
     const int mode = primitive.draco_view >= 0 ? triangles_mode : primitive.mode;
-    part.corners = element_corners(mode);
-    ElementList elements = element_list(std::move(*order), mode);
-    part.indices = std::move(elements.vertices);
-    if (elements.leftover) part.issues |= issue_bit(MeshIssue::leftover_vertices);
-    const std::vector<uint32_t> kept = compact_vertices(part.indices, reader.vertex_count);
-    reader.choice = {kept.empty(), kept};
+    const Result<std::vector<uint32_t>> kept = read_elements(reader, mode, part);
+    if (!kept) return fail(kept.error());
+    reader.choice = {kept->empty(), *kept};
     if (part.indices.empty()) return part;
 
     Result<std::vector<float>> positions =
@@ -288,18 +323,20 @@ Result<MeshPart> read_mesh_part(const Document& document,
     const bool has_surface = !is_point_or_line_mode(mode);
     const MaterialNeeds needs =
         has_surface ? material_needs(document, primitive.material) : MaterialNeeds{};
-    done = check_positions(reader, part);
-    if (done) done = read_attributes(reader, part, needs);
+    check_positions(reader, "a position is used that is", part);
+    if (part.indices.empty()) return part;
+    done = read_attributes(reader, part, needs);
     if (done && mode == points_mode) done = read_splat_colors(reader, part);
     if (!done) return fail(std::move(done.error()));
     check_declared_bounds(reader, part);
     done = deform_part(reader, pose, part);
-    if (done && part.keeps_layout) {
-        done = check_positions(reader, part);
+    if (!done) return fail(std::move(done.error()));
+    if (part.keeps_layout) {
+        check_positions(reader, "morph targets or a skin move a vertex to a place that is", part);
         finish_uvs(part);
     }
-    if (!done) return fail(std::move(done.error()));
     part.issues |= reader.issues;
+    if (part.indices.empty()) return part;
     if (has_surface) {
         finish_shading(part, needs);
     } else {

@@ -45,6 +45,12 @@ struct MaterialNeeds {
 
 MaterialNeeds material_needs(const Document& document, int material);
 
+/// Something about a primitive that is drawn only where loading is lenient.
+struct PartFault {
+    Error error;
+    size_t dropped = 0;  ///< elements that the part lacks for it
+};
+
 /// Arrays are empty where the attribute is absent. No vertex that is not in a triangle matters.
 /// Points and lines have positions and colours alone.
 struct MeshPart {
@@ -56,7 +62,8 @@ struct MeshPart {
     std::vector<float> colors;                        ///< 4
     std::array<std::vector<float>, max_uv_sets> uvs;  ///< 2
     uint32_t issues = 0;                              ///< issue_bit
-    bool in_world = false;                            ///< a skin moved it there
+    std::vector<PartFault> faults;
+    bool in_world = false;      ///< a skin moved it there
     bool keeps_layout = false;  ///< it is bent: as many vertices, in one order, in every pose
 };
 
@@ -76,7 +83,8 @@ struct PartName {
 uint64_t primitive_triangles(const Document& document, const GltfPrimitive& primitive);
 
 /// Reads one primitive in its mesh's space; a skinned one in the world. Without POSITION the part
-/// is empty.
+/// is empty. Elements whose vertices do not exist or lie nowhere are left out: a fault each of
+/// E-MESH-INDEX and E-MESH-POSITION.
 ///
 /// Errors  65 E-MESH-*, E-SKIN-JOINT, E-ACC-*, E-DRACO-DATA; 69 E-DRACO-VERSION;
 ///         77 E-LIMIT-COUNT

@@ -5,8 +5,8 @@
 #include "base/parallel.h"
 #include "gltf/list_text.h"
 #include "gltf/mesh_uses.h"
-#include "gltf/skins.h"
 #include "gltf/primitive_modes.h"
+#include "gltf/skins.h"
 #include "gltf/strokes.h"
 
 #include <algorithm>
@@ -27,23 +27,14 @@ struct PartJob {
     int placed = -1;
 };
 
-/// Names in the order they came, neighbours once, for one warning of many.
-class NameList {
-public:
-    void add(const std::string& name) {
-        if (names_.empty() || names_.back() != name) names_.push_back(name);
-    }
-    bool empty() const { return names_.empty(); }
-    std::string text() const { return list_text(names_); }
-
-private:
-    std::vector<std::string> names_;
-};
-
 class MeshBuilder {
 public:
-    MeshBuilder(const MeshSources& sources, MaterialTable& materials, Scene& scene, Log& log)
-        : sources_(sources), materials_(materials), scene_(scene), log_(log) {}
+    MeshBuilder(const MeshSources& sources,
+                MaterialTable& materials,
+                Problems& problems,
+                Scene& scene,
+                Log& log)
+        : sources_(sources), materials_(materials), problems_(problems), scene_(scene), log_(log) {}
 
     Result<void> build();
 
@@ -54,21 +45,33 @@ private:
     }
     const GltfMesh& mesh(int index) const { return document().meshes[static_cast<size_t>(index)]; }
 
-    Result<void> find_uses();
-    void add_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs) const;
-    void add_stroke_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs) const;
+    std::string place(const PartJob& job) const {
+        return document().at("meshes", static_cast<size_t>(job.name.mesh)) + "/primitives/" +
+               std::to_string(job.name.primitive);
+    }
+
+    void find_uses();
+    void drop_uses(int skin, const Error& error);
+    enum class JobKind { triangles, strokes };
+    void add_jobs(const MeshUse& use,
+                  int placed_index,
+                  JobKind kind,
+                  std::vector<PartJob>& jobs) const;
     void reserve(const std::vector<PartJob>& jobs);
     size_t batch_end(const std::vector<PartJob>& jobs, size_t begin) const;
     Result<void> run(const std::vector<PartJob>& jobs);
     Result<MeshPart> read_job(const PartJob& job) const;
     Result<void> append(const PartJob& job, const MeshPart& part);
     Result<void> build_shared(const MeshUse& use);
-    Result<void> add_instance(int mesh_row, int placed_index, const Bounds& box, size_t triangles);
+    void add_instance(int mesh_row, int placed_index, const Bounds& box, size_t triangles);
+    int choose_material(const PartJob& job, const MeshPart& part);
+    void note_faults(const MeshPart& part);
     void note_issues(const PartJob& job, const MeshPart& part);
     void warn();
 
     const MeshSources& sources_;
     MaterialTable& materials_;
+    Problems& problems_;
     Scene& scene_;
     Log& log_;
     std::vector<MeshUse> uses_;                ///< in the order they are met
@@ -85,39 +88,43 @@ void grow(Bounds& bounds, const Vec3f& p) {
         std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y), std::max(bounds.high.z, p.z)};
 }
 
-Result<void> MeshBuilder::find_uses() {
+void MeshBuilder::drop_uses(int skin, const Error& error) {
+    size_t lost = 0;
+    std::erase_if(uses_, [&](const MeshUse& use) {
+        const bool drops = use.skin == skin;
+        if (drops) lost += mesh(use.mesh).primitives.size();
+        return drops;
+    });
+    problems_.add(error, {Loss::primitive, "meshes with the skin are not drawn", lost});
+}
+
+void MeshBuilder::find_uses() {
     MeshUses found = find_mesh_uses(document(), sources_.placed);
     uses_ = std::move(found.uses);
     for (const std::string& name : found.flat_nodes)
         flat_nodes_.add(name);
     skins_.resize(document().skins.size());
     std::vector<Affined> world_from_node;
-    for (const MeshUse& use : uses_) {
-        if (use.skin < 0 || !skins_[static_cast<size_t>(use.skin)].empty()) continue;
+    for (size_t i = 0; i < skins_.size(); ++i) {
+        const int skin = static_cast<int>(i);
+        const auto has_it = [&](const MeshUse& use) { return use.skin == skin; };
+        if (std::none_of(uses_.begin(), uses_.end(), has_it)) continue;
         if (world_from_node.empty()) world_from_node = world_transforms(document());
         Result<std::vector<Affined>> matrices =
-            skin_matrices(document(), sources_.buffers, world_from_node, use.skin);
-        if (!matrices) return fail(std::move(matrices.error()));
-        skins_[static_cast<size_t>(use.skin)] = std::move(*matrices);
-    }
-    return {};
-}
-
-void MeshBuilder::add_jobs(const MeshUse& use, int placed_index, std::vector<PartJob>& jobs) const {
-    const std::vector<GltfPrimitive>& primitives = mesh(use.mesh).primitives;
-    for (size_t i = 0; i < primitives.size(); ++i) {
-        if (is_point_or_line_mode(primitives[i].mode)) continue;
-        jobs.push_back({{use.mesh, static_cast<int>(i)}, &use, placed_index});
+            skin_matrices(document(), sources_.buffers, world_from_node, skin);
+        if (matrices) skins_[i] = std::move(*matrices);
+        if (!matrices) drop_uses(skin, matrices.error());
     }
 }
 
-/// Points and lines, whose radius no node may stretch: in the world wherever they are placed.
-void MeshBuilder::add_stroke_jobs(const MeshUse& use,
-                                  int placed_index,
-                                  std::vector<PartJob>& jobs) const {
+void MeshBuilder::add_jobs(const MeshUse& use,
+                           int placed_index,
+                           JobKind kind,
+                           std::vector<PartJob>& jobs) const {
     const std::vector<GltfPrimitive>& primitives = mesh(use.mesh).primitives;
     for (size_t i = 0; i < primitives.size(); ++i) {
-        if (!is_point_or_line_mode(primitives[i].mode)) continue;
+        const bool strokes = is_point_or_line_mode(primitives[i].mode);
+        if (strokes != (kind == JobKind::strokes)) continue;
         jobs.push_back({{use.mesh, static_cast<int>(i)}, &use, placed_index});
     }
 }
@@ -174,7 +181,8 @@ Result<MeshPart> MeshBuilder::read_job(const PartJob& job) const {
         return fail(ExitCode::bad_data,
                     "E-NODE-RANGE",
                     document().at("nodes", static_cast<size_t>(place.node)),
-                    "the node moves vertices of its mesh beyond 1e18");
+                    "the node moves vertices of primitive " + std::to_string(job.name.primitive) +
+                        " of its mesh beyond 1e18");
     }
     return part;
 }
@@ -188,9 +196,12 @@ Result<void> MeshBuilder::run(const std::vector<PartJob>& jobs) {
         parallel_for(end - begin, [&](size_t i) { parts[i] = read_job(jobs[begin + i]); });
         for (size_t i = 0; i < parts.size(); ++i) {
             Result<MeshPart>& part = *parts[i];
-            if (!part) return fail(std::move(part.error()));
-            const Result<void> done = append(jobs[begin + i], *part);
-            if (!done) return done;
+            if (part) {
+                const Result<void> done = append(jobs[begin + i], *part);
+                if (!done) return done;
+            } else {
+                problems_.add(part.error(), {Loss::primitive, "the primitive is not drawn"});
+            }
             parts[i].reset();
         }
         begin = end;
@@ -198,22 +209,35 @@ Result<void> MeshBuilder::run(const std::vector<PartJob>& jobs) {
     return {};
 }
 
-Result<void> MeshBuilder::append(const PartJob& job, const MeshPart& part) {
-    note_issues(job, part);
-    if (part.indices.empty()) return {};
-    const std::string where = document().at("meshes", static_cast<size_t>(job.name.mesh)) +
-                              "/primitives/" + std::to_string(job.name.primitive);
-    Result<Primitive> primitive =
-        part.corners == 3 ? append_part(scene_, part, where) : append_strokes(scene_, part, where);
-    if (!primitive) return fail(std::move(primitive.error()));
-    if (primitive->triangle_count == 0) return {};  // lines of no length
+int MeshBuilder::choose_material(const PartJob& job, const MeshPart& part) {
     uint32_t uv_sets = 0;
     for (size_t set = 0; set < part.uvs.size(); ++set) {
         if (!part.uvs[set].empty()) uv_sets |= 1U << set;
     }
     const int material =
         mesh(job.name.mesh).primitives[static_cast<size_t>(job.name.primitive)].material;
-    primitive->material = material_row(materials_, document(), material, uv_sets, log_);
+    const MaterialChoice choice = material_row(materials_, material, uv_sets);
+    if (choice.lost.empty()) return choice.row;
+    const std::string text = lost_slots_text(materials_, choice);
+    if (part.corners == 3) {
+        problems_.add(
+            {ExitCode::bad_data, "E-MESH-TEXCOORD", place(job), text + "; it must have them"},
+            {Loss::nothing, "there the factors alone count"});
+    } else if (choice.is_new) {  // points and lines have no textures
+        log_.warn(place(job), text + "; there the factors alone count");
+    }
+    return choice.row;
+}
+
+Result<void> MeshBuilder::append(const PartJob& job, const MeshPart& part) {
+    note_issues(job, part);
+    note_faults(part);
+    if (part.indices.empty()) return {};
+    Result<Primitive> primitive = part.corners == 3 ? append_part(scene_, part, place(job))
+                                                    : append_strokes(scene_, part, place(job));
+    if (!primitive) return fail(std::move(primitive.error()));
+    if (primitive->triangle_count == 0) return {};  // lines of no length
+    primitive->material = choose_material(job, part);
     primitive->node = job.placed < 0 ? -1 : placed(job.placed).node;
     scene_.primitives.push_back(*primitive);
     for (const uint32_t vertex : part.indices) {
@@ -225,7 +249,7 @@ Result<void> MeshBuilder::append(const PartJob& job, const MeshPart& part) {
 
 Result<void> MeshBuilder::build_shared(const MeshUse& use) {
     std::vector<PartJob> jobs;
-    add_jobs(use, -1, jobs);
+    add_jobs(use, -1, JobKind::triangles, jobs);
     Mesh row;
     row.first_primitive = static_cast<int32_t>(scene_.primitives.size());
     const size_t corners = scene_.indices.size();
@@ -238,16 +262,15 @@ Result<void> MeshBuilder::build_shared(const MeshUse& use) {
     scene_.meshes.push_back(row);
     const size_t triangles = (scene_.indices.size() - corners) / 3;
     for (const int placed_index : use.placed) {
-        const Result<void> added = add_instance(mesh_row, placed_index, part_bounds_, triangles);
-        if (!added) return added;
+        add_instance(mesh_row, placed_index, part_bounds_, triangles);
     }
     return {};
 }
 
-Result<void> MeshBuilder::add_instance(int mesh_row,
-                                       int placed_index,
-                                       const Bounds& box,
-                                       size_t triangles) {
+void MeshBuilder::add_instance(int mesh_row,
+                               int placed_index,
+                               const Bounds& box,
+                               size_t triangles) {
     const PlacedNode& place = placed(placed_index);
     Instance instance;
     instance.world_from_object = affine_cast<float>(place.world_from_node);
@@ -262,27 +285,42 @@ Result<void> MeshBuilder::add_instance(int mesh_row,
                        std::isfinite(instance.object_from_world.m[r][c]);
         }
     }
+    Bounds all = scene_.bounds;
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3d p = {(corner & 1) != 0 ? box.high.x : box.low.x,
                          (corner & 2) != 0 ? box.high.y : box.low.y,
                          (corner & 4) != 0 ? box.high.z : box.low.z};
         const Vec3d moved = transform_point(place.world_from_node, p);
         in_range = in_range && max_component(abs(moved)) <= farthest_position;
-        grow(scene_.bounds,
+        grow(all,
              {static_cast<float>(moved.x),
               static_cast<float>(moved.y),
               static_cast<float>(moved.z)});
     }
     if (!in_range) {
-        return fail(ExitCode::bad_data,
-                    "E-NODE-RANGE",
-                    document().at("nodes", static_cast<size_t>(place.node)),
-                    "the node moves vertices of its mesh beyond 1e18, or its scale is beyond what "
-                    "single precision can invert");
+        const size_t lost =
+            static_cast<size_t>(scene_.meshes[static_cast<size_t>(mesh_row)].primitive_count);
+        problems_.add({ExitCode::bad_data,
+                       "E-NODE-RANGE",
+                       document().at("nodes", static_cast<size_t>(place.node)),
+                       "the node moves vertices of its mesh beyond 1e18, or its scale is beyond "
+                       "what single precision can invert"},
+                      {Loss::primitive, "the mesh is not drawn there", lost});
+        return;
     }
+    scene_.bounds = all;
     scene_.instances.push_back(instance);
     scene_.info.triangles_in_world += triangles;
-    return {};
+}
+
+void MeshBuilder::note_faults(const MeshPart& part) {
+    const char* const what = part.corners == 3   ? " triangles"
+                             : part.corners == 2 ? " pieces of lines"
+                                                 : " points";
+    for (const PartFault& fault : part.faults) {
+        const std::string count = std::to_string(fault.dropped) + what;
+        problems_.add(fault.error, {Loss::triangle, count + " are left out", fault.dropped});
+    }
 }
 
 void MeshBuilder::note_issues(const PartJob& job, const MeshPart& part) {
@@ -305,13 +343,13 @@ void MeshBuilder::warn() {
 }
 
 Result<void> MeshBuilder::build() {
-    Result<void> done = find_uses();
-    if (!done) return done;
+    find_uses();
     std::vector<PartJob> world;
     for (const MeshUse& use : uses_) {
-        if (use.placed.size() == 1) add_jobs(use, use.placed[0], world);
+        if (use.placed.size() == 1) add_jobs(use, use.placed[0], JobKind::triangles, world);
+        // Points and lines, whose radius no node may stretch: in the world wherever they are.
         for (const int placed_index : use.placed)
-            add_stroke_jobs(use, placed_index, world);
+            add_jobs(use, placed_index, JobKind::strokes, world);
     }
     std::vector<PartJob> all = world;
     for (const MeshUse& use : uses_) {
@@ -321,7 +359,7 @@ Result<void> MeshBuilder::build() {
         }
     }
     reserve(all);
-    done = run(world);
+    Result<void> done = run(world);
     if (!done) return done;
     scene_.world_primitive_count = static_cast<int32_t>(scene_.primitives.size());
     scene_.info.triangles_in_world = scene_.indices.size() / 3;
@@ -340,9 +378,10 @@ Result<void> MeshBuilder::build() {
 
 Result<void> add_meshes(const MeshSources& sources,
                         MaterialTable& materials,
+                        Problems& problems,
                         Scene& scene,
                         Log& log) {
-    return MeshBuilder(sources, materials, scene, log).build();
+    return MeshBuilder(sources, materials, problems, scene, log).build();
 }
 
 }  // namespace obscura

@@ -23,10 +23,13 @@ struct MeshSources {
 /// bounds; counts what is skipped in Scene::info. A mesh that one node places lies in world space,
 /// one that several place becomes a Mesh with Instances.
 ///
-/// Errors  as read_mesh_part; 65 E-NODE-RANGE a node moves vertices beyond 1e18;
-///         77 E-LIMIT-VERTICES, E-LIMIT-TRIANGLES, E-LIMIT-ATTRIBUTES
+/// Out     problems: for each primitive what read_mesh_part finds, E-MESH-TEXCOORD (its material
+///         reads texture coordinates that it lacks), E-NODE-RANGE a node moves vertices beyond
+///         1e18; E-SKIN-MATRICES. What cannot be drawn is left out
+/// Errors  77 E-LIMIT-VERTICES, E-LIMIT-TRIANGLES, E-LIMIT-ATTRIBUTES
 Result<void> add_meshes(const MeshSources& sources,
                         MaterialTable& materials,
+                        Problems& problems,
                         Scene& scene,
                         Log& log);
 

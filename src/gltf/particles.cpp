@@ -100,6 +100,12 @@ Result<ParticleRange> append_particles(const ParticleSources& sources,
                     where,
                     "positions and radii must have the same count");
     }
+    if (count == 0) {
+        return fail(ExitCode::bad_data,
+                    "E-SHAPE-SPHERES",
+                    where,
+                    "there are no spheres; 1 or more are expected");
+    }
     if (count > most_spheres - scene.spheres.size() / 4) {
         return fail(
             ExitCode::refused, "E-LIMIT-SPHERES", where, "at most 2^29 spheres are accepted");

@@ -30,10 +30,14 @@ std::optional<double> uniform_scale(const Affined& map) {
 
 class ShapeBuilder {
 public:
-    ShapeBuilder(const MeshSources& sources, MaterialTable& materials, Scene& scene, Log& log)
-        : sources_(sources), materials_(materials), scene_(scene), log_(log) {}
+    ShapeBuilder(const MeshSources& sources,
+                 MaterialTable& materials,
+                 Problems& problems,
+                 Scene& scene,
+                 Log& log)
+        : sources_(sources), materials_(materials), problems_(problems), scene_(scene), log_(log) {}
 
-    Result<void> build();
+    void build();
 
 private:
     const Document& document() const { return sources_.document; }
@@ -46,13 +50,19 @@ private:
     int32_t choose_material(int material, bool double_sided);
     Result<Primitive> make_primitive(const PlacedNode& place, const Affined* baked);
     Result<void> add_particles(const PlacedNode& place, Primitive& primitive);
-    Result<void> add_to_world(const std::vector<const PlacedNode*>& places);
+    Result<Primitive> make_world_primitive(const PlacedNode& place);
+    void add_to_world(const std::vector<const PlacedNode*>& places);
+    Result<int32_t> instanced_mesh(const PlacedNode& place);
     Result<void> add_instance(const PlacedNode& place);
     Result<void> grow_bounds(const PlacedNode& place, const ShapeBox& box);
     void count(const GltfShape& shape, int32_t rows);
+    void report(const Error& error) {
+        problems_.add(error, {Loss::primitive, "the shape is not drawn"});
+    }
 
     const MeshSources& sources_;
     MaterialTable& materials_;
+    Problems& problems_;
     Scene& scene_;
     Log& log_;
     std::map<int32_t, int32_t> double_sided_;           ///< material rows made double-sided
@@ -61,7 +71,12 @@ private:
 };
 
 int32_t ShapeBuilder::choose_material(int material, bool double_sided) {
-    const int32_t row = material_row(materials_, document(), material, 1U, log_);
+    const MaterialChoice choice = material_row(materials_, material, 1U);
+    if (choice.is_new) {
+        log_.warn(document().at("materials", static_cast<size_t>(material)),
+                  lost_slots_text(materials_, choice) + "; on shapes the factors alone count");
+    }
+    const int32_t row = choice.row;
     const auto index = static_cast<size_t>(row);
     if (!double_sided || (materials_.rows[index].flags & material_double_sided) != 0) return row;
     const auto [entry, is_new] =
@@ -70,6 +85,8 @@ int32_t ShapeBuilder::choose_material(int material, bool double_sided) {
         Material copy = materials_.rows[index];
         copy.flags |= material_double_sided;
         materials_.rows.push_back(copy);
+        materials_.layers.push_back(materials_.layers[index]);
+        materials_.layered.push_back(materials_.layered[index]);
         materials_.names.push_back(materials_.names[index]);
         materials_.numbers.push_back(materials_.numbers[index]);
         materials_.used.push_back(1);
@@ -125,6 +142,7 @@ Result<Primitive> ShapeBuilder::make_primitive(const PlacedNode& place, const Af
 
 Result<void> ShapeBuilder::grow_bounds(const PlacedNode& place, const ShapeBox& box) {
     bool in_range = true;
+    Bounds all = scene_.bounds;
     const auto cut = [](float v) { return std::isfinite(v) ? v : std::copysign(0.5f, v); };
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3d p{cut((corner & 1) != 0 ? box.high.x : box.low.x),
@@ -134,29 +152,37 @@ Result<void> ShapeBuilder::grow_bounds(const PlacedNode& place, const ShapeBox& 
         in_range = in_range && max_component(abs(moved)) <= farthest_position;
         const Vec3f v{
             static_cast<float>(moved.x), static_cast<float>(moved.y), static_cast<float>(moved.z)};
-        Bounds& all = scene_.bounds;
         all.low = {std::min(all.low.x, v.x), std::min(all.low.y, v.y), std::min(all.low.z, v.z)};
         all.high = max3(all.high, v);
     }
-    if (in_range) return {};
+    if (in_range) {
+        scene_.bounds = all;
+        return {};
+    }
     return fail(ExitCode::bad_data,
                 "E-NODE-RANGE",
                 document().at("nodes", static_cast<size_t>(place.node)),
                 "the node moves its shape beyond 1e18");
 }
 
+Result<Primitive> ShapeBuilder::make_world_primitive(const PlacedNode& place) {
+    const GltfShape& own = shape(node(place).shape);
+    const Result<void> grown = grow_bounds(place, shape_bounds(own.row));
+    if (!grown) return fail(grown.error());
+    Result<Primitive> primitive = make_primitive(place, &place.world_from_node);
+    if (!primitive) return primitive;
+    primitive->node = place.node;
+    count(own, 1);
+    return primitive;
+}
+
 /// Primitives in world space come before those of meshes.
-Result<void> ShapeBuilder::add_to_world(const std::vector<const PlacedNode*>& places) {
+void ShapeBuilder::add_to_world(const std::vector<const PlacedNode*>& places) {
     std::vector<Primitive> world;
     for (const PlacedNode* place : places) {
-        Result<Primitive> primitive = make_primitive(*place, &place->world_from_node);
-        if (!primitive) return fail(std::move(primitive.error()));
-        primitive->node = place->node;
-        const GltfShape& own = shape(node(*place).shape);
-        count(own, 1);
-        const Result<void> grown = grow_bounds(*place, shape_bounds(own.row));
-        if (!grown) return grown;
-        world.push_back(*primitive);
+        const Result<Primitive> primitive = make_world_primitive(*place);
+        if (primitive) world.push_back(*primitive);
+        if (!primitive) report(primitive.error());
     }
     const auto added = static_cast<int32_t>(world.size());
     scene_.primitives.insert(
@@ -164,34 +190,42 @@ Result<void> ShapeBuilder::add_to_world(const std::vector<const PlacedNode*>& pl
     scene_.world_primitive_count += added;
     for (Mesh& mesh : scene_.meshes)
         mesh.first_primitive += added;
-    return {};
+}
+
+/// The mesh of a node's shape, made where it is the first such node.
+Result<int32_t> ShapeBuilder::instanced_mesh(const PlacedNode& place) {
+    const std::pair<int, int> key{node(place).shape, node(place).shape_material};
+    const auto known = instanced_.find(key);
+    if (known != instanced_.end()) return known->second;
+    const Result<Primitive> primitive = make_primitive(place, nullptr);
+    if (!primitive) return fail(primitive.error());
+    const auto row = static_cast<int32_t>(scene_.meshes.size());
+    scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()), 1});
+    scene_.primitives.push_back(*primitive);
+    mesh_boxes_[row] = primitive_box(scene_, *primitive);
+    instanced_[key] = row;
+    return row;
 }
 
 Result<void> ShapeBuilder::add_instance(const PlacedNode& place) {
-    const std::pair<int, int> key{node(place).shape, node(place).shape_material};
-    const auto [entry, is_new] =
-        instanced_.try_emplace(key, static_cast<int32_t>(scene_.meshes.size()));
-    if (is_new) {
-        const Result<Primitive> primitive = make_primitive(place, nullptr);
-        if (!primitive) return fail(primitive.error());
-        scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()), 1});
-        scene_.primitives.push_back(*primitive);
-        mesh_boxes_[entry->second] = primitive_box(scene_, *primitive);
-    }
-    const Mesh& mesh = scene_.meshes[static_cast<size_t>(entry->second)];
+    const Result<int32_t> row = instanced_mesh(place);
+    if (!row) return fail(row.error());
+    const Result<void> grown = grow_bounds(place, mesh_boxes_[*row]);
+    if (!grown) return grown;
+    const Mesh& mesh = scene_.meshes[static_cast<size_t>(*row)];
     Instance instance;
     instance.world_from_object = affine_cast<float>(place.world_from_node);
     instance.object_from_world = affine_cast<float>(inverse(place.world_from_node));
-    instance.mesh = entry->second;
+    instance.mesh = *row;
     instance.node = place.node;
     instance.mirrored = determinant(place.world_from_node) < 0 ? 1 : 0;
     scene_.instances.push_back(instance);
-    count(shape(key.first),
+    count(shape(node(place).shape),
           scene_.primitives[static_cast<size_t>(mesh.first_primitive)].triangle_count);
-    return grow_bounds(place, mesh_boxes_[entry->second]);
+    return {};
 }
 
-Result<void> ShapeBuilder::build() {
+void ShapeBuilder::build() {
     std::vector<const PlacedNode*> world;
     std::vector<const PlacedNode*> moved;
     std::vector<std::string> flat;
@@ -210,19 +244,21 @@ Result<void> ShapeBuilder::build() {
                   "shapes whose node's scale is zero or whose matrix is singular are not drawn: " +
                       list_text(flat));
     }
-    Result<void> done = add_to_world(world);
-    for (size_t i = 0; done && i < moved.size(); ++i)
-        done = add_instance(*moved[i]);
-    return done;
+    add_to_world(world);
+    for (const PlacedNode* place : moved) {
+        const Result<void> added = add_instance(*place);
+        if (!added) report(added.error());
+    }
 }
 
 }  // namespace
 
-Result<void> add_shapes(const MeshSources& sources,
-                        MaterialTable& materials,
-                        Scene& scene,
-                        Log& log) {
-    return ShapeBuilder(sources, materials, scene, log).build();
+void add_shapes(const MeshSources& sources,
+                MaterialTable& materials,
+                Problems& problems,
+                Scene& scene,
+                Log& log) {
+    ShapeBuilder(sources, materials, problems, scene, log).build();
 }
 
 }  // namespace obscura

@@ -9,11 +9,12 @@ namespace obscura {
 /// Adds what OBSCURA_shape and KHR_implicit_shapes place, behind add_meshes. A shape that its node
 /// only moves and scales alike on all axes lies in world space; the others are instances.
 ///
-/// Errors  65 E-SHAPE-SPHERES a particle's position is not finite or its radius not above 0,
-///         E-NODE-RANGE; 77 E-LIMIT-SPHERES more than 2^29; as read_floats
-Result<void> add_shapes(const MeshSources& sources,
-                        MaterialTable& materials,
-                        Scene& scene,
-                        Log& log);
+/// Out     problems: E-SHAPE-SPHERES a particle's position is not finite or its radius not above
+///         0, E-NODE-RANGE; 77 E-LIMIT-SPHERES more than 2^29; as read_floats
+void add_shapes(const MeshSources& sources,
+                MaterialTable& materials,
+                Problems& problems,
+                Scene& scene,
+                Log& log);
 
 }  // namespace obscura

@@ -17,11 +17,16 @@ namespace obscura {
 namespace {
 
 constexpr size_t most_texels = (1U << 31) - 1;
+constexpr uint32_t magenta = 0xFFFF00FF;  // RGBA8: no surface looks like it by chance
 
 class TextureBuilder {
 public:
-    TextureBuilder(const TextureSources& sources, MaterialTable& materials, Scene& scene, Log& log)
-        : sources_(sources), materials_(materials), scene_(scene), log_(log) {}
+    TextureBuilder(const TextureSources& sources,
+                   MaterialTable& materials,
+                   Problems& problems,
+                   Scene& scene,
+                   Log& log)
+        : sources_(sources), materials_(materials), problems_(problems), scene_(scene), log_(log) {}
 
     Result<void> build();
 
@@ -33,22 +38,31 @@ private:
     const GltfTexture& texture(int index) const {
         return document().textures[static_cast<size_t>(index)];
     }
+    /// The image in the file, also of one that the loader has made from it.
+    size_t original(size_t image) const {
+        const int of = document().images[image].glossiness_of;
+        return of < 0 ? image : static_cast<size_t>(of);
+    }
+    std::string place(size_t image) const { return document().at("images", original(image)); }
 
     void find_uses();
     bool take_stored();
     Result<void> decode_afresh();
     Result<ImageRgba8> probe(size_t image) const;
-    Result<void> probe_all();
+    void probe_all();
+    void break_image(size_t image, const Error& error);
     void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
     void warn_wrong_encoding(size_t image, ImageEncoding encoding) const;
     Result<void> lay_out();
     int row_for(const TextureSlot& slot, bool srgb);
     void resolve_slots();
     Result<void> decode(size_t image);
-    Result<void> decode_all();
+    void fill_broken(size_t image);
+    void decode_all();
 
     const TextureSources& sources_;
     MaterialTable& materials_;
+    Problems& problems_;
     Scene& scene_;
     Log& log_;
     std::vector<ImageState> images_;
@@ -97,19 +111,19 @@ void TextureBuilder::warn_wrong_mime(size_t image,
                                      const std::string& mime,
                                      const std::string& format) const {
     if (mime.empty() || mime == "image/" + format) return;
-    log_.warn(document().at("images", image),
+    log_.warn(place(image),
               "the media type is \"" + mime + "\" but the data are " + format + "; the data count");
 }
 
 void TextureBuilder::warn_wrong_encoding(size_t image, ImageEncoding encoding) const {
     const std::array<ImageUse, 2>& uses = images_[image].uses;
     if (encoding == ImageEncoding::srgb && uses[0].used) {
-        log_.warn(document().at("images", image),
+        log_.warn(place(image),
                   "the image says that it is sRGB, but a material reads it as data; it is read as "
                   "data");
     }
     if (encoding == ImageEncoding::linear && uses[1].used) {
-        log_.warn(document().at("images", image),
+        log_.warn(place(image),
                   "the image says that it is linear, but a material reads it as colour, which is "
                   "sRGB in glTF; it is read as sRGB");
     }
@@ -118,19 +132,29 @@ void TextureBuilder::warn_wrong_encoding(size_t image, ImageEncoding encoding) c
 Result<ImageRgba8> TextureBuilder::probe(size_t image) const {
     Result<EncodedImage> encoded = load_encoded(image_sources(), image);
     if (!encoded) return fail(std::move(encoded.error()));
-    Result<ImageRgba8> header = probe_image(encoded->bytes, document().at("images", image));
+    Result<ImageRgba8> header = probe_image(encoded->bytes, place(image));
     if (header) warn_wrong_mime(image, encoded->mime, header->format);
     return header;
 }
 
+void TextureBuilder::break_image(size_t image, const Error& error) {
+    images_[image].broken = true;
+    problems_.add(error,
+                  {Loss::texture, "magenta stands for its colours, and for its data the factor"});
+}
+
 /// Measures every image, so that the arena can be laid out before anything is decoded.
-Result<void> TextureBuilder::probe_all() {
+void TextureBuilder::probe_all() {
     std::vector<std::optional<Result<ImageRgba8>>> headers(images_.size());
     parallel_for(images_.size(), [&](size_t i) { headers[i] = probe(i); });
     for (size_t i = 0; i < images_.size(); ++i) {
         Result<ImageRgba8>& header = *headers[i];
         if (!header) {
-            if (images_[i].used()) return fail(std::move(header.error()));
+            if (images_[i].used()) {
+                images_[i].width = images_[i].height = 1;
+                break_image(i, header.error());
+                continue;
+            }
             log_.warn(header.error().where,
                       header.error().message + "; no drawn material uses the image");
             continue;
@@ -143,7 +167,6 @@ Result<void> TextureBuilder::probe_all() {
         info.width = header->width;
         info.height = header->height;
     }
-    return {};
 }
 
 Result<void> TextureBuilder::lay_out() {
@@ -156,7 +179,7 @@ Result<void> TextureBuilder::lay_out() {
             if (total <= most_texels) continue;
             return fail(ExitCode::refused,
                         "E-LIMIT-TEXELS",
-                        document().at("images", i),
+                        place(i),
                         "the images used have more than 2^31 - 1 texels with their mip chains; "
                         "make them smaller");
         }
@@ -196,15 +219,21 @@ void TextureBuilder::resolve_slots() {
         for (size_t i = 0; i < slot_count; ++i) {
             TextureSlot& slot = *slot_of(i, materials_.rows[row], materials_.layers[row]);
             if (materials_.used[row] == 0) slot = TextureSlot{};
-            if (slot.texture >= 0) slot.texture = row_for(slot, slot_rows[i].color);
+            if (slot.texture < 0) continue;
+            const auto image = static_cast<size_t>(texture(slot.texture).image);
+            if (images_[image].broken && !slot_rows[i].color) {
+                slot = TextureSlot{};
+            } else {
+                slot.texture = row_for(slot, slot_rows[i].color);
+            }
         }
     }
 }
 
 Result<void> TextureBuilder::decode(size_t image) {
     const ImageState& state = images_[image];
-    if (!state.used()) return {};
-    const std::string where = document().at("images", image);
+    if (!state.used() || state.broken) return {};
+    const std::string where = place(image);
     Result<EncodedImage> encoded = load_encoded(image_sources(), image);
     if (!encoded) return fail(std::move(encoded.error()));
     Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_, MipLevels::stored);
@@ -234,13 +263,21 @@ Result<void> TextureBuilder::decode(size_t image) {
     return {};
 }
 
-Result<void> TextureBuilder::decode_all() {
+void TextureBuilder::fill_broken(size_t image) {
+    const ImageState& state = images_[image];
+    const ImageUse& color = state.uses[1];
+    if (!color.used) return;
+    const size_t texels = mip_chain_texels(state.width, state.height);
+    std::fill_n(scene_.textures.texels.data() + color.base, texels, magenta);
+}
+
+void TextureBuilder::decode_all() {
     std::vector<Result<void>> done(images_.size());
     parallel_for(images_.size(), [&](size_t i) { done[i] = decode(i); });
-    for (Result<void>& result : done) {
-        if (!result) return fail(std::move(result.error()));
+    for (size_t i = 0; i < images_.size(); ++i) {
+        if (!done[i]) break_image(i, done[i].error());
+        if (images_[i].broken) fill_broken(i);
     }
-    return {};
 }
 
 /// What an earlier scene has left is taken over, if it has all that this one needs; what that one
@@ -258,6 +295,10 @@ bool TextureBuilder::take_stored() {
     }
     if (!has_all) return false;
     images_ = store.images;
+    for (size_t i = 0; i < images_.size(); ++i) {
+        const bool told = original(i) != i && images_[original(i)].broken;
+        if (images_[i].broken && !told) problems_.count(Loss::texture, 1);
+    }
     scene_.info.images = store.infos;
     scene_.textures.texels = std::move(store.texels);
     store.texels = {};
@@ -267,13 +308,14 @@ bool TextureBuilder::take_stored() {
 
 Result<void> TextureBuilder::decode_afresh() {
     sources_.store.texels = {};
-    Result<void> done = probe_all();
-    if (done) done = lay_out();
+    probe_all();
+    Result<void> done = lay_out();
     if (!done) return done;
+    if (!sources_.measure_only) decode_all();
     resolve_slots();
     sources_.store.images = images_;
     sources_.store.infos = scene_.info.images;
-    return sources_.measure_only ? Result<void>{} : decode_all();
+    return {};
 }
 
 Result<void> TextureBuilder::build() {
@@ -285,9 +327,10 @@ Result<void> TextureBuilder::build() {
 
 Result<void> add_textures(const TextureSources& sources,
                           MaterialTable& materials,
+                          Problems& problems,
                           Scene& scene,
                           Log& log) {
-    return TextureBuilder(sources, materials, scene, log).build();
+    return TextureBuilder(sources, materials, problems, scene, log).build();
 }
 
 }  // namespace obscura

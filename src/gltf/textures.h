@@ -20,6 +20,7 @@ struct ImageState {
     std::array<ImageUse, 2> uses;  ///< by srgb
     int width = 0;
     int height = 0;
+    bool broken = false;  ///< magenta stands for it where it is colour, nothing where it is data
 
     bool used() const { return uses[0].used || uses[1].used; }
 };
@@ -46,10 +47,14 @@ struct TextureSources {
 /// An image that is used as colour and as data is stored twice, with different mip chains. Rows
 /// that differ only in their sampler share texels.
 ///
-/// Errors  67 E-RES-MISSING, E-IMG-*; 65 E-URI-DATA, E-ACC-RANGE; 77 E-LIMIT-TEXELS, E-IMG-LIMIT,
-///         E-URI-REFUSED. Images that no drawn material uses only warn.
+/// Out     problems: for each image that a drawn material uses 67 E-RES-MISSING, E-IMG-*;
+///         65 E-URI-DATA, E-ACC-RANGE; 69 E-IMG-FEATURE; 77 E-IMG-LIMIT, E-URI-REFUSED; 33
+///         E-IMG-MEMORY. Slots of colour then see magenta, those of data become empty. Images that
+///         no drawn material uses only warn
+/// Errors  77 E-LIMIT-TEXELS
 Result<void> add_textures(const TextureSources& sources,
                           MaterialTable& materials,
+                          Problems& problems,
                           Scene& scene,
                           Log& log);
 

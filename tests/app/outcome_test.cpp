@@ -22,8 +22,20 @@ TEST(Outcome, AFailureSaysWhereAndWhat) {
         report_failure(Error{ExitCode::bad_data, "E-X", "a\tb.gltf#/nodes/0", "not\ngood"}, log);
     EXPECT_EQ(code, 65);
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
-              "ERROR a\\x09b.gltf#/nodes/0: not\\x0agood\n"
+              "ERROR a\\x09b.gltf#/nodes/0: not\\x0agood [E-X]\n"
               "RESULT code=65 id=E-X where=a\\x09b.gltf#/nodes/0 warnings=0\n");
+}
+
+TEST(Outcome, FailuresFoundTogetherAreAllPrinted) {
+    testing::internal::CaptureStderr();
+    const Error second{ExitCode::bad_data, "E-Y", "b", "worse"};
+    const Error sum{ExitCode::bad_data, "", "", "7 more"};
+    EXPECT_EQ(
+        report_failure(joined({{ExitCode::bad_resource, "E-X", "a", "bad"}, second, sum}), Log()),
+        67);
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "ERROR a: bad [E-X]\nERROR b: worse [E-Y]\nERROR 7 more\n"
+              "RESULT code=67 id=E-X where=a warnings=0\n");
 }
 
 TEST(Outcome, TooManyNonfiniteSamplesEndWith76) {
@@ -31,7 +43,8 @@ TEST(Outcome, TooManyNonfiniteSamplesEndWith76) {
     const Error error{ExitCode::too_many_nonfinite, "E-NONFINITE", "bench", "9 of 10"};
     EXPECT_EQ(report_failure(error, Log()), 76);
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
-              "ERROR bench: 9 of 10\nRESULT code=76 id=E-NONFINITE where=bench warnings=0\n");
+              "ERROR bench: 9 of 10 [E-NONFINITE]\n"
+              "RESULT code=76 id=E-NONFINITE where=bench warnings=0\n");
 }
 
 TEST(Outcome, SuccessIsSilentWhenQuiet) {

@@ -35,7 +35,8 @@ TEST_F(Usage, HelpIsForPeople) {
           "--stereo",        "--align",        "--distortion",   "--shift",
           "--sensor",        "--focal-length", "--mag",          "--near",
           "--far",           "--ev100",        "--shutter",      "--iso",
-          "--camera-json",   "--anamorphic",   "--fisheye-fit"}) {
+          "--camera-json",   "--anamorphic",   "--fisheye-fit",  "--strict",
+          "--lenient",       "--check"}) {
         EXPECT_THAT(help, HasSubstr("  " + std::string(option) + " ")) << option;
     }
 }

@@ -1,0 +1,26 @@
+// gltf/asset_file.h - opens a .gltf or .glb file and reads its JSON.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/document.h"
+#include "gltf/file_bytes.h"
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+
+namespace obscura {
+
+/// An asset's file taken apart, with its JSON already read.
+struct OpenedAsset {
+    Bytes file;  ///< what glb_binary points into
+    std::optional<std::span<const std::byte>> glb_binary;
+    nlohmann::json tree;  ///< kept for animations only
+    Document document;
+};
+
+/// Errors  66 E-SCENE-MISSING, 65 E-GLB-*, those of parse_json_text and read_document
+Result<OpenedAsset> open_asset(const std::filesystem::path& path, Problems& problems, Log& log);
+
+}  // namespace obscura
