@@ -61,6 +61,16 @@ OBSCURA_INLINE void leave_frame(const CurveLanes& curves, SurfacePoint<Lanes>& s
     s.dpdv = select(m, out_of_frame(frame, s.dpdv), s.dpdv);
 }
 
+/// How far beside a piece of a line Embree finds hits: it takes differences of squares as large as
+/// that of half the piece's length, so that the radius is as much off as they round.
+OBSCURA_INLINE Lanes curve_slack(const CurveLanes& curves) {
+    constexpr float rounding = 4.0f / 4194304.0f;
+    const Capsule<Lanes>& capsule = curves.frame.capsule;
+    const Lanes thin = max(min(capsule.bottom, capsule.top), capsule.half_height * Lanes(1e-3f));
+    const Lanes slack = square(capsule.half_height) / thin * Lanes(rounding);
+    return select(curves.lanes, slack, Lanes(0.0f));
+}
+
 /// A table's row as ShapeRow's words; particles lie in blocks and know no other kind, and pieces of
 /// lines are capsules around their own origin.
 class ShapeWords {
@@ -165,6 +175,7 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
     out.uv = s.uv;
     out.offset = s.error * Lanes(4.0f) +
                  Lanes(steps) * (dot(abs(s.normal), abs(s.position)) + extent * Lanes(0.25f));
+    if (curves.any) out.offset = out.offset + curve_slack(curves);
     if (none(instanced)) return;
     const Vec3<Lanes> p = abs(s.position);
     const auto row_size = [&](int r) {
