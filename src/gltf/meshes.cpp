@@ -64,6 +64,7 @@ private:
     Result<void> append(const PartJob& job, const MeshPart& part);
     Result<void> build_shared(const MeshUse& use);
     void add_instance(int mesh_row, int placed_index, const Bounds& box, size_t triangles);
+    void use_material(const PartJob& job);
     int choose_material(const PartJob& job, const MeshPart& part);
     void note_faults(const MeshPart& part);
     void note_issues(const PartJob& job, const MeshPart& part);
@@ -201,12 +202,21 @@ Result<void> MeshBuilder::run(const std::vector<PartJob>& jobs) {
                 if (!done) return done;
             } else {
                 problems_.add(part.error(), {Loss::primitive, "the primitive is not drawn"});
+                use_material(jobs[begin + i]);
             }
             parts[i].reset();
         }
         begin = end;
     }
     return {};
+}
+
+/// Strict loading lists the faults of images too that only faulty primitives show.
+void MeshBuilder::use_material(const PartJob& job) {
+    if (problems_.lenient()) return;
+    const auto primitive = static_cast<size_t>(job.name.primitive);
+    const int material = mesh(job.name.mesh).primitives[primitive].material;
+    materials_.used[static_cast<size_t>(material) + 1] = 1;
 }
 
 int MeshBuilder::choose_material(const PartJob& job, const MeshPart& part) {
@@ -232,7 +242,10 @@ int MeshBuilder::choose_material(const PartJob& job, const MeshPart& part) {
 Result<void> MeshBuilder::append(const PartJob& job, const MeshPart& part) {
     note_issues(job, part);
     note_faults(part);
-    if (part.indices.empty()) return {};
+    if (part.indices.empty()) {
+        if (!part.faults.empty()) use_material(job);
+        return {};
+    }
     Result<Primitive> primitive = part.corners == 3 ? append_part(scene_, part, place(job))
                                                     : append_strokes(scene_, part, place(job));
     if (!primitive) return fail(std::move(primitive.error()));

@@ -46,11 +46,11 @@ const std::vector<Fault> mesh_faults = {
     {"C7 sparse index",
      [](AssetBuilder& b) {
          const int view = b.add_view(raw(std::vector<float>(4, 0)));
+         const int index = b.add_view(std::string(1, 9));
          b.tree["accessors"][0]["sparse"] = {
              {"count", 1},
-             {"indices", {{"bufferView", 3}, {"byteOffset", 4}, {"componentType", 5121}}},
+             {"indices", {{"bufferView", index}, {"componentType", 5121}}},
              {"values", {{"bufferView", view}}}};
-         b.bytes[b.tree["bufferViews"][3]["byteOffset"].get<size_t>() + 4] = 9;
      },
      65,
      "E-ACC-SPARSE",

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace obscura {
 namespace {
 
@@ -30,8 +32,12 @@ TEST(Problems, StrictLoadingListsAllOfThem) {
     json& tree = builder.tree;
     tree["images"] = json::parse(R"([{"uri": "a.png"}, {"uri": "../b.png"}])");
     set_first_float(builder, 0, NAN);
+    const int good =
+        builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 0, 2, 0, 0, 0, 1, 0});
     json other = tree["meshes"][0]["primitives"][0];
-    other["attributes"] = {{"POSITION", 0}, {"NORMAL", 3}};
+    other["attributes"] = {{"POSITION", good}, {"NORMAL", 3}};
+    tree["meshes"][0]["primitives"].push_back(other);
+    other["attributes"] = {{"POSITION", good}, {"TEXCOORD_0", 2}};
     tree["meshes"][0]["primitives"].push_back(other);
     EXPECT_EQ(listed(load_tree(builder.finished())),
               (std::vector<std::string>{"E-MESH-POSITION /meshes/0/primitives/0",
@@ -40,6 +46,18 @@ TEST(Problems, StrictLoadingListsAllOfThem) {
                                         "E-URI-REFUSED /images/1/uri"}));
     const LenientlyLoaded lenient = load_leniently(builder.finished());
     EXPECT_EQ(listed(lenient), (std::vector<std::string>{"E-URI-REFUSED /images/1/uri"}));
+}
+
+TEST(Problems, ImagesOfFaultyPrimitivesAreListedToo) {
+    AssetBuilder builder = textured_builder();
+    builder.tree["images"][0]["uri"] = "a.png";
+    set_first_float(builder, 0, NAN);
+    EXPECT_EQ(listed(load_tree(builder.finished())),
+              (std::vector<std::string>{"E-MESH-POSITION /meshes/0/primitives/0",
+                                        "E-RES-MISSING /images/0/uri"}));
+    const LenientlyLoaded lenient = load_leniently(builder.finished());
+    ASSERT_TRUE(lenient.scene) << lenient.text();
+    EXPECT_EQ(lenient.lost.textures, 0U);
 }
 
 TEST(Problems, MissingBuffersAreAllListed) {
