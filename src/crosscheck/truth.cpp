@@ -324,7 +324,14 @@ double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) con
         const Vec3d own = transform_vector(object, size + moved);
         size = max3(size, transform_vector(world, own) + moved);
     }
-    const double rounding = max_component(size) * ulp_of_one;
+    double rounding = max_component(size) * ulp_of_one;
+    if (item.primitive >= 0 && is_curve(item)) {
+        // Embree subtracts squares of half the piece's length from each other.
+        const Capsule<double> capsule = curve_frame(item).capsule;
+        const double thin =
+            std::max(std::min(capsule.bottom, capsule.top), 1e-3 * capsule.half_height);
+        rounding = std::max(rounding, square(capsule.half_height) / thin * ulp_of_one);
+    }
     // Two that are compared by way of this scene, as with slack they are, may each be as far off.
     return slack_m_ > 0 ? std::max(slack_m_, 2 * rounding) : rounding;
 }

@@ -1,5 +1,5 @@
-// tests/gltf/faults_test.cpp - fault by fault: what strict loading refuses, what lenient loading
-// loses. SPDX-License-Identifier: Apache-2.0
+// tests/gltf/faults_test.cpp - each fault in strict and in lenient loading.
+// SPDX-License-Identifier: Apache-2.0
 #include "gltf/faulty_files.h"
 
 #include <gtest/gtest.h>

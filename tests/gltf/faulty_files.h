@@ -1,5 +1,5 @@
-// tests/gltf/faulty_files.h - assets with textures to be broken, and what lenient loading makes of
-// it. SPDX-License-Identifier: Apache-2.0
+// tests/gltf/faulty_files.h - assets with textures that tests break.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "gltf/pictures.h"
