@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/stroke_scenes.h"
 #include <gmock/gmock.h>
 
 namespace obscura {
@@ -34,6 +35,16 @@ Scene shapes_and_cube() {
     place.m[0][3] = 3;
     add_shape(scene, make_shape(ShapeKind::frustum, 1, 0.7F, 0.3F), 0, place);
     return scene;
+}
+
+/// Long and thin enough that Embree rounds by a hundred times the usual.
+TEST(CheckScene, ThinLinesAreWithinTheBudgetAndDoNotShadowThemselves) {
+    Scene scene = empty_scene({});
+    add_strip(scene, {{{-1, 0, 0}}, {{1, 0.2F, 0}}, {{0.5F, 1, 0.3F}}, {{-1, -1, 0.4F}}}, 0.01F);
+    const CheckedScene checked = check(scene, 65536);
+    EXPECT_THAT(checked.faults, testing::IsEmpty());
+    EXPECT_GT(checked.spawned.rays, 1000U);
+    EXPECT_EQ(checked.spawned.self_hits, 0U);
 }
 
 TEST(CheckScene, ACubeAndShapesAreWithinTheBudget) {
