@@ -178,9 +178,12 @@ Finding excuse_occlusion(const Question& q) {
     Finding best = Finding::false_hit;
     q.scene.near_items(q.ray, line_ulps * q.unit_m, [&](const Item& item) {
         if (best == Finding::agree) return;
-        if (is_at_its_edge(q, {passing(q, item), item, true})) {
+        const double t = passing(q, item);
+        const double rounding = q.scene.rounding_m(q.ray, item, std::max(t, 0.0));
+        const Question there{q.scene, q.ray, std::max(q.unit_m, rounding)};
+        if (is_at_its_edge(there, {t, item, true})) {
             best = Finding::agree;
-        } else if (is_within_lines(q, item)) {
+        } else if (is_within_lines(there, item)) {
             best = Finding::edge_on;
         }
     });

@@ -40,7 +40,7 @@ Scene shapes_and_cube() {
 /// Long and thin enough that Embree rounds by a hundred times the usual.
 TEST(CheckScene, ThinLinesAreWithinTheBudgetAndDoNotShadowThemselves) {
     Scene scene = empty_scene({});
-    add_strip(scene, {{{-1, 0, 0}}, {{1, 0.2F, 0}}, {{0.5F, 1, 0.3F}}, {{-1, -1, 0.4F}}}, 0.01F);
+    add_strip(scene, {{{-1, 0, 0}}, {{1, 0.2F, 0}}, {{0.5F, 1, 0.3F}}, {{-1, -1, 0.4F}}}, 0.0052F);
     const CheckedScene checked = check(scene, 65536);
     EXPECT_THAT(checked.faults, testing::IsEmpty());
     EXPECT_GT(checked.spawned.rays, 1000U);
