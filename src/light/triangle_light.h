@@ -3,6 +3,7 @@
 #pragma once
 
 #include "light/row_words.h"
+#include "math/gather4.h"
 #include "math/vec.h"
 
 #include <cstdint>
@@ -75,25 +76,31 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
                                                             const IntOf<F>& index,
                                                             const Vec2<F>& u,
                                                             const Vec3<F>& from) {
-    const IntOf<F> word = index * IntOf<F>(words_per_row<TriangleLight>);
-    const auto read = [&](size_t offset) {
-        return gather<F>(member_words<float>(rows, offset), word);
+    // Fours of neighbouring words, the last two of which overlap by two.
+    const IntOf<F> row = index * IntOf<F>(words_per_row<TriangleLight>);
+    const auto read = [&](int word) {
+        return gather4<F>(member_words<float>(rows, 4 * static_cast<size_t>(word)), row);
     };
-    const auto read2 = [&](size_t offset) { return Vec2<F>{read(offset), read(offset + 4)}; };
-    const auto read3 = [&](size_t offset) {
-        return Vec3<F>{read(offset), read(offset + 4), read(offset + 8)};
-    };
-    const auto read_int = [&](size_t offset) {
-        return gather<F>(member_words<int32_t>(rows, offset), word);
-    };
+    const Four<F> w0 = read(0);
+    const Four<F> w4 = read(4);
+    const Four<F> w8 = read(8);
+    const Four<F> w12 = read(12);
+    const Four<F> w16 = read(16);
+    const Four<F> w18 = read(18);
+    static_assert(offsetof(TriangleLight, e1) == 12 && offsetof(TriangleLight, e2) == 24 &&
+                  offsetof(TriangleLight, emission) == 36 && offsetof(TriangleLight, uv0) == 48 &&
+                  offsetof(TriangleLight, uv1) == 56 && offsetof(TriangleLight, uv2) == 64 &&
+                  offsetof(TriangleLight, texture) == 72 && offsetof(TriangleLight, area) == 76 &&
+                  offsetof(TriangleLight, pdf_area) == 80 &&
+                  offsetof(TriangleLight, two_sided) == 84);
     const Vec2<F> weight = triangle_from_square(u);
-    const Vec3<F> e1 = read3(offsetof(TriangleLight, e1));
-    const Vec3<F> e2 = read3(offsetof(TriangleLight, e2));
+    const Vec3<F> e1{w0.w, w4.x, w4.y};
+    const Vec3<F> e2{w4.z, w4.w, w8.x};
     TriangleLightSample<F> sample;
-    sample.point = read3(offsetof(TriangleLight, p0)) + weight.x * e1 + weight.y * e2;
+    sample.point = Vec3<F>{w0.x, w0.y, w0.z} + weight.x * e1 + weight.y * e2;
 
     // Divided by the area first: the square of a tiny triangle's cross product would underflow.
-    const F area = read(offsetof(TriangleLight, area));
+    const F& area = w18.y;
     const Vec3<F> scaled = cross(e1, e2 * (F(0.5f) / max(area, F(1e-36f))));
     const auto proper = area > F(0.0f);
     sample.normal = select(proper, normalize(scaled), splat3(F(0.0f)));
@@ -102,16 +109,15 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
     sample.distance = length(to_light);
     sample.direction = to_light * (F(1.0f) / max(sample.distance, F(1e-18f)));
     sample.cosine = -dot(sample.normal, sample.direction);
-    const auto both = read_int(offsetof(TriangleLight, two_sided)) != IntOf<F>(0);
+    const auto both = float_bits(w18.w) != IntOf<F>(0);
     const F facing = select(both, abs(sample.cosine), sample.cosine);
-    sample.pdf =
-        solid_angle_pdf<F>(read(offsetof(TriangleLight, pdf_area)), sample.distance, facing);
+    sample.pdf = solid_angle_pdf<F>(w18.z, sample.distance, facing);
 
-    sample.emission = read3(offsetof(TriangleLight, emission));
-    sample.texture = read_int(offsetof(TriangleLight, texture));
-    const Vec2<F> uv0 = read2(offsetof(TriangleLight, uv0));
-    sample.uv = uv0 + (read2(offsetof(TriangleLight, uv1)) - uv0) * weight.x +
-                (read2(offsetof(TriangleLight, uv2)) - uv0) * weight.y;
+    sample.emission = {w8.y, w8.z, w8.w};
+    sample.texture = float_bits(w18.x);
+    const Vec2<F> uv0{w12.x, w12.y};
+    sample.uv =
+        uv0 + (Vec2<F>{w12.z, w12.w} - uv0) * weight.x + (Vec2<F>{w16.x, w16.y} - uv0) * weight.y;
     return sample;
 }
 

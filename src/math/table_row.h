@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "math/lanes.h"
+#include "math/gather4.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -39,6 +39,15 @@ public:
     OBSCURA_INLINE F number(int word) const {
         if (shared_) return F(bits_float(row_words_[word]));
         return gather<F>(reinterpret_cast<const float*>(words_) + word, first_);
+    }
+
+    /// Numbers [word, word + 4), all within the row.
+    OBSCURA_INLINE Four<F> four_numbers(int word) const {
+        if (shared_) {
+            const auto one = [&](int k) { return F(bits_float(row_words_[word + k])); };
+            return {one(0), one(1), one(2), one(3)};
+        }
+        return gather4<F>(reinterpret_cast<const float*>(words_) + word, first_);
     }
 
 private:

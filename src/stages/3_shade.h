@@ -69,7 +69,9 @@ void write_wireframe(const SceneView& scene,
                      int count,
                      const ShadeRows& rows);
 
-/// Moves the hits together at the front of their columns and the misses to rows.misses.
+/// Moves the hits together at the front of their columns, those of one primitive side by side where
+/// that saves much (lanes that share a surface share its rows of tables), and the misses to
+/// rows.misses.
 struct SortedCounts {
     int hits = 0;
     int misses = 0;

@@ -36,8 +36,10 @@ OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
     return {words.x, words.y, words.z};
 }
 
+/// In  word: at least one more follows in the row
 OBSCURA_INLINE Vec3<Lanes> read3(const TableRow<Lanes>& row, int word) {
-    return {row.number(word), row.number(word + 1), row.number(word + 2)};
+    const Four<Lanes> words = row.four_numbers(word);
+    return {words.x, words.y, words.z};
 }
 
 /// The instances of the hits; lanes in world space get the first.
@@ -49,8 +51,11 @@ OBSCURA_INLINE TableRow<Lanes> instance_row(const SceneView& scene, const HitLan
 OBSCURA_INLINE Affine<Lanes> read_affine(const TableRow<Lanes>& row, int word) {
     Affine<Lanes> a;
     for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c)
-            a.m[r][c] = row.number(word + r * 4 + c);
+        const Four<Lanes> words = row.four_numbers(word + r * 4);
+        a.m[r][0] = words.x;
+        a.m[r][1] = words.y;
+        a.m[r][2] = words.z;
+        a.m[r][3] = words.w;
     }
     return a;
 }

@@ -66,12 +66,14 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
                    select(g.shapes, g.first_uv.at.y, mesh.at.y)};
         mesh.area2 = select(g.shapes, g.first_uv.area2, mesh.area2);
     }
-    Lanes m[6];
-    for (int k = 0; k < 6; ++k)
-        m[k] = g.material.number(slot + 2 + k);
+    // The transform's six words end the slot: two of them are read twice.
+    const Four<Lanes> first_four = g.material.four_numbers(slot + 2);
+    const Four<Lanes> last_four = g.material.four_numbers(slot + 4);
+    const Vec3<Lanes> u_row{first_four.x, first_four.y, first_four.z};
+    const Vec3<Lanes> v_row{first_four.w, last_four.z, last_four.w};
     const Vec2<Lanes>& at = mesh.at;
-    s.uv = {m[0] * at.x + m[1] * at.y + m[2], m[3] * at.x + m[4] * at.y + m[5]};
-    s.uv_area2 = abs(mesh.area2 * (m[0] * m[4] - m[1] * m[3]));
+    s.uv = {u_row.x * at.x + u_row.y * at.y + u_row.z, v_row.x * at.x + v_row.y * at.y + v_row.z};
+    s.uv_area2 = abs(mesh.area2 * (u_row.x * v_row.y - u_row.y * v_row.x));
     return s;
 }
 

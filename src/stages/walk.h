@@ -30,10 +30,6 @@ struct WalkCounters {
     StageSeconds seconds;
 };
 
-/// Rows in a batch: about 340 bytes each, 1.4 MB in all. Smaller ones stay in nearer caches, larger
-/// ones leave Embree the hierarchy warm for longer; this was the fastest of 512 to 16384.
-inline constexpr int batch_rows = 4096;
-
 /// The columns of one batch, reused from batch to batch. One per thread.
 class Workspace {
 public:
