@@ -178,9 +178,7 @@ std::vector<float> transformed_uvs(const std::vector<float>& uvs, const TextureS
 
 void finish_shading(MeshPart& part, const MaterialNeeds& needs) {
     if (!part.normals.empty()) repair_normals(part);
-    const bool has_map =
-        needs.tangents && !part.uvs[static_cast<size_t>(needs.normal_map.uv_set)].empty();
-    if (!has_map) {
+    if (!needs.tangents) {
         part.tangents.clear();
         return;
     }
@@ -188,9 +186,13 @@ void finish_shading(MeshPart& part, const MaterialNeeds& needs) {
         if (normalize_tangents(part)) return;
         part.issues |= issue_bit(MeshIssue::bad_tangents);
     }
+    const auto uv_set = static_cast<size_t>(needs.normal_map.uv_set);
+    if (part.uvs[uv_set].empty()) {  // nothing says which way they would point
+        part.tangents.clear();
+        return;
+    }
     if (part.normals.empty()) make_flat(part);
-    const std::vector<float> uvs =
-        transformed_uvs(part.uvs[static_cast<size_t>(needs.normal_map.uv_set)], needs.normal_map);
+    const std::vector<float> uvs = transformed_uvs(part.uvs[uv_set], needs.normal_map);
     const TangentMesh mesh{part.positions, part.normals, uvs, part.indices};
     std::vector<float> corners = make_tangents(mesh);
     if (!part.keeps_layout) {

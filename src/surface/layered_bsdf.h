@@ -88,6 +88,30 @@ OBSCURA_INLINE BsdfValue<F> coat_lobe(const LayeredParams<F>& p,
     return {splat3(select(above, value, F(0.0f))), select(above, over_o * F(0.5f), F(0.0f))};
 }
 
+/// Directional albedo of the dielectric boundary as seen from the denser side, where the table for
+/// Schlick's curve does not hold: microfacets beyond the critical angle reflect all.
+///
+/// Errors  none: a mean over fixed microfacets, mostly within 0.01 of the integral, 0.05 at worst
+template <typename F>
+OBSCURA_INLINE F inner_boundary_albedo(const LayeredParams<F>& p, const Vec3<F>& wo) {
+    constexpr int facets = 32;
+    constexpr float golden_turn = 0.618034f;  // of the R1 sequence: even around the circle
+    F sum(0.0f);
+    for (int n = 0; n < facets; ++n) {
+        const float number = static_cast<float>(n) + 0.5f;
+        const float turns = number * golden_turn;
+        const Vec2<F> u{F(turns - static_cast<float>(static_cast<int>(turns))),
+                        F(number / static_cast<float>(facets))};
+        const Vec3<F> h = sample_visible_normal(wo, p.alpha, u);
+        const F cosine = dot(wo, h);
+        const Vec3<F> wi = h * (F(2.0f) * cosine) - wo;
+        const F masking = F(2.0f) * wi.z / smith_denominator(wi, p.alpha);
+        const F reflectance = max_component(layered_fresnel(p, cosine).dielectric);
+        sum = sum + select(wi.z > F(0.0f), reflectance * masking, F(0.0f));
+    }
+    return sum * F(1.0f / facets);
+}
+
 /// Shares and probabilities for one view direction, wo.z > 0.
 template <typename F>
 OBSCURA_INLINE LayeredWeights<F> layered_weights(const LayeredParams<F>& p, const Vec3<F>& wo) {
@@ -106,6 +130,11 @@ OBSCURA_INLINE LayeredWeights<F> layered_weights(const LayeredParams<F>& p, cons
                  p.f90 * look_up_albedo(specular_albedo_bias, wo.z, roughness);
     boundary = lerp(boundary, max_component(fresnel.dielectric), p.film.strength);
     const F dielectric = one - p.metallic;
+    const auto from_within =
+        p.solid & (p.eta < one) & (dielectric * (one - p.transmission) > F(0.0f));
+    if (any(from_within)) {
+        boundary = select(from_within, inner_boundary_albedo(p, wo), boundary);
+    }
     w.diffuse = dielectric * (one - p.transmission) * (one - boundary);
     w.transmitted = dielectric * p.transmission;
 

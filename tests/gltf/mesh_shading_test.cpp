@@ -91,6 +91,24 @@ TEST(MeshShading, TangentsWithoutANormalMapAreDropped) {
     EXPECT_TRUE(part.tangents.empty());
 }
 
+/// KHR_materials_anisotropy asks for NORMAL and TANGENT, or a normal texture: TEXCOORD_0 may be
+/// absent.
+TEST(MeshShading, GivenTangentsNeedNoTextureCoordinates) {
+    MeshPart part = square();
+    part.uvs[0].clear();
+    for (int i = 0; i < 6; ++i)
+        part.tangents.insert(part.tangents.end(), {0, 2, 0, 1});
+    MaterialNeeds brushed;
+    brushed.tangents = true;
+    finish_shading(part, brushed);
+    ASSERT_EQ(part.tangents.size(), 24U);
+    EXPECT_EQ(vertex(part.tangents, 5, 4), (F{0, 1, 0, 1}));
+
+    part.tangents[1] = NAN;
+    finish_shading(part, brushed);
+    EXPECT_TRUE(part.tangents.empty());  // there is nothing to make them of
+}
+
 TEST(MeshShading, BadTangentsAreMadeAnew) {  // C17
     MeshPart part = square();
     for (int i = 0; i < 6; ++i)

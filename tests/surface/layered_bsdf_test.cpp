@@ -91,6 +91,24 @@ TEST(Layers, WhiteLeavesLoseNothing) {
     EXPECT_NEAR(sky.mean.y, 1, 0.005);
 }
 
+/// From within a body the boundary reflects all that comes at a slant; the rest may pass diffusely.
+TEST(Layers, WhiteBodiesLoseNothingFromWithin) {
+    for (const float eta : {1 / 1.1F, 1 / 1.5F, 1 / 2.4F}) {
+        for (const float alpha : {min_ggx_alpha, 0.09F, 0.5F}) {
+            LayeredParams<float> p = plain_layers(alpha);
+            p.solid = true;
+            p.eta = eta;
+            p.f0 = splat3(normal_reflectance(eta));
+            p.diffuse_transmission = 0.6F;
+            for (const float cosine : {0.98F, 0.8F, 0.6F, 0.3F}) {
+                const Vec3f wo{std::sqrt(1 - cosine * cosine), 0, cosine};
+                EXPECT_NEAR(white_furnace(p, wo).mean.y, 1, 0.03)
+                    << "eta " << eta << ", alpha " << alpha << ", cosine " << cosine;
+            }
+        }
+    }
+}
+
 TEST(Layers, ACoatDarkensWhatIsUnderIt) {
     LayeredParams<float> p = plain_layers(1);
     p.f0 = splat3(0.0F);

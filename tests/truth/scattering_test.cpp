@@ -120,5 +120,17 @@ TEST(Scattering, GlassAroundLosesNothing) {
     expect_mean(seen_sphere(milk)[0], 1);
 }
 
+/// Light that enters and leaves diffusely, as in skin and wax, meets the boundary on its way out.
+TEST(Scattering, DiffuseBodiesLoseAndGainNothing) {
+    for (const float share : {0.5f, 1.0f}) {
+        SCOPED_TRACE(share);
+        MaterialLayers wax = cloud({3.0f, 3.0f, 3.0f}, {1, 1, 1}, 0.0f);
+        wax.ior = 1.5f;
+        wax.transmission = 0;
+        wax.diffuse_transmission = share;
+        expect_mean(seen_sphere(wax)[0], 1);
+    }
+}
+
 }  // namespace
 }  // namespace obscura::test
