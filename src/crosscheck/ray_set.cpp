@@ -18,6 +18,8 @@ constexpr std::array group_pattern = {RayGroup::camera,
                                       RayGroup::grazing,
                                       RayGroup::far_origin};
 
+constexpr size_t batch_chunks = 4096;
+
 /// Steps through all pixels of a picture of any size up to its own: scattered, each once.
 constexpr uint64_t pixel_step = 2654435761;  ///< prime
 
@@ -99,6 +101,13 @@ RaySet::RaySet(const TrueScene& scene, const RaySetOptions& options)
 
 size_t RaySet::chunks() const {
     return static_cast<size_t>((options_.rays + chunk_rays - 1) / chunk_rays);
+}
+
+std::vector<RayBatch> batches_of(const RaySet& rays) {
+    std::vector<RayBatch> out;
+    for (size_t first = 0; first < rays.chunks(); first += batch_chunks)
+        out.push_back({rays, first, std::min(batch_chunks, rays.chunks() - first)});
+    return out;
 }
 
 RayGroup RaySet::group(size_t chunk) {

@@ -9,17 +9,6 @@ namespace obscura {
 
 namespace {
 
-constexpr double ulp_of_one = 1.0 / 8388608.0;  ///< spacing of floats above 1
-
-Affined absolute(const Affined& a) {
-    Affined out;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c)
-            out.m[r][c] = std::abs(a.m[r][c]);
-    }
-    return out;
-}
-
 ShapeRay<double> into(const Affined& object_from_world, const TrueRay& ray) {
     return {transform_point(object_from_world, ray.origin),
             transform_vector(object_from_world, ray.direction)};
@@ -44,6 +33,15 @@ Vec3d corner(const Scene& scene, size_t index) {
 }
 
 }  // namespace
+
+Affined absolute(const Affined& a) {
+    Affined out;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c)
+            out.m[r][c] = std::abs(a.m[r][c]);
+    }
+    return out;
+}
 
 TrueScene::TrueScene(const Scene& scene, double slack_m) : scene_(scene), slack_m_(slack_m) {
     groups_.push_back(make_group(0, scene.world_primitive_count));

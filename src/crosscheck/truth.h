@@ -13,6 +13,11 @@
 
 namespace obscura {
 
+inline constexpr double ulp_of_one = 1.0 / 8388608.0;  ///< spacing of floats above 1
+
+/// Absolute values: how far what goes through the matrix may reach.
+Affined absolute(const Affined& a);
+
 /// A triangle or shape in the world, as HitColumns name it.
 struct Item {
     int32_t instance = -1;

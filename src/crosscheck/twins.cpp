@@ -91,11 +91,7 @@ void add_figures(PairFigures&& one, TwinReport& report) {
         report.figures = std::move(one);
         return;
     }
-    for (size_t g = 0; g < ray_groups; ++g)
-        report.figures->groups[g].add(one.groups[g]);
-    std::vector<Difference>& worst = report.figures->worst;
-    worst.insert(worst.end(), one.worst.begin(), one.worst.end());
-    keep_worst(worst);
+    report.figures->add(one);
 }
 
 }  // namespace
@@ -114,12 +110,19 @@ Result<PairFigures> compare_with_mesh(const ShapeRow& row,
     RaySetOptions options;
     options.rays = rays;
     const RaySet set(truth, options);
-    AnswerList own;
-    compare_kernel(truth, set, kernel_of("obscura", *shape_accel), {}, &own, nullptr);
-    std::vector<PairFigures> pairs = compare_kernel(
-        truth, set, kernel_of("tessellated twins", *twin_accel), {&own}, nullptr, nullptr);
-    pairs[0].standard = Standard::edges;
-    return std::move(pairs[0]);
+    const Kernel shape_kernel = kernel_of("obscura", *shape_accel);
+    const Kernel twin_kernel = kernel_of("tessellated twins", *twin_accel);
+    PairFigures figures;
+    for (const RayBatch& batch : batches_of(set)) {
+        AnswerList own;
+        compare_kernel(truth, batch, shape_kernel, {}, &own, nullptr);
+        PairFigures part =
+            std::move(compare_kernel(truth, batch, twin_kernel, {&own}, nullptr, nullptr)[0]);
+        part.add(figures);
+        figures = std::move(part);
+    }
+    figures.standard = Standard::edges;
+    return figures;
 }
 
 Result<TwinReport> check_twins(const Scene& scene, uint64_t rays, const std::string& embree_isa) {
