@@ -157,6 +157,32 @@ bool is_edge_on(const Question& q, const Item& item) {
     return within && undecided >= 2;
 }
 
+/// Half the length of an item, seen from its middle.
+double half_length(const Question& q, const Item& item) {
+    const Vec3d middle = q.scene.middle(item);
+    if (q.scene.is_triangle(item)) {
+        const Triangle<double> t = q.scene.triangle(item);
+        return std::max({length(t.a - middle), length(t.b - middle), length(t.c - middle)});
+    }
+    const ShapeBox box = shape_bounds(q.scene.shape(item));
+    const Vec3d half{0.5 * (static_cast<double>(box.high.x) - static_cast<double>(box.low.x)),
+                     0.5 * (static_cast<double>(box.high.y) - static_cast<double>(box.low.y)),
+                     0.5 * (static_cast<double>(box.high.z) - static_cast<double>(box.low.z))};
+    return length(transform_vector(absolute(q.scene.world_from_object(item)), half));
+}
+
+/// True when rays around hit this item somewhere on the way past it, and others do not: its middle
+/// may be a hole.
+bool is_at_an_edge_of(const Question& q, const Item& item) {
+    constexpr int places = 4;  // before and behind the middle
+    const double middle = passing(q, item);
+    const double half = half_length(q, item) / length(q.ray.direction);
+    for (int k = -places; k <= places; ++k) {
+        if (is_at_its_edge(q, {middle + half * k / places, item, true})) return true;
+    }
+    return false;
+}
+
 /// Occlusion does not say what it met: the best excuse of all that lies beside the ray.
 Finding excuse_occlusion(const Question& q) {
     Finding best = Finding::false_hit;
@@ -165,7 +191,7 @@ Finding excuse_occlusion(const Question& q) {
         const double t = passing(q, item);
         const double rounding = q.scene.rounding_m(q.ray, item, std::max(t, 0.0));
         const Question there{q.scene, q.ray, std::max(q.unit_m, rounding)};
-        if (is_at_its_edge(there, {t, item, true})) {
+        if (is_at_an_edge_of(there, item)) {
             best = Finding::agree;
         } else if (is_edge_on(there, item)) {
             best = Finding::edge_on;

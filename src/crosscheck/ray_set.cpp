@@ -20,6 +20,9 @@ constexpr std::array group_pattern = {RayGroup::camera,
 
 constexpr size_t batch_chunks = 4096;
 
+/// Of the largest half edge of the scene's box.
+constexpr double least_half = 1e-3;
+
 /// Steps through all pixels of a picture of any size up to its own: scattered, each once.
 constexpr uint64_t pixel_step = 2654435761;  ///< prime
 
@@ -96,6 +99,8 @@ RaySet::RaySet(const TrueScene& scene, const RaySetOptions& options)
     const bool empty = !(box.low.x <= box.high.x);
     centre_ = empty ? Vec3d{0, 0, 0} : (box.low + box.high) * 0.5;
     half_ = empty ? Vec3d{1, 1, 1} : (box.high - box.low) * 0.5;
+    // In a flat scene all rays inside would run along its surface.
+    half_ = max3(half_, splat3(least_half * max_component(half_)));
     radius_ = std::max(length(half_), 1e-30);
 }
 

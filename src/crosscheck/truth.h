@@ -106,7 +106,12 @@ private:
     const Object& object_of(const Item& item) const;
     Triangle<double> own_triangle(const Item& item) const;
     bool is_curve(const Item& item) const;
+    /// Number of the first of the two points of a line's piece.
+    int64_t curve_point(const Item& item) const;
     SegmentFrame<double> curve_frame(const Item& item) const;
+    /// Of a line's piece, without what lies inside the pieces before and after it: a line is one
+    /// body.
+    Roots<double> curve_roots(const Item& item, const ShapeRay<double>& ray) const;
     TrueBox box_of(const Item& item) const;
     /// Roots of one item in its own space; t <= 0 means none.
     Roots<double> roots(const Item& item, const ShapeRay<double>& ray) const;
