@@ -1,5 +1,5 @@
-// crosscheck/side_test.h - on which sides of a triangle's edges a ray passes, and what rounding
-// does. SPDX-License-Identifier: Apache-2.0
+// crosscheck/side_test.h - on which sides of a triangle's edges a ray passes, and how that rounds.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "crosscheck/truth.h"
