@@ -171,14 +171,15 @@ double half_length(const Question& q, const Item& item) {
     return length(transform_vector(absolute(q.scene.world_from_object(item)), half));
 }
 
-/// True when rays around hit this item somewhere on the way past it, and others do not: its middle
-/// may be a hole.
+/// True when rays around hit this item somewhere on the way past it, and others do not, or when the
+/// way runs along its surface. Its middle may be a hole.
 bool is_at_an_edge_of(const Question& q, const Item& item) {
     constexpr int places = 4;  // before and behind the middle
     const double middle = passing(q, item);
     const double half = half_length(q, item) / length(q.ray.direction);
     for (int k = -places; k <= places; ++k) {
-        if (is_at_its_edge(q, {middle + half * k / places, item, true})) return true;
+        const Answer there{middle + half * k / places, item, true};
+        if (is_at_its_edge(q, there) || is_near_its_item(q, there)) return true;
     }
     return false;
 }

@@ -99,6 +99,24 @@ TEST_F(CompareAnswers, InATrianglesPlaneNothingTiesAHitToTheTriangle) {
     EXPECT_EQ(verdict(across, {4, lower}), Finding::false_hit);
 }
 
+TEST(CompareOcclusion, ARingSeenEdgeOnIsNotOnlyItsHole) {
+    Scene scene = empty_scene({});
+    ShapeRow ring = make_shape(ShapeKind::disk, 0.45F, 0.18F);
+    add_shape(scene, ring, 0);
+    const TrueScene truth(scene);
+    const Item item = truth.item(0);
+    Answer any;
+    any.any = true;
+    for (const double ulps : {1.3, 3.1}) {
+        TrueRay along{{-4.3, 0, 0.05}, {1, 0, 0}};
+        along.origin.y = ulps * truth.rounding_m(along, item, 4.3);
+        ASSERT_FALSE(truth.nearest(along).found());
+        EXPECT_EQ(compare(truth, along, {}, any).verdict, Finding::crack);
+        along.origin.y *= 20;
+        EXPECT_EQ(compare(truth, along, {}, any).verdict, Finding::false_hit);
+    }
+}
+
 TEST_F(CompareAnswers, EdgeDistanceOfAMismatchIsReported) {
     const TrueRay inside = down(1 - 12 * ulp(down(0, 0)), 0.25);
     const Comparison found = compare(truth_, inside, answer_of(truth_.nearest(inside)), {});
