@@ -96,6 +96,7 @@ OBSCURA_INLINE Found find_in_block(const Call& call, int i) {
 
 /// Lanes [i, i + lane_count) that exist and are active.
 OBSCURA_INLINE Mask active_lanes(const Call& call, int i) {
+    if (i + lane_count <= call.rays.n) return load(call.valid + i) != LanesI(0);
     alignas(64) int32_t active[lane_count] = {};
     for (int k = 0; k < lane_count && i + k < call.rays.n; ++k)
         active[k] = call.valid[i + k];
@@ -135,10 +136,13 @@ OBSCURA_INLINE void find_hits(const Call& call, const Hit& hit) {
         packet_on_shape(call, hit);
         return;
     }
-    for (int i = 0; i < call.rays.n; ++i) {
-        if (call.valid[i] == 0) continue;
-        const Found found = is_shape ? find_on_shape(call, i) : find_in_block(call, i);
-        if (found.row >= 0) hit(i, found);
+    // Where rays have parted, Embree calls with a packet in which one of them is active.
+    for (int first = 0; first < call.rays.n; first += lane_count) {
+        for (uint32_t bits = mask_bits(active_lanes(call, first)); bits != 0; bits &= bits - 1) {
+            const int i = first + __builtin_ctz(bits);
+            const Found found = is_shape ? find_on_shape(call, i) : find_in_block(call, i);
+            if (found.row >= 0) hit(i, found);
+        }
     }
 }
 

@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/asset_choice.h"
 
+#include "app/option_group.h"
 #include "bench/asset_files.h"
 
 #include <system_error>
 
 namespace obscura {
+
+namespace {
 
 Result<std::vector<std::string>> scenes_or_assets(const std::vector<std::string>& scenes,
                                                   const std::optional<std::string>& assets) {
@@ -25,6 +28,31 @@ Result<std::vector<std::string>> scenes_or_assets(const std::vector<std::string>
     for (const std::filesystem::path& file : *files)
         names.push_back(file.string());
     return names;
+}
+
+}  // namespace
+
+Result<std::vector<RenderRequest>> requests_for(
+    const std::vector<std::string>& scenes,
+    const std::optional<std::string>& assets,
+    const std::function<Result<RenderRequest>(const std::string&)>& request_for) {
+    const Result<std::vector<std::string>> names = scenes_or_assets(scenes, assets);
+    if (!names) return fail(names.error());
+    std::vector<RenderRequest> requests;
+    for (const std::string& name : *names) {
+        Result<RenderRequest> one = request_for(name);
+        if (!one) return fail(one.error());
+        requests.push_back(std::move(*one));
+    }
+    return requests;
+}
+
+void add_assets_option(OptionGroup& group, std::optional<std::string>& assets) {
+    group.text("--assets",
+               assets,
+               "DIR",
+               "Where to look for scenes when none is given [the folder\n"
+               "assets beside the program or above it]");
 }
 
 }  // namespace obscura

@@ -2,18 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "base/error.h"
+#include "app/render_request.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace obscura {
 
-/// The scenes that were given; else all of a folder, or of `assets` beside the program or above it.
+class OptionGroup;
+
+/// A request for each of the scenes that were given; else for all of a folder, or of `assets`
+/// beside the program or above it.
 ///
-/// Errors  67 E-BENCH-ASSETS
-Result<std::vector<std::string>> scenes_or_assets(const std::vector<std::string>& scenes,
-                                                  const std::optional<std::string>& assets);
+/// Errors  67 E-BENCH-ASSETS, those of request_for
+Result<std::vector<RenderRequest>> requests_for(
+    const std::vector<std::string>& scenes,
+    const std::optional<std::string>& assets,
+    const std::function<Result<RenderRequest>(const std::string&)>& request_for);
+
+/// The option --assets.
+void add_assets_option(OptionGroup& group, std::optional<std::string>& assets);
 
 }  // namespace obscura

@@ -31,39 +31,49 @@ Result<double> depth_of_pixel(const PreparedScene& prepared,
 
 }  // namespace
 
-Result<ChosenCamera> choose_focused_camera(const PreparedScene& prepared,
-                                           const RenderRequest& request,
-                                           Log& log) {
+Result<ChosenCamera> choose_unfocused_camera(const Scene& scene,
+                                             const RenderRequest& request,
+                                             Log& log) {
     const RenderOptions& options = request.options;
-    CameraRequest asked = request.camera;
-    const auto choose = [&] {
-        return choose_camera(prepared.scene(), asked, options.width, options.height, log);
-    };
-    Result<ChosenCamera> chosen = choose();
-    if (!chosen || !asked.focus_on_px) return chosen;
-    const std::array<int, 2> pixel = *asked.focus_on_px;
+    Result<ChosenCamera> chosen =
+        choose_camera(scene, request.camera, options.width, options.height, log);
+    if (!chosen || !request.camera.focus_on_px) return chosen;
     if (chosen->camera.model != CameraModel::thin_lens) {
         return refuse("this camera has no lens; expected a thin lens: --fstop N or --lens-radius");
     }
+    const std::array<int, 2> pixel = *request.camera.focus_on_px;
     if (pixel[0] >= options.width || pixel[1] >= options.height) {
         return refuse("the pixel is outside the picture of " + std::to_string(options.width) + "x" +
                       std::to_string(options.height));
     }
+    return chosen;
+}
+
+Result<void> focus(const PreparedScene& prepared,
+                   const RenderRequest& request,
+                   Log& log,
+                   ChosenCamera& camera) {
+    if (!request.camera.focus_on_px) return {};
+    const std::array<int, 2> pixel = *request.camera.focus_on_px;
+    const RenderOptions& options = request.options;
+    CameraRequest asked = request.camera;
     // A real lens' angle of view depends a little on its focus, so the pixel is asked again.
     constexpr int most_rounds = 8;
     double before = 0;
     for (int round = 0; round < most_rounds; ++round) {
-        const Result<double> depth = depth_of_pixel(prepared, chosen->camera, options, pixel);
+        const Result<double> depth = depth_of_pixel(prepared, camera.camera, options, pixel);
         if (!depth) return fail(depth.error());
         if (!(*depth > 0)) return refuse("the pixel shows nothing to focus on; choose another");
         asked.settings.focus_distance_m = *depth;
         if (std::abs(*depth - before) <= 1e-7 * *depth) break;
         before = *depth;
-        chosen = choose();
-        if (!chosen) return chosen;
+        Result<ChosenCamera> chosen =
+            choose_camera(prepared.scene(), asked, options.width, options.height, log);
+        if (!chosen) return fail(chosen.error());
+        camera = std::move(*chosen);
     }
     log.detail("focus: " + shortest(before) + " m");
-    return chosen;
+    return {};
 }
 
 }  // namespace obscura

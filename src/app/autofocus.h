@@ -7,13 +7,22 @@
 
 namespace obscura {
 
-/// Chooses the camera. With --focus-on, a ray through the middle of the lens and of that pixel
-/// finds the distance, along the view axis, at which the picture is sharp.
+/// Chooses the camera, with all that --focus-on can be refused for before there is a BVH.
 ///
-/// Errors  those of choose_camera; 64 E-CAM-FOCUS the pixel is outside the picture or shows
-///         nothing, or the camera has no lens; those of render
-Result<ChosenCamera> choose_focused_camera(const PreparedScene& prepared,
-                                           const RenderRequest& request,
-                                           Log& log);
+/// Errors  those of choose_camera; 64 E-CAM-FOCUS the pixel is outside the picture, or the camera
+///         has no lens
+Result<ChosenCamera> choose_unfocused_camera(const Scene& scene,
+                                             const RenderRequest& request,
+                                             Log& log);
+
+/// With --focus-on, a ray through the middle of the lens and of that pixel finds the distance,
+/// along the view axis, at which the picture is sharp. Without, nothing happens.
+///
+/// In      camera: of choose_unfocused_camera
+/// Errors  64 E-CAM-FOCUS the pixel shows nothing; those of choose_camera and render
+Result<void> focus(const PreparedScene& prepared,
+                   const RenderRequest& request,
+                   Log& log,
+                   ChosenCamera& camera);
 
 }  // namespace obscura

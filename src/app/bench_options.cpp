@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_options.h"
 
+#include "app/asset_choice.h"
 #include "app/option_group.h"
 #include "app/render_options.h"
 
@@ -48,11 +49,7 @@ void add_measurement_options(CLI::App& command, BenchArguments& arguments) {
                "LIST",
                "Instruction sets: auto, baseline, avx2, avx512 or all; the\n"
                "first for the main figures, all for a table [auto]");
-    group.text("--assets",
-               arguments.assets,
-               "DIR",
-               "Where to look for scenes when none is given [the folder\n"
-               "assets beside the program or above it]");
+    add_assets_option(group, arguments.assets);
 }
 
 void add_report_options(CLI::App& command, BenchArguments& arguments) {

@@ -154,14 +154,12 @@ Result<BenchRequest> make_bench_request(const BenchArguments& arguments) {
     if (arguments.compare) request.compare = *arguments.compare;
     if (auto parsed = parse_own(arguments, request); !parsed) return fail(parsed.error());
     if (auto sound = check_combinations(arguments, request); !sound) return fail(sound.error());
-    const Result<std::vector<std::string>> scenes =
-        scenes_or_assets(arguments.scenes, arguments.assets);
+    Result<std::vector<RenderRequest>> scenes =
+        requests_for(arguments.scenes, arguments.assets, [&](const std::string& scene) {
+            return request_for(arguments, scene);
+        });
     if (!scenes) return fail(scenes.error());
-    for (const std::string& scene : *scenes) {
-        Result<RenderRequest> one = request_for(arguments, scene);
-        if (!one) return fail(one.error());
-        request.scenes.push_back(std::move(*one));
-    }
+    request.scenes = std::move(*scenes);
     request.verbosity = request.scenes.front().verbosity;
     return request;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/crosscheck_options.h"
 
+#include "app/asset_choice.h"
 #include "app/option_group.h"
 #include "app/render_options.h"
 
@@ -45,11 +46,7 @@ void add_check_options(CLI::App& command, CrosscheckArguments& arguments) {
                "NAME",
                "Instruction set of the renderer's own queries: auto,\n"
                "baseline, avx2, avx512; Embree's are all checked [auto]");
-    group.text("--assets",
-               arguments.assets,
-               "DIR",
-               "Where to look for scenes when none is given [the folder\n"
-               "assets beside the program or above it]");
+    add_assets_option(group, arguments.assets);
 }
 
 void add_report_options(CLI::App& command, CrosscheckArguments& arguments) {

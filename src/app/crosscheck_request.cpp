@@ -103,14 +103,12 @@ Result<CrosscheckRequest> make_crosscheck_request(const CrosscheckArguments& arg
     if (arguments.json) request.json = *arguments.json;
     if (arguments.image) request.image = *arguments.image;
     if (arguments.export_embree) request.export_embree = *arguments.export_embree;
-    const Result<std::vector<std::string>> scenes =
-        scenes_or_assets(arguments.scenes, arguments.assets);
+    Result<std::vector<RenderRequest>> scenes =
+        requests_for(arguments.scenes, arguments.assets, [&](const std::string& scene) {
+            return request_for(arguments, scene);
+        });
     if (!scenes) return fail(scenes.error());
-    for (const std::string& scene : *scenes) {
-        Result<RenderRequest> one = request_for(arguments, scene);
-        if (!one) return fail(one.error());
-        request.scenes.push_back(std::move(*one));
-    }
+    request.scenes = std::move(*scenes);
     return request;
 }
 

@@ -95,8 +95,15 @@ Result<Scene> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log
         log);
 }
 
-/// Poses the asset and builds everything that rendering reads; frees the asset after its last pose.
-Result<PreparedScene> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
+/// What one picture is rendered from.
+struct Shot {
+    ChosenCamera camera;
+    PreparedScene scene;
+};
+
+/// Poses the asset, chooses the camera and builds everything that rendering reads; frees the asset
+/// after its last pose.
+Result<Shot> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
     RenderStatistics& statistics = job.statistics;
     const Stopwatch loading;
     Result<Scene> scene = pose(job, frame, turn, log);
@@ -112,29 +119,29 @@ Result<PreparedScene> prepare(Job& job, const MovieFrame& frame, const Turn& tur
     if (turn.count > 1 && turn.index == 0) job.request.camera.framed = scene->bounds;
     const Result<void> scaled = scale_strokes(job.request, *scene);
     if (!scaled) return fail(scaled.error());
+    Result<ChosenCamera> camera = choose_unfocused_camera(*scene, job.request, log);
+    if (!camera) return fail(camera.error());
 
     Result<PreparedScene> prepared =
         PreparedScene::create(std::move(*scene), job.lighting, job.request.isa, log);
-    if (!prepared) return prepared;
+    if (!prepared) return fail(prepared.error());
     statistics.build_s += prepared->build_seconds().all;
     statistics.bvh_bytes = prepared->bvh_bytes();
     statistics.isa = prepared->isa_name();
     statistics.embree = prepared->embree_version();
-    return prepared;
+    return Shot{std::move(*camera), std::move(*prepared)};
 }
 
 /// Renders, then writes the pictures; a signal stops it between two tiles or two files.
 Result<void> render_and_write(
-    Job& job, const PreparedScene& prepared, const Turn& turn, Log& log, Progress& progress) {
+    Job& job, Shot& shot, const Turn& turn, Log& log, Progress& progress) {
     const RenderRequest& request = job.request;
     RenderStatistics& statistics = job.statistics;
     RenderOptions options = request.options;
-    const Result<ChosenCamera> chosen = choose_focused_camera(prepared, request, log);
-    if (!chosen) return fail(chosen.error());
-    options.moving_camera = chosen->moving;
-    if (const Result<void> exposed = expose_display(*chosen, request, job.display, log); !exposed) {
-        return exposed;
-    }
+    ChosenCamera& camera = shot.camera;
+    if (auto focused = focus(shot.scene, request, log, camera); !focused) return focused;
+    options.moving_camera = camera.moving;
+    if (auto exposed = expose_display(camera, request, job.display, log); !exposed) return exposed;
 
     if (!job.stop) {
         job.stop.emplace();
@@ -145,7 +152,7 @@ Result<void> render_and_write(
                         static_cast<double>(turn.count));
     };
     Result<RenderResult> result =
-        render(prepared, chosen->camera, options, on_progress, job.stop->flag());
+        render(shot.scene, camera.camera, options, on_progress, job.stop->flag());
     if (!result) return fail(result.error());
     statistics.render_s += result->render_seconds;
     add_counters(result->counters, statistics.counters);
@@ -153,7 +160,7 @@ Result<void> render_and_write(
 
     const Stopwatch writing;
     FinishedPicture finished;
-    finished.metadata = make_metadata(request, prepared, *chosen, result->render_seconds, job.log);
+    finished.metadata = make_metadata(request, shot.scene, camera, result->render_seconds, job.log);
     if (request.load.lenient) {
         finished.metadata.extra.emplace_back("degraded", degraded_text(job.degraded));
     }
@@ -201,11 +208,11 @@ Result<void> render_all(Job& job, Progress& progress) {
         const Turn turn{i, frames.size()};
         Log& log = i == 0 ? job.log : later.begin();
         job.request.outputs = frames[i].outputs;
-        Result<PreparedScene> prepared = prepare(job, frames[i], turn, log);
-        if (!prepared) return fail(prepared.error());
-        const Result<void> done = render_and_write(job, *prepared, turn, log, progress);
+        Result<Shot> shot = prepare(job, frames[i], turn, log);
+        if (!shot) return fail(shot.error());
+        const Result<void> done = render_and_write(job, *shot, turn, log, progress);
         if (!done) return done;
-        if (job.asset) job.asset->take_textures(std::move(*prepared).take_scene());
+        if (job.asset) job.asset->take_textures(std::move(shot->scene).take_scene());
         later.end();
         if (!frames[i].number) continue;
         job.statistics.frames.push_back(frame_statistics(frames[i], before, job.statistics));
@@ -220,7 +227,6 @@ Result<void> render_all(Job& job, Progress& progress) {
 
 /// --check: for every picture all that comes before the BVH.
 Result<void> check_all(Job& job) {
-    const RenderOptions& options = job.request.options;
     if (const Result<void> loaded = load(job); !loaded) return loaded;
     const std::vector<MovieFrame> frames = frames_of(job.request);
     RepeatedLog later(job.log);
@@ -229,8 +235,7 @@ Result<void> check_all(Job& job) {
         Result<Scene> scene = pose(job, frames[i], {i, frames.size()}, log);
         if (!scene) return fail(scene.error());
         if (frames.size() > 1 && i == 0) job.request.camera.framed = scene->bounds;
-        const Result<ChosenCamera> chosen =
-            choose_camera(*scene, job.request.camera, options.width, options.height, log);
+        const Result<ChosenCamera> chosen = choose_unfocused_camera(*scene, job.request, log);
         if (!chosen) return fail(chosen.error());
         const Result<void> exposed = expose_display(*chosen, job.request, job.display, log);
         if (!exposed) return exposed;

@@ -33,14 +33,7 @@ OBSCURA_INLINE SinCos<F> precise_turn(const F& t) {
     } else {
         const F quadrant = floor(F(4.0f) * t + F(0.5f));
         const F x = (F(4.0f) * t - quadrant) * F(0.5f * pi_f);
-        const F q = quadrant - F(4.0f) * floor(quadrant * F(0.25f));
-        const F s = sin_cos(x).sin;
-        const F c = sin_cos(x).cos;
-        const MaskOf<F> odd = (q == F(1.0f)) | (q == F(3.0f));
-        const MaskOf<F> cosine_negative = (q == F(1.0f)) | (q == F(2.0f));
-        const F sine = select(odd, c, s);
-        const F cosine = select(odd, s, c);
-        return {select(q >= F(2.0f), -sine, sine), select(cosine_negative, -cosine, cosine)};
+        return turned_by_quarters(sin_cos(x), quadrant);
     }
 }
 

@@ -38,14 +38,15 @@ TruthCheck check_truth(const TrueScene& truth, const RaySet& rays) {
     return {checked.load(), wrong.load()};
 }
 
-/// The comparing of one scene: what every kernel is held against.
+/// The comparing of one batch: what every kernel is held against.
 struct Comparing {
     const TrueScene& truth;
-    const RaySet& rays;
-    AnswerList truths;
-    AnswerList base;  ///< of the first kernel
+    const RayBatch& batch;
     CheckedScene& out;
     Log& log;
+    AnswerList truths = {};
+    AnswerList base = {};  ///< of the first kernel
+    size_t compared = 0;   ///< pairs so far: the same ones in every batch
 
     void run(const Kernel& kernel, Standard standard) {
         std::vector<const AnswerList*> references = {&truths};
@@ -53,14 +54,19 @@ struct Comparing {
         if (!first) references.push_back(&base);
         std::vector<PairFigures> pairs =
             compare_kernel(truth,
-                           rays,
+                           batch,
                            kernel,
                            references,
                            first ? &base : nullptr,
                            standard == Standard::full ? &out.screen : nullptr);
         for (PairFigures& pair : pairs) {
             pair.standard = standard;
-            out.pairs.push_back(std::move(pair));
+            if (compared < out.pairs.size()) {
+                out.pairs[compared].add(pair);
+            } else {
+                out.pairs.push_back(std::move(pair));
+            }
+            ++compared;
         }
         log.detail(out.name + ": " + kernel.name + " done");
     }
@@ -86,6 +92,15 @@ Result<void> compare_production(Comparing& comparing, const Scene& scene, Isa is
     return {};
 }
 
+Result<void> compare_all(Comparing& comparing, const Scene& scene, Isa isa) {
+    const TrueScene& truth = comparing.truth;
+    compare_kernel(truth, comparing.batch, truth_kernel(truth), {}, &comparing.truths, nullptr);
+    comparing.truths.is_truth = true;
+    comparing.log.detail(comparing.out.name + ": searched in double precision");
+    if (auto done = compare_references(comparing, scene); !done) return done;
+    return compare_production(comparing, scene, isa);
+}
+
 }  // namespace
 
 Result<CheckedScene> check_scene(const CheckTask& task, Log& log) {
@@ -105,13 +120,9 @@ Result<CheckedScene> check_scene(const CheckTask& task, Log& log) {
     out.screen.hit.assign(pixels, 0);
     out.formulas = check_formulas(truth, rays.count(), task.rays.seed);
     out.truth = check_truth(truth, rays);
-    Comparing comparing{truth, rays, {}, {}, out, log};
-    compare_kernel(truth, rays, truth_kernel(truth), {}, &comparing.truths, nullptr);
-    comparing.truths.is_truth = true;
-    log.detail(out.name + ": searched in double precision");
-    if (auto done = compare_references(comparing, scene); !done) return fail(done.error());
-    if (auto done = compare_production(comparing, scene, task.isa); !done) {
-        return fail(done.error());
+    for (const RayBatch& batch : batches_of(rays)) {
+        Comparing comparing{truth, batch, out, log};
+        if (auto done = compare_all(comparing, scene, task.isa); !done) return fail(done.error());
     }
     auto twins = check_twins(scene, rays.count(), embree_isa_for(task.isa));
     if (!twins) return fail(twins.error());

@@ -49,7 +49,8 @@ struct CheckTask {
     std::optional<std::filesystem::path> export_embree = {};  ///< folder for Embree's programs
 };
 
-/// Runs all checks of one scene. Memory: about 50 bytes a ray, and two hierarchies at a time.
+/// Runs all checks of one scene. Memory: answers to one batch of rays (200 MB at most), and two
+/// hierarchies at a time; they are built again for every batch.
 ///
 /// Errors  those of Accel::build and PreparedScene::create
 Result<CheckedScene> check_scene(const CheckTask& task, Log& log);

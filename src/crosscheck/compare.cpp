@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/compare.h"
 
+#include "crosscheck/side_test.h"
 #include "math/warp.h"
 
 #include <algorithm>
@@ -140,50 +141,60 @@ bool is_met_nearby(const Question& q, const Answer& answer) {
     return met;
 }
 
-/// Distance between the ray and a line, both without end.
-double line_distance(const TrueRay& ray, const Vec3d& place, const Vec3d& along) {
-    const Vec3d between = place - ray.origin;
-    const Vec3d across = cross(ray.direction, along);
-    const double sine = length(across);
-    if (sine > 1e-12 * length(ray.direction) * length(along)) {
-        return std::abs(dot(between, across)) / sine;
+/// True when rounding alone decides on which side of two or three edges of a triangle the ray
+/// passes, the edges being lines without end, and it lies outside of no other.
+bool is_edge_on(const Question& q, const Item& item) {
+    if (!q.scene.is_triangle(item)) return false;
+    const SideTest test = side_test(q.scene, q.ray, item, edge_ulps * q.unit_m);
+    const double facing = test.facing();
+    bool within = true;
+    int undecided = 0;
+    for (size_t k = 0; k < 3; ++k) {
+        const bool is_chance = std::abs(test.side(k)) <= test.rounding(k);
+        within = within && (test.side(k) * facing >= 0 || is_chance);
+        undecided += is_chance ? 1 : 0;
     }
-    return length(cross(between, ray.direction)) / length(ray.direction);
+    return within && undecided >= 2;
 }
 
-/// True when the ray passes the endless lines through two or three edges of a triangle so closely
-/// that the signs on which any test is built are chance, and lies outside of no other edge.
-bool is_within_lines(const Question& q, const Item& item) {
-    if (!q.scene.is_triangle(item)) return false;
-    const Triangle<double> t = q.scene.triangle(item);
-    const Vec3d corner[3] = {t.a - q.ray.origin, t.b - q.ray.origin, t.c - q.ray.origin};
-    double side[3];
-    for (int k = 0; k < 3; ++k)
-        side[k] = dot(q.ray.direction, cross(corner[k], corner[(k + 1) % 3]));
-    const double facing = side[0] + side[1] + side[2];
-    bool within = true;
-    int near = 0;
-    for (int k = 0; k < 3; ++k) {
-        const Vec3d edge = corner[(k + 1) % 3] - corner[k];
-        const double distance = line_distance(q.ray, corner[k] + q.ray.origin, edge);
-        const bool near_this = distance <= line_ulps * q.unit_m;
-        within = within && (side[k] * facing >= 0 || near_this);
-        near += near_this ? 1 : 0;
+/// Half the length of an item, seen from its middle.
+double half_length(const Question& q, const Item& item) {
+    const Vec3d middle = q.scene.middle(item);
+    if (q.scene.is_triangle(item)) {
+        const Triangle<double> t = q.scene.triangle(item);
+        return std::max({length(t.a - middle), length(t.b - middle), length(t.c - middle)});
     }
-    return within && near >= 2;
+    const ShapeBox box = shape_bounds(q.scene.shape(item));
+    const Vec3d half{0.5 * (static_cast<double>(box.high.x) - static_cast<double>(box.low.x)),
+                     0.5 * (static_cast<double>(box.high.y) - static_cast<double>(box.low.y)),
+                     0.5 * (static_cast<double>(box.high.z) - static_cast<double>(box.low.z))};
+    return length(transform_vector(absolute(q.scene.world_from_object(item)), half));
+}
+
+/// True when rays around hit this item somewhere on the way past it, and others do not, or when the
+/// way runs along its surface. Its middle may be a hole.
+bool is_at_an_edge_of(const Question& q, const Item& item) {
+    constexpr int places = 4;  // before and behind the middle
+    const double middle = passing(q, item);
+    const double half = half_length(q, item) / length(q.ray.direction);
+    for (int k = -places; k <= places; ++k) {
+        const Answer there{middle + half * k / places, item, true};
+        if (is_at_its_edge(q, there) || is_near_its_item(q, there)) return true;
+    }
+    return false;
 }
 
 /// Occlusion does not say what it met: the best excuse of all that lies beside the ray.
 Finding excuse_occlusion(const Question& q) {
     Finding best = Finding::false_hit;
-    q.scene.near_items(q.ray, line_ulps * q.unit_m, [&](const Item& item) {
+    q.scene.near_items(q.ray, beside_ulps * q.unit_m, [&](const Item& item) {
         if (best == Finding::agree) return;
         const double t = passing(q, item);
         const double rounding = q.scene.rounding_m(q.ray, item, std::max(t, 0.0));
         const Question there{q.scene, q.ray, std::max(q.unit_m, rounding)};
-        if (is_at_its_edge(there, {t, item, true})) {
+        if (is_at_an_edge_of(there, item)) {
             best = Finding::agree;
-        } else if (is_within_lines(there, item)) {
+        } else if (is_edge_on(there, item)) {
             best = Finding::edge_on;
         }
     });
@@ -196,7 +207,7 @@ Finding excuse(const Question& q, const Answer& answer) {
     Finding worst = Finding::agree;
     const auto judge = [&](bool good, const Item& item) {
         if (good) return;
-        const bool edge_on = is_within_lines(q, item);
+        const bool edge_on = is_edge_on(q, item);
         worst = std::max(worst, edge_on ? Finding::edge_on : Finding::false_hit);
     };
     if (answer.any) return excuse_occlusion(q);

@@ -26,11 +26,11 @@ enum class Finding : int {
     edge,         ///< different, and rays moved by at most 4 ulp have the other answer
     crack,        ///< within 4 ulp of an edge too, but no such ray has both answers: a ray that
                   ///< went between two neighbours
-    edge_on,    ///< beside a triangle, but within line_ulps of the endless lines through the edges
-                ///< that it lies outside of: seen edge-on, or past a sharp corner
-    depth,      ///< the same item at another depth
-    missed,     ///< not hit, or only behind the expected hit
-    false_hit,  ///< hit where nothing is, or in front of the expected hit
+    edge_on,      ///< beside a triangle, but rounding decides on which side of two or three edges:
+                  ///< seen edge-on, or past a sharp corner
+    depth,        ///< the same item at another depth
+    missed,       ///< not hit, or only behind the expected hit
+    false_hit,    ///< hit where nothing is, or in front of the expected hit
 };
 inline constexpr size_t verdicts = 8;
 
@@ -38,9 +38,8 @@ inline constexpr size_t verdicts = 8;
 /// TrueScene::rounding_m.
 inline constexpr double edge_ulps = 4;
 inline constexpr double depth_ulps = 4;
-/// How near the endless lines of `edge_on` are: the sides of a ray are sums of products, whose
-/// rounding is relative to the whole triangle and not to its edge.
-inline constexpr double line_ulps = 16;
+/// How far from a ray the boxes of items may be whose edges can explain an occlusion.
+inline constexpr double beside_ulps = 16;
 
 struct Comparison {
     Finding verdict = Finding::agree;
@@ -56,8 +55,9 @@ struct Comparison {
 /// away from this one, where it begins and where it hits. It counts as `crack` when no such ray has
 /// the answer, but all that was passed by has an edge within edge_ulps, and what was hit is there
 /// within edge_ulps or has an edge there; of occlusion, which says not what was hit, something must
-/// have an edge within edge_ulps. It counts as `edge_on` when only lines through
-/// edges are as near as that.
+/// have an edge within edge_ulps. It counts as `edge_on` when the ray passes the edges' endless
+/// lines so closely that the signs on which Embree's test (triangle_intersector_pluecker.h) is
+/// built are rounding alone: edge_ulps of the edges' ends and the worst case of seven roundings.
 Comparison compare(const TrueScene& scene,
                    const TrueRay& ray,
                    const Answer& expected,

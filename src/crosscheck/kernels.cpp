@@ -97,8 +97,15 @@ Tally PairFigures::unaimed() const {
     return sum;
 }
 
+void PairFigures::add(const PairFigures& other) {
+    for (size_t g = 0; g < ray_groups; ++g)
+        groups[g].add(other.groups[g]);
+    worst.insert(worst.end(), other.worst.begin(), other.worst.end());
+    keep_worst(worst);
+}
+
 std::vector<PairFigures> compare_kernel(const TrueScene& scene,
-                                        const RaySet& rays,
+                                        const RayBatch& batch,
                                         const Kernel& kernel,
                                         const std::vector<const AnswerList*>& references,
                                         AnswerList* kept,
@@ -111,35 +118,40 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
     }
     if (kept != nullptr) {
         kept->name = kernel.name;
-        kept->answers.resize(static_cast<size_t>(rays.count()));
+        kept->answers.resize(static_cast<size_t>(batch.count()));
     }
     std::mutex merging;  // sums, and the worst by an order of their own: no order matters
-    parallel_for(rays.chunks(), [&](size_t chunk) {
+    parallel_for(batch.chunks, [&](size_t number) {
+        const size_t chunk = batch.first_chunk + number;
         RayBlock block;
         std::vector<Answer> answers;
-        rays.fill(chunk, block);
+        batch.rays.fill(chunk, block);
         kernel.ask(block, answers);
-        const size_t first = chunk * chunk_rays;
+        const size_t first = number * chunk_rays;
         if (kept != nullptr) std::copy(answers.begin(), answers.end(), &kept->answers[first]);
         const RayGroup group = RaySet::group(chunk);
         for (size_t r = 0; r < references.size(); ++r) {
             PairFigures mine;
             std::vector<Finding> seen(answers.size());
             compare_chunk(
-                {scene, block, answers, &references[r]->answers[first], group, first},
+                {scene,
+                 block,
+                 answers,
+                 &references[r]->answers[first],
+                 group,
+                 batch.first_ray() + first},
                 mine,
                 [&](int row, Finding verdict) { seen[static_cast<size_t>(row)] = verdict; });
             const std::lock_guard lock(merging);
-            for (size_t g = 0; g < ray_groups; ++g)
-                all[r].groups[g].add(mine.groups[g]);
-            all[r].worst.insert(all[r].worst.end(), mine.worst.begin(), mine.worst.end());
-            keep_worst(all[r].worst);
+            all[r].add(mine);
             if (screen == nullptr || group != RayGroup::camera || !references[r]->is_truth) {
                 continue;
             }
             for (size_t i = 0; i < seen.size(); ++i)
-                note_on_screen(
-                    *screen, rays.place(chunk, static_cast<int>(i)), seen[i], answers[i].found());
+                note_on_screen(*screen,
+                               batch.rays.place(chunk, static_cast<int>(i)),
+                               seen[i],
+                               answers[i].found());
         }
     });
     return all;

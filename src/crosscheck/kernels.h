@@ -20,7 +20,7 @@ struct Kernel {
     bool occlusion = false;  ///< its answers name no item
 };
 
-/// All answers of one kernel, in the order of the rays.
+/// All answers of one kernel to one batch, in the order of the rays.
 struct AnswerList {
     std::string name;
     std::vector<Answer> answers;
@@ -70,6 +70,8 @@ struct PairFigures {
     Tally total() const;
     /// Of camera rays and of those aimed at nothing.
     Tally unaimed() const;
+    /// Figures of the same two about other rays.
+    void add(const PairFigures& other);
 };
 
 inline constexpr size_t most_worst = 8;
@@ -85,14 +87,14 @@ struct ScreenVerdicts {
     std::vector<uint8_t> hit;  ///< 1: a kernel found something
 };
 
-/// Asks a kernel all rays and compares it with others that have been asked. The same figures for
-/// any number of threads.
+/// Asks a kernel all rays of a batch and compares it with others that have been asked. The same
+/// figures for any number of threads.
 ///
-/// In      references: may be empty
+/// In      references: answers to the same batch; may be empty
 /// Out     kept: the kernel's answers, where it is not null; screen: worse verdicts of this pair,
 ///         where it is not null
 std::vector<PairFigures> compare_kernel(const TrueScene& scene,
-                                        const RaySet& rays,
+                                        const RayBatch& batch,
                                         const Kernel& kernel,
                                         const std::vector<const AnswerList*>& references,
                                         AnswerList* kept,

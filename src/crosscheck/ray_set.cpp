@@ -18,6 +18,11 @@ constexpr std::array group_pattern = {RayGroup::camera,
                                       RayGroup::grazing,
                                       RayGroup::far_origin};
 
+constexpr size_t batch_chunks = 4096;
+
+/// Of the largest half edge of the scene's box.
+constexpr double least_half = 1e-3;
+
 /// Steps through all pixels of a picture of any size up to its own: scattered, each once.
 constexpr uint64_t pixel_step = 2654435761;  ///< prime
 
@@ -94,11 +99,20 @@ RaySet::RaySet(const TrueScene& scene, const RaySetOptions& options)
     const bool empty = !(box.low.x <= box.high.x);
     centre_ = empty ? Vec3d{0, 0, 0} : (box.low + box.high) * 0.5;
     half_ = empty ? Vec3d{1, 1, 1} : (box.high - box.low) * 0.5;
+    // In a flat scene all rays inside would run along its surface.
+    half_ = max3(half_, splat3(least_half * max_component(half_)));
     radius_ = std::max(length(half_), 1e-30);
 }
 
 size_t RaySet::chunks() const {
     return static_cast<size_t>((options_.rays + chunk_rays - 1) / chunk_rays);
+}
+
+std::vector<RayBatch> batches_of(const RaySet& rays) {
+    std::vector<RayBatch> out;
+    for (size_t first = 0; first < rays.chunks(); first += batch_chunks)
+        out.push_back({rays, first, std::min(batch_chunks, rays.chunks() - first)});
+    return out;
 }
 
 RayGroup RaySet::group(size_t chunk) {

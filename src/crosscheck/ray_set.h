@@ -7,6 +7,7 @@
 #include "crosscheck/random.h"
 #include "crosscheck/truth.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -101,5 +102,18 @@ private:
     Vec3d centre_, half_;
     double radius_;
 };
+
+/// Some of a set's rays: `chunks` whole ones from `first_chunk` on.
+struct RayBatch {
+    const RaySet& rays;
+    size_t first_chunk = 0;
+    size_t chunks = 0;
+
+    uint64_t first_ray() const { return first_chunk * chunk_rays; }
+    uint64_t count() const { return std::min(rays.count() - first_ray(), chunks * chunk_rays); }
+};
+
+/// The whole set in parts, so that memory for answers does not grow with the rays.
+std::vector<RayBatch> batches_of(const RaySet& rays);
 
 }  // namespace obscura

@@ -2,23 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/truth.h"
 
+#include "crosscheck/piece_distance.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace obscura {
 
 namespace {
-
-constexpr double ulp_of_one = 1.0 / 8388608.0;  ///< spacing of floats above 1
-
-Affined absolute(const Affined& a) {
-    Affined out;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c)
-            out.m[r][c] = std::abs(a.m[r][c]);
-    }
-    return out;
-}
 
 ShapeRay<double> into(const Affined& object_from_world, const TrueRay& ray) {
     return {transform_point(object_from_world, ray.origin),
@@ -44,6 +35,15 @@ Vec3d corner(const Scene& scene, size_t index) {
 }
 
 }  // namespace
+
+Affined absolute(const Affined& a) {
+    Affined out;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c)
+            out.m[r][c] = std::abs(a.m[r][c]);
+    }
+    return out;
+}
 
 TrueScene::TrueScene(const Scene& scene, double slack_m) : scene_(scene), slack_m_(slack_m) {
     groups_.push_back(make_group(0, scene.world_primitive_count));
@@ -120,12 +120,33 @@ bool TrueScene::is_curve(const Item& item) const {
     return primitive.geometry == static_cast<int32_t>(GeometryKind::curves);
 }
 
-SegmentFrame<double> TrueScene::curve_frame(const Item& item) const {
+int64_t TrueScene::curve_point(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     const int32_t row = primitive.first_triangle + item.row;
-    const uint32_t point = scene_.curve_segments[static_cast<size_t>(row)];
-    const float* p = &scene_.curve_points[4 * static_cast<size_t>(point)];
+    return scene_.curve_segments[static_cast<size_t>(row)];
+}
+
+SegmentFrame<double> TrueScene::curve_frame(const Item& item) const {
+    const float* p = &scene_.curve_points[4 * static_cast<size_t>(curve_point(item))];
     return frame_of<double>({{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]});
+}
+
+Roots<double> TrueScene::curve_roots(const Item& item, const ShapeRay<double>& ray) const {
+    Roots<double> found = intersect_segment(curve_frame(item), ray);
+    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
+    for (const int32_t step : {-1, 1}) {
+        const Item next{item.instance, item.primitive, item.row + step};
+        if (next.row < 0 || next.row >= primitive.triangle_count) continue;
+        if (curve_point(next) != curve_point(item) + step) continue;
+        const SegmentFrame<double> frame = curve_frame(next);
+        // The sphere between two pieces is the surface of both.
+        const double inside = -1e-9 * (frame.capsule.half_height + frame.capsule.bottom);
+        for (int k = 0; k < 2; ++k) {
+            const Vec3d place = ray.origin + ray.direction * found.t[k];
+            found.hit[k] = found.hit[k] && piece_distance(frame, place) >= inside;
+        }
+    }
+    return found;
 }
 
 ShapeRow TrueScene::shape(const Item& item) const {
@@ -188,7 +209,7 @@ Roots<double> TrueScene::roots(const Item& item, const ShapeRay<double>& ray) co
         const TriangleHit<double> hit = intersect_triangle(own_triangle(item), ray);
         return {{hit.t, hit.t}, {hit.hit, false}};
     }
-    if (is_curve(item)) return intersect_segment(curve_frame(item), ray);
+    if (is_curve(item)) return curve_roots(item, ray);
     const ShapeRow row = shape(item);
     return intersect_shape<double>(row, ray);
 }
@@ -327,10 +348,15 @@ double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) con
     double rounding = max_component(size) * ulp_of_one;
     if (item.primitive >= 0 && is_curve(item)) {
         // Embree subtracts squares of half the piece's length from each other.
-        const Capsule<double> capsule = curve_frame(item).capsule;
+        const SegmentFrame<double> frame = curve_frame(item);
+        const Capsule<double>& capsule = frame.capsule;
         const double thin =
             std::max(std::min(capsule.bottom, capsule.top), 1e-3 * capsule.half_height);
         rounding = std::max(rounding, square(capsule.half_height) / thin * ulp_of_one);
+        // And it takes the square of the angle's sine as a difference of numbers as large as 1.
+        const double sine = length(cross(normalize(ray.direction), frame.axes.normal));
+        const double tilt = ulp_of_one / std::max(sine, std::sqrt(ulp_of_one));
+        rounding = std::max(rounding, 2 * capsule.half_height * tilt);
     }
     // Two that are compared by way of this scene, as with slack they are, may each be as far off.
     return slack_m_ > 0 ? std::max(slack_m_, 2 * rounding) : rounding;

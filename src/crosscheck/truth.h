@@ -13,6 +13,11 @@
 
 namespace obscura {
 
+inline constexpr double ulp_of_one = 1.0 / 8388608.0;  ///< spacing of floats above 1
+
+/// Absolute values: how far what goes through the matrix may reach.
+Affined absolute(const Affined& a);
+
 /// A triangle or shape in the world, as HitColumns name it.
 struct Item {
     int32_t instance = -1;
@@ -101,7 +106,12 @@ private:
     const Object& object_of(const Item& item) const;
     Triangle<double> own_triangle(const Item& item) const;
     bool is_curve(const Item& item) const;
+    /// Number of the first of the two points of a line's piece.
+    int64_t curve_point(const Item& item) const;
     SegmentFrame<double> curve_frame(const Item& item) const;
+    /// Of a line's piece, without what lies inside the pieces before and after it: a line is one
+    /// body.
+    Roots<double> curve_roots(const Item& item, const ShapeRay<double>& ray) const;
     TrueBox box_of(const Item& item) const;
     /// Roots of one item in its own space; t <= 0 means none.
     Roots<double> roots(const Item& item, const ShapeRay<double>& ray) const;

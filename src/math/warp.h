@@ -28,6 +28,20 @@ struct SinCos {
     F sin, cos;
 };
 
+/// Sine and cosine of an angle and so many quarter turns, from those of the angle.
+///
+/// In   quarters: whole
+template <typename F>
+OBSCURA_INLINE SinCos<F> turned_by_quarters(const SinCos<F>& of, const F& quarters) {
+    const auto q = to_int(quarters);
+    const auto odd = (q & IntOf<F>(1)) == IntOf<F>(1);
+    const auto sine_negative = (q & IntOf<F>(2)) == IntOf<F>(2);
+    const auto cosine_negative = ((q + IntOf<F>(1)) & IntOf<F>(2)) == IntOf<F>(2);
+    const F sine = select(odd, of.cos, of.sin);
+    const F cosine = select(odd, of.sin, of.cos);
+    return {select(sine_negative, -sine, sine), select(cosine_negative, -cosine, cosine)};
+}
+
 /// Sine and cosine of an angle, in lanes to about one unit in the last place.
 ///
 /// In      |angle| at most a few turns, radians
@@ -50,13 +64,7 @@ OBSCURA_INLINE SinCos<F> sin_cos(const F& angle) {
                     x2 * x2 *
                         (F(4.166664568298827e-2f) +
                          x2 * (F(-1.388731625493765e-3f) + x2 * F(2.443315711809948e-5f)));
-        const auto q = to_int(quadrant);
-        const auto odd = (q & IntOf<F>(1)) == IntOf<F>(1);
-        const auto sine_negative = (q & IntOf<F>(2)) == IntOf<F>(2);
-        const auto cosine_negative = ((q + IntOf<F>(1)) & IntOf<F>(2)) == IntOf<F>(2);
-        const F sine = select(odd, c, s);
-        const F cosine = select(odd, s, c);
-        return {select(sine_negative, -sine, sine), select(cosine_negative, -cosine, cosine)};
+        return turned_by_quarters({s, c}, quadrant);
     }
 }
 
@@ -75,13 +83,7 @@ OBSCURA_INLINE SinCos<F> sin_cos_turn(const F& t) {
         const F c =
             F(1.0f) +
             x2 * (F(-0.5f) + x2 * (F(1.0f / 24) + x2 * (F(-1.0f / 720) + x2 * F(1.0f / 40320))));
-        const auto q = to_int(quadrant);
-        const auto odd = (q & IntOf<F>(1)) == IntOf<F>(1);
-        const auto sine_negative = (q & IntOf<F>(2)) == IntOf<F>(2);
-        const auto cosine_negative = ((q + IntOf<F>(1)) & IntOf<F>(2)) == IntOf<F>(2);
-        const F sine = select(odd, c, s);
-        const F cosine = select(odd, s, c);
-        return {select(sine_negative, -sine, sine), select(cosine_negative, -cosine, cosine)};
+        return turned_by_quarters({s, c}, quadrant);
     }
 }
 

@@ -31,10 +31,12 @@ struct BlockHit {
 
 /// The spheres that the ray's line may meet: a rough distance, with room for its rounding. Most
 /// blocks whose box a ray passes hold none, and end here.
+///
+/// In   squared_length: of the direction
 OBSCURA_INLINE Mask may_meet(const float* block,
                              const ShapeRay<float>& ray,
                              const Vec3<Lanes>& d,
-                             float inverse_square) {
+                             float squared_length) {
     const auto offset = [&](float origin, int column) {
         return Lanes(origin) - load(block + column * sphere_block);
     };
@@ -42,23 +44,23 @@ OBSCURA_INLINE Mask may_meet(const float* block,
     const Vec3<Lanes> across = cross(p, d);
     const Lanes rounding = (abs(p.x) + abs(p.y) + abs(p.z)) * Lanes(1e-6f);
     const Lanes reach = load(block + 3 * sphere_block) + rounding;
-    return dot(across, across) * Lanes(inverse_square) <= reach * reach;
+    return dot(across, across) <= reach * reach * Lanes(squared_length);
 }
 
 /// Both roots of one ray with the spheres in the lanes; as intersect_sphere, but that the ray's own
 /// numbers are computed once, and nothing more where all lanes pass by.
 OBSCURA_INLINE Roots<Lanes> roots_in_lanes(const float* block,
                                            const ShapeRay<float>& ray,
-                                           float inverse_square) {
+                                           float squared_length) {
     const Vec3<Lanes> d{Lanes(ray.direction.x), Lanes(ray.direction.y), Lanes(ray.direction.z)};
-    if (none(may_meet(block, ray, d, inverse_square))) return {{}, {Mask(false), Mask(false)}};
+    if (none(may_meet(block, ray, d, squared_length))) return {{}, {Mask(false), Mask(false)}};
     const auto offset = [&](float origin, int column) {
         return two_sum(Lanes(origin), Lanes(-load(block + column * sphere_block)));
     };
     const Exact<Lanes> x = offset(ray.origin.x, 0);
     const Exact<Lanes> y = offset(ray.origin.y, 1);
     const Exact<Lanes> z = offset(ray.origin.z, 2);
-    const Lanes inverse(inverse_square);
+    const Lanes inverse(1.0f / squared_length);
     const Lanes t = -dot(Vec3<Lanes>{x.value, y.value, z.value}, d) * inverse;
     const Vec3<Lanes> near{multiply_add(t, d.x, x.value) + x.error,
                            multiply_add(t, d.y, y.value) + y.error,
@@ -90,10 +92,10 @@ OBSCURA_INLINE BlockHit intersect_sphere_block(const float* block,
                                                const ShapeRay<float>& ray,
                                                const Span<float>& limits,
                                                bool front_only) {
-    const float inverse_square = 1.0f / dot(ray.direction, ray.direction);
+    const float squared_length = dot(ray.direction, ray.direction);
     BlockHit best{limits.high, -1};
     for (int i = 0; i < sphere_block; i += lane_count) {
-        Roots<Lanes> roots = roots_in_lanes(block + i, ray, inverse_square);
+        Roots<Lanes> roots = roots_in_lanes(block + i, ray, squared_length);
         if (none(roots.hit[0])) continue;
         if (front_only) roots.hit[1] = Mask(false);
         const NearHit<Lanes> hit = nearest(roots, Lanes(limits.low), Lanes(best.t));

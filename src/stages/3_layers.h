@@ -9,6 +9,10 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
+/// The path key whose wavelength is 587.56 nm, the d line of helium: for this the indices of
+/// refraction are given, so that nothing is dispersed.
+inline constexpr uint32_t d_line_key = 0xD5A58U;
+
 /// Where a hit lies on its surface, for its layers.
 struct LayerPlace {
     const TangentLanes& tangents;

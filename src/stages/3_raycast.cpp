@@ -1,6 +1,7 @@
 // stages/3_raycast.cpp - stage 3 for --integrator raycast: every light, once, without randomness.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/3_misses.h"
+#include "stages/3_scatter.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -26,6 +27,63 @@ OBSCURA_INLINE Vec3<Lanes> ambient_light(const AmbientLight& light,
            (metal * p.metallic + splat3(dielectric)) * specular;
 }
 
+/// Share of light from all around that sheen leaves to what is below it: for a view direction the
+/// mean of evaluate_layered's over the cosine law.
+OBSCURA_INLINE Lanes left_by_sheen(const LayeredParams<Lanes>& p, const LayeredWeights<Lanes>& w) {
+    const Lanes most = max_component(p.sheen_color);
+    if (none(most > Lanes(0.0f))) return Lanes(1.0f);
+    constexpr int strata = 4;
+    Lanes sum(0.0f);
+    for (int i = 0; i < strata; ++i) {
+        const Lanes cosine = sqrt(Lanes((static_cast<float>(i) + 0.5f) / strata));
+        const Lanes below = Lanes(1.0f) - most * sheen_albedo(cosine, p.sheen_alpha).albedo;
+        sum = sum + min(w.below_sheen, below);
+    }
+    return sum * Lanes(1.0f / strata);
+}
+
+/// The same for a material with layers: every lobe reflects by its directional albedo what comes
+/// from around its own direction, and what goes through comes from straight behind.
+OBSCURA_INLINE Vec3<Lanes> ambient_layers(const AmbientLight& light,
+                                          const ShadingPoint& s,
+                                          const Vec3<Lanes>& wo) {
+    const LayeredParams<Lanes>& p = s.layers.params;
+    const LayeredWeights<Lanes>& w = s.layers.weights;
+    const Lanes one(1.0f);
+    const auto from = [&](const Vec3<Lanes>& direction) {
+        return ambient_irradiance(light, direction) * Lanes(1.0f / pi_f);
+    };
+    const auto mirrored = [&](const Vec3<Lanes>& n) {
+        return from(n * (Lanes(2.0f) * dot(n, wo)) - wo);
+    };
+    const Vec3<Lanes>& n = s.frame.normal;
+    const Lanes cosine = dot(n, wo);
+    const Lanes roughness = sqrt(sqrt(p.alpha.x * p.alpha.y));
+    const Lanes scale = look_up_albedo(specular_albedo_scale, cosine, roughness);
+    const Lanes bias = look_up_albedo(specular_albedo_bias, cosine, roughness);
+    const LayeredFresnel<Lanes> film = layered_fresnel(p, cosine);
+    const Lanes mirror = scale + bias;  // what rough facets that reflect everything reflect
+    const auto albedo = [&](const Vec3<Lanes>& f0, Lanes f90, const Vec3<Lanes>& filmed) {
+        const Vec3<Lanes> plain = f0 * scale + splat3(f90 * bias);
+        return plain + (filmed * mirror - plain) * p.film.strength;
+    };
+    const Vec3<Lanes> dielectric = albedo(p.f0, p.f90, film.dielectric);
+    const Vec3<Lanes> metal = albedo(p.base_color, one, film.metal);
+    const Vec3<Lanes> front = from(n);
+    Vec3<Lanes> sum = (dielectric * (one - p.metallic) + metal * p.metallic) * mirrored(n);
+    sum = sum + p.base_color * front * (w.diffuse * (one - p.diffuse_transmission));
+    if (any(s.layers.lets_through)) {
+        const Lanes passes = w.transmitted * (mirror - max_component(dielectric));
+        sum = sum + p.base_color * from(-wo) * passes;
+        sum = sum + p.diffuse_transmission_color * from(-n) * (w.diffuse * p.diffuse_transmission);
+    }
+    const Lanes sheen = sheen_albedo(cosine, p.sheen_alpha).albedo;
+    sum = sum * left_by_sheen(p, w) + p.sheen_color * front * sheen;
+    if (none(p.coat > Lanes(0.0f))) return sum;
+    const Vec3<Lanes> coat_normal = to_world(s.frame, p.coat_normal);
+    return sum * w.below_coat + mirrored(coat_normal) * (one - w.below_coat);
+}
+
 /// What needs no shadow ray: emission, unlit colours, the environment, the headlight.
 OBSCURA_INLINE void add_unshadowed(const SceneView& scene,
                                    const SampleRows& samples,
@@ -35,12 +93,16 @@ OBSCURA_INLINE void add_unshadowed(const SceneView& scene,
     const Vec3<Lanes> wo = -path.direction;
     Vec3<Lanes> light = s.emission;
     if (scene.raycast.ambient != nullptr) {
-        light = light + ambient_light(*scene.raycast.ambient, s, wo);
+        Vec3<Lanes> around = ambient_light(*scene.raycast.ambient, s, wo);
+        if (s.any_layers) {
+            const Vec3<Lanes> all = ambient_layers(*scene.raycast.ambient, s, wo);
+            around = select(s.layers.layered, all, around);
+        }
+        light = light + around;
     }
     if (scene.raycast.headlight) {
         const Vec3<Lanes> local = to_local(s.frame, wo);
-        light = light + evaluate_bsdf(s.bsdf, s.lobes, local, local).value_cos *
-                            Lanes(headlight_irradiance);
+        light = light + evaluate_point(s, local, local).value_cos * Lanes(headlight_irradiance);
     }
     light = select(s.unlit, s.bsdf.base_color, light);
     // A mask made here: GCC 12 reads one kept from before this many registers with wrong high bits.
@@ -65,7 +127,9 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Shade
     int shadows = 0;
     for (int i = range.first_hit; i < end; i += lane_count) {
         const Mask exists = rows_in_range(i, end);
-        const PathLanes path = load_paths(rows.paths, i);
+        PathLanes path = load_paths(rows.paths, i);
+        const LanesU path_key = path.path_key;
+        path.path_key = LanesU(d_line_key);  // pixels must not differ in their wavelengths
         const HitLanes hit = hits_of_paths(rows, i, exists, path);
         const ShadingPoint s =
             shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
@@ -79,20 +143,19 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Shade
                           scene.lights.punctual, LanesI(k), s.light_start, scene.lights.profiles)
                     : sample_centre_light<Lanes>(scene.raycast.centres, centre, s.light_start);
             const Vec3<Lanes> wi = to_local(s.frame, light.direction);
-            const Vec3<Lanes> radiance = path.throughput * light.irradiance *
-                                         evaluate_bsdf(s.bsdf, s.lobes, wo, wi).value_cos;
-            const Mask useful = exists & (!s.unlit) & (dot(light.direction, s.ng) > Lanes(0.0f)) &
+            const Vec3<Lanes> radiance =
+                path.throughput * light.irradiance * evaluate_point(s, wo, wi).value_cos;
+            const Mask before = dot(light.direction, s.ng) > Lanes(0.0f);
+            const Mask useful = exists & (!s.unlit) & may_leave(s, before, wi) &
                                 (max_component(radiance) > Lanes(0.0f));
             if (none(useful)) continue;
-            shadows = append_shadows(rows.shadows,
-                                     shadows,
-                                     useful,
-                                     {s.light_start,
-                                      light.direction,
-                                      light.distance,
-                                      radiance,
-                                      path.slot,
-                                      path.path_key});
+            const Vec3<Lanes> start =
+                s.any_layers ? select(before, s.light_start, s.start_beyond) : s.light_start;
+            shadows = append_shadows(
+                rows.shadows,
+                shadows,
+                useful,
+                {start, light.direction, light.distance, radiance, path.slot, path_key});
         }
     }
     return shadows;

@@ -158,7 +158,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, wo));
     s.bsdf = bsdf_params(scene, g, look, slots);
     s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, wo));
-    s.any_layers = filtering == Filtering::stochastic && any(layered);
+    s.any_layers = any(layered);
     if (s.any_layers) {
         const Vec3<Lanes> smooth = select(dot(g.normal, s.ng) < Lanes(0.0f), -g.normal, g.normal);
         LayerPlace place{tangents, s.frame, smooth, s.ng, wo, front, layered};

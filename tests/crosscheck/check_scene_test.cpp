@@ -47,6 +47,28 @@ TEST(CheckScene, ThinLinesAreWithinTheBudgetAndDoNotShadowThemselves) {
     EXPECT_EQ(checked.spawned.self_hits, 0U);
 }
 
+/// A fence of lines whose pieces are 400 times as long as thick, so that Embree finds them beside
+/// where they are by up to a hundredth of their radius, another one for each ray: what shading
+/// starts there must begin further out than that.
+TEST(CheckSpawned, WhatShadingStartsOnThinLinesLeavesThem) {
+    Scene scene = empty_scene({});
+    constexpr int lines = 100;
+    for (int i = 0; i < lines; ++i) {
+        const float x = 0.015F * static_cast<float>(i);
+        add_strip(scene, {{{x, -0.9F, 0.1F}}, {{x + 0.3F, 1, -0.2F}}}, 0.005F);
+    }
+    Log log(Verbosity::quiet);
+    const auto prepared = PreparedScene::create(opaque_copy(scene), {}, Isa::automatic, log);
+    ASSERT_TRUE(prepared.has_value());
+    const TrueScene truth(prepared->scene());
+    const RaySet rays(truth, few_rays(65536));
+    const auto spawned = check_spawned(*prepared, truth, rays, Isa::automatic);
+    ASSERT_TRUE(spawned.has_value());
+    EXPECT_GT(spawned->rays, 30000U);
+    EXPECT_EQ(spawned->self_hits, 0U);
+    EXPECT_EQ(spawned->aimed_self_hits, 0U);
+}
+
 TEST(CheckScene, ACubeAndShapesAreWithinTheBudget) {
     const CheckedScene checked = check(shapes_and_cube(), 65536);
     EXPECT_THAT(checked.faults, testing::IsEmpty());

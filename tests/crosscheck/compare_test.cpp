@@ -89,6 +89,34 @@ TEST_F(CompareAnswers, OcclusionOfARayAlongATriangleIsChance) {
     EXPECT_EQ(verdict({{-3, 0.2, 100 * height}, {1, 0.05, 0}}, any), Finding::false_hit);
 }
 
+TEST_F(CompareAnswers, InATrianglesPlaneNothingTiesAHitToTheTriangle) {
+    const double height = ulp(down(0, 0)) / 4;
+    const auto beside = [&](double z) { return TrueRay{{-3, 5, z}, {1, 0.05, 0}}; };
+    EXPECT_EQ(verdict(beside(height), {3, lower}), Finding::edge_on);
+    EXPECT_EQ(verdict(beside(400 * height), {3, lower}), Finding::false_hit);
+    // Across the plane the third side decides: it has passed the corner by a fifth of the edge.
+    const TrueRay across{{1.4, -1, 4}, {0, 0, -1}};
+    EXPECT_EQ(verdict(across, {4, lower}), Finding::false_hit);
+}
+
+TEST(CompareOcclusion, ARingSeenEdgeOnIsNotOnlyItsHole) {
+    Scene scene = empty_scene({});
+    ShapeRow ring = make_shape(ShapeKind::disk, 0.45F, 0.18F);
+    add_shape(scene, ring, 0);
+    const TrueScene truth(scene);
+    const Item item = truth.item(0);
+    Answer any;
+    any.any = true;
+    for (const double ulps : {1.3, 3.1}) {
+        TrueRay along{{-4.3, 0, 0.05}, {1, 0, 0}};
+        along.origin.y = ulps * truth.rounding_m(along, item, 4.3);
+        ASSERT_FALSE(truth.nearest(along).found());
+        EXPECT_EQ(compare(truth, along, {}, any).verdict, Finding::crack);
+        along.origin.y *= 20;
+        EXPECT_EQ(compare(truth, along, {}, any).verdict, Finding::false_hit);
+    }
+}
+
 TEST_F(CompareAnswers, EdgeDistanceOfAMismatchIsReported) {
     const TrueRay inside = down(1 - 12 * ulp(down(0, 0)), 0.25);
     const Comparison found = compare(truth_, inside, answer_of(truth_.nearest(inside)), {});

@@ -4,6 +4,8 @@
 
 #include "accel/accel.h"
 #include "crosscheck/check_scenes.h"
+#include "crosscheck/formula_check.h"
+#include "crosscheck/piece_distance.h"
 #include "crosscheck/random.h"
 #include "crosscheck/ray_set.h"
 
@@ -36,6 +38,48 @@ TEST(TrueScene, HitsBothSidesOfASphere) {
     int count = 0;
     truth.all_hits({{0, 1, 5}, {0, 0, -1}}, [&](double, Item) { ++count; });
     EXPECT_EQ(count, 2);
+}
+
+TEST(TrueScene, DistanceFromAPieceIsThatFromTheNearestOfItsBalls) {
+    ShapeRow row = make_shape(ShapeKind::capsule, 1.5F, 0.75F, 0.25F);
+    const SegmentFrame<double> frame = frame_of<double>({{1, 1, 1}, {1, 1, 4}, 0.75, 0.25});
+    for (uint64_t i = 0; i < 1000; ++i) {
+        RandomStream random(i);
+        const Vec3d place{random.between(-2, 2), random.between(-3, 3), random.between(-2, 2)};
+        const Vec3d world = frame.centre + out_of_frame(frame, place);
+        EXPECT_NEAR(piece_distance(frame, world), side_of_shape(row, place), 1e-9);
+    }
+}
+
+/// A right angle of two pieces, their radius 0.1: one body, as Embree has it.
+TEST(TrueScene, ALineHasNoWallsWhereItsPiecesMeet) {
+    Scene scene = empty_scene({});
+    add_strip(scene, {{{-1, 0, 0}}, {{0, 0, 0}}, {{0, 1, 0}}}, 0.1F);
+    add_strip(scene, {{{5, 0, 0}}, {{6, 0, 0}}}, 0.1F);
+    add_strip(scene, {{{6, 0, 0}}, {{6, 1, 0}}}, 0.1F);  // begins there, but is another line
+    const TrueScene truth(scene);
+    EXPECT_NEAR(truth.nearest({{-0.5, 0, 0}, {1, 0, 0}}).t, 0.6, 1e-7);
+    EXPECT_NEAR(truth.nearest({{0, 0.5, 0}, {0, -1, 0}}).t, 0.6, 1e-7);
+    // Through the corner from one piece to the other: only the way out is there.
+    const TrueRay round_corner{{-0.05, 0.02, 0}, normalize(Vec3d{0.1, 0.5, 0})};
+    EXPECT_EQ(truth.nearest(round_corner).item, (Item{-1, 0, 1}));
+    EXPECT_NEAR(truth.nearest({{5.5, 0, 0}, {1, 0, 0}}).t, 0.4, 1e-7);
+    EXPECT_EQ(truth.nearest({{5.95, 0.05, 0}, {0, 1, 0}}).item, (Item{-1, 1, 0}));
+}
+
+TEST(TrueScene, AlongALineRoundingTurnsTheRay) {
+    Scene scene = empty_scene({});
+    add_strip(scene, {{{0, 0, 0}}, {{0, 1, 0}}}, 0.05F);
+    const TrueScene truth(scene);
+    const Item piece{-1, 0, 0};
+    const auto rounding = [&](double sine) {
+        const TrueRay ray{{0.04, 2, 0}, {sine, -std::sqrt(1 - sine * sine), 0}};
+        return truth.rounding_m(ray, piece, 1);
+    };
+    constexpr double ulp = 1.0 / 8388608;
+    EXPECT_NEAR(rounding(1e-3), ulp / 1e-3, 1e-3 * ulp);
+    EXPECT_NEAR(rounding(0), std::sqrt(ulp), 1e-9);
+    EXPECT_LT(rounding(0.5), 6 * ulp);
 }
 
 TEST(TrueScene, SeesThroughAnInstanceAndItsMatrix) {

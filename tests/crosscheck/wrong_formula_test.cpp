@@ -19,7 +19,7 @@ CheckedScene check_spoilt(const Scene& scene, const Spoil& spoil) {
     const TrueScene truth(scene);
     const RaySet rays(truth, few_rays(ray_count));
     AnswerList truths;
-    compare_kernel(truth, rays, truth_kernel(truth), {}, &truths, nullptr);
+    compare_kernel(truth, batches_of(rays)[0], truth_kernel(truth), {}, &truths, nullptr);
     truths.is_truth = true;
     const Kernel spoilt{"spoilt", [&](RayBlock& block, std::vector<Answer>& answers) {
                             truth_kernel(truth).ask(block, answers);
@@ -27,7 +27,7 @@ CheckedScene check_spoilt(const Scene& scene, const Spoil& spoil) {
                                 spoil(answer);
                         }};
     CheckedScene checked;
-    checked.pairs = compare_kernel(truth, rays, spoilt, {&truths}, nullptr, nullptr);
+    checked.pairs = compare_kernel(truth, batches_of(rays)[0], spoilt, {&truths}, nullptr, nullptr);
     checked.faults = faults_of(checked);
     return checked;
 }
@@ -64,10 +64,11 @@ TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
     const TrueScene wrong(larger);
     const RaySet rays(truth, few_rays(ray_count));
     AnswerList truths;
-    compare_kernel(truth, rays, truth_kernel(truth), {}, &truths, nullptr);
+    compare_kernel(truth, batches_of(rays)[0], truth_kernel(truth), {}, &truths, nullptr);
     truths.is_truth = true;
     CheckedScene checked;
-    checked.pairs = compare_kernel(truth, rays, truth_kernel(wrong), {&truths}, nullptr, nullptr);
+    checked.pairs = compare_kernel(
+        truth, batches_of(rays)[0], truth_kernel(wrong), {&truths}, nullptr, nullptr);
     EXPECT_GT(checked.pairs.at(0).total().of(Finding::depth), 0U);
     EXPECT_FALSE(faults_of(checked).empty());
 }
@@ -82,6 +83,44 @@ TEST(WrongFormula, TheWorstDifferencesCanBeReplayed) {
     const TrueScene truth(cube);
     for (const Difference& difference : pair.worst)
         EXPECT_EQ(truth.nearest(difference.ray).item.row, 7);
+}
+
+TEST(RayBatches, HoldEveryRayOnceAndNoMoreThanMemoryAllows) {
+    const Scene cube = closed_cube();
+    const TrueScene truth(cube);
+    const RaySet rays(truth, few_rays(100000001));
+    uint64_t next = 0;
+    for (const RayBatch& batch : batches_of(rays)) {
+        EXPECT_EQ(batch.first_ray(), next);
+        EXPECT_LE(batch.count(), 1U << 22U);
+        next += batch.count();
+    }
+    EXPECT_EQ(next, rays.count());
+}
+
+TEST(RayBatches, TogetherSayWhatOneDoes) {
+    const Scene cube = closed_cube();
+    const TrueScene truth(cube);
+    const RaySet rays(truth, few_rays(2 * ray_count - 100));
+    const Kernel blind{"blind", [&](RayBlock& block, std::vector<Answer>& answers) {
+                           truth_kernel(truth).ask(block, answers);
+                           for (size_t i = 0; i < answers.size(); i += 100)
+                               answers[i] = {};
+                       }};
+    const auto figures = [&](const RayBatch& batch) {
+        AnswerList truths;
+        compare_kernel(truth, batch, truth_kernel(truth), {}, &truths, nullptr);
+        return compare_kernel(truth, batch, blind, {&truths}, nullptr, nullptr)[0];
+    };
+    const PairFigures whole = figures(batches_of(rays)[0]);
+    PairFigures parts = figures({rays, 0, 5});
+    parts.add(figures({rays, 5, rays.chunks() - 5}));
+    EXPECT_GT(whole.total().of(Finding::missed), 0U);
+    EXPECT_EQ(parts.total().rays, rays.count());
+    EXPECT_EQ(parts.total().counts, whole.total().counts);
+    ASSERT_EQ(parts.worst.size(), whole.worst.size());
+    for (size_t i = 0; i < whole.worst.size(); ++i)
+        EXPECT_EQ(parts.worst[i].number, whole.worst[i].number);
 }
 
 TEST(WrongFormula, LeaksSelfHitsAndWallsAreFaults) {

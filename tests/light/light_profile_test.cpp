@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/light_profile.h"
 
+#include "light/punctual_lanes.h"
 #include "light/punctual_sample.h"
 
 #include <gtest/gtest.h>
 
-#include "support/random.h"
 #include <array>
 #include <cmath>
 #include <vector>
@@ -139,32 +139,7 @@ TEST(LightProfile, FloatDoubleAndLanesAgree) {
     lights[0].profile = 0;
     lights[1].intensity[0] = 40;  // no profile
     lights[2].profile = 1;
-    Pcg32 random(5);
-    for (int round = 0; round < 300; ++round) {
-        int32_t index[lane_count];
-        float from[3][lane_count];
-        for (int i = 0; i < lane_count; ++i) {
-            index[i] = static_cast<int32_t>(random.next_uint() % 3);
-            for (auto& number : from)
-                number[i] = 4 * random.next_float() - 2;
-        }
-        const auto lanes = sample_punctual<Lanes>(lights,
-                                                  BatchI::load_unaligned(index),
-                                                  {BatchF::load_unaligned(from[0]),
-                                                   BatchF::load_unaligned(from[1]),
-                                                   BatchF::load_unaligned(from[2])},
-                                                  table.view());
-        float irradiance[lane_count];
-        lanes.irradiance.x.v.store_unaligned(irradiance);
-        for (int i = 0; i < lane_count; ++i) {
-            const auto d = sample_punctual<double>(
-                lights, index[i], {from[0][i], from[1][i], from[2][i]}, table.view());
-            const auto f = sample_punctual<float>(
-                lights, index[i], {from[0][i], from[1][i], from[2][i]}, table.view());
-            EXPECT_NEAR(irradiance[i], d.irradiance.x, 1e-4 * (1 + d.irradiance.x));
-            EXPECT_NEAR(f.irradiance.x, d.irradiance.x, 1e-4 * (1 + d.irradiance.x));
-        }
-    }
+    test::expect_lanes_agree(lights, table.view(), 1e-4);
 }
 
 TEST(LightProfile, StaysFiniteAtTheLampAndOnItsAxis) {

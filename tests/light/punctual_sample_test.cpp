@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/punctual_sample.h"
 
+#include "light/punctual_lanes.h"
+
 #include <gtest/gtest.h>
 
-#include "support/random.h"
 #include <cmath>
 
 namespace obscura {
@@ -95,34 +96,7 @@ TEST(PunctualSample, FloatDoubleAndLanesAgree) {
     PunctualLight lights[3] = {point_light(), spot_light(0.3, 1.2), point_light()};
     lights[0].range = 8;
     lights[2].type = static_cast<int32_t>(PunctualType::directional);
-    Pcg32 random(3);
-    for (int round = 0; round < 500; ++round) {
-        int32_t index[lane_count];
-        float from[3][lane_count];
-        for (int i = 0; i < lane_count; ++i) {
-            index[i] = static_cast<int32_t>(random.next_uint() % 3);
-            for (auto& number : from)
-                number[i] = 4 * random.next_float() - 2;
-        }
-        const auto lanes = sample_punctual<Lanes>(lights,
-                                                  BatchI::load_unaligned(index),
-                                                  {BatchF::load_unaligned(from[0]),
-                                                   BatchF::load_unaligned(from[1]),
-                                                   BatchF::load_unaligned(from[2])});
-        float irradiance[lane_count];
-        float direction[lane_count];
-        lanes.irradiance.x.v.store_unaligned(irradiance);
-        lanes.direction.y.v.store_unaligned(direction);
-        for (int i = 0; i < lane_count; ++i) {
-            const Vec3d place{from[0][i], from[1][i], from[2][i]};
-            const auto d = sample_punctual<double>(lights, index[i], place);
-            const auto f =
-                sample_punctual<float>(lights, index[i], {from[0][i], from[1][i], from[2][i]});
-            EXPECT_NEAR(irradiance[i], d.irradiance.x, 2e-5 * (1 + d.irradiance.x));
-            EXPECT_NEAR(f.irradiance.x, d.irradiance.x, 2e-5 * (1 + d.irradiance.x));
-            EXPECT_NEAR(direction[i], d.direction.y, 1e-6);
-        }
-    }
+    test::expect_lanes_agree(lights, {}, 2e-5);
 }
 
 }  // namespace
