@@ -72,6 +72,7 @@ struct Job {
     RenderRequest request;  ///< its outputs and camera.framed change from frame to frame
     std::optional<DisplayTransform> display;
     std::optional<PosedAsset> asset;
+    std::optional<PreparedScene> prepared;  ///< of the latest picture
     LightingOptions lighting;
     Degraded degraded;  ///< what the latest scene lacks
     RenderStatistics statistics;
@@ -95,8 +96,9 @@ Result<Scene> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log
         log);
 }
 
-/// Poses the asset and builds everything that rendering reads; frees the asset after its last pose.
-Result<PreparedScene> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
+/// Poses the asset and builds what rendering reads and the picture before has not left; frees the
+/// asset after its last pose.
+Result<void> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
     RenderStatistics& statistics = job.statistics;
     const Stopwatch loading;
     Result<Scene> scene = pose(job, frame, turn, log);
@@ -113,14 +115,21 @@ Result<PreparedScene> prepare(Job& job, const MovieFrame& frame, const Turn& tur
     const Result<void> scaled = scale_strokes(job.request, *scene);
     if (!scaled) return fail(scaled.error());
 
-    Result<PreparedScene> prepared =
-        PreparedScene::create(std::move(*scene), job.lighting, job.request.isa, log);
-    if (!prepared) return prepared;
-    statistics.build_s += prepared->build_seconds().all;
-    statistics.bvh_bytes = prepared->bvh_bytes();
-    statistics.isa = prepared->isa_name();
-    statistics.embree = prepared->embree_version();
-    return prepared;
+    if (job.prepared) {
+        const Result<void> updated = job.prepared->update(std::move(*scene), job.lighting, log);
+        if (!updated) return updated;
+    } else {
+        Result<PreparedScene> created =
+            PreparedScene::create(std::move(*scene), job.lighting, job.request.isa, log);
+        if (!created) return fail(created.error());
+        job.prepared = std::move(*created);
+    }
+    const PreparedScene& prepared = *job.prepared;
+    statistics.build_s += prepared.build_seconds().all;
+    statistics.bvh_bytes = prepared.bvh_bytes();
+    statistics.isa = prepared.isa_name();
+    statistics.embree = prepared.embree_version();
+    return {};
 }
 
 /// Renders, then writes the pictures; a signal stops it between two tiles or two files.
@@ -201,11 +210,11 @@ Result<void> render_all(Job& job, Progress& progress) {
         const Turn turn{i, frames.size()};
         Log& log = i == 0 ? job.log : later.begin();
         job.request.outputs = frames[i].outputs;
-        Result<PreparedScene> prepared = prepare(job, frames[i], turn, log);
-        if (!prepared) return fail(prepared.error());
-        const Result<void> done = render_and_write(job, *prepared, turn, log, progress);
+        const Result<void> prepared = prepare(job, frames[i], turn, log);
+        if (!prepared) return prepared;
+        const Result<void> done = render_and_write(job, *job.prepared, turn, log, progress);
         if (!done) return done;
-        if (job.asset) job.asset->take_textures(std::move(*prepared).take_scene());
+        if (job.asset) job.asset->take_back(job.prepared->take_scene());
         later.end();
         if (!frames[i].number) continue;
         job.statistics.frames.push_back(frame_statistics(frames[i], before, job.statistics));
@@ -234,7 +243,7 @@ Result<void> check_all(Job& job) {
         if (!chosen) return fail(chosen.error());
         const Result<void> exposed = expose_display(*chosen, job.request, job.display, log);
         if (!exposed) return exposed;
-        job.asset->take_textures(std::move(*scene));
+        job.asset->take_back(std::move(*scene));
         later.end();
     }
     if (!has_isa(job.request.isa)) return fail(missing_isa());
@@ -284,7 +293,7 @@ Result<void> execute(const RenderRequest& request, Log& log) {
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);
-    Job job{log, request, std::move(*display), {}, {}, {}, {}, {}};
+    Job job{log, request, std::move(*display), {}, {}, {}, {}, {}, {}};
     RenderStatistics& statistics = job.statistics;
     statistics.threads = threads.threads();
     if (request.check) return check_all(job);

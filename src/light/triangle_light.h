@@ -22,9 +22,17 @@ struct TriangleLight {
     float area = 0;         ///< square metres
     float pdf_area = 0;     ///< probability of choosing this triangle / area; 0 when area is 0
     int32_t two_sided = 0;  ///< 1: also emits from the back
+    int32_t motion = -1;    ///< first row in LightView::moving_triangles; -1: it stands still
 };
 
-static_assert(sizeof(TriangleLight) == 22 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(TriangleLight) == 23 * 4, "read as 32-bit words: no padding");
+
+/// Where a moving triangle is at one time.
+struct MovingTriangle {
+    float p0[3] = {0, 0, 0};
+    float e1[3] = {0, 0, 0};
+    float e2[3] = {0, 0, 0};
+};
 
 /// Corners, edges and area of a row; the rest stays at its default. Corners that are equal, in a
 /// line or not finite give the area 0.
@@ -66,13 +74,39 @@ OBSCURA_INLINE F solid_angle_pdf(const F& pdf_area, const F& distance, const F& 
     return select(cosine > F(0.0f), min(pdf, F(1e30f)), F(0.0f));
 }
 
+/// A triangle for each lane.
+template <typename F>
+struct TriangleCorners {
+    Vec3<F> p0, e1, e2;
+    F area;
+    F pdf_area;
+};
+
+/// In      index must be in range for idle lanes too
+template <typename F>
+OBSCURA_INLINE TriangleCorners<F> read_corners(const TriangleLight* rows, const IntOf<F>& index) {
+    const IntOf<F> word = index * IntOf<F>(words_per_row<TriangleLight>);
+    const auto read = [&](size_t offset) {
+        return gather<F>(member_words<float>(rows, offset), word);
+    };
+    const auto read3 = [&](size_t offset) {
+        return Vec3<F>{read(offset), read(offset + 4), read(offset + 8)};
+    };
+    return {read3(offsetof(TriangleLight, p0)),
+            read3(offsetof(TriangleLight, e1)),
+            read3(offsetof(TriangleLight, e2)),
+            read(offsetof(TriangleLight, area)),
+            read(offsetof(TriangleLight, pdf_area))};
+}
+
 /// A point on triangle rows[index], uniform over its area, as seen from `from`.
 ///
-/// In      u: [0,1)^2; index must be in range for idle lanes too
+/// In      corners: where the triangle is; u: [0,1)^2; index must be in range for idle lanes too
 /// Out     the light reaches `from` when pdf > 0; estimate: emission * texture / pdf
 template <typename F>
 OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight* rows,
                                                             const IntOf<F>& index,
+                                                            const TriangleCorners<F>& corners,
                                                             const Vec2<F>& u,
                                                             const Vec3<F>& from) {
     const IntOf<F> word = index * IntOf<F>(words_per_row<TriangleLight>);
@@ -80,22 +114,18 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
         return gather<F>(member_words<float>(rows, offset), word);
     };
     const auto read2 = [&](size_t offset) { return Vec2<F>{read(offset), read(offset + 4)}; };
-    const auto read3 = [&](size_t offset) {
-        return Vec3<F>{read(offset), read(offset + 4), read(offset + 8)};
-    };
     const auto read_int = [&](size_t offset) {
         return gather<F>(member_words<int32_t>(rows, offset), word);
     };
     const Vec2<F> weight = triangle_from_square(u);
-    const Vec3<F> e1 = read3(offsetof(TriangleLight, e1));
-    const Vec3<F> e2 = read3(offsetof(TriangleLight, e2));
+    const Vec3<F>& e1 = corners.e1;
+    const Vec3<F>& e2 = corners.e2;
     TriangleLightSample<F> sample;
-    sample.point = read3(offsetof(TriangleLight, p0)) + weight.x * e1 + weight.y * e2;
+    sample.point = corners.p0 + weight.x * e1 + weight.y * e2;
 
     // Divided by the area first: the square of a tiny triangle's cross product would underflow.
-    const F area = read(offsetof(TriangleLight, area));
-    const Vec3<F> scaled = cross(e1, e2 * (F(0.5f) / max(area, F(1e-36f))));
-    const auto proper = area > F(0.0f);
+    const Vec3<F> scaled = cross(e1, e2 * (F(0.5f) / max(corners.area, F(1e-36f))));
+    const auto proper = corners.area > F(0.0f);
     sample.normal = select(proper, normalize(scaled), splat3(F(0.0f)));
 
     const Vec3<F> to_light = sample.point - from;
@@ -104,15 +134,24 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
     sample.cosine = -dot(sample.normal, sample.direction);
     const auto both = read_int(offsetof(TriangleLight, two_sided)) != IntOf<F>(0);
     const F facing = select(both, abs(sample.cosine), sample.cosine);
-    sample.pdf =
-        solid_angle_pdf<F>(read(offsetof(TriangleLight, pdf_area)), sample.distance, facing);
+    sample.pdf = solid_angle_pdf<F>(corners.pdf_area, sample.distance, facing);
 
-    sample.emission = read3(offsetof(TriangleLight, emission));
+    const size_t emission = offsetof(TriangleLight, emission);
+    sample.emission = {read(emission), read(emission + 4), read(emission + 8)};
     sample.texture = read_int(offsetof(TriangleLight, texture));
     const Vec2<F> uv0 = read2(offsetof(TriangleLight, uv0));
     sample.uv = uv0 + (read2(offsetof(TriangleLight, uv1)) - uv0) * weight.x +
                 (read2(offsetof(TriangleLight, uv2)) - uv0) * weight.y;
     return sample;
+}
+
+/// The same of a triangle that stands still.
+template <typename F>
+OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight* rows,
+                                                            const IntOf<F>& index,
+                                                            const Vec2<F>& u,
+                                                            const Vec3<F>& from) {
+    return sample_triangle_light<F>(rows, index, read_corners<F>(rows, index), u, from);
 }
 
 }  // namespace OBSCURA_ISA
