@@ -1,5 +1,5 @@
-// gltf/geometry_store.h - what a pose of an asset leaves to the next one: meshes that no time
-// changes. SPDX-License-Identifier: Apache-2.0
+// gltf/geometry_store.h - what a pose leaves to the next one: meshes that no time changes.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "gltf/mesh_part.h"
