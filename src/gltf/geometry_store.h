@@ -38,6 +38,7 @@ struct GeometryStore {
     std::vector<uint32_t> indices;
     std::vector<float> attributes;
     std::vector<GeometryBlock> blocks;
+    std::vector<Affined> mover_from_node;  ///< of all nodes, which no time changes
 
     StillSizes still() const { return blocks.empty() ? StillSizes{} : blocks.back().end; }
     void take_back(Scene& scene) {

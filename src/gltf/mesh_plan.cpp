@@ -5,6 +5,7 @@
 #include "gltf/instancing.h"
 #include "gltf/primitive_modes.h"
 
+#include <algorithm>
 #include <map>
 
 namespace obscura {
@@ -39,6 +40,13 @@ private:
                                           !is_instanced(node(use.placed[0]).instancing));
     }
     void add_jobs(const MeshUse& use, int placed, JobKind kind, MeshBlock& block) const;
+    bool has_strokes(const MeshUse& use) const {
+        const std::vector<GltfPrimitive>& primitives =
+            document_.meshes[static_cast<size_t>(use.mesh)].primitives;
+        return std::any_of(primitives.begin(), primitives.end(), [](const GltfPrimitive& p) {
+            return is_point_or_line_mode(p.mode);
+        });
+    }
     void add_single(const MeshUse& use);
     void add_strokes(const MeshUse& use, int placed);
     void add_shared(const MeshUse& use);
@@ -96,7 +104,6 @@ void Planner::add_single(const MeshUse& use) {
 void Planner::add_strokes(const MeshUse& use, int placed) {
     MeshBlock strokes;
     add_jobs(use, placed, JobKind::strokes, strokes);
-    if (strokes.jobs.empty()) return;
     const bool moves = mover(placed) >= 0;
     const bool follows =
         options_.anchored && moves && !use.bends && !is_instanced(node(placed).instancing);
@@ -120,6 +127,7 @@ MeshPlan Planner::plan(const std::vector<MeshUse>& uses) {
     still_.keeps = options_.posed;
     for (const MeshUse& use : uses) {
         if (is_alone(use)) add_single(use);
+        if (!has_strokes(use)) continue;
         for (const int placed : use.placed)
             add_strokes(use, placed);
     }

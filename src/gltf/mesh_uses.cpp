@@ -39,7 +39,8 @@ bool bends(const Document& document, const PlacedNode& place, const std::vector<
 MeshUses find_mesh_uses(const Document& document, const std::vector<PlacedNode>& placed) {
     MeshUses out;
     std::map<ShapeKey, size_t> known;
-    const std::vector<char> moving = moving_nodes(document);
+    std::vector<char> moving;  // asked for joints only
+    if (!document.skins.empty()) moving = moving_nodes(document);
     for (size_t i = 0; i < placed.size(); ++i) {
         const PlacedNode& place = placed[i];
         const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];

@@ -35,6 +35,11 @@ private:
         return sources_.placed[static_cast<size_t>(index)];
     }
 
+    const std::vector<Affined>& world_from_node() {
+        if (world_from_node_.empty()) world_from_node_ = world_transforms(document());
+        return world_from_node_;
+    }
+
     void find_uses();
     void drop_uses(int skin, const Error& error);
     size_t take_stored(const std::vector<MeshBlock>& blocks);
@@ -55,8 +60,9 @@ private:
     std::vector<MeshUse> uses_;                ///< in the order they are met
     std::vector<std::vector<Affined>> skins_;  ///< matrices; empty: no mesh that is drawn has it
     std::vector<Affined> world_from_node_;     ///< of all nodes, where anything asks for it
-    std::vector<Affined> mover_from_node_;
-    BlockSources block_sources_{sources_, skins_, mover_from_node_};
+    std::vector<Affined> no_movers_;
+    BlockSources block_sources_{
+        sources_, skins_, sources_.store != nullptr ? sources_.store->mover_from_node : no_movers_};
     BlockReader reader_;
     NameList flat_nodes_;
 };
@@ -84,17 +90,15 @@ void MeshBuilder::find_uses() {
     for (const std::string& name : found.flat_nodes)
         flat_nodes_.add(name);
     skins_.resize(document().skins.size());
-    if (sources_.store != nullptr) {
-        world_from_node_ = world_transforms(document());
-        mover_from_node_ = mover_transforms(document());
+    if (sources_.store != nullptr && sources_.store->mover_from_node.empty()) {
+        sources_.store->mover_from_node = mover_transforms(document());
     }
     for (size_t i = 0; i < skins_.size(); ++i) {
         const int skin = static_cast<int>(i);
         const auto has_it = [&](const MeshUse& use) { return use.skin == skin; };
         if (std::none_of(uses_.begin(), uses_.end(), has_it)) continue;
-        if (world_from_node_.empty()) world_from_node_ = world_transforms(document());
         Result<std::vector<Affined>> matrices =
-            skin_matrices(document(), sources_.buffers, world_from_node_, skin);
+            skin_matrices(document(), sources_.buffers, world_from_node(), skin);
         if (matrices) skins_[i] = std::move(*matrices);
         if (!matrices) drop_uses(skin, matrices.error());
     }
@@ -190,9 +194,9 @@ bool MeshBuilder::place_of(const MeshBlock& block, const PlacedNode& place, Affi
     if (block.space == BlockSpace::mesh) {
         out = place.world_from_node;
     } else {
-        out = world_from_node_[static_cast<size_t>(place.mover)];
+        out = world_from_node()[static_cast<size_t>(place.mover)];
     }
-    if (is_singular(out)) {
+    if (place.mover >= 0 && is_singular(out)) {
         const int node = block.space == BlockSpace::mesh ? place.node : place.mover;
         flat_nodes_.add(node_label(document(), node));
         return false;
@@ -305,7 +309,7 @@ Result<void> MeshBuilder::build() {
     const MeshPlan plan = plan_meshes(document(),
                                       uses_,
                                       sources_.placed,
-                                      mover_from_node_,
+                                      block_sources_.mover_from_node,
                                       {sources_.store != nullptr, sources_.anchors != nullptr});
     for (const std::string& name : plan.flat_nodes)
         flat_nodes_.add(name);
