@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/moving_geometry.h"
-#include "accel/reference_geometry.h"
 #include "base/stopwatch.h"
 
 #include <algorithm>
@@ -26,120 +25,6 @@ bool note_memory(void* user, ssize_t bytes, bool) {
     return true;
 }
 
-void set_alpha_filter(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
-    const Scene& scene = *impl.scene;
-    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
-    if (impl.alpha.empty() || !needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
-        return;
-    }
-    AlphaGeometry& alpha = impl.alpha[static_cast<size_t>(primitive_index)];
-    alpha = {impl.scene, impl.textures, primitive_index};
-    rtcSetGeometryUserData(geometry, &alpha);
-    rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
-    rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
-}
-
-void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeometry geometry) {
-    rtcSetSharedGeometryBuffer(geometry,
-                               RTC_BUFFER_TYPE_VERTEX,
-                               0,
-                               RTC_FORMAT_FLOAT3,
-                               scene.positions.data(),
-                               0,
-                               3 * sizeof(float),
-                               (scene.positions.size() - 4) / 3);
-    rtcSetSharedGeometryBuffer(geometry,
-                               RTC_BUFFER_TYPE_INDEX,
-                               0,
-                               RTC_FORMAT_UINT3,
-                               scene.indices.data(),
-                               static_cast<size_t>(primitive.first_triangle) * 3 * sizeof(uint32_t),
-                               3 * sizeof(uint32_t),
-                               static_cast<size_t>(primitive.triangle_count));
-}
-
-RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
-    const Scene& scene = *impl.scene;
-    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
-    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    if (moves(primitive)) {
-        set_moving_triangles(scene, primitive, geometry);
-    } else {
-        set_still_triangles(scene, primitive, geometry);
-    }
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    set_alpha_filter(impl, primitive_index, geometry);
-    rtcCommitGeometry(geometry);
-    return geometry;
-}
-
-/// Lines as Embree's own capsules; which of them hang together it sees from their numbers.
-RTCGeometry make_curves(Accel::Impl& impl, int32_t primitive_index) {
-    const Scene& scene = *impl.scene;
-    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
-    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
-    rtcSetSharedGeometryBuffer(geometry,
-                               RTC_BUFFER_TYPE_VERTEX,
-                               0,
-                               RTC_FORMAT_FLOAT4,
-                               scene.curve_points.data(),
-                               0,
-                               4 * sizeof(float),
-                               scene.curve_points.size() / 4);
-    rtcSetSharedGeometryBuffer(geometry,
-                               RTC_BUFFER_TYPE_INDEX,
-                               0,
-                               RTC_FORMAT_UINT,
-                               scene.curve_segments.data(),
-                               static_cast<size_t>(primitive.first_triangle) * sizeof(uint32_t),
-                               sizeof(uint32_t),
-                               static_cast<size_t>(primitive.triangle_count));
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    set_alpha_filter(impl, primitive_index, geometry);
-    rtcCommitGeometry(geometry);
-    return geometry;
-}
-
-/// False for a plane without end: no box can hold it, so it is no geometry.
-bool fill_shape_geometry(Accel::Impl& impl, int32_t primitive_index) {
-    const Scene& scene = *impl.scene;
-    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
-    const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-    ShapeGeometry& out = impl.shapes[static_cast<size_t>(primitive_index)];
-    const auto first = static_cast<size_t>(primitive.first_triangle);
-    const bool spheres = primitive.geometry == static_cast<int32_t>(GeometryKind::spheres);
-    out.rows = spheres ? nullptr : &scene.shapes[first];
-    out.spheres = spheres ? &scene.spheres[first * 4] : nullptr;
-    out.count = primitive.triangle_count;
-    out.single_sided = (material.flags & material_double_sided) == 0;
-    if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
-        AlphaGeometry& alpha = impl.alpha[static_cast<size_t>(primitive_index)];
-        alpha = {impl.scene, impl.textures, primitive_index};
-        out.alpha = &alpha;
-    }
-    return spheres || !is_unbounded(scene.shapes[first]);
-}
-
-RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
-    ShapeGeometry& shapes = impl.shapes[static_cast<size_t>(primitive_index)];
-    const int32_t blocks = (shapes.count + sphere_block - 1) / sphere_block;
-    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(
-        geometry, static_cast<unsigned>(shapes.rows != nullptr ? shapes.count : blocks));
-    rtcSetGeometryUserData(geometry, &shapes);
-    rtcSetGeometryBoundsFunction(geometry, impl.shape_callbacks->bounds, nullptr);
-    rtcSetGeometryIntersectFunction(
-        geometry,
-        impl.kernels.counts_tests ? intersect_counted_shape : impl.shape_callbacks->intersect);
-    rtcSetGeometryOccludedFunction(geometry, impl.shape_callbacks->occluded);
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    rtcCommitGeometry(geometry);
-    return geometry;
-}
-
 RTCScene new_scene(const Accel::Impl& impl) {
     RTCScene scene = rtcNewScene(impl.device);
     const RTCSceneFlags robust = impl.kernels.robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE;
@@ -148,36 +33,20 @@ RTCScene new_scene(const Accel::Impl& impl) {
     return scene;
 }
 
-/// Null for a plane without end.
-RTCGeometry make_geometry(Accel::Impl& impl, int32_t row) {
-    const int32_t kind = impl.scene->primitives[static_cast<size_t>(row)].geometry;
-    if (kind == static_cast<int32_t>(GeometryKind::curves)) {
-        return impl.kernels.counts_tests ? make_counted_curves(impl, row) : make_curves(impl, row);
-    }
-    if (is_mesh(impl.scene->primitives[static_cast<size_t>(row)])) {
-        if (impl.kernels.counts_tests) return make_counted_triangles(impl, row);
-        return impl.kernels.user_triangles ? make_checked_triangles(impl, row)
-                                           : make_triangles(impl, row);
-    }
-    if (!fill_shape_geometry(impl, row)) return nullptr;
-    const bool points = impl.kernels.sphere_points && are_spheres(impl, row);
-    return points ? make_sphere_points(impl, row) : make_shapes(impl, row);
-}
-
-void attach_primitives(Accel::Impl& impl, RTCScene target, Mesh range) {
+/// In   first_id: Embree's number of the range's first primitive
+void attach_primitives(Accel::Impl& impl, RTCScene target, const Mesh& range, int32_t first_id) {
     for (int32_t i = 0; i < range.primitive_count; ++i) {
-        const int32_t row = range.first_primitive + i;
-        RTCGeometry geometry = make_geometry(impl, row);
+        RTCGeometry geometry = make_geometry(impl, range.first_primitive + i);
         if (geometry == nullptr) continue;
-        rtcAttachGeometryByID(target, geometry, static_cast<unsigned>(i));
+        rtcAttachGeometryByID(target, geometry, static_cast<unsigned>(first_id + i));
         rtcReleaseGeometry(geometry);
     }
 }
 
-void attach_instance(Accel::Impl& impl, size_t index) {
-    const Instance& instance = impl.scene->instances[index];
+/// index: behind the world's primitives
+void attach_instance(Accel::Impl& impl, RTCScene mesh, const Instance& instance, size_t index) {
     RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_INSTANCE);
-    rtcSetGeometryInstancedScene(geometry, impl.mesh_scenes[static_cast<size_t>(instance.mesh)]);
+    rtcSetGeometryInstancedScene(geometry, mesh);
     set_instance_transforms(*impl.scene, instance, geometry);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
     rtcCommitGeometry(geometry);
@@ -185,6 +54,11 @@ void attach_instance(Accel::Impl& impl, size_t index) {
         static_cast<unsigned>(impl.scene->world_primitive_count) + static_cast<unsigned>(index);
     rtcAttachGeometryByID(impl.top, geometry, id);
     rtcReleaseGeometry(geometry);
+}
+
+void release(BuiltGeometry& geometry) {
+    if (geometry.scene != nullptr) rtcReleaseScene(geometry.scene);
+    geometry = {};
 }
 
 tl::unexpected<Error> embree_failure(const EmbreeErrors& errors) {
@@ -198,8 +72,9 @@ tl::unexpected<Error> embree_failure(const EmbreeErrors& errors) {
 }  // namespace
 
 Accel::Impl::~Impl() {
-    for (RTCScene mesh : mesh_scenes)
-        rtcReleaseScene(mesh);
+    release(still);
+    for (BuiltGeometry& mesh : meshes)
+        release(mesh);
     if (top != nullptr) rtcReleaseScene(top);
     if (device != nullptr) rtcReleaseDevice(device);
 }
@@ -210,8 +85,6 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     auto impl = std::make_unique<Accel::Impl>();
     impl->scene = &scene;
     impl->kernels = kernels;
-    impl->textures = {scene.textures.texels.data(),
-                      reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
     const std::string config = kernels.isa.empty() ? "" : "isa=" + kernels.isa;
     impl->device = rtcNewDevice(config.c_str());
     if (impl->device == nullptr) {
@@ -232,24 +105,112 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     return impl;
 }
 
-/// Hands everything over to Embree and builds; without filters where impl.alpha is empty.
-Result<void> build_scenes(Accel::Impl& impl) {
+std::vector<uint8_t> filters_of(const Accel::Impl& impl, const Mesh& range) {
+    std::vector<uint8_t> out(static_cast<size_t>(range.primitive_count), 0);
+    for (size_t i = 0; i < out.size() && !impl.alpha.empty(); ++i) {
+        const Primitive& primitive =
+            impl.scene->primitives[static_cast<size_t>(range.first_primitive) + i];
+        out[i] = needs_alpha_filter(*impl.scene, primitive, impl.materials_with_holes) ? 1 : 0;
+    }
+    return out;
+}
+
+/// The hierarchy over a range of primitives: `known` where nothing of it has changed, else new.
+BuiltGeometry build_range(Accel::Impl& impl, const Mesh& range, BuiltGeometry& known) {
+    BuiltGeometry out{nullptr, range, filters_of(impl, range)};
+    const bool is_same =
+        known.scene != nullptr && range.stamp != 0 && known.range.stamp == range.stamp &&
+        known.range.first_primitive == range.first_primitive &&
+        known.range.primitive_count == range.primitive_count && known.filtered == out.filtered;
+    if (is_same) {
+        std::swap(out, known);
+        return out;
+    }
+    out.scene = new_scene(impl);
+    attach_primitives(impl, out.scene, range, 0);
+    rtcCommitScene(out.scene);
+    return out;
+}
+
+/// Hierarchies of what stands still and of meshes; those of an earlier pose are used again.
+void build_parts(Accel::Impl& impl) {
     const Scene& scene = *impl.scene;
-    impl.shapes.resize(scene.primitives.size());
-    for (const Mesh& mesh : scene.meshes) {
-        RTCScene target = new_scene(impl);
-        attach_primitives(impl, target, mesh);
-        rtcCommitScene(target);
-        impl.mesh_scenes.push_back(target);
+    BuiltGeometry known = std::move(impl.still);
+    impl.still = {};
+    if (scene.still_primitive_count > 0) {
+        impl.still = build_range(impl, {0, scene.still_primitive_count, scene.still_stamp}, known);
+    }
+    release(known);
+    std::vector<BuiltGeometry> known_meshes = std::move(impl.meshes);
+    impl.meshes.clear();
+    known_meshes.resize(std::max(known_meshes.size(), scene.meshes.size()));
+    for (size_t i = 0; i < scene.meshes.size(); ++i)
+        impl.meshes.push_back(build_range(impl, scene.meshes[i], known_meshes[i]));
+    for (BuiltGeometry& mesh : known_meshes)
+        release(mesh);
+}
+
+void build_top(Accel::Impl& impl) {
+    const Scene& scene = *impl.scene;
+    const int32_t still = scene.still_primitive_count;
+    impl.has_instances = !scene.instances.empty();
+    if (still > 0 && still == scene.world_primitive_count && !impl.has_instances) {
+        rtcRetainScene(impl.still.scene);
+        impl.top = impl.still.scene;
+        return;
     }
     impl.top = new_scene(impl);
-    attach_primitives(impl, impl.top, {0, scene.world_primitive_count});
-    for (size_t i = 0; i < scene.instances.size(); ++i)
-        attach_instance(impl, i);
+    attach_primitives(impl, impl.top, {still, scene.world_primitive_count - still}, still);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        const RTCScene mesh = impl.meshes[static_cast<size_t>(instance.mesh)].scene;
+        attach_instance(impl, mesh, instance, i);
+    }
+    if (still > 0) attach_instance(impl, impl.still.scene, Instance{}, scene.instances.size());
+    impl.has_instances = impl.has_instances || still > 0;
     rtcCommitScene(impl.top);
+}
+
+/// Forgets what was built of arrays that have moved since.
+void drop_moved(Accel::Impl& impl) {
+    const Scene& scene = *impl.scene;
+    const SharedArrays now{scene.positions.data(), scene.indices.data(), scene.primitives.size()};
+    const bool stay = now.positions == impl.arrays.positions &&
+                      now.indices == impl.arrays.indices &&
+                      now.primitives == impl.arrays.primitives;
+    impl.arrays = now;
+    if (impl.top != nullptr) rtcReleaseScene(impl.top);
+    impl.top = nullptr;
+    if (stay) return;
+    release(impl.still);
+    for (BuiltGeometry& mesh : impl.meshes)
+        release(mesh);
+}
+
+/// Hands everything over to Embree and builds; without filters where impl.alpha is empty.
+Result<void> build_scenes(Accel::Impl& impl) {
+    drop_moved(impl);
+    impl.shapes.assign(impl.scene->primitives.size(), {});
+    build_parts(impl);
+    build_top(impl);
     impl.list_endless_planes();
     if (impl.errors.code != RTC_ERROR_NONE) return embree_failure(impl.errors);
     return {};
+}
+
+/// Builds, or builds again, with filters and tables as the scene asks for.
+Result<void> build_all(Accel::Impl& impl) {
+    const Scene& scene = *impl.scene;
+    impl.textures = {scene.textures.texels.data(),
+                     reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
+    if (impl.kernels.filters) {
+        impl.alpha.resize(scene.primitives.size());
+        for (size_t i = 0; i < impl.alpha.size(); ++i)
+            impl.alpha[i] = {impl.scene, impl.textures, static_cast<int32_t>(i)};
+        impl.materials_with_holes = find_materials_with_holes(scene);
+    }
+    impl.fill_primitive_tables();
+    return build_scenes(impl);
 }
 
 }  // namespace
@@ -257,14 +218,14 @@ Result<void> build_scenes(Accel::Impl& impl) {
 Result<std::unique_ptr<Accel::Impl>> build_impl(const Scene& scene, const KernelChoice& kernels) {
     auto impl = open_device(scene, kernels);
     if (!impl) return impl;
-    if (kernels.filters) {
-        (*impl)->alpha.resize(scene.primitives.size());
-        (*impl)->materials_with_holes = find_materials_with_holes(scene);
-    }
-    (*impl)->fill_primitive_tables();
-    const Result<void> built = build_scenes(**impl);
+    const Result<void> built = build_all(**impl);
     if (!built) return fail(built.error());
     return impl;
+}
+
+Result<void> Accel::update(const Scene& scene) {
+    impl_->scene = &scene;
+    return build_all(*impl_);
 }
 
 Result<Accel> Accel::build(const Scene& scene, const std::string& embree_isa) {
@@ -291,6 +252,7 @@ Result<BareBuild> Accel::build_bare(const Scene& scene, const std::string& embre
 
 void Accel::Impl::fill_primitive_tables() {
     single_sided.resize(scene->primitives.size());
+    instance_first_primitive.clear();
     for (size_t i = 0; i < single_sided.size(); ++i) {
         const auto material = static_cast<size_t>(scene->primitives[i].material);
         single_sided[i] = (scene->materials[material].flags & material_double_sided) == 0;
@@ -298,26 +260,6 @@ void Accel::Impl::fill_primitive_tables() {
     for (const Instance& instance : scene->instances) {
         const Mesh& mesh = scene->meshes[static_cast<size_t>(instance.mesh)];
         instance_first_primitive.push_back(mesh.first_primitive);
-    }
-}
-
-void Accel::Impl::list_endless_planes() {
-    const auto add = [&](int32_t primitive, int32_t instance) {
-        const ShapeGeometry& geometry = shapes[static_cast<size_t>(primitive)];
-        if (geometry.rows == nullptr || !is_unbounded(*geometry.rows)) return;
-        EndlessPlane plane{geometry, *geometry.rows, primitive, instance, {}};
-        if (instance >= 0) {
-            plane.object_from_world =
-                scene->instances[static_cast<size_t>(instance)].object_from_world;
-        }
-        endless_planes.push_back(plane);
-    };
-    for (int32_t i = 0; i < scene->world_primitive_count; ++i)
-        add(i, -1);
-    for (size_t i = 0; i < scene->instances.size(); ++i) {
-        const Mesh& mesh = scene->meshes[static_cast<size_t>(scene->instances[i].mesh)];
-        for (int32_t k = 0; k < mesh.primitive_count; ++k)
-            add(mesh.first_primitive + k, static_cast<int32_t>(i));
     }
 }
 

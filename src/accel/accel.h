@@ -43,6 +43,11 @@ public:
     /// Errors  33 E-MEM; 69 E-EMBREE-CURVES lines, and an Embree without curves; 70 E-EMBREE
     static Result<Accel> build(const Scene& scene, const std::string& embree_isa);
 
+    /// Builds for another pose of the same asset: hierarchies of geometry whose stamp, place in
+    /// the scene's arrays and need of an alpha filter are as before are kept. Embree's other errors
+    /// leave this object unusable. In: scene, as for build(). Errors  33 E-MEM; 70 E-EMBREE
+    Result<void> update(const Scene& scene);
+
     /// Builds the same triangles and instances as build(), with no filters and no tables, and lets
     /// them go: a measure for build(). Same errors.
     static Result<BareBuild> build_bare(const Scene& scene, const std::string& embree_isa);

@@ -27,6 +27,20 @@ struct UserElements {
     int32_t primitive = 0;
 };
 
+/// The hierarchy over primitives that share one space.
+struct BuiltGeometry {
+    RTCScene scene = nullptr;
+    Mesh range;                     ///< its primitives, and their stamp
+    std::vector<uint8_t> filtered;  ///< by primitive of the range: it has an alpha filter
+};
+
+/// Where a scene's arrays lie that Embree shares.
+struct SharedArrays {
+    const float* positions = nullptr;
+    const uint32_t* indices = nullptr;
+    size_t primitives = 0;  ///< rows of the tables that geometries point to
+};
+
 struct Accel::Impl {
     Impl() = default;
     Impl(const Impl&) = delete;
@@ -42,10 +56,14 @@ struct Accel::Impl {
     EmbreeErrors errors;
     std::atomic<int64_t> memory = 0;
     RTCDevice device = nullptr;
-    RTCScene top = nullptr;  ///< geometry ids: world primitives, then instances
-    std::vector<RTCScene> mesh_scenes;
+    /// Geometry ids: world primitives, then instances, then `still` where it is not all there is.
+    RTCScene top = nullptr;
+    BuiltGeometry still;                ///< of Scene::still_primitive_count; empty: has no scene
+    std::vector<BuiltGeometry> meshes;  ///< as Scene::meshes
+    SharedArrays arrays;
+    bool has_instances = false;  ///< in `top`
     std::vector<uint8_t> materials_with_holes;
-    std::vector<AlphaGeometry> alpha;         ///< by primitive; filled where there is a filter
+    std::vector<AlphaGeometry> alpha;         ///< by primitive; empty: no filters
     std::vector<ShapeGeometry> shapes;        ///< by primitive; filled where it is one of shapes
     std::vector<UserElements> user_elements;  ///< by primitive; empty: Embree's own kinds
     const ShapeCallbacks* shape_callbacks = nullptr;
@@ -53,6 +71,9 @@ struct Accel::Impl {
     std::vector<uint8_t> single_sided;              ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };
+
+/// A primitive as Embree's geometry; null for a plane without end.
+RTCGeometry make_geometry(Accel::Impl& impl, int32_t row);
 
 /// Triangles as user geometry whose callback counts: see accel/traversal_cost.cpp.
 RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index);

@@ -182,7 +182,7 @@ void store_packet(const Accel::Impl& impl,
         hits.primitive[first + i] = static_cast<int32_t>(block.hit.geomID[i]) | ~valid.lane[i];
         hits.instance[first + i] = -1;
     }
-    if (impl.scene->instances.empty()) return;
+    if (!impl.has_instances) return;
     for (int i = 0; i < packet; ++i) {
         if (hits.primitive[first + i] < 0) continue;
         const SceneRows rows = scene_rows(impl, block.hit.geomID[i], block.hit.instID[0][i]);
@@ -266,7 +266,7 @@ int Accel::occluded(const RayColumns& rays,
                     Coherence coherence,
                     uint32_t segment) const {
     // On instances the coherent kernel of Embree 3.13 for AVX-512 may never come back.
-    const bool coherent = coherence == Coherence::coherent && impl_->scene->instances.empty();
+    const bool coherent = coherence == Coherence::coherent && !impl_->has_instances;
     QueryContext context;
     Query query(context, coherent);
     context.keys = rays.key;

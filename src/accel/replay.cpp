@@ -179,7 +179,7 @@ Tally replay_chunk(RTCScene scene, const Chunk& chunk, bool any_hit, ReplayWay w
 ReplayResult Accel::replay(const RayRecording& recording, RayKind kind, ReplayWay way) const {
     const bool any_hit = kind == RayKind::shadow;
     // On instances the coherent kernel of Embree 3.13 for AVX-512 may never come back.
-    if (any_hit && !impl_->scene->instances.empty() && way == ReplayWay::coherent_packets) {
+    if (any_hit && impl_->has_instances && way == ReplayWay::coherent_packets) {
         way = ReplayWay::packets;
     }
     const std::vector<Chunk> chunks = cut_chunks(recording, kind);

@@ -16,6 +16,8 @@ inline SceneRows scene_rows(const Accel::Impl& impl, unsigned geometry, unsigned
     const auto first = static_cast<int32_t>(geometry);
     if (instance_id == RTC_INVALID_GEOMETRY_ID) return {-1, first};
     const int32_t instance = static_cast<int32_t>(instance_id) - impl.scene->world_primitive_count;
+    if (instance == static_cast<int32_t>(impl.scene->instances.size()))
+        return {-1, first};  // still
     return {instance, first + impl.instance_first_primitive[static_cast<size_t>(instance)]};
 }
 

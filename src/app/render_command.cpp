@@ -72,6 +72,7 @@ struct Job {
     RenderRequest request;  ///< its outputs and camera.framed change from frame to frame
     std::optional<DisplayTransform> display;
     std::optional<PosedAsset> asset;
+    std::optional<PreparedScene> prepared;  ///< of the latest picture
     LightingOptions lighting;
     Degraded degraded;  ///< what the latest scene lacks
     RenderStatistics statistics;
@@ -95,15 +96,9 @@ Result<Scene> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log
         log);
 }
 
-/// What one picture is rendered from.
-struct Shot {
-    ChosenCamera camera;
-    PreparedScene scene;
-};
-
-/// Poses the asset, chooses the camera and builds everything that rendering reads; frees the asset
-/// after its last pose.
-Result<Shot> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
+/// Poses the asset, chooses the camera, and builds what rendering reads and the picture before has
+/// not left; frees the asset after its last pose.
+Result<ChosenCamera> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
     RenderStatistics& statistics = job.statistics;
     const Stopwatch loading;
     Result<Scene> scene = pose(job, frame, turn, log);
@@ -122,24 +117,31 @@ Result<Shot> prepare(Job& job, const MovieFrame& frame, const Turn& turn, Log& l
     Result<ChosenCamera> camera = choose_unfocused_camera(*scene, job.request, log);
     if (!camera) return fail(camera.error());
 
-    Result<PreparedScene> prepared =
-        PreparedScene::create(std::move(*scene), job.lighting, job.request.isa, log);
-    if (!prepared) return fail(prepared.error());
-    statistics.build_s += prepared->build_seconds().all;
-    statistics.bvh_bytes = prepared->bvh_bytes();
-    statistics.isa = prepared->isa_name();
-    statistics.embree = prepared->embree_version();
-    return Shot{std::move(*camera), std::move(*prepared)};
+    if (job.prepared) {
+        const Result<void> updated = job.prepared->update(std::move(*scene), job.lighting, log);
+        if (!updated) return fail(updated.error());
+    } else {
+        Result<PreparedScene> created =
+            PreparedScene::create(std::move(*scene), job.lighting, job.request.isa, log);
+        if (!created) return fail(created.error());
+        job.prepared = std::move(*created);
+    }
+    const PreparedScene& prepared = *job.prepared;
+    statistics.build_s += prepared.build_seconds().all;
+    statistics.bvh_bytes = prepared.bvh_bytes();
+    statistics.isa = prepared.isa_name();
+    statistics.embree = prepared.embree_version();
+    return std::move(*camera);
 }
 
 /// Renders, then writes the pictures; a signal stops it between two tiles or two files.
 Result<void> render_and_write(
-    Job& job, Shot& shot, const Turn& turn, Log& log, Progress& progress) {
+    Job& job, ChosenCamera& camera, const Turn& turn, Log& log, Progress& progress) {
     const RenderRequest& request = job.request;
+    const PreparedScene& scene = *job.prepared;
     RenderStatistics& statistics = job.statistics;
     RenderOptions options = request.options;
-    ChosenCamera& camera = shot.camera;
-    if (auto focused = focus(shot.scene, request, log, camera); !focused) return focused;
+    if (auto focused = focus(scene, request, log, camera); !focused) return focused;
     options.moving_camera = camera.moving;
     if (auto exposed = expose_display(camera, request, job.display, log); !exposed) return exposed;
 
@@ -152,7 +154,7 @@ Result<void> render_and_write(
                         static_cast<double>(turn.count));
     };
     Result<RenderResult> result =
-        render(shot.scene, camera.camera, options, on_progress, job.stop->flag());
+        render(scene, camera.camera, options, on_progress, job.stop->flag());
     if (!result) return fail(result.error());
     statistics.render_s += result->render_seconds;
     add_counters(result->counters, statistics.counters);
@@ -160,7 +162,7 @@ Result<void> render_and_write(
 
     const Stopwatch writing;
     FinishedPicture finished;
-    finished.metadata = make_metadata(request, shot.scene, camera, result->render_seconds, job.log);
+    finished.metadata = make_metadata(request, scene, camera, result->render_seconds, job.log);
     if (request.load.lenient) {
         finished.metadata.extra.emplace_back("degraded", degraded_text(job.degraded));
     }
@@ -208,11 +210,11 @@ Result<void> render_all(Job& job, Progress& progress) {
         const Turn turn{i, frames.size()};
         Log& log = i == 0 ? job.log : later.begin();
         job.request.outputs = frames[i].outputs;
-        Result<Shot> shot = prepare(job, frames[i], turn, log);
-        if (!shot) return fail(shot.error());
-        const Result<void> done = render_and_write(job, *shot, turn, log, progress);
+        Result<ChosenCamera> camera = prepare(job, frames[i], turn, log);
+        if (!camera) return fail(camera.error());
+        const Result<void> done = render_and_write(job, *camera, turn, log, progress);
         if (!done) return done;
-        if (job.asset) job.asset->take_textures(std::move(shot->scene).take_scene());
+        if (job.asset) job.asset->take_back(job.prepared->take_scene());
         later.end();
         if (!frames[i].number) continue;
         job.statistics.frames.push_back(frame_statistics(frames[i], before, job.statistics));
@@ -239,7 +241,7 @@ Result<void> check_all(Job& job) {
         if (!chosen) return fail(chosen.error());
         const Result<void> exposed = expose_display(*chosen, job.request, job.display, log);
         if (!exposed) return exposed;
-        job.asset->take_textures(std::move(*scene));
+        job.asset->take_back(std::move(*scene));
         later.end();
     }
     if (!has_isa(job.request.isa)) return fail(missing_isa());
@@ -289,7 +291,7 @@ Result<void> execute(const RenderRequest& request, Log& log) {
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);
-    Job job{log, request, std::move(*display), {}, {}, {}, {}, {}};
+    Job job{log, request, std::move(*display), {}, {}, {}, {}, {}, {}};
     RenderStatistics& statistics = job.statistics;
     statistics.threads = threads.threads();
     if (request.check) return check_all(job);

@@ -13,7 +13,7 @@ namespace obscura {
 /// One place of the glTF 2.0 Asset Object Model.
 struct PointedProperty {
     ChannelPath path = ChannelPath::json;
-    int target = -1;     ///< node or mesh, unless path is json
+    int target = -1;     ///< node, mesh or light, unless path is json
     int element = -1;    ///< of /weights/3
     size_t width = 1;    ///< numbers in a value; 0: as many as there are weights
     bool in_use = true;  ///< false: known, but a picture does not show it

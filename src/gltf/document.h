@@ -149,6 +149,7 @@ struct GltfMesh {
     std::vector<GltfPrimitive> primitives;
     size_t target_count = 0;      ///< morph targets, the same for all primitives
     std::vector<double> weights;  ///< of the targets; empty: all are 0
+    bool bends = false;           ///< an animation that is played changes the weights
 };
 
 /// A shape of OBSCURA_shape or KHR_implicit_shapes.
@@ -189,7 +190,9 @@ struct GltfNode {
     int shape = -1;  ///< in Document::shapes
     int shape_material = -1;
     GltfInstancing instancing;
-    bool visible = true;            ///< KHR_node_visibility, of this node alone
+    bool visible = true;  ///< KHR_node_visibility, of this node alone
+    bool moves = false;   ///< an animation that is played changes its transform or `visible`
+    bool bends = false;   ///< one changes the weights of this node
     std::vector<int> lower_levels;  ///< MSFT_lod: nodes that stand for this one far away
     std::vector<int> children;
 };

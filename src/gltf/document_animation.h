@@ -30,14 +30,32 @@ struct GltfAnimationSampler {
     Interpolation interpolation = Interpolation::linear;
 };
 
-/// What a channel changes. `json` is any other property that KHR_animation_pointer can name; it
+/// What a channel changes. profile_*: EXT_lights_ies of a node; environment_*: a light of
+/// EXT_lights_image_based. `json` is any other property that KHR_animation_pointer can name; it
 /// lies in a material, a light or a camera.
-enum class ChannelPath { translation, rotation, scale, weights, mesh_weights, visible, json };
+enum class ChannelPath {
+    translation,
+    rotation,
+    scale,
+    weights,
+    mesh_weights,
+    visible,
+    profile_multiplier,
+    profile_color,
+    environment_intensity,
+    environment_rotation,
+    json
+};
+
+/// Whose values turn along the shortest arc.
+inline bool is_quaternion(ChannelPath path) {
+    return path == ChannelPath::rotation || path == ChannelPath::environment_rotation;
+}
 
 struct GltfChannel {
     int sampler = 0;
     ChannelPath path = ChannelPath::translation;
-    int target = -1;      ///< node, or mesh of mesh_weights
+    int target = -1;      ///< node, mesh of mesh_weights, light of environment_*
     int element = -1;     ///< the one weight that changes; -1: all
     std::string pointer;  ///< of `json`
     size_t width = 1;     ///< numbers in a value

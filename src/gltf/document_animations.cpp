@@ -147,9 +147,9 @@ void AnimationReader::check_output(const JsonReader& object,
                                    const GltfAnimationSampler& sampler) const {
     const GltfAccessor& input = accessor_of(reading_, sampler.input);
     const GltfAccessor& output = accessor_of(reading_, sampler.output);
-    const bool pointed = channel.path == ChannelPath::json || channel.path == ChannelPath::visible;
     const bool weights =
         channel.path == ChannelPath::weights || channel.path == ChannelPath::mesh_weights;
+    const bool pointed = !weights && channel.path > ChannelPath::scale;
     const bool may_be_integer = channel.path == ChannelPath::rotation || weights;
     const size_t rows = weights ? 1 : channel.width;
     const bool number_fits = pointed || is_float(output) || (may_be_integer && output.normalized);

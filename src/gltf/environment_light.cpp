@@ -62,23 +62,22 @@ Result<std::shared_ptr<const ImageRgb32f>> load_map(const ImageSources& sources,
 
 }  // namespace
 
-Result<void> add_environment_light(const ImageSources& sources,
-                                   int scene,
-                                   std::shared_ptr<const ImageRgb32f>& store,
-                                   Scene& out,
-                                   Log& log) {
+Result<void> add_environment_light(
+    const ImageSources& sources, int scene, EnvironmentStore& store, Scene& out, Log& log) {
     const Document& document = sources.document;
     const int light = scene < 0 ? -1 : document.scenes[static_cast<size_t>(scene)].environment;
     if (light < 0) return {};
     const auto row = static_cast<size_t>(light);
     out.info.environment = document.environments[row].name;
     if (sources.measure_only) return {};
-    if (store == nullptr) {
+    const GltfEnvironment& from = document.environments[row];
+    if (store.map == nullptr || store.intensity != from.intensity ||
+        store.rotation != from.rotation) {
         auto loaded = load_map(sources, row, log);
         if (!loaded) return fail(std::move(loaded.error()));
-        store = std::move(*loaded);
+        store = {std::move(*loaded), from.intensity, from.rotation};
     }
-    out.environment = store;
+    out.environment = store.map;
     return {};
 }
 

@@ -32,11 +32,6 @@ int read_transform_accessor(const DocumentReading& reading,
     return number;
 }
 
-/// True where the mesh stands more often than once, or not at all.
-bool is_instanced(const GltfInstancing& instancing) {
-    return instancing.translation >= 0 || instancing.rotation >= 0 || instancing.scale >= 0;
-}
-
 /// The number of instances; 0 also where no attribute tells it.
 uint64_t instance_count(const Document& document, const GltfInstancing& instancing) {
     for (const int number : {instancing.translation, instancing.rotation, instancing.scale}) {
@@ -115,12 +110,17 @@ Result<void> add_instances(const Document& document,
                         document.at("nodes", index),
                         "the rotation of instance " + std::to_string(i) + " has no length");
         }
-        out.push_back({place.node, compose(place.world_from_node, node_from_instance), true});
+        out.push_back(place);
+        out.back().world_from_node = compose(place.world_from_node, node_from_instance);
     }
     return {};
 }
 
 }  // namespace
+
+bool is_instanced(const GltfInstancing& instancing) {
+    return instancing.translation >= 0 || instancing.rotation >= 0 || instancing.scale >= 0;
+}
 
 GltfInstancing read_instancing(DocumentReading& reading, const JsonReader& node) {
     GltfInstancing out;
@@ -151,7 +151,7 @@ Result<std::vector<PlacedNode>> expand_instances(const Document& document,
     out.reserve(placed.size());
     for (const PlacedNode& place : placed) {
         const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
-        if (node.mesh < 0 || !place.visible) continue;
+        if (node.mesh < 0 || !place.may_show) continue;
         if (!is_instanced(node.instancing)) {
             out.push_back(place);
             continue;

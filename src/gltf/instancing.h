@@ -20,6 +20,9 @@ inline constexpr uint64_t most_instances = 1U << 26;
 /// allowed
 GltfInstancing read_instancing(DocumentReading& reading, const JsonReader& node);
 
+/// False where the node's mesh stands once, where the node is.
+bool is_instanced(const GltfInstancing& instancing);
+
 /// The places of meshes: as `placed`, with a row for each instance instead of one for its node.
 ///
 /// Errors  65 E-NODE-INSTANCING a rotation without length; 77 E-LIMIT-INSTANCES; as read_floats

@@ -149,8 +149,10 @@ struct PosedAsset::Impl {
     Animator animator;
     AssetInfo info;  ///< what all scenes of the asset have in common
     TextureStore textures;
+    GeometryStore geometry;
+    std::optional<std::vector<Affined>> anchors;  ///< see MeshSources
     std::vector<LightProfile> light_profiles;
-    std::shared_ptr<const ImageRgb32f> environment;  ///< null: not read yet, or there is none
+    EnvironmentStore environment;
     Problems problems;
     Degraded degraded;        ///< of the latest scene
     double open_seconds = 0;  ///< not yet told in a scene
@@ -194,6 +196,7 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     Result<Animator> made = Animator::create(asset.tree, document, buffers, *animations);
     if (!made) return fail(std::move(made.error()));
     animator = std::move(*made);
+    animator.mark(document);
     asset.tree = nullptr;
 
     info.file_name = file.filename().string();
@@ -214,8 +217,15 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
     const Result<std::vector<PlacedNode>> placed_meshes =
         expand_instances(document, buffers, placed);
     if (!placed_meshes) return fail(placed_meshes.error());
-    Result<void> done =
-        add_meshes({document, buffers, *placed_meshes}, materials, problems, out, log);
+    Result<void> done = add_meshes({document,
+                                    buffers,
+                                    *placed_meshes,
+                                    animator.empty() ? nullptr : &geometry,
+                                    anchors ? &*anchors : nullptr},
+                                   materials,
+                                   problems,
+                                   out,
+                                   log);
     if (!done) return done;
     add_shapes({document, buffers, placed}, materials, problems, out, log);
     done = add_lights_and_cameras(document, placed, out, log);
@@ -267,6 +277,7 @@ Result<Scene> PosedAsset::Impl::settled(Result<Scene> made, Log& log) {
 
 Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
     MaterialTable materials;
+    anchors.reset();
     Result<Scene> out = pose_at(time_s, materials, log);
     if (!out) return out;
     const Result<void> done = finish(materials, last, *out, log);
@@ -276,17 +287,21 @@ Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
 
 Result<Scene> PosedAsset::Impl::scene_between(const ShutterTimes& shutter, bool last, Log& log) {
     constexpr int steps = 9;  // half a turn in eight straight lines: 2 % of the radius off its arc
-    std::vector<Scene> later;
+    std::vector<ScenePose> later;
     double parse_seconds = 0;
     MaterialTable materials;
     Log quiet(Verbosity::quiet);  // the first pose says what there is to say
+    const Result<void> opened = animator.pose(asset.document, shutter.open_s);
+    if (!opened) return fail(opened.error());
+    if (!animator.empty()) anchors = world_transforms(asset.document);
     for (int step = 1; step < steps && !animator.empty(); ++step) {
         const double share = static_cast<double>(step) / (steps - 1);
         const double time_s = shutter.open_s + (shutter.close_s - shutter.open_s) * share;
         Result<Scene> pose = pose_at(time_s, materials, quiet);
         if (!pose) return pose;
         parse_seconds += pose->info.parse_seconds;
-        later.push_back(std::move(*pose));
+        later.push_back(take_pose(*pose, geometry.still()));
+        geometry.take_back(*pose);
     }
     Result<Scene> out = pose_at(shutter.open_s, materials, log);
     if (!out) return out;
@@ -333,8 +348,9 @@ const Degraded& PosedAsset::degraded() const {
     return impl_->degraded;
 }
 
-void PosedAsset::take_textures(Scene&& scene) {
+void PosedAsset::take_back(Scene&& scene) {
     impl_->textures.texels = std::move(scene.textures.texels);
+    impl_->geometry.take_back(scene);
 }
 
 Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& options, Log& log) {

@@ -82,8 +82,9 @@ public:
     /// What the latest scene lacks; nothing unless LoadOptions::lenient.
     const Degraded& degraded() const;
 
-    /// Takes the decoded images back out of a scene that is no longer needed, for the next one.
-    void take_textures(Scene&& scene);
+    /// Takes what the next scene will have too out of a scene that is no longer needed: decoded
+    /// images, and the geometry that no time changes.
+    void take_back(Scene&& scene);
 
 private:
     struct Impl;

@@ -14,7 +14,8 @@ struct MeshUse {
     int mesh = 0;
     int skin = -1;                ///< then there is one node, and its own place does not count
     std::vector<double> weights;  ///< of the morph targets; empty: all are 0
-    std::vector<int> placed;      ///< in the list of placed nodes
+    bool bends = false;           ///< time changes weights or joints
+    std::vector<int> placed;      ///< in the list of placed nodes; hidden ones too, unless it bends
 };
 
 struct MeshUses {
@@ -22,6 +23,7 @@ struct MeshUses {
     std::vector<std::string> flat_nodes;  ///< nodes that squash their mesh: not drawn
 };
 
+/// Nodes that are never seen are left out.
 MeshUses find_mesh_uses(const Document& document, const std::vector<PlacedNode>& placed);
 
 }  // namespace obscura

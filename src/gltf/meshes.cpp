@@ -2,30 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/meshes.h"
 
-#include "base/parallel.h"
-#include "gltf/list_text.h"
-#include "gltf/mesh_uses.h"
-#include "gltf/primitive_modes.h"
+#include "gltf/block_reader.h"
 #include "gltf/skins.h"
-#include "gltf/strokes.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
 
 namespace obscura {
 
 namespace {
 
 constexpr double farthest_position = 1e18;
-
-/// One primitive to be read; baked to the world when `placed` is not -1.
-struct PartJob {
-    PartName name;
-    const MeshUse* use = nullptr;
-    int placed = -1;
-};
 
 class MeshBuilder {
 public:
@@ -34,7 +21,11 @@ public:
                 Problems& problems,
                 Scene& scene,
                 Log& log)
-        : sources_(sources), materials_(materials), problems_(problems), scene_(scene), log_(log) {}
+        : sources_(sources),
+          problems_(problems),
+          scene_(scene),
+          log_(log),
+          reader_(block_sources_, materials, problems, scene, log) {}
 
     Result<void> build();
 
@@ -43,57 +34,51 @@ private:
     const PlacedNode& placed(int index) const {
         return sources_.placed[static_cast<size_t>(index)];
     }
-    const GltfMesh& mesh(int index) const { return document().meshes[static_cast<size_t>(index)]; }
 
-    std::string place(const PartJob& job) const {
-        return document().at("meshes", static_cast<size_t>(job.name.mesh)) + "/primitives/" +
-               std::to_string(job.name.primitive);
+    const std::vector<Affined>& world_from_node() {
+        if (world_from_node_.empty()) world_from_node_ = world_transforms(document());
+        return world_from_node_;
     }
 
     void find_uses();
     void drop_uses(int skin, const Error& error);
-    enum class JobKind { triangles, strokes };
-    void add_jobs(const MeshUse& use,
-                  int placed_index,
-                  JobKind kind,
-                  std::vector<PartJob>& jobs) const;
-    void reserve(const std::vector<PartJob>& jobs);
-    size_t batch_end(const std::vector<PartJob>& jobs, size_t begin) const;
-    Result<void> run(const std::vector<PartJob>& jobs);
-    Result<MeshPart> read_job(const PartJob& job) const;
-    Result<void> append(const PartJob& job, const MeshPart& part);
-    Result<void> build_shared(const MeshUse& use);
-    void add_instance(int mesh_row, int placed_index, const Bounds& box, size_t triangles);
-    void use_material(const PartJob& job);
-    int choose_material(const PartJob& job, const MeshPart& part);
-    void note_faults(const MeshPart& part);
-    void note_issues(const PartJob& job, const MeshPart& part);
+    size_t take_stored(const std::vector<MeshBlock>& blocks);
+    void reserve(const std::vector<MeshBlock>& blocks, size_t first);
+    Result<std::vector<GeometryBlock>> read(const std::vector<MeshBlock>& blocks);
+    void add_world(const std::vector<MeshBlock>& blocks, const std::vector<GeometryBlock>& parts);
+    void add_mesh(const MeshBlock& block, const GeometryBlock& part);
+    void add_instance(const MeshBlock& block, const GeometryBlock& part, const PlacedNode& place);
+    bool place_of(const MeshBlock& block, const PlacedNode& place, Affined& out);
+    bool grow_bounds(const MeshBlock& block, const GeometryBlock& part, const Affined& world);
+    void store(const std::vector<MeshBlock>& blocks, std::vector<GeometryBlock>& parts);
     void warn();
 
     const MeshSources& sources_;
-    MaterialTable& materials_;
     Problems& problems_;
     Scene& scene_;
     Log& log_;
     std::vector<MeshUse> uses_;                ///< in the order they are met
     std::vector<std::vector<Affined>> skins_;  ///< matrices; empty: no mesh that is drawn has it
-    Bounds part_bounds_;                       ///< grows while parts are appended
-    std::map<MeshIssue, NameList> issues_;
+    std::vector<Affined> world_from_node_;     ///< of all nodes, where anything asks for it
+    std::vector<Affined> no_movers_;
+    BlockSources block_sources_{
+        sources_, skins_, sources_.store != nullptr ? sources_.store->mover_from_node : no_movers_};
+    BlockReader reader_;
     NameList flat_nodes_;
 };
 
-void grow(Bounds& bounds, const Vec3f& p) {
+void grow(Bounds& bounds, const Vec3d& p) {
+    const Vec3f v{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
     bounds.low = {
-        std::min(bounds.low.x, p.x), std::min(bounds.low.y, p.y), std::min(bounds.low.z, p.z)};
-    bounds.high = {
-        std::max(bounds.high.x, p.x), std::max(bounds.high.y, p.y), std::max(bounds.high.z, p.z)};
+        std::min(bounds.low.x, v.x), std::min(bounds.low.y, v.y), std::min(bounds.low.z, v.z)};
+    bounds.high = max3(bounds.high, v);
 }
 
 void MeshBuilder::drop_uses(int skin, const Error& error) {
     size_t lost = 0;
     std::erase_if(uses_, [&](const MeshUse& use) {
         const bool drops = use.skin == skin;
-        if (drops) lost += mesh(use.mesh).primitives.size();
+        if (drops) lost += document().meshes[static_cast<size_t>(use.mesh)].primitives.size();
         return drops;
     });
     problems_.add(error, {Loss::primitive, "meshes with the skin are not drawn", lost});
@@ -105,51 +90,63 @@ void MeshBuilder::find_uses() {
     for (const std::string& name : found.flat_nodes)
         flat_nodes_.add(name);
     skins_.resize(document().skins.size());
-    std::vector<Affined> world_from_node;
+    if (sources_.store != nullptr && sources_.store->mover_from_node.empty()) {
+        sources_.store->mover_from_node = mover_transforms(document());
+    }
     for (size_t i = 0; i < skins_.size(); ++i) {
         const int skin = static_cast<int>(i);
         const auto has_it = [&](const MeshUse& use) { return use.skin == skin; };
         if (std::none_of(uses_.begin(), uses_.end(), has_it)) continue;
-        if (world_from_node.empty()) world_from_node = world_transforms(document());
         Result<std::vector<Affined>> matrices =
-            skin_matrices(document(), sources_.buffers, world_from_node, skin);
+            skin_matrices(document(), sources_.buffers, world_from_node(), skin);
         if (matrices) skins_[i] = std::move(*matrices);
         if (!matrices) drop_uses(skin, matrices.error());
     }
 }
 
-void MeshBuilder::add_jobs(const MeshUse& use,
-                           int placed_index,
-                           JobKind kind,
-                           std::vector<PartJob>& jobs) const {
-    const std::vector<GltfPrimitive>& primitives = mesh(use.mesh).primitives;
-    for (size_t i = 0; i < primitives.size(); ++i) {
-        const bool strokes = is_point_or_line_mode(primitives[i].mode);
-        if (strokes != (kind == JobKind::strokes)) continue;
-        jobs.push_back({{use.mesh, static_cast<int>(i)}, &use, placed_index});
+/// Takes over the arrays of an earlier pose as far as their blocks are wanted again; returns how
+/// many blocks that are.
+size_t MeshBuilder::take_stored(const std::vector<MeshBlock>& blocks) {
+    GeometryStore* store = sources_.store;
+    if (store == nullptr) return 0;
+    size_t count = 0;
+    while (!store->positions.empty() && count < store->blocks.size() && count < blocks.size() &&
+           reader_.is_same(store->blocks[count], blocks[count])) {
+        ++count;
     }
+    store->blocks.resize(count);
+    if (count == 0) return 0;
+    const StillSizes& still = store->still();
+    scene_.positions = std::move(store->positions);
+    scene_.indices = std::move(store->indices);
+    scene_.attributes = std::move(store->attributes);
+    scene_.positions.resize(still.positions);
+    scene_.indices.resize(still.indices);
+    scene_.attributes.resize(still.attributes);
+    return count;
 }
 
-/// Room for what the jobs will add, as far as the accessors' counts tell.
-void MeshBuilder::reserve(const std::vector<PartJob>& jobs) {
+/// Room for what blocks will add, as far as the accessors' counts tell.
+void MeshBuilder::reserve(const std::vector<MeshBlock>& blocks, size_t first) {
     size_t vertices = 0;
     size_t corners = 0;
     size_t floats = 0;
-    for (const PartJob& job : jobs) {
-        const GltfPrimitive& primitive =
-            mesh(job.name.mesh).primitives[static_cast<size_t>(job.name.primitive)];
-        if (primitive.position < 0) continue;
-        const size_t triangles = primitive_triangles(document(), primitive);
-        const size_t count = std::min(
-            document().accessors[static_cast<size_t>(primitive.position)].count, triangles * 3);
-        const MaterialNeeds needs = material_needs(document(), primitive.material);
-        const int sets = __builtin_popcount(needs.uv_sets);
-        const int tangents = needs.tangents ? 4 : 0;
-        const int width =
-            2 * sets + tangents + (primitive.normal >= 0 ? 3 : 0) + (primitive.color >= 0 ? 4 : 0);
-        vertices += count;
-        corners += triangles * 3;
-        floats += count * static_cast<size_t>(width);
+    for (size_t i = first; i < blocks.size(); ++i) {
+        for (const PartJob& job : blocks[i].jobs) {
+            const GltfMesh& mesh = document().meshes[static_cast<size_t>(job.name.mesh)];
+            const GltfPrimitive& primitive =
+                mesh.primitives[static_cast<size_t>(job.name.primitive)];
+            if (primitive.position < 0) continue;
+            const size_t triangles = primitive_triangles(document(), primitive);
+            const size_t count = std::min(
+                document().accessors[static_cast<size_t>(primitive.position)].count, triangles * 3);
+            const MaterialNeeds needs = material_needs(document(), primitive.material);
+            const int width = 2 * __builtin_popcount(needs.uv_sets) + (needs.tangents ? 4 : 0) +
+                              (primitive.normal >= 0 ? 3 : 0) + (primitive.color >= 0 ? 4 : 0);
+            vertices += count;
+            corners += triangles * 3;
+            floats += count * static_cast<size_t>(width);
+        }
     }
     constexpr size_t most = 1U << 31;
     scene_.positions.reserve(std::min(most, scene_.positions.size() + vertices * 3 + 4));
@@ -157,140 +154,103 @@ void MeshBuilder::reserve(const std::vector<PartJob>& jobs) {
     scene_.attributes.reserve(std::min(most, scene_.attributes.size() + floats + 4));
 }
 
-/// Parts are read in batches: together on all cores, but never all in memory twice.
-size_t MeshBuilder::batch_end(const std::vector<PartJob>& jobs, size_t begin) const {
-    constexpr uint64_t batch_corners = 3U << 20;
-    uint64_t corners = 0;
-    size_t end = begin;
-    while (end < jobs.size() && (end == begin || corners < batch_corners)) {
-        const PartName& name = jobs[end].name;
-        corners +=
-            3 * primitive_triangles(
-                    document(), mesh(name.mesh).primitives[static_cast<size_t>(name.primitive)]);
-        ++end;
-    }
-    return end;
-}
-
-Result<MeshPart> MeshBuilder::read_job(const PartJob& job) const {
-    PartPose pose{job.use->weights, {}};
-    if (job.use->skin >= 0) pose.world_from_bind = skins_[static_cast<size_t>(job.use->skin)];
-    Result<MeshPart> part = read_mesh_part(document(), sources_.buffers, job.name, pose);
-    if (!part || job.placed < 0 || part->in_world) return part;
-    const PlacedNode& place = placed(job.placed);
-    if (!bake_part(*part, place.world_from_node)) {
-        return fail(ExitCode::bad_data,
-                    "E-NODE-RANGE",
-                    document().at("nodes", static_cast<size_t>(place.node)),
-                    "the node moves vertices of primitive " + std::to_string(job.name.primitive) +
-                        " of its mesh beyond 1e18");
-    }
-    return part;
-}
-
-Result<void> MeshBuilder::run(const std::vector<PartJob>& jobs) {
-    std::vector<std::optional<Result<MeshPart>>> parts;
-    for (size_t begin = 0; begin < jobs.size();) {
-        const size_t end = batch_end(jobs, begin);
-        parts.clear();
-        parts.resize(end - begin);
-        parallel_for(end - begin, [&](size_t i) { parts[i] = read_job(jobs[begin + i]); });
-        for (size_t i = 0; i < parts.size(); ++i) {
-            Result<MeshPart>& part = *parts[i];
-            if (part) {
-                const Result<void> done = append(jobs[begin + i], *part);
-                if (!done) return done;
-            } else {
-                problems_.add(part.error(), {Loss::primitive, "the primitive is not drawn"});
-                use_material(jobs[begin + i]);
-            }
-            parts[i].reset();
+Result<std::vector<GeometryBlock>> MeshBuilder::read(const std::vector<MeshBlock>& blocks) {
+    std::vector<GeometryBlock> parts;
+    const size_t kept = take_stored(blocks);
+    reserve(blocks, kept);
+    for (size_t i = 0; i < blocks.size(); ++i) {
+        if (i < kept) {
+            parts.push_back(std::move(sources_.store->blocks[i]));
+            reader_.use_again(parts.back());
+            continue;
         }
-        begin = end;
+        Result<GeometryBlock> part = reader_.read(blocks[i]);
+        if (!part) return fail(std::move(part.error()));
+        parts.push_back(std::move(*part));
     }
-    return {};
+    return parts;
 }
 
-/// Strict loading lists the faults of images too that only faulty primitives show.
-void MeshBuilder::use_material(const PartJob& job) {
-    if (problems_.lenient()) return;
-    const auto primitive = static_cast<size_t>(job.name.primitive);
-    const int material = mesh(job.name.mesh).primitives[primitive].material;
-    materials_.used[static_cast<size_t>(material) + 1] = 1;
+/// What lies in the world comes first.
+void MeshBuilder::add_world(const std::vector<MeshBlock>& blocks,
+                            const std::vector<GeometryBlock>& parts) {
+    for (size_t i = 0; i < blocks.size(); ++i) {
+        if (blocks[i].space != BlockSpace::world) continue;
+        const std::vector<Primitive>& rows = parts[i].primitives;
+        scene_.primitives.insert(scene_.primitives.end(), rows.begin(), rows.end());
+        scene_.info.triangles_in_world += parts[i].triangles;
+        scene_.bounds.low = -max3(-scene_.bounds.low, -parts[i].box.low);
+        scene_.bounds.high = max3(scene_.bounds.high, parts[i].box.high);
+        if (!blocks[i].keeps) continue;
+        scene_.still_primitive_count = static_cast<int32_t>(rows.size());
+        scene_.still_stamp = parts[i].stamp;
+    }
+    scene_.world_primitive_count = static_cast<int32_t>(scene_.primitives.size());
 }
 
-int MeshBuilder::choose_material(const PartJob& job, const MeshPart& part) {
-    uint32_t uv_sets = 0;
-    for (size_t set = 0; set < part.uvs.size(); ++set) {
-        if (!part.uvs[set].empty()) uv_sets |= 1U << set;
+/// Where the block's space lies; false: it is not seen now.
+bool MeshBuilder::place_of(const MeshBlock& block, const PlacedNode& place, Affined& out) {
+    if (!place.visible) return false;
+    if (block.space == BlockSpace::mesh) {
+        out = place.world_from_node;
+    } else {
+        out = world_from_node()[static_cast<size_t>(place.mover)];
     }
-    const int material =
-        mesh(job.name.mesh).primitives[static_cast<size_t>(job.name.primitive)].material;
-    const MaterialChoice choice = material_row(materials_, material, uv_sets);
-    if (choice.lost.empty()) return choice.row;
-    const std::string text = lost_slots_text(materials_, choice);
-    if (part.corners == 3) {
-        problems_.add(
-            {ExitCode::bad_data, "E-MESH-TEXCOORD", place(job), text + "; it must have them"},
-            {Loss::nothing, "there the factors alone count"});
-    } else if (choice.is_new) {  // points and lines have no textures
-        log_.warn(place(job), text + "; there the factors alone count");
+    if (place.mover >= 0 && is_singular(out)) {
+        const int node = block.space == BlockSpace::mesh ? place.node : place.mover;
+        flat_nodes_.add(node_label(document(), node));
+        return false;
     }
-    return choice.row;
+    if (block.space != BlockSpace::anchored_mover) return true;
+    const Affined& anchor = (*sources_.anchors)[static_cast<size_t>(place.mover)];
+    if (is_singular(anchor)) return false;
+    const bool is_there = std::equal(&anchor.m[0][0], &anchor.m[0][0] + 12, &out.m[0][0]);
+    out = is_there ? Affined{} : compose(out, inverse(anchor));
+    return true;
 }
 
-Result<void> MeshBuilder::append(const PartJob& job, const MeshPart& part) {
-    note_issues(job, part);
-    note_faults(part);
-    if (part.indices.empty()) {
-        if (!part.faults.empty()) use_material(job);
-        return {};
+/// Makes the scene's bounds hold an instance; false: it reaches too far. What is placed once counts
+/// vertex by vertex, as if it lay in the world.
+bool MeshBuilder::grow_bounds(const MeshBlock& block,
+                              const GeometryBlock& part,
+                              const Affined& world) {
+    Bounds all = scene_.bounds;
+    bool in_range = true;
+    const auto add = [&](const Vec3d& p) {
+        const Vec3d moved = transform_point(world, p);
+        in_range = in_range && max_component(abs(moved)) <= farthest_position;
+        grow(all, moved);
+    };
+    if (block.space == BlockSpace::mover) {
+        const size_t end = part.end.indices;
+        for (size_t i = end - 3 * part.triangles; i < end; ++i) {
+            const float* p = &scene_.positions[3 * static_cast<size_t>(scene_.indices[i])];
+            add({p[0], p[1], p[2]});
+        }
+    } else {
+        const Bounds& box = part.box;
+        for (int corner = 0; corner < 8; ++corner) {
+            add({(corner & 1) != 0 ? box.high.x : box.low.x,
+                 (corner & 2) != 0 ? box.high.y : box.low.y,
+                 (corner & 4) != 0 ? box.high.z : box.low.z});
+        }
     }
-    Result<Primitive> primitive = part.corners == 3 ? append_part(scene_, part, place(job))
-                                                    : append_strokes(scene_, part, place(job));
-    if (!primitive) return fail(std::move(primitive.error()));
-    if (primitive->triangle_count == 0) return {};  // lines of no length
-    primitive->material = choose_material(job, part);
-    primitive->node = job.placed < 0 ? -1 : placed(job.placed).node;
-    scene_.primitives.push_back(*primitive);
-    for (const uint32_t vertex : part.indices) {
-        const float* p = &part.positions[3 * static_cast<size_t>(vertex)];
-        grow(part_bounds_, {p[0], p[1], p[2]});
-    }
-    return {};
+    if (in_range) scene_.bounds = all;
+    return in_range;
 }
 
-Result<void> MeshBuilder::build_shared(const MeshUse& use) {
-    std::vector<PartJob> jobs;
-    add_jobs(use, -1, JobKind::triangles, jobs);
-    Mesh row;
-    row.first_primitive = static_cast<int32_t>(scene_.primitives.size());
-    const size_t corners = scene_.indices.size();
-    part_bounds_ = {};
-    const Result<void> done = run(jobs);
-    if (!done) return done;
-    row.primitive_count = static_cast<int32_t>(scene_.primitives.size()) - row.first_primitive;
-    if (row.primitive_count == 0) return {};
-    const int mesh_row = static_cast<int>(scene_.meshes.size());
-    scene_.meshes.push_back(row);
-    const size_t triangles = (scene_.indices.size() - corners) / 3;
-    for (const int placed_index : use.placed) {
-        add_instance(mesh_row, placed_index, part_bounds_, triangles);
-    }
-    return {};
-}
-
-void MeshBuilder::add_instance(int mesh_row,
-                               int placed_index,
-                               const Bounds& box,
-                               size_t triangles) {
-    const PlacedNode& place = placed(placed_index);
+void MeshBuilder::add_instance(const MeshBlock& block,
+                               const GeometryBlock& part,
+                               const PlacedNode& place) {
+    Affined world;
+    if (!place_of(block, place, world)) return;
+    const bool own_mesh = block.space == BlockSpace::mesh;
     Instance instance;
-    instance.world_from_object = affine_cast<float>(place.world_from_node);
-    instance.object_from_world = affine_cast<float>(inverse(place.world_from_node));
-    instance.mesh = mesh_row;
-    instance.node = place.node;
-    instance.mirrored = determinant(place.world_from_node) < 0 ? 1 : 0;
+    instance.world_from_object = affine_cast<float>(world);
+    instance.object_from_world = affine_cast<float>(inverse(world));
+    instance.mesh = static_cast<int32_t>(scene_.meshes.size()) - 1;
+    instance.node = own_mesh ? place.node : -1;
+    instance.mirrored = determinant(world) < 0 ? 1 : 0;
     bool in_range = true;
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 4; ++c) {
@@ -298,53 +258,42 @@ void MeshBuilder::add_instance(int mesh_row,
                        std::isfinite(instance.object_from_world.m[r][c]);
         }
     }
-    Bounds all = scene_.bounds;
-    for (int corner = 0; corner < 8; ++corner) {
-        const Vec3d p = {(corner & 1) != 0 ? box.high.x : box.low.x,
-                         (corner & 2) != 0 ? box.high.y : box.low.y,
-                         (corner & 4) != 0 ? box.high.z : box.low.z};
-        const Vec3d moved = transform_point(place.world_from_node, p);
-        in_range = in_range && max_component(abs(moved)) <= farthest_position;
-        grow(all,
-             {static_cast<float>(moved.x),
-              static_cast<float>(moved.y),
-              static_cast<float>(moved.z)});
-    }
-    if (!in_range) {
-        const size_t lost =
-            static_cast<size_t>(scene_.meshes[static_cast<size_t>(mesh_row)].primitive_count);
+    if (!in_range || !grow_bounds(block, part, world)) {
+        const int node = own_mesh ? place.node : place.mover;
         problems_.add({ExitCode::bad_data,
                        "E-NODE-RANGE",
-                       document().at("nodes", static_cast<size_t>(place.node)),
+                       document().at("nodes", static_cast<size_t>(node)),
                        "the node moves vertices of its mesh beyond 1e18, or its scale is beyond "
                        "what single precision can invert"},
-                      {Loss::primitive, "the mesh is not drawn there", lost});
+                      {Loss::primitive, "the mesh is not drawn there", part.primitives.size()});
         return;
     }
-    scene_.bounds = all;
     scene_.instances.push_back(instance);
-    scene_.info.triangles_in_world += triangles;
+    scene_.info.triangles_in_world += part.triangles;
 }
 
-void MeshBuilder::note_faults(const MeshPart& part) {
-    const char* const what = part.corners == 3   ? " triangles"
-                             : part.corners == 2 ? " pieces of lines"
-                                                 : " points";
-    for (const PartFault& fault : part.faults) {
-        const std::string count = std::to_string(fault.dropped) + what;
-        problems_.add(fault.error, {Loss::triangle, count + " are left out", fault.dropped});
-    }
+void MeshBuilder::add_mesh(const MeshBlock& block, const GeometryBlock& part) {
+    if (part.primitives.empty()) return;
+    scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()),
+                             static_cast<int32_t>(part.primitives.size()),
+                             part.stamp});
+    scene_.primitives.insert(
+        scene_.primitives.end(), part.primitives.begin(), part.primitives.end());
+    for (const int index : block.placed)
+        add_instance(block, part, placed(index));
 }
 
-void MeshBuilder::note_issues(const PartJob& job, const MeshPart& part) {
-    for (uint32_t i = 0; i < static_cast<uint32_t>(MeshIssue::count); ++i) {
-        const MeshIssue issue = static_cast<MeshIssue>(i);
-        if ((part.issues & issue_bit(issue)) != 0) issues_[issue].add(mesh(job.name.mesh).name);
-    }
+void MeshBuilder::store(const std::vector<MeshBlock>& blocks, std::vector<GeometryBlock>& parts) {
+    if (sources_.store == nullptr) return;
+    size_t kept = 0;
+    while (kept < blocks.size() && blocks[kept].keeps)
+        ++kept;
+    parts.resize(kept);
+    sources_.store->blocks = std::move(parts);
 }
 
 void MeshBuilder::warn() {
-    for (const auto& [issue, list] : issues_) {
+    for (const auto& [issue, list] : reader_.issues()) {
         log_.warn(document().file,
                   std::string(mesh_issue_text(issue)) + "; meshes: " + list.text());
     }
@@ -357,31 +306,20 @@ void MeshBuilder::warn() {
 
 Result<void> MeshBuilder::build() {
     find_uses();
-    std::vector<PartJob> world;
-    for (const MeshUse& use : uses_) {
-        if (use.placed.size() == 1) add_jobs(use, use.placed[0], JobKind::triangles, world);
-        // Points and lines, whose radius no node may stretch: in the world wherever they are.
-        for (const int placed_index : use.placed)
-            add_jobs(use, placed_index, JobKind::strokes, world);
+    const MeshPlan plan = plan_meshes(document(),
+                                      uses_,
+                                      sources_.placed,
+                                      block_sources_.mover_from_node,
+                                      {sources_.store != nullptr, sources_.anchors != nullptr});
+    for (const std::string& name : plan.flat_nodes)
+        flat_nodes_.add(name);
+    Result<std::vector<GeometryBlock>> parts = read(plan.blocks);
+    if (!parts) return fail(std::move(parts.error()));
+    add_world(plan.blocks, *parts);
+    for (size_t i = 0; i < plan.blocks.size(); ++i) {
+        if (plan.blocks[i].space != BlockSpace::world) add_mesh(plan.blocks[i], (*parts)[i]);
     }
-    std::vector<PartJob> all = world;
-    for (const MeshUse& use : uses_) {
-        if (use.placed.size() == 1) continue;
-        for (size_t i = 0; i < mesh(use.mesh).primitives.size(); ++i) {
-            all.push_back({{use.mesh, static_cast<int>(i)}, &use, -1});
-        }
-    }
-    reserve(all);
-    Result<void> done = run(world);
-    if (!done) return done;
-    scene_.world_primitive_count = static_cast<int32_t>(scene_.primitives.size());
-    scene_.info.triangles_in_world = scene_.indices.size() / 3;
-    scene_.bounds = part_bounds_;
-    for (const MeshUse& use : uses_) {
-        if (use.placed.size() == 1) continue;
-        done = build_shared(use);
-        if (!done) return done;
-    }
+    store(plan.blocks, *parts);
     pad_tables(scene_);
     warn();
     return {};

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gltf/buffers.h"
+#include "gltf/geometry_store.h"
 #include "gltf/materials.h"
 #include "gltf/mesh_part.h"
 #include "gltf/node_graph.h"
@@ -17,11 +18,16 @@ struct MeshSources {
     const Document& document;
     const BufferStore& buffers;
     const std::vector<PlacedNode>& placed;
+    GeometryStore* store = nullptr;  ///< of an animated asset: what its poses have in common
+    /// World transforms of all nodes when a shutter opens; null: there is no shutter. Points and
+    /// lines on animated nodes then become instances that move from where they were.
+    const std::vector<Affined>* anchors = nullptr;
 };
 
 /// Fills the scene's geometry: positions, indices, attributes, primitives, meshes, instances and
 /// bounds; counts what is skipped in Scene::info. A mesh that one node places lies in world space,
-/// one that several place becomes a Mesh with Instances.
+/// one that several place becomes a Mesh with Instances. In an animated asset all that an animated
+/// node moves becomes one Mesh in that node's space, and what stands still comes first.
 ///
 /// Out     problems: for each primitive what read_mesh_part finds, E-MESH-TEXCOORD (its material
 ///         reads texture coordinates that it lacks), E-NODE-RANGE a node moves vertices beyond

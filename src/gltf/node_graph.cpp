@@ -95,7 +95,59 @@ std::vector<char> lower_levels(const Document& document) {
     return out;
 }
 
+/// Calls visit(parent, node) for all nodes, parents first; a root's parent is -1.
+template <typename Visit>
+void walk_down(const Document& document, const Visit& visit) {
+    const size_t count = document.nodes.size();
+    std::vector<char> is_child(count, 0);
+    for (const GltfNode& node : document.nodes) {
+        for (const int child : node.children)
+            is_child[static_cast<size_t>(child)] = 1;
+    }
+    std::vector<int> open;
+    for (size_t i = 0; i < count; ++i) {
+        if (is_child[i] != 0) continue;
+        visit(-1, i);
+        open.push_back(static_cast<int>(i));
+    }
+    while (!open.empty()) {
+        const int parent = open.back();
+        open.pop_back();
+        for (const int child : document.nodes[static_cast<size_t>(parent)].children) {
+            visit(parent, static_cast<size_t>(child));
+            open.push_back(child);
+        }
+    }
+}
+
+std::vector<Affined> transforms(const Document& document, bool ends_at_movers) {
+    std::vector<Affined> out(document.nodes.size());
+    walk_down(document, [&](int parent, size_t i) {
+        const GltfNode& node = document.nodes[i];
+        const Affined above = parent < 0 ? Affined{} : out[static_cast<size_t>(parent)];
+        out[i] = ends_at_movers && node.moves ? Affined{} : compose(above, node.parent_from_node);
+    });
+    return out;
+}
+
 }  // namespace
+
+std::vector<Affined> world_transforms(const Document& document) {
+    return transforms(document, false);
+}
+
+std::vector<Affined> mover_transforms(const Document& document) {
+    return transforms(document, true);
+}
+
+std::vector<char> moving_nodes(const Document& document) {
+    std::vector<char> out(document.nodes.size(), 0);
+    walk_down(document, [&](int parent, size_t i) {
+        const bool above = parent >= 0 && out[static_cast<size_t>(parent)] != 0;
+        out[i] = above || document.nodes[i].moves ? 1 : 0;
+    });
+    return out;
+}
 
 Result<void> check_node_graph(const Document& document) {
     const Result<std::vector<int>> parents = find_parents(document);
@@ -132,13 +184,21 @@ std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& lo
             const GltfNode& node = document.nodes[index];
             next.world_from_node = compose(next.world_from_node, node.parent_from_node);
             next.visible = next.visible && node.visible;
+            next.may_show = next.may_show && (node.visible || node.moves);
+            if (node.moves) next.mover = next.node;
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
-                open.push_back({*child, next.world_from_node, next.visible});
+                open.push_back(next);
+                open.back().node = *child;
             }
             out.push_back(next);
         }
     }
     return out;
+}
+
+std::string node_label(const Document& document, int node) {
+    const std::string& name = document.nodes[static_cast<size_t>(node)].name;
+    return name.empty() ? "node " + std::to_string(node) : name;
 }
 
 bool is_singular(const Affined& transform) {

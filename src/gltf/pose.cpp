@@ -42,6 +42,26 @@ void set_weights(const GltfChannel& channel,
     }
 }
 
+/// A node's light profile.
+void set_profile(const GltfChannel& channel, const std::vector<double>& value, GltfNode& node) {
+    if (channel.path == ChannelPath::profile_multiplier) {
+        node.ies.multiplier = std::max(value[0], 0.0);
+        return;
+    }
+    for (size_t i = 0; i < 3; ++i)
+        node.ies.color[i] = std::clamp(value[i], 0.0, 1.0);
+}
+
+void set_environment(const GltfChannel& channel,
+                     const std::vector<double>& value,
+                     GltfEnvironment& light) {
+    if (channel.path == ChannelPath::environment_intensity) {
+        light.intensity = std::max(value[0], 0.0);
+        return;
+    }
+    std::copy_n(value.begin(), 4, light.rotation.begin());
+}
+
 void set_node(const GltfChannel& channel, const std::vector<double>& value, Document& document) {
     GltfNode& node = document.nodes[static_cast<size_t>(channel.target)];
     switch (channel.path) {
@@ -54,6 +74,10 @@ void set_node(const GltfChannel& channel, const std::vector<double>& value, Docu
         case ChannelPath::scale:
             std::copy_n(value.begin(), 3, node.trs.scale.begin());
             break;
+        case ChannelPath::profile_multiplier:
+        case ChannelPath::profile_color:
+            set_profile(channel, value, node);
+            return;
         case ChannelPath::visible:
             node.visible = value[0] >= 0.5;
             return;
@@ -97,7 +121,7 @@ Result<Animator> Animator::create(const json& tree,
             const GltfAnimationSampler& sampler =
                 animation.samplers[static_cast<size_t>(channel.sampler)];
             KeyframeKind kind{sampler.interpolation, channel.width, false};
-            kind.quaternion = channel.path == ChannelPath::rotation;
+            kind.quaternion = is_quaternion(channel.path);
             Result<Keyframes> keys = read_keyframes(document, buffers, sampler, kind);
             if (!keys) return fail(std::move(keys.error()));
             out.tracks_.push_back({channel, std::move(*keys)});
@@ -106,6 +130,28 @@ Result<Animator> Animator::create(const json& tree,
     }
     if (has_pointers) out.tree_ = readable_parts(tree);
     return out;
+}
+
+void Animator::mark(Document& document) const {
+    for (const Track& track : tracks_) {
+        const auto target = static_cast<size_t>(track.channel.target);
+        switch (track.channel.path) {
+            case ChannelPath::weights:
+                document.nodes[target].bends = true;
+                break;
+            case ChannelPath::mesh_weights:
+                document.meshes[target].bends = true;
+                break;
+            case ChannelPath::translation:
+            case ChannelPath::rotation:
+            case ChannelPath::scale:
+            case ChannelPath::visible:
+                document.nodes[target].moves = true;
+                break;
+            default:
+                break;  // lights, cameras and materials
+        }
+    }
 }
 
 void Animator::apply(const Track& track, Document& document, double time_s) {
@@ -117,6 +163,9 @@ void Animator::apply(const Track& track, Document& document, double time_s) {
     } else if (channel.path == ChannelPath::mesh_weights) {
         GltfMesh& mesh = document.meshes[static_cast<size_t>(channel.target)];
         set_weights(channel, value, mesh.target_count, mesh.weights);
+    } else if (channel.path == ChannelPath::environment_intensity ||
+               channel.path == ChannelPath::environment_rotation) {
+        set_environment(channel, value, document.environments[static_cast<size_t>(channel.target)]);
     } else {
         set_node(channel, value, document);
     }

@@ -27,6 +27,9 @@ public:
 
     bool empty() const { return tracks_.empty(); }
 
+    /// Says of each node and mesh of the document whether it is animated.
+    void mark(Document& document) const;
+
     /// Writes every animated value at a time into the document. All of them are written whatever
     /// the time is: a document may be posed again and again, in any order.
     ///

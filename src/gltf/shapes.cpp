@@ -237,7 +237,8 @@ void ShapeBuilder::build() {
             continue;
         }
         const bool single = shape(index).positions < 0;
-        (single && uniform_scale(place.world_from_node) ? world : moved).push_back(&place);
+        const bool stays = single && place.mover < 0 && uniform_scale(place.world_from_node);
+        (stays ? world : moved).push_back(&place);
     }
     if (!flat.empty()) {
         log_.warn(document().file,

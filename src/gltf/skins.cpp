@@ -24,32 +24,6 @@ bool read_matrix(const float* columns, Affined& out) {
 
 }  // namespace
 
-std::vector<Affined> world_transforms(const Document& document) {
-    const size_t count = document.nodes.size();
-    std::vector<char> is_child(count, 0);
-    for (const GltfNode& node : document.nodes) {
-        for (const int child : node.children)
-            is_child[static_cast<size_t>(child)] = 1;
-    }
-    std::vector<Affined> out(count);
-    std::vector<size_t> open;
-    for (size_t i = 0; i < count; ++i) {
-        if (is_child[i] != 0) continue;
-        out[i] = document.nodes[i].parent_from_node;
-        open.push_back(i);
-    }
-    while (!open.empty()) {
-        const size_t parent = open.back();
-        open.pop_back();
-        for (const int number : document.nodes[parent].children) {
-            const auto child = static_cast<size_t>(number);
-            out[child] = compose(out[parent], document.nodes[child].parent_from_node);
-            open.push_back(child);
-        }
-    }
-    return out;
-}
-
 Result<std::vector<Affined>> skin_matrices(const Document& document,
                                            const BufferStore& buffers,
                                            const std::vector<Affined>& world_from_node,

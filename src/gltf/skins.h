@@ -8,11 +8,9 @@
 
 namespace obscura {
 
-/// World transforms of all nodes, whatever scene they are in: joints need not be in the drawn one.
-std::vector<Affined> world_transforms(const Document& document);
-
 /// For each joint of a skin: the world from the pose that the mesh was bound in.
 ///
+/// In      world_from_node: of all nodes, for joints need not be in the drawn scene
 /// Errors  65 E-SKIN-MATRICES an inverse bind matrix is not finite; those of read_floats
 Result<std::vector<Affined>> skin_matrices(const Document& document,
                                            const BufferStore& buffers,

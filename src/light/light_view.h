@@ -9,6 +9,7 @@
 namespace obscura {
 
 struct CdfEntry;
+struct MovingTriangle;
 struct PunctualLight;
 struct ShapeLight;
 struct TriangleLight;
@@ -27,6 +28,10 @@ struct LightView {
     const ShapeLight* shapes = nullptr;
     float environment_select = 0;  ///< probability of choosing the environment
     LightProfileView profiles;     ///< of punctual lights
+    /// Lights at each of MotionView::steps times: so many rows for every punctual light, and for
+    /// every triangle that moves. Null: none moves.
+    const PunctualLight* moving_punctual = nullptr;
+    const MovingTriangle* moving_triangles = nullptr;
 };
 
 }  // namespace obscura

@@ -21,18 +21,21 @@ struct PunctualSample {
     Vec3<F> irradiance;  ///< on a surface that faces the light: lux, or W/m^2 by the same scale
 };
 
-/// There is one direction only, so there is no density: add bsdf * cosine * irradiance, divided
-/// by the probability of choosing this light.
-///
-/// In      index must be in range for idle lanes too; profiles: of lights that have one
-/// Out     finite at any distance for intensities up to 1e20 cd: nearer than 1e-9 m, the light is
-///         treated as that far away
-/// Source  KHR_lights_punctual: range window, inverse square law and spot cone; EXT_lights_ies
+/// One light for each lane, as PunctualLight.
 template <typename F>
-OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,
-                                                 const IntOf<F>& index,
-                                                 const Vec3<F>& from,
-                                                 const LightProfileView& profiles = {}) {
+struct PunctualRow {
+    IntOf<F> type, profile;
+    Vec3<F> position, shines;
+    Vec3<F> zero_axis;  ///< read where there are profiles
+    Vec3<F> intensity;
+    F range, spot_scale, spot_offset;
+};
+
+/// In      index must be in range for idle lanes too; has_profiles: some light may have one
+template <typename F>
+OBSCURA_INLINE PunctualRow<F> read_punctual(const PunctualLight* rows,
+                                            const IntOf<F>& index,
+                                            bool has_profiles) {
     const IntOf<F> word = index * IntOf<F>(words_per_row<PunctualLight>);
     const auto read = [&](size_t offset) {
         return gather<F>(member_words<float>(rows, offset), word);
@@ -40,42 +43,92 @@ OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,
     const auto read3 = [&](size_t offset) {
         return Vec3<F>{read(offset), read(offset + 4), read(offset + 8)};
     };
-    const auto type = gather<F>(member_words<int32_t>(rows, offsetof(PunctualLight, type)), word);
-    const auto directional = type == IntOf<F>(static_cast<int32_t>(PunctualType::directional));
-    const auto spot = type == IntOf<F>(static_cast<int32_t>(PunctualType::spot));
+    PunctualRow<F> out;
+    out.type = gather<F>(member_words<int32_t>(rows, offsetof(PunctualLight, type)), word);
+    out.position = read3(offsetof(PunctualLight, position));
+    out.shines = read3(offsetof(PunctualLight, direction));
+    out.intensity = read3(offsetof(PunctualLight, intensity));
+    out.range = read(offsetof(PunctualLight, range));
+    out.spot_scale = read(offsetof(PunctualLight, spot_scale));
+    out.spot_offset = read(offsetof(PunctualLight, spot_offset));
+    out.profile = IntOf<F>(-1);
+    out.zero_axis = splat3(F(0.0f));
+    if (has_profiles) {
+        out.profile =
+            gather<F>(member_words<int32_t>(rows, offsetof(PunctualLight, profile)), word);
+        out.zero_axis = read3(offsetof(PunctualLight, zero_axis));
+    }
+    return out;
+}
 
-    const Vec3<F> shines = read3(offsetof(PunctualLight, direction));
-    const Vec3<F> to_light = read3(offsetof(PunctualLight, position)) - from;
+/// A light on its way from one pose to the next, `share` of it.
+template <typename F>
+OBSCURA_INLINE PunctualRow<F> blend(const PunctualRow<F>& a,
+                                    const PunctualRow<F>& b,
+                                    const F& share) {
+    const auto mix = [&](const auto& p, const auto& q) { return p + (q - p) * share; };
+    const auto turn = [&](const Vec3<F>& p, const Vec3<F>& q) {
+        const Vec3<F> between = mix(p, q);
+        return between * (F(1.0f) / max(length(between), F(1e-18f)));
+    };
+    PunctualRow<F> out = a;
+    out.position = mix(a.position, b.position);
+    out.shines = turn(a.shines, b.shines);
+    out.zero_axis = turn(a.zero_axis, b.zero_axis);
+    out.intensity = mix(a.intensity, b.intensity);
+    out.range = mix(a.range, b.range);
+    out.spot_scale = mix(a.spot_scale, b.spot_scale);
+    out.spot_offset = mix(a.spot_offset, b.spot_offset);
+    return out;
+}
+
+/// There is one direction only, so there is no density: add bsdf * cosine * irradiance, divided
+/// by the probability of choosing this light.
+///
+/// In      profiles: of lights that have one
+/// Out     finite at any distance for intensities up to 1e20 cd: nearer than 1e-9 m, the light is
+///         treated as that far away
+/// Source  KHR_lights_punctual: range window, inverse square law and spot cone; EXT_lights_ies
+template <typename F>
+OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualRow<F>& row,
+                                                 const Vec3<F>& from,
+                                                 const LightProfileView& profiles = {}) {
+    const auto directional = row.type == IntOf<F>(static_cast<int32_t>(PunctualType::directional));
+    const auto spot = row.type == IntOf<F>(static_cast<int32_t>(PunctualType::spot));
+
+    const Vec3<F> to_light = row.position - from;
     const F distance = length(to_light);
     const Vec3<F> towards = to_light * (F(1.0f) / max(distance, F(1e-18f)));
 
-    const F range = read(offsetof(PunctualLight, range));
-    const F reach = distance / max(range, F(1e-18f));
+    const F reach = distance / max(row.range, F(1e-18f));
     const F window = clamp(F(1.0f) - square(square(reach)), F(0.0f), F(1.0f));
-    const F limited = select(range > F(0.0f), window, F(1.0f));
-    const F cone = clamp(-dot(shines, towards) * read(offsetof(PunctualLight, spot_scale)) +
-                             read(offsetof(PunctualLight, spot_offset)),
-                         F(0.0f),
-                         F(1.0f));
+    const F limited = select(row.range > F(0.0f), window, F(1.0f));
+    const F cone =
+        clamp(-dot(row.shines, towards) * row.spot_scale + row.spot_offset, F(0.0f), F(1.0f));
     F angular = select(spot, cone * cone, F(1.0f));
     if (profiles.rows != nullptr) {
-        const auto profile =
-            gather<F>(member_words<int32_t>(rows, offsetof(PunctualLight, profile)), word);
-        const MaskOf<F> measured = profile >= IntOf<F>(0);
+        const MaskOf<F> measured = row.profile >= IntOf<F>(0);
         if (any(measured)) {
-            const F candela =
-                profile_candela<F>(profiles,
-                                   max(profile, IntOf<F>(0)),
-                                   {shines, read3(offsetof(PunctualLight, zero_axis))},
-                                   -towards);
+            const F candela = profile_candela<F>(
+                profiles, max(row.profile, IntOf<F>(0)), {row.shines, row.zero_axis}, -towards);
             angular = select(measured, candela, angular);
         }
     }
     const F attenuation = limited * angular / max(distance * distance, F(1e-18f));
     const F factor = select(directional, F(1.0f), attenuation);
-    return {select(directional, -shines, towards),
+    return {select(directional, -row.shines, towards),
             select(directional, F(directional_distance_m), distance),
-            read3(offsetof(PunctualLight, intensity)) * factor};
+            row.intensity * factor};
+}
+
+/// The same of rows[index].
+template <typename F>
+OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,
+                                                 const IntOf<F>& index,
+                                                 const Vec3<F>& from,
+                                                 const LightProfileView& profiles = {}) {
+    return sample_punctual<F>(
+        read_punctual<F>(rows, index, profiles.rows != nullptr), from, profiles);
 }
 
 }  // namespace OBSCURA_ISA

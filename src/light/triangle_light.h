@@ -23,9 +23,17 @@ struct TriangleLight {
     float area = 0;         ///< square metres
     float pdf_area = 0;     ///< probability of choosing this triangle / area; 0 when area is 0
     int32_t two_sided = 0;  ///< 1: also emits from the back
+    int32_t motion = -1;    ///< first row in LightView::moving_triangles; -1: it stands still
 };
 
-static_assert(sizeof(TriangleLight) == 22 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(TriangleLight) == 23 * 4, "read as 32-bit words: no padding");
+
+/// Where a moving triangle is at one time.
+struct MovingTriangle {
+    float p0[3] = {0, 0, 0};
+    float e1[3] = {0, 0, 0};
+    float e2[3] = {0, 0, 0};
+};
 
 /// Corners, edges and area of a row; the rest stays at its default. Corners that are equal, in a
 /// line or not finite give the area 0.
@@ -67,58 +75,93 @@ OBSCURA_INLINE F solid_angle_pdf(const F& pdf_area, const F& distance, const F& 
     return select(cosine > F(0.0f), min(pdf, F(1e30f)), F(0.0f));
 }
 
+/// A triangle for each lane.
+template <typename F>
+struct TriangleCorners {
+    Vec3<F> p0, e1, e2;
+    F area;
+    F pdf_area;
+};
+
+/// Four neighbouring words of rows[index], all of them within the row.
+template <typename F>
+OBSCURA_INLINE Four<F> read_four(const TriangleLight* rows,
+                                 const IntOf<F>& index,
+                                 size_t byte_offset) {
+    return gather4<F>(member_words<float>(rows, byte_offset),
+                      IntOf<F>(index * IntOf<F>(words_per_row<TriangleLight>)));
+}
+
+/// In      index must be in range for idle lanes too
+template <typename F>
+OBSCURA_INLINE TriangleCorners<F> read_corners(const TriangleLight* rows, const IntOf<F>& index) {
+    const auto read = [&](size_t offset) { return read_four<F>(rows, index, offset); };
+    const Four<F> p0_e1 = read(offsetof(TriangleLight, p0));
+    const Four<F> e1_e2 = read(offsetof(TriangleLight, e1) + 4);
+    const Four<F> e2_on = read(offsetof(TriangleLight, e2) + 8);
+    const Four<F> area_on = read(offsetof(TriangleLight, area));
+    static_assert(offsetof(TriangleLight, e1) == 12 && offsetof(TriangleLight, e2) == 24 &&
+                  offsetof(TriangleLight, pdf_area) == offsetof(TriangleLight, area) + 4);
+    return {{p0_e1.x, p0_e1.y, p0_e1.z},
+            {p0_e1.w, e1_e2.x, e1_e2.y},
+            {e1_e2.z, e1_e2.w, e2_on.x},
+            area_on.x,
+            area_on.y};
+}
+
 /// A point on triangle rows[index], uniform over its area, as seen from `from`.
 ///
-/// In      u: [0,1)^2; index must be in range for idle lanes too
+/// In      corners: where the triangle is; u: [0,1)^2; index must be in range for idle lanes too
 /// Out     the light reaches `from` when pdf > 0; estimate: emission * texture / pdf
 template <typename F>
 OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight* rows,
                                                             const IntOf<F>& index,
+                                                            const TriangleCorners<F>& corners,
                                                             const Vec2<F>& u,
                                                             const Vec3<F>& from) {
-    // Fours of neighbouring words, the last two of which overlap by two.
-    const IntOf<F> row = index * IntOf<F>(words_per_row<TriangleLight>);
-    const auto read = [&](int word) {
-        return gather4<F>(member_words<float>(rows, 4 * static_cast<size_t>(word)), row);
-    };
-    const Four<F> w0 = read(0);
-    const Four<F> w4 = read(4);
-    const Four<F> w8 = read(8);
-    const Four<F> w12 = read(12);
-    const Four<F> w16 = read(16);
-    const Four<F> w18 = read(18);
-    static_assert(offsetof(TriangleLight, e1) == 12 && offsetof(TriangleLight, e2) == 24 &&
-                  offsetof(TriangleLight, emission) == 36 && offsetof(TriangleLight, uv0) == 48 &&
-                  offsetof(TriangleLight, uv1) == 56 && offsetof(TriangleLight, uv2) == 64 &&
-                  offsetof(TriangleLight, texture) == 72 && offsetof(TriangleLight, area) == 76 &&
-                  offsetof(TriangleLight, pdf_area) == 80 &&
-                  offsetof(TriangleLight, two_sided) == 84);
+    const auto read = [&](size_t offset) { return read_four<F>(rows, index, offset); };
+    const Four<F> emission = read(offsetof(TriangleLight, emission));
+    const Four<F> uv0_uv1 = read(offsetof(TriangleLight, uv0));
+    const Four<F> uv2_texture = read(offsetof(TriangleLight, uv2));
+    const Four<F> area_on = read(offsetof(TriangleLight, area));
+    static_assert(offsetof(TriangleLight, uv1) == offsetof(TriangleLight, uv0) + 8 &&
+                  offsetof(TriangleLight, texture) == offsetof(TriangleLight, uv2) + 8 &&
+                  offsetof(TriangleLight, two_sided) == offsetof(TriangleLight, area) + 8);
     const Vec2<F> weight = triangle_from_square(u);
-    const Vec3<F> e1{w0.w, w4.x, w4.y};
-    const Vec3<F> e2{w4.z, w4.w, w8.x};
+    const Vec3<F>& e1 = corners.e1;
+    const Vec3<F>& e2 = corners.e2;
     TriangleLightSample<F> sample;
-    sample.point = Vec3<F>{w0.x, w0.y, w0.z} + weight.x * e1 + weight.y * e2;
+    sample.point = corners.p0 + weight.x * e1 + weight.y * e2;
 
     // Divided by the area first: the square of a tiny triangle's cross product would underflow.
-    const F& area = w18.y;
-    const Vec3<F> scaled = cross(e1, e2 * (F(0.5f) / max(area, F(1e-36f))));
-    const auto proper = area > F(0.0f);
+    const Vec3<F> scaled = cross(e1, e2 * (F(0.5f) / max(corners.area, F(1e-36f))));
+    const auto proper = corners.area > F(0.0f);
     sample.normal = select(proper, normalize(scaled), splat3(F(0.0f)));
 
     const Vec3<F> to_light = sample.point - from;
     sample.distance = length(to_light);
     sample.direction = to_light * (F(1.0f) / max(sample.distance, F(1e-18f)));
     sample.cosine = -dot(sample.normal, sample.direction);
-    const auto both = float_bits(w18.w) != IntOf<F>(0);
+    const auto both = float_bits(area_on.z) != IntOf<F>(0);
     const F facing = select(both, abs(sample.cosine), sample.cosine);
-    sample.pdf = solid_angle_pdf<F>(w18.z, sample.distance, facing);
+    sample.pdf = solid_angle_pdf<F>(corners.pdf_area, sample.distance, facing);
 
-    sample.emission = {w8.y, w8.z, w8.w};
-    sample.texture = float_bits(w18.x);
-    const Vec2<F> uv0{w12.x, w12.y};
-    sample.uv =
-        uv0 + (Vec2<F>{w12.z, w12.w} - uv0) * weight.x + (Vec2<F>{w16.x, w16.y} - uv0) * weight.y;
+    sample.emission = {emission.x, emission.y, emission.z};
+    sample.texture = float_bits(uv2_texture.z);
+    const Vec2<F> uv0{uv0_uv1.x, uv0_uv1.y};
+    const Vec2<F> uv1{uv0_uv1.z, uv0_uv1.w};
+    const Vec2<F> uv2{uv2_texture.x, uv2_texture.y};
+    sample.uv = uv0 + (uv1 - uv0) * weight.x + (uv2 - uv0) * weight.y;
     return sample;
+}
+
+/// The same of a triangle that stands still.
+template <typename F>
+OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight* rows,
+                                                            const IntOf<F>& index,
+                                                            const Vec2<F>& u,
+                                                            const Vec3<F>& from) {
+    return sample_triangle_light<F>(rows, index, read_corners<F>(rows, index), u, from);
 }
 
 }  // namespace OBSCURA_ISA

@@ -119,37 +119,91 @@ double triangle_power(const Scene& scene, const TriangleLight& row, float least)
            static_cast<double>(max_component(emission));
 }
 
-/// Rows of one placing of a primitive, appended.
-void append_rows(const Emitter& e, std::vector<TriangleLight>& rows) {
-    const size_t first = rows.size();
-    rows.resize(first + static_cast<size_t>(e.primitive.triangle_count));
-    parallel_ranges(
-        static_cast<size_t>(e.primitive.triangle_count), 1024, [&](size_t begin, size_t end) {
-            for (size_t i = begin; i < end; ++i) {
-                rows[first + i] = light_row(e, static_cast<int32_t>(i));
-            }
-        });
+/// A corner at one of Motion's times. Either the primitive moves or its instance: see is_sampled.
+Vec3f corner_at(const Emitter& e, uint32_t vertex, int32_t step) {
+    const Scene& scene = e.scene;
+    const float* p = &scene.positions[3 * static_cast<size_t>(vertex)];
+    if (moves(e.primitive)) {
+        const int64_t word = static_cast<int64_t>(e.primitive.motion_base) +
+                             static_cast<int64_t>(step) * e.primitive.motion_stride +
+                             static_cast<int64_t>(vertex) * 3;
+        p = &scene.motion.positions[static_cast<size_t>(word)];
+    }
+    const Vec3f at{p[0], p[1], p[2]};
+    if (e.instance == nullptr) return at;
+    if (!moves(*e.instance)) return transform_point(e.instance->world_from_object, at);
+    const auto row = static_cast<size_t>(e.instance->motion) + static_cast<size_t>(step);
+    return transform_point(scene.motion.instances[row], at);
 }
 
-void collect_world_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
+void store(const Vec3f& v, float* out) {
+    out[0] = v.x;
+    out[1] = v.y;
+    out[2] = v.z;
+}
+
+/// Where a triangle of the table is, with its corners in the row's order.
+MovingTriangle triangle_at(const Emitter& e, int32_t triangle, int32_t step) {
+    const uint32_t* corners =
+        &e.scene.indices[3 * static_cast<size_t>(e.primitive.first_triangle + triangle)];
+    const bool mirrored = e.instance != nullptr && e.instance->mirrored != 0;
+    const Vec3f p0 = corner_at(e, corners[0], step);
+    MovingTriangle out;
+    store(p0, out.p0);
+    store(corner_at(e, corners[mirrored ? 2 : 1], step) - p0, out.e1);
+    store(corner_at(e, corners[mirrored ? 1 : 2], step) - p0, out.e2);
+    return out;
+}
+
+/// A mesh that bends while its node moves follows no straight lines between two times: only rays
+/// that meet it know where it is.
+bool is_sampled(const Emitter& e) {
+    return e.instance == nullptr || !moves(*e.instance) || !moves(e.primitive);
+}
+
+/// Rows of one placing of a primitive, appended; those that are not sampled have no area.
+void append_rows(const Emitter& e, LightTable& table) {
+    const auto count = static_cast<size_t>(e.primitive.triangle_count);
+    const size_t first = table.triangles.size();
+    table.triangles.resize(first + count);
+    if (!is_sampled(e)) return;
+    const bool is_moving = moves(e.primitive) || (e.instance != nullptr && moves(*e.instance));
+    const auto steps = static_cast<size_t>(e.scene.motion.steps);
+    const size_t first_moving = table.moving_triangles.size();
+    if (is_moving) table.moving_triangles.resize(first_moving + count * steps);
+    parallel_ranges(count, 1024, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            TriangleLight& row = table.triangles[first + i];
+            row = light_row(e, static_cast<int32_t>(i));
+            if (!is_moving) continue;
+            const size_t at = first_moving + i * steps;
+            row.motion = static_cast<int32_t>(at);
+            for (size_t step = 0; step < steps; ++step) {
+                table.moving_triangles[at + step] =
+                    triangle_at(e, static_cast<int32_t>(i), static_cast<int32_t>(step));
+            }
+        }
+    });
+}
+
+void collect_world_emitters(Scene& scene, LightTable& table) {
     for (int32_t i = 0; i < scene.world_primitive_count; ++i) {
         Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-        // Light sampling knows one place for a light: those that move shine by rays that meet them.
-        if (!emits(material) || !is_mesh(primitive) || moves(primitive)) continue;
-        primitive.light_base = static_cast<int32_t>(rows.size());
-        append_rows({scene, primitive, material, nullptr}, rows);
+        if (!emits(material) || !is_mesh(primitive)) continue;
+        primitive.light_base = static_cast<int32_t>(table.triangles.size());
+        append_rows({scene, primitive, material, nullptr}, table);
     }
 }
 
 /// A mesh's emissive primitives are numbered within the mesh; an instance adds where it starts.
-void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
+void collect_instance_emitters(Scene& scene, LightTable& table) {
     for (const Mesh& mesh : scene.meshes) {
         int32_t within = 0;
         const int32_t end = mesh.first_primitive + mesh.primitive_count;
         for (int32_t i = mesh.first_primitive; i < end; ++i) {
             Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
-            const bool glows = is_mesh(primitive) && !moves(primitive) &&
+            const bool glows = is_mesh(primitive) &&
                                emits(scene.materials[static_cast<size_t>(primitive.material)]);
             primitive.light_base = glows ? within : -1;
             within += glows ? primitive.triangle_count : 0;
@@ -157,14 +211,13 @@ void collect_instance_emitters(Scene& scene, std::vector<TriangleLight>& rows) {
     }
     for (Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        instance.light_base = moves(instance) ? no_light_base : static_cast<int32_t>(rows.size());
-        if (moves(instance)) continue;
+        instance.light_base = static_cast<int32_t>(table.triangles.size());
         const int32_t end = mesh.first_primitive + mesh.primitive_count;
         for (int32_t i = mesh.first_primitive; i < end; ++i) {
             const Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
             if (primitive.light_base < 0 || !is_mesh(primitive)) continue;
             const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-            append_rows({scene, primitive, material, &instance}, rows);
+            append_rows({scene, primitive, material, &instance}, table);
         }
     }
 }
@@ -205,8 +258,9 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     LightTable table;
     table.punctual = scene.lights;
     table.profiles = pack_light_profiles(scene.light_profiles);
-    collect_world_emitters(scene, table.triangles);
-    collect_instance_emitters(scene, table.triangles);
+    if (!scene.motion.lights.empty()) table.moving_punctual = scene.motion.lights.data();
+    collect_world_emitters(scene, table);
+    collect_instance_emitters(scene, table);
     table.shapes = collect_shape_lights(scene, static_cast<int32_t>(table.triangles.size()));
 
     const double radius = scene_radius(scene.bounds);
@@ -279,7 +333,9 @@ LightView LightTable::view() const {
             static_cast<int32_t>(shapes.size()),
             shapes.data(),
             environment_select,
-            profiles.view()};
+            profiles.view(),
+            moving_punctual,
+            moving_triangles.empty() ? nullptr : moving_triangles.data()};
 }
 
 }  // namespace obscura

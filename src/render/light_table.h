@@ -19,7 +19,9 @@ struct LightTable {
     std::vector<PunctualLight> punctual;
     std::vector<TriangleLight> triangles;
     std::vector<ShapeLight> shapes;
-    LightProfileTable profiles;  ///< of punctual lights
+    std::vector<MovingTriangle> moving_triangles;    ///< see LightView
+    const PunctualLight* moving_punctual = nullptr;  ///< of the scene
+    LightProfileTable profiles;                      ///< of punctual lights
     std::vector<float> select_pdf;
     std::vector<CdfEntry> choice;
     float environment_select = 0;

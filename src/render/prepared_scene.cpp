@@ -17,13 +17,14 @@ namespace {
 /// Surfaces that glow less than this on average are no lamps (the studio's radiance is about 0.7).
 constexpr double least_lamp_radiance = 0.05;
 
-/// Emitters with alpha, and those that move, are not in the light table.
+/// Emitters with alpha, and those that bend and are moved, are not in the light table.
 bool has_unlisted_emitter(const Scene& scene) {
     return std::any_of(
         scene.primitives.begin(), scene.primitives.end(), [&](const Primitive& primitive) {
             const Material& m = scene.materials[static_cast<size_t>(primitive.material)];
             const bool holed = (m.flags & (material_alpha_mask | material_alpha_blend)) != 0;
-            const bool unlisted = holed || moves(primitive) || !scene.motion.instances.empty();
+            const bool unlisted = holed || (moves(primitive) && !scene.motion.instances.empty()) ||
+                                  (!is_mesh(primitive) && !scene.motion.instances.empty());
             return unlisted && std::max({m.emission[0], m.emission[1], m.emission[2]}) > 0;
         });
 }
@@ -46,21 +47,18 @@ EnvironmentImage image_of(const ImageRgb32f& image) {
     return {image.width, image.height, image.pixels.data()};
 }
 
-/// The environment that the user chose, else the scene's own, else the studio, when nothing lights
-/// the scene.
-Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
-    const bool has_own = impl.scene.environment != nullptr;
+/// Makes the environment's table, unless there is one of the same source.
+Result<void> make_environment(PreparedScene::Impl& impl,
+                              const LightingOptions& lighting,
+                              const EnvironmentSource& source) {
+    if (impl.environment && impl.environment_source == source) return {};
     std::vector<float> studio_pixels;
     EnvironmentImage image;
-    if (lighting.environment) {
+    if (source.chosen) {
         image = image_of(*lighting.environment);
-        if (has_own) log.info("--env takes the place of the environment that the file brings");
-    } else if (has_own) {
-        image = image_of(*impl.scene.environment);
+    } else if (source.own) {
+        image = image_of(*source.own);
     } else {
-        impl.lights = make_light_table(impl.scene, nullptr);
-        if (!needs_studio(impl.scene, impl.lights)) return {};
-        log.info("the scene has no light: using the built-in studio (--env FILE chooses another)");
         studio_pixels = make_studio_pixels();
         image = {studio_width, studio_height, studio_pixels.data()};
     }
@@ -68,7 +66,51 @@ Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lig
         image, lighting.environment_intensity, lighting.environment_rotation_deg);
     if (!environment) return fail(environment.error());
     impl.environment = std::move(*environment);
-    impl.lights = make_light_table(impl.scene, &*impl.environment);
+    impl.environment_source = source;
+    return {};
+}
+
+/// The environment that the user chose, else the scene's own, else the studio, when nothing lights
+/// the scene.
+Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
+    const EnvironmentSource source{lighting.environment.has_value(), impl.scene.environment};
+    if (source.chosen && source.own) {
+        log.info("--env takes the place of the environment that the file brings");
+    }
+    if (!source.chosen && !source.own) {
+        impl.lights = make_light_table(impl.scene, nullptr);
+        if (!needs_studio(impl.scene, impl.lights)) {
+            impl.environment.reset();
+            return {};
+        }
+        log.info("the scene has no light: using the built-in studio (--env FILE chooses another)");
+    }
+    Result<void> made = make_environment(impl, lighting, source);
+    if (made) impl.lights = make_light_table(impl.scene, &*impl.environment);
+    return made;
+}
+
+/// Everything but the tables of an instruction set. The accel is built, or brought up to date.
+Result<void> prepare(PreparedScene::Impl& impl,
+                     Scene scene,
+                     const LightingOptions& lighting,
+                     Log& log) {
+    const Stopwatch building;
+    impl.scene = std::move(scene);
+    mark_alike_textures(impl.scene);
+    split_long_curves(impl.scene);
+    auto lit = make_lighting(impl, lighting, log);
+    if (!lit) return lit;
+    const Stopwatch building_bvh;
+    if (impl.accel) {
+        const Result<void> updated = impl.accel->update(impl.scene);
+        if (!updated) return updated;
+    } else {
+        auto accel = Accel::build(impl.scene, impl.embree_isa);
+        if (!accel) return fail(accel.error());
+        impl.accel = std::move(*accel);
+    }
+    impl.build_seconds = {building.seconds(), building_bvh.seconds()};
     return {};
 }
 
@@ -127,21 +169,16 @@ Result<PreparedScene> PreparedScene::create(Scene scene,
                                             Isa isa,
                                             Log& log) {
     if (!has_isa(isa)) return fail(missing_isa());
-    const Stopwatch building;
     auto impl = std::make_unique<Impl>();
-    impl->scene = std::move(scene);
-    mark_alike_textures(impl->scene);
-    split_long_curves(impl->scene);
     impl->stages = &stage_table_for(isa);
-    auto lit = make_lighting(*impl, lighting, log);
-    if (!lit) return fail(lit.error());
-    const Stopwatch building_bvh;
     impl->embree_isa = embree_isa_for(isa);
-    auto accel = Accel::build(impl->scene, impl->embree_isa);
-    if (!accel) return fail(accel.error());
-    impl->accel = std::move(*accel);
-    impl->build_seconds = {building.seconds(), building_bvh.seconds()};
+    const Result<void> prepared = prepare(*impl, std::move(scene), lighting, log);
+    if (!prepared) return fail(prepared.error());
     return PreparedScene(std::move(impl));
+}
+
+Result<void> PreparedScene::update(Scene scene, const LightingOptions& lighting, Log& log) {
+    return prepare(*impl_, std::move(scene), lighting, log);
 }
 
 PreparedScene::PreparedScene(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -152,7 +189,7 @@ PreparedScene::~PreparedScene() = default;
 const Scene& PreparedScene::scene() const {
     return impl_->scene;
 }
-Scene PreparedScene::take_scene() && {
+Scene PreparedScene::take_scene() {
     return std::move(impl_->scene);
 }
 BuildSeconds PreparedScene::build_seconds() const {

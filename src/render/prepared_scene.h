@@ -6,13 +6,23 @@
 #include "render/light_table.h"
 #include "render/render.h"
 
+#include <memory>
 #include <optional>
 
 namespace obscura {
 
+/// Where an environment comes from: the user's choice, else the scene's own, else the studio.
+struct EnvironmentSource {
+    bool chosen = false;
+    std::shared_ptr<const ImageRgb32f> own;
+
+    bool operator==(const EnvironmentSource&) const = default;
+};
+
 struct PreparedScene::Impl {
     Scene scene;
     std::optional<EnvironmentTable> environment;
+    EnvironmentSource environment_source;  ///< of which it was made
     LightTable lights;
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;

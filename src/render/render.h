@@ -121,6 +121,13 @@ public:
                                         const LightingOptions& lighting,
                                         Isa isa,
                                         Log& log);
+    /// Prepares another pose of the same asset, after take_scene: what has not changed since is not
+    /// built again.
+    ///
+    /// In      lighting: as for create
+    /// Errors  as create; then nothing can be rendered any more
+    Result<void> update(Scene scene, const LightingOptions& lighting, Log& log);
+
     PreparedScene(PreparedScene&&) noexcept;
     PreparedScene& operator=(PreparedScene&&) noexcept;
     ~PreparedScene();
@@ -132,8 +139,9 @@ public:
     std::string isa_name() const;  ///< "avx512"
     std::string embree_version() const;
 
-    /// Gives the scene back, for its textures; nothing can be rendered any more.
-    Scene take_scene() &&;
+    /// Gives the scene back, for what the next pose may use of it; until update() nothing can be
+    /// rendered.
+    Scene take_scene();
 
     struct Impl;
     const Impl& impl() const { return *impl_; }

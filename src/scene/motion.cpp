@@ -9,7 +9,16 @@ namespace obscura {
 
 namespace {
 
-bool have_same_parts(const Scene& a, const Scene& b) {
+using Poses = std::span<const ScenePose>;
+
+/// Whether what lies behind the still part of an array is equal.
+bool has_same_tail(const std::vector<uint32_t>& all,
+                   size_t still,
+                   const std::vector<uint32_t>& tail) {
+    return all.size() == still + tail.size() && std::equal(tail.begin(), tail.end(), &all[still]);
+}
+
+bool have_same_parts(const Scene& a, const ScenePose& b) {
     const auto same_primitive = [](const Primitive& p, const Primitive& q) {
         return p.first_triangle == q.first_triangle && p.triangle_count == q.triangle_count &&
                p.normal_base == q.normal_base && p.geometry == q.geometry;
@@ -17,18 +26,19 @@ bool have_same_parts(const Scene& a, const Scene& b) {
     const auto same_instance = [](const Instance& p, const Instance& q) {
         return p.mesh == q.mesh && p.mirrored == q.mirrored;
     };
-    return a.positions.size() == b.positions.size() && a.cameras.size() == b.cameras.size() &&
-           a.indices == b.indices && a.attributes.size() == b.attributes.size() &&
-           std::equal(a.primitives.begin(),
-                      a.primitives.end(),
-                      b.primitives.begin(),
-                      b.primitives.end(),
-                      same_primitive) &&
-           std::equal(a.instances.begin(),
-                      a.instances.end(),
-                      b.instances.begin(),
-                      b.instances.end(),
-                      same_instance);
+    const auto same_light = [](const PunctualLight& p, const PunctualLight& q) {
+        return p.type == q.type && p.profile == q.profile;
+    };
+    const auto all_same = [](const auto& p, const auto& q, const auto& same) {
+        return std::equal(p.begin(), p.end(), q.begin(), q.end(), same);
+    };
+    return a.positions.size() == b.still.positions + b.positions.size() &&
+           a.cameras.size() == b.cameras.size() &&
+           has_same_tail(a.indices, b.still.indices, b.indices) &&
+           a.attributes.size() == b.still.attributes + b.attributes.size() &&
+           all_same(a.primitives, b.primitives, same_primitive) &&
+           all_same(a.instances, b.instances, same_instance) &&
+           all_same(a.lights, b.lights, same_light);
 }
 
 /// The vertices of a primitive: they are stored together.
@@ -53,46 +63,61 @@ size_t normals_start(const Primitive& primitive, const VertexRange& range) {
 }
 
 bool moves(const Scene& first,
-           const Scene& later,
+           const ScenePose& later,
            const Primitive& primitive,
            const VertexRange& range) {
-    const auto differ = [&](const std::vector<float>& a, const std::vector<float>& b, size_t at) {
-        return std::memcmp(&a[at], &b[at], 3 * range.count * sizeof(float)) != 0;
-    };
-    if (range.count == 0) return false;
-    if (differ(first.positions, later.positions, 3 * range.first)) return true;
-    return primitive.normal_base != no_attribute &&
-           differ(first.attributes, later.attributes, normals_start(primitive, range));
+    const size_t bytes = 3 * range.count * sizeof(float);
+    const size_t p = 3 * range.first;
+    if (std::memcmp(&first.positions[p], &later.positions[p - later.still.positions], bytes) != 0) {
+        return true;
+    }
+    if (primitive.normal_base == no_attribute) return false;
+    const size_t n = normals_start(primitive, range);
+    return std::memcmp(
+               &first.attributes[n], &later.attributes[n - later.still.attributes], bytes) != 0;
 }
 
-void append_pose(const Scene& pose,
-                 const Primitive& primitive,
-                 const VertexRange& range,
-                 Motion& motion) {
-    const auto floats = static_cast<std::ptrdiff_t>(3 * range.count);
-    const auto p = pose.positions.begin() + static_cast<std::ptrdiff_t>(3 * range.first);
-    motion.positions.insert(motion.positions.end(), p, p + floats);
-    if (primitive.normal_base == no_attribute) {
+/// A primitive's vertices in one pose, whose arrays begin at these pointers.
+struct PoseArrays {
+    const float* positions;
+    const float* normals;  ///< null: it has none
+};
+
+void append_pose(const PoseArrays& pose, size_t floats, Motion& motion) {
+    motion.positions.insert(motion.positions.end(), pose.positions, pose.positions + floats);
+    if (pose.normals == nullptr) {
         motion.normals.resize(motion.positions.size(), 0.0F);
         return;
     }
-    const auto n =
-        pose.attributes.begin() + static_cast<std::ptrdiff_t>(normals_start(primitive, range));
-    motion.normals.insert(motion.normals.end(), n, n + floats);
+    motion.normals.insert(motion.normals.end(), pose.normals, pose.normals + floats);
 }
 
 /// Motion of one primitive's vertices, where they move.
-void join_primitive(Scene& first, std::span<const Scene> later, Primitive& primitive) {
+void join_primitive(Scene& first, Poses later, Primitive& primitive) {
+    const StillSizes& still = later.front().still;
+    if (static_cast<size_t>(primitive.first_triangle) * 3 < still.indices) return;
     const VertexRange range = vertices_of(first, primitive);
-    const auto differs = [&](const Scene& pose) { return moves(first, pose, primitive, range); };
+    if (range.count == 0) return;
+    const auto differs = [&](const ScenePose& pose) {
+        return moves(first, pose, primitive, range);
+    };
     if (std::none_of(later.begin(), later.end(), differs)) return;
-    primitive.motion_stride = static_cast<int32_t>(3 * range.count);
+    const size_t floats = 3 * range.count;
+    primitive.motion_stride = static_cast<int32_t>(floats);
     primitive.motion_base =
         static_cast<int32_t>(static_cast<int64_t>(first.motion.positions.size()) -
                              3 * static_cast<int64_t>(range.first));
-    append_pose(first, primitive, range, first.motion);
-    for (const Scene& pose : later)
-        append_pose(pose, primitive, range, first.motion);
+    const bool has_normals = primitive.normal_base != no_attribute;
+    const size_t p = 3 * range.first;
+    const size_t n = has_normals ? normals_start(primitive, range) : 0;
+    const auto append = [&](const float* positions, const float* normals) {
+        append_pose({positions, has_normals ? normals : nullptr}, floats, first.motion);
+    };
+    append(&first.positions[p], first.attributes.data() + n);
+    for (const ScenePose& pose : later) {
+        append(&pose.positions[p - still.positions],
+               has_normals ? &pose.attributes[n - still.attributes] : nullptr);
+    }
 }
 
 template <typename F>
@@ -100,26 +125,40 @@ bool is_same(const Affine<F>& a, const Affine<F>& b) {
     return std::equal(&a.m[0][0], &a.m[0][0] + 12, &b.m[0][0]);
 }
 
-void join_instance(Scene& first, std::span<const Scene> later, size_t row) {
+void join_instance(Scene& first, Poses later, size_t row) {
     Instance& instance = first.instances[row];
-    const auto differs = [&](const Scene& pose) {
+    const auto differs = [&](const ScenePose& pose) {
         return !is_same(instance.world_from_object, pose.instances[row].world_from_object);
     };
     if (std::none_of(later.begin(), later.end(), differs)) return;
     instance.motion = static_cast<int32_t>(first.motion.instances.size());
     first.motion.instances.push_back(instance.world_from_object);
-    for (const Scene& pose : later)
+    for (const ScenePose& pose : later)
         first.motion.instances.push_back(pose.instances[row].world_from_object);
 }
 
-void join_camera(SceneCamera& first, std::span<const Scene> later, size_t row) {
-    const auto differs = [&](const Scene& pose) {
+void join_camera(SceneCamera& first, Poses later, size_t row) {
+    const auto differs = [&](const ScenePose& pose) {
         return !is_same(first.world_from_camera, pose.cameras[row].world_from_camera);
     };
     if (std::none_of(later.begin(), later.end(), differs)) return;
     first.moving = {first.world_from_camera};
-    for (const Scene& pose : later)
+    for (const ScenePose& pose : later)
         first.moving.push_back(pose.cameras[row].world_from_camera);
+}
+
+void join_lights(Scene& first, Poses later) {
+    const auto differs = [&](const ScenePose& pose) {
+        return std::memcmp(first.lights.data(),
+                           pose.lights.data(),
+                           first.lights.size() * sizeof(PunctualLight)) != 0;
+    };
+    if (first.lights.empty() || std::none_of(later.begin(), later.end(), differs)) return;
+    for (size_t row = 0; row < first.lights.size(); ++row) {
+        first.motion.lights.push_back(first.lights[row]);
+        for (const ScenePose& pose : later)
+            first.motion.lights.push_back(pose.lights[row]);
+    }
 }
 
 }  // namespace
@@ -139,10 +178,28 @@ Affinef world_from_object_at(const Scene& scene, const Instance& instance, float
     return out;
 }
 
-bool join_motion(Scene& first, std::span<const Scene> later) {
-    const auto fits = [&](const Scene& pose) { return have_same_parts(first, pose); };
+ScenePose take_pose(Scene& scene, const StillSizes& still) {
+    const auto tail = [](const auto& all, size_t from) {
+        using Array = std::decay_t<decltype(all)>;
+        return Array(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
+    };
+    return {still,
+            tail(scene.positions, still.positions),
+            tail(scene.indices, still.indices),
+            tail(scene.attributes, still.attributes),
+            std::move(scene.primitives),
+            std::move(scene.instances),
+            std::move(scene.cameras),
+            std::move(scene.lights),
+            scene.bounds};
+}
+
+bool join_motion(Scene& first, std::span<const ScenePose> later) {
+    if (later.empty()) return true;
+    const auto fits = [&](const ScenePose& pose) { return have_same_parts(first, pose); };
     if (!std::all_of(later.begin(), later.end(), fits)) return false;
-    first.motion.steps = static_cast<int32_t>(later.size()) + 1;
+    Motion& motion = first.motion;
+    motion.steps = static_cast<int32_t>(later.size()) + 1;
     for (Primitive& primitive : first.primitives) {
         if (is_mesh(primitive)) join_primitive(first, later, primitive);
     }
@@ -150,12 +207,14 @@ bool join_motion(Scene& first, std::span<const Scene> later) {
         join_instance(first, later, row);
     for (size_t row = 0; row < first.cameras.size(); ++row)
         join_camera(first.cameras[row], later, row);
-    for (const Scene& pose : later) {
+    join_lights(first, later);
+    for (const ScenePose& pose : later) {
         first.bounds.low = -max3(-first.bounds.low, -pose.bounds.low);
         first.bounds.high = max3(first.bounds.high, pose.bounds.high);
     }
-    Motion& motion = first.motion;
-    if (motion.positions.empty() && motion.instances.empty()) motion.steps = 1;
+    const bool moves =
+        !motion.positions.empty() || !motion.instances.empty() || !motion.lights.empty();
+    if (!moves) motion.steps = 1;
     if (motion.positions.empty()) return true;
     for (std::vector<float>* table : {&motion.positions, &motion.normals})
         table->insert(table->end(), 4, 0.0F);  // as pad_tables

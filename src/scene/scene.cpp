@@ -1,8 +1,15 @@
-// scene/scene.cpp - what closes a scene's tables.
+// scene/scene.cpp - what closes a scene's tables, and stamps of geometry.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 
+#include <atomic>
+
 namespace obscura {
+
+GeometryStamp new_geometry_stamp() {
+    static std::atomic<GeometryStamp> latest = 0;
+    return ++latest;
+}
 
 void pad_tables(Scene& scene) {
     scene.positions.insert(scene.positions.end(), 4, 0.0f);

@@ -72,10 +72,18 @@ inline bool is_point_or_line(const Primitive& primitive) {
            (kind == GeometryKind::spheres && primitive.tangent_base == no_attribute);
 }
 
+/// Says which geometry is the same in several scenes: equal numbers, equal vertices and triangles.
+/// 0: nobody knows.
+using GeometryStamp = uint64_t;
+
+/// One that no geometry has had yet.
+GeometryStamp new_geometry_stamp();
+
 /// A run of primitives that share one object space.
 struct Mesh {
     int32_t first_primitive = 0;
     int32_t primitive_count = 0;
+    GeometryStamp stamp = 0;
 };
 
 /// One placing of a mesh in the world.
@@ -140,6 +148,8 @@ struct Motion {
     std::vector<float> positions;
     std::vector<float> normals;      ///< as positions; zeros where the primitive has none
     std::vector<Affinef> instances;  ///< world_from_object of moving instances, `steps` rows each
+    std::vector<PunctualLight>
+        lights;  ///< `steps` rows for each of Scene::lights; empty: all stand
 };
 
 struct Bounds {
@@ -165,6 +175,10 @@ struct Scene {
     std::vector<float> attributes;         ///< normals, tangents, UVs and colours; see Primitive
     std::vector<Primitive> primitives;
     int32_t world_primitive_count = 0;
+    /// The first of the world's primitives, which are the same at every time (stamped as a mesh
+    /// is); 0 in a scene that is not one pose of many.
+    int32_t still_primitive_count = 0;
+    GeometryStamp still_stamp = 0;
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     Motion motion;

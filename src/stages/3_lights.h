@@ -7,6 +7,7 @@
 #include "light/punctual_sample.h"
 #include "light/row_words.h"
 #include "light/triangle_light.h"
+#include "stages/3_moving_lights.h"
 #include "stages/3_shape_lights.h"
 #include "stages/3_surface.h"
 
@@ -43,8 +44,13 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
                                                  const Vec2<Lanes>& u,
                                                  const ShadingPoint& point,
                                                  const Vec3<Lanes>& random) {
+    const TriangleLight* rows = scene.lights.triangles;
+    TriangleCorners<Lanes> corners = read_corners<Lanes>(rows, index);
+    if (scene.lights.moving_triangles != nullptr) {
+        corners = moved_light_corners(scene, index, point.time, corners);
+    }
     const TriangleLightSample<Lanes> s =
-        sample_triangle_light<Lanes>(scene.lights.triangles, index, u, point.light_start);
+        sample_triangle_light<Lanes>(rows, index, corners, u, point.light_start);
     Vec3<Lanes> emission = s.emission;
     const Mask textured = s.texture >= LanesI(0);
     if (any(textured)) {
@@ -129,8 +135,12 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     }
     if (any(punctual)) {
         const LanesI row = select(punctual, index, LanesI(0));
-        const PunctualSample<Lanes> s =
-            sample_punctual<Lanes>(lights.punctual, row, point.light_start, lights.profiles);
+        PunctualSample<Lanes> s;
+        if (lights.moving_punctual != nullptr) {
+            sample_moving_punctual(scene, row, point.time, point.light_start, s);
+        } else {
+            s = sample_punctual<Lanes>(lights.punctual, row, point.light_start, lights.profiles);
+        }
         const Lanes select_pdf = gather<Lanes>(lights.select_pdf, row);
         choose(out,
                punctual,
@@ -143,18 +153,23 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     return out;
 }
 
-/// Density with which sample_light would have chosen the emitter that a BSDF ray hit.
+/// Density with which sample_light would have chosen the emitter that a BSDF ray hit: `point`.
 OBSCURA_INLINE Lanes light_pdf(const SceneView& scene,
-                               LanesI light,
-                               const Vec3<Lanes>& ng,
+                               const ShadingPoint& point,
                                const Vec3<Lanes>& direction,
                                Lanes distance) {
+    const LanesI light = point.light;
     const Mask known = (light >= LanesI(0)) & (light < LanesI(scene.lights.triangle_count));
     if (none(known) || scene.lights.triangle_count == 0) return Lanes(0.0f);
-    const LanesI word = select(known, light * LanesI(words_per_row<TriangleLight>), LanesI(0));
-    const Lanes pdf_area = gather<Lanes>(
-        member_words<float>(scene.lights.triangles, offsetof(TriangleLight, pdf_area)), word);
-    const Lanes pdf = solid_angle_pdf<Lanes>(pdf_area, distance, abs(dot(ng, direction)));
+    const LanesI row = select(known, light, LanesI(0));
+    Lanes pdf_area = gather<Lanes>(
+        member_words<float>(scene.lights.triangles, offsetof(TriangleLight, pdf_area)),
+        row * LanesI(words_per_row<TriangleLight>));
+    if (scene.lights.moving_triangles != nullptr) {
+        const auto still = read_corners<Lanes>(scene.lights.triangles, row);
+        pdf_area = moved_light_corners(scene, row, point.time, still).pdf_area;
+    }
+    const Lanes pdf = solid_angle_pdf<Lanes>(pdf_area, distance, abs(dot(point.ng, direction)));
     return select(known, pdf, Lanes(0.0f));
 }
 

@@ -49,7 +49,7 @@ OBSCURA_INLINE Vec3<Lanes> identity(const SceneView& scene, const HitLanes& hit)
     const LanesI material = gather<Lanes>(scene.material_numbers, primitive.integer(2));
     const Mask instanced = hit.instance >= LanesI(0);
     if (any(instanced)) {
-        node = select(instanced, instance_row(scene, hit).integer(25), node);
+        node = select(instanced, max(instance_row(scene, hit).integer(25), node), node);
     }
     return {from_int<Lanes>(node + LanesI(1)),
             from_int<Lanes>(material + LanesI(1)),

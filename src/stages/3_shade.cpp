@@ -91,7 +91,7 @@ OBSCURA_INLINE void add_emission(const SceneView& scene,
         const Mask chosen_by_bsdf = path.pdf > Lanes(0.0f);
         Lanes weight(1.0f);
         if (batch.strategies == (sample_lights | sample_bsdfs)) {
-            Lanes other = light_pdf(scene, s.light, s.ng, path.direction, distance);
+            Lanes other = light_pdf(scene, s, path.direction, distance);
             if (scene.lights.shape_count > 0) {
                 other = shape_light_pdf(scene, s.light, path, s.ng, {distance, other});
             }

@@ -19,6 +19,7 @@ struct ShadingPoint {
     Vec3<Lanes> emission;
     Mask unlit;
     LanesI light;  ///< row in the triangle light table, -1: none
+    Lanes time;    ///< of the hit, 0 when the shutter opens
     bool any_layers = false;
     LayeredPoint layers;       ///< where any_layers
     Vec3<Lanes> start_beyond;  ///< of rays that leave on the other side; where any_layers
@@ -145,6 +146,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     const FoundSlots slots = find_slots(scene, g, look);
 
     ShadingPoint s;
+    s.time = hit.time;
     const LanesI flags = g.material.integer(11);
     const Mask front = cos_front >= Lanes(0.0f);
     s.ng = select(front, g.ng, -g.ng);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/environment_light.h"
 
+#include "gltf/animated_files.h"
 #include "gltf/pictures.h"
 #include "light/environment_table.h"
 
@@ -65,6 +66,25 @@ TEST(EnvironmentLight, FacesGoToTheirAxes) {
     const Vec3d axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     for (unsigned face = 0; face < 6; ++face)
         EXPECT_NEAR(red_from(*loaded.scene, axes[face]), 3 * red_of_face(face), 1e-5) << face;
+}
+
+TEST(EnvironmentLight, AnimationsDimAndTurnIt) {
+    AssetBuilder builder = lit_asset({{"intensity", 3}});
+    const std::string light = "/extensions/EXT_lights_image_based/lights/0/";
+    const float half = std::sqrt(0.5F);
+    add_animation(builder,
+                  "Dusk",
+                  {{pointer_target((light + "intensity").c_str()), {0, 2}, "SCALAR", {0, 4}},
+                   {pointer_target((light + "rotation").c_str()),
+                    {0, 1},
+                    "VEC4",
+                    {0, 0, 0, 1, 0, half, 0, half}}});
+    const Loaded loaded = load_at(builder.finished(), 1);
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    EXPECT_EQ(loaded.warnings, "");
+    // A quarter turn about +Y brings the face of +X to -Z.
+    EXPECT_NEAR(red_from(*loaded.scene, {0, 0, -1}), 2 * red_of_face(0), 1e-5);
+    EXPECT_NEAR(red_from(*load_at(builder.finished(), 0.5).scene, {0, 1, 0}), red_of_face(2), 1e-5);
 }
 
 TEST(EnvironmentLight, IsTurnedByItsRotation) {

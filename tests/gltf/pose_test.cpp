@@ -64,6 +64,14 @@ TEST(Pose, UnknownAnimationsAreRefusedWithTheirNames) {
     EXPECT_TRUE(none.warns("the asset has no animation"));
 }
 
+/// A vertex of the only instance: what an animated node moves is one.
+F placed_position(const Scene& scene, uint32_t vertex) {
+    if (scene.instances.size() != 1) return {};
+    const F p = position_of(scene, vertex);
+    const Vec3f v = transform_point(scene.instances[0].world_from_object, Vec3f{p[0], p[1], p[2]});
+    return {v.x, v.y, v.z};
+}
+
 TEST(Pose, RotationAndScaleReachTheWorld) {
     AssetBuilder builder = triangle_builder();
     const float half = std::sqrt(0.5F);
@@ -75,7 +83,7 @@ TEST(Pose, RotationAndScaleReachTheWorld) {
     ASSERT_TRUE(loaded.scene) << loaded.text();
     // (2, 0, 0) is doubled, then turned by 45 degrees.
     const float root = 4 * half;
-    EXPECT_THAT(position_of(*loaded.scene, 1), Pointwise(FloatNear(1e-6F), F{root, root, 0}));
+    EXPECT_THAT(placed_position(*loaded.scene, 1), Pointwise(FloatNear(1e-6F), F{root, root, 0}));
 }
 
 TEST(Pose, ParentsCarryTheirChildren) {
@@ -83,7 +91,7 @@ TEST(Pose, ParentsCarryTheirChildren) {
     builder.tree["nodes"] = {{{"children", {1}}}, {{"mesh", 0}, {"translation", {0, 5, 0}}}};
     const Loaded loaded = load_at(builder.finished(), 2);
     ASSERT_TRUE(loaded.scene) << loaded.text();
-    EXPECT_EQ(position_of(*loaded.scene, 0), (F{4, 5, 0}));
+    EXPECT_EQ(placed_position(*loaded.scene, 0), (F{4, 5, 0}));
 }
 
 TEST(Pose, VisibilityIsSwitched) {
@@ -255,11 +263,11 @@ TEST(PosedAsset, GivesScenesInAnyOrder) {
         EXPECT_EQ(scene->textures.texels, alone.scene->textures.texels);
         EXPECT_EQ(scene->info.images.size(), 1U);
         const uint32_t* texels = scene->textures.texels.data();
-        asset->take_textures(std::move(*scene));
+        asset->take_back(std::move(*scene));
         Result<Scene> next = asset->scene_at(time_s, false, log);
         ASSERT_TRUE(next);
         EXPECT_EQ(next->textures.texels.data(), texels) << "moved, not decoded";
-        asset->take_textures(std::move(*next));
+        asset->take_back(std::move(*next));
     }
 }
 
@@ -276,14 +284,72 @@ TEST(PosedAsset, KeepsWhatMovesWhileAShutterIsOpen) {
     const Result<Scene> scene = asset->scene_between({0.5, 1.0}, true, log);
     ASSERT_TRUE(scene);
     EXPECT_EQ(scene->positions, load_at(builder.finished(), 0.5).scene->positions);
-    const Loaded closing = load_at(builder.finished(), 1.0);
     EXPECT_EQ(scene->motion.steps, 9);
+    EXPECT_FALSE(moves(scene->primitives[0])) << "the triangle stays in its node's space";
+    ASSERT_EQ(scene->instances.size(), 1U);
+    ASSERT_TRUE(moves(scene->instances[0]));
+    for (size_t step = 0; step < 9; ++step) {
+        const Affinef& map =
+            scene->motion.instances[static_cast<size_t>(scene->instances[0].motion) + step];
+        EXPECT_FLOAT_EQ(map.m[0][3], 1.0F + static_cast<float>(step) / 8.0F) << step;
+    }
+    EXPECT_FALSE(scene->materials.empty());
+}
+
+/// So are the nine poses of what bends, vertex by vertex, and of a lamp.
+TEST(PosedAsset, KeepsWhatBendsWhileAShutterIsOpen) {
+    AssetBuilder builder = pointed_asset();
+    const int target = builder.add_accessor("VEC3", 5126, F{0, 0, 0, 1, 0, 0, 0, 0, 0});
+    builder.tree["meshes"][0]["primitives"][0]["targets"] = {{{"POSITION", target}}};
+    add_animation(builder,
+                  "Bend",
+                  {{node_target(0, "weights"), {0, 2}, "SCALAR", {0, 1}},
+                   {node_target(1, "translation"), {0, 2}, "VEC3", {0, 0, 0, 4, 0, 0}}});
+    const TempFolder folder;
+    const auto file = folder.write("scene.gltf", builder.finished().dump());
+    Log log(Verbosity::quiet);
+    Result<PosedAsset> asset = PosedAsset::open(file, {}, true, log);
+    ASSERT_TRUE(asset);
+    const Result<Scene> scene = asset->scene_between({0.5, 1.0}, true, log);
+    ASSERT_TRUE(scene);
+    const Loaded closing = load_at(builder.finished(), 1.0);
     const Primitive& primitive = scene->primitives[0];
     ASSERT_TRUE(moves(primitive));
-    const size_t last = static_cast<size_t>(primitive.motion_base + 8 * primitive.motion_stride);
+    const auto last = static_cast<size_t>(primitive.motion_base + 8 * primitive.motion_stride);
     for (size_t i = 0; i < 9; ++i)
         EXPECT_EQ(scene->motion.positions[last + i], closing.scene->positions[i]) << i;
-    EXPECT_FALSE(scene->materials.empty());
+    ASSERT_EQ(scene->motion.lights.size(), 9U);
+    EXPECT_EQ(scene->motion.lights[0].position[0], 1.0F);
+    EXPECT_EQ(scene->motion.lights[8].position[0], 2.0F);
+}
+
+/// Lamps by photometric files, which belong to nodes.
+TEST(Pose, PointersReachLightProfiles) {
+    AssetBuilder builder = triangle_builder();
+    const char* const lamp = "TILT=NONE\n1 1000 1 2 1 1 2 0 0 0 1 1 50 0 90 0 100 100";
+    builder.tree["extensions"]["EXT_lights_ies"]["lights"][0]["bufferView"] =
+        builder.add_view(std::string("IESNA:LM-63-2002\n") + lamp);
+    builder.tree["extensions"]["EXT_lights_ies"]["lights"][0]["mimeType"] =
+        "application/x-ies-lm-63";
+    builder.add_root({{"extensions", {{"EXT_lights_ies", {{"light", 0}}}}}});
+    add_animation(
+        builder,
+        "Dim",
+        {{pointer_target("/nodes/1/extensions/EXT_lights_ies/multiplier"),
+          {0, 1},
+          "SCALAR",
+          {0, 4}},
+         {pointer_target("/nodes/1/extensions/EXT_lights_ies/color"),
+          {0, 1},
+          "VEC3",
+          {1, 1, 1, 0, 0.5F, 2}},
+         {pointer_target("/nodes/0/extensions/EXT_lights_ies/color"), {0}, "VEC3", {1, 1, 1}}});
+    const Loaded loaded = load_at(builder.finished(), 0.5);
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    ASSERT_EQ(loaded.scene->lights.size(), 1U);
+    const float* got = loaded.scene->lights[0].intensity;
+    EXPECT_EQ(F(got, got + 3), (F{1, 1.5F, 2})) << "twice (0.5, 0.75, 1)";
+    EXPECT_EQ(loaded.scene->still_primitive_count, 1) << "the lamp's node does not move";
 }
 
 }  // namespace

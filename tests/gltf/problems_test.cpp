@@ -148,7 +148,7 @@ TEST(Problems, EveryPoseTellsWhatItLacks) {
         Result<Scene> scene = asset->scene_at(time_s, false, log);
         ASSERT_TRUE(scene);
         EXPECT_EQ(asset->degraded().textures, 1U) << time_s;
-        asset->take_textures(std::move(*scene));
+        asset->take_back(std::move(*scene));
     }
 }
 

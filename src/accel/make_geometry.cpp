@@ -1,0 +1,138 @@
+// accel/make_geometry.cpp - one primitive of a scene becomes a geometry of Embree's.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/accel_impl.h"
+#include "accel/moving_geometry.h"
+#include "accel/reference_geometry.h"
+
+namespace obscura {
+
+namespace {
+
+void set_alpha_filter(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    if (impl.alpha.empty() || !needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
+        return;
+    }
+    rtcSetGeometryUserData(geometry, &impl.alpha[static_cast<size_t>(primitive_index)]);
+    rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
+    rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
+}
+
+void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeometry geometry) {
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_VERTEX,
+                               0,
+                               RTC_FORMAT_FLOAT3,
+                               scene.positions.data(),
+                               0,
+                               3 * sizeof(float),
+                               (scene.positions.size() - 4) / 3);
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_INDEX,
+                               0,
+                               RTC_FORMAT_UINT3,
+                               scene.indices.data(),
+                               static_cast<size_t>(primitive.first_triangle) * 3 * sizeof(uint32_t),
+                               3 * sizeof(uint32_t),
+                               static_cast<size_t>(primitive.triangle_count));
+}
+
+RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    if (moves(primitive)) {
+        set_moving_triangles(scene, primitive, geometry);
+    } else {
+        set_still_triangles(scene, primitive, geometry);
+    }
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    set_alpha_filter(impl, primitive_index, geometry);
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
+/// Lines as Embree's own capsules; which of them hang together it sees from their numbers.
+RTCGeometry make_curves(Accel::Impl& impl, int32_t primitive_index) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_VERTEX,
+                               0,
+                               RTC_FORMAT_FLOAT4,
+                               scene.curve_points.data(),
+                               0,
+                               4 * sizeof(float),
+                               scene.curve_points.size() / 4);
+    rtcSetSharedGeometryBuffer(geometry,
+                               RTC_BUFFER_TYPE_INDEX,
+                               0,
+                               RTC_FORMAT_UINT,
+                               scene.curve_segments.data(),
+                               static_cast<size_t>(primitive.first_triangle) * sizeof(uint32_t),
+                               sizeof(uint32_t),
+                               static_cast<size_t>(primitive.triangle_count));
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    set_alpha_filter(impl, primitive_index, geometry);
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
+/// False for a plane without end: no box can hold it, so it is no geometry.
+bool fill_shape_geometry(Accel::Impl& impl, int32_t primitive_index) {
+    const Scene& scene = *impl.scene;
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
+    const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+    ShapeGeometry& out = impl.shapes[static_cast<size_t>(primitive_index)];
+    const auto first = static_cast<size_t>(primitive.first_triangle);
+    const bool spheres = primitive.geometry == static_cast<int32_t>(GeometryKind::spheres);
+    out.rows = spheres ? nullptr : &scene.shapes[first];
+    out.spheres = spheres ? &scene.spheres[first * 4] : nullptr;
+    out.count = primitive.triangle_count;
+    out.single_sided = (material.flags & material_double_sided) == 0;
+    if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
+        out.alpha = &impl.alpha[static_cast<size_t>(primitive_index)];
+    }
+    return spheres || !is_unbounded(scene.shapes[first]);
+}
+
+RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
+    ShapeGeometry& shapes = impl.shapes[static_cast<size_t>(primitive_index)];
+    const int32_t blocks = (shapes.count + sphere_block - 1) / sphere_block;
+    RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_USER);
+    rtcSetGeometryUserPrimitiveCount(
+        geometry, static_cast<unsigned>(shapes.rows != nullptr ? shapes.count : blocks));
+    rtcSetGeometryUserData(geometry, &shapes);
+    rtcSetGeometryBoundsFunction(geometry, impl.shape_callbacks->bounds, nullptr);
+    rtcSetGeometryIntersectFunction(
+        geometry,
+        impl.kernels.counts_tests ? intersect_counted_shape : impl.shape_callbacks->intersect);
+    rtcSetGeometryOccludedFunction(geometry, impl.shape_callbacks->occluded);
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
+}  // namespace
+
+RTCGeometry make_geometry(Accel::Impl& impl, int32_t row) {
+    const int32_t kind = impl.scene->primitives[static_cast<size_t>(row)].geometry;
+    if (kind == static_cast<int32_t>(GeometryKind::curves)) {
+        return impl.kernels.counts_tests ? make_counted_curves(impl, row) : make_curves(impl, row);
+    }
+    if (is_mesh(impl.scene->primitives[static_cast<size_t>(row)])) {
+        if (impl.kernels.counts_tests) return make_counted_triangles(impl, row);
+        return impl.kernels.user_triangles ? make_checked_triangles(impl, row)
+                                           : make_triangles(impl, row);
+    }
+    if (!fill_shape_geometry(impl, row)) return nullptr;
+    const bool points = impl.kernels.sphere_points && are_spheres(impl, row);
+    return points ? make_sphere_points(impl, row) : make_shapes(impl, row);
+}
+
+}  // namespace obscura

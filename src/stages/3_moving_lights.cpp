@@ -1,0 +1,58 @@
+// stages/3_moving_lights.cpp - where moving lights are at the time of a hit.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/3_moving_lights.h"
+
+#include "stages/moment.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+void sample_moving_punctual(const SceneView& scene,
+                            LanesI index,
+                            Lanes time,
+                            const Vec3<Lanes>& from,
+                            PunctualSample<Lanes>& out) {
+    const LightView& lights = scene.lights;
+    const Moment moment = moment_of(scene.motion.steps, time);
+    const LanesI row = index * LanesI(scene.motion.steps) + moment.step;
+    const bool profiles = lights.profiles.rows != nullptr;
+    const auto before = read_punctual<Lanes>(lights.moving_punctual, row, profiles);
+    const auto after = read_punctual<Lanes>(lights.moving_punctual, row + LanesI(1), profiles);
+    out = sample_punctual<Lanes>(blend(before, after, moment.share), from, lights.profiles);
+}
+
+TriangleCorners<Lanes> moved_light_corners(const SceneView& scene,
+                                           LanesI index,
+                                           Lanes time,
+                                           const TriangleCorners<Lanes>& still) {
+    const TableRow<Lanes> light(scene.lights.triangles, index, words_per_row<TriangleLight>);
+    const LanesI first = light.integer(offsetof(TriangleLight, motion) / 4);
+    const Mask moves = first >= LanesI(0);
+    if (none(moves)) return still;
+    const Moment moment = moment_of(scene.motion.steps, time);
+    const LanesI row = select(moves, first + moment.step, LanesI(0));
+    constexpr int words = words_per_row<MovingTriangle>;
+    const TableRow<Lanes> before(scene.lights.moving_triangles, row, words);
+    const TableRow<Lanes> after(
+        scene.lights.moving_triangles, select(moves, row + LanesI(1), LanesI(0)), words);
+    const auto corner = [&](int word, const Vec3<Lanes>& otherwise) {
+        const auto mix = [&](int at) {
+            const Lanes from = before.number(at);
+            return from + (after.number(at) - from) * moment.share;
+        };
+        return select(moves, Vec3<Lanes>{mix(word), mix(word + 1), mix(word + 2)}, otherwise);
+    };
+    TriangleCorners<Lanes> out = still;
+    out.p0 = corner(0, still.p0);
+    out.e1 = corner(3, still.e1);
+    out.e2 = corner(6, still.e2);
+    // The choice of the triangle stays as likely while its area changes.
+    const Lanes area = Lanes(0.5f) * length(cross(out.e1, out.e2));
+    const Lanes choice = still.pdf_area * still.area;
+    out.area = select(moves, area, still.area);
+    out.pdf_area = select(moves, choice / max(area, Lanes(1e-36f)), still.pdf_area);
+    return out;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura
