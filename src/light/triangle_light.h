@@ -122,11 +122,12 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
     const auto read = [&](size_t offset) { return read_four<F>(rows, index, offset); };
     const Four<F> emission = read(offsetof(TriangleLight, emission));
     const Four<F> uv0_uv1 = read(offsetof(TriangleLight, uv0));
-    const Four<F> uv2_texture = read(offsetof(TriangleLight, uv2));
-    const Four<F> area_on = read(offsetof(TriangleLight, area));
-    static_assert(offsetof(TriangleLight, uv1) == offsetof(TriangleLight, uv0) + 8 &&
-                  offsetof(TriangleLight, texture) == offsetof(TriangleLight, uv2) + 8 &&
-                  offsetof(TriangleLight, two_sided) == offsetof(TriangleLight, area) + 8);
+    const Four<F> uv2_on = read(offsetof(TriangleLight, uv2));
+    static_assert(offsetof(TriangleLight, uv1) == offsetof(TriangleLight, uv0) + 8);
+    const auto read_int = [&](size_t offset) {
+        return gather<F>(member_words<int32_t>(rows, offset),
+                         IntOf<F>(index * IntOf<F>(words_per_row<TriangleLight>)));
+    };
     const Vec2<F> weight = triangle_from_square(u);
     const Vec3<F>& e1 = corners.e1;
     const Vec3<F>& e2 = corners.e2;
@@ -142,15 +143,15 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
     sample.distance = length(to_light);
     sample.direction = to_light * (F(1.0f) / max(sample.distance, F(1e-18f)));
     sample.cosine = -dot(sample.normal, sample.direction);
-    const auto both = float_bits(area_on.z) != IntOf<F>(0);
+    const auto both = read_int(offsetof(TriangleLight, two_sided)) != IntOf<F>(0);
     const F facing = select(both, abs(sample.cosine), sample.cosine);
     sample.pdf = solid_angle_pdf<F>(corners.pdf_area, sample.distance, facing);
 
     sample.emission = {emission.x, emission.y, emission.z};
-    sample.texture = float_bits(uv2_texture.z);
+    sample.texture = read_int(offsetof(TriangleLight, texture));
     const Vec2<F> uv0{uv0_uv1.x, uv0_uv1.y};
     const Vec2<F> uv1{uv0_uv1.z, uv0_uv1.w};
-    const Vec2<F> uv2{uv2_texture.x, uv2_texture.y};
+    const Vec2<F> uv2{uv2_on.x, uv2_on.y};
     sample.uv = uv0 + (uv1 - uv0) * weight.x + (uv2 - uv0) * weight.y;
     return sample;
 }
