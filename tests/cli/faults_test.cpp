@@ -142,9 +142,8 @@ TEST_F(Faults, CheckingWritesNothing) {
 
 TEST_F(Faults, CheckingLooksAtEverythingThatRenderingReads) {
     expect_result(render("box.gltf", {"--check", "--camera", "Back"}), 64, "E-CAM-UNKNOWN");
-    expect_result(render("box.gltf", {"--check", "--fstop", "2", "--focus-on", "9999,0"}),
-                  64,
-                  "E-CAM-FOCUS");
+    expect_result(
+        render("box.gltf", {"--check", "--fstop", "2", "--focus-on", "9999,0"}), 64, "E-CAM-FOCUS");
     expect_result(render("box.gltf", {"--check", "--env", "a.hdr"}), 67, "E-ENV-MISSING");
     expect_result(render("box.gltf", {"--check", "-o", "no/a.exr"}), 73, "E-OUT-CREATE");
     expect_result(
