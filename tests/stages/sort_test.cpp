@@ -12,15 +12,24 @@ namespace {
 constexpr float untouched = -5.0f;
 constexpr float background[4] = {0.125f, 0.25f, 0.5f, 0.75f};
 
-/// One square that shows its colour without light, and nothing around it.
-PreparedScene unlit_square(Isa isa) {
+/// The squares that rows hit in turn. The last two are 1024 apart: sorting takes them as one.
+constexpr int surfaces[] = {0, 5, 1029};
+
+float blue_of(int surface) {
+    return 2.0f + static_cast<float>(surface);
+}
+
+/// Squares that show their colours without light, and nothing around them.
+PreparedScene unlit_squares(Isa isa) {
     SceneBuilder builder;
-    Material m;
-    m.flags = material_unlit;
-    m.base_color[0] = 0.5f;
-    m.base_color[1] = 0.25f;
-    m.base_color[2] = 2.0f;
-    builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(m));
+    for (int surface = 0; surface <= surfaces[2]; ++surface) {
+        Material m;
+        m.flags = material_unlit;
+        m.base_color[0] = 0.5f;
+        m.base_color[1] = 0.25f;
+        m.base_color[2] = blue_of(surface);
+        builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(m));
+    }
     Log log(Verbosity::quiet);
     auto prepared = PreparedScene::create(builder.take(), {}, isa, log);
     if (!prepared) throw std::runtime_error(prepared.error().message);
@@ -29,7 +38,7 @@ PreparedScene unlit_square(Isa isa) {
 
 class Sort : public testing::TestWithParam<Isa> {
 protected:
-    /// Shades rows of which those with is_hit hit the square; row i belongs to slot count - 1 - i
+    /// Shades rows of which those with is_hit hit a square; row i belongs to slot count - 1 - i
     /// and has the throughput i + 1.
     void shade(const std::vector<bool>& is_hit, int bounce) {
         const int count = static_cast<int>(is_hit.size());
@@ -62,7 +71,8 @@ protected:
             const float back = bounce == 0 ? 1.0f : 0.0f;
             EXPECT_EQ(s.r[slot], hit ? own * 0.5f : back * background[0]) << count << " " << i;
             EXPECT_EQ(s.g[slot], hit ? own * 0.25f : back * background[1]) << count << " " << i;
-            EXPECT_EQ(s.b[slot], hit ? own * 2.0f : back * background[2]) << count << " " << i;
+            EXPECT_EQ(s.b[slot], hit ? own * blue_of(surface_of(i)) : back * background[2])
+                << count << " " << i;
             const float alpha = hit ? 1.0f : background[3];
             EXPECT_EQ(s.a[slot], bounce == 0 ? alpha : 0.0f) << count << " " << i;
         }
@@ -72,7 +82,12 @@ protected:
         }
     }
 
+    int surface_count_ = 1;  ///< how many of `surfaces` are hit
+
 private:
+    /// Neighbouring rows hit different squares, in no order.
+    int surface_of(int i) const { return surfaces[i * 5 / 3 % surface_count_]; }
+
     void write_row(int i, int count, bool hit) {
         const bool exists = i < count;
         const PathRows& p = work_.paths[0];
@@ -90,7 +105,7 @@ private:
         h.u[i] = h.v[i] = hit ? 0.25f : std::nanf("");
         h.instance[i] = hit ? -1 : -7;
         // A row past the last one claims a hit that is out of every table's range.
-        h.primitive[i] = hit ? 0 : exists ? -1 : 0x7000000;
+        h.primitive[i] = hit ? surface_of(i) : exists ? -1 : 0x7000000;
         h.triangle[i] = hit ? i % 2 : 0x7000000;
         const float clear = exists ? 0.0f : untouched;
         for (float* channel :
@@ -99,7 +114,7 @@ private:
         }
     }
 
-    PreparedScene scene_ = unlit_square(GetParam());
+    PreparedScene scene_ = unlit_squares(GetParam());
     Workspace work_;
 };
 
@@ -120,6 +135,21 @@ TEST_P(Sort, HitsAreOpaqueAndMissesTakeTheBackground) {
              {mixed, alternating, std::vector<bool>(count, true), std::vector<bool>(count)}) {
             shade(is_hit, 0);
             expect_slots(is_hit, 0);
+        }
+    }
+}
+
+TEST_P(Sort, EachRowKeepsTheSurfaceThatItHits) {
+    Pcg32 random(13);
+    for (surface_count_ = 2; surface_count_ <= 3; ++surface_count_) {
+        for (const size_t count : {1U, 15U, 16U, 100U, 4096U}) {
+            std::vector<bool> mixed(count);
+            for (size_t i = 0; i < count; ++i)
+                mixed[i] = random.next_float() < 0.7f;
+            for (const std::vector<bool>& is_hit : {mixed, std::vector<bool>(count, true)}) {
+                shade(is_hit, 1);
+                expect_slots(is_hit, 1);
+            }
         }
     }
 }
