@@ -38,6 +38,15 @@ void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeom
                                static_cast<size_t>(primitive.triangle_count));
 }
 
+/// What all of Embree's own geometry ends with.
+RTCGeometry commit(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
+    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
+    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
+    set_alpha_filter(impl, primitive_index, geometry);
+    rtcCommitGeometry(geometry);
+    return geometry;
+}
+
 RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
     const Scene& scene = *impl.scene;
     const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
@@ -47,11 +56,7 @@ RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
     } else {
         set_still_triangles(scene, primitive, geometry);
     }
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    set_alpha_filter(impl, primitive_index, geometry);
-    rtcCommitGeometry(geometry);
-    return geometry;
+    return commit(impl, primitive_index, geometry);
 }
 
 /// Lines as Embree's own capsules; which of them hang together it sees from their numbers.
@@ -75,11 +80,7 @@ RTCGeometry make_curves(Accel::Impl& impl, int32_t primitive_index) {
                                static_cast<size_t>(primitive.first_triangle) * sizeof(uint32_t),
                                sizeof(uint32_t),
                                static_cast<size_t>(primitive.triangle_count));
-    rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
-    rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    set_alpha_filter(impl, primitive_index, geometry);
-    rtcCommitGeometry(geometry);
-    return geometry;
+    return commit(impl, primitive_index, geometry);
 }
 
 /// False for a plane without end: no box can hold it, so it is no geometry.

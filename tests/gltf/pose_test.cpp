@@ -271,17 +271,22 @@ TEST(PosedAsset, GivesScenesInAnyOrder) {
     }
 }
 
+/// The asset while a shutter is open from 0.5 to 1 s.
+Result<Scene> scene_while_open(AssetBuilder& builder) {
+    const TempFolder folder;
+    const auto file = folder.write("scene.gltf", builder.finished().dump());
+    Log log(Verbosity::quiet);
+    Result<PosedAsset> asset = PosedAsset::open(file, {}, true, log);
+    if (!asset) return fail(asset.error());
+    return asset->scene_between({0.5, 1.0}, true, log);
+}
+
 /// While a shutter is open the triangle slides by a quarter of its way: nine poses of it are kept.
 TEST(PosedAsset, KeepsWhatMovesWhileAShutterIsOpen) {
     AssetBuilder builder = pointed_asset();
     add_animation(
         builder, "Slide", {{node_target(0, "translation"), {0, 2}, "VEC3", {0, 0, 0, 4, 0, 0}}});
-    const TempFolder folder;
-    const auto file = folder.write("scene.gltf", builder.finished().dump());
-    Log log(Verbosity::quiet);
-    Result<PosedAsset> asset = PosedAsset::open(file, {}, true, log);
-    ASSERT_TRUE(asset);
-    const Result<Scene> scene = asset->scene_between({0.5, 1.0}, true, log);
+    const Result<Scene> scene = scene_while_open(builder);
     ASSERT_TRUE(scene);
     EXPECT_EQ(scene->positions, load_at(builder.finished(), 0.5).scene->positions);
     EXPECT_EQ(scene->motion.steps, 9);
@@ -305,12 +310,7 @@ TEST(PosedAsset, KeepsWhatBendsWhileAShutterIsOpen) {
                   "Bend",
                   {{node_target(0, "weights"), {0, 2}, "SCALAR", {0, 1}},
                    {node_target(1, "translation"), {0, 2}, "VEC3", {0, 0, 0, 4, 0, 0}}});
-    const TempFolder folder;
-    const auto file = folder.write("scene.gltf", builder.finished().dump());
-    Log log(Verbosity::quiet);
-    Result<PosedAsset> asset = PosedAsset::open(file, {}, true, log);
-    ASSERT_TRUE(asset);
-    const Result<Scene> scene = asset->scene_between({0.5, 1.0}, true, log);
+    const Result<Scene> scene = scene_while_open(builder);
     ASSERT_TRUE(scene);
     const Loaded closing = load_at(builder.finished(), 1.0);
     const Primitive& primitive = scene->primitives[0];
