@@ -7,12 +7,19 @@
 #include "scene/motion.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace obscura {
 
 namespace {
 
 constexpr int packet = 16;
+
+/// 16 words. As memmove, which std::copy_n is, it would be a call.
+template <typename T>
+void copy_packet(const T* from, T* to) {
+    std::memcpy(to, from, packet * sizeof(T));
+}
 
 struct alignas(64) ValidMask {
     int lane[packet];
@@ -49,18 +56,18 @@ void begin_packets(RTCRay16& out) {
 
 /// Loads 16 safe rows.
 void load_whole(const RayColumns& rays, int first, RTCRay16& out) {
-    std::copy_n(rays.ox + first, packet, out.org_x);
-    std::copy_n(rays.oy + first, packet, out.org_y);
-    std::copy_n(rays.oz + first, packet, out.org_z);
-    std::copy_n(rays.dx + first, packet, out.dir_x);
-    std::copy_n(rays.dy + first, packet, out.dir_y);
-    std::copy_n(rays.dz + first, packet, out.dir_z);
+    copy_packet(rays.ox + first, out.org_x);
+    copy_packet(rays.oy + first, out.org_y);
+    copy_packet(rays.oz + first, out.org_z);
+    copy_packet(rays.dx + first, out.dir_x);
+    copy_packet(rays.dy + first, out.dir_y);
+    copy_packet(rays.dz + first, out.dir_z);
     if (rays.tfar != nullptr) {
-        std::copy_n(rays.tfar + first, packet, out.tfar);
+        copy_packet(rays.tfar + first, out.tfar);
     } else {
         std::fill_n(out.tfar, packet, unlimited);
     }
-    if (rays.time != nullptr) std::copy_n(rays.time + first, packet, out.time);
+    if (rays.time != nullptr) copy_packet(rays.time + first, out.time);
     for (int i = 0; i < packet; ++i)
         out.id[i] = static_cast<unsigned>(first + i);
 }
@@ -173,9 +180,9 @@ void store_packet(const Accel::Impl& impl,
                   const RTCRayHit16& block,
                   const HitColumns& hits,
                   int first) {
-    std::copy_n(block.ray.tfar, packet, hits.t + first);
-    std::copy_n(block.hit.u, packet, hits.u + first);
-    std::copy_n(block.hit.v, packet, hits.v + first);
+    copy_packet(block.ray.tfar, hits.t + first);
+    copy_packet(block.hit.u, hits.u + first);
+    copy_packet(block.hit.v, hits.v + first);
     static_assert(RTC_INVALID_GEOMETRY_ID == 0xFFFFFFFFU, "as int32_t it is -1, a miss");
     for (int i = 0; i < packet; ++i) {
         hits.triangle[first + i] = static_cast<int32_t>(block.hit.primID[i]);

@@ -58,6 +58,14 @@ OBSCURA_INLINE EnvironmentPoint<F> environment_point(const EnvironmentView& view
             sin_theta};
 }
 
+/// Where a direction lies between four pixel centres: left and right of one row, then of the next.
+template <typename F>
+struct EnvironmentCell {
+    IntOf<F> word[4];  ///< first of each pixel
+    F weight[4];       ///< in bilinear interpolation, 1 in all
+    F sin_theta;       ///< of the direction
+};
+
 /// The four pixels that bilinear interpolation mixes for one direction. Their weights sum to 1.
 template <typename F>
 struct EnvironmentTaps {
@@ -75,7 +83,7 @@ OBSCURA_INLINE F environment_density(const F& times_sine, const F& sin_theta) {
 /// Bilinear interpolation between pixel centres; wraps around in x, stops at the first and last
 /// row.
 template <typename F>
-OBSCURA_INLINE EnvironmentTaps<F> environment_taps(const EnvironmentView& view,
+OBSCURA_INLINE EnvironmentCell<F> environment_cell(const EnvironmentView& view,
                                                    const Vec3<F>& direction) {
     using I = IntOf<F>;
     const EnvironmentPoint<F> point = environment_point(view, direction);
@@ -92,20 +100,41 @@ OBSCURA_INLINE EnvironmentTaps<F> environment_taps(const EnvironmentView& view,
     const I row0 = to_int(floor_y);
     const I row1 = min(row0 + I(1), I(view.height - 1));
 
-    EnvironmentTaps<F> taps;
-    const auto set = [&](int i, const I& row, const I& column_at, const F& weight) {
-        const Four<F> pixel = gather4<F>(view.pixels, I((row * I(view.width) + column_at) * I(4)));
-        taps.radiance[i] = {pixel.x, pixel.y, pixel.z};
-        taps.pdf[i] = environment_density(pixel.w, point.sin_theta);
-        taps.weight[i] = weight;
+    const auto word = [&](const I& row, const I& column_at) {
+        return I((row * I(view.width) + column_at) * I(4));
     };
     const F left = F(1.0f) - right;
     const F up = F(1.0f) - down;
-    set(0, row0, column0, left * up);
-    set(1, row0, column1, right * up);
-    set(2, row1, column0, left * down);
-    set(3, row1, column1, right * down);
+    return {{word(row0, column0), word(row0, column1), word(row1, column0), word(row1, column1)},
+            {left * up, right * up, left * down, right * down},
+            point.sin_theta};
+}
+
+/// Asks for the memory of a cell's pixels. Those of one row mostly share a cache line.
+template <typename F>
+OBSCURA_INLINE void prefetch_cell(const EnvironmentView& view, const EnvironmentCell<F>& cell) {
+    prefetch<F>(view.pixels, cell.word[0]);
+    prefetch<F>(view.pixels, cell.word[2]);
+}
+
+/// Reads the pixels of a cell.
+template <typename F>
+OBSCURA_INLINE EnvironmentTaps<F> environment_taps(const EnvironmentView& view,
+                                                   const EnvironmentCell<F>& cell) {
+    EnvironmentTaps<F> taps;
+    for (int i = 0; i < 4; ++i) {
+        const Four<F> pixel = gather4<F>(view.pixels, cell.word[i]);
+        taps.radiance[i] = {pixel.x, pixel.y, pixel.z};
+        taps.pdf[i] = environment_density(pixel.w, cell.sin_theta);
+        taps.weight[i] = cell.weight[i];
+    }
     return taps;
+}
+
+template <typename F>
+OBSCURA_INLINE EnvironmentTaps<F> environment_taps(const EnvironmentView& view,
+                                                   const Vec3<F>& direction) {
+    return environment_taps(view, environment_cell(view, direction));
 }
 
 template <typename F>

@@ -34,33 +34,45 @@ inline void shade_misses(const SceneView& scene,
                          int count_in,
                          const ShadeRows& rows) {
     if (!scene.has_environment || (bounce == 0 && !batch.background_visible)) return;
-    for (int i = 0; i < count_in; i += lane_count) {
-        const Mask exists = rows_in_range(i, count_in);
-        const MissRows& m = rows.misses;
-        const Vec3<Lanes> direction =
-            select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
-        const EnvironmentTaps<Lanes> taps = environment_taps(scene.environment, direction);
-        const Vec3<Lanes> light =
-            bounce == 0 ? mix(taps)
-                        : weighted_environment(scene, batch.strategies, taps, load(m.pdf + i));
-        add_radiance(rows.samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
+    const MissRows& m = rows.misses;
+    // Camera rays look at neighbouring pixels, the others at any.
+    const int step = bounce == 0 ? lane_count : groups_ahead * lane_count;
+    EnvironmentCell<Lanes> cells[groups_ahead];
+    for (int first = 0; first < count_in; first += step) {
+        const int end = min(first + step, count_in);
+        for (int i = first, k = 0; i < end; i += lane_count, ++k) {
+            const Vec3<Lanes> direction = select(
+                rows_in_range(i, count_in), load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
+            cells[k] = environment_cell(scene.environment, direction);
+            if (bounce > 0) prefetch_cell(scene.environment, cells[k]);
+        }
+        for (int i = first, k = 0; i < end; i += lane_count, ++k) {
+            const Mask exists = rows_in_range(i, count_in);
+            const EnvironmentTaps<Lanes> taps = environment_taps(scene.environment, cells[k]);
+            const Vec3<Lanes> light =
+                bounce == 0 ? mix(taps)
+                            : weighted_environment(scene, batch.strategies, taps, load(m.pdf + i));
+            add_radiance(
+                rows.samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
+        }
     }
 }
 
 /// Camera rays that miss take the background colour, if there is one; those that hit are opaque.
 /// Where the camera shows nothing the throughput is 0, and the sample stays clear.
-inline void set_camera_alpha(const BatchSettings& batch,
-                             SortedCounts sorted,
-                             const ShadeRows& rows) {
-    for (int i = 0; i < sorted.hits; ++i)
-        rows.samples.a[rows.paths.slot[i]] = 1.0f;
-    for (int i = 0; i < sorted.misses; ++i) {
-        const uint32_t slot = rows.misses.slot[i];
-        if (rows.misses.tr[i] == 0.0f) continue;
-        rows.samples.r[slot] += batch.background[0];
-        rows.samples.g[slot] += batch.background[1];
-        rows.samples.b[slot] += batch.background[2];
-        rows.samples.a[slot] = batch.background[3];
+inline void set_camera_alpha(const BatchSettings& batch, int count_in, const ShadeRows& rows) {
+    const Vec3<Lanes> background{
+        Lanes(batch.background[0]), Lanes(batch.background[1]), Lanes(batch.background[2])};
+    for (int i = 0; i < count_in; i += lane_count) {
+        const Mask is_hit = load(rows.hits.primitive + i) >= LanesI(0);
+        const Mask is_clear = load(rows.paths.tr + i) == Lanes(0.0f);
+        const Vec3<Lanes> seen = select(is_hit | is_clear, splat3(Lanes(0.0f)), background);
+        const Lanes behind = select(is_clear, Lanes(0.0f), Lanes(batch.background[3]));
+        const Lanes alpha = select(is_hit, Lanes(1.0f), behind);
+        const SampleRows& out = rows.samples;
+        add_to_slots(rows_in_range(i, count_in),
+                     load(rows.paths.slot + i),
+                     {{out.r, seen.x}, {out.g, seen.y}, {out.b, seen.z}, {out.a, alpha}});
     }
 }
 

@@ -116,8 +116,8 @@ int begin_raycast(const SceneView& scene,
                   const BatchSettings& batch,
                   int count,
                   const ShadeRows& rows) {
+    set_camera_alpha(batch, count, rows);
     const SortedCounts sorted = sort_hits_from_misses(count, rows);
-    set_camera_alpha(batch, sorted, rows);
     shade_misses(scene, batch, 0, sorted.misses, rows);
     return sorted.hits;
 }

@@ -51,10 +51,6 @@ OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
     return r;
 }
 
-/// Groups whose light samples are drawn ahead together: while one group's memory is on its way, the
-/// others are served.
-constexpr int groups_ahead = 8;
-
 OBSCURA_INLINE void draw_ahead(const SceneView& scene,
                                const PathRows& paths,
                                int bounce,
@@ -240,8 +236,8 @@ ShadeCounts shade(const SceneView& scene,
                   int bounce,
                   int count_in,
                   const ShadeRows& rows) {
+    if (bounce == 0) set_camera_alpha(batch, count_in, rows);
     const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
-    if (bounce == 0) set_camera_alpha(batch, sorted, rows);
     shade_misses(scene, batch, bounce, sorted.misses, rows);
     EnvironmentDraw<Lanes> draws[groups_ahead];
     ShadeCounts out;
@@ -279,8 +275,8 @@ int shade_ao(const SceneView& scene,
              const BatchSettings& batch,
              int count_in,
              const ShadeRows& rows) {
+    set_camera_alpha(batch, count_in, rows);
     const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
-    set_camera_alpha(batch, sorted, rows);
     int shadows = 0;
     for (int i = 0; i < sorted.hits; i += lane_count) {
         const Mask exists = rows_in_range(i, sorted.hits);

@@ -8,6 +8,9 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
+/// Groups that ask for far memory together: while one group's is on its way, the others are served.
+inline constexpr int groups_ahead = 8;
+
 /// The hits of one group at their paths' times; see hits_or_first.
 OBSCURA_INLINE HitLanes hits_of_paths(const ShadeRows& rows,
                                       int i,

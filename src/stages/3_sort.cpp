@@ -96,28 +96,35 @@ void sort_hits(const PathRows& p, const HitRows& h, const Order& order) {
     columns(h.t, h.u, h.v, h.instance, h.primitive, h.triangle);
 }
 
+/// Appends the lanes of `mask` of the group that starts at row i; returns the new count.
+OBSCURA_INLINE int append_misses(const ShadeRows& rows, int i, Mask mask, int at) {
+    const Packer packer(mask);
+    const PathRows& p = rows.paths;
+    const MissRows& m = rows.misses;
+    store3(m.dx, m.dy, m.dz, at, pack(packer, load3(p.dx, p.dy, p.dz, i)));
+    store3(m.tr, m.tg, m.tb, at, pack(packer, load3(p.tr, p.tg, p.tb, i)));
+    store(m.pdf + at, packer(load(p.pdf + i)));
+    store(m.slot + at, pack(packer, load(p.slot + i)));
+    return at + count(mask);
+}
+
 /// As sort_hits_from_misses, in the order in which the rows come: camera rays of neighbouring
 /// pixels mostly meet the same surface as it is.
 SortedCounts pack_hits(int count_in, const ShadeRows& rows) {
     SortedCounts sorted;
     for (int i = 0; i < count_in; i += lane_count) {
         const Mask exists = rows_in_range(i, count_in);
-        const PathLanes path = load_paths(rows.paths, i);
-        const HitLanes hit = load_hits(rows.hits, i);
-        const Mask is_hit = exists & (hit.primitive >= LanesI(0));
+        const Mask is_hit = exists & (load(rows.hits.primitive + i) >= LanesI(0));
         const Mask is_miss = exists & (!is_hit);
+        if (any(is_miss)) sorted.misses = append_misses(rows, i, is_miss, sorted.misses);
+        if (none(is_hit)) continue;
+        if (none(is_miss) && sorted.hits == i) {  // where they belong already
+            sorted.hits += count(is_hit);
+            continue;
+        }
         // In place: the rows written here have all been read.
-        append_hits(rows.hits, sorted.hits, is_hit, hit);
-        sorted.hits = append_paths(rows.paths, sorted.hits, is_hit, path);
-        if (none(is_miss)) continue;
-        const Packer packer(is_miss);
-        const MissRows& m = rows.misses;
-        const int at = sorted.misses;
-        store3(m.dx, m.dy, m.dz, at, pack(packer, path.direction));
-        store3(m.tr, m.tg, m.tb, at, pack(packer, path.throughput));
-        store(m.pdf + at, packer(path.pdf));
-        store(m.slot + at, pack(packer, path.slot));
-        sorted.misses += count(is_miss);
+        append_hits(rows.hits, sorted.hits, is_hit, load_hits(rows.hits, i));
+        sorted.hits = append_paths(rows.paths, sorted.hits, is_hit, load_paths(rows.paths, i));
     }
     return sorted;
 }

@@ -23,29 +23,6 @@ void add_shadow_light(int count,
 /// Above this a sample counts as not finite: the sum of a pixel's samples must stay finite too.
 constexpr float largest_sample = 1.0e30f;
 
-uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums) {
-    uint64_t nonfinite = 0;
-    for (int pixel = 0; pixel < pixels; ++pixel) {
-        float* sum = sums + 4 * pixel;
-        for (int i = 0; i < per_pixel; ++i) {
-            const int slot = pixel * per_pixel + i;
-            const float r = samples.r[slot];
-            const float g = samples.g[slot];
-            const float b = samples.b[slot];
-            const float size = abs(r) + abs(g) + abs(b);
-            if (!(size <= largest_sample)) {
-                ++nonfinite;
-                continue;
-            }
-            sum[0] += r;
-            sum[1] += g;
-            sum[2] += b;
-            sum[3] += samples.a[slot];
-        }
-    }
-    return nonfinite;
-}
-
 uint64_t clear_nonfinite(int count, const SampleRows& samples) {
     uint64_t nonfinite = 0;
     const Vec3<Lanes> zero = splat3(Lanes(0.0f));
@@ -57,6 +34,29 @@ uint64_t clear_nonfinite(int count, const SampleRows& samples) {
         nonfinite += static_cast<uint64_t>(obscura::count(broken));
         store3(samples.r, samples.g, samples.b, i, select(broken, zero, value));
         store(samples.a + i, select(broken, Lanes(0.0f), load(samples.a + i)));
+    }
+    return nonfinite;
+}
+
+uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums) {
+    const uint64_t nonfinite = clear_nonfinite(pixels * per_pixel, samples);
+    int slot = 0;
+    for (int pixel = 0; pixel < pixels; ++pixel) {
+        float* sum = sums + size_t{4} * static_cast<size_t>(pixel);
+        float r = sum[0];
+        float g = sum[1];
+        float b = sum[2];
+        float a = sum[3];
+        for (const int end = slot + per_pixel; slot < end; ++slot) {
+            r += samples.r[slot];
+            g += samples.g[slot];
+            b += samples.b[slot];
+            a += samples.a[slot];
+        }
+        sum[0] = r;
+        sum[1] = g;
+        sum[2] = b;
+        sum[3] = a;
     }
     return nonfinite;
 }

@@ -18,7 +18,7 @@ void add_shadow_light(int count,
 /// depend on how a pixel's samples were cut into batches.
 ///
 /// In      samples: pixels * per_pixel slots; sums: 4 floats (RGBA) a pixel
-/// Out     number of samples that were not finite; each counts as zero, all four channels
+/// Out     number of samples that were not finite; each is cleared, all four channels
 uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums);
 
 /// Clears the samples that are not finite; returns how many.

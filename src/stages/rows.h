@@ -129,25 +129,39 @@ OBSCURA_INLINE int append_shadows(const ShadowRows& rows, int at, Mask mask, con
     return at + count(mask);
 }
 
-/// Adds radiance to the slots of the lanes in `mask`. No slot appears twice in one group.
+/// What to add to one column of slots.
+struct SlotColumn {
+    float* column;
+    Lanes add;
+};
+
+/// Adds to the slots of the lanes in `mask`. No slot appears twice in one group.
+template <int columns>
+OBSCURA_INLINE void add_to_slots(Mask mask, LanesU slot, const SlotColumn (&to)[columns]) {
+    const auto first = static_cast<uint32_t>(first_lane(as_int(slot)));
+    const LanesU neighbours = LanesU(first) + as_uint(lane_numbers());
+    if (all(mask & (slot == neighbours))) {  // as the camera leaves them
+        for (const SlotColumn& c : to)
+            store(c.column + first, load(c.column + first) + c.add);
+        return;
+    }
+    alignas(64) uint32_t slots[lane_count];
+    alignas(64) float add[columns][lane_count];
+    store(slots, slot);
+    for (int k = 0; k < columns; ++k)
+        store(add[k], to[k].add);
+    for (uint32_t bits = mask_bits(mask); bits != 0; bits &= bits - 1) {
+        const int lane = __builtin_ctz(bits);
+        for (int k = 0; k < columns; ++k)
+            to[k].column[slots[lane]] += add[k][lane];
+    }
+}
+
 OBSCURA_INLINE void add_radiance(const SampleRows& samples,
                                  Mask mask,
                                  LanesU slot,
                                  const Vec3<Lanes>& rgb) {
-    alignas(64) uint32_t slots[lane_count];
-    alignas(64) float r[lane_count];
-    alignas(64) float g[lane_count];
-    alignas(64) float b[lane_count];
-    store(slots, slot);
-    store(r, rgb.x);
-    store(g, rgb.y);
-    store(b, rgb.z);
-    for (uint32_t bits = mask_bits(mask); bits != 0; bits &= bits - 1) {
-        const int lane = __builtin_ctz(bits);
-        samples.r[slots[lane]] += r[lane];
-        samples.g[slots[lane]] += g[lane];
-        samples.b[slots[lane]] += b[lane];
-    }
+    add_to_slots(mask, slot, {{samples.r, rgb.x}, {samples.g, rgb.y}, {samples.b, rgb.z}});
 }
 
 }  // namespace OBSCURA_ISA
