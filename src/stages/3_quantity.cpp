@@ -71,11 +71,18 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
     } else if constexpr (quantity == Quantity::id) {
         return identity(scene, hit);
     } else {
-        const ShadingPoint s =
-            shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
-        if constexpr (quantity == Quantity::normal) return s.normal;
-        if constexpr (quantity == Quantity::albedo) return s.bsdf.base_color;
-        return {abs(dot(s.normal, path.direction)), zero, zero};
+        const SeenSurface seen =
+            see_surface(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
+        const int slot_word = quantity == Quantity::albedo ? base_color_slot : normal_slot;
+        const FoundSlot slot = find_slot(scene, seen.g, slot_word, seen.look, {});
+        if constexpr (quantity == Quantity::albedo) {
+            return base_color(scene, seen.g, seen.look, slot);
+        } else {
+            const TangentLanes tangents = read_tangents(scene, hit, seen.g, slot.used);
+            const Vec3<Lanes> normal = shading_normal(scene, seen, tangents, slot);
+            if constexpr (quantity == Quantity::normal) return normal;
+            return {abs(dot(normal, path.direction)), zero, zero};
+        }
     }
 }
 

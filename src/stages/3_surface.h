@@ -39,14 +39,47 @@ OBSCURA_INLINE FoundSlots find_slots(const SceneView& scene,
             find_slot(scene, g, base_color_slot, look, common)};
 }
 
-OBSCURA_INLINE Vec3<Lanes> apply_normal_map(const SceneView& scene,
-                                            const HitGeometry& g,
-                                            const TangentLanes& tangents,
-                                            const LookUp& look,
-                                            const FoundSlot& slot) {
-    if (none(slot.used)) return g.normal;
-    const Rgba<Lanes> texel = read_slot(scene, g, slot, look);
-    return tilt_normal(tangents, slot.used, g.normal, texel.rgb, g.material.number(6));
+/// A surface where a ray met it, and how the ray looks at it.
+struct SeenSurface {
+    HitGeometry g;
+    Vec3<Lanes> wo;  ///< to the viewer
+    Lanes cos_front;
+    Vec3<Lanes> ng;  ///< on the viewer's side
+    LookUp look;
+};
+
+OBSCURA_INLINE SeenSurface see_surface(const SceneView& scene,
+                                       const HitLanes& hit,
+                                       const PathLanes& path,
+                                       const Vec3<Lanes>& random,
+                                       Filtering filtering) {
+    SeenSurface seen;
+    HitGeometry& g = seen.g;
+    g = hit_geometry(scene, hit);
+    instance_to_world(scene, hit, g);
+    read_first_uv_set(scene, g);
+    shapes_to_world(scene, hit, path, g);
+    seen.wo = -path.direction;
+    seen.cos_front = dot(g.ng, seen.wo);
+    seen.ng = select(seen.cos_front >= Lanes(0.0f), g.ng, -g.ng);
+    const Lanes width = path.cone_width + path.cone_spread * hit.t;
+    // The cone's cross section on the slanted surface: geometric mean of its two widths.
+    seen.look = {width * width / max(abs(seen.cos_front), Lanes(0.05f)), random, filtering};
+    return seen;
+}
+
+/// The normal that the asset says, texture included, on the viewer's side.
+OBSCURA_INLINE Vec3<Lanes> shading_normal(const SceneView& scene,
+                                          const SeenSurface& seen,
+                                          const TangentLanes& tangents,
+                                          const FoundSlot& slot) {
+    const HitGeometry& g = seen.g;
+    Vec3<Lanes> n = g.normal;
+    if (any(slot.used)) {
+        const Rgba<Lanes> texel = read_slot(scene, g, slot, seen.look);
+        n = tilt_normal(tangents, slot.used, g.normal, texel.rgb, g.material.number(6));
+    }
+    return select(dot(n, seen.ng) < Lanes(0.0f), -n, n);
 }
 
 OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
@@ -133,37 +166,29 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
                                           const PathLanes& path,
                                           const Vec3<Lanes>& random,
                                           Filtering filtering) {
-    HitGeometry g = hit_geometry(scene, hit);
-    instance_to_world(scene, hit, g);
-    read_first_uv_set(scene, g);
-    shapes_to_world(scene, hit, path, g);
-    const Vec3<Lanes> wo = -path.direction;
-    const Lanes cos_front = dot(g.ng, wo);
-    const Lanes width = path.cone_width + path.cone_spread * hit.t;
-    // The cone's cross section on the slanted surface: geometric mean of its two widths.
-    const LookUp look{width * width / max(abs(cos_front), Lanes(0.05f)), random, filtering};
-
+    const SeenSurface seen = see_surface(scene, hit, path, random, filtering);
+    const HitGeometry& g = seen.g;
+    const LookUp& look = seen.look;
     const FoundSlots slots = find_slots(scene, g, look);
 
     ShadingPoint s;
     s.time = hit.time;
     const LanesI flags = g.material.integer(11);
-    const Mask front = cos_front >= Lanes(0.0f);
-    s.ng = select(front, g.ng, -g.ng);
+    const Mask front = seen.cos_front >= Lanes(0.0f);
+    s.ng = seen.ng;
     s.start = g.position + s.ng * g.offset;
     s.light_start = s.start + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
     const LanesI layers_row = g.material.integer(layers_word);
     const Mask layered = layers_row >= LanesI(0);
     const TangentLanes tangents = read_tangents(scene, hit, g, slots.normal.used | layered);
-    const Vec3<Lanes> n = apply_normal_map(scene, g, tangents, look, slots.normal);
-    s.normal = select(dot(n, s.ng) < Lanes(0.0f), -n, n);
-    s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, wo));
+    s.normal = shading_normal(scene, seen, tangents, slots.normal);
+    s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, seen.wo));
     s.bsdf = bsdf_params(scene, g, look, slots);
-    s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, wo));
+    s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, seen.wo));
     s.any_layers = any(layered);
     if (s.any_layers) {
         const Vec3<Lanes> smooth = select(dot(g.normal, s.ng) < Lanes(0.0f), -g.normal, g.normal);
-        LayerPlace place{tangents, s.frame, smooth, s.ng, wo, front, layered};
+        LayerPlace place{tangents, s.frame, smooth, s.ng, seen.wo, front, layered};
         s.layers = read_layered_point({scene, g, look, path}, s.bsdf, place);
         s.frame.tangent = select(layered, place.frame.tangent, s.frame.tangent);
         s.frame.bitangent = select(layered, place.frame.bitangent, s.frame.bitangent);
