@@ -100,7 +100,7 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
                     "EMBREE_GEOMETRY_CURVE is needed");
     }
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
-    impl->shape_callbacks = &shape_callbacks_for(kernels.isa);
+    impl->functions = accel_functions_for(kernels.isa);
     rtcSetDeviceMemoryMonitorFunction(impl->device, note_memory, &impl->memory);
     return impl;
 }

@@ -4,6 +4,7 @@
 
 #include "accel/accel.h"
 #include "accel/alpha_filter.h"
+#include "accel/dispatch.h"
 #include "accel/embree.h"
 #include "accel/reference_kernels.h"
 #include "accel/shape_geometry.h"
@@ -66,7 +67,7 @@ struct Accel::Impl {
     std::vector<AlphaGeometry> alpha;         ///< by primitive; empty: no filters
     std::vector<ShapeGeometry> shapes;        ///< by primitive; filled where it is one of shapes
     std::vector<UserElements> user_elements;  ///< by primitive; empty: Embree's own kinds
-    const ShapeCallbacks* shape_callbacks = nullptr;
+    AccelFunctions functions;
     std::vector<EndlessPlane> endless_planes;
     std::vector<uint8_t> single_sided;              ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance

@@ -108,11 +108,11 @@ RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
     rtcSetGeometryUserPrimitiveCount(
         geometry, static_cast<unsigned>(shapes.rows != nullptr ? shapes.count : blocks));
     rtcSetGeometryUserData(geometry, &shapes);
-    rtcSetGeometryBoundsFunction(geometry, impl.shape_callbacks->bounds, nullptr);
+    rtcSetGeometryBoundsFunction(geometry, impl.functions.shapes->bounds, nullptr);
     rtcSetGeometryIntersectFunction(
         geometry,
-        impl.kernels.counts_tests ? intersect_counted_shape : impl.shape_callbacks->intersect);
-    rtcSetGeometryOccludedFunction(geometry, impl.shape_callbacks->occluded);
+        impl.kernels.counts_tests ? intersect_counted_shape : impl.functions.shapes->intersect);
+    rtcSetGeometryOccludedFunction(geometry, impl.functions.shapes->occluded);
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
     rtcCommitGeometry(geometry);

@@ -2,37 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/endless_planes.h"
+#include "accel/packets.h"
 #include "accel/safe_ray.h"
 #include "accel/scene_rows.h"
 #include "scene/motion.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace obscura {
 
 namespace {
-
-constexpr int packet = 16;
-
-/// 16 words. As memmove, which std::copy_n is, it would be a call.
-template <typename T>
-void copy_packet(const T* from, T* to) {
-    std::memcpy(to, from, packet * sizeof(T));
-}
-
-struct alignas(64) ValidMask {
-    int lane[packet];
-};
-
-/// True when all rows [first, first + 16) exist and are safe. Without branches: 16 rows at a time.
-bool is_whole(const RayColumns& rays, int first) {
-    if (rays.count - first < packet) return false;
-    int unsafe = 0;
-    for (int i = first; i < first + packet; ++i)
-        unsafe |= static_cast<int>(!is_safe(rays, i));
-    return unsafe == 0;
-}
 
 /// Marks the rows [first, first + 16) that exist and are safe; counts the refused ones.
 int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {
@@ -43,33 +22,6 @@ int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {
         safe -= valid.lane[i];
     }
     return existing - safe;
-}
-
-/// What no packet of a call changes.
-void begin_packets(RTCRay16& out) {
-    std::fill_n(out.tnear, packet, 0.0f);
-    std::fill_n(out.tfar, packet, unlimited);
-    std::fill_n(out.time, packet, 0.0f);
-    std::fill_n(out.mask, packet, 0xFFFFFFFFU);
-    std::fill_n(out.flags, packet, 0U);
-}
-
-/// Loads 16 safe rows.
-void load_whole(const RayColumns& rays, int first, RTCRay16& out) {
-    copy_packet(rays.ox + first, out.org_x);
-    copy_packet(rays.oy + first, out.org_y);
-    copy_packet(rays.oz + first, out.org_z);
-    copy_packet(rays.dx + first, out.dir_x);
-    copy_packet(rays.dy + first, out.dir_y);
-    copy_packet(rays.dz + first, out.dir_z);
-    if (rays.tfar != nullptr) {
-        copy_packet(rays.tfar + first, out.tfar);
-    } else {
-        std::fill_n(out.tfar, packet, unlimited);
-    }
-    if (rays.time != nullptr) copy_packet(rays.time + first, out.time);
-    for (int i = 0; i < packet; ++i)
-        out.id[i] = static_cast<unsigned>(first + i);
 }
 
 /// Loads the valid rows. Idle lanes repeat one of them, for Embree sees them too: where its packets
@@ -100,10 +52,10 @@ struct Loaded {
     bool any = true;
 };
 
-Loaded load_packet(const RayColumns& rays, int first, ValidMask& valid, RTCRay16& out) {
-    if (is_whole(rays, first)) {
+Loaded load_packet(
+    const PacketMoves& moves, const RayColumns& rays, int first, ValidMask& valid, RTCRay16& out) {
+    if (rays.count - first >= packet && moves.load(rays, first, out)) {
         std::fill_n(valid.lane, packet, -1);
-        load_whole(rays, first, out);
         return {};
     }
     const int refused = mark_valid(rays, first, valid);
@@ -180,15 +132,7 @@ void store_packet(const Accel::Impl& impl,
                   const RTCRayHit16& block,
                   const HitColumns& hits,
                   int first) {
-    copy_packet(block.ray.tfar, hits.t + first);
-    copy_packet(block.hit.u, hits.u + first);
-    copy_packet(block.hit.v, hits.v + first);
-    static_assert(RTC_INVALID_GEOMETRY_ID == 0xFFFFFFFFU, "as int32_t it is -1, a miss");
-    for (int i = 0; i < packet; ++i) {
-        hits.triangle[first + i] = static_cast<int32_t>(block.hit.primID[i]);
-        hits.primitive[first + i] = static_cast<int32_t>(block.hit.geomID[i]) | ~valid.lane[i];
-        hits.instance[first + i] = -1;
-    }
+    impl.functions.packets->store(block, valid, hits, first);
     if (!impl.has_instances) return;
     for (int i = 0; i < packet; ++i) {
         if (hits.primitive[first + i] < 0) continue;
@@ -247,7 +191,7 @@ int Accel::intersect(const RayColumns& rays,
     for (float* ng : {block.hit.Ng_x, block.hit.Ng_y, block.hit.Ng_z})
         std::fill_n(ng, packet, 0.0f);  // read for misses too
     for (int first = 0; first < rays.count; first += packet) {
-        const Loaded loaded = load_packet(rays, first, valid, block.ray);
+        const Loaded loaded = load_packet(*impl_->functions.packets, rays, first, valid, block.ray);
         refused += loaded.refused;
         std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
@@ -284,7 +228,7 @@ int Accel::occluded(const RayColumns& rays,
     RTCRay16 block;
     begin_packets(block);
     for (int first = 0; first < rays.count; first += packet) {
-        const Loaded loaded = load_packet(rays, first, valid, block);
+        const Loaded loaded = load_packet(*impl_->functions.packets, rays, first, valid, block);
         refused += loaded.refused;
         if (loaded.any) query.occluded16(valid.lane, impl_->top, &block);
         const int count = std::min(packet, rays.count - first);

@@ -1,6 +1,7 @@
 // accel/replay.cpp - recorded rays through bare Embree: the time below which no renderer can go.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/packets.h"
 #include "accel/ray_recording.h"
 #include "accel/safe_ray.h"
 #include "base/parallel.h"
@@ -13,7 +14,6 @@ namespace obscura {
 
 namespace {
 
-constexpr size_t packet = 16;
 /// Rays that a thread takes at a time: long enough that handing them out costs nothing.
 constexpr size_t chunk_rays = 4096;
 
@@ -47,35 +47,20 @@ void give_keys(QueryContext& context, const Chunk& chunk) {
     context.fixed_threshold = chunk.fixed_alpha;
 }
 
-/// Loads rows [first, first + count) of a column; the lanes behind them repeat the first. Whole
-/// packets are copied with a length that the compiler knows.
-void load_column(const float* column, size_t first, size_t count, float* out) {
-    if (count == packet) {
-        std::copy_n(column + first, packet, out);
-        return;
-    }
-    std::copy_n(column + first, count, out);
-    std::fill_n(out + count, packet - count, column[first]);
-}
-
-void load_sixteen(const RayColumns& rays, size_t first, size_t count, RTCRay16& out) {
-    load_column(rays.ox, first, count, out.org_x);
-    load_column(rays.oy, first, count, out.org_y);
-    load_column(rays.oz, first, count, out.org_z);
-    load_column(rays.dx, first, count, out.dir_x);
-    load_column(rays.dy, first, count, out.dir_y);
-    load_column(rays.dz, first, count, out.dir_z);
-    if (rays.tfar != nullptr) {
-        load_column(rays.tfar, first, count, out.tfar);
-    } else {
-        std::fill_n(out.tfar, packet, unlimited);
-    }
-    for (size_t i = 0; i < packet; ++i) {
-        out.tnear[i] = 0.0f;
-        out.time[i] = 0.0f;
-        out.mask[i] = 0xFFFFFFFFU;
-        out.id[i] = static_cast<unsigned>(first + i);
-        out.flags[i] = 0;
+/// Loads rows [first, first + count); the lanes behind them repeat the first.
+void load_sixteen(
+    const PacketMoves& moves, const RayColumns& rays, int first, int count, RTCRay16& out) {
+    if (count == packet && moves.load(rays, first, out)) return;
+    for (int i = 0; i < packet; ++i) {
+        const int row = i < count ? first + i : first;
+        out.org_x[i] = rays.ox[row];
+        out.org_y[i] = rays.oy[row];
+        out.org_z[i] = rays.oz[row];
+        out.dir_x[i] = rays.dx[row];
+        out.dir_y[i] = rays.dy[row];
+        out.dir_z[i] = rays.dz[row];
+        out.tfar[i] = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
+        out.id[i] = static_cast<unsigned>(row);
     }
 }
 
@@ -114,30 +99,30 @@ Tally occlude_one_by_one(RTCScene scene, const Chunk& chunk) {
     return tally;
 }
 
-/// Which of the 16 lanes hold a ray.
-struct alignas(64) Lanes16 {
-    explicit Lanes16(size_t count) {
-        std::fill_n(valid, packet, 0);
-        std::fill_n(valid, count, -1);
-    }
-    int valid[packet];
-};
+ValidMask first_lanes(int count) {
+    ValidMask valid;
+    std::fill_n(valid.lane, packet, 0);
+    std::fill_n(valid.lane, count, -1);
+    return valid;
+}
 
-Tally intersect_sixteen(RTCScene scene, const Chunk& chunk, bool coherent) {
+Tally intersect_sixteen(const Accel::Impl& impl, const Chunk& chunk, bool coherent) {
     QueryContext context;
     Query query(context, coherent);
     give_keys(context, chunk);
     const RayColumns rays = chunk.rays->columns();
     Tally tally;
-    for (size_t first = chunk.begin; first < chunk.end; first += packet) {
-        const size_t count = std::min(packet, chunk.end - first);
-        const Lanes16 lanes(count);
-        RTCRayHit16 block;
-        load_sixteen(rays, first, count, block.ray);
+    RTCRayHit16 block;
+    begin_packets(block.ray);
+    const auto end = static_cast<int>(chunk.end);
+    for (auto first = static_cast<int>(chunk.begin); first < end; first += packet) {
+        const int count = std::min(packet, end - first);
+        const ValidMask valid = first_lanes(count);
+        load_sixteen(*impl.functions.packets, rays, first, count, block.ray);
         std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
-        query.intersect16(lanes.valid, scene, &block);
-        for (size_t i = 0; i < count; ++i) {
+        query.intersect16(valid.lane, impl.top, &block);
+        for (int i = 0; i < count; ++i) {
             const bool hit = block.hit.geomID[i] != RTC_INVALID_GEOMETRY_ID;
             tally.hits += hit ? 1 : 0;
             tally.checksum += hit ? std::bit_cast<uint32_t>(block.ray.tfar[i]) : 0U;
@@ -146,32 +131,35 @@ Tally intersect_sixteen(RTCScene scene, const Chunk& chunk, bool coherent) {
     return tally;
 }
 
-Tally occlude_sixteen(RTCScene scene, const Chunk& chunk, bool coherent) {
+Tally occlude_sixteen(const Accel::Impl& impl, const Chunk& chunk, bool coherent) {
     QueryContext context;
     Query query(context, coherent);
     give_keys(context, chunk);
     const RayColumns rays = chunk.rays->columns();
     Tally tally;
-    for (size_t first = chunk.begin; first < chunk.end; first += packet) {
-        const size_t count = std::min(packet, chunk.end - first);
-        const Lanes16 lanes(count);
-        RTCRay16 block;
-        load_sixteen(rays, first, count, block);
-        query.occluded16(lanes.valid, scene, &block);
-        for (size_t i = 0; i < count; ++i)
+    RTCRay16 block;
+    begin_packets(block);
+    const auto end = static_cast<int>(chunk.end);
+    for (auto first = static_cast<int>(chunk.begin); first < end; first += packet) {
+        const int count = std::min(packet, end - first);
+        const ValidMask valid = first_lanes(count);
+        load_sixteen(*impl.functions.packets, rays, first, count, block);
+        query.occluded16(valid.lane, impl.top, &block);
+        for (int i = 0; i < count; ++i)
             tally.hits += block.tfar[i] < 0.0f ? 1 : 0;
     }
     tally.checksum = tally.hits;
     return tally;
 }
 
-Tally replay_chunk(RTCScene scene, const Chunk& chunk, bool any_hit, ReplayWay way) {
+Tally replay_chunk(const Accel::Impl& impl, const Chunk& chunk, bool any_hit, ReplayWay way) {
     if (way == ReplayWay::single) {
-        return any_hit ? occlude_one_by_one(scene, chunk) : intersect_one_by_one(scene, chunk);
+        return any_hit ? occlude_one_by_one(impl.top, chunk)
+                       : intersect_one_by_one(impl.top, chunk);
     }
     const bool coherent = way == ReplayWay::coherent_packets;
-    return any_hit ? occlude_sixteen(scene, chunk, coherent)
-                   : intersect_sixteen(scene, chunk, coherent);
+    return any_hit ? occlude_sixteen(impl, chunk, coherent)
+                   : intersect_sixteen(impl, chunk, coherent);
 }
 
 }  // namespace
@@ -187,7 +175,7 @@ ReplayResult Accel::replay(const RayRecording& recording, RayKind kind, ReplayWa
     std::atomic<uint64_t> checksum = 0;
     const Stopwatch replaying;
     parallel_for(chunks.size(), [&](size_t i) {
-        const Tally tally = replay_chunk(impl_->top, chunks[i], any_hit, way);
+        const Tally tally = replay_chunk(*impl_, chunks[i], any_hit, way);
         hits.fetch_add(tally.hits, std::memory_order_relaxed);
         checksum.fetch_add(tally.checksum, std::memory_order_relaxed);
     });

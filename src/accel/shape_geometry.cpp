@@ -3,34 +3,9 @@
 #include "accel/shape_geometry.h"
 
 #include "accel/alpha_filter.h"
-#include "base/cpu.h"
 #include "math/sampler.h"
 
 namespace obscura {
-
-// This file is compiled as baseline, where isa_baseline is the inline namespace.
-inline namespace isa_baseline {
-extern const ShapeCallbacks shape_callbacks;
-}
-namespace isa_avx2 {
-extern const ShapeCallbacks shape_callbacks;
-}
-namespace isa_avx512 {
-extern const ShapeCallbacks shape_callbacks;
-}
-
-const ShapeCallbacks& shape_callbacks_for(const std::string& embree_isa) {
-#if defined(__x86_64__)
-    if (embree_isa == "avx512" || (embree_isa.empty() && cpu_has_avx512())) {
-        return isa_avx512::shape_callbacks;
-    }
-    if (embree_isa == "avx2" || (embree_isa.empty() && cpu_has_avx2())) {
-        return isa_avx2::shape_callbacks;
-    }
-#endif
-    (void)embree_isa;
-    return isa_baseline::shape_callbacks;
-}
 
 namespace {
 

@@ -46,9 +46,6 @@ struct ShapeCallbacks {
     RTCOccludedFunctionN occluded;
 };
 
-/// In   embree_isa: as Accel::build; "" takes the widest that this CPU has
-const ShapeCallbacks& shape_callbacks_for(const std::string& embree_isa);
-
 /// A plane without end, which no box can hold: tested beside the BVH.
 struct EndlessPlane {
     ShapeGeometry geometry;

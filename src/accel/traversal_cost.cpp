@@ -127,7 +127,7 @@ int Accel::count_tests(const RayColumns& rays, float* tests) const {
     Query query(context.common, false);
     context.common.fixed_threshold = true;
     context.common.culls_back_faces = true;
-    context.shapes = impl_->shape_callbacks;
+    context.shapes = impl_->functions.shapes;
     int refused = 0;
     for (int row = 0; row < rays.count; ++row) {
         tests[row] = 0.0f;

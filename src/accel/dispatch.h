@@ -1,0 +1,20 @@
+// accel/dispatch.h - the functions that are compiled once per instruction set.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace obscura {
+
+struct PacketMoves;
+struct ShapeCallbacks;
+
+struct AccelFunctions {
+    const ShapeCallbacks* shapes = nullptr;
+    const PacketMoves* packets = nullptr;
+};
+
+/// In   embree_isa: as Accel::build; "" takes the widest that this CPU has
+AccelFunctions accel_functions_for(const std::string& embree_isa);
+
+}  // namespace obscura

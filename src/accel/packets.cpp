@@ -1,0 +1,72 @@
+// accel/packets.cpp - rays into packets and hits out; compiled once per instruction set.
+// SPDX-License-Identifier: Apache-2.0
+#include "accel/packets.h"
+
+#include "accel/safe_ray.h"
+#include "math/lanes.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+static_assert(packet % lane_count == 0);
+
+/// Copies three columns; returns the sum of their sizes.
+OBSCURA_INLINE Lanes copy3(const float* const (&from)[3], int row, float* const (&to)[3], int i) {
+    Lanes sum(0.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        const Lanes value = load(from[axis] + row);
+        store(to[axis] + i, value);
+        sum = sum + abs(value);
+    }
+    return sum;
+}
+
+bool load_rays(const RayColumns& rays, int first, RTCRay16& out) {
+    bool safe = true;
+    for (int i = 0; i < packet; i += lane_count) {
+        const int row = first + i;
+        const Lanes origin =
+            copy3({rays.ox, rays.oy, rays.oz}, row, {out.org_x, out.org_y, out.org_z}, i);
+        const Lanes direction =
+            copy3({rays.dx, rays.dy, rays.dz}, row, {out.dir_x, out.dir_y, out.dir_z}, i);
+        const Lanes end = rays.tfar != nullptr ? load(rays.tfar + row) : Lanes(unlimited);
+        store(out.tfar + i, end);
+        if (rays.time != nullptr) store(out.time + i, load(rays.time + row));
+        store(reinterpret_cast<int32_t*>(out.id) + i, LanesI(row) + lane_numbers());
+        const Lanes most(largest_component);
+        safe = safe && all((origin <= most) & (direction <= most) & (direction > Lanes(0.0f)) &
+                           (end >= Lanes(0.0f)));
+    }
+    return safe;
+}
+
+void store_hits(const RTCRayHit16& block,
+                const ValidMask& valid,
+                const HitColumns& hits,
+                int first) {
+    static_assert(RTC_INVALID_GEOMETRY_ID == 0xFFFFFFFFU, "as int32_t it is -1, a miss");
+    const LanesI none(-1);
+    const auto words = [](const unsigned* column) {
+        return reinterpret_cast<const int32_t*>(column);
+    };
+    for (int i = 0; i < packet; i += lane_count) {
+        const int row = first + i;
+        const LanesI idle = none - load(valid.lane + i);
+        store(hits.t + row, load(block.ray.tfar + i));
+        store(hits.u + row, load(block.hit.u + i));
+        store(hits.v + row, load(block.hit.v + i));
+        store(hits.triangle + row, load(words(block.hit.primID) + i));
+        store(hits.primitive + row, load(words(block.hit.geomID) + i) | idle);
+        store(hits.instance + row, none);
+    }
+}
+
+}  // namespace
+
+extern const PacketMoves packet_moves;
+const PacketMoves packet_moves = {load_rays, store_hits};
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura
