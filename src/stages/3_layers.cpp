@@ -245,7 +245,7 @@ BsdfValue<Lanes> evaluate_layers(const LayeredPoint& point,
 
 BsdfSample<Lanes> sample_layers(const LayeredPoint& point,
                                 const Vec3<Lanes>& wo,
-                                const Vec2<Lanes>& u) {
+                                const Vec3<Lanes>& u) {
     return sample_layered(point.params, point.weights, wo, u);
 }
 

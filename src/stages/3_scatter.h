@@ -18,10 +18,11 @@ OBSCURA_INLINE BsdfValue<Lanes> evaluate_point(const ShadingPoint& s,
     return {select(l.layered, all.value_cos, core.value_cos), select(l.layered, all.pdf, core.pdf)};
 }
 
+/// In   u: z is read where the surface lets light through
 OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
                                               const Vec3<Lanes>& wo,
-                                              const Vec2<Lanes>& u) {
-    const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, u);
+                                              const Vec3<Lanes>& u) {
+    const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, Vec2<Lanes>{u.x, u.y});
     if (!s.any_layers) return core;
     const LayeredPoint& l = s.layers;
     const BsdfSample<Lanes> all = sample_layers(l, wo, u);

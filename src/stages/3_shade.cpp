@@ -163,6 +163,20 @@ OBSCURA_INLINE Lanes survival(const Vec3<Lanes>& throughput, int bounce) {
     return clamp(max_component(throughput), Lanes(0.05f), Lanes(1.0f));
 }
 
+/// The numbers that choose a direction. The third, which only surfaces read that let light through,
+/// is the half of roulette's pair that nothing else reads.
+OBSCURA_INLINE Vec3<Lanes> direction_random(const PathLanes& path,
+                                            const ShadingPoint& s,
+                                            const BounceRandom& random,
+                                            int bounce) {
+    Lanes facet(0.0f);
+    if (s.any_layers && any(s.layers.lets_through)) {
+        facet =
+            unit_float<Lanes>(random_pair(path.key, path.sample, bounce, RandomUse::roulette).y);
+    }
+    return {random.bsdf.x, random.bsdf.y, facet};
+}
+
 /// Writes the next rays of one group; returns the new number of rows.
 OBSCURA_INLINE int add_next_rays(const PathRows& rows,
                                  int at,
@@ -173,7 +187,8 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
                                  int bounce,
                                  Lanes distance) {
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
-    const BsdfSample<Lanes> sample = sample_point(s, wo, random.bsdf);
+    const Vec3<Lanes> u = direction_random(path, s, random, bounce);
+    const BsdfSample<Lanes> sample = sample_point(s, wo, u);
     const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
     const Mask before = dot(direction, s.ng) > Lanes(0.0f);
     Mask goes_on = active & (sample.at.pdf > Lanes(0.0f)) & may_leave(s, before, sample.direction);
