@@ -40,5 +40,19 @@ OBSCURA_INLINE Mask may_leave(const ShadingPoint& s, Mask before, const Vec3<Lan
     return (before & (wi.z > Lanes(0.0f))) | through;
 }
 
+/// What the wavelength that a path is given here multiplies it with.
+///
+/// In   s: with layers; before: rays that leave on the viewer's side
+OBSCURA_INLINE Vec3<Lanes> wavelength_tint(const ShadingPoint& s, Mask before) {
+    return select(before & s.layers.reflects_white, splat3(Lanes(1.0f)), s.layers.tint);
+}
+
+/// The bodies around a path that leaves. One that was given a wavelength keeps it.
+OBSCURA_INLINE LanesU bodies_towards(const ShadingPoint& s, LanesU bodies, Mask before) {
+    const LayeredPoint& l = s.layers;
+    const LanesU given = select(before & l.reflects_white, LanesU(0U), l.wavelength);
+    return select(before, bodies, l.boundary.beyond) | given;
+}
+
 }  // namespace OBSCURA_ISA
 }  // namespace obscura
