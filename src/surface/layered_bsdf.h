@@ -175,9 +175,14 @@ OBSCURA_INLINE Vec3<F> facet_reflectance(const LayeredParams<F>& p,
     return fresnel.dielectric * (F(1.0f) - p.metallic) + fresnel.metal * p.metallic;
 }
 
+template <typename F>
+OBSCURA_INLINE F channel_mean(const Vec3<F>& rgb) {
+    return (rgb.x + rgb.y + rgb.z) * F(1.0f / 3);
+}
+
 /// Probability that sample_layered reflects at a microfacet rather than going through it: in the
-/// proportion of what the microfacet does with the brightest channel, so that neither weighs more
-/// than both together.
+/// proportion of what it leaves of the channels' mean. No channel is more than three times that, so
+/// that what microfacets do weighs 3 at most, 1 where it has no colour.
 ///
 /// Source  Walter et al., "Microfacet Models for Refraction", EGSR 2007, sec. 5.3: choosing by the
 ///         reflectance of the microfacet itself
@@ -186,8 +191,8 @@ OBSCURA_INLINE F facet_reflects(const LayeredParams<F>& p,
                                 const LayeredWeights<F>& w,
                                 const LayeredFresnel<F>& fresnel) {
     const F passes = F(1.0f) - max_component(fresnel.dielectric);
-    const F transmitted = w.transmitted * max(passes, F(0.0f)) * max_component(p.base_color);
-    const F reflected = max_component(facet_reflectance(p, fresnel));
+    const F transmitted = w.transmitted * max(passes, F(0.0f)) * channel_mean(p.base_color);
+    const F reflected = channel_mean(facet_reflectance(p, fresnel));
     return select(
         transmitted > F(0.0f), reflected / max(reflected + transmitted, F(1e-20f)), F(1.0f));
 }
