@@ -22,6 +22,9 @@ inline constexpr uint32_t lens_pair = 0x4C454E53U;
 /// Likewise of the time while the shutter is open.
 inline constexpr uint32_t shutter_pair = 0x53485554U;
 
+/// Likewise of the wavelength that dispersion gives a path.
+inline constexpr uint32_t wavelength_pair = 0x57415645U;
+
 inline namespace OBSCURA_ISA {
 
 /// A bijection of 32-bit words in which every output bit depends on every input bit.

@@ -149,9 +149,10 @@ struct Wavelength {
 };
 
 /// Wavelengths lie evenly between 430 and 650 nm; each goes to one or two neighbouring channels,
-/// whose peaks are the dominant wavelengths of Rec.709's primaries.
-OBSCURA_INLINE Wavelength wavelength_of(LanesU path_key) {
-    const Lanes share = unit_float<Lanes>(hash_word(LanesU(path_key ^ LanesU(0x5BD1E995U))));
+/// whose peaks are the dominant wavelengths of Rec.709's primaries. Those of one pixel's samples
+/// are spread evenly.
+OBSCURA_INLINE Wavelength wavelength_of(const PathLanes& path) {
+    const Lanes share = unit_float<Lanes>(sobol_pair(path.key, path.sample, wavelength_pair).x);
     const Lanes nm = Lanes(430.0f) + share * Lanes(220.0f);
     const Lanes green_over_blue =
         clamp((nm - Lanes(464.0f)) * Lanes(1.0f / 85.0f), Lanes(0.0f), Lanes(1.0f));
@@ -171,23 +172,27 @@ OBSCURA_INLINE Lanes relative_ior(Lanes ior, Lanes dispersion, Lanes nm) {
     return max(n, Lanes(1.0f)) / ior;
 }
 
-/// Bends the boundary for the path's wavelength where the body disperses light.
+/// Bends the boundary for the path's wavelength where the body disperses light. How much it
+/// reflects follows from the index of the d line.
+///
+/// In   out.params.eta: of the d line
 OBSCURA_INLINE void disperse(const LayerReader& layers,
-                             LanesU path_key,
+                             const PathLanes& path,
                              Mask entering,
                              LayeredPoint& out) {
+    LayeredParams<Lanes>& p = out.params;
     const Lanes dispersion = layers.number(OBSCURA_LAYER_WORD(dispersion));
-    const Mask disperses = out.layered & out.params.solid & (dispersion > Lanes(0.0f));
+    const Mask disperses = out.layered & p.solid & (dispersion > Lanes(0.0f));
     if (none(disperses)) return;
-    const Wavelength wavelength = wavelength_of(path_key);
+    const Wavelength wavelength = wavelength_of(path);
     const Lanes denser =
         relative_ior(layers.number(OBSCURA_LAYER_WORD(ior)), dispersion, wavelength.nm);
-    const Lanes eta = out.boundary.eta * select(entering, denser, Lanes(1.0f) / denser);
-    out.boundary.eta = select(disperses, eta, out.boundary.eta);
-    const Mask first = disperses & ((out.boundary.beyond & LanesU(one_wavelength)) == LanesU(0U));
+    // Total reflection, from the denser side, is not the same for all wavelengths.
+    out.reflects_white = entering & (p.eta > Lanes(1.0f));
+    p.eta = select(disperses, p.eta * select(entering, denser, Lanes(1.0f) / denser), p.eta);
+    out.wavelength = select(disperses, LanesU(one_wavelength), LanesU(0U));
+    const Mask first = disperses & ((path.bodies & LanesU(one_wavelength)) == LanesU(0U));
     out.tint = select(first, wavelength.color, out.tint);
-    out.boundary.beyond =
-        select(disperses, out.boundary.beyond | LanesU(one_wavelength), out.boundary.beyond);
 }
 
 LayeredPoint read_point(const LayerReader& layers,
@@ -203,12 +208,14 @@ LayeredPoint read_point(const LayerReader& layers,
     LayeredParams<Lanes>& p = out.params;
     p.solid = body > LanesI(0);
     out.tint = splat3(Lanes(1.0f));
-    disperse(layers, path.path_key, place.front, out);
+    out.wavelength = LanesU(0U);
+    out.reflects_white = Mask(false);
     p.base_color = base.base_color;
     p.metallic = base.metallic;
     p.alpha = {base.alpha, base.alpha};
     p.eta = select(p.solid, out.boundary.eta, layers.number(OBSCURA_LAYER_WORD(ior)));
     read_dielectric(layers, p);
+    disperse(layers, path, place.front, out);
     read_sheen(layers, p);
     read_anisotropy(layers, place, p);
     read_coat(layers, place, p);
@@ -245,7 +252,7 @@ BsdfValue<Lanes> evaluate_layers(const LayeredPoint& point,
 
 BsdfSample<Lanes> sample_layers(const LayeredPoint& point,
                                 const Vec3<Lanes>& wo,
-                                const Vec2<Lanes>& u) {
+                                const Vec3<Lanes>& u) {
     return sample_layered(point.params, point.weights, wo, u);
 }
 

@@ -9,9 +9,9 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// The path key whose wavelength is 587.56 nm, the d line of helium: for this the indices of
-/// refraction are given, so that nothing is dispersed.
-inline constexpr uint32_t d_line_key = 0xD5A58U;
+/// The pixel key that gives a path's sample 0 the wavelength 587.56 nm, the d line of helium: for
+/// this the indices of refraction are given, so that nothing is dispersed.
+inline constexpr uint32_t d_line_key = 0x5505BU;
 
 /// Where a hit lies on its surface, for its layers.
 struct LayerPlace {
@@ -30,7 +30,9 @@ struct LayeredPoint {
     LayeredParams<Lanes> params;
     LayeredWeights<Lanes> weights;
     Boundary boundary;
-    Vec3<Lanes> tint;  ///< for the path: its wavelength's, once a dispersive surface is met; else 1
+    Vec3<Lanes> tint;     ///< of paths that are given a wavelength here; else 1
+    LanesU wavelength;    ///< what bodies gain by it: one_wavelength, or 0 where nothing disperses
+    Mask reflects_white;  ///< only what goes through is given a wavelength
     Mask lets_through;
 };
 
@@ -53,7 +55,7 @@ BsdfValue<Lanes> evaluate_layers(const LayeredPoint& point,
 
 BsdfSample<Lanes> sample_layers(const LayeredPoint& point,
                                 const Vec3<Lanes>& wo,
-                                const Vec2<Lanes>& u);
+                                const Vec3<Lanes>& u);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -128,8 +128,8 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Shade
     for (int i = range.first_hit; i < end; i += lane_count) {
         const Mask exists = rows_in_range(i, end);
         PathLanes path = load_paths(rows.paths, i);
-        const LanesU path_key = path.path_key;
-        path.path_key = LanesU(d_line_key);  // pixels must not differ in their wavelengths
+        path.key = LanesU(d_line_key);  // pixels must not differ in their wavelengths
+        path.sample = LanesU(0U);
         const HitLanes hit = hits_of_paths(rows, i, exists, path);
         const ShadingPoint s =
             shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
@@ -155,7 +155,7 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Shade
                 rows.shadows,
                 shadows,
                 useful,
-                {start, light.direction, light.distance, radiance, path.slot, path_key});
+                {start, light.direction, light.distance, radiance, path.slot, path.path_key});
         }
     }
     return shadows;

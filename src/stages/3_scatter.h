@@ -18,10 +18,11 @@ OBSCURA_INLINE BsdfValue<Lanes> evaluate_point(const ShadingPoint& s,
     return {select(l.layered, all.value_cos, core.value_cos), select(l.layered, all.pdf, core.pdf)};
 }
 
+/// In   u: z is read where the surface lets light through
 OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
                                               const Vec3<Lanes>& wo,
-                                              const Vec2<Lanes>& u) {
-    const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, u);
+                                              const Vec3<Lanes>& u) {
+    const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, Vec2<Lanes>{u.x, u.y});
     if (!s.any_layers) return core;
     const LayeredPoint& l = s.layers;
     const BsdfSample<Lanes> all = sample_layers(l, wo, u);
@@ -37,6 +38,20 @@ OBSCURA_INLINE Mask may_leave(const ShadingPoint& s, Mask before, const Vec3<Lan
     if (!s.any_layers) return before;
     const Mask through = s.layers.lets_through & (!before) & (wi.z < Lanes(0.0f));
     return (before & (wi.z > Lanes(0.0f))) | through;
+}
+
+/// What the wavelength that a path is given here multiplies it with.
+///
+/// In   s: with layers; before: rays that leave on the viewer's side
+OBSCURA_INLINE Vec3<Lanes> wavelength_tint(const ShadingPoint& s, Mask before) {
+    return select(before & s.layers.reflects_white, splat3(Lanes(1.0f)), s.layers.tint);
+}
+
+/// The bodies around a path that leaves. One that was given a wavelength keeps it.
+OBSCURA_INLINE LanesU bodies_towards(const ShadingPoint& s, LanesU bodies, Mask before) {
+    const LayeredPoint& l = s.layers;
+    const LanesU given = select(before & l.reflects_white, LanesU(0U), l.wavelength);
+    return select(before, bodies, l.boundary.beyond) | given;
 }
 
 }  // namespace OBSCURA_ISA

@@ -137,6 +137,7 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
         both ? select(light.pdf > Lanes(0.0f), mis_weight(light.pdf, bsdf.pdf), Lanes(1.0f))
              : Lanes(1.0f);
     Vec3<Lanes> radiance = path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
+    if (s.any_layers) radiance = radiance * wavelength_tint(s, before);
     if (scene.media != nullptr) {
         const LanesU bodies =
             s.any_layers ? select(before, path.bodies, s.layers.boundary.beyond) : path.bodies;
@@ -159,6 +160,20 @@ OBSCURA_INLINE Lanes survival(const Vec3<Lanes>& throughput, int bounce) {
     return clamp(max_component(throughput), Lanes(0.05f), Lanes(1.0f));
 }
 
+/// The numbers that choose a direction. The third, which only surfaces read that let light through,
+/// is the half of roulette's pair that nothing else reads.
+OBSCURA_INLINE Vec3<Lanes> direction_random(const PathLanes& path,
+                                            const ShadingPoint& s,
+                                            const BounceRandom& random,
+                                            int bounce) {
+    Lanes facet(0.0f);
+    if (s.any_layers && any(s.layers.lets_through)) {
+        facet =
+            unit_float<Lanes>(random_pair(path.key, path.sample, bounce, RandomUse::roulette).y);
+    }
+    return {random.bsdf.x, random.bsdf.y, facet};
+}
+
 /// Writes the next rays of one group; returns the new number of rows.
 OBSCURA_INLINE int add_next_rays(const PathRows& rows,
                                  int at,
@@ -169,13 +184,14 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
                                  int bounce,
                                  Lanes distance) {
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
-    const BsdfSample<Lanes> sample = sample_point(s, wo, random.bsdf);
+    const Vec3<Lanes> u = direction_random(path, s, random, bounce);
+    const BsdfSample<Lanes> sample = sample_point(s, wo, u);
     const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
     const Mask before = dot(direction, s.ng) > Lanes(0.0f);
     Mask goes_on = active & (sample.at.pdf > Lanes(0.0f)) & may_leave(s, before, sample.direction);
     if (none(goes_on)) return at;
-    const Vec3<Lanes> weight =
-        sample.at.value_cos * (Lanes(1.0f) / max(sample.at.pdf, Lanes(1e-30f)));
+    Vec3<Lanes> weight = sample.at.value_cos * (Lanes(1.0f) / max(sample.at.pdf, Lanes(1e-30f)));
+    if (s.any_layers) weight = weight * wavelength_tint(s, before);
     const Vec3<Lanes> throughput = path.throughput * weight;
     const Lanes survives = survival(throughput, bounce);
     goes_on = goes_on & (random.roulette < survives) & (max_component(throughput) > Lanes(0.0f));
@@ -192,11 +208,8 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
     next.path_key = path.path_key;
     next.bodies = path.bodies;
     if (s.any_layers) {
-        const Mask passes = goes_on & (!before);
-        next.origin = select(passes, s.start_beyond, next.origin);
-        // A path that was given a wavelength keeps it, reflected or not.
-        const LanesU reflected = path.bodies | (s.layers.boundary.beyond & LanesU(one_wavelength));
-        next.bodies = select(passes, s.layers.boundary.beyond, reflected);
+        next.origin = select(before, next.origin, s.start_beyond);
+        next.bodies = bodies_towards(s, path.bodies, before);
     }
     return append_paths(rows, at, goes_on, next);
 }
@@ -254,7 +267,6 @@ ShadeCounts shade(const SceneView& scene,
         const BounceRandom random = bounce_random(path, bounce, scene.lights.count, draws[group]);
         const ShadingPoint s =
             shading_point(scene, hit, path, random.texture, Filtering::stochastic);
-        if (s.any_layers) path.throughput = path.throughput * s.layers.tint;
         add_emission(scene, batch, rows, exists, path, s, hit.t);
         Mask scatters = exists & (!s.unlit);
         if (bounce > batch.max_bounces || none(scatters)) continue;

@@ -36,7 +36,7 @@ struct LayeredWeights {
     F below_sheen;
     F diffuse;      ///< what neither reflects at the dielectric boundary nor passes it
     F transmitted;  ///< transmission of the dielectric part
-    F p_diffuse, p_specular, p_coat, p_transmission, p_behind;  ///< of sample_layered, sum 1
+    F p_diffuse, p_facet, p_coat, p_behind;  ///< of sample_layered's lobes, sum 1
 };
 
 inline namespace OBSCURA_ISA {
@@ -116,7 +116,7 @@ OBSCURA_INLINE F inner_boundary_albedo(const LayeredParams<F>& p, const Vec3<F>&
 template <typename F>
 OBSCURA_INLINE LayeredWeights<F> layered_weights(const LayeredParams<F>& p, const Vec3<F>& wo) {
     const F one(1.0f);
-    LayeredWeights<F> w{one, one, one, one, one, one, one, one, one, one};
+    LayeredWeights<F> w{one, one, one, one, one, one, one, one, one};
     const F coat_share =
         p.coat * specular_albedo(F(dielectric_f0), dot(wo, p.coat_normal), p.coat_alpha);
     w.below_coat = one - coat_share;
@@ -149,24 +149,52 @@ OBSCURA_INLINE LayeredWeights<F> layered_weights(const LayeredParams<F>& p, cons
         below * w.diffuse * p.diffuse_transmission * luminance(p.diffuse_transmission_color);
     const F transmitted = below * w.transmitted * (one - reflected) * color;
     // What exists at all is tried now and then, for other directions than the mirrored one.
-    const F sum = max(specular + diffuse + behind + transmitted + coat_share, F(1e-6f));
+    const F facet = specular + transmitted;
+    const F sum = max(facet + diffuse + behind + coat_share, F(1e-6f));
     const auto at_least = [&](const F& share, const MaskOf<F>& exists) {
         return select(exists, max(share / sum, F(0.05f)), F(0.0f));
     };
     const F zero(0.0f);
     w.p_diffuse = at_least(diffuse, diffuse > zero);
-    w.p_specular = at_least(specular, specular > zero);
+    w.p_facet = at_least(facet, (specular > zero) | (w.transmitted * color > zero));
     w.p_coat = at_least(coat_share, p.coat > zero);
-    w.p_transmission = at_least(transmitted, w.transmitted * color > zero);
     w.p_behind = at_least(behind, behind > zero);
-    const F total = w.p_diffuse + w.p_specular + w.p_coat + w.p_transmission + w.p_behind;
+    const F total = w.p_diffuse + w.p_facet + w.p_coat + w.p_behind;
     const F scale = one / max(total, F(1e-6f));
     w.p_diffuse = w.p_diffuse * scale;
-    w.p_specular = w.p_specular * scale;
+    w.p_facet = w.p_facet * scale;
     w.p_coat = w.p_coat * scale;
-    w.p_transmission = w.p_transmission * scale;
     w.p_behind = w.p_behind * scale;
     return w;
+}
+
+/// What the microfacets leave of the light, dielectric and metal mixed.
+template <typename F>
+OBSCURA_INLINE Vec3<F> facet_reflectance(const LayeredParams<F>& p,
+                                         const LayeredFresnel<F>& fresnel) {
+    return fresnel.dielectric * (F(1.0f) - p.metallic) + fresnel.metal * p.metallic;
+}
+
+template <typename F>
+OBSCURA_INLINE F channel_mean(const Vec3<F>& rgb) {
+    return (rgb.x + rgb.y + rgb.z) * F(1.0f / 3);
+}
+
+/// Probability that sample_layered reflects at a microfacet rather than going through it: in the
+/// proportion of what it leaves of the channels' mean. No channel is more than three times that, so
+/// that what microfacets do weighs 3 at most, 1 where it has no colour.
+///
+/// Source  Walter et al., "Microfacet Models for Refraction", EGSR 2007, sec. 5.3: choosing by the
+///         reflectance of the microfacet itself
+template <typename F>
+OBSCURA_INLINE F facet_reflects(const LayeredParams<F>& p,
+                                const LayeredWeights<F>& w,
+                                const LayeredFresnel<F>& fresnel) {
+    const F passes = F(1.0f) - max_component(fresnel.dielectric);
+    const F transmitted = w.transmitted * max(passes, F(0.0f)) * channel_mean(p.base_color);
+    const F reflected = channel_mean(facet_reflectance(p, fresnel));
+    return select(
+        transmitted > F(0.0f), reflected / max(reflected + transmitted, F(1e-20f)), F(1.0f));
 }
 
 /// Light that is reflected: wi.z > 0.
@@ -181,7 +209,7 @@ OBSCURA_INLINE BsdfValue<F> layered_reflection(const LayeredParams<F>& p,
     const F specular = over_o / smith_denominator(wi, p.alpha);  // D * V
     const F one(1.0f);
     Vec3<F> f = p.base_color * (w.diffuse * (one - p.diffuse_transmission) * F(1.0f / pi_f)) +
-                (fresnel.dielectric * (one - p.metallic) + fresnel.metal * p.metallic) * specular;
+                facet_reflectance(p, fresnel) * specular;
     f = f * wi.z;
     const F most_sheen = max_component(p.sheen_color);
     if (any(most_sheen > F(0.0f))) {
@@ -189,7 +217,9 @@ OBSCURA_INLINE BsdfValue<F> layered_reflection(const LayeredParams<F>& p,
         const F sheen = w.sheen_scale * charlie_cos(wo.z, wi.z, h.z, p.sheen_alpha);
         f = f * min(w.below_sheen, below_i) + p.sheen_color * sheen;
     }
-    F pdf = w.p_diffuse * wi.z * F(1.0f / pi_f) + w.p_specular * over_o * F(0.5f);
+    F by_facet = w.p_facet;
+    if (any(w.transmitted > F(0.0f))) by_facet = by_facet * facet_reflects(p, w, fresnel);
+    F pdf = w.p_diffuse * wi.z * F(1.0f / pi_f) + by_facet * over_o * F(0.5f);
     if (any(p.coat > F(0.0f))) {
         const BsdfValue<F> coat = coat_lobe(p, wo, wi);
         f = f * w.below_coat + coat.value_cos * p.coat;
@@ -246,14 +276,16 @@ OBSCURA_INLINE BsdfValue<F> layered_transmission(const LayeredParams<F>& p,
     F pdf = w.p_behind * cosine * F(1.0f / pi_f);
     if (any(w.transmitted > zero)) {
         const Crossing<F> c = crossing(p, wo, wi);
-        const F passes = one - max_component(layered_fresnel(p, c.cosine).dielectric);
+        const LayeredFresnel<F> fresnel = layered_fresnel(p, c.cosine);
+        const F passes = one - max_component(fresnel.dielectric);
         // D G1(wo) / cos_o, of visible normals
         const F density =
             F(2.0f) * ggx_distribution(c.h, p.alpha) / smith_denominator(wo, p.alpha) * c.jacobian;
         const F masking = F(2.0f) * cosine / smith_denominator(wi, p.alpha);
         const F through = w.transmitted * passes * density * masking;
         value = value + p.base_color * select(c.possible, through, zero);
-        pdf = pdf + select(c.possible, w.p_transmission * density, zero);
+        const F by_facet = w.p_facet * (one - facet_reflects(p, w, fresnel));
+        pdf = pdf + select(c.possible, by_facet * density, zero);
     }
     return {value * below, pdf};
 }
@@ -298,17 +330,21 @@ OBSCURA_INLINE Vec3<F> transmit(const LayeredParams<F>& p, const Vec3<F>& wo, co
 }
 
 /// Chooses wi for a given wo (wo.z > 0), as sample_bsdf does; pdf 0: the path ends.
+///
+/// In   u: x picks the lobe, then places the direction together with y; z: whether a microfacet,
+///      once it is drawn, reflects
 template <typename F>
 OBSCURA_INLINE BsdfSample<F> sample_layered(const LayeredParams<F>& p,
                                             const LayeredWeights<F>& w,
                                             const Vec3<F>& wo,
-                                            const Vec2<F>& u) {
-    const F shares[5] = {w.p_diffuse, w.p_behind, w.p_specular, w.p_transmission, w.p_coat};
+                                            const Vec3<F>& u) {
+    constexpr int lobes = 4;
+    const F shares[lobes] = {w.p_diffuse, w.p_behind, w.p_facet, w.p_coat};
     F begin(0.0f);
     F end(0.0f);
     F from(0.0f);
     F number(0.0f);
-    for (int lobe = 0; lobe < 5; ++lobe) {  // the last one that begins at or below u.x
+    for (int lobe = 0; lobe < lobes; ++lobe) {  // the last one that begins at or below u.x
         end = begin + shares[lobe];
         const auto in = (shares[lobe] > F(0.0f)) & (u.x >= begin);
         from = select(in, begin, from);
@@ -316,20 +352,27 @@ OBSCURA_INLINE BsdfSample<F> sample_layered(const LayeredParams<F>& p,
         begin = end;
     }
     F share = shares[0];
-    for (int lobe = 1; lobe < 5; ++lobe)
+    for (int lobe = 1; lobe < lobes; ++lobe)
         share = select(number == F(static_cast<float>(lobe)), shares[lobe], share);
     const F stretched_x = clamp((u.x - from) / max(share, F(1e-6f)), F(0.0f), F(0x1.fffffep-1f));
     const Vec2<F> stretched{stretched_x, u.y};
 
-    const auto coated = number == F(4.0f);
+    const auto behind = number == F(1.0f);
+    const auto by_facet = number == F(2.0f);
+    const auto coated = number == F(3.0f);
     Vec3<F> wi = cosine_hemisphere(stretched);
-    wi.z = select(number == F(1.0f), -wi.z, wi.z);
-    const auto by_facet = (number >= F(2.0f)) & (!coated);
+    wi.z = select(behind, -wi.z, wi.z);
+    auto through = behind;
     if (any(by_facet)) {
         const Vec3<F> h = sample_visible_normal(wo, p.alpha, stretched);
-        const Vec3<F> mirrored = h * (F(2.0f) * dot(wo, h)) - wo;
-        wi = select(number == F(2.0f), mirrored, wi);
-        wi = select(number == F(3.0f), transmit(p, wo, h), wi);
+        const F cosine = dot(wo, h);
+        wi = select(by_facet, h * (F(2.0f) * cosine) - wo, wi);
+        if (any(w.transmitted > F(0.0f))) {
+            const F reflects = facet_reflects(p, w, layered_fresnel(p, cosine));
+            const auto passes = by_facet & (u.z >= reflects);
+            wi = select(passes, transmit(p, wo, h), wi);
+            through = through | passes;
+        }
     }
     if (any(coated)) {
         const Frame<F> frame = frame_around(p.coat_normal);
@@ -338,7 +381,6 @@ OBSCURA_INLINE BsdfSample<F> sample_layered(const LayeredParams<F>& p,
         wi = select(coated, to_world(frame, h * (F(2.0f) * dot(o, h)) - o), wi);
     }
     // What a lobe sends to the wrong side ends.
-    const auto through = (number == F(1.0f)) | (number == F(3.0f));
     const auto below = wi.z < F(0.0f);
     const auto fits = (below & through) | ((!below) & (!through));
     BsdfValue<F> at = evaluate_layered(p, w, wo, wi);

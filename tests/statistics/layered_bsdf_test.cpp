@@ -12,14 +12,13 @@ namespace {
 
 using namespace test;
 
-constexpr int test_count = 18;
+constexpr int test_count = 24;
 constexpr int sample_count = 200000;
 
 ChiSquareOutcome compare(const LayeredParams<float>& p, const Vec3f& wo, double lie = 1) {
     const LayeredWeights<float> weights = layered_weights(p, wo);
     const auto sample = [&](Pcg32& random) -> std::optional<Vec3d> {
-        const float x = random.next_float();
-        const auto s = sample_layered(p, weights, wo, Vec2f{x, random.next_float()});
+        const auto s = sample_layered(p, weights, wo, random_point(random));
         if (!(s.at.pdf > 0)) return std::nullopt;
         return normalize(convert<double>(s.direction));
     };
@@ -75,6 +74,21 @@ TEST(LayerStatistics, LayersThatLetLightThrough) {
     LayeredParams<float> leaf = plain_layers(0.5F);
     leaf.diffuse_transmission = 0.6F;
     expect_right(leaf, "leaf");
+}
+
+TEST(LayerStatistics, MixturesThatMicrofacetsMake) {
+    LayeredParams<float> stained = clear_glass(0.3F, 1 / 1.5F);
+    stained.base_color = {0.1F, 0.02F, 0.9F};
+    expect_right(stained, "stained glass from within");
+    stained.metallic = 0.4F;
+    stained.transmission = 0.6F;
+    stained.solid = false;
+    expect_right(stained, "half metal, half plastic");
+    LayeredParams<float> bubble = clear_glass(0.2F, 1.3F);
+    bubble.film.strength = 1;
+    bubble.coat = 0.5F;
+    bubble.coat_alpha = 0.1F;
+    expect_right(bubble, "coated film");
 }
 
 TEST(LayerStatistics, Mixtures) {

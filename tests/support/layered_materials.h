@@ -99,6 +99,13 @@ LayeredParams<F> convert(const LayeredParams<float>& p) {
     return out;
 }
 
+/// A point of the unit cube, for sample_layered.
+inline Vec3f random_point(Pcg32& random) {
+    const float x = random.next_float();
+    const float y = random.next_float();
+    return {x, y, random.next_float()};
+}
+
 /// A direction above the horizon whose cosine is at least `least`.
 inline Vec3f direction_above(Pcg32& random, float least) {
     const float z = least + (1 - least) * random.next_float();

@@ -32,8 +32,7 @@ Furnace white_furnace(const LayeredParams<float>& p, const Vec3f& wo) {
     Furnace out;
     double squares = 0;
     for (int i = 0; i < furnace_samples; ++i) {
-        const float x = random.next_float();
-        const auto sample = sample_layered(p, weights, wo, Vec2f{x, random.next_float()});
+        const auto sample = sample_layered(p, weights, wo, random_point(random));
         if (!(sample.at.pdf > 0)) continue;
         const Vec3f w = sample.at.value_cos * (1.0F / sample.at.pdf);
         out.mean = out.mean + Vec3d{w.x, w.y, w.z};
@@ -139,14 +138,48 @@ TEST(Layers, SheenIsTheIntegralOfItsTable) {
     }
 }
 
+/// Glass mixed with metal, tinted, under a film: everything that only microfacets do.
+LayeredParams<float> stained_glass(float alpha, float eta) {
+    LayeredParams<float> p = clear_glass(alpha, eta);
+    p.base_color = {0.1F, 0.02F, 0.9F};
+    p.metallic = 0.3F;
+    p.film.strength = 0.7F;
+    return p;
+}
+
+/// Samples weigh what is left after one masking, G1, times what the microfacet leaves of a channel
+/// over what it leaves of the channels' mean.
+void expect_bounded_weights(const LayeredParams<float>& p, float bound) {
+    constexpr int samples = random_cases / 1000;
+    Pcg32 random(12);
+    for (const float cosine : {1.0F, 0.8F, 0.6F, 0.3F, 0.1F, 0.03F}) {
+        const Vec3f wo{std::sqrt(1 - cosine * cosine), 0, cosine};
+        const LayeredWeights<float> weights = layered_weights(p, wo);
+        for (int n = 0; n < samples; ++n) {
+            const auto sample = sample_layered(p, weights, wo, random_point(random));
+            if (!(sample.at.pdf > 0)) continue;
+            ASSERT_LT(max_component(sample.at.value_cos) / sample.at.pdf, bound + 1e-5F)
+                << "eta " << p.eta << ", alpha " << p.alpha.x << ", cosine " << cosine;
+        }
+    }
+}
+
+TEST(Layers, NoSampleOfGlassWeighsMoreThanItsColour) {
+    for (const float eta : {0.0F, 1.001F, 1.5F, 2.4F, 1 / 1.5F, 1 / 2.4F}) {
+        for (const float alpha : {min_ggx_alpha, 0.01F, 0.1F, 0.4F, 1.0F}) {
+            expect_bounded_weights(clear_glass(alpha, eta), 1);
+            expect_bounded_weights(stained_glass(alpha, eta), 3);
+        }
+    }
+}
+
 TEST(Layers, RandomParametersNeverLeaveTheNumbers) {
     Pcg32 random(3);
     for (int n = 0; n < random_cases; ++n) {
         const LayeredParams<float> p = random_layers(random, min_ggx_alpha);
         const Vec3f wo = direction_above(random, n % 4 == 0 ? 0.0F : 1e-4F);
         const LayeredWeights<float> weights = layered_weights(p, wo);
-        const float x = random.next_float();
-        const auto sample = sample_layered(p, weights, wo, Vec2f{x, random.next_float()});
+        const auto sample = sample_layered(p, weights, wo, random_point(random));
         ASSERT_TRUE(std::isfinite(sample.at.pdf) && sample.at.pdf >= 0) << n;
         ASSERT_TRUE(std::isfinite(max_component(sample.at.value_cos))) << n;
         ASSERT_NEAR(length(sample.direction), 1, 1e-3F) << n;

@@ -101,15 +101,38 @@ TEST(Bodies, ACameraMayBeInsideTwoBodies) {
     EXPECT_NEAR(seen_from_front(scene.take()).x, std::exp(-1.001), 0.01);
 }
 
-TEST(Bodies, DispersionHasNoColourWhereNothingBends) {
+/// A block of flint before a white sky.
+Scene flint_block(float absorption) {
     BodyScene scene;
-    MaterialLayers flint = body(1.6f, {0.0f, 0.0f, 0.0f});
+    MaterialLayers flint = body(1.6f, {absorption, absorption, absorption});
     flint.dispersion = 1;
     scene.box({-9, -9, -1}, {9, 9, 0}, scene.add(flint));
-    const Vec3d seen = seen_from_front(scene.take());
-    EXPECT_NEAR(seen.x, 1, 0.02);
-    EXPECT_NEAR(seen.y, 1, 0.02);
-    EXPECT_NEAR(seen.z, 1, 0.02);
+    return scene.take();
+}
+
+TEST(Bodies, DispersionHasNoColourWhereNothingBends) {
+    const Vec3d seen = seen_from_front(flint_block(0));
+    EXPECT_NEAR(seen.x, 1, 0.004);
+    EXPECT_NEAR(seen.y, 1, 0.004);
+    EXPECT_NEAR(seen.z, 1, 0.004);
+}
+
+/// A pixel's wavelengths are spread evenly: by chance, 64 of them would be 0.15 apart from white.
+TEST(Bodies, DispersionHasLittleColourInAnyPixel) {
+    for (const Mean& channel : means_from_front(flint_block(0), {.samples = 64})) {
+        const double pixel_error = channel.error * picture_size;
+        EXPECT_LT(pixel_error, 0.05);
+    }
+}
+
+/// What does not go through has no wavelength.
+TEST(Bodies, ReflectionsOffDispersiveBodiesAreWhite) {
+    const auto means = means_from_front(flint_block(1000), {.samples = 1});
+    EXPECT_GT(means[0].value, 0);
+    EXPECT_EQ(means[0].value, means[1].value);
+    EXPECT_EQ(means[0].value, means[2].value);
+    const Vec3d seen = seen_from_front(flint_block(1000));
+    EXPECT_NEAR(seen.x, square(0.6 / 2.6), 0.003);
 }
 
 }  // namespace
