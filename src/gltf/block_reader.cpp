@@ -61,7 +61,7 @@ Affined BlockReader::block_from_mesh(BlockSpace space, const PlacedNode& from) c
     const Affined& within = sources_.mover_from_node[static_cast<size_t>(from.node)];
     if (space == BlockSpace::mover) return within;
     const std::vector<Affined>& anchors = *sources_.meshes.anchors;
-    return compose(anchors[static_cast<size_t>(from.mover)], within);
+    return compose(anchors[static_cast<size_t>(from.mover)], compose(within, from.node_from_mesh));
 }
 
 Result<MeshPart> BlockReader::read_job(BlockSpace space, const PartJob& job) const {

@@ -111,6 +111,7 @@ Result<void> add_instances(const Document& document,
                         "the rotation of instance " + std::to_string(i) + " has no length");
         }
         out.push_back(place);
+        out.back().node_from_mesh = node_from_instance;
         out.back().world_from_node = compose(place.world_from_node, node_from_instance);
     }
     return {};

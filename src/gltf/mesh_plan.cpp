@@ -105,8 +105,7 @@ void Planner::add_strokes(const MeshUse& use, int placed) {
     MeshBlock strokes;
     add_jobs(use, placed, JobKind::strokes, strokes);
     const bool moves = mover(placed) >= 0;
-    const bool follows =
-        options_.anchored && moves && !use.bends && !is_instanced(node(placed).instancing);
+    const bool follows = options_.anchored && moves && !use.bends;
     if (!follows) {
         if (moves && (!place(placed).visible || is_flat(placed, place(placed).world_from_node))) {
             return;

@@ -12,10 +12,11 @@ namespace obscura {
 /// A node of the chosen scene, in depth-first order.
 struct PlacedNode {
     int node = 0;
-    Affined world_from_node;
-    bool visible = true;   ///< false: only its camera counts (KHR_node_visibility)
-    bool may_show = true;  ///< at some time it is visible, as far as animations tell
-    int mover = -1;        ///< the nearest animated node, itself or above it; -1: it stands still
+    Affined world_from_node;      ///< of an instance (gltf/instancing.h): where its mesh is
+    Affined node_from_mesh = {};  ///< of an instance; no time changes it
+    bool visible = true;          ///< false: only its camera counts (KHR_node_visibility)
+    bool may_show = true;         ///< at some time it is visible, as far as animations tell
+    int mover = -1;  ///< the nearest animated node, itself or above it; -1: it stands still
 };
 
 /// Every node has at most one parent and none is its own ancestor. Linear in the file's size.

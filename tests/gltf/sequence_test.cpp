@@ -234,5 +234,52 @@ TEST(Sequence, PointsMoveWithTheirNodeWhileAShutterIsOpen) {
     EXPECT_EQ(load_at(builder.finished(), 0.5).scene->world_primitive_count, 2);
 }
 
+/// Of all points and of the ends of all lines, without their radii.
+std::vector<float> places(const Scene& scene) {
+    std::vector<float> out;
+    for (const Primitive& primitive : scene.primitives) {
+        if (primitive.geometry != static_cast<int32_t>(GeometryKind::spheres)) continue;
+        for (int32_t i = 0; i < primitive.triangle_count; ++i) {
+            const float* at = &scene.spheres[sphere_word(
+                static_cast<size_t>(primitive.first_triangle) + static_cast<size_t>(i))];
+            out.insert(out.end(), {at[0], at[sphere_block], at[2 * sphere_block]});
+        }
+    }
+    for (size_t i = 0; i < scene.curve_points.size(); i += 4) {
+        const float* at = &scene.curve_points[i];
+        out.insert(out.end(), {at[0], at[1], at[2]});
+    }
+    return out;
+}
+
+/// Every instance of points is carried along: where a turning node's rows are at the opening, they
+/// are in the mesh; where they are later, the instance's motion tells.
+TEST(Sequence, InstancedPointsAndLinesMoveWithTheirNode) {
+    for (const int mode : {0, 1}) {
+        AssetBuilder builder = sliding_asset();
+        builder.tree["meshes"][2]["primitives"][0]["mode"] = mode;
+        builder.tree["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
+        const int t = builder.add_accessor("VEC3", 5126, F{0, 0, 0, 1, 2, 3, 0, 0, 9});
+        const int s = builder.add_accessor("VEC3", 5126, F{1, 1, 1, 2, 3, 1, 1, 1, 1});
+        builder.tree["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
+            {"TRANSLATION", t}, {"SCALE", s}};
+        const json tree = builder.finished();
+        expect_sequence(tree);
+        OpenAsset open(tree);
+        const Result<Scene> scene = open.asset->scene_between({0.5, 1.0}, true, open.log);
+        ASSERT_TRUE(scene);
+        ASSERT_EQ(scene->meshes.size(), 3U);
+        EXPECT_EQ(scene->meshes[2].primitive_count, 3);
+        EXPECT_EQ(scene->world_primitive_count, 1) << "what stands still";
+        ASSERT_TRUE(moves(scene->instances.back()));
+        const auto last = static_cast<size_t>(scene->instances.back().motion) + 8;
+        EXPECT_FLOAT_EQ(scene->motion.instances[last].m[0][3], 1.0F);
+        // At one time alone they lie in the world: the same places.
+        const Loaded alone = load_at(tree, 0.5);
+        EXPECT_EQ(places(*scene), places(*alone.scene));
+        EXPECT_EQ(places(*scene).size(), mode == 0 ? 27U : 18U);
+    }
+}
+
 }  // namespace
 }  // namespace obscura
