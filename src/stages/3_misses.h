@@ -2,29 +2,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "math/sampler.h"
 #include "stages/3_lights.h"
 #include "stages/3_shade.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Environment light along a ray that the BSDF chose with density `pdf`, with the MIS weight of
-/// each pixel that is mixed.
-OBSCURA_INLINE Vec3<Lanes> weighted_environment(const SceneView& scene,
-                                                int strategies,
-                                                const EnvironmentTaps<Lanes>& taps,
-                                                Lanes pdf) {
-    Vec3<Lanes> sum = splat3(Lanes(0.0f));
-    for (int i = 0; i < 4; ++i) {
-        Lanes weight = taps.weight[i];
-        if (strategies == (sample_lights | sample_bsdfs)) {
-            weight = weight * mis_weight(pdf, taps.pdf[i] * Lanes(scene.lights.environment_select));
-        } else if (strategies == sample_lights) {
-            weight = select(taps.pdf[i] > Lanes(0.0f), Lanes(0.0f), weight);
-        }
-        sum = sum + taps.radiance[i] * weight;
+/// Environment light of camera rays that left the scene.
+inline void add_background(const EnvironmentView& environment,
+                           int count_in,
+                           const MissRows& m,
+                           const SampleRows& samples) {
+    for (int i = 0; i < count_in; i += lane_count) {
+        const Mask exists = rows_in_range(i, count_in);
+        const Vec3<Lanes> direction =
+            select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
+        const Vec3<Lanes> light = environment_radiance(environment, direction);
+        add_radiance(samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
     }
-    return sum;
+}
+
+/// Weight of environment light along a ray that the BSDF chose with density `pdf`, where light
+/// sampling has the density `other`.
+OBSCURA_INLINE Lanes environment_weight(int strategies, Lanes pdf, Lanes other) {
+    const Mask either = (pdf > Lanes(0.0f)) & (other > Lanes(0.0f));
+    if (strategies == sample_bsdfs) return Lanes(1.0f);
+    const Lanes weight = strategies == sample_lights ? Lanes(0.0f) : mis_weight(pdf, other);
+    return select(either, weight, Lanes(1.0f));
+}
+
+/// A pixel of the environment that a bounced ray meets; its memory is on its way.
+struct MetPixel {
+    LanesI word;
+    Lanes sin_theta;
+};
+
+OBSCURA_INLINE MetPixel
+meet_pixel(const EnvironmentView& environment, const MissRows& m, int i, Mask exists, int bounce) {
+    const Vec3<Lanes> direction =
+        select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
+    const EnvironmentCell<Lanes> cell = environment_cell(environment, direction);
+    const LanesU random =
+        hash_word(load(m.path_key + i) + LanesU(static_cast<uint32_t>(bounce) * 0x9E3779B9U));
+    const MetPixel met{choose_environment_pixel(cell, random), cell.sin_theta};
+    prefetch<Lanes>(environment.pixels, met.word);
+    return met;
 }
 
 /// Environment light of the paths that left the scene.
@@ -33,27 +56,28 @@ inline void shade_misses(const SceneView& scene,
                          int bounce,
                          int count_in,
                          const ShadeRows& rows) {
-    if (!scene.has_environment || (bounce == 0 && !batch.background_visible)) return;
+    const EnvironmentView& environment = scene.environment;
     const MissRows& m = rows.misses;
-    // Camera rays look at neighbouring pixels, the others at any.
-    const int step = bounce == 0 ? lane_count : groups_ahead * lane_count;
-    EnvironmentCell<Lanes> cells[groups_ahead];
-    for (int first = 0; first < count_in; first += step) {
-        const int end = min(first + step, count_in);
+    if (!scene.has_environment) return;
+    if (bounce == 0) {
+        if (batch.background_visible) add_background(environment, count_in, m, rows.samples);
+        return;
+    }
+    MetPixel met[groups_ahead];
+    for (int first = 0; first < count_in; first += groups_ahead * lane_count) {
+        const int end = min(first + groups_ahead * lane_count, count_in);
+        for (int i = first, k = 0; i < end; i += lane_count, ++k)
+            met[k] = meet_pixel(environment, m, i, rows_in_range(i, count_in), bounce);
         for (int i = first, k = 0; i < end; i += lane_count, ++k) {
-            const Vec3<Lanes> direction = select(
-                rows_in_range(i, count_in), load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
-            cells[k] = environment_cell(scene.environment, direction);
-            if (bounce > 0) prefetch_cell(scene.environment, cells[k]);
-        }
-        for (int i = first, k = 0; i < end; i += lane_count, ++k) {
-            const Mask exists = rows_in_range(i, count_in);
-            const EnvironmentTaps<Lanes> taps = environment_taps(scene.environment, cells[k]);
-            const Vec3<Lanes> light =
-                bounce == 0 ? mix(taps)
-                            : weighted_environment(scene, batch.strategies, taps, load(m.pdf + i));
-            add_radiance(
-                rows.samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
+            const Four<Lanes> pixel = gather4<Lanes>(environment.pixels, met[k].word);
+            const Lanes other = environment_density(pixel.w, met[k].sin_theta) *
+                                Lanes(scene.lights.environment_select);
+            const Lanes weight = environment_weight(batch.strategies, load(m.pdf + i), other);
+            const Vec3<Lanes> light = Vec3<Lanes>{pixel.x, pixel.y, pixel.z} * weight;
+            add_radiance(rows.samples,
+                         rows_in_range(i, count_in),
+                         load(m.slot + i),
+                         light * load3(m.tr, m.tg, m.tb, i));
         }
     }
 }

@@ -79,6 +79,7 @@ void take_misses(const PathRows& paths, const Order& order, const MissRows& out)
     column(paths.tb, out.tb);
     column(paths.pdf, out.pdf);
     column(paths.slot, out.slot);
+    column(paths.path_key, out.path_key);
 }
 
 void sort_hits(const PathRows& p, const HitRows& h, const Order& order) {
@@ -105,6 +106,7 @@ OBSCURA_INLINE int append_misses(const ShadeRows& rows, int i, Mask mask, int at
     store3(m.tr, m.tg, m.tb, at, pack(packer, load3(p.tr, p.tg, p.tb, i)));
     store(m.pdf + at, packer(load(p.pdf + i)));
     store(m.slot + at, pack(packer, load(p.slot + i)));
+    store(m.path_key + at, pack(packer, load(p.path_key + i)));
     return at + count(mask);
 }
 

@@ -4,7 +4,7 @@
 //   door         bytes/row  written by        read by
 //   PathRows            68  camera, shade     intersect, scatter, shade
 //   HitRows             24  intersect         scatter, shade
-//   MissRows            32  shade (sort)      shade (miss)
+//   MissRows            36  shade (sort)      shade (miss)
 //   ShadowRows          48  shade             shadow, accumulate
 //   SampleRows          16  camera, shade,    accumulate
 //                           accumulate
@@ -51,6 +51,7 @@ struct MissRows {
     float *tr, *tg, *tb;
     float* pdf;
     uint32_t* slot;
+    uint32_t* path_key;
 };
 
 /// Light that arrives if nothing is in the way.
@@ -68,7 +69,7 @@ struct SampleRows {
     float *r, *g, *b, *a;
 };
 
-inline constexpr int words_per_path = 17, words_per_hit = 6, words_per_miss = 8,
+inline constexpr int words_per_path = 17, words_per_hit = 6, words_per_miss = 9,
                      words_per_shadow = 12, words_per_sample = 4;
 static_assert(sizeof(PathRows) == words_per_path * sizeof(void*));
 static_assert(sizeof(HitRows) == words_per_hit * sizeof(void*));

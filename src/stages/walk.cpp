@@ -242,7 +242,7 @@ Workspace::Workspace() {
     carve.all(walker_hits.t, walker_hits.u, walker_hits.v);
     carve.all(walker_hits.instance, walker_hits.primitive, walker_hits.triangle);
     carve.all(misses.dx, misses.dy, misses.dz, misses.tr, misses.tg, misses.tb);
-    carve.all(misses.pdf, misses.slot);
+    carve.all(misses.pdf, misses.slot, misses.path_key);
     carve.all(shadows.ox, shadows.oy, shadows.oz, shadows.dx, shadows.dy, shadows.dz);
     carve.all(shadows.tfar, shadows.r, shadows.g, shadows.b, shadows.slot, shadows.path_key);
     carve.all(samples.r, samples.g, samples.b, samples.a);

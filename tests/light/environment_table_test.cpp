@@ -99,6 +99,28 @@ TEST(EnvironmentTable, SamplesAgreeWithLookUps) {
     }
 }
 
+/// Random numbers from a grid: each pixel of a cell gets its weight's share of them.
+TEST(EnvironmentTable, OnePixelOfACellIsDrawnByItsWeight) {
+    constexpr uint32_t side = 256;
+    const EnvironmentTable table = table_of(maps()[0], 33);
+    Pcg32 random(6);
+    for (int i = 0; i < 20; ++i) {
+        const double x = random.next_double();
+        const auto cell = environment_cell(table.view(), direction_at(x, random.next_double(), 1));
+        const auto taps = environment_taps(table.view(), cell);
+        int drawn[4] = {};
+        for (uint32_t k = 0; k < side * side; ++k) {
+            const uint32_t bits = (k / side * side + side / 2) << 16 | (k % side * side + side / 2);
+            const int32_t word = choose_environment_pixel(cell, bits);
+            const auto* found = std::find(cell.word, cell.word + 4, word);
+            ASSERT_NE(found, cell.word + 4);
+            ++drawn[found - cell.word];
+        }
+        for (int tap = 0; tap < 4; ++tap)
+            EXPECT_NEAR(drawn[tap] / double{side * side}, taps.weight[tap], 2.0 / side);
+    }
+}
+
 /// A hot pixel beside black ones: no sample is far brighter than the others.
 TEST(EnvironmentTable, NoSampleOutshinesTheOthers) {
     TestMap map(64, 32);
