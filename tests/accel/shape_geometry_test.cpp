@@ -3,6 +3,7 @@
 #include "accel/shape_geometry.h"
 
 #include "accel/accel_scenes.h"
+#include "accel/dispatch.h"
 #include "shape/shape_truth.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +75,7 @@ const char* const isa_names[] = {"sse4.2", "avx2", "avx512"};
 std::vector<const ShapeCallbacks*> all_callbacks() {
     std::vector<const ShapeCallbacks*> out;
     for (const Isa isa : all_isas())
-        out.push_back(&shape_callbacks_for(isa_names[static_cast<size_t>(isa) - 1]));
+        out.push_back(accel_functions_for(isa_names[static_cast<size_t>(isa) - 1]).shapes);
     return out;
 }
 
