@@ -163,6 +163,18 @@ void environment_look_up(const KernelData& d) {
 }
 
 template <typename F>
+void environment_pixel(const KernelData& d) {
+    for_rows<F>([&](int i) {
+        const EnvironmentCell<F> cell =
+            environment_cell(d.environment, read3<F>(d.world_x, d.world_y, d.world_z, i));
+        const IntOf<F> word = choose_environment_pixel(cell, UintOf<F>(read<F>(d.bits0 + i)));
+        const Four<F> pixel = gather4<F>(d.environment.pixels, word);
+        const F density = environment_density(pixel.w, cell.sin_theta);
+        write(d.out0 + i, pixel.x + pixel.y + pixel.z + density);
+    });
+}
+
+template <typename F>
 void choice_draw(const KernelData& d) {
     for_rows<F>([&](int i) {
         const CdfSample<F> sample = sample_cdf<F>(d.choice, d.choice_count, read<F>(d.bits0 + i));
@@ -188,6 +200,7 @@ const bench::KernelTable kernel_table = {
      OBSCURA_KERNEL(random_pair),
      OBSCURA_KERNEL(environment_sample),
      OBSCURA_KERNEL(environment_look_up),
+     OBSCURA_KERNEL(environment_pixel),
      OBSCURA_KERNEL(choice_draw)},
 };
 

@@ -41,7 +41,7 @@ struct Kernel {
     KernelFunction one;    ///< one row at a time: F = float
     KernelFunction lanes;  ///< as many at a time as the instruction set has lanes
 };
-inline constexpr int kernel_count = 10;
+inline constexpr int kernel_count = 11;
 
 struct KernelTable {
     const char* isa;

@@ -6,6 +6,11 @@
 
 namespace obscura {
 
+/// Embree's assertions refuse components of 1e30; its boxes hold up to 1.8e18.
+inline constexpr float largest_component = 1.8e18f;
+/// tfar of rays without an end.
+inline constexpr float unlimited = 3.0e38f;
+
 /// Rays as columns, padded to whole blocks of 16 rows.
 struct RayColumns {
     const float *ox, *oy, *oz;  ///< origin, metres

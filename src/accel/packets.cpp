@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/packets.h"
 
-#include "accel/safe_ray.h"
 #include "math/lanes.h"
 
 namespace obscura {

@@ -5,8 +5,6 @@
 #include "accel/columns.h"
 #include "accel/embree.h"
 
-#include <algorithm>
-
 namespace obscura {
 
 /// Rays in a packet.
@@ -17,15 +15,7 @@ struct alignas(64) ValidMask {
     int lane[packet];
 };
 
-/// Fills what PacketMoves::load leaves as it is; once for all packets of a call.
-inline void begin_packets(RTCRay16& out) {
-    std::fill_n(out.tnear, packet, 0.0f);
-    std::fill_n(out.time, packet, 0.0f);
-    std::fill_n(out.mask, packet, 0xFFFFFFFFU);
-    std::fill_n(out.flags, packet, 0U);
-}
-
-/// Compiled once per instruction set, for every ray passes here.
+/// Compiled once per instruction set: every ray of a rendering comes this way.
 struct PacketMoves {
     /// Loads the rows [first, first + 16), whose ids are their numbers; false, with a packet that
     /// must not be used, when one of them is not safe (accel/safe_ray.h).

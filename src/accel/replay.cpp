@@ -47,7 +47,8 @@ void give_keys(QueryContext& context, const Chunk& chunk) {
     context.fixed_threshold = chunk.fixed_alpha;
 }
 
-/// Loads rows [first, first + count); the lanes behind them repeat the first.
+/// Loads rows [first, first + count); the lanes behind them repeat the first. Recordings have no
+/// times.
 void load_sixteen(
     const PacketMoves& moves, const RayColumns& rays, int first, int count, RTCRay16& out) {
     if (count == packet && moves.load(rays, first, out)) return;

@@ -5,14 +5,10 @@
 #include "accel/columns.h"
 #include "accel/embree.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace obscura {
-
-/// Embree's assertions refuse components of 1e30; its boxes hold up to 1.8e18.
-inline constexpr float largest_component = 1.8e18f;
-/// tfar of rays without an end.
-inline constexpr float unlimited = 3.0e38f;
 
 /// True when Embree may see the ray: finite, in range, and with a direction.
 inline bool is_safe(const RayColumns& rays, int i) {
@@ -37,6 +33,14 @@ inline void load_ray(const RayColumns& rays, int row, RTCRay& out) {
     out.mask = 0xFFFFFFFFU;
     out.id = static_cast<unsigned>(row);
     out.flags = 0;
+}
+
+/// Fills what PacketMoves::load leaves as it is; once for all packets of a call.
+inline void begin_packets(RTCRay16& out) {
+    std::fill_n(out.tnear, 16, 0.0f);
+    std::fill_n(out.time, 16, 0.0f);
+    std::fill_n(out.mask, 16, 0xFFFFFFFFU);
+    std::fill_n(out.flags, 16, 0U);
 }
 
 }  // namespace obscura

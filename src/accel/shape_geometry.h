@@ -8,7 +8,6 @@
 #include "shape/sphere_block.h"
 
 #include <cstdint>
-#include <string>
 
 namespace obscura {
 

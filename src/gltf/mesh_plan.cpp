@@ -106,10 +106,12 @@ void Planner::add_strokes(const MeshUse& use, int placed) {
     add_jobs(use, placed, JobKind::strokes, strokes);
     const bool moves = mover(placed) >= 0;
     const bool follows = options_.anchored && moves && !use.bends;
-    if (!follows) {
-        if (moves && (!place(placed).visible || is_flat(placed, place(placed).world_from_node))) {
-            return;
-        }
+    if (follows) {
+        const PlacedNode& from = place(placed);
+        const Affined& within = mover_from_node_[static_cast<size_t>(from.node)];
+        if (is_flat(placed, compose(within, from.node_from_mesh))) return;
+    } else if (moves) {
+        if (!place(placed).visible || is_flat(placed, place(placed).world_from_node)) return;
     }
     MeshBlock& to = follows ? of_mover(anchored_, BlockSpace::anchored_mover, placed)
                             : (options_.posed ? loose_ : still_);

@@ -80,7 +80,7 @@ OBSCURA_INLINE F environment_density(const F& times_sine, const F& sin_theta) {
     return times_sine / max(sin_theta, F(1e-7f));
 }
 
-/// Bilinear interpolation between pixel centres; wraps around in x, stops at the first and last
+/// The four pixels around a direction: the map wraps around in x and stops at the first and last
 /// row.
 template <typename F>
 OBSCURA_INLINE EnvironmentCell<F> environment_cell(const EnvironmentView& view,
@@ -118,9 +118,10 @@ OBSCURA_INLINE EnvironmentCell<F> environment_cell(const EnvironmentView& view,
 template <typename F>
 OBSCURA_INLINE IntOf<F> choose_environment_pixel(const EnvironmentCell<F>& cell,
                                                  const UintOf<F>& random) {
-    const F unit(1.0f / 65536.0f);
-    const auto is_right = from_int<F>(as_int(random & UintOf<F>(0xFFFFU))) * unit < cell.right;
-    const auto is_down = from_int<F>(as_int(random >> 16)) * unit < cell.down;
+    const F unit(1.0f / 65536.0f);  // of the middles of as many equal parts
+    const auto is_right =
+        (from_int<F>(as_int(random & UintOf<F>(0xFFFFU))) + F(0.5f)) * unit < cell.right;
+    const auto is_down = (from_int<F>(as_int(random >> 16)) + F(0.5f)) * unit < cell.down;
     return select(is_down,
                   select(is_right, cell.word[3], cell.word[2]),
                   select(is_right, cell.word[1], cell.word[0]));
@@ -226,7 +227,7 @@ OBSCURA_INLINE void draw_environment_column(const EnvironmentView& view, Environ
 /// the same for all samples, even where a bright pixel lies beside a dark one, and one pixel is
 /// read. The other strategy draws a direction first; given that, a term's density is the
 /// direction's times the weight. The weight cancels in the quotient of both densities:
-/// multiple importance sampling compares the pdf here and in EnvironmentTaps with the other's pdf.
+/// multiple importance sampling compares the pdf here and of a chosen pixel with the other's pdf.
 ///
 /// Out     radiance and pdf of the chosen pixel, both without its weight, which cancels too
 /// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 12.5, for

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/unset_array.h"
 #include "image/pixels.h"
 #include "light/light_profile.h"
 #include "light/punctual.h"
@@ -169,7 +170,7 @@ struct Scene {
     /// 3 absolute vertex numbers a triangle, counter-clockwise from the front (before mirroring).
     std::vector<uint32_t> indices;
     std::vector<ShapeRow> shapes;
-    std::vector<float> spheres;            ///< particles in blocks: see shape/sphere_block.h
+    UnsetArray<float> spheres;  ///< particles, see shape/sphere_block.h; rays read them anywhere
     std::vector<float> curve_points;       ///< x, y, z and radius, in metres
     std::vector<uint32_t> curve_segments;  ///< each goes from this curve point to the next one
     std::vector<float> attributes;         ///< normals, tangents, UVs and colours; see Primitive

@@ -148,12 +148,14 @@ struct Wavelength {
     Vec3<Lanes> color;  ///< of mean 1 over all paths
 };
 
-/// Wavelengths lie evenly between 430 and 650 nm; each goes to one or two neighbouring channels,
-/// whose peaks are the dominant wavelengths of Rec.709's primaries. Those of one pixel's samples
-/// are spread evenly.
+constexpr float shortest_nm = 430, longest_nm = 650;
+
+/// Wavelengths lie evenly between the shortest and the longest; each goes to one or two
+/// neighbouring channels, whose peaks are the dominant wavelengths of Rec.709's primaries. Those of
+/// one pixel's samples are spread evenly.
 OBSCURA_INLINE Wavelength wavelength_of(const PathLanes& path) {
     const Lanes share = unit_float<Lanes>(sobol_pair(path.key, path.sample, wavelength_pair).x);
-    const Lanes nm = Lanes(430.0f) + share * Lanes(220.0f);
+    const Lanes nm = Lanes(shortest_nm) + share * Lanes(longest_nm - shortest_nm);
     const Lanes green_over_blue =
         clamp((nm - Lanes(464.0f)) * Lanes(1.0f / 85.0f), Lanes(0.0f), Lanes(1.0f));
     const Lanes red_over_green =
@@ -187,8 +189,11 @@ OBSCURA_INLINE void disperse(const LayerReader& layers,
     const Wavelength wavelength = wavelength_of(path);
     const Lanes denser =
         relative_ior(layers.number(OBSCURA_LAYER_WORD(ior)), dispersion, wavelength.nm);
-    // Total reflection, from the denser side, is not the same for all wavelengths.
-    out.reflects_white = entering & (p.eta > Lanes(1.0f));
+    // Total reflection, from the denser side, is not the same for all wavelengths. The index is
+    // least for the longest.
+    const Lanes least =
+        relative_ior(layers.number(OBSCURA_LAYER_WORD(ior)), dispersion, longest_nm);
+    out.reflects_white = entering & (p.eta * least > Lanes(1.0f));
     p.eta = select(disperses, p.eta * select(entering, denser, Lanes(1.0f) / denser), p.eta);
     out.wavelength = select(disperses, LanesU(one_wavelength), LanesU(0U));
     const Mask first = disperses & ((path.bodies & LanesU(one_wavelength)) == LanesU(0U));

@@ -24,12 +24,12 @@ inline void add_background(const EnvironmentView& environment,
 }
 
 /// Weight of environment light along a ray that the BSDF chose with density `pdf`, where light
-/// sampling has the density `other`.
+/// sampling has the density `other`; 1 where only one of the two could find it.
 OBSCURA_INLINE Lanes environment_weight(int strategies, Lanes pdf, Lanes other) {
-    const Mask either = (pdf > Lanes(0.0f)) & (other > Lanes(0.0f));
     if (strategies == sample_bsdfs) return Lanes(1.0f);
+    const Mask both_can = (pdf > Lanes(0.0f)) & (other > Lanes(0.0f));
     const Lanes weight = strategies == sample_lights ? Lanes(0.0f) : mis_weight(pdf, other);
-    return select(either, weight, Lanes(1.0f));
+    return select(both_can, weight, Lanes(1.0f));
 }
 
 /// A pixel of the environment that a bounced ray meets; its memory is on its way.

@@ -17,8 +17,8 @@ void add_shadow_light(int count,
 /// Adds every pixel's samples to its sum, one by one in sample order, so that the sum does not
 /// depend on how a pixel's samples were cut into batches.
 ///
-/// In      samples: pixels * per_pixel slots; sums: 4 floats (RGBA) a pixel
-/// Out     number of samples that were not finite; each is cleared, all four channels
+/// In/Out  samples: pixels * per_pixel slots, padded as stages/doors.h asks; sums: 4 floats (RGBA)
+/// a pixel Out     number of samples that were not finite; each is cleared, all four channels
 uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums);
 
 /// Clears the samples that are not finite; returns how many.

@@ -24,7 +24,7 @@
 
 namespace obscura {
 
-/// Rows in a batch: about 340 bytes each, 1.4 MB in all. Smaller ones stay in nearer caches, larger
+/// Rows in a batch: about 300 bytes each, 1.2 MB in all. Smaller ones stay in nearer caches, larger
 /// ones leave Embree the hierarchy warm for longer; this was the fastest of 512 to 16384.
 inline constexpr int batch_rows = 4096;
 
@@ -37,10 +37,11 @@ struct PathRows {
     float* cone_width;    ///< footprint at the origin, metres
     float* cone_spread;   ///< growth of the footprint, metres per metre
     uint32_t* slot;
-    uint32_t* key;       ///< of the pixel's random numbers
-    uint32_t* sample;    ///< sample number, bits reversed
-    uint32_t* path_key;  ///< of the path: decides at alpha BLEND surfaces
-    uint32_t* bodies;    ///< what the ray travels in, see stages/3_media.h
+    uint32_t* key;     ///< of the pixel's random numbers
+    uint32_t* sample;  ///< sample number, bits reversed
+    uint32_t*
+        path_key;  ///< of the path: decides at alpha BLEND surfaces, between pixels, within bodies
+    uint32_t* bodies;  ///< what the ray travels in, see stages/3_media.h
 };
 
 using HitRows = HitColumns;

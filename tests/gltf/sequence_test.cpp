@@ -259,8 +259,9 @@ TEST(Sequence, InstancedPointsAndLinesMoveWithTheirNode) {
         AssetBuilder builder = sliding_asset();
         builder.tree["meshes"][2]["primitives"][0]["mode"] = mode;
         builder.tree["extensionsUsed"] = {"EXT_mesh_gpu_instancing"};
-        const int t = builder.add_accessor("VEC3", 5126, F{0, 0, 0, 1, 2, 3, 0, 0, 9});
-        const int s = builder.add_accessor("VEC3", 5126, F{1, 1, 1, 2, 3, 1, 1, 1, 1});
+        const int t = builder.add_accessor("VEC3", 5126, F{0, 0, 0, 1, 2, 3, 0, 0, 9, 0, 0, 0});
+        // The last is flat and shows nothing.
+        const int s = builder.add_accessor("VEC3", 5126, F{1, 1, 1, 2, 3, 1, 1, 1, 1, 0, 0, 0});
         builder.tree["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = {
             {"TRANSLATION", t}, {"SCALE", s}};
         const json tree = builder.finished();

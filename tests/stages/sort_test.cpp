@@ -38,8 +38,8 @@ PreparedScene unlit_squares(Isa isa) {
 
 class Sort : public testing::TestWithParam<Isa> {
 protected:
-    /// Shades rows of which those with is_hit hit a square; row i belongs to slot count - 1 - i
-    /// and has the throughput i + 1.
+    /// Shades rows of which those with is_hit hit a square; row i belongs to slot_of(i, count) and
+    /// has the throughput own_of(i).
     void shade(const std::vector<bool>& is_hit, int bounce) {
         const int count = static_cast<int>(is_hit.size());
         for (int i = 0; i < count + 16; ++i)
@@ -65,15 +65,15 @@ protected:
         const int count = static_cast<int>(is_hit.size());
         const SampleRows& s = work_.samples;
         for (int i = 0; i < count; ++i) {
-            const int slot = count - 1 - i;
-            const auto own = static_cast<float>(i + 1);
+            const int slot = slot_of(i, count);
+            const float own = own_of(i);
             const bool hit = is_hit[static_cast<size_t>(i)];
-            const float back = bounce == 0 ? 1.0f : 0.0f;
+            const float back = bounce == 0 && own > 0 ? 1.0f : 0.0f;
             EXPECT_EQ(s.r[slot], hit ? own * 0.5f : back * background[0]) << count << " " << i;
             EXPECT_EQ(s.g[slot], hit ? own * 0.25f : back * background[1]) << count << " " << i;
             EXPECT_EQ(s.b[slot], hit ? own * blue_of(surface_of(i)) : back * background[2])
                 << count << " " << i;
-            const float alpha = hit ? 1.0f : background[3];
+            const float alpha = hit ? 1.0f : back * background[3];
             EXPECT_EQ(s.a[slot], bounce == 0 ? alpha : 0.0f) << count << " " << i;
         }
         for (int slot = count; slot < count + 16; ++slot) {
@@ -82,9 +82,17 @@ protected:
         }
     }
 
-    int surface_count_ = 1;  ///< how many of `surfaces` are hit
+    int surface_count_ = 1;   ///< how many of `surfaces` are hit
+    bool ascending_ = false;  ///< row i belongs to slot i, as the camera makes them; else reversed
+    int dark_every_ = 0;      ///< every so many rows have no throughput; 0: all have
 
 private:
+    int slot_of(int i, int count) const { return ascending_ ? i : count - 1 - i; }
+
+    float own_of(int i) const {
+        return dark_every_ > 0 && i % dark_every_ == 0 ? 0.0f : static_cast<float>(i + 1);
+    }
+
     /// Neighbouring rows hit different squares, in no order.
     int surface_of(int i) const { return surfaces[i * 5 / 3 % surface_count_]; }
 
@@ -96,8 +104,8 @@ private:
         p.oz[i] = 3;
         p.dz[i] = -1;
         for (float* throughput : {p.tr, p.tg, p.tb})
-            throughput[i] = static_cast<float>(i + 1);
-        p.slot[i] = exists ? static_cast<uint32_t>(count - 1 - i) : 0xFFFFFFFFU;
+            throughput[i] = own_of(i);
+        p.slot[i] = exists ? static_cast<uint32_t>(slot_of(i, count)) : 0xFFFFFFFFU;
         p.key[i] = p.sample[i] = p.path_key[i] = p.bodies[i] =
             static_cast<uint32_t>(i) * 0x9E3779B9U;
         const HitRows& h = work_.hits;
@@ -151,6 +159,40 @@ TEST_P(Sort, EachRowKeepsTheSurfaceThatItHits) {
                 expect_slots(is_hit, 1);
             }
         }
+    }
+}
+
+TEST_P(Sort, RowsInTheOrderOfTheirSlotsAreAddedTogether) {
+    ascending_ = true;
+    for (size_t count = 1; count <= 33; ++count) {
+        for (const bool hits : {false, true}) {
+            shade(std::vector<bool>(count, hits), 0);
+            expect_slots(std::vector<bool>(count, hits), 0);
+        }
+    }
+}
+
+TEST_P(Sort, RowsThatStayAndRowsThatMoveUpKeepTheirOwn) {
+    std::vector<bool> is_hit(107, true);  // of one surface: whole groups, then some misses
+    std::fill_n(is_hit.begin() + 64, 3, false);
+    for (const bool ascending : {false, true}) {
+        for (const int bounce : {0, 1}) {
+            ascending_ = ascending;
+            shade(is_hit, bounce);
+            expect_slots(is_hit, bounce);
+        }
+    }
+}
+
+TEST_P(Sort, WhereTheCameraShowsNothingThereIsNoBackground) {
+    dark_every_ = 3;
+    for (const bool ascending : {false, true}) {
+        std::vector<bool> is_hit(64);
+        for (size_t i = 0; i < is_hit.size(); ++i)
+            is_hit[i] = i % 2 == 0 && i < 40;
+        ascending_ = ascending;
+        shade(is_hit, 0);
+        expect_slots(is_hit, 0);
     }
 }
 

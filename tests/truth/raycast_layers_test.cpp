@@ -119,17 +119,20 @@ TEST(RaycastLayers, AConstantSkyIsReflectedAsPathsFindIt) {
 
 TEST(RaycastLayers, NoPixelHasAWavelengthOfItsOwn) {
     MaterialLayers glass = body(1.7f, {0, 0, 0});
-    glass.dispersion = 5;
     Scene scene = layered_floor(1, glass);
     scene.materials[0].roughness = 0.5f;
-    scene.lights.push_back(sun(0.3, 20));
-    const Film film = seen(scene, {0, 1, 0}, Integrator::raycast);
-    scene.layers[0].dispersion = 0;
-    const Film plain = seen(scene, {0, 1, 0}, Integrator::raycast);
-    ASSERT_GT(plain.pixels[0], 0.0f);
-    for (size_t i = 0; i < film.pixels.size(); i += 4) {
-        ASSERT_NEAR(film.pixels[i], plain.pixels[i], 1e-4f * plain.pixels[i]);
-        ASSERT_EQ(film.pixels[i], film.pixels[i + 2]);
+    scene.lights.push_back(sun(0, 20));
+    for (const double angle : {0.3, pi_d - 0.8}) {  // above; below, where the light is refracted
+        scene.lights[0] = sun(angle, 20);
+        scene.layers[0].dispersion = 5;
+        const Film film = seen(scene, {0, 1, 0}, Integrator::raycast);
+        scene.layers[0].dispersion = 0;
+        const Film plain = seen(scene, {0, 1, 0}, Integrator::raycast);
+        ASSERT_GT(plain.pixels[0], 0.0f);
+        for (size_t i = 0; i < film.pixels.size(); i += 4) {
+            ASSERT_NEAR(film.pixels[i], plain.pixels[i], 1e-4f * plain.pixels[i]) << angle;
+            ASSERT_EQ(film.pixels[i], film.pixels[i + 2]);
+        }
     }
 }
 
