@@ -31,18 +31,8 @@ bool load_part(const RayColumns& rays, int first, const ValidMask& valid, RTCRay
     const int* found = std::find(valid.lane, valid.lane + packet, -1);
     if (found == valid.lane + packet) return false;
     const int stand_in = first + static_cast<int>(found - valid.lane);
-    for (int i = 0; i < packet; ++i) {
-        const int row = valid.lane[i] != 0 ? first + i : stand_in;
-        out.org_x[i] = rays.ox[row];
-        out.org_y[i] = rays.oy[row];
-        out.org_z[i] = rays.oz[row];
-        out.dir_x[i] = rays.dx[row];
-        out.dir_y[i] = rays.dy[row];
-        out.dir_z[i] = rays.dz[row];
-        out.tfar[i] = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
-        if (rays.time != nullptr) out.time[i] = rays.time[row];
-        out.id[i] = static_cast<unsigned>(first + i);
-    }
+    for (int i = 0; i < packet; ++i)
+        load_lane(rays, valid.lane[i] != 0 ? first + i : stand_in, i, out);
     return true;
 }
 

@@ -47,22 +47,12 @@ void give_keys(QueryContext& context, const Chunk& chunk) {
     context.fixed_threshold = chunk.fixed_alpha;
 }
 
-/// Loads rows [first, first + count); the lanes behind them repeat the first. Recordings have no
-/// times.
+/// Loads rows [first, first + count); the lanes behind them repeat the first.
 void load_sixteen(
     const PacketMoves& moves, const RayColumns& rays, int first, int count, RTCRay16& out) {
     if (count == packet && moves.load(rays, first, out)) return;
-    for (int i = 0; i < packet; ++i) {
-        const int row = i < count ? first + i : first;
-        out.org_x[i] = rays.ox[row];
-        out.org_y[i] = rays.oy[row];
-        out.org_z[i] = rays.oz[row];
-        out.dir_x[i] = rays.dx[row];
-        out.dir_y[i] = rays.dy[row];
-        out.dir_z[i] = rays.dz[row];
-        out.tfar[i] = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
-        out.id[i] = static_cast<unsigned>(row);
-    }
+    for (int i = 0; i < packet; ++i)
+        load_lane(rays, i < count ? first + i : first, i, out);
 }
 
 Tally intersect_one_by_one(RTCScene scene, const Chunk& chunk) {

@@ -35,6 +35,19 @@ inline void load_ray(const RayColumns& rays, int row, RTCRay& out) {
     out.flags = 0;
 }
 
+/// One row as one lane of a packet; its id is the row. The rest is begin_packets'.
+inline void load_lane(const RayColumns& rays, int row, int lane, RTCRay16& out) {
+    out.org_x[lane] = rays.ox[row];
+    out.org_y[lane] = rays.oy[row];
+    out.org_z[lane] = rays.oz[row];
+    out.dir_x[lane] = rays.dx[row];
+    out.dir_y[lane] = rays.dy[row];
+    out.dir_z[lane] = rays.dz[row];
+    out.tfar[lane] = rays.tfar != nullptr ? rays.tfar[row] : unlimited;
+    if (rays.time != nullptr) out.time[lane] = rays.time[row];
+    out.id[lane] = static_cast<unsigned>(row);
+}
+
 /// Fills what PacketMoves::load leaves as it is; once for all packets of a call.
 inline void begin_packets(RTCRay16& out) {
     std::fill_n(out.tnear, 16, 0.0f);
