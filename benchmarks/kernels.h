@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "light/cdf_table.h"
 #include "light/environment.h"
 #include "surface/texture.h"
 

@@ -25,12 +25,12 @@ std::vector<double> parts_of(std::span<const double> weights) {
     return parts;
 }
 
-/// First random number of every index, and one past the last, in multiples of `step`. Each index
-/// with a part gets one step, and its share of the steps that are left; the others get none.
-///
-/// The one step must come out of all shares alike: taken from the neighbours alone it would starve
-/// the rim of a sun, which shines far more than all the sky before it.
-std::vector<uint64_t> bounds_of(const std::vector<double>& parts, uint64_t step) {
+}  // namespace
+
+// The one step must come out of all shares alike: taken from the neighbours alone it would starve
+// the rim of a sun, which shines far more than all the sky before it.
+std::vector<uint64_t> share_randoms(std::span<const double> weights, uint64_t step) {
+    const std::vector<double> parts = parts_of(weights);
     double sum = 0;
     uint64_t possible = 0;
     for (const double part : parts) {
@@ -51,33 +51,28 @@ std::vector<uint64_t> bounds_of(const std::vector<double>& parts, uint64_t step)
     return bounds;
 }
 
-void set_entry(CdfEntry& entry, uint64_t first_random, size_t index) {
-    entry = {static_cast<uint32_t>(first_random), static_cast<int32_t>(index)};
+std::vector<CdfEntry> build_cdf_table(std::span<const double> weights) {
+    const size_t count = weights.size();
+    const std::vector<uint64_t> bounds = share_randoms(weights, 1);
+    size_t last = count - 1;
+    while (bounds[last] == all_randoms)
+        --last;
+    std::vector<CdfEntry> entries(count + 1);
+    size_t index = 0;
+    for (size_t cell = 0; cell <= count; ++cell) {
+        const uint64_t first_random = (cell * all_randoms + count - 1) / count;
+        while (index < last && bounds[index + 1] <= first_random)
+            ++index;
+        entries[cell] = {static_cast<uint32_t>(bounds[cell]), static_cast<int32_t>(index)};
+    }
+    return entries;
 }
 
-void set_entry(ShortCdfEntry& entry, uint64_t first_random, size_t index) {
-    entry = {static_cast<uint16_t>(first_random >> 16), static_cast<uint16_t>(index)};
-}
-
-uint64_t random_of(const CdfEntry& entry) {
-    return entry.first_random;
-}
-
-uint64_t random_of(const ShortCdfEntry& entry) {
-    return uint64_t{entry.first_random} << 16;
-}
-
-template <typename Entry>
-constexpr uint64_t step_of = 1;
-template <>
-constexpr uint64_t step_of<ShortCdfEntry> = uint64_t{1} << 16;
-
-template <typename Entry>
-std::vector<double> probabilities_of(std::span<const Entry> entries) {
+std::vector<double> cdf_probabilities(std::span<const CdfEntry> entries) {
     std::vector<double> probabilities(entries.size() - 1);
     uint64_t begin = 0;
     for (size_t i = 0; i < probabilities.size(); ++i) {
-        const uint64_t bound = random_of(entries[i + 1]);
+        const uint64_t bound = entries[i + 1].first_random;
         // 2^32 is stored as 0: it ends the last index that is possible, and what follows.
         const uint64_t end = bound == 0 && i >= static_cast<size_t>(entries.back().first_index)
                                  ? all_randoms
@@ -86,38 +81,6 @@ std::vector<double> probabilities_of(std::span<const Entry> entries) {
         begin = end;
     }
     return probabilities;
-}
-
-}  // namespace
-
-template <typename Entry>
-std::vector<Entry> build_cdf_table(std::span<const double> weights) {
-    const size_t count = weights.size();
-    const std::vector<double> parts = parts_of(weights);
-    const std::vector<uint64_t> bounds = bounds_of(parts, step_of<Entry>);
-    size_t last = count - 1;
-    while (parts[last] <= 0)
-        --last;
-    std::vector<Entry> entries(count + 1);
-    size_t index = 0;
-    for (size_t cell = 0; cell <= count; ++cell) {
-        const uint64_t first_random = (cell * all_randoms + count - 1) / count;
-        while (index < last && bounds[index + 1] <= first_random)
-            ++index;
-        set_entry(entries[cell], bounds[cell], index);
-    }
-    return entries;
-}
-
-template std::vector<CdfEntry> build_cdf_table(std::span<const double> weights);
-template std::vector<ShortCdfEntry> build_cdf_table(std::span<const double> weights);
-
-std::vector<double> cdf_probabilities(std::span<const CdfEntry> entries) {
-    return probabilities_of(entries);
-}
-
-std::vector<double> cdf_probabilities(std::span<const ShortCdfEntry> entries) {
-    return probabilities_of(entries);
 }
 
 }  // namespace obscura

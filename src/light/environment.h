@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "light/cdf_table.h"
+#include "light/pixel_choice.h"
 #include "math/gather4.h"
 #include "math/sampler.h"
 #include "math/vec.h"
@@ -17,8 +17,7 @@ struct EnvironmentView {
     /// 4 floats a pixel, so that one cache line holds what a look-up needs: the radiance, and the
     /// density per solid angle with which the pixel is sampled, times sin(theta)
     const float* pixels = nullptr;
-    const CdfEntry* rows = nullptr;          ///< chooses a row
-    const ShortCdfEntry* columns = nullptr;  ///< height tables, one a row: chooses a pixel
+    PixelChoiceView choice;  ///< draws a pixel in proportion to its light
     int32_t width = 1;
     int32_t height = 1;
     float cos_rotation = 1;  ///< of the angle by which the map is turned about +Y,
@@ -183,66 +182,34 @@ OBSCURA_INLINE F tent(const F& u) {
     return select(a < F(0.0f), -size, size);
 }
 
-/// A pixel on its way to be chosen. Tables and map are large, and their memory is far: each step
-/// asks for what the next one reads, and a caller with other work does it in between.
+/// Chooses the pixel of a draw_block, and asks for its memory.
 template <typename F>
-struct EnvironmentDraw {
-    Vec2<UintOf<F>> random;  ///< uniform 32-bit numbers
-    CdfSample<F> row, column;
-    CdfRange<F> range;  ///< of columns
-};
-
-/// First step: the row.
-template <typename F>
-OBSCURA_INLINE EnvironmentDraw<F> draw_environment_row(const EnvironmentView& view,
-                                                       const Vec2<UintOf<F>>& random) {
-    EnvironmentDraw<F> draw;
-    draw.random = random;
-    draw.row = sample_cdf<F>(view.rows, view.height, random.x);
-    const IntOf<F> first = draw.row.index * IntOf<F>(view.width + 1);
-    prefetch<F>(view.columns, cdf_cell<F>(first, view.width, random.y));
-    return draw;
-}
-
-/// Second step: between which columns.
-template <typename F>
-OBSCURA_INLINE void draw_environment_range(const EnvironmentView& view, EnvironmentDraw<F>& draw) {
-    const IntOf<F> first = draw.row.index * IntOf<F>(view.width + 1);
-    draw.range = cdf_range_at<F>(view.columns, first, view.width, draw.random.y);
-    prefetch<F>(view.columns, IntOf<F>(first + draw.range.low));
-}
-
-/// Third step: the pixel in the row.
-template <typename F>
-OBSCURA_INLINE void draw_environment_column(const EnvironmentView& view, EnvironmentDraw<F>& draw) {
-    const IntOf<F> first = draw.row.index * IntOf<F>(view.width + 1);
-    draw.column = search_cdf<F>(view.columns, first, draw.range, draw.random.y);
-    const IntOf<F> pixel = draw.row.index * IntOf<F>(view.width) + draw.column.index;
+OBSCURA_INLINE void draw_environment_pixel(const EnvironmentView& view, PixelDraw<F>& draw) {
+    draw_pixel(view.choice, draw);
+    const IntOf<F> pixel = draw.row * IntOf<F>(view.width) + draw.column;
     prefetch<F>(view.pixels, IntOf<F>(pixel * IntOf<F>(4)));
 }
 
-/// Chooses a pixel in proportion to its light (row first, then column) and a place around it with
-/// the density of the pixel's weight in bilinear interpolation. The map is a sum of weighted
-/// pixels, and one term of the sum is drawn, together with a direction: so radiance / pdf is nearly
-/// the same for all samples, even where a bright pixel lies beside a dark one, and one pixel is
-/// read. The other strategy draws a direction first; given that, a term's density is the
-/// direction's times the weight. The weight cancels in the quotient of both densities:
-/// multiple importance sampling compares the pdf here and of a chosen pixel with the other's pdf.
+/// Chooses a pixel in proportion to its light, and a place around it with the density of the
+/// pixel's weight in bilinear interpolation. The map is a sum of weighted pixels, and one term of
+/// the sum is drawn, together with a direction: so radiance / pdf is nearly the same for all
+/// samples, even where a bright pixel lies beside a dark one, and one pixel is read. The other
+/// strategy draws a direction first; given that, a term's density is the direction's times the
+/// weight. The weight cancels in the quotient of both densities: multiple importance sampling
+/// compares the pdf here and of a chosen pixel with the other's pdf.
 ///
 /// Out     radiance and pdf of the chosen pixel, both without its weight, which cancels too
 /// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 12.5, for
 ///         the choice of pixels; Veach, PhD thesis, 1997, section 9.2, holds in the joint space
 template <typename F>
 OBSCURA_INLINE EnvironmentSample<F> finish_environment_draw(const EnvironmentView& view,
-                                                            const EnvironmentDraw<F>& draw) {
+                                                            const PixelDraw<F>& draw) {
     using I = IntOf<F>;
-    const CdfSample<F>& row = draw.row;
-    const CdfSample<F>& column = draw.column;
     const F height = from_int<F>(I(view.height));
     // What reaches past a pole comes back: there the pixel's weight is 1 up to the border.
-    F y = abs(from_int<F>(row.index) + F(0.5f) + tent(unit_float<F>(row.remaining)));
+    F y = abs(from_int<F>(draw.row) + F(0.5f) + tent(draw.left.y));
     y = min(y, F(2.0f) * height - y);
-    const F x = from_int<F>(column.index) + F(0.5f) + tent(unit_float<F>(column.remaining));
+    const F x = from_int<F>(draw.column) + F(0.5f) + tent(draw.left.x);
 
     const SinCos<F> polar = sin_cos_turn(y / height * F(0.5f));
     const SinCos<F> turn = sin_cos_turn(x / from_int<F>(I(view.width)));
@@ -252,7 +219,7 @@ OBSCURA_INLINE EnvironmentSample<F> finish_environment_draw(const EnvironmentVie
     const F c(view.cos_rotation);
     const F s(view.sin_rotation);
     const Four<F> pixel =
-        gather4<F>(view.pixels, I((row.index * I(view.width) + column.index) * I(4)));
+        gather4<F>(view.pixels, I((draw.row * I(view.width) + draw.column) * I(4)));
     return {{map_x * c + map_z * s, polar.cos, map_z * c - map_x * s},
             {pixel.x, pixel.y, pixel.z},
             environment_density(pixel.w, sin_theta)};
@@ -262,9 +229,8 @@ OBSCURA_INLINE EnvironmentSample<F> finish_environment_draw(const EnvironmentVie
 template <typename F>
 OBSCURA_INLINE EnvironmentSample<F> sample_environment(const EnvironmentView& view,
                                                        const Vec2<UintOf<F>>& random) {
-    EnvironmentDraw<F> draw = draw_environment_row<F>(view, random);
-    draw_environment_range(view, draw);
-    draw_environment_column(view, draw);
+    PixelDraw<F> draw = draw_block<F>(view.choice, random);
+    draw_environment_pixel(view, draw);
     return finish_environment_draw(view, draw);
 }
 

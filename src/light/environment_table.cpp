@@ -34,18 +34,6 @@ double importance_of(const float* rgb) {
     return 0.5 * (luminance_of(rgb) + std::max({rgb[0], rgb[1], rgb[2]}));
 }
 
-/// A measure of every pixel of row y.
-template <typename Measure>
-std::vector<double> measured_row(const std::vector<float>& pixels,
-                                 size_t width,
-                                 size_t y,
-                                 const Measure& measure) {
-    std::vector<double> result(width);
-    for (size_t x = 0; x < width; ++x)
-        result[x] = measure(pixels.data() + 4 * (y * width + x));
-    return result;
-}
-
 /// Solid angle of one pixel of row y.
 double pixel_steradians(int width, int height, int y) {
     const double top = std::cos(pi_d * y / height);
@@ -117,41 +105,36 @@ void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {
 void EnvironmentTable::build_tables() {
     const auto width = static_cast<size_t>(width_);
     const auto height = static_cast<size_t>(height_);
-    columns_.resize((width + 1) * height + cdf_padding<ShortCdfEntry>);
-    std::vector<double> row_weight(height);
-    std::vector<double> row_power(height);
+    std::vector<double> steradians(height);  // of one pixel
+    std::vector<double> power(height);
+    std::vector<double> importance(height);
     parallel_for(height, [&](size_t y) {
-        const double steradians = pixel_steradians(width_, height_, static_cast<int>(y));
-        const auto light = measured_row(pixels_, width, y, luminance_of);
-        row_power[y] = sum_of(light) * steradians;
-        const auto weights = measured_row(pixels_, width, y, importance_of);
-        row_weight[y] = sum_of(weights) * steradians;
-        const auto entries = build_cdf_table<ShortCdfEntry>(std::span<const double>(weights));
-        std::copy(entries.begin(), entries.end(), columns_.data() + y * (width + 1));
-        const auto shares = cdf_probabilities(entries);
-        for (size_t x = 0; x < width; ++x) {
-            pixels_[4 * (y * width + x) + 3] = static_cast<float>(shares[x]);
+        steradians[y] = pixel_steradians(width_, height_, static_cast<int>(y));
+        for (size_t i = y * width; i < (y + 1) * width; ++i) {
+            power[y] += luminance_of(&pixels_[4 * i]) * steradians[y];
+            importance[y] += importance_of(&pixels_[4 * i]) * steradians[y];
         }
     });
-    power_ = sum_of(row_power);
-    black_ = !(sum_of(row_weight) > 0);
-    rows_ = build_cdf_table(std::span<const double>(row_weight));
+    power_ = sum_of(power);
+    black_ = !(sum_of(importance) > 0);
 
     // A pixel's weight has the integral 1 / (width height) in (u, v); d omega = 2 pi^2 sin du dv.
-    const auto row_shares = cdf_probabilities(rows_);
     const double spread = static_cast<double>(width * height) / (2 * pi_d * pi_d);
-    parallel_for(height, [&](size_t y) {
-        const double scale = black_ ? 0.0 : row_shares[y] * spread;
-        for (size_t i = y * width; i < (y + 1) * width; ++i) {
-            pixels_[4 * i + 3] = static_cast<float>(pixels_[4 * i + 3] * scale);
-        }
-    });
+    const auto pixel_at = [&](int x, int y) {
+        return &pixels_[4 * (static_cast<size_t>(y) * width + static_cast<size_t>(x))];
+    };
+    const auto weight = [&](int x, int y) {
+        return importance_of(pixel_at(x, y)) * steradians[static_cast<size_t>(y)];
+    };
+    const auto set = [&](int x, int y, double probability) {
+        pixel_at(x, y)[3] = static_cast<float>(black_ ? 0.0 : probability * spread);
+    };
+    choice_.build(width_, height_, weight, set);
 }
 
 EnvironmentView EnvironmentTable::view() const {
     return {pixels_.data(),
-            rows_.data(),
-            columns_.data(),
+            choice_.view(),
             width_,
             height_,
             static_cast<float>(cos_rotation_),

@@ -54,8 +54,7 @@ private:
     void build_tables();
 
     std::vector<float> pixels_;  ///< see EnvironmentView
-    std::vector<CdfEntry> rows_;
-    std::vector<ShortCdfEntry> columns_;
+    PixelChoice choice_;
     int width_ = 0;
     int height_ = 0;
     double cos_rotation_ = 1;

@@ -18,11 +18,12 @@ struct Four {
 OBSCURA_INLINE Four<Lanes> gather4_lanes(const float* base, LanesI first) {
     alignas(64) int32_t at[lane_count];
     _mm512_store_si512(at, first.v);
+    const auto two = [&](int k) {
+        return _mm256_insertf128_ps(
+            _mm256_castps128_ps256(_mm_loadu_ps(base + at[k])), _mm_loadu_ps(base + at[k + 4]), 1);
+    };
     const auto rows = [&](int k) {  // of lanes k, k + 4, k + 8, k + 12
-        __m512 r = _mm512_castps128_ps512(_mm_loadu_ps(base + at[k]));
-        r = _mm512_insertf32x4(r, _mm_loadu_ps(base + at[k + 4]), 1);
-        r = _mm512_insertf32x4(r, _mm_loadu_ps(base + at[k + 8]), 2);
-        return _mm512_insertf32x4(r, _mm_loadu_ps(base + at[k + 12]), 3);
+        return _mm512_insertf32x8(_mm512_castps256_ps512(two(k)), two(k + 8), 1);
     };
     const __m512 a = rows(0);
     const __m512 b = rows(1);

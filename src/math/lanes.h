@@ -152,6 +152,14 @@ OBSCURA_INLINE LanesI select(Mask m, LanesI a, LanesI b) { return xs::select(m.a
 OBSCURA_INLINE LanesU select(Mask m, LanesU a, LanesU b) { return xs::select(m.as<uint32_t>(), a.v, b.v); }
 
 OBSCURA_INLINE Lanes sqrt(Lanes a) { return xs::sqrt(a.v); }
+#if defined(__AVX512F__)  // a third of the time of sqrt and division; one step of Newton's, 2 ulp
+OBSCURA_INLINE Lanes inverse_sqrt(Lanes a) {
+    const BatchF y = _mm512_rsqrt14_ps(a.v);
+    return y * (BatchF(1.5f) - BatchF(0.5f) * a.v * y * y);
+}
+#else
+OBSCURA_INLINE Lanes inverse_sqrt(Lanes a) { return BatchF(1.0f) / xs::sqrt(a.v); }
+#endif
 OBSCURA_INLINE Lanes abs(Lanes a) { return xs::abs(a.v); }
 OBSCURA_INLINE Lanes min(Lanes a, Lanes b) { return xs::min(a.v, b.v); }
 OBSCURA_INLINE Lanes max(Lanes a, Lanes b) { return xs::max(a.v, b.v); }
@@ -186,6 +194,8 @@ OBSCURA_INLINE int count(bool m) { return m ? 1 : 0; }
 template <typename T> OBSCURA_INLINE T select(bool m, T a, T b) { return m ? a : b; }
 OBSCURA_INLINE float sqrt(float a) { return __builtin_sqrtf(a); }
 OBSCURA_INLINE double sqrt(double a) { return __builtin_sqrt(a); }
+OBSCURA_INLINE float inverse_sqrt(float a) { return 1.0f / sqrt(a); }
+OBSCURA_INLINE double inverse_sqrt(double a) { return 1.0 / sqrt(a); }
 OBSCURA_INLINE float abs(float a) { return __builtin_fabsf(a); }
 OBSCURA_INLINE double abs(double a) { return __builtin_fabs(a); }
 OBSCURA_INLINE float min(float a, float b) { return a < b ? a : b; }

@@ -90,6 +90,12 @@ OBSCURA_INLINE F unit_float(const UintOf<F>& bits) {
     return from_int<F>(as_int(bits >> 8)) * F(1.0f / 16777216.0f);
 }
 
+/// All 32 bits of a number, rounded once.
+template <typename F>
+OBSCURA_INLINE F float_from_uint(const UintOf<F>& u) {
+    return from_int<F>(as_int(u >> 16)) * F(65536.0f) + from_int<F>(as_int(u & UintOf<F>(0xFFFFU)));
+}
+
 template <typename F>
 OBSCURA_INLINE Vec2<F> unit_pair(const Vec2<UintOf<F>>& bits) {
     return {unit_float<F>(bits.x), unit_float<F>(bits.y)};

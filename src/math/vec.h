@@ -53,9 +53,7 @@ OBSCURA_INLINE F length(const Vec3<F>& a) {
 /// Unit vector along a; the zero vector (and anything that underflows to it) stays zero.
 template <typename F>
 OBSCURA_INLINE Vec3<F> normalize(const Vec3<F>& a) {
-    const F squared = dot(a, a);
-    const F scale = F(1.0f) / sqrt(max(squared, F(1e-36f)));
-    return a * scale;
+    return a * inverse_sqrt(max(dot(a, a), F(1e-36f)));
 }
 
 template <typename F>

@@ -88,7 +88,7 @@ OBSCURA_INLINE LightLanes sample_shapes(const SceneView& scene,
 struct LightRandom {
     LanesU choice;
     Vec3<Lanes> texture;
-    EnvironmentDraw<Lanes> environment;  ///< drawn ahead; its random numbers serve other lights too
+    PixelDraw<Lanes> environment;  ///< drawn ahead; its random numbers serve other lights too
 };
 
 /// Chooses one light for every lane and a place on it.

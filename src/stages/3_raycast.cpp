@@ -22,7 +22,7 @@ OBSCURA_INLINE Vec3<Lanes> ambient_light(const AmbientLight& light,
     const Vec3<Lanes> specular = ambient_irradiance(light, mirrored) * inverse_pi;
     const auto albedo = [&](Lanes f0) { return specular_albedo(f0, cosine, p.alpha); };
     const Vec3<Lanes> metal{albedo(p.base_color.x), albedo(p.base_color.y), albedo(p.base_color.z)};
-    const Lanes dielectric = (Lanes(1.0f) - p.metallic) * albedo(Lanes(dielectric_f0));
+    const Lanes dielectric = (Lanes(1.0f) - p.metallic) * dielectric_albedo(cosine, p.alpha);
     return p.base_color * s.lobes.diffuse * diffuse +
            (metal * p.metallic + splat3(dielectric)) * specular;
 }
@@ -59,8 +59,8 @@ OBSCURA_INLINE Vec3<Lanes> ambient_layers(const AmbientLight& light,
     const Vec3<Lanes>& n = s.frame.normal;
     const Lanes cosine = dot(n, wo);
     const Lanes roughness = sqrt(sqrt(p.alpha.x * p.alpha.y));
-    const Lanes scale = look_up_albedo(specular_albedo_scale, cosine, roughness);
-    const Lanes bias = look_up_albedo(specular_albedo_bias, cosine, roughness);
+    const Lanes scale = look_up_albedo(specular_scale_cells, cosine, roughness);
+    const Lanes bias = look_up_albedo(specular_bias_cells, cosine, roughness);
     const LayeredFresnel<Lanes> film = layered_fresnel(p, cosine);
     const Lanes mirror = scale + bias;  // what rough facets that reflect everything reflect
     const auto albedo = [&](const Vec3<Lanes>& f0, Lanes f90, const Vec3<Lanes>& filmed) {

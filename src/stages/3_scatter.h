@@ -11,25 +11,28 @@ inline namespace OBSCURA_ISA {
 OBSCURA_INLINE BsdfValue<Lanes> evaluate_point(const ShadingPoint& s,
                                                const Vec3<Lanes>& wo,
                                                const Vec3<Lanes>& wi) {
+    const LayeredPoint& l = s.layers;
+    if (s.any_layers && all(l.layered)) return evaluate_layers(l, wo, wi);
     const BsdfValue<Lanes> core = evaluate_bsdf(s.bsdf, s.lobes, wo, wi);
     if (!s.any_layers) return core;
-    const LayeredPoint& l = s.layers;
-    const BsdfValue<Lanes> all = evaluate_layers(l, wo, wi);
-    return {select(l.layered, all.value_cos, core.value_cos), select(l.layered, all.pdf, core.pdf)};
+    const BsdfValue<Lanes> layers = evaluate_layers(l, wo, wi);
+    return {select(l.layered, layers.value_cos, core.value_cos),
+            select(l.layered, layers.pdf, core.pdf)};
 }
 
 /// In   u: z is read where the surface lets light through
 OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
                                               const Vec3<Lanes>& wo,
                                               const Vec3<Lanes>& u) {
+    const LayeredPoint& l = s.layers;
+    if (s.any_layers && all(l.layered)) return sample_layers(l, wo, u);
     const BsdfSample<Lanes> core = sample_bsdf(s.bsdf, s.lobes, wo, Vec2<Lanes>{u.x, u.y});
     if (!s.any_layers) return core;
-    const LayeredPoint& l = s.layers;
-    const BsdfSample<Lanes> all = sample_layers(l, wo, u);
-    return {select(l.layered, all.direction, core.direction),
-            {select(l.layered, all.at.value_cos, core.at.value_cos),
-             select(l.layered, all.at.pdf, core.at.pdf)},
-            select(l.layered, all.spread, core.spread)};
+    const BsdfSample<Lanes> layers = sample_layers(l, wo, u);
+    return {select(l.layered, layers.direction, core.direction),
+            {select(l.layered, layers.at.value_cos, core.at.value_cos),
+             select(l.layered, layers.at.pdf, core.at.pdf)},
+            select(l.layered, layers.spread, core.spread)};
 }
 
 /// Whether a ray may leave on the side that its direction has of the true surface (`before`: the

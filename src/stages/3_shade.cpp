@@ -33,7 +33,7 @@ OBSCURA_INLINE Vec2<LanesU> random_pair(LanesU key, LanesU sample, int bounce, R
 OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
                                           int bounce,
                                           int light_count,
-                                          const EnvironmentDraw<Lanes>& draw) {
+                                          const PixelDraw<Lanes>& draw) {
     const auto pair = [&](RandomUse use) {
         return random_pair(path.key, path.sample, bounce, use);
     };
@@ -56,21 +56,20 @@ OBSCURA_INLINE void draw_ahead(const SceneView& scene,
                                int bounce,
                                int first,
                                int groups,
-                               EnvironmentDraw<Lanes> (&draws)[groups_ahead]) {
+                               PixelDraw<Lanes> (&draws)[groups_ahead]) {
     for (int g = 0; g < groups; ++g) {
         const int i = first + g * lane_count;
         const Vec2<LanesU> random =
             random_pair(load(paths.key + i), load(paths.sample + i), bounce, RandomUse::light);
-        draws[g].random = random;
         if (scene.has_environment) {
-            draws[g] = draw_environment_row<Lanes>(scene.environment, random);
+            draws[g] = draw_block<Lanes>(scene.environment.choice, random);
+        } else {
+            draws[g].random = random;
         }
     }
     if (!scene.has_environment) return;
     for (int g = 0; g < groups; ++g)
-        draw_environment_range(scene.environment, draws[g]);
-    for (int g = 0; g < groups; ++g)
-        draw_environment_column(scene.environment, draws[g]);
+        draw_environment_pixel(scene.environment, draws[g]);
 }
 
 /// Light that the hit surfaces send towards the viewer themselves.
@@ -252,7 +251,7 @@ ShadeCounts shade(const SceneView& scene,
     if (bounce == 0) set_camera_alpha(batch, count_in, rows);
     const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
     shade_misses(scene, batch, bounce, sorted.misses, rows);
-    EnvironmentDraw<Lanes> draws[groups_ahead];
+    PixelDraw<Lanes> draws[groups_ahead];
     ShadeCounts out;
     for (int i = 0; i < sorted.hits; i += lane_count) {
         const int group = i / lane_count % groups_ahead;

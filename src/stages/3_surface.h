@@ -184,7 +184,8 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     s.normal = shading_normal(scene, seen, tangents, slots.normal);
     s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, seen.wo));
     s.bsdf = bsdf_params(scene, g, look, slots);
-    s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, seen.wo));
+    s.lobes = {Lanes(0.0f), Lanes(0.0f)};
+    if (!all(layered)) s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, seen.wo));
     s.any_layers = any(layered);
     if (s.any_layers) {
         const Vec3<Lanes> smooth = select(dot(g.normal, s.ng) < Lanes(0.0f), -g.normal, g.normal);

@@ -2,12 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "math/lanes.h"
+#include "math/gather4.h"
 
 namespace obscura {
 
 inline constexpr int albedo_cosines = 32;
 inline constexpr int albedo_roughnesses = 32;
+
+/// Normal-incidence reflectance of a dielectric with index of refraction 1.5.
+inline constexpr float dielectric_f0 = 0.04f;
 
 /// At cosine (c / (albedo_cosines - 1))^2, dense where the lobe changes fastest, and perceptual
 /// roughness r / (albedo_roughnesses - 1): entry r * albedo_cosines + c. The albedo for reflectance
@@ -17,11 +20,22 @@ extern const float specular_albedo_bias[albedo_cosines * albedo_roughnesses];
 /// Of the Charlie lobe (surface/sheen.h) with a white colour.
 extern const float sheen_albedo_table[albedo_cosines * albedo_roughnesses];
 
+/// A table whose cells have their four corners beside each other, so that a look-up reads once:
+/// entries (r, c), (r, c + 1), (r + 1, c), (r + 1, c + 1).
+struct AlbedoCells {
+    float corners[albedo_cosines * albedo_roughnesses * 4];
+};
+
+extern const AlbedoCells specular_scale_cells;
+extern const AlbedoCells specular_bias_cells;
+extern const AlbedoCells dielectric_cells;  ///< of dielectric_f0
+extern const AlbedoCells sheen_cells;
+
 inline namespace OBSCURA_ISA {
 
-/// Bilinear look-up in one of the tables.
+/// Bilinear look-up.
 template <typename F>
-OBSCURA_INLINE F look_up_albedo(const float* table, const F& cosine, const F& roughness) {
+OBSCURA_INLINE F look_up_albedo(const AlbedoCells& cells, const F& cosine, const F& roughness) {
     using I = IntOf<F>;
     const F x = sqrt(clamp(cosine, F(0.0f), F(1.0f))) * F(static_cast<float>(albedo_cosines - 1));
     const F y = clamp(roughness, F(0.0f), F(1.0f)) * F(static_cast<float>(albedo_roughnesses - 1));
@@ -29,11 +43,9 @@ OBSCURA_INLINE F look_up_albedo(const float* table, const F& cosine, const F& ro
     const I row = min(to_int(y), I(albedo_roughnesses - 2));
     const F fx = x - from_int<F>(column);
     const F fy = y - from_int<F>(row);
-    const I at = row * I(albedo_cosines) + column;
-    const F low = lerp(gather<F>(table, at), gather<F>(table + 1, at), fx);
-    const F high =
-        lerp(gather<F>(table + albedo_cosines, at), gather<F>(table + albedo_cosines + 1, at), fx);
-    return lerp(low, high, fy);
+    const I cell = row * I(albedo_cosines) + column;
+    const Four<F> corner = gather4<F>(cells.corners, I(cell * I(4)));
+    return lerp(lerp(corner.x, corner.y, fx), lerp(corner.z, corner.w, fx), fy);
 }
 
 /// Share of a white sky that a specular lobe with reflectance f0 reflects towards `cosine`.
@@ -43,8 +55,14 @@ OBSCURA_INLINE F look_up_albedo(const float* table, const F& cosine, const F& ro
 template <typename F>
 OBSCURA_INLINE F specular_albedo(const F& f0, const F& cosine, const F& alpha) {
     const F roughness = sqrt(alpha);
-    return f0 * look_up_albedo(specular_albedo_scale, cosine, roughness) +
-           look_up_albedo(specular_albedo_bias, cosine, roughness);
+    return f0 * look_up_albedo(specular_scale_cells, cosine, roughness) +
+           look_up_albedo(specular_bias_cells, cosine, roughness);
+}
+
+/// The same for dielectric_f0.
+template <typename F>
+OBSCURA_INLINE F dielectric_albedo(const F& cosine, const F& alpha) {
+    return look_up_albedo(dielectric_cells, cosine, sqrt(alpha));
 }
 
 }  // namespace OBSCURA_ISA

@@ -10,8 +10,6 @@ namespace obscura {
 
 /// Roughness below this is rendered as this: narrower lobes leave float's range.
 inline constexpr float min_ggx_alpha = 1e-3f;
-/// Normal-incidence reflectance of a dielectric with index of refraction 1.5.
-inline constexpr float dielectric_f0 = 0.04f;
 
 /// A surface point's material, all textures applied.
 template <typename F>
@@ -63,7 +61,7 @@ OBSCURA_INLINE F smith_denominator(const F& cosine, const F& alpha) {
 /// How the lobes share the light, for one view direction.
 template <typename F>
 OBSCURA_INLINE LobeWeights<F> lobe_weights(const BsdfParams<F>& p, const F& cos_o) {
-    const F dielectric = specular_albedo(F(dielectric_f0), cos_o, p.alpha);
+    const F dielectric = dielectric_albedo(cos_o, p.alpha);
     const F diffuse = (F(1.0f) - p.metallic) * (F(1.0f) - dielectric);
     const F base = luminance(p.base_color);
     const F metal = base + (F(1.0f) - base) * schlick_weight(cos_o);

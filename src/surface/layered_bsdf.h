@@ -117,21 +117,25 @@ template <typename F>
 OBSCURA_INLINE LayeredWeights<F> layered_weights(const LayeredParams<F>& p, const Vec3<F>& wo) {
     const F one(1.0f);
     LayeredWeights<F> w{one, one, one, one, one, one, one, one, one};
-    const F coat_share =
-        p.coat * specular_albedo(F(dielectric_f0), dot(wo, p.coat_normal), p.coat_alpha);
+    const F zero(0.0f);
+    F coat_share = zero;
+    if (any(p.coat > zero)) {
+        coat_share = p.coat * dielectric_albedo(dot(wo, p.coat_normal), p.coat_alpha);
+    }
     w.below_coat = one - coat_share;
-    const SheenAlbedo<F> sheen = sheen_albedo(wo.z, p.sheen_alpha);
+    SheenAlbedo<F> sheen{zero, one};
+    const F most_sheen = max_component(p.sheen_color);
+    if (any(most_sheen > zero)) sheen = sheen_albedo(wo.z, p.sheen_alpha);
     w.sheen_scale = sheen.scale;
-    w.below_sheen = one - max_component(p.sheen_color) * sheen.albedo;
+    w.below_sheen = one - most_sheen * sheen.albedo;
 
     const LayeredFresnel<F> fresnel = layered_fresnel(p, wo.z);
     const F roughness = sqrt(sqrt(p.alpha.x * p.alpha.y));
-    F boundary = max_component(p.f0) * look_up_albedo(specular_albedo_scale, wo.z, roughness) +
-                 p.f90 * look_up_albedo(specular_albedo_bias, wo.z, roughness);
+    F boundary = max_component(p.f0) * look_up_albedo(specular_scale_cells, wo.z, roughness) +
+                 p.f90 * look_up_albedo(specular_bias_cells, wo.z, roughness);
     boundary = lerp(boundary, max_component(fresnel.dielectric), p.film.strength);
     const F dielectric = one - p.metallic;
-    const auto from_within =
-        p.solid & (p.eta < one) & (dielectric * (one - p.transmission) > F(0.0f));
+    const auto from_within = p.solid & (p.eta < one) & (dielectric * (one - p.transmission) > zero);
     if (any(from_within)) {
         boundary = select(from_within, inner_boundary_albedo(p, wo), boundary);
     }
@@ -154,7 +158,6 @@ OBSCURA_INLINE LayeredWeights<F> layered_weights(const LayeredParams<F>& p, cons
     const auto at_least = [&](const F& share, const MaskOf<F>& exists) {
         return select(exists, max(share / sum, F(0.05f)), F(0.0f));
     };
-    const F zero(0.0f);
     w.p_diffuse = at_least(diffuse, diffuse > zero);
     w.p_facet = at_least(facet, (specular > zero) | (w.transmitted * color > zero));
     w.p_coat = at_least(coat_share, p.coat > zero);

@@ -60,7 +60,7 @@ struct SheenAlbedo {
 
 template <typename F>
 OBSCURA_INLINE SheenAlbedo<F> sheen_albedo(const F& cosine, const F& alpha) {
-    const F raw = look_up_albedo(sheen_albedo_table, cosine, sqrt(alpha));
+    const F raw = look_up_albedo(sheen_cells, cosine, sqrt(alpha));
     return {min(raw, F(1.0f)), F(1.0f) / max(raw, F(1.0f))};
 }
 

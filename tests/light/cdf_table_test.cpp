@@ -23,31 +23,16 @@ std::vector<double> random_weights(size_t count, uint64_t seed) {
     return weights;
 }
 
-template <typename Entry = CdfEntry>
-std::vector<Entry> table_for(const std::vector<double>& weights) {
-    return build_cdf_table<Entry>(std::span<const double>(weights));
+std::vector<CdfEntry> table_for(const std::vector<double>& weights) {
+    return build_cdf_table(std::span<const double>(weights));
 }
 
-template <typename Entry>
-std::vector<double> shares_of(const std::vector<Entry>& table) {
-    return cdf_probabilities(std::span<const Entry>(table));
-}
-
-/// What sample_cdf reads: a table with the padding after it.
-template <typename Entry>
-std::vector<Entry> padded(std::vector<Entry> table) {
-    table.resize(table.size() + cdf_padding<Entry>);
-    return table;
+std::vector<double> shares_of(const std::vector<CdfEntry>& table) {
+    return cdf_probabilities(std::span<const CdfEntry>(table));
 }
 
 /// Smallest share of the random numbers that an index can have.
-template <typename Entry>
-constexpr double grain = sizeof(Entry) == 4 ? 0x1p-16 : 0x1p-32;
-
-template <typename Entry>
-class CdfTables : public testing::Test {};
-using Entries = testing::Types<CdfEntry, ShortCdfEntry>;
-TYPED_TEST_SUITE(CdfTables, Entries);
+constexpr double grain = 0x1p-32;
 
 double sum_of(const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0);
@@ -62,14 +47,14 @@ TEST(CdfTable, MultiplyHighIsTheUpperHalfOfTheProduct) {
     }
 }
 
-TYPED_TEST(CdfTables, ProbabilitiesFollowTheWeights) {
+TEST(CdfTable, ProbabilitiesFollowTheWeights) {
     for (const size_t count : {1U, 2U, 3U, 7U, 64U, 1000U, 16384U}) {
         std::vector<double> weights = random_weights(count, count);
         weights[0] += 1;
-        const std::vector<double> got = shares_of(table_for<TypeParam>(weights));
+        const std::vector<double> got = shares_of(table_for(weights));
         const double sum = sum_of(weights);
         EXPECT_DOUBLE_EQ(sum_of(got), 1.0);
-        const double limit = static_cast<double>(count) * grain<TypeParam>;
+        const double limit = static_cast<double>(count) * grain;
         for (size_t i = 0; i < count; ++i) {
             EXPECT_NEAR(got[i], weights[i] / sum, limit) << count << " entries, index " << i;
             EXPECT_EQ(got[i] > 0, weights[i] > 0) << count << " entries, index " << i;
@@ -89,68 +74,66 @@ TEST(CdfTable, AMillionEntriesKeepTheirShares) {
     }
 }
 
-TYPED_TEST(CdfTables, TheFaintestEntryIsStillReached) {
+TEST(CdfTable, TheFaintestEntryIsStillReached) {
     std::vector<double> weights(1000, 1.0);
     weights[500] = 1e30;
-    const std::vector<double> got = shares_of(table_for<TypeParam>(weights));
+    const std::vector<double> got = shares_of(table_for(weights));
     for (size_t i = 0; i < weights.size(); ++i)
-        EXPECT_GE(got[i], grain<TypeParam>) << i;
+        EXPECT_GE(got[i], grain) << i;
 }
 
 /// The steps that faint indices need must not be taken from a brighter neighbour.
-TYPED_TEST(CdfTables, TheRimOfASunKeepsItsShare) {
+TEST(CdfTable, TheRimOfASunKeepsItsShare) {
     std::vector<double> weights(1000, 1.0);
     weights[500] = 1e6;
     for (const size_t rim : {498U, 499U, 501U, 502U})
         weights[rim] = 1000;
-    const std::vector<double> got = shares_of(table_for<TypeParam>(weights));
+    const std::vector<double> got = shares_of(table_for(weights));
     const double sum = sum_of(weights);
     for (const size_t i : {498U, 499U, 500U, 501U, 502U})
         EXPECT_NEAR(got[i] / (weights[i] / sum), 1.0, 0.05) << i;
 }
 
-TYPED_TEST(CdfTables, WeightsThatAreAllZeroMeanUniform) {
+TEST(CdfTable, WeightsThatAreAllZeroMeanUniform) {
     const std::vector<double> weights(5, 0.0);
-    const std::vector<TypeParam> table = table_for<TypeParam>(weights);
+    const std::vector<CdfEntry> table = table_for(weights);
     for (const double got : shares_of(table))
-        EXPECT_NEAR(got, 0.2, 1e-8 + grain<TypeParam>);
+        EXPECT_NEAR(got, 0.2, 1e-8 + grain);
 }
 
-TYPED_TEST(CdfTables, BrokenWeightsCountAsZero) {
+TEST(CdfTable, BrokenWeightsCountAsZero) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const double infinity = std::numeric_limits<double>::infinity();
-    const std::vector<double> got = shares_of(table_for<TypeParam>({-1, 2, nan, infinity, 6}));
+    const std::vector<double> got = shares_of(table_for({-1, 2, nan, infinity, 6}));
     const std::vector<double> expected = {0, 0.25, 0, 0, 0.75};
     for (size_t i = 0; i < got.size(); ++i)
-        EXPECT_NEAR(got[i], expected[i], 1e-8 + grain<TypeParam>) << i;
+        EXPECT_NEAR(got[i], expected[i], 1e-8 + grain) << i;
 }
 
-TYPED_TEST(CdfTables, HugeWeightsDoNotOverflow) {
-    const std::vector<double> got = shares_of(table_for<TypeParam>({1.7e308, 1.7e308, 1.7e308}));
+TEST(CdfTable, HugeWeightsDoNotOverflow) {
+    const std::vector<double> got = shares_of(table_for({1.7e308, 1.7e308, 1.7e308}));
     for (const double share : got)
-        EXPECT_NEAR(share, 1.0 / 3, 1e-8 + grain<TypeParam>);
+        EXPECT_NEAR(share, 1.0 / 3, 1e-8 + grain);
 }
 
 /// Counts of (index, sixteenth of the remaining bits).
-template <typename Entry>
-std::vector<double> draw(const std::vector<Entry>& table, int samples) {
+std::vector<double> draw(const std::vector<CdfEntry>& table, int samples) {
     std::vector<double> observed((table.size() - 1) * 16, 0.0);
-    const std::vector<Entry> entries = padded(table);
     Pcg32 random(11);
     for (int i = 0; i < samples; ++i) {
         const auto count = static_cast<int>(table.size()) - 1;
-        const auto sample = sample_cdf<float>(entries.data(), count, random.next_uint());
+        const auto sample = sample_cdf<float>(table.data(), count, random.next_uint());
         observed[static_cast<size_t>(sample.index) * 16 + (sample.remaining >> 28)] += 1;
     }
     return observed;
 }
 
-TYPED_TEST(CdfTables, IndexAndRemainderAreIndependentAndRight) {
+TEST(CdfTable, IndexAndRemainderAreIndependentAndRight) {
     constexpr int samples = 1000000;
     std::vector<double> weights = random_weights(100, 7);
     for (double& weight : weights)
         weight = std::sqrt(weight);  // most bins get samples
-    const std::vector<TypeParam> table = table_for<TypeParam>(weights);
+    const std::vector<CdfEntry> table = table_for(weights);
     const std::vector<double> shares = shares_of(table);
     std::vector<double> expected(shares.size() * 16);
     for (size_t i = 0; i < expected.size(); ++i)
@@ -166,11 +149,10 @@ TYPED_TEST(CdfTables, IndexAndRemainderAreIndependentAndRight) {
 }
 
 /// Sampler and cdf_probabilities agree to the single random number, at every border.
-TYPED_TEST(CdfTables, ProbabilitiesCountEveryRandomNumber) {
-    const std::vector<TypeParam> table = table_for<TypeParam>(random_weights(7, 5));
-    const std::vector<TypeParam> entries = padded(table);
+TEST(CdfTable, ProbabilitiesCountEveryRandomNumber) {
+    const std::vector<CdfEntry> table = table_for(random_weights(7, 5));
     const auto index_of = [&](uint32_t random) {
-        return sample_cdf<float>(entries.data(), 7, random).index;
+        return sample_cdf<float>(table.data(), 7, random).index;
     };
     std::vector<double> counted(7, 0.0);
     uint64_t begin = 0;
@@ -190,10 +172,10 @@ TYPED_TEST(CdfTables, ProbabilitiesCountEveryRandomNumber) {
         EXPECT_DOUBLE_EQ(counted[i], told[i]) << i;
 }
 
-TYPED_TEST(CdfTables, TheIndexGrowsWithTheRandomNumber) {
+TEST(CdfTable, TheIndexGrowsWithTheRandomNumber) {
     std::vector<double> weights = random_weights(300, 4);
     weights.insert(weights.end(), {1e7, 0, 0});
-    const std::vector<TypeParam> table = padded(table_for<TypeParam>(weights));
+    const std::vector<CdfEntry> table = table_for(weights);
     int32_t index = 0;
     for (uint64_t random = 0; random < 0x100000000U; random += 0xFFFFF) {
         const auto bits = static_cast<uint32_t>(random);
@@ -205,8 +187,8 @@ TYPED_TEST(CdfTables, TheIndexGrowsWithTheRandomNumber) {
     EXPECT_EQ(index, 300);
 }
 
-TYPED_TEST(CdfTables, LanesEqualScalars) {
-    const std::vector<TypeParam> table = padded(table_for<TypeParam>(random_weights(5000, 9)));
+TEST(CdfTable, LanesEqualScalars) {
+    const std::vector<CdfEntry> table = table_for(random_weights(5000, 9));
     Pcg32 random(1);
     for (int round = 0; round < 1000; ++round) {
         uint32_t bits[lane_count];

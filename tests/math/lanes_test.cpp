@@ -100,6 +100,16 @@ TEST(Lanes, FloatComparisonsAreTheScalars) {
     });
 }
 
+TEST(Lanes, InverseSquareRootIsGoodToFourUlp) {
+    for (double number = 1e-36; number < 1e37; number *= 1.0137) {
+        const auto x = static_cast<float>(number);
+        const double expected = 1 / std::sqrt(static_cast<double>(x));
+        EXPECT_NEAR(lane(inverse_sqrt(Lanes(x)), 0) / expected, 1, 4 * 0x1p-24) << x;
+        EXPECT_NEAR(inverse_sqrt(x) / expected, 1, 4 * 0x1p-24) << x;
+        EXPECT_NEAR(inverse_sqrt(number) * std::sqrt(number), 1, 1e-15) << number;
+    }
+}
+
 TEST(Lanes, SingleFloatOperationsAreTheScalars) {
     for (size_t first = 0; first < odd_floats().size(); ++first) {
         const Lanes a = odd_lanes(odd_floats(), first);
