@@ -77,6 +77,7 @@ struct Job {
     Degraded degraded;  ///< what the latest scene lacks
     RenderStatistics statistics;
     std::optional<StopOnSignal> stop;  ///< until the first picture a signal ends the program
+    UnsetArray<float> film_memory;     ///< of the latest picture, for the next one
 };
 
 /// Which of so many pictures is rendered.
@@ -143,6 +144,7 @@ Result<void> render_and_write(
     RenderOptions options = request.options;
     if (auto focused = focus(scene, request, log, camera); !focused) return focused;
     options.moving_camera = camera.moving;
+    options.film_memory = &job.film_memory;
     if (auto exposed = expose_display(camera, request, job.display, log); !exposed) return exposed;
 
     if (!job.stop) {
@@ -170,6 +172,7 @@ Result<void> render_and_write(
     finished.picture = {film.width, film.height, std::move(film.channels), std::move(film.pixels)};
     const Result<void> written = write_outputs(request, finished, job.display, job.stop->flag());
     statistics.write_s += writing.seconds();
+    job.film_memory = std::move(finished.picture.pixels);
     return written;
 }
 
@@ -291,7 +294,7 @@ Result<void> execute(const RenderRequest& request, Log& log) {
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);
-    Job job{log, request, std::move(*display), {}, {}, {}, {}, {}, {}};
+    Job job{log, request, std::move(*display), {}, {}, {}, {}, {}, {}, {}};
     RenderStatistics& statistics = job.statistics;
     statistics.threads = threads.threads();
     if (request.check) return check_all(job);

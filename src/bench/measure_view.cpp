@@ -116,9 +116,11 @@ bool same_bits(std::span<const float> a, std::span<const float> b) {
 }  // namespace
 
 Result<ViewFigures> measure_view(const ViewTask& task, const std::atomic<bool>& stop) {
+    UnsetArray<float> film_memory;
     const auto render_once = [&](RayRecording* recording) {
         RenderOptions options = task.options;
         options.recording = recording;
+        options.film_memory = &film_memory;
         return render(*task.scene, task.camera, options, {}, stop);
     };
     const Result<RenderResult> first = render_once(nullptr);
@@ -131,9 +133,10 @@ Result<ViewFigures> measure_view(const ViewTask& task, const std::atomic<bool>& 
     Replays replays(task.scene->accel(), recording);
     Renders renders;
     for (int i = 0; i < task.repeat; ++i) {
-        const Result<RenderResult> result = render_once(nullptr);
+        Result<RenderResult> result = render_once(nullptr);
         if (!result) return fail(result.error());
         renders.add(*result);
+        film_memory = std::move(result->film.pixels);
         replays.run_once();
     }
 

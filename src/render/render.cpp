@@ -73,6 +73,14 @@ std::vector<Tile> cut_tiles(const PixelRect& area, int size) {
     return tiles;
 }
 
+/// Quantities take one ray a pixel: only a larger tile fills their rows.
+int tile_side(const RenderOptions& options) {
+    constexpr int side_for_quantities = 32;
+    static_assert(side_for_quantities * side_for_quantities == quantity_rows);
+    return is_quantity(options.integrator) ? std::max(options.tile_size, side_for_quantities)
+                                           : options.tile_size;
+}
+
 /// Pixels of a tile of one size in 4x4 blocks, row by row inside a block: packets of 16 are square.
 struct TilePattern {
     int width = 0, height = 0;
@@ -277,6 +285,7 @@ Result<RenderResult> render(const PreparedScene& scene,
     result.film.width = options.width;
     result.film.height = options.height;
     result.film.channels = film_channels(options.integrator);
+    if (options.film_memory != nullptr) result.film.pixels = std::move(*options.film_memory);
     // Not cleared here: the threads that write the pixels first bring in their memory.
     result.film.pixels.resize(static_cast<size_t>(options.width) *
                               static_cast<size_t>(options.height) * result.film.channels.size());
@@ -294,7 +303,7 @@ Result<RenderResult> render(const PreparedScene& scene,
     const bool quantity = is_quantity(options.integrator);
     const int samples = samples_taken(options);
     const PixelRect whole{0, 0, options.width, options.height};
-    const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), options.tile_size);
+    const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), tile_side(options));
 
     std::vector<std::unique_ptr<ThreadState>> states(max_thread_index());
     std::atomic<size_t> finished = 0;

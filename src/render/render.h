@@ -62,7 +62,7 @@ struct RenderOptions {
     int samples_per_pixel = 64;
     int max_bounces = 8;
     uint64_t seed = 0;
-    int tile_size = 16;             ///< pixels; any value gives the same picture
+    int tile_size = 16;  ///< pixels; any value gives the same picture; at least 32 for quantities
     std::optional<PixelRect> crop;  ///< renders only this part; the rest of the film is zero
     Integrator integrator = Integrator::path;
     PixelFilter filter = PixelFilter::box;
@@ -75,6 +75,8 @@ struct RenderOptions {
     double wire_width_px = 1;
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
     int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling
+    /// Memory of an earlier film, written again in place of new; null or empty: new memory.
+    UnsetArray<float>* film_memory = nullptr;
     /// Filled with every ray that was asked, about 32 bytes each; null: nobody wants them.
     RayRecording* recording = nullptr;
 };

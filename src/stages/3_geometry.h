@@ -17,6 +17,7 @@ struct MeshUv {
 /// A hit's geometry in world space.
 struct HitGeometry {
     TableRow<Lanes> primitive, material;
+    bool one_triangle;     ///< all lanes hit the same: as camera rays of near pixels do
     LanesI corner[3];      ///< absolute vertex numbers
     Lanes weight[3];       ///< barycentric
     Vec3<Lanes> position;  ///< from the corners, not from the ray: error is bounded
@@ -59,6 +60,7 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
     HitGeometry g;
     g.primitive = {scene.primitives, hit.primitive, primitive_words};
     g.material = {scene.materials, g.primitive.integer(2), material_words};
+    g.one_triangle = g.primitive.shared() && all(hit.triangle == LanesI(first_lane(hit.triangle)));
     LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
     if (scene.shapes != nullptr) {
         g.shapes = g.primitive.integer(16) != LanesI(0);
@@ -72,7 +74,7 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
     Vec3<Lanes> p[3];
     for (int k = 0; k < 3; ++k) {
         if (g.has_shapes) g.corner[k] = select(g.shapes, LanesI(0), g.corner[k]);
-        p[k] = gather3(scene.positions, g.corner[k] * LanesI(3));
+        p[k] = read_corner3(scene.positions, g.corner[k] * LanesI(3), g.one_triangle);
     }
     if (scene.motion.positions != nullptr) {
         const CornerVectors moved = moved_corners(
@@ -95,7 +97,7 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
         Vec3<Lanes> n[3];
         for (int k = 0; k < 3; ++k) {
             const LanesI word = normal_base + g.corner[k] * LanesI(3);
-            n[k] = gather3(scene.attributes, select(smooth, word, LanesI(0)));
+            n[k] = read_corner3(scene.attributes, select(smooth, word, LanesI(0)), g.one_triangle);
         }
         if (scene.motion.normals != nullptr) {
             const CornerVectors moved = moved_corners(

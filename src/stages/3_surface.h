@@ -93,7 +93,7 @@ OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
         Vec3<Lanes> c[3];
         for (int k = 0; k < 3; ++k) {
             const LanesI word = select(colored, color_base + g.corner[k] * LanesI(4), LanesI(0));
-            c[k] = gather3(scene.attributes, word);
+            c[k] = read_corner3(scene.attributes, word, g.one_triangle);
         }
         color = select(colored, color * weighted(g, c), color);
     }

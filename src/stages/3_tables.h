@@ -36,6 +36,20 @@ OBSCURA_INLINE Vec3<Lanes> gather3(const float* base, LanesI word) {
     return {words.x, words.y, words.z};
 }
 
+/// Four words at a corner of the hit triangles.
+///
+/// In  shared: all lanes want the same ones
+OBSCURA_INLINE Four<Lanes> read_corner(const float* table, LanesI word, bool shared) {
+    if (!shared) return gather4<Lanes>(table, word);
+    const float* at = table + first_lane(word);
+    return {Lanes(at[0]), Lanes(at[1]), Lanes(at[2]), Lanes(at[3])};
+}
+
+OBSCURA_INLINE Vec3<Lanes> read_corner3(const float* table, LanesI word, bool shared) {
+    const Four<Lanes> words = read_corner(table, word, shared);
+    return {words.x, words.y, words.z};
+}
+
 /// In  word: at least one more follows in the row
 OBSCURA_INLINE Vec3<Lanes> read3(const TableRow<Lanes>& row, int word) {
     const Four<Lanes> words = row.four_numbers(word);

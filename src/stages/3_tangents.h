@@ -25,7 +25,7 @@ OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
     Lanes handedness = Lanes(1.0f);
     for (int k = 0; k < 3; ++k) {
         const LanesI word = select(out.known, base + g.corner[k] * LanesI(4), LanesI(0));
-        const Four<Lanes> words = gather4<Lanes>(scene.attributes, word);
+        const Four<Lanes> words = read_corner(scene.attributes, word, g.one_triangle);
         corners[k] = {words.x, words.y, words.z};
         if (k == 0) handedness = words.w;
     }

@@ -25,7 +25,7 @@ OBSCURA_INLINE MeshUv read_mesh_uv(const SceneView& scene, const HitGeometry& g,
     Vec2<Lanes> uv[3];
     for (int k = 0; k < 3; ++k) {
         const LanesI word = select(present, base + g.corner[k] * LanesI(2), LanesI(0));
-        const Four<Lanes> words = gather4<Lanes>(scene.attributes, word);
+        const Four<Lanes> words = read_corner(scene.attributes, word, g.one_triangle);
         uv[k] = {words.x, words.y};
     }
     const Vec2<Lanes> e1 = uv[1] - uv[0];
