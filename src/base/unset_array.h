@@ -1,4 +1,4 @@
-// base/unset_array.h - a vector for large arrays: not cleared, and in large pages.
+// base/unset_array.h - vectors for large arrays: in large pages, and not cleared.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,9 +14,10 @@ namespace obscura {
 void* allocate_large_pages(size_t bytes);
 void free_large_pages(void* memory);
 
-/// std::allocator, but what is made without a value is left as it is.
+/// std::allocator, but from two large pages on in such: what is read in no order then stays within
+/// reach of the processor's table of pages.
 template <typename T>
-struct UnsetAllocator : std::allocator<T> {
+struct LargePageAllocator : std::allocator<T> {
     static constexpr size_t smallest_large = 4U << 20U;  // two large pages; less would waste one
 
     T* allocate(size_t count) {
@@ -33,7 +34,15 @@ struct UnsetAllocator : std::allocator<T> {
             std::allocator<T>::deallocate(memory, count);
         }
     }
+};
 
+/// A vector in large pages.
+template <typename T>
+using LargeArray = std::vector<T, LargePageAllocator<T>>;
+
+/// The same, but what is made without a value is left as it is.
+template <typename T>
+struct UnsetAllocator : LargePageAllocator<T> {
     template <typename U, typename... Arguments>
     void construct(U* at, Arguments&&... arguments) {
         if constexpr (sizeof...(Arguments) == 0) {

@@ -29,7 +29,7 @@ struct ImageState {
 struct TextureStore {
     std::vector<ImageState> images;  ///< empty: nothing was decoded yet
     std::vector<ImageInfo> infos;
-    std::vector<uint32_t> texels;  ///< empty while a scene has them
+    LargeArray<uint32_t> texels;  ///< empty while a scene has them
 };
 
 /// What add_textures reads.

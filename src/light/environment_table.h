@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/unset_array.h"
 #include "light/environment.h"
 
 #include <cstdint>
@@ -53,7 +54,7 @@ private:
     void copy_pixels(const float* rgb, double intensity);
     void build_tables();
 
-    std::vector<float> pixels_;  ///< see EnvironmentView
+    LargeArray<float> pixels_;  ///< see EnvironmentView
     PixelChoice choice_;
     int width_ = 0;
     int height_ = 0;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/unset_array.h"
 #include "surface/texture_row.h"
 
 #include <cstddef>
@@ -12,7 +13,7 @@ namespace obscura {
 
 /// RGBA8 texels of all textures and the table of where they are.
 struct TextureArena {
-    std::vector<uint32_t> texels;  ///< at most 2^31 - 1; see TextureRow
+    LargeArray<uint32_t> texels;  ///< at most 2^31 - 1; see TextureRow
     std::vector<TextureRow> rows;
 };
 
