@@ -32,12 +32,14 @@ Mean repeated(const Scene& scene, WallView view) {
     return {mean, std::sqrt(std::max(0.0, squares / runs - mean * mean) / (runs - 1))};
 }
 
-/// Light sampling, rays that bounce, and both together must find the same light.
+/// Light sampling, rays that bounce, and both together must find the same light. Light sampling
+/// alone does not find what the panes mirror: it is asked where nothing bounces off them.
 void expect_strategies_agree(const Scene& scene, WallView view, double most_error) {
     view.strategies = sample_lights | sample_bsdfs;
     const Mean both = repeated(scene, view);
     EXPECT_GT(both.value, 0.001);
-    for (const int strategies : {sample_lights, sample_bsdfs}) {
+    for (const int strategies : {sample_bsdfs, sample_lights}) {
+        if (strategies == sample_lights && view.bounces > 0) continue;
         view.strategies = strategies;
         const Mean one = repeated(scene, view);
         const double sigma = std::sqrt(both.error * both.error + one.error * one.error);
@@ -134,21 +136,21 @@ TEST(ThinWalls, ASmallSunIsAsBrightAsThePaneLetsPass) {
     EXPECT_NEAR(seen(true).value / seen(false).value, pane_lets_pass(cosine), 0.002);
 }
 
-/// The camera sees lamps and skies through panes as they are, dimmed.
+/// The camera sees the sky through a grey pane, and the same sky mirrored in it.
 TEST(ThinWalls, CamerasSeeStraightThrough) {
     WallScene scene;
-    const int32_t glass = scene.add(glass_material(), glass_layers());
-    scene.pane(1, glass, 1e4f);
+    Material grey = glass_material();
+    std::fill_n(grey.base_color, 3, 0.5f);
+    scene.pane(1, scene.add(grey, glass_layers()), 1e4f);
     RenderOptions options;
     options.width = options.height = wall_picture_size;
     options.samples_per_pixel = many_samples;
     options.max_bounces = 0;
     const Camera up =
         look_at({0, 0.5f, 0}, {0.6f, 1.3f, 0}, 1e-4f, wall_picture_size, wall_picture_size);
-    const auto film = render_scene(scene.take(), even_sky(), up, options).film;
-    // Its reflection shows the floor, which is not lit within no bounces.
-    const Mean seen = film_mean(film);
-    EXPECT_NEAR(seen.value, pane_lets_pass(0.8), 4 * seen.error + 2e-3);
+    const Mean seen = film_mean(render_scene(scene.take(), even_sky(), up, options).film);
+    const double expected = 1 - 0.5 * pane_lets_pass(0.8);
+    EXPECT_NEAR(seen.value, expected, 4 * seen.error + 1e-3);
 }
 
 /// A white floor within a colourless bulb, under an even sky: everything comes back.
