@@ -3,6 +3,7 @@
 #include "accel/accel_impl.h"
 #include "accel/moving_geometry.h"
 #include "base/stopwatch.h"
+#include "scene/thin_walls.h"
 
 #include <algorithm>
 
@@ -105,23 +106,22 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     return impl;
 }
 
-std::vector<uint8_t> filters_of(const Accel::Impl& impl, const Mesh& range) {
-    std::vector<uint8_t> out(static_cast<size_t>(range.primitive_count), 0);
-    for (size_t i = 0; i < out.size() && !impl.alpha.empty(); ++i) {
-        const Primitive& primitive =
-            impl.scene->primitives[static_cast<size_t>(range.first_primitive) + i];
-        out[i] = needs_alpha_filter(*impl.scene, primitive, impl.materials_with_holes) ? 1 : 0;
+std::vector<FilterKinds> filters_of_range(const Accel::Impl& impl, const Mesh& range) {
+    std::vector<FilterKinds> out(static_cast<size_t>(range.primitive_count));
+    for (size_t i = 0; i < out.size(); ++i) {
+        out[i] = filters_of(impl,
+                            impl.scene->primitives[static_cast<size_t>(range.first_primitive) + i]);
     }
     return out;
 }
 
 /// The hierarchy over a range of primitives: `known` where nothing of it has changed, else new.
 BuiltGeometry build_range(Accel::Impl& impl, const Mesh& range, BuiltGeometry& known) {
-    BuiltGeometry out{nullptr, range, filters_of(impl, range)};
+    BuiltGeometry out{nullptr, range, filters_of_range(impl, range)};
     const bool is_same =
         known.scene != nullptr && range.stamp != 0 && known.range.stamp == range.stamp &&
         known.range.first_primitive == range.first_primitive &&
-        known.range.primitive_count == range.primitive_count && known.filtered == out.filtered;
+        known.range.primitive_count == range.primitive_count && known.filters == out.filters;
     if (is_same) {
         std::swap(out, known);
         return out;
@@ -208,6 +208,11 @@ Result<void> build_all(Accel::Impl& impl) {
         for (size_t i = 0; i < impl.alpha.size(); ++i)
             impl.alpha[i] = {impl.scene, impl.textures, static_cast<int32_t>(i)};
         impl.materials_with_holes = find_materials_with_holes(scene);
+        impl.thin_walls = find_thin_walls(scene);
+        impl.has_thin_walls = std::any_of(
+            scene.primitives.begin(), scene.primitives.end(), [&](const Primitive& primitive) {
+                return impl.thin_walls[static_cast<size_t>(primitive.material)] != 0;
+            });
     }
     impl.fill_primitive_tables();
     return build_scenes(impl);
@@ -267,6 +272,10 @@ Accel::Accel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Accel::Accel(Accel&&) noexcept = default;
 Accel& Accel::operator=(Accel&&) noexcept = default;
 Accel::~Accel() = default;
+
+bool Accel::has_thin_walls() const {
+    return impl_->has_thin_walls;
+}
 
 size_t Accel::memory_bytes() const {
     const int64_t bytes = impl_->memory.load();

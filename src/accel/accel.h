@@ -68,10 +68,17 @@ public:
                   SeeThrough see_through) const;
 
     /// occluded[i] = 1 when anything lies in (0, tfar), else 0; refused rays count as occluded.
+    ///
+    /// In/Out  walls: null, or 0 in every row: what may be a thin wall (scene/thin_walls.h) does not
+    ///         occlude, but makes this 1
     int occluded(const RayColumns& rays,
                  uint8_t* occluded,
                  Coherence coherence,
-                 uint32_t segment) const;
+                 uint32_t segment,
+                 uint8_t* walls = nullptr) const;
+
+    /// True when some primitive may be a thin wall.
+    bool has_thin_walls() const;
 
     /// How many primitives each ray is tested against until its nearest hit is known: those whose
     /// box it meets before that hit, in the order in which Embree comes to them. Depends on the

@@ -28,11 +28,18 @@ struct UserElements {
     int32_t primitive = 0;
 };
 
+/// What a primitive lets rays pass by.
+struct FilterKinds {
+    bool alpha = false;
+    bool wall = false;  ///< for shadow rays alone
+    bool operator==(const FilterKinds&) const = default;
+};
+
 /// The hierarchy over primitives that share one space.
 struct BuiltGeometry {
     RTCScene scene = nullptr;
-    Mesh range;                     ///< its primitives, and their stamp
-    std::vector<uint8_t> filtered;  ///< by primitive of the range: it has an alpha filter
+    Mesh range;                        ///< its primitives, and their stamp
+    std::vector<FilterKinds> filters;  ///< by primitive of the range
 };
 
 /// Where a scene's arrays lie that Embree shares.
@@ -64,6 +71,8 @@ struct Accel::Impl {
     SharedArrays arrays;
     bool has_instances = false;  ///< in `top`
     std::vector<uint8_t> materials_with_holes;
+    std::vector<uint8_t> thin_walls;          ///< by material
+    bool has_thin_walls = false;              ///< some primitive's material is one
     std::vector<AlphaGeometry> alpha;         ///< by primitive; empty: no filters
     std::vector<ShapeGeometry> shapes;        ///< by primitive; filled where it is one of shapes
     std::vector<UserElements> user_elements;  ///< by primitive; empty: Embree's own kinds
@@ -72,6 +81,9 @@ struct Accel::Impl {
     std::vector<uint8_t> single_sided;              ///< by primitive
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };
+
+/// In   impl.alpha: empty where nothing has filters
+FilterKinds filters_of(const Accel::Impl& impl, const Primitive& primitive);
 
 /// A primitive as Embree's geometry; null for a plane without end.
 RTCGeometry make_geometry(Accel::Impl& impl, int32_t row);

@@ -151,4 +151,17 @@ void alpha_filter(const RTCFilterFunctionNArguments* args) {
     }
 }
 
+void wall_filter(const RTCFilterFunctionNArguments* args) {
+    const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        if (passes_wall(context, RTCRayN_id(args->ray, args->N, i))) args->valid[i] = 0;
+    }
+}
+
+void open_wall_filter(const RTCFilterFunctionNArguments* args) {
+    alpha_filter(args);
+    wall_filter(args);
+}
+
 }  // namespace obscura

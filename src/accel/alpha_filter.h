@@ -58,4 +58,11 @@ bool is_opaque_there(const AlphaGeometry& geometry,
 /// in whatever order Embree asks.
 void alpha_filter(const RTCFilterFunctionNArguments* args);
 
+/// Embree filter for the occlusion of what may be a thin wall: QueryContext::passes_walls. It marks
+/// a ray by whatever wall it meets, so that the order in which Embree asks says nothing.
+void wall_filter(const RTCFilterFunctionNArguments* args);
+
+/// The same where alpha is asked first.
+void open_wall_filter(const RTCFilterFunctionNArguments* args);
+
 }  // namespace obscura

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "math/lanes.h"
+
 #if OBSCURA_EMBREE == 4  // the build says which one it found
 #include <embree4/rtcore.h>
 #else
@@ -29,7 +31,16 @@ struct QueryContext {
     unsigned segment = 0;            ///< mixed into the key
     bool fixed_threshold = false;    ///< alpha BLEND counts as MASK at one half
     bool culls_back_faces = false;   ///< of single-sided analytic shapes
+    bool passes_walls = false;       ///< occlusion goes on behind what may be a thin wall
+    unsigned char* walls = nullptr;  ///< then, by the ray's id: becomes 1 where it does; or null
 };
+
+/// Whether a shadow ray goes on behind what may be a thin wall; if so, that is noted.
+OBSCURA_INLINE bool passes_wall(const QueryContext& context, unsigned ray) {
+    if (!context.passes_walls) return false;
+    if (context.walls != nullptr) context.walls[ray] = 1;
+    return true;
+}
 
 /// Tells a user geometry's hit through which instance the ray came.
 inline void copy_instance_stack(const QueryContext& context,

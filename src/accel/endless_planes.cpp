@@ -86,7 +86,9 @@ bool endless_plane_hides(const Accel::Impl& impl,
     return std::any_of(
         impl.endless_planes.begin(), impl.endless_planes.end(), [&](const EndlessPlane& plane) {
             const EndlessPlane there = at_ray(impl, plane, rays, row);
-            return intersect_endless(there, context, ray, static_cast<unsigned>(row), tfar).found;
+            const auto id = static_cast<unsigned>(row);
+            if (!intersect_endless(there, context, ray, id, tfar).found) return false;
+            return !(plane.geometry.wall && passes_wall(context, id));
         });
 }
 

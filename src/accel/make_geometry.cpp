@@ -8,15 +8,18 @@ namespace obscura {
 
 namespace {
 
-void set_alpha_filter(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
-    const Scene& scene = *impl.scene;
-    const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
-    if (impl.alpha.empty() || !needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
-        return;
+void set_filters(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
+    const auto row = static_cast<size_t>(primitive_index);
+    const FilterKinds kinds = filters_of(impl, impl.scene->primitives[row]);
+    if (kinds.alpha) {
+        rtcSetGeometryUserData(geometry, &impl.alpha[row]);
+        rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
     }
-    rtcSetGeometryUserData(geometry, &impl.alpha[static_cast<size_t>(primitive_index)]);
-    rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
-    rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
+    if (kinds.wall) {
+        rtcSetGeometryOccludedFilterFunction(geometry,
+                                             kinds.alpha ? open_wall_filter : wall_filter);
+    }
 }
 
 void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeometry geometry) {
@@ -42,7 +45,7 @@ void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeom
 RTCGeometry commit(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
-    set_alpha_filter(impl, primitive_index, geometry);
+    set_filters(impl, primitive_index, geometry);
     rtcCommitGeometry(geometry);
     return geometry;
 }
@@ -95,9 +98,9 @@ bool fill_shape_geometry(Accel::Impl& impl, int32_t primitive_index) {
     out.spheres = spheres ? &scene.spheres[first * 4] : nullptr;
     out.count = primitive.triangle_count;
     out.single_sided = (material.flags & material_double_sided) == 0;
-    if (!impl.alpha.empty() && needs_alpha_filter(scene, primitive, impl.materials_with_holes)) {
-        out.alpha = &impl.alpha[static_cast<size_t>(primitive_index)];
-    }
+    const FilterKinds kinds = filters_of(impl, primitive);
+    if (kinds.alpha) out.alpha = &impl.alpha[static_cast<size_t>(primitive_index)];
+    out.wall = kinds.wall;
     return spheres || !is_unbounded(scene.shapes[first]);
 }
 
@@ -120,6 +123,12 @@ RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
 }
 
 }  // namespace
+
+FilterKinds filters_of(const Accel::Impl& impl, const Primitive& primitive) {
+    if (impl.alpha.empty()) return {};
+    return {needs_alpha_filter(*impl.scene, primitive, impl.materials_with_holes),
+            impl.thin_walls[static_cast<size_t>(primitive.material)] != 0};
+}
 
 RTCGeometry make_geometry(Accel::Impl& impl, int32_t row) {
     const int32_t kind = impl.scene->primitives[static_cast<size_t>(row)].geometry;

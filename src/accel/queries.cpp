@@ -205,7 +205,8 @@ int Accel::intersect(const RayColumns& rays,
 int Accel::occluded(const RayColumns& rays,
                     uint8_t* occluded,
                     Coherence coherence,
-                    uint32_t segment) const {
+                    uint32_t segment,
+                    uint8_t* walls) const {
     // On instances the coherent kernel of Embree 3.13 for AVX-512 may never come back.
     const bool coherent = coherence == Coherence::coherent && !impl_->has_instances;
     QueryContext context;
@@ -213,6 +214,8 @@ int Accel::occluded(const RayColumns& rays,
     context.keys = rays.key;
     context.fixed_threshold = rays.key == nullptr;
     context.segment = segment;
+    context.passes_walls = walls != nullptr;
+    context.walls = walls;
     int refused = 0;
     ValidMask valid;
     RTCRay16 block;

@@ -37,8 +37,12 @@ void RayRecorder::add_hits(const RayColumns& rays, const HitColumns& hits, SeeTh
     }
 }
 
-void RayRecorder::add_shadows(const RayColumns& rays, const uint8_t* occluded, uint32_t segment) {
+void RayRecorder::add_shadows(const RayColumns& rays,
+                              const uint8_t* occluded,
+                              uint32_t segment,
+                              bool passes_walls) {
     RecordedRays& out = list(RayKind::shadow);
+    passes_walls_ = passes_walls;
     for (int row = 0; row < rays.count; ++row) {
         if (!is_safe(rays, row)) continue;
         append(rays, row, segment, out);

@@ -30,15 +30,20 @@ struct RecordedRays {
 class RayRecorder {
 public:
     void add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through);
-    void add_shadows(const RayColumns& rays, const uint8_t* occluded, uint32_t segment);
+    void add_shadows(const RayColumns& rays,
+                     const uint8_t* occluded,
+                     uint32_t segment,
+                     bool passes_walls);
 
     const RecordedRays& rays(RayKind kind) const { return rays_[static_cast<size_t>(kind)]; }
     bool fixed_alpha() const { return fixed_alpha_; }
+    bool passes_walls() const { return passes_walls_; }  ///< of shadow rays
 
 private:
     RecordedRays& list(RayKind kind) { return rays_[static_cast<size_t>(kind)]; }
     std::array<RecordedRays, ray_kinds> rays_;
     bool fixed_alpha_ = false;
+    bool passes_walls_ = false;
 };
 
 /// All threads' rays of one rendering.

@@ -20,7 +20,7 @@ constexpr size_t chunk_rays = 4096;
 /// Some rows of one thread's recording.
 struct Chunk {
     const RecordedRays* rays;
-    bool fixed_alpha;
+    bool fixed_alpha, passes_walls;
     size_t begin, end;
 };
 
@@ -35,7 +35,7 @@ std::vector<Chunk> cut_chunks(const RayRecording& recording, RayKind kind) {
         const RecordedRays& rays = thread->rays(kind);
         for (size_t begin = 0; begin < rays.count(); begin += chunk_rays) {
             const size_t end = std::min(begin + chunk_rays, rays.count());
-            chunks.push_back({&rays, thread->fixed_alpha(), begin, end});
+            chunks.push_back({&rays, thread->fixed_alpha(), thread->passes_walls(), begin, end});
         }
     }
     return chunks;
@@ -45,6 +45,7 @@ std::vector<Chunk> cut_chunks(const RayRecording& recording, RayKind kind) {
 void give_keys(QueryContext& context, const Chunk& chunk) {
     context.keys = chunk.rays->key.data();
     context.fixed_threshold = chunk.fixed_alpha;
+    context.passes_walls = chunk.passes_walls;
 }
 
 /// Loads rows [first, first + count); the lanes behind them repeat the first.

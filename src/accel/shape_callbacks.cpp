@@ -174,7 +174,10 @@ void occluded(const RTCOccludedFunctionNArguments* args) {
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
     const RayFields rays{reinterpret_cast<float*>(args->ray), static_cast<int>(args->N)};
     const Call call{geometry, context, rays, args->valid, args->primID, false};
-    find_hits(call, [&](int row, const Found&) { rays.tfar()[row] = -INFINITY; });
+    find_hits(call, [&](int row, const Found&) {
+        if (geometry.wall && passes_wall(context, rays.id(row))) return;
+        rays.tfar()[row] = -INFINITY;
+    });
 }
 
 void set_bounds(const ShapeBox& box, RTCBounds& out) {

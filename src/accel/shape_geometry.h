@@ -19,6 +19,7 @@ struct ShapeGeometry {
     const float* spheres = nullptr;  ///< blocks, one an Embree primitive
     int32_t count = 0;               ///< rows, or spheres
     bool single_sided = false;
+    bool wall = false;                     ///< it may be a thin wall
     const AlphaGeometry* alpha = nullptr;  ///< null: every point is opaque
 };
 

@@ -141,6 +141,7 @@ SceneView PreparedScene::Impl::view() const {
     out.layers = reinterpret_cast<const float*>(scene.layers.data());
     out.media = scene.media.size() > 1 ? scene.media.front().extinction : nullptr;
     out.scatters = std::any_of(scene.media.begin(), scene.media.end(), scatters);
+    out.thin_walls = accel && accel->has_thin_walls();
     out.material_numbers = scene.material_numbers.data();
     const Motion& motion = scene.motion;
     out.motion.steps = motion.steps;

@@ -249,6 +249,12 @@ LayeredPoint read_layered_point(const LayerHit& hit,
     return read_point(reader, hit.scene, hit.path, base, place);
 }
 
+StraightLight<Lanes> take_straight(LayeredPoint& point, const Vec3<Lanes>& wo) {
+    const StraightLight<Lanes> light = take_straight_light(point.params, wo, point.weights);
+    return {select(point.layered, light.transmittance, splat3(Lanes(0.0f))),
+            select(point.layered, light.probability, Lanes(0.0f))};
+}
+
 BsdfValue<Lanes> evaluate_layers(const LayeredPoint& point,
                                  const Vec3<Lanes>& wo,
                                  const Vec3<Lanes>& wi) {

@@ -4,7 +4,7 @@
 
 #include "stages/3_media.h"
 #include "stages/3_tangents.h"
-#include "surface/layered_bsdf.h"
+#include "surface/thin_wall.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -48,6 +48,9 @@ struct LayerHit {
 LayeredPoint read_layered_point(const LayerHit& hit,
                                 const BsdfParams<Lanes>& base,
                                 LayerPlace& place);
+
+/// take_straight_light of the lanes that have layers; the others let nothing pass straight.
+StraightLight<Lanes> take_straight(LayeredPoint& point, const Vec3<Lanes>& wo);
 
 BsdfValue<Lanes> evaluate_layers(const LayeredPoint& point,
                                  const Vec3<Lanes>& wo,

@@ -6,6 +6,7 @@
 #include "stages/3_lights.h"
 #include "stages/3_misses.h"
 #include "stages/3_scatter.h"
+#include "stages/3_walls.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -86,9 +87,16 @@ OBSCURA_INLINE void add_emission(const SceneView& scene,
         const Mask chosen_by_bsdf = path.pdf > Lanes(0.0f);
         Lanes weight(1.0f);
         if (batch.strategies == (sample_lights | sample_bsdfs)) {
-            Lanes other = light_pdf(scene, s, path.direction, distance);
+            PathLanes chosen = path;  // as the last scattering chose it
+            Lanes way = distance;
+            if (rows.passed != nullptr) {
+                const Lanes passed = passed_way(rows, glows, path);
+                way = way + passed;
+                chosen.origin = path.origin - path.direction * passed;
+            }
+            Lanes other = light_pdf(scene, s, path.direction, way);
             if (scene.lights.shape_count > 0) {
-                other = shape_light_pdf(scene, s.light, path, s.ng, {distance, other});
+                other = shape_light_pdf(scene, s.light, chosen, s.ng, {way, other});
             }
             weight = select(chosen_by_bsdf, mis_weight(path.pdf, other), weight);
         } else if (batch.strategies == sample_lights) {
@@ -230,6 +238,35 @@ OBSCURA_INLINE int add_passing_rays(const PathRows& rows,
     return append_paths(rows, at, passes, next);
 }
 
+/// The end of a path's segment, for paths that pass thin walls there.
+struct WalledBounce {
+    int number;
+    bool is_over;  ///< paths do not scatter any more
+    Lanes distance;
+};
+
+/// Lets paths pass smooth thin walls; what stays of the layers' lobes is sampled with `random`.
+OBSCURA_INLINE PassedWalls add_straight_rays(const ShadeRows& rows,
+                                             int at,
+                                             Mask scatters,
+                                             const PathLanes& path,
+                                             ShadingPoint& s,
+                                             BounceRandom& random,
+                                             const WalledBounce& at_bounce) {
+    const Vec3<Lanes> u = direction_random(path, s, random, at_bounce.number);
+    const PathLanes here = path;  // only a copy has an address: the path itself stays in registers
+    const WallHit hit{scatters,
+                      s.any_layers,
+                      at_bounce.is_over,
+                      at_bounce.distance,
+                      u.z,
+                      to_local(s.frame, -path.direction),
+                      s.any_layers ? s.start_beyond : s.start};
+    const PassedWalls passed = pass_walls(rows, at, here, hit, s.layers);
+    random.bsdf.x = random.bsdf.x * passed.left;
+    return passed;
+}
+
 /// Takes from the paths what the bodies that they came through absorb. Where a body scatters light,
 /// stage 2 has done so.
 OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, PathLanes& path) {
@@ -263,17 +300,26 @@ ShadeCounts shade(const SceneView& scene,
         PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_of_paths(rows, i, exists, path);
         if (scene.media != nullptr) absorb(scene, exists, hit.t, path);
-        const BounceRandom random = bounce_random(path, bounce, scene.lights.count, draws[group]);
-        const ShadingPoint s =
-            shading_point(scene, hit, path, random.texture, Filtering::stochastic);
+        BounceRandom random = bounce_random(path, bounce, scene.lights.count, draws[group]);
+        ShadingPoint s = shading_point(scene, hit, path, random.texture, Filtering::stochastic);
         add_emission(scene, batch, rows, exists, path, s, hit.t);
         Mask scatters = exists & (!s.unlit);
-        if (bounce > batch.max_bounces || none(scatters)) continue;
+        const bool is_over = bounce > batch.max_bounces;
+        Mask turns = scatters;
+        if (rows.passed != nullptr) {
+            const PassedWalls passed = add_straight_rays(
+                rows, out.next, scatters, path, s, random, {bounce, is_over, hit.t});
+            out.next = passed.next;
+            turns = passed.others;
+        }
+        if (is_over || none(scatters)) continue;
         if (s.any_layers) {
             out.next = add_passing_rays(rows.next, out.next, scatters, path, s, hit.t);
-            scatters = scatters & (!(s.layers.layered & s.layers.boundary.hidden));
+            const Mask hidden = s.layers.layered & s.layers.boundary.hidden;
+            scatters = scatters & (!hidden);
+            turns = turns & (!hidden);
         }
-        out.next = add_next_rays(rows.next, out.next, scatters, path, s, random, bounce, hit.t);
+        out.next = add_next_rays(rows.next, out.next, turns, path, s, random, bounce, hit.t);
         if (scene.lights.count > 0) {
             out.shadow =
                 add_shadow_rays(scene, batch, rows.shadows, out.shadow, scatters, path, s, random);

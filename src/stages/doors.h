@@ -102,14 +102,15 @@ struct SceneView {
     const float* attributes = nullptr;
     const float* shapes = nullptr;   ///< ShapeRow as words; null: the scene has no shapes at all
     const float* spheres = nullptr;  ///< see shape/sphere_block.h; null: none
-    const float* curve_points = nullptr;        ///< x, y, z, radius; null: there are no lines
-    const int32_t* curve_segments = nullptr;    ///< first point of each
-    const int32_t* primitives = nullptr;        ///< Primitive as words
-    const float* instances = nullptr;           ///< Instance as words
-    const float* materials = nullptr;           ///< Material as words
-    const float* layers = nullptr;              ///< MaterialLayers as words
-    const float* media = nullptr;               ///< Medium as words; null: no body has a volume
-    bool scatters = false;                      ///< some medium scatters light
+    const float* curve_points = nullptr;      ///< x, y, z, radius; null: there are no lines
+    const int32_t* curve_segments = nullptr;  ///< first point of each
+    const int32_t* primitives = nullptr;      ///< Primitive as words
+    const float* instances = nullptr;         ///< Instance as words
+    const float* materials = nullptr;         ///< Material as words
+    const float* layers = nullptr;            ///< MaterialLayers as words
+    const float* media = nullptr;             ///< Medium as words; null: no body has a volume
+    bool scatters = false;                    ///< some medium scatters light
+    bool thin_walls = false;  ///< some surface may let light pass straight: surface/thin_wall.h
     const int32_t* material_numbers = nullptr;  ///< in glTF, by row; -1: none
     MotionView motion;
     TextureView textures;

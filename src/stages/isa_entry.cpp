@@ -4,6 +4,7 @@
 #include "stages/1_shutter.h"
 #include "stages/2_scatter.h"
 #include "stages/3_shade.h"
+#include "stages/4_walls.h"
 #include "stages/5_accumulate.h"
 
 #define OBSCURA_TEXT_OF(name) #name
@@ -28,6 +29,8 @@ const StageTable stage_table = {
     begin_raycast,
     shade_raycast,
     write_quantity,
+    take_waiting,
+    cross_walls,
     add_shadow_light,
     accumulate,
     clear_nonfinite,

@@ -118,6 +118,15 @@ struct ShadowLanes {
     LanesU slot, path_key;
 };
 
+OBSCURA_INLINE ShadowLanes load_shadows(const ShadowRows& rows, int i) {
+    return {load3(rows.ox, rows.oy, rows.oz, i),
+            load3(rows.dx, rows.dy, rows.dz, i),
+            load(rows.tfar + i),
+            load3(rows.r, rows.g, rows.b, i),
+            load(rows.slot + i),
+            load(rows.path_key + i)};
+}
+
 OBSCURA_INLINE int append_shadows(const ShadowRows& rows, int at, Mask mask, const ShadowLanes& s) {
     const Packer packer(mask);
     store3(rows.ox, rows.oy, rows.oz, at, pack(packer, s.origin));

@@ -40,6 +40,29 @@ struct ShadeRows {
     ShadowRows shadows;  ///< out
     SampleRows samples;  ///< in and out
     const float* time = nullptr;  ///< by slot; null: nothing moves
+    float* passed = nullptr;      ///< where SceneView::thin_walls, by slot; see stages/3_walls.h
+};
+
+/// Smooth thin walls that a shadow ray passes at most, and a path after its last bounce: behind
+/// more of them there is less light than should be.
+inline constexpr int most_walls = 32;
+
+/// In place of 0 and 1 in `occluded`: nothing but what may be thin walls is in the way.
+inline constexpr uint8_t waits_at_wall = 2;
+
+/// Shadow rays on their way through thin walls.
+struct WallRows {
+    ShadowRows shadows;           ///< in and out, packed in place
+    HitRows hits;                 ///< in
+    SampleRows samples;           ///< in and out
+    const float* time = nullptr;  ///< by slot; null: nothing moves
+};
+
+/// One step on that way.
+struct WallStep {
+    uint32_t segment = 0;
+    uint32_t number = 0;
+    bool random = true;  ///< texels are drawn; else filtered
 };
 
 /// Paths on their way through bodies that scatter light.
@@ -93,6 +116,10 @@ struct StageTable {
 
     /// Stage 3 for quantities: every sample is written, without light; 0 where nothing was hit.
     void (*quantity)(const SceneView&, const BatchSettings&, Quantity, int count, const ShadeRows&);
+
+    /// Stage 4, where there are thin walls: the rays that wait there, then one step of each.
+    int (*take_waiting)(int count, const uint8_t* occluded, const ShadowRows&);
+    int (*cross_walls)(const SceneView&, const WallStep&, int count, const WallRows&);
 
     /// Stage 5a: unoccluded shadow rows are added to their samples.
     void (*add_shadows)(int count, const ShadowRows&, const uint8_t* occluded, const SampleRows&);

@@ -115,36 +115,79 @@ void scatter_in_bodies(
     }
 }
 
+/// Stage 4 for the rays that wait at thin walls: nearest hits, for now it counts what is met.
+void cross_walls(
+    const WalkInput& in, int count, uint32_t segment, Workspace& work, WalkCounters& c) {
+    const bool raycast = in.kind == WalkKind::raycast;
+    const float* time = moves(in.scene.motion) ? work.slot_time.data() : nullptr;
+    const WallRows rows{work.shadows, work.walker_hits, work.samples, time};
+    int waiting = in.stages->take_waiting(count, work.occluded.data(), work.shadows);
+    for (uint32_t number = 0; waiting > 0 && number <= most_walls; ++number) {
+        {
+            const SumOfTime timing(c.seconds.shadow);
+            RayColumns rays = rays_of(work.shadows, waiting);
+            if (raycast) rays.key = nullptr;
+            rays.time = times_of(in, work.shadows.slot, waiting, work);
+            const SeeThrough see_through{false, raycast, segment};
+            c.refused_rays += static_cast<uint64_t>(
+                in.accel->intersect(rays, rows.hits, Coherence::incoherent, see_through));
+        }
+        const SumOfTime timing(c.seconds.shade);
+        const WallStep step{segment, number, !raycast};
+        waiting = in.stages->cross_walls(in.scene, step, waiting, rows);
+    }
+}
+
+/// Those of the rays that reached their end by way of what may be thin walls wait there.
+void keep_waiting(int count, Workspace& work) {
+    for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+        if (work.walls[i] != 0 && work.occluded[i] == 0) work.occluded[i] = waits_at_wall;
+    }
+}
+
 /// Stage 4, and its light into the samples.
 void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, WalkCounters& c) {
     const auto segment = 2U * static_cast<uint32_t>(bounce) + 1U;
+    const bool passes_walls = in.scene.thin_walls && in.kind != WalkKind::ao;
     RayColumns rays = rays_of(work.shadows, count);
     if (in.kind == WalkKind::raycast) rays.key = nullptr;
     rays.time = times_of(in, work.shadows.slot, count, work);
     c.shadow_rays += static_cast<uint64_t>(count);
     {
         const SumOfTime time(c.seconds.shadow);
+        if (passes_walls) work.walls.assign(padded_rows, 0);
+        uint8_t* walls = passes_walls ? work.walls.data() : nullptr;
         c.refused_rays += static_cast<uint64_t>(
-            in.accel->occluded(rays, work.occluded.data(), Coherence::incoherent, segment));
+            in.accel->occluded(rays, work.occluded.data(), Coherence::incoherent, segment, walls));
     }
-    if (in.recorder != nullptr) in.recorder->add_shadows(rays, work.occluded.data(), segment);
-    const SumOfTime time(c.seconds.accumulate);
-    in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
+    if (in.recorder != nullptr) {
+        in.recorder->add_shadows(rays, work.occluded.data(), segment, passes_walls);
+    }
+    if (passes_walls) keep_waiting(count, work);
+    {
+        const SumOfTime time(c.seconds.accumulate);
+        in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
+    }
+    if (passes_walls) cross_walls(in, count, segment, work, c);
 }
 
-ShadeRows shade_rows(const WalkInput& in, const Workspace& work) {
+ShadeRows shade_rows(const WalkInput& in, Workspace& work) {
     return {work.paths[0],
             work.hits,
             work.misses,
             work.paths[1],
             work.shadows,
             work.samples,
-            moves(in.scene.motion) ? work.slot_time.data() : nullptr};
+            moves(in.scene.motion) ? work.slot_time.data() : nullptr,
+            in.scene.thin_walls ? work.passed.data() : nullptr};
 }
 
 void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
-    // One more segment than there are bounces: the last one only collects emitted light.
-    for (int bounce = 0; count > 0 && bounce <= in.batch.max_bounces + 1; ++bounce) {
+    // One more segment than there are bounces: the last one only collects emitted light. It goes on
+    // through thin walls, as the shadow rays of the last bounce do.
+    const int segments = in.batch.max_bounces + 2 + (in.scene.thin_walls ? most_walls : 0);
+    if (in.scene.thin_walls) work.passed.assign(padded_rows, 0.0f);
+    for (int bounce = 0; count > 0 && bounce < segments; ++bounce) {
         intersect(in, count, {bounce == 0, false, 2U * static_cast<uint32_t>(bounce)}, work, c);
         if (in.scene.scatters) scatter_in_bodies(in, count, bounce, work, c);
         ShadeCounts out;

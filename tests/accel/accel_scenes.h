@@ -54,10 +54,16 @@ public:
         return refused;
     }
 
-    int occlude(const Accel& accel, Coherence coherence, uint32_t segment = 0) {
+    /// passes_walls: as Accel::occluded does where it is given `walls`
+    int occlude(const Accel& accel,
+                Coherence coherence,
+                uint32_t segment = 0,
+                bool passes_walls = false) {
         const RayColumns rays = pad();
         occluded.assign(ray_[0].size() + 16, 9);
-        const int refused = accel.occluded(rays, occluded.data(), coherence, segment);
+        walls.assign(ray_[0].size() + 16, 0);
+        const int refused = accel.occluded(
+            rays, occluded.data(), coherence, segment, passes_walls ? walls.data() : nullptr);
         unpad();
         return refused;
     }
@@ -67,6 +73,7 @@ public:
     std::vector<float> t, u, v;
     std::vector<int32_t> instance, primitive, triangle;
     std::vector<uint8_t> occluded;
+    std::vector<uint8_t> walls;
 
 private:
     float at(size_t column, int i) const { return ray_[column][static_cast<size_t>(i)]; }

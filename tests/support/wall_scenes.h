@@ -1,0 +1,125 @@
+// tests/support/wall_scenes.h - floors under panes without thickness, and what the panes let pass.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "support/scene_builder.h"
+#include "truth/reference.h"
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace obscura::test {
+
+inline constexpr int wall_picture_size = 16;
+
+/// Smooth, clear and colourless, of index 1.5, seen from both sides.
+inline Material glass_material() {
+    Material m;
+    m.metallic = 0;
+    m.roughness = 0;
+    m.flags = material_double_sided;
+    return m;
+}
+
+inline MaterialLayers glass_layers(float transmission = 1) {
+    MaterialLayers layers;
+    layers.transmission = transmission;
+    return layers;
+}
+
+/// Share of light that one white pane of index 1.5 lets pass at an angle of this cosine: one
+/// face, by KHR_materials_transmission's Schlick term.
+inline double pane_lets_pass(double cosine) {
+    return 1 - (0.04 + 0.96 * std::pow(1 - cosine, 5));
+}
+
+/// A white floor around the origin, facing up, and what is put above it.
+class WallScene {
+public:
+    WallScene() {
+        Material white;
+        white.metallic = 0;
+        white.roughness = 1;
+        builder.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, builder.material(white));
+    }
+
+    int32_t add(Material material, const MaterialLayers& layers) {
+        material.layers = static_cast<int32_t>(layers_.size());
+        layers_.push_back(layers);
+        return builder.material(material);
+    }
+    /// A level square pane of 2 `half` metres.
+    void pane(float height, int32_t row, float half = 100) {
+        builder.quad({-half, height, half}, {2 * half, 0, 0}, {0, 0, -2 * half}, row);
+    }
+    void light(const PunctualLight& light) { lights_.push_back(light); }
+
+    Scene take() {
+        Scene scene = builder.take();
+        scene.layers = layers_;
+        scene.lights = lights_;
+        return scene;
+    }
+
+    SceneBuilder builder;
+
+private:
+    std::vector<MaterialLayers> layers_;
+    std::vector<PunctualLight> lights_;
+};
+
+inline Affined raised(double height) {
+    Affined out;
+    out.m[1][3] = height;
+    return out;
+}
+
+inline PunctualLight lamp_at(const Vec3f& place) {
+    PunctualLight light;
+    light.position[0] = place.x;
+    light.position[1] = place.y;
+    light.position[2] = place.z;
+    std::fill_n(light.intensity, 3, 10.0f);
+    return light;
+}
+
+/// Light that comes from (0.6, 0.8, 0).
+inline PunctualLight slanting_sun() {
+    PunctualLight light;
+    light.type = static_cast<int32_t>(PunctualType::directional);
+    light.direction[0] = -0.6f;
+    light.direction[1] = -0.8f;
+    light.direction[2] = 0;
+    std::fill_n(light.intensity, 3, 10.0f);
+    return light;
+}
+
+struct WallView {
+    int samples = 4;
+    int bounces = 0;  ///< 0: the floor's direct light alone
+    int strategies = sample_lights | sample_bsdfs;
+    uint64_t seed = 0;
+    Integrator integrator = Integrator::path;
+    LightingOptions lighting = {};
+};
+
+/// The floor at the origin as an eye below all panes sees it, from straight above.
+inline Film floor_film(Scene scene, const WallView& view = {}) {
+    RenderOptions options;
+    options.width = options.height = wall_picture_size;
+    options.samples_per_pixel = view.samples;
+    options.max_bounces = view.bounces;
+    options.strategies = view.strategies;
+    options.seed = view.seed;
+    options.integrator = view.integrator;
+    const Camera camera =
+        look_at({0, 0.5f, 0}, {0, 0, 0}, 1e-4f, wall_picture_size, wall_picture_size);
+    return render_scene(std::move(scene), view.lighting, camera, options).film;
+}
+
+inline double floor_value(Scene scene, const WallView& view = {}, size_t channel = 0) {
+    return film_mean(floor_film(std::move(scene), view), channel).value;
+}
+
+}  // namespace obscura::test

@@ -1,0 +1,93 @@
+// tests/surface/thin_wall_test.cpp - what passes straight is the limit of the blurred lobe.
+// SPDX-License-Identifier: Apache-2.0
+#include "surface/thin_wall.h"
+
+#include <gtest/gtest.h>
+
+#include "support/layered_materials.h"
+
+namespace obscura {
+namespace {
+
+using namespace test;
+
+constexpr double smooth = static_cast<double>(min_ggx_alpha);
+
+/// Light through the lobe that sample_layered draws: mean weight of what leaves behind.
+Vec3d through_by_sampling(const LayeredParams<double>& p, const Vec3d& wo) {
+    Pcg32 random(3);
+    const LayeredWeights<double> weights = layered_weights(p, wo);
+    Vec3d sum{0, 0, 0};
+#ifdef OBSCURA_DEBUG
+    constexpr int samples = 20000;
+#else
+    constexpr int samples = 400000;
+#endif
+    for (int i = 0; i < samples; ++i) {
+        const Vec3d u = convert<double>(random_point(random));
+        const BsdfSample<double> sample = sample_layered(p, weights, wo, u);
+        if (!(sample.at.pdf > 0) || sample.direction.z > 0) continue;
+        sum = sum + sample.at.value_cos * (1 / sample.at.pdf);
+    }
+    return sum * (1.0 / samples);
+}
+
+TEST(ThinWall, StraightLightIsTheLimitOfTheLobe) {
+    LayeredParams<float> layered = clear_glass(min_ggx_alpha, 0);
+    layered.base_color = {0.9F, 0.5F, 0.2F};
+    layered.metallic = 0.2F;
+    layered.transmission = 0.7F;
+    layered.coat = 0.6F;
+    layered.coat_alpha = 0.1F;
+    layered.sheen_color = {0.1F, 0.3F, 0.2F};
+    layered.sheen_alpha = 0.3F;
+    LayeredParams<double> p = convert<double>(layered);
+    p.alpha = {smooth, smooth};
+    for (const double cosine : {0.999, 0.7, 0.3}) {
+        const Vec3d wo{std::sqrt(1 - cosine * cosine), 0, cosine};
+        const Vec3d by_lobe = through_by_sampling(p, wo);
+        LayeredWeights<double> weights = layered_weights(p, wo);
+        const StraightLight<double> light = take_straight_light(p, wo, weights);
+        EXPECT_NEAR(light.transmittance.x, by_lobe.x, 0.01) << cosine;
+        EXPECT_NEAR(light.transmittance.y, by_lobe.y, 0.01) << cosine;
+        EXPECT_NEAR(light.transmittance.z, by_lobe.z, 0.01) << cosine;
+    }
+}
+
+/// Nothing goes through twice, and the lobes that stay are sampled with what is left.
+TEST(ThinWall, TheLobesThatStayShareTheRest) {
+    Pcg32 random(8);
+    for (int n = 0; n < 20000; ++n) {
+        LayeredParams<double> p = convert<double>(random_layers(random, 0.1F));
+        const bool is_wall = n % 2 == 0;
+        if (is_wall) p.alpha = {smooth, smooth};
+        const Vec3d wo = normalize(convert<double>(direction_above(random, 0.05F)));
+        const LayeredWeights<double> before = layered_weights(p, wo);
+        LayeredWeights<double> after = before;
+        const StraightLight<double> light = take_straight_light(p, wo, after);
+        const double rest = after.p_diffuse + after.p_behind + after.p_facet + after.p_coat;
+        ASSERT_NEAR(rest, 1 - light.probability, 1e-9) << n;
+        ASSERT_GE(after.p_facet, 0) << n;
+        const bool passes = max_component(light.transmittance) > 0;
+        ASSERT_FALSE(passes && (!is_wall || p.solid)) << n;
+        ASSERT_EQ(passes, light.probability > 0) << n;
+        ASSERT_EQ(after.transmitted, is_wall && !p.solid ? 0 : before.transmitted) << n;
+        ASSERT_LE(max_component(light.transmittance), 1) << n;
+    }
+}
+
+/// A colourless pane of index 1.5: all but 4 % straight on, and more at a slant.
+TEST(ThinWall, APaneFollowsSchlick) {
+    LayeredParams<double> p = convert<double>(clear_glass(min_ggx_alpha, 0));
+    p.alpha = {smooth, smooth};
+    p.f0 = {0.04, 0.04, 0.04};
+    for (const double cosine : {1.0, 0.8, 0.2}) {
+        const Vec3d wo{std::sqrt(1 - cosine * cosine), 0, cosine};
+        LayeredWeights<double> weights = layered_weights(p, wo);
+        const double expected = 0.96 - 0.96 * std::pow(1 - cosine, 5);
+        EXPECT_NEAR(take_straight_light(p, wo, weights).transmittance.y, expected, 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace obscura
