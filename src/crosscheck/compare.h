@@ -13,6 +13,7 @@ struct Answer {
     bool any = false;  ///< occlusion: something is hit, and nobody says what
 
     bool found() const { return any || item.primitive >= 0; }
+    bool operator==(const Answer&) const = default;
 };
 
 inline Answer answer_of(const TrueHit& hit) {

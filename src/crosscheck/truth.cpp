@@ -3,6 +3,7 @@
 #include "crosscheck/truth.h"
 
 #include "crosscheck/piece_distance.h"
+#include "crosscheck/truth_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,22 +17,15 @@ ShapeRay<double> into(const Affined& object_from_world, const TrueRay& ray) {
             transform_vector(object_from_world, ray.direction)};
 }
 
-/// From a line's piece to the world, where all lines are.
-Affined world_from(const SegmentFrame<double>& frame) {
-    Affined out;
-    const Vec3d columns[4] = {
-        frame.axes.tangent, frame.axes.normal, -frame.axes.bitangent, frame.centre};
-    for (int c = 0; c < 4; ++c) {
-        out.m[0][c] = columns[c].x;
-        out.m[1][c] = columns[c].y;
-        out.m[2][c] = columns[c].z;
-    }
-    return out;
+Item placed(const Item& item, int32_t instance) {
+    return {instance, item.primitive, item.row};
 }
 
-Vec3d corner(const Scene& scene, size_t index) {
-    const float* p = &scene.positions[3 * static_cast<size_t>(scene.indices[index])];
-    return {p[0], p[1], p[2]};
+template <typename Take>
+void take_in_front(const Roots<double>& found, const Item& item, const Take& take) {
+    for (int k = 0; k < 2; ++k) {
+        if (found.hit[k] && found.t[k] > 0) take(found.t[k], item);
+    }
 }
 
 }  // namespace
@@ -88,6 +82,8 @@ TrueScene::Group TrueScene::make_group(int32_t first_primitive, int32_t count) c
     });
     for (size_t i = 0; i + group.endless.size() < group.items.size(); ++i)
         boxes.push_back(box_of(group.items[i]));
+    for (const Item& item : group.items)
+        group.corners.push_back(is_triangle(item) ? corners_of(scene_, item) : Triangle<float>{});
     group.tree.emplace(boxes);
     return group;
 }
@@ -174,9 +170,7 @@ ShapeRow TrueScene::shape(const Item& item) const {
 }
 
 Triangle<double> TrueScene::own_triangle(const Item& item) const {
-    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
-    const size_t first = 3 * static_cast<size_t>(primitive.first_triangle + item.row);
-    return {corner(scene_, first), corner(scene_, first + 1), corner(scene_, first + 2)};
+    return in_double(corners_of(scene_, item));
 }
 
 TrueBox TrueScene::box_of(const Item& item) const {
@@ -205,26 +199,15 @@ TrueBox TrueScene::box_of(const Item& item) const {
 }
 
 Roots<double> TrueScene::roots(const Item& item, const ShapeRay<double>& ray) const {
-    if (is_triangle(item)) {
-        const TriangleHit<double> hit = intersect_triangle(own_triangle(item), ray);
-        return {{hit.t, hit.t}, {hit.hit, false}};
-    }
+    if (is_triangle(item)) return roots_of(own_triangle(item), ray);
     if (is_curve(item)) return curve_roots(item, ray);
     const ShapeRow row = shape(item);
     return intersect_shape<double>(row, ray);
 }
 
-template <typename Take>
-void TrueScene::take_roots(const Object& object,
-                           const Item& item,
-                           const ShapeRay<double>& ray,
-                           const Take& take) const {
-    const Roots<double> found = roots(item, ray);
-    for (int k = 0; k < 2; ++k) {
-        if (found.hit[k] && found.t[k] > 0) {
-            take(found.t[k], Item{object.instance, item.primitive, item.row});
-        }
-    }
+Roots<double> TrueScene::roots(const Group& group, size_t k, const ShapeRay<double>& ray) const {
+    const Item& item = group.items[k];
+    return is_triangle(item) ? roots_of(in_double(group.corners[k]), ray) : roots(item, ray);
 }
 
 template <typename Take>
@@ -233,14 +216,16 @@ void TrueScene::visit_hits(const TrueRay& ray, const double& limit, const Take& 
         const Object& object = objects_[boxed_objects_[static_cast<size_t>(i)]];
         const Group& group = groups_[object.group];
         const ShapeRay<double> own = into(object.object_from_world, ray);
-        group.tree->visit({own.origin, own.direction}, limit, [&](int32_t k) {
-            take_roots(object, group.items[static_cast<size_t>(k)], own, take);
+        group.tree->visit({own.origin, own.direction}, limit, [&](int32_t number) {
+            const auto k = static_cast<size_t>(number);
+            take_in_front(roots(group, k, own), placed(group.items[k], object.instance), take);
         });
     });
     for (const size_t i : endless_objects_) {
         const Object& object = objects_[i];
+        const ShapeRay<double> own = into(object.object_from_world, ray);
         for (const Item& item : groups_[object.group].endless)
-            take_roots(object, item, into(object.object_from_world, ray), take);
+            take_in_front(roots(item, own), placed(item, object.instance), take);
     }
 }
 
@@ -256,9 +241,11 @@ TrueHit TrueScene::nearest_of_all(const TrueRay& ray) const {
     TrueHit best;
     for (const Object& object : objects_) {
         const ShapeRay<double> own = into(object.object_from_world, ray);
-        for (const Item& item : groups_[object.group].items) {
-            take_roots(object, item, own, [&](double t, const Item& placed) {
-                if (t < best.t) best = {t, placed};
+        const Group& group = groups_[object.group];
+        for (size_t k = 0; k < group.items.size(); ++k) {
+            const Item item = placed(group.items[k], object.instance);
+            take_in_front(roots(group, k, own), item, [&](double t, const Item&) {
+                if (t < best.t) best = {t, item};
             });
         }
     }
@@ -280,7 +267,7 @@ void TrueScene::near_items(const TrueRay& ray,
             max_component(transform_vector(absolute(object.object_from_world), splat3(room_m)));
         const auto visit_item = [&](int32_t k) {
             const Item& item = group.items[static_cast<size_t>(k)];
-            take(Item{object.instance, item.primitive, item.row});
+            take(placed(item, object.instance));
         };
         group.tree->visit({own.origin, own.direction}, INFINITY, visit_item, room);
     };
@@ -290,9 +277,8 @@ void TrueScene::near_items(const TrueRay& ray,
 std::vector<double> TrueScene::meetings(const TrueRay& ray, const Item& item) const {
     std::vector<double> found;
     const Object& object = object_of(item);
-    take_roots(object, item, into(object.object_from_world, ray), [&](double t, const Item&) {
-        found.push_back(t);
-    });
+    const ShapeRay<double> own = into(object.object_from_world, ray);
+    take_in_front(roots(item, own), item, [&](double t, const Item&) { found.push_back(t); });
     return found;
 }
 

@@ -91,7 +91,8 @@ public:
 private:
     /// Primitives that share a space: those of the world, or one mesh.
     struct Group {
-        std::vector<Item> items;  ///< instance -1
+        std::vector<Item> items;               ///< instance -1
+        std::vector<Triangle<float>> corners;  ///< of each item that is a triangle
         std::vector<Item> endless;
         std::optional<BoxTree> tree;
     };
@@ -115,11 +116,8 @@ private:
     TrueBox box_of(const Item& item) const;
     /// Roots of one item in its own space; t <= 0 means none.
     Roots<double> roots(const Item& item, const ShapeRay<double>& ray) const;
-    template <typename Take>
-    void take_roots(const Object& object,
-                    const Item& item,
-                    const ShapeRay<double>& ray,
-                    const Take& take) const;
+    /// Item k of a group; its corners lie beside it.
+    Roots<double> roots(const Group& group, size_t k, const ShapeRay<double>& ray) const;
     template <typename Take>
     void visit_hits(const TrueRay& ray, const double& limit, const Take& take) const;
 
