@@ -3,6 +3,7 @@
 #include "crosscheck/truth.h"
 
 #include "crosscheck/piece_distance.h"
+#include "crosscheck/piece_test.h"
 #include "crosscheck/truth_rows.h"
 
 #include <algorithm>
@@ -111,7 +112,7 @@ bool TrueScene::is_endless(const Item& item) const {
     return is_unbounded(scene_.shapes[static_cast<size_t>(row)]);
 }
 
-bool TrueScene::is_curve(const Item& item) const {
+bool TrueScene::is_piece(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     return primitive.geometry == static_cast<int32_t>(GeometryKind::curves);
 }
@@ -122,19 +123,29 @@ int64_t TrueScene::curve_point(const Item& item) const {
     return scene_.curve_segments[static_cast<size_t>(row)];
 }
 
-SegmentFrame<double> TrueScene::curve_frame(const Item& item) const {
+Segment<double> TrueScene::piece(const Item& item) const {
     const float* p = &scene_.curve_points[4 * static_cast<size_t>(curve_point(item))];
-    return frame_of<double>({{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]});
+    return {{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]};
+}
+
+SegmentFrame<double> TrueScene::curve_frame(const Item& item) const {
+    return frame_of(piece(item));
+}
+
+std::optional<Item> TrueScene::next_piece(const Item& item, int32_t step) const {
+    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
+    const Item next{item.instance, item.primitive, item.row + step};
+    if (next.row < 0 || next.row >= primitive.triangle_count) return {};
+    if (curve_point(next) != curve_point(item) + step) return {};
+    return next;
 }
 
 Roots<double> TrueScene::curve_roots(const Item& item, const ShapeRay<double>& ray) const {
     Roots<double> found = intersect_segment(curve_frame(item), ray);
-    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     for (const int32_t step : {-1, 1}) {
-        const Item next{item.instance, item.primitive, item.row + step};
-        if (next.row < 0 || next.row >= primitive.triangle_count) continue;
-        if (curve_point(next) != curve_point(item) + step) continue;
-        const SegmentFrame<double> frame = curve_frame(next);
+        const std::optional<Item> next = next_piece(item, step);
+        if (!next) continue;
+        const SegmentFrame<double> frame = curve_frame(*next);
         // The sphere between two pieces is the surface of both.
         const double inside = -1e-9 * (frame.capsule.half_height + frame.capsule.bottom);
         for (int k = 0; k < 2; ++k) {
@@ -152,7 +163,7 @@ ShapeRow TrueScene::shape(const Item& item) const {
     if (primitive.geometry == static_cast<int32_t>(GeometryKind::shapes)) {
         return scene_.shapes[row];
     }
-    if (is_curve(item)) {
+    if (is_piece(item)) {
         const Capsule<double> own = curve_frame(item).capsule;
         ShapeRow capsule;
         capsule.kind = static_cast<int32_t>(ShapeKind::capsule);
@@ -181,7 +192,7 @@ TrueBox TrueScene::box_of(const Item& item) const {
             box.add(p);
         return box;
     }
-    if (is_curve(item)) {
+    if (is_piece(item)) {
         const SegmentFrame<double> frame = curve_frame(item);
         for (const double end : {-1.0, 1.0}) {
             const Vec3d middle =
@@ -200,7 +211,7 @@ TrueBox TrueScene::box_of(const Item& item) const {
 
 Roots<double> TrueScene::roots(const Item& item, const ShapeRay<double>& ray) const {
     if (is_triangle(item)) return roots_of(own_triangle(item), ray);
-    if (is_curve(item)) return curve_roots(item, ray);
+    if (is_piece(item)) return curve_roots(item, ray);
     const ShapeRow row = shape(item);
     return intersect_shape<double>(row, ray);
 }
@@ -288,12 +299,12 @@ const TrueScene::Object& TrueScene::object_of(const Item& item) const {
 }
 
 Affined TrueScene::world_from_object(const Item& item) const {
-    if (is_curve(item)) return world_from(curve_frame(item));
+    if (is_piece(item)) return world_from(curve_frame(item));
     return object_of(item).world_from_object;
 }
 
 Affined TrueScene::object_from_world(const Item& item) const {
-    if (is_curve(item)) return inverse(world_from(curve_frame(item)));
+    if (is_piece(item)) return inverse(world_from(curve_frame(item)));
     return object_of(item).object_from_world;
 }
 
@@ -332,17 +343,9 @@ double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) con
         size = max3(size, transform_vector(world, own) + moved);
     }
     double rounding = max_component(size) * ulp_of_one;
-    if (item.primitive >= 0 && is_curve(item)) {
-        // Embree subtracts squares of half the piece's length from each other.
-        const SegmentFrame<double> frame = curve_frame(item);
-        const Capsule<double>& capsule = frame.capsule;
-        const double thin =
-            std::max(std::min(capsule.bottom, capsule.top), 1e-3 * capsule.half_height);
-        rounding = std::max(rounding, square(capsule.half_height) / thin * ulp_of_one);
-        // And it takes the square of the angle's sine as a difference of numbers as large as 1.
-        const double sine = length(cross(normalize(ray.direction), frame.axes.normal));
-        const double tilt = ulp_of_one / std::max(sine, std::sqrt(ulp_of_one));
-        rounding = std::max(rounding, 2 * capsule.half_height * tilt);
+    if (item.primitive >= 0 && is_piece(item)) {
+        // As many of these as answers may differ by are as far as Embree may be off.
+        rounding = std::max(rounding, PieceTest(piece(item), ray).surface_m(t) / edge_ulps);
     }
     // Two that are compared by way of this scene, as with slack they are, may each be as far off.
     return slack_m_ > 0 ? std::max(slack_m_, 2 * rounding) : rounding;
@@ -353,7 +356,7 @@ Vec3d TrueScene::middle(const Item& item) const {
     if (is_triangle(item)) {
         const TrueBox box = box_of(item);
         own = (box.low + box.high) * 0.5;
-    } else if (is_curve(item)) {
+    } else if (is_piece(item)) {
         own = curve_frame(item).centre;
     } else {
         const ShapeRow row = shape(item);
