@@ -1,5 +1,5 @@
-// tests/crosscheck/piece_test_test.cpp - bounds of rounding against a line's test in single
-// precision. SPDX-License-Identifier: Apache-2.0
+// tests/crosscheck/piece_test_test.cpp - bounds of rounding against single precision.
+// SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/piece_test.h"
 
 #include "crosscheck/check_scenes.h"
