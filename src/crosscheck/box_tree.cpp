@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace obscura {
 
@@ -42,42 +41,34 @@ TrueBox TrueBox::with_room() const {
     return {low - Vec3d{room, room, room}, high + Vec3d{room, room, room}};
 }
 
-BoxRay::BoxRay(const TrueRay& ray)
-    : origin_(ray.origin),
+BoxRay::BoxRay(const TrueRay& ray, double room)
+    : from_low_(ray.origin + splat3(room)),
+      from_high_(ray.origin - splat3(room)),
       inverse_{safe_inverse(ray.direction.x),
                safe_inverse(ray.direction.y),
-               safe_inverse(ray.direction.z)} {}
+               safe_inverse(ray.direction.z)},
+      backwards_{ray.direction.x < 0, ray.direction.y < 0, ray.direction.z < 0} {}
 
-bool BoxRay::meets(const TrueBox& box, double limit) const {
-    const Vec3d a = (box.low - origin_) * inverse_;
-    const Vec3d b = (box.high - origin_) * inverse_;
-    const Vec3d in = smaller(a, b);
-    const Vec3d out = max3(a, b);
-    const double enter = max_component(in);
-    const double leave = std::min({out.x, out.y, out.z});
-    constexpr double slack = 1e-12;
-    return leave >= 0 && enter <= leave + slack * leave && enter <= limit + slack * limit;
-}
-
-BoxTree::BoxTree(const std::vector<TrueBox>& boxes) : order_(boxes.size()) {
+BoxTree::BoxTree(const std::vector<TrueBox>& boxes) {
     if (boxes.empty()) return;
-    std::iota(order_.begin(), order_.end(), 0);
+    leaves_.reserve(boxes.size());
+    for (const TrueBox& box : boxes)
+        leaves_.push_back({box, static_cast<int32_t>(leaves_.size())});
     nodes_.reserve(boxes.size());
     nodes_.emplace_back();
-    split(0, boxes, 0, static_cast<int32_t>(boxes.size()));
+    split(0, 0, static_cast<int32_t>(boxes.size()));
+    for (Leaf& leaf : leaves_)
+        leaf.box = leaf.box.with_room();
 }
 
-void BoxTree::split(size_t node, const std::vector<TrueBox>& boxes, int32_t begin, int32_t end) {
+void BoxTree::split(size_t node, int32_t begin, int32_t end) {
     TrueBox all;
     TrueBox centres;
-    const auto centre = [&](int32_t item) {
-        const TrueBox& box = boxes[static_cast<size_t>(item)];
-        return (box.low + box.high) * 0.5;
-    };
+    const auto centre = [](const Leaf& leaf) { return (leaf.box.low + leaf.box.high) * 0.5; };
     for (int32_t i = begin; i < end; ++i) {
-        const int32_t item = order_[static_cast<size_t>(i)];
-        all.add(boxes[static_cast<size_t>(item)]);
-        centres.add(centre(item));
+        const Leaf& leaf = leaves_[static_cast<size_t>(i)];
+        all.add(leaf.box);
+        centres.add(centre(leaf));
     }
     nodes_[node].box = all.with_room();
     if (end - begin <= leaf_size) {
@@ -88,16 +79,16 @@ void BoxTree::split(size_t node, const std::vector<TrueBox>& boxes, int32_t begi
     const Vec3d size = centres.high - centres.low;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const int32_t middle = begin + (end - begin) / 2;
-    const auto at = [&](int32_t i) { return order_.begin() + i; };
-    std::nth_element(at(begin), at(middle), at(end), [&](int32_t a, int32_t b) {
+    const auto at = [&](int32_t i) { return leaves_.begin() + i; };
+    std::nth_element(at(begin), at(middle), at(end), [&](const Leaf& a, const Leaf& b) {
         return component(centre(a), axis) < component(centre(b), axis);
     });
     const size_t child = nodes_.size();
     nodes_.resize(child + 2);
     nodes_[node].first = static_cast<int32_t>(child);
     nodes_[node].axis = axis;
-    split(child, boxes, begin, middle);
-    split(child + 1, boxes, middle, end);
+    split(child, begin, middle);
+    split(child + 1, middle, end);
 }
 
 }  // namespace obscura

@@ -4,6 +4,7 @@
 
 #include "math/vec.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -22,18 +23,28 @@ struct TrueBox {
     void add(const TrueBox& other);
     /// Room for what rounds in double, a billion times more than is needed near the box.
     TrueBox with_room() const;
-    TrueBox grown(double room) const { return {low - splat3(room), high + splat3(room)}; }
 };
 
-/// A ray as boxes want it.
+/// A ray as boxes want it; with room, one that meets every box that it passes as closely as that.
 class BoxRay {
 public:
-    explicit BoxRay(const TrueRay& ray);
+    explicit BoxRay(const TrueRay& ray, double room = 0);
+
     /// True when some of [0, limit] may lie in the box; true too where rounding leaves a doubt.
-    bool meets(const TrueBox& box, double limit) const;
+    bool meets(const TrueBox& box, double limit) const {
+        const Vec3d a = (box.low - from_low_) * inverse_;
+        const Vec3d b = (box.high - from_high_) * inverse_;
+        const double enter = max(min(a.x, b.x), max(min(a.y, b.y), min(a.z, b.z)));
+        const double leave = min(max(a.x, b.x), min(max(a.y, b.y), max(a.z, b.z)));
+        constexpr double slack = 1e-12;
+        return leave >= 0 && enter <= leave + slack * leave && enter <= limit + slack * limit;
+    }
+    bool goes_backwards(int axis) const { return backwards_[axis]; }
 
 private:
-    Vec3d origin_, inverse_;
+    Vec3d from_low_, from_high_;  ///< the origin, as far moved as the boxes would be grown
+    Vec3d inverse_;
+    bool backwards_[3];
 };
 
 /// Nothing here knows of Embree, and no box is smaller than what it holds: whoever is not visited
@@ -47,20 +58,21 @@ public:
     template <typename Visit>
     void visit(const TrueRay& ray, const double& limit, const Visit& visit, double room = 0) const {
         if (nodes_.empty()) return;
-        const BoxRay boxed(ray);
+        const BoxRay boxed(ray, room);
         int32_t stack[64];
         int size = 0;
         stack[size++] = 0;
         while (size > 0) {
             const Node& node = nodes_[static_cast<size_t>(stack[--size])];
-            if (!boxed.meets(node.box.grown(room), limit)) continue;
+            if (!boxed.meets(node.box, limit)) continue;
             if (node.count > 0) {
-                for (int32_t i = node.first; i < node.first + node.count; ++i)
-                    visit(order_[static_cast<size_t>(i)]);
+                for (int32_t i = node.first; i < node.first + node.count; ++i) {
+                    const Leaf& leaf = leaves_[static_cast<size_t>(i)];
+                    if (boxed.meets(leaf.box, limit)) visit(leaf.item);
+                }
                 continue;
             }
-            const double d[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
-            const bool backwards = d[node.axis] < 0;
+            const bool backwards = boxed.goes_backwards(node.axis);
             stack[size++] = backwards ? node.first : node.first + 1;  // the far one waits
             stack[size++] = backwards ? node.first + 1 : node.first;
         }
@@ -75,10 +87,14 @@ private:
         int32_t count = 0;
         int32_t axis = 0;
     };
-    void split(size_t node, const std::vector<TrueBox>& boxes, int32_t begin, int32_t end);
+    struct Leaf {
+        TrueBox box;
+        int32_t item = 0;
+    };
+    void split(size_t node, int32_t begin, int32_t end);
 
     std::vector<Node> nodes_;
-    std::vector<int32_t> order_;
+    std::vector<Leaf> leaves_;
 };
 
 }  // namespace obscura

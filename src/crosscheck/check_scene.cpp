@@ -49,7 +49,7 @@ struct Comparing {
     size_t compared = 0;   ///< pairs so far: the same ones in every batch
 
     void run(const Kernel& kernel, Standard standard) {
-        std::vector<const AnswerList*> references = {&truths};
+        std::vector<AnswerList*> references = {&truths};
         const bool first = base.answers.empty();
         if (!first) references.push_back(&base);
         std::vector<PairFigures> pairs =

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/compare.h"
 
+#include "crosscheck/piece_distance.h"
+#include "crosscheck/piece_test.h"
 #include "crosscheck/side_test.h"
 #include "math/warp.h"
 
@@ -201,24 +203,48 @@ Finding excuse_occlusion(const Question& q) {
     return best;
 }
 
+/// True where Embree may take a hit on a piece of a line for its neighbour's: where cone and ball
+/// touch, of this piece or of a next one on whose surface the hit lies too.
+bool is_at_seam(const Question& q, const Answer& answer) {
+    if (!q.scene.is_piece(answer.item)) return false;
+    const Vec3d place = q.ray.origin + q.ray.direction * answer.t;
+    const auto touches = [&](const Item& item) {
+        return PieceTest(q.scene.piece(item), q.ray).is_at_seam(answer.t);
+    };
+    const auto touches_next = [&](int32_t step) {
+        const std::optional<Item> next = q.scene.next_piece(answer.item, step);
+        if (!next) return false;
+        const double height = piece_distance(frame_of(q.scene.piece(*next)), place);
+        return std::abs(height) <= edge_ulps * q.unit_m && touches(*next);
+    };
+    return touches(answer.item) || touches_next(-1) || touches_next(1);
+}
+
+/// True when rounding alone decides whether a piece of a line that the ray meets is met.
+bool is_along(const Question& q, const Item& item) {
+    return q.scene.is_piece(item) && PieceTest(q.scene.piece(item), q.ray).is_chance();
+}
+
 /// agree: what the answer says is there is there within 4 ulp, and all that it has passed by is at
-/// its edge; edge_on: but for triangles seen edge-on; false_hit: neither.
+/// its edge or a seam; edge_on: but for triangles seen edge-on and pieces of lines seen along their
+/// axis; false_hit: neither.
 Finding excuse(const Question& q, const Answer& answer) {
     Finding worst = Finding::agree;
-    const auto judge = [&](bool good, const Item& item) {
+    const auto judge = [&](bool good, bool edge_on) {
         if (good) return;
-        const bool edge_on = is_edge_on(q, item);
         worst = std::max(worst, edge_on ? Finding::edge_on : Finding::false_hit);
     };
     if (answer.any) return excuse_occlusion(q);
     if (answer.found()) {
-        judge(is_met_nearby(q, answer) || is_at_its_edge(q, answer), answer.item);
+        const bool good = is_met_nearby(q, answer) || is_at_its_edge(q, answer);
+        judge(good, !good && is_edge_on(q, answer.item));
     }
     q.scene.all_hits(q.ray, [&](double t, const Item& item) {
         const Answer passed{t, item};
         if (item == answer.item || t >= answer.t) return;
         if (answer.found() && depth_gap(q, passed, answer) <= depth_ulps) return;
-        judge(is_at_its_edge(q, passed), item);
+        const bool good = is_at_its_edge(q, passed) || is_at_seam(q, passed);
+        judge(good, !good && (is_edge_on(q, item) || is_along(q, item)));
     });
     return worst;
 }

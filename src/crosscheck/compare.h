@@ -13,6 +13,7 @@ struct Answer {
     bool any = false;  ///< occlusion: something is hit, and nobody says what
 
     bool found() const { return any || item.primitive >= 0; }
+    bool operator==(const Answer&) const = default;
 };
 
 inline Answer answer_of(const TrueHit& hit) {
@@ -27,17 +28,14 @@ enum class Finding : int {
     crack,        ///< within 4 ulp of an edge too, but no such ray has both answers: a ray that
                   ///< went between two neighbours
     edge_on,      ///< beside a triangle, but rounding decides on which side of two or three edges:
-                  ///< seen edge-on, or past a sharp corner
+                  ///< seen edge-on, or past a sharp corner; through a piece of a line, but rounding
+                  ///< decides whether the ray meets its cone: seen along its axis
     depth,        ///< the same item at another depth
     missed,       ///< not hit, or only behind the expected hit
     false_hit,    ///< hit where nothing is, or in front of the expected hit
 };
 inline constexpr size_t verdicts = 8;
 
-/// How far from an edge answers may differ, and how far hits may lie from the surface; in units of
-/// TrueScene::rounding_m.
-inline constexpr double edge_ulps = 4;
-inline constexpr double depth_ulps = 4;
 /// How far from a ray the boxes of items may be whose edges can explain an occlusion.
 inline constexpr double beside_ulps = 16;
 
@@ -55,9 +53,11 @@ struct Comparison {
 /// away from this one, where it begins and where it hits. It counts as `crack` when no such ray has
 /// the answer, but all that was passed by has an edge within edge_ulps, and what was hit is there
 /// within edge_ulps or has an edge there; of occlusion, which says not what was hit, something must
-/// have an edge within edge_ulps. It counts as `edge_on` when the ray passes the edges' endless
-/// lines so closely that the signs on which Embree's test (triangle_intersector_pluecker.h) is
-/// built are rounding alone: edge_ulps of the edges' ends and the worst case of seven roundings.
+/// have an edge within edge_ulps. A place where the cone and the ball of a line's piece touch
+/// counts as such an edge where rounding does not tell them apart (PieceTest). It counts as
+/// `edge_on` when the ray passes the edges' endless lines so closely that the signs on which
+/// Embree's test (triangle_intersector_pluecker.h) is built are rounding alone: edge_ulps of the
+/// edges' ends and the worst case of seven roundings.
 Comparison compare(const TrueScene& scene,
                    const TrueRay& ray,
                    const Answer& expected,

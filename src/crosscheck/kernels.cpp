@@ -33,8 +33,17 @@ struct ChunkPair {
     const RayBlock& rays;
     const std::vector<Answer>& got;
     const Answer* expected;
+    KnownDifferences& known;
     RayGroup group;
     uint64_t first;
+
+    Comparison compare_row(int row) const {
+        const Answer& answer = got[static_cast<size_t>(row)];
+        if (const Comparison* found = known.find(row, answer)) return *found;
+        const Comparison found = compare(scene, rays.true_ray(row), expected[row], answer);
+        if (found.verdict > Finding::equal_depth) known.add(row, answer, found);
+        return found;
+    }
 };
 
 /// Adds a chunk to a pair's figures; noted(row, verdict) sees every ray.
@@ -43,8 +52,7 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
     Tally& tally = figures.groups[static_cast<size_t>(chunk.group)];
     for (int i = 0; i < chunk.rays.count(); ++i) {
         const Answer& got = chunk.got[static_cast<size_t>(i)];
-        const TrueRay ray = chunk.rays.true_ray(i);
-        const Comparison found = compare(chunk.scene, ray, chunk.expected[i], got);
+        const Comparison found = chunk.compare_row(i);
         ++tally.rays;
         tally.hits += got.found() ? 1 : 0;
         ++tally.counts[static_cast<size_t>(found.verdict)];
@@ -55,7 +63,7 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
         }
         figures.worst.push_back({chunk.group,
                                  chunk.first + static_cast<uint64_t>(i),
-                                 ray,
+                                 chunk.rays.true_ray(i),
                                  chunk.expected[i],
                                  got,
                                  found});
@@ -64,6 +72,17 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
 }
 
 }  // namespace
+
+const Comparison* KnownDifferences::find(int row, const Answer& got) const {
+    const auto [begin, end] = by_row_.equal_range(row);
+    const auto known =
+        std::find_if(begin, end, [&](const auto& entry) { return entry.second.got == got; });
+    return known == end ? nullptr : &known->second.comparison;
+}
+
+void KnownDifferences::add(int row, const Answer& got, const Comparison& comparison) {
+    by_row_.emplace(row, Known{got, comparison});
+}
 
 void keep_worst(std::vector<Difference>& worst) {
     std::sort(worst.begin(), worst.end(), is_worse);
@@ -107,7 +126,7 @@ void PairFigures::add(const PairFigures& other) {
 std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                                         const RayBatch& batch,
                                         const Kernel& kernel,
-                                        const std::vector<const AnswerList*>& references,
+                                        const std::vector<AnswerList*>& references,
                                         AnswerList* kept,
                                         ScreenVerdicts* screen) {
     std::vector<PairFigures> all(references.size());
@@ -115,6 +134,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
         all[r].got = kernel.name;
         all[r].expected = references[r]->name;
         all[r].against_truth = references[r]->is_truth;
+        references[r]->known.resize(batch.chunks);
     }
     if (kept != nullptr) {
         kept->name = kernel.name;
@@ -138,6 +158,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                  block,
                  answers,
                  &references[r]->answers[first],
+                 references[r]->known[number],
                  group,
                  batch.first_ray() + first},
                 mine,

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace obscura {
@@ -20,11 +21,28 @@ struct Kernel {
     bool occlusion = false;  ///< its answers name no item
 };
 
+/// Differences of other kernels' answers from one list's, by the ray's number in its chunk: many
+/// kernels give the same wrong answer, and it takes long to find out how wrong it is.
+class KnownDifferences {
+public:
+    /// Null where this answer has not been compared.
+    const Comparison* find(int row, const Answer& got) const;
+    void add(int row, const Answer& got, const Comparison& comparison);
+
+private:
+    struct Known {
+        Answer got;
+        Comparison comparison;
+    };
+    std::unordered_multimap<int, Known> by_row_;
+};
+
 /// All answers of one kernel to one batch, in the order of the rays.
 struct AnswerList {
     std::string name;
     std::vector<Answer> answers;
     bool is_truth = false;
+    std::vector<KnownDifferences> known = {};  ///< by chunk; compare_kernel adds to them
 };
 
 struct Tally {
@@ -90,13 +108,13 @@ struct ScreenVerdicts {
 /// Asks a kernel all rays of a batch and compares it with others that have been asked. The same
 /// figures for any number of threads.
 ///
-/// In      references: answers to the same batch; may be empty
+/// In      references: answers to the same batch, always with the same scene; may be empty
 /// Out     kept: the kernel's answers, where it is not null; screen: worse verdicts of this pair,
 ///         where it is not null
 std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                                         const RayBatch& batch,
                                         const Kernel& kernel,
-                                        const std::vector<const AnswerList*>& references,
+                                        const std::vector<AnswerList*>& references,
                                         AnswerList* kept,
                                         ScreenVerdicts* screen);
 

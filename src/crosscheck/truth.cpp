@@ -3,6 +3,8 @@
 #include "crosscheck/truth.h"
 
 #include "crosscheck/piece_distance.h"
+#include "crosscheck/piece_test.h"
+#include "crosscheck/truth_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,22 +18,15 @@ ShapeRay<double> into(const Affined& object_from_world, const TrueRay& ray) {
             transform_vector(object_from_world, ray.direction)};
 }
 
-/// From a line's piece to the world, where all lines are.
-Affined world_from(const SegmentFrame<double>& frame) {
-    Affined out;
-    const Vec3d columns[4] = {
-        frame.axes.tangent, frame.axes.normal, -frame.axes.bitangent, frame.centre};
-    for (int c = 0; c < 4; ++c) {
-        out.m[0][c] = columns[c].x;
-        out.m[1][c] = columns[c].y;
-        out.m[2][c] = columns[c].z;
-    }
-    return out;
+Item placed(const Item& item, int32_t instance) {
+    return {instance, item.primitive, item.row};
 }
 
-Vec3d corner(const Scene& scene, size_t index) {
-    const float* p = &scene.positions[3 * static_cast<size_t>(scene.indices[index])];
-    return {p[0], p[1], p[2]};
+template <typename Take>
+void take_in_front(const Roots<double>& found, const Item& item, const Take& take) {
+    for (int k = 0; k < 2; ++k) {
+        if (found.hit[k] && found.t[k] > 0) take(found.t[k], item);
+    }
 }
 
 }  // namespace
@@ -88,6 +83,8 @@ TrueScene::Group TrueScene::make_group(int32_t first_primitive, int32_t count) c
     });
     for (size_t i = 0; i + group.endless.size() < group.items.size(); ++i)
         boxes.push_back(box_of(group.items[i]));
+    for (const Item& item : group.items)
+        group.corners.push_back(is_triangle(item) ? corners_of(scene_, item) : Triangle<float>{});
     group.tree.emplace(boxes);
     return group;
 }
@@ -115,7 +112,7 @@ bool TrueScene::is_endless(const Item& item) const {
     return is_unbounded(scene_.shapes[static_cast<size_t>(row)]);
 }
 
-bool TrueScene::is_curve(const Item& item) const {
+bool TrueScene::is_piece(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     return primitive.geometry == static_cast<int32_t>(GeometryKind::curves);
 }
@@ -126,19 +123,29 @@ int64_t TrueScene::curve_point(const Item& item) const {
     return scene_.curve_segments[static_cast<size_t>(row)];
 }
 
-SegmentFrame<double> TrueScene::curve_frame(const Item& item) const {
+Segment<double> TrueScene::piece(const Item& item) const {
     const float* p = &scene_.curve_points[4 * static_cast<size_t>(curve_point(item))];
-    return frame_of<double>({{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]});
+    return {{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]};
+}
+
+SegmentFrame<double> TrueScene::curve_frame(const Item& item) const {
+    return frame_of(piece(item));
+}
+
+std::optional<Item> TrueScene::next_piece(const Item& item, int32_t step) const {
+    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
+    const Item next{item.instance, item.primitive, item.row + step};
+    if (next.row < 0 || next.row >= primitive.triangle_count) return {};
+    if (curve_point(next) != curve_point(item) + step) return {};
+    return next;
 }
 
 Roots<double> TrueScene::curve_roots(const Item& item, const ShapeRay<double>& ray) const {
     Roots<double> found = intersect_segment(curve_frame(item), ray);
-    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     for (const int32_t step : {-1, 1}) {
-        const Item next{item.instance, item.primitive, item.row + step};
-        if (next.row < 0 || next.row >= primitive.triangle_count) continue;
-        if (curve_point(next) != curve_point(item) + step) continue;
-        const SegmentFrame<double> frame = curve_frame(next);
+        const std::optional<Item> next = next_piece(item, step);
+        if (!next) continue;
+        const SegmentFrame<double> frame = curve_frame(*next);
         // The sphere between two pieces is the surface of both.
         const double inside = -1e-9 * (frame.capsule.half_height + frame.capsule.bottom);
         for (int k = 0; k < 2; ++k) {
@@ -156,7 +163,7 @@ ShapeRow TrueScene::shape(const Item& item) const {
     if (primitive.geometry == static_cast<int32_t>(GeometryKind::shapes)) {
         return scene_.shapes[row];
     }
-    if (is_curve(item)) {
+    if (is_piece(item)) {
         const Capsule<double> own = curve_frame(item).capsule;
         ShapeRow capsule;
         capsule.kind = static_cast<int32_t>(ShapeKind::capsule);
@@ -174,9 +181,7 @@ ShapeRow TrueScene::shape(const Item& item) const {
 }
 
 Triangle<double> TrueScene::own_triangle(const Item& item) const {
-    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
-    const size_t first = 3 * static_cast<size_t>(primitive.first_triangle + item.row);
-    return {corner(scene_, first), corner(scene_, first + 1), corner(scene_, first + 2)};
+    return in_double(corners_of(scene_, item));
 }
 
 TrueBox TrueScene::box_of(const Item& item) const {
@@ -187,7 +192,7 @@ TrueBox TrueScene::box_of(const Item& item) const {
             box.add(p);
         return box;
     }
-    if (is_curve(item)) {
+    if (is_piece(item)) {
         const SegmentFrame<double> frame = curve_frame(item);
         for (const double end : {-1.0, 1.0}) {
             const Vec3d middle =
@@ -205,26 +210,15 @@ TrueBox TrueScene::box_of(const Item& item) const {
 }
 
 Roots<double> TrueScene::roots(const Item& item, const ShapeRay<double>& ray) const {
-    if (is_triangle(item)) {
-        const TriangleHit<double> hit = intersect_triangle(own_triangle(item), ray);
-        return {{hit.t, hit.t}, {hit.hit, false}};
-    }
-    if (is_curve(item)) return curve_roots(item, ray);
+    if (is_triangle(item)) return roots_of(own_triangle(item), ray);
+    if (is_piece(item)) return curve_roots(item, ray);
     const ShapeRow row = shape(item);
     return intersect_shape<double>(row, ray);
 }
 
-template <typename Take>
-void TrueScene::take_roots(const Object& object,
-                           const Item& item,
-                           const ShapeRay<double>& ray,
-                           const Take& take) const {
-    const Roots<double> found = roots(item, ray);
-    for (int k = 0; k < 2; ++k) {
-        if (found.hit[k] && found.t[k] > 0) {
-            take(found.t[k], Item{object.instance, item.primitive, item.row});
-        }
-    }
+Roots<double> TrueScene::roots(const Group& group, size_t k, const ShapeRay<double>& ray) const {
+    const Item& item = group.items[k];
+    return is_triangle(item) ? roots_of(in_double(group.corners[k]), ray) : roots(item, ray);
 }
 
 template <typename Take>
@@ -233,14 +227,16 @@ void TrueScene::visit_hits(const TrueRay& ray, const double& limit, const Take& 
         const Object& object = objects_[boxed_objects_[static_cast<size_t>(i)]];
         const Group& group = groups_[object.group];
         const ShapeRay<double> own = into(object.object_from_world, ray);
-        group.tree->visit({own.origin, own.direction}, limit, [&](int32_t k) {
-            take_roots(object, group.items[static_cast<size_t>(k)], own, take);
+        group.tree->visit({own.origin, own.direction}, limit, [&](int32_t number) {
+            const auto k = static_cast<size_t>(number);
+            take_in_front(roots(group, k, own), placed(group.items[k], object.instance), take);
         });
     });
     for (const size_t i : endless_objects_) {
         const Object& object = objects_[i];
+        const ShapeRay<double> own = into(object.object_from_world, ray);
         for (const Item& item : groups_[object.group].endless)
-            take_roots(object, item, into(object.object_from_world, ray), take);
+            take_in_front(roots(item, own), placed(item, object.instance), take);
     }
 }
 
@@ -256,9 +252,11 @@ TrueHit TrueScene::nearest_of_all(const TrueRay& ray) const {
     TrueHit best;
     for (const Object& object : objects_) {
         const ShapeRay<double> own = into(object.object_from_world, ray);
-        for (const Item& item : groups_[object.group].items) {
-            take_roots(object, item, own, [&](double t, const Item& placed) {
-                if (t < best.t) best = {t, placed};
+        const Group& group = groups_[object.group];
+        for (size_t k = 0; k < group.items.size(); ++k) {
+            const Item item = placed(group.items[k], object.instance);
+            take_in_front(roots(group, k, own), item, [&](double t, const Item&) {
+                if (t < best.t) best = {t, item};
             });
         }
     }
@@ -280,7 +278,7 @@ void TrueScene::near_items(const TrueRay& ray,
             max_component(transform_vector(absolute(object.object_from_world), splat3(room_m)));
         const auto visit_item = [&](int32_t k) {
             const Item& item = group.items[static_cast<size_t>(k)];
-            take(Item{object.instance, item.primitive, item.row});
+            take(placed(item, object.instance));
         };
         group.tree->visit({own.origin, own.direction}, INFINITY, visit_item, room);
     };
@@ -290,9 +288,8 @@ void TrueScene::near_items(const TrueRay& ray,
 std::vector<double> TrueScene::meetings(const TrueRay& ray, const Item& item) const {
     std::vector<double> found;
     const Object& object = object_of(item);
-    take_roots(object, item, into(object.object_from_world, ray), [&](double t, const Item&) {
-        found.push_back(t);
-    });
+    const ShapeRay<double> own = into(object.object_from_world, ray);
+    take_in_front(roots(item, own), item, [&](double t, const Item&) { found.push_back(t); });
     return found;
 }
 
@@ -302,12 +299,12 @@ const TrueScene::Object& TrueScene::object_of(const Item& item) const {
 }
 
 Affined TrueScene::world_from_object(const Item& item) const {
-    if (is_curve(item)) return world_from(curve_frame(item));
+    if (is_piece(item)) return world_from(curve_frame(item));
     return object_of(item).world_from_object;
 }
 
 Affined TrueScene::object_from_world(const Item& item) const {
-    if (is_curve(item)) return inverse(world_from(curve_frame(item)));
+    if (is_piece(item)) return inverse(world_from(curve_frame(item)));
     return object_of(item).object_from_world;
 }
 
@@ -346,17 +343,9 @@ double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) con
         size = max3(size, transform_vector(world, own) + moved);
     }
     double rounding = max_component(size) * ulp_of_one;
-    if (item.primitive >= 0 && is_curve(item)) {
-        // Embree subtracts squares of half the piece's length from each other.
-        const SegmentFrame<double> frame = curve_frame(item);
-        const Capsule<double>& capsule = frame.capsule;
-        const double thin =
-            std::max(std::min(capsule.bottom, capsule.top), 1e-3 * capsule.half_height);
-        rounding = std::max(rounding, square(capsule.half_height) / thin * ulp_of_one);
-        // And it takes the square of the angle's sine as a difference of numbers as large as 1.
-        const double sine = length(cross(normalize(ray.direction), frame.axes.normal));
-        const double tilt = ulp_of_one / std::max(sine, std::sqrt(ulp_of_one));
-        rounding = std::max(rounding, 2 * capsule.half_height * tilt);
+    if (item.primitive >= 0 && is_piece(item)) {
+        // As many of these as answers may differ by are as far as Embree may be off.
+        rounding = std::max(rounding, PieceTest(piece(item), ray).surface_m(t) / edge_ulps);
     }
     // Two that are compared by way of this scene, as with slack they are, may each be as far off.
     return slack_m_ > 0 ? std::max(slack_m_, 2 * rounding) : rounding;
@@ -367,7 +356,7 @@ Vec3d TrueScene::middle(const Item& item) const {
     if (is_triangle(item)) {
         const TrueBox box = box_of(item);
         own = (box.low + box.high) * 0.5;
-    } else if (is_curve(item)) {
+    } else if (is_piece(item)) {
         own = curve_frame(item).centre;
     } else {
         const ShapeRow row = shape(item);

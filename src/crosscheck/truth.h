@@ -15,6 +15,10 @@ namespace obscura {
 
 inline constexpr double ulp_of_one = 1.0 / 8388608.0;  ///< spacing of floats above 1
 
+/// How far from an edge answers may differ, and how far hits may lie from the surface; in units of
+/// TrueScene::rounding_m.
+inline constexpr double edge_ulps = 4;
+inline constexpr double depth_ulps = 4;
 /// Absolute values: how far what goes through the matrix may reach.
 Affined absolute(const Affined& a);
 
@@ -83,6 +87,11 @@ public:
     Affined world_from_object(const Item& item) const;
     Affined object_from_world(const Item& item) const;
     bool is_endless(const Item& item) const;
+    /// A piece of a line; the numbers are Embree's, even where one ball holds the other.
+    bool is_piece(const Item& item) const;
+    Segment<double> piece(const Item& item) const;
+    /// The piece before (-1) or after (1) on the same line.
+    std::optional<Item> next_piece(const Item& item, int32_t step) const;
 
     /// Box of all that has an end.
     TrueBox bounds() const { return objects_tree_->bounds(); }
@@ -91,7 +100,8 @@ public:
 private:
     /// Primitives that share a space: those of the world, or one mesh.
     struct Group {
-        std::vector<Item> items;  ///< instance -1
+        std::vector<Item> items;               ///< instance -1
+        std::vector<Triangle<float>> corners;  ///< of each item that is a triangle
         std::vector<Item> endless;
         std::optional<BoxTree> tree;
     };
@@ -105,7 +115,6 @@ private:
     void add_object(size_t group, int32_t instance);
     const Object& object_of(const Item& item) const;
     Triangle<double> own_triangle(const Item& item) const;
-    bool is_curve(const Item& item) const;
     /// Number of the first of the two points of a line's piece.
     int64_t curve_point(const Item& item) const;
     SegmentFrame<double> curve_frame(const Item& item) const;
@@ -115,11 +124,8 @@ private:
     TrueBox box_of(const Item& item) const;
     /// Roots of one item in its own space; t <= 0 means none.
     Roots<double> roots(const Item& item, const ShapeRay<double>& ray) const;
-    template <typename Take>
-    void take_roots(const Object& object,
-                    const Item& item,
-                    const ShapeRay<double>& ray,
-                    const Take& take) const;
+    /// Item k of a group; its corners lie beside it.
+    Roots<double> roots(const Group& group, size_t k, const ShapeRay<double>& ray) const;
     template <typename Take>
     void visit_hits(const TrueRay& ray, const double& limit, const Take& take) const;
 

@@ -67,19 +67,23 @@ TEST(TrueScene, ALineHasNoWallsWhereItsPiecesMeet) {
     EXPECT_EQ(truth.nearest({{5.95, 0.05, 0}, {0, 1, 0}}).item, (Item{-1, 1, 0}));
 }
 
-TEST(TrueScene, AlongALineRoundingTurnsTheRay) {
+/// The sums of docs/crosscheck.md for a piece of length 1 and radius 0.05, seen from across.
+TEST(TrueScene, AnUlpOfALineIsAQuarterOfWhatItsTestMayBeOff) {
     Scene scene = empty_scene({});
     add_strip(scene, {{{0, 0, 0}}, {{0, 1, 0}}}, 0.05F);
     const TrueScene truth(scene);
-    const Item piece{-1, 0, 0};
-    const auto rounding = [&](double sine) {
-        const TrueRay ray{{0.04, 2, 0}, {sine, -std::sqrt(1 - sine * sine), 0}};
-        return truth.rounding_m(ray, piece, 1);
+    const auto rounding = [&](double y) {
+        return truth.rounding_m({{0, y, 2}, {0, 0, -1}}, {-1, 0, 0}, 1.95);
     };
-    constexpr double ulp = 1.0 / 8388608;
-    EXPECT_NEAR(rounding(1e-3), ulp / 1e-3, 1e-3 * ulp);
-    EXPECT_NEAR(rounding(0), std::sqrt(ulp), 1e-9);
-    EXPECT_LT(rounding(0.5), 6 * ulp);
+    constexpr double half_ulp = 0.5 / 8388608;
+    const auto expected = [](double o_o, double o_p) {
+        const double a = 9 * 0.05 * 0.05;
+        const double c = 11 * (o_o + o_p * o_p + 0.05 * 0.05);
+        const double solving = 32 * 0.05 * 0.05;
+        return 0.25 * half_ulp * (a + c + solving) / (2 * 0.05);
+    };
+    EXPECT_NEAR(rounding(0.5), expected(0.25, 0.5), 1e-5 * half_ulp);
+    EXPECT_NEAR(rounding(1), expected(1, 1), 1e-5 * half_ulp);
 }
 
 TEST(TrueScene, SeesThroughAnInstanceAndItsMatrix) {

@@ -123,6 +123,33 @@ TEST(RayBatches, TogetherSayWhatOneDoes) {
         EXPECT_EQ(parts.worst[i].number, whole.worst[i].number);
 }
 
+/// Answers that have been compared before count again, and others to the same rays do not.
+TEST(WrongFormula, SaysTheSameOfASecondKernelWithTheSameAnswers) {
+    const Scene cube = closed_cube();
+    const TrueScene truth(cube);
+    const RaySet rays(truth, few_rays(ray_count));
+    const RayBatch batch = batches_of(rays)[0];
+    AnswerList truths;
+    compare_kernel(truth, batch, truth_kernel(truth), {}, &truths, nullptr);
+    const auto off_by = [&](double factor) {
+        const Kernel kernel{"off", [&truth, factor](RayBlock& block, std::vector<Answer>& answers) {
+                                truth_kernel(truth).ask(block, answers);
+                                for (Answer& answer : answers)
+                                    answer.t *= factor;
+                            }};
+        return compare_kernel(truth, batch, kernel, {&truths}, nullptr, nullptr)[0];
+    };
+    const PairFigures first = off_by(1.00001);
+    const PairFigures right = off_by(1);
+    const PairFigures again = off_by(1.00001);
+    EXPECT_GT(first.total().of(Finding::depth), 0U);
+    EXPECT_EQ(right.total().of(Finding::agree), ray_count);
+    EXPECT_EQ(again.total().counts, first.total().counts);
+    ASSERT_EQ(again.worst.size(), first.worst.size());
+    for (size_t i = 0; i < first.worst.size(); ++i)
+        EXPECT_EQ(again.worst[i].comparison.ulps, first.worst[i].comparison.ulps);
+}
+
 TEST(WrongFormula, LeaksSelfHitsAndWallsAreFaults) {
     CheckedScene checked;
     EXPECT_TRUE(faults_of(checked).empty());

@@ -1,0 +1,119 @@
+// crosscheck/piece_test.cpp - what rounding may make of a ray's way through a piece of a line.
+// SPDX-License-Identifier: Apache-2.0
+#include "crosscheck/piece_test.h"
+
+#include "crosscheck/truth.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+/// So many roundings, relative to the sizes of what has been rounded.
+constexpr double roundings(double count) {
+    return count * 0.5 * ulp_of_one;
+}
+
+double square_of(double x) {
+    return x * x;
+}
+
+}  // namespace
+
+PieceTest::PieceTest(const Segment<double>& piece, const TrueRay& ray)
+    : radius_from_(piece.radius_from), radius_to_(piece.radius_to) {
+    const Vec3d& d = ray.direction;
+    const Vec3d p = piece.to - piece.from;
+    direction2_ = dot(d, d);
+    start_ = dot((piece.from + piece.to) * 0.5 - ray.origin, d) / direction2_;
+    const Vec3d near = ray.origin + d * start_;
+    const Vec3d o = near - piece.from;
+    const double l = dot(p, p);
+    const double dr = radius_to_ - radius_from_;
+    const double r0_dr = radius_from_ * dr;
+    const double r0_l = square_of(radius_from_) * l;
+    length_m_ = std::sqrt(l);
+    cone_ = l - dr * dr;
+    cone_size_ = l + dr * dr;
+    const double o_p = dot(o, p);
+    const double o_p_size = dot(abs(o), abs(p));
+    const double o_d_size = dot(abs(o), abs(d));
+    place_ = o_p + r0_dr;
+    place_size_ = o_p_size + std::abs(r0_dr);
+    speed_ = dot(d, p);
+    speed_size_ = dot(abs(d), abs(p));
+    const Vec3d from_ball = near - piece.to;
+    ball_near_ = dot(from_ball, from_ball);
+    ball_along_ = dot(abs(from_ball), abs(d));
+    ball_on_way_ = dot(from_ball, d);
+
+    // Scalar products 3, g 4, place 4; each with its factor's, the product and the differences.
+    a_ = {cone_ * direction2_ - speed_ * speed_,
+          roundings(9) * (cone_size_ * direction2_ + square_of(speed_size_))};
+    b_ = {cone_ * dot(o, d) - speed_ * place_,
+          roundings(9) * (cone_size_ * o_d_size + speed_size_ * place_size_)};
+    c_ = {cone_ * dot(o, o) - o_p * o_p - r0_l - 2 * r0_dr * o_p,
+          roundings(11) * (cone_size_ * dot(o, o) + square_of(o_p_size) + r0_l +
+                           2 * std::abs(r0_dr) * o_p_size)};
+    const RoundedNumber a{std::abs(a_.value), a_.error};
+    const RoundedNumber b{std::abs(b_.value), b_.error};
+    const RoundedNumber c{std::abs(c_.value), c_.error};
+    discriminant_ = {square_of(b_.value) - a_.value * c_.value,
+                     (2 * b.value + b.error) * b.error + a.value * c.error + c.value * a.error +
+                         a.error * c.error +
+                         roundings(2) * (square_of(b.value) + a.value * c.value)};
+}
+
+bool PieceTest::is_chance() const {
+    const double room = roundings(4) * cone_size_;
+    if (cone_ < -room) return false;  // one ball holds the other, and there is no cone
+    return cone_ <= room || std::abs(a_.value) <= a_.error ||
+           std::abs(discriminant_.value) <= discriminant_.error;
+}
+
+double PieceTest::cone_error(double t) const {
+    const double along = std::abs(t - start_);
+    // Two in the discriminant; its root, sum, reciprocal (5 by Newton's step) and product are 30.
+    const double products = square_of(b_.value) + std::abs(a_.value * c_.value);
+    const double solving = roundings(32) * products / std::max(std::abs(a_.value), a_.error);
+    return a_.error * along * along + 2 * b_.error * along + c_.error + solving;
+}
+
+double PieceTest::ball_m() const {
+    // A half of the chord is no longer than the radius.
+    const double radius2 = square_of(radius_to_);
+    const double along2 = square_of(ball_along_) / direction2_;
+    const double off = roundings(22) * along2 + roundings(9) * ball_near_ + roundings(44) * radius2;
+    return off / (2 * std::max(radius_to_, 1e-3 * length_m_));
+}
+
+double PieceTest::surface_m(double t) const {
+    if (cone_ <= 0) return ball_m();
+    // F rises by 2 sqrt(g l) times the radius a metre; a cone's point is not taken for thinner than
+    // a thousandth of its length.
+    const double thin = std::max(std::min(radius_from_, radius_to_), 0.5e-3 * length_m_);
+    const double slope = 2 * std::sqrt(cone_) * length_m_ * thin;
+    return std::max(ball_m(), cone_error(t) / slope);
+}
+
+bool PieceTest::is_at_seam(double t) const {
+    const double steepness = std::abs(a_.value);
+    if (cone_ <= 0 || steepness <= a_.error) return false;  // no cone, or no place on it
+    const double along = t - start_;
+    const double error = cone_error(t);
+    const double root = std::sqrt(std::max(discriminant_.value, 0.0));
+    const double moved_on_cone = std::min(error / root, std::sqrt(error / steepness));
+    const double ball_error = 2 * radius_to_ * ball_m();
+    const double ball_root = std::abs(ball_on_way_ + along * direction2_);
+    const double moved_on_ball =
+        std::min(ball_error / ball_root, std::sqrt(ball_error / direction2_));
+    const double moved = std::max(moved_on_cone, moved_on_ball);
+    const double room = roundings(5) * (place_size_ + std::abs(along) * speed_size_) +
+                        roundings(4) * cone_size_ + std::abs(speed_) * moved;
+    const double place = place_ + along * speed_;
+    return std::abs(place) <= room || std::abs(place - cone_) <= room;
+}
+
+}  // namespace obscura

@@ -1,0 +1,43 @@
+// crosscheck/truth_rows.h - rows of a scene's tables as the search in double takes them.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "crosscheck/truth.h"
+
+namespace obscura {
+
+/// From a line's piece to the world, where all lines are.
+inline Affined world_from(const SegmentFrame<double>& frame) {
+    Affined out;
+    const Vec3d columns[4] = {
+        frame.axes.tangent, frame.axes.normal, -frame.axes.bitangent, frame.centre};
+    for (int c = 0; c < 4; ++c) {
+        out.m[0][c] = columns[c].x;
+        out.m[1][c] = columns[c].y;
+        out.m[2][c] = columns[c].z;
+    }
+    return out;
+}
+
+inline Vec3f corner(const Scene& scene, size_t index) {
+    const float* p = &scene.positions[3 * static_cast<size_t>(scene.indices[index])];
+    return {p[0], p[1], p[2]};
+}
+
+/// Corners of a mesh's row, in its own space.
+inline Triangle<float> corners_of(const Scene& scene, const Item& item) {
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(item.primitive)];
+    const size_t first = 3 * static_cast<size_t>(primitive.first_triangle + item.row);
+    return {corner(scene, first), corner(scene, first + 1), corner(scene, first + 2)};
+}
+
+inline Triangle<double> in_double(const Triangle<float>& t) {
+    return {{t.a.x, t.a.y, t.a.z}, {t.b.x, t.b.y, t.b.z}, {t.c.x, t.c.y, t.c.z}};
+}
+
+inline Roots<double> roots_of(const Triangle<double>& triangle, const ShapeRay<double>& ray) {
+    const TriangleHit<double> hit = intersect_triangle(triangle, ray);
+    return {{hit.t, hit.t}, {hit.hit, false}};
+}
+
+}  // namespace obscura
