@@ -177,8 +177,8 @@ void environment_pixel(const KernelData& d) {
 template <typename F>
 void choice_draw(const KernelData& d) {
     for_rows<F>([&](int i) {
-        const CdfSample<F> sample = sample_cdf<F>(d.choice, d.choice_count, read<F>(d.bits0 + i));
-        write(d.out0 + i, from_int<F>(sample.index) + unit_float<F>(sample.remaining));
+        const IntOf<F> index = sample_cdf<F>(d.choice, d.choice_count, read<F>(d.bits0 + i));
+        write(d.out0 + i, from_int<F>(index));
     });
 }
 

@@ -4,7 +4,6 @@
 
 #include "light/row_words.h"
 #include "math/gather4.h"
-#include "math/sampler.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -48,12 +47,6 @@ std::vector<double> cdf_probabilities(std::span<const CdfEntry> entries);
 
 inline namespace OBSCURA_ISA {
 
-template <typename F>
-struct CdfSample {
-    IntOf<F> index;
-    UintOf<F> remaining;  ///< uniform again; its upper 24 bits are filled
-};
-
 /// Bits 32 to 63 of a * b.
 template <typename U>
 OBSCURA_INLINE U multiply_high(const U& a, uint32_t b) {
@@ -69,15 +62,11 @@ OBSCURA_INLINE U multiply_high(const U& a, uint32_t b) {
 /// Draws an index from the table of `count` indices.
 ///
 /// In      count: in [1, max_cdf_indices]; random: uniform 32 bits
-/// Out     index in [0, count); the remainder is where the random number lies among those that lead
-///         to the index
+/// Out     index in [0, count)
 /// Source  Chen and Asau, "On Generating Random Variates from an Empirical Distribution", AIIE
 ///         Transactions 6(2), 1974: the search begins at a cell of equal cells
 template <typename F>
-OBSCURA_INLINE CdfSample<F> sample_cdf(const CdfEntry* entries,
-                                       int count,
-                                       const UintOf<F>& random) {
-    using U = UintOf<F>;
+OBSCURA_INLINE IntOf<F> sample_cdf(const CdfEntry* entries, int count, const UintOf<F>& random) {
     using I = IntOf<F>;
     static_assert(offsetof(CdfEntry, first_random) == 0 && offsetof(CdfEntry, first_index) == 4);
     const auto* words = member_words<int32_t>(entries, 0);
@@ -92,14 +81,7 @@ OBSCURA_INLINE CdfSample<F> sample_cdf(const CdfEntry* entries,
         high = select(beyond, I(middle - I(1)), high);
         low = select(beyond, low, middle);
     }
-    const auto found = gather4<F>(words, I(low * I(2)));
-    const U begin = as_uint(found.x);
-    const U width = as_uint(found.z) - begin;
-    // An index that takes all 2^32 numbers has a width of 2^32, modulo 2^32 that is 0.
-    const F span = select(width == U(0U), F(4294967296.0f), float_from_uint<F>(width));
-    const F unit = (float_from_uint<F>(U(random - begin)) + F(0.5f)) / span;
-    const I bits = to_int(min(unit * F(16777216.0f), F(16777215.0f)));
-    return {low, as_uint(bits) << 8};
+    return low;
 }
 
 }  // namespace OBSCURA_ISA

@@ -50,10 +50,11 @@ OBSCURA_INLINE F length(const Vec3<F>& a) {
     return sqrt(dot(a, a));
 }
 
-/// Unit vector along a; the zero vector (and anything that underflows to it) stays zero.
+/// Unit vector along a; the zero vector (and anything that underflows to it) stays zero, and one
+/// beyond 1e19 becomes short.
 template <typename F>
 OBSCURA_INLINE Vec3<F> normalize(const Vec3<F>& a) {
-    return a * inverse_sqrt(max(dot(a, a), F(1e-36f)));
+    return a * inverse_sqrt(clamp(dot(a, a), F(1e-36f), F(3e38f)));
 }
 
 template <typename F>

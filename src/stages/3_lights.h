@@ -98,8 +98,7 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     const LightView& lights = scene.lights;
     LightLanes out{splat3(Lanes(0.0f)), Lanes(0.0f), splat3(Lanes(0.0f)), Lanes(0.0f), Mask(false)};
     LanesI index(lights.count - 1);
-    if (lights.count > 1)
-        index = sample_cdf<Lanes>(lights.choice, lights.count, random.choice).index;
+    if (lights.count > 1) index = sample_cdf<Lanes>(lights.choice, lights.count, random.choice);
     const Mask punctual = index < LanesI(lights.punctual_count);
     const LanesI triangle_index = index - LanesI(lights.punctual_count);
     const Mask triangle = (!punctual) & (triangle_index < LanesI(lights.triangle_count));

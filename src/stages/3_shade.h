@@ -26,8 +26,9 @@ OBSCURA_INLINE HitLanes hits_of_paths(const ShadeRows& rows,
 /// One bounce of path tracing.
 ///
 /// In      rows.paths, rows.hits: `count` rows of this bounce; bounce: 0 for camera rays
-/// Out     rows.next, rows.shadows: at most `count` rows each, packed, in slot order;
-///         rows.samples: emission and environment light are added
+/// In/Out  rows.passed: by slot, see stages/3_walls.h
+/// Out     rows.next, rows.shadows: at most `count` rows each, packed, one a slot; rows.samples:
+///         emission and environment light are added
 /// Units   radiance; distance m; pdf 1/sr
 /// Errors  none
 /// Source  Veach, PhD thesis, 1997, ch. 9 (multiple importance sampling), ch. 10.4 (roulette)

@@ -115,7 +115,8 @@ void scatter_in_bodies(
     }
 }
 
-/// Stage 4 for the rays that wait at thin walls: nearest hits, for now it counts what is met.
+/// Stage 4 for the rays that wait at thin walls: nearest hits, for which wall is met now counts.
+/// The bench neither counts nor replays them.
 void cross_walls(
     const WalkInput& in, int count, uint32_t segment, Workspace& work, WalkCounters& c) {
     const bool raycast = in.kind == WalkKind::raycast;

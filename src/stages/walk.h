@@ -37,7 +37,7 @@ public:
 
     PathRows paths[2];
     HitRows hits;
-    HitRows walker_hits;  ///< inside bodies that scatter light
+    HitRows walker_hits;  ///< inside bodies that scatter light, and of shadow rays at thin walls
     std::vector<uint32_t> walker_row;
     MissRows misses;
     ShadowRows shadows;

@@ -29,11 +29,12 @@ OBSCURA_INLINE StraightLight<F> take_straight_light(const LayeredParams<F>& p,
                                                     LayeredWeights<F>& w) {
     const F zero(0.0f);
     const F one(1.0f);
-    const auto smooth = (!p.solid) & (max(p.alpha.x, p.alpha.y) <= F(min_ggx_alpha)) &
-                        (w.transmitted > zero) & (wo.z > zero);
     const LayeredFresnel<F> fresnel = layered_fresnel(p, wo.z);
     const F passes = max(one - max_component(fresnel.dielectric), zero);
     const F through = w.transmitted * passes * w.below_coat * w.below_sheen;
+    // Where nothing comes through, the lobe stays: worth nothing, but with its density.
+    const auto smooth = (!p.solid) & (max(p.alpha.x, p.alpha.y) <= F(min_ggx_alpha)) &
+                        (through * max_component(p.base_color) > zero) & (wo.z > zero);
     const F chance = w.p_facet * (one - facet_reflects(p, w, fresnel));
     const StraightLight<F> light{select(smooth, p.base_color * through, splat3(zero)),
                                  select(smooth, chance, zero)};

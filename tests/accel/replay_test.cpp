@@ -82,7 +82,7 @@ public:
     }
     void occlude(const Accel& accel, uint32_t segment, RayRecorder& recorder) {
         accel.occluded(columns(true), occluded_.data(), Coherence::incoherent, segment);
-        recorder.add_shadows(columns(true), occluded_.data(), segment);
+        recorder.add_shadows(columns(true), occluded_.data(), segment, false);
     }
 
 private:

@@ -1,4 +1,4 @@
-// tests/light/cdf_table_test.cpp - drawing an index: probabilities, leftovers, limits, lanes.
+// tests/light/cdf_table_test.cpp - drawing an index: probabilities, limits, lanes.
 // SPDX-License-Identifier: Apache-2.0
 #include "light/cdf_table.h"
 
@@ -116,34 +116,24 @@ TEST(CdfTable, HugeWeightsDoNotOverflow) {
         EXPECT_NEAR(share, 1.0 / 3, 1e-8 + grain);
 }
 
-/// Counts of (index, sixteenth of the remaining bits).
-std::vector<double> draw(const std::vector<CdfEntry>& table, int samples) {
-    std::vector<double> observed((table.size() - 1) * 16, 0.0);
-    Pcg32 random(11);
-    for (int i = 0; i < samples; ++i) {
-        const auto count = static_cast<int>(table.size()) - 1;
-        const auto sample = sample_cdf<float>(table.data(), count, random.next_uint());
-        observed[static_cast<size_t>(sample.index) * 16 + (sample.remaining >> 28)] += 1;
-    }
-    return observed;
-}
-
-TEST(CdfTable, IndexAndRemainderAreIndependentAndRight) {
+TEST(CdfTable, IndicesAreDrawnByTheirShares) {
     constexpr int samples = 1000000;
     std::vector<double> weights = random_weights(100, 7);
     for (double& weight : weights)
         weight = std::sqrt(weight);  // most bins get samples
     const std::vector<CdfEntry> table = table_for(weights);
-    const std::vector<double> shares = shares_of(table);
-    std::vector<double> expected(shares.size() * 16);
-    for (size_t i = 0; i < expected.size(); ++i)
-        expected[i] = shares[i / 16] * samples / 16;
-    const std::vector<double> observed = draw(table, samples);
+    std::vector<double> expected = shares_of(table);
+    for (double& count : expected)
+        count *= samples;
+    std::vector<double> observed(100, 0.0);
+    Pcg32 random(11);
+    for (int i = 0; i < samples; ++i) {
+        const int32_t index = sample_cdf<float>(table.data(), 100, random.next_uint());
+        observed[static_cast<size_t>(index)] += 1;
+    }
     const ChiSquareOutcome right = chi_square(observed, expected);
     EXPECT_TRUE(right.passes(0.01)) << right;
-
-    for (size_t i = 0; i < 16; ++i)
-        std::swap(expected[16 * 50 + i], expected[16 * 99 + i]);
+    std::swap(expected[50], expected[99]);
     const ChiSquareOutcome wrong = chi_square(observed, expected);
     EXPECT_FALSE(wrong.passes(0.01)) << wrong;
 }
@@ -152,7 +142,7 @@ TEST(CdfTable, IndexAndRemainderAreIndependentAndRight) {
 TEST(CdfTable, ProbabilitiesCountEveryRandomNumber) {
     const std::vector<CdfEntry> table = table_for(random_weights(7, 5));
     const auto index_of = [&](uint32_t random) {
-        return sample_cdf<float>(table.data(), 7, random).index;
+        return sample_cdf<float>(table.data(), 7, random);
     };
     std::vector<double> counted(7, 0.0);
     uint64_t begin = 0;
@@ -179,7 +169,7 @@ TEST(CdfTable, TheIndexGrowsWithTheRandomNumber) {
     int32_t index = 0;
     for (uint64_t random = 0; random < 0x100000000U; random += 0xFFFFF) {
         const auto bits = static_cast<uint32_t>(random);
-        const int32_t next = sample_cdf<float>(table.data(), 303, bits).index;
+        const int32_t next = sample_cdf<float>(table.data(), 303, bits);
         EXPECT_GE(next, index);
         EXPECT_GT(weights[static_cast<size_t>(next)], 0);
         index = next;
@@ -195,16 +185,11 @@ TEST(CdfTable, LanesEqualScalars) {
         for (uint32_t& word : bits)
             word = random.next_uint();
         const LanesU in(BatchU::load_unaligned(bits));
-        const CdfSample<Lanes> got = sample_cdf<Lanes>(table.data(), 5000, in);
+        const LanesI got = sample_cdf<Lanes>(table.data(), 5000, in);
         int32_t index[lane_count];
-        uint32_t remaining[lane_count];
-        got.index.v.store_unaligned(index);
-        got.remaining.v.store_unaligned(remaining);
-        for (int i = 0; i < lane_count; ++i) {
-            const auto one = sample_cdf<float>(table.data(), 5000, bits[i]);
-            EXPECT_EQ(index[i], one.index);
-            EXPECT_EQ(remaining[i], one.remaining);
-        }
+        got.v.store_unaligned(index);
+        for (int i = 0; i < lane_count; ++i)
+            EXPECT_EQ(index[i], sample_cdf<float>(table.data(), 5000, bits[i]));
     }
 }
 

@@ -62,7 +62,7 @@ double sum_of(const std::vector<double>& values) {
 }
 
 TEST(PixelChoice, ProbabilitiesFollowTheWeights) {
-    const int sizes[][2] = {{1, 4}, {8, 8}, {9, 7}, {64, 32}, {33, 100}, {500, 3}};
+    const int sizes[][2] = {{1, 1}, {1, 4}, {8, 8}, {9, 7}, {64, 32}, {33, 100}, {500, 3}};
     for (const auto& size : sizes) {
         const Choice choice = random_choice(size[0], size[1]);
         const double sum = sum_of(choice.weights);

@@ -3,6 +3,7 @@
 #include "math/lanes.h"
 
 #include "math/reverse_bits.h"
+#include "math/vec.h"
 #include "math/warp.h"
 
 #include <gtest/gtest.h>
@@ -98,6 +99,14 @@ TEST(Lanes, FloatComparisonsAreTheScalars) {
             EXPECT_EQ(lane(a != b, i), x != y) << x << ", " << y;
         }
     });
+}
+
+TEST(Lanes, NormalizeNeverMakesWhatIsNoNumber) {
+    for (const float size : {0.0F, 1e-30F, 1.0F, 1e18F, 1e20F, 3e38F}) {
+        const Vec3<Lanes> unit = normalize(Vec3<Lanes>{Lanes(size), Lanes(0.0F), Lanes(-size)});
+        EXPECT_TRUE(std::isfinite(lane(unit.x, 0)) && lane(unit.z, 0) == -lane(unit.x, 0)) << size;
+        if (size > 1e-15F && size < 1e19F) EXPECT_NEAR(lane(unit.x, 0), std::sqrt(0.5), 1e-6);
+    }
 }
 
 TEST(Lanes, InverseSquareRootIsGoodToFourUlp) {

@@ -98,6 +98,7 @@ TEST(Bsdf, AlbedoTableIsTheSpecularLobesIntegral) {
         const double truth = test::quadrature_albedo(p, test::view_direction(cosine)).albedo.y;
         const double table = specular_albedo(static_cast<double>(dielectric_f0), cosine, p.alpha);
         EXPECT_NEAR(table, truth, 0.003) << "roughness " << roughness << ", cosine " << cosine;
+        EXPECT_NEAR(dielectric_albedo(cosine, p.alpha), table, 1e-6);
     }
 }
 

@@ -71,9 +71,29 @@ TEST(ThinWall, TheLobesThatStayShareTheRest) {
         const bool passes = max_component(light.transmittance) > 0;
         ASSERT_FALSE(passes && (!is_wall || p.solid)) << n;
         ASSERT_EQ(passes, light.probability > 0) << n;
-        ASSERT_EQ(after.transmitted, is_wall && !p.solid ? 0 : before.transmitted) << n;
+        ASSERT_EQ(after.transmitted, passes ? 0 : before.transmitted) << n;
         ASSERT_LE(max_component(light.transmittance), 1) << n;
     }
+}
+
+/// White sheen that reflects everything lets nothing through, and no path is sent that way.
+TEST(ThinWall, NothingPassesBelowFullSheen) {
+    Pcg32 random(3);
+    LayeredParams<double> p = convert<double>(random_layers(random, 0.1F));
+    p.solid = false;
+    p.alpha = {smooth, smooth};
+    p.metallic = 0;
+    p.transmission = 1;
+    p.sheen_color = {1, 1, 1};
+    p.sheen_alpha = 0.01;
+    const Vec3d wo = normalize(Vec3d{1, 0, 0.05});
+    LayeredWeights<double> w = layered_weights(p, wo);
+    ASSERT_EQ(w.below_sheen, 0);
+    const double chance = w.p_facet;
+    const StraightLight<double> light = take_straight_light(p, wo, w);
+    EXPECT_EQ(light.probability, 0);
+    EXPECT_EQ(max_component(light.transmittance), 0);
+    EXPECT_EQ(w.p_facet, chance);
 }
 
 /// A colourless pane of index 1.5: all but 4 % straight on, and more at a slant.

@@ -44,6 +44,27 @@ void meet(const CameraRay<double>& ray, const Vec3d& centre, double radius, Ball
     }
 }
 
+/// Memory of an earlier film, whatever its size and content, changes nothing.
+TEST(Quantities, FilmsAreWrittenIntoOldMemory) {
+    Scene scene = empty_scene(double_sided());
+    add_shape(scene, make_shape(ShapeKind::sphere, 1), 0);
+    const Camera camera = look_at({0, 0, 4}, {0, 0, 0}, 0.8f, width, height);
+    for (const Integrator integrator : {Integrator::distance, Integrator::path}) {
+        for (const bool cropped : {false, true}) {
+            RenderOptions options = options_for(integrator);
+            options.samples_per_pixel = 2;
+            if (cropped) options.crop = PixelRect{10, 5, 30, 20};
+            const Film fresh = render_scene(scene, {}, camera, options).film;
+            for (const size_t old : {size_t{7}, fresh.pixels.size(), 3 * fresh.pixels.size()}) {
+                UnsetArray<float> memory(old, NAN);
+                options.film_memory = &memory;
+                const Film film = render_scene(scene, {}, camera, options).film;
+                EXPECT_EQ(film.pixels, fresh.pixels) << old << ", cropped " << cropped;
+            }
+        }
+    }
+}
+
 TEST(Quantities, DistanceAndFacingOfBallsInEveryCamera) {
     for (const NamedCamera& named : all_cameras()) {
         const Affinef& place = named.camera.world_from_camera;
