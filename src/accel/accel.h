@@ -69,9 +69,8 @@ public:
 
     /// occluded[i] = 1 when anything lies in (0, tfar), else 0; refused rays count as occluded.
     ///
-    /// In/Out  walls: null, or 0 in every row: what may be a thin wall (scene/thin_walls.h) does
-    /// not
-    ///         occlude, but makes this 1
+    /// In/Out  walls: null, or 0 in every row: what may be a thin wall does not occlude, but makes
+    ///         this 1; see scene/thin_walls.h
     int occluded(const RayColumns& rays,
                  uint8_t* occluded,
                  Coherence coherence,
