@@ -124,7 +124,7 @@ TEST(ShapeCallbacks, AllWidthsAgreeOnEveryShape) {
         for (const NamedShape& shape : sample_shapes()) {
             SCOPED_TRACE(shape.name);
             for (const bool culls : {false, true}) {
-                const ShapeGeometry geometry{&shape.row, nullptr, 1, true, nullptr};
+                const ShapeGeometry geometry{&shape.row, nullptr, 1, true};
                 const auto asked = random_questions(shape.row, 16 * 20);
                 expect_widths_agree(*callbacks, geometry, asked, culls);
             }
@@ -134,7 +134,7 @@ TEST(ShapeCallbacks, AllWidthsAgreeOnEveryShape) {
 
 TEST(ShapeCallbacks, HitsLieBetweenTnearAndTfar) {
     const ShapeRow sphere = shape_row(ShapeKind::sphere, 1, 0, 0);
-    const ShapeGeometry geometry{&sphere, nullptr, 1, false, nullptr};
+    const ShapeGeometry geometry{&sphere, nullptr, 1};
     const ShapeRay<float> ray{{0, 0, 3}, {0, 0, -1}};
     for (const ShapeCallbacks* callbacks : all_callbacks()) {
         EXPECT_FLOAT_EQ(ask<1>(*callbacks, geometry, {{ray}})[0].t, 2.0F);

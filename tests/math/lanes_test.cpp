@@ -105,7 +105,9 @@ TEST(Lanes, NormalizeNeverMakesWhatIsNoNumber) {
     for (const float size : {0.0F, 1e-30F, 1.0F, 1e18F, 1e20F, 3e38F}) {
         const Vec3<Lanes> unit = normalize(Vec3<Lanes>{Lanes(size), Lanes(0.0F), Lanes(-size)});
         EXPECT_TRUE(std::isfinite(lane(unit.x, 0)) && lane(unit.z, 0) == -lane(unit.x, 0)) << size;
-        if (size > 1e-15F && size < 1e19F) EXPECT_NEAR(lane(unit.x, 0), std::sqrt(0.5), 1e-6);
+        if (size > 1e-15F && size < 1e19F) {
+            EXPECT_NEAR(lane(unit.x, 0), std::sqrt(0.5), 1e-6);
+        }
     }
 }
 
