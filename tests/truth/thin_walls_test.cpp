@@ -1,5 +1,5 @@
-// tests/truth/thin_walls_test.cpp - light through smooth thin walls counts once, however it is
-// found. SPDX-License-Identifier: Apache-2.0
+// tests/truth/thin_walls_test.cpp - light through smooth thin walls counts once.
+// SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>
