@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "math/sampler.h"
+#include "scene/lowest_texel.h"
 
 #include <algorithm>
 #include <array>
@@ -91,30 +92,15 @@ float alpha_threshold(const AlphaGeometry& geometry,
     return unit_float<float>(hash) + 1.0f / 16777216.0f;
 }
 
-namespace {
-
-/// Smallest alpha of a texture's finest level; filtering never goes below.
-float lowest_alpha(const Scene& scene, int32_t texture) {
-    if (texture < 0) return 1.0f;
-    const TextureRow& row = scene.textures.rows[static_cast<size_t>(texture)];
-    const uint32_t* texels = &scene.textures.texels[static_cast<size_t>(row.level_offset[0])];
-    const size_t count = static_cast<size_t>(row.width) * static_cast<size_t>(row.height);
-    uint32_t lowest = 255U;
-    for (size_t i = 0; i < count; ++i)
-        lowest = std::min(lowest, texels[i] >> 24);
-    return static_cast<float>(lowest) / 255.0f;
-}
-
-}  // namespace
-
 std::vector<uint8_t> find_materials_with_holes(const Scene& scene) {
     std::vector<uint8_t> holes(scene.materials.size(), 0);
     parallel_for(holes.size(), [&](size_t i) {
         const Material& material = scene.materials[i];
         const bool is_mask = (material.flags & material_alpha_mask) != 0;
         if (!is_mask && (material.flags & material_alpha_blend) == 0) return;
-        const float lowest =
-            material.base_color[3] * lowest_alpha(scene, material.base_color_texture.texture);
+        constexpr int alpha = 3;
+        const float lowest = material.base_color[3] *
+                             lowest_texel(scene, material.base_color_texture.texture, alpha);
         holes[i] = lowest < (is_mask ? material.alpha_cutoff : 1.0f) ? 1 : 0;
     });
     return holes;

@@ -1,0 +1,15 @@
+// scene/lowest_texel.h - the least that a texture's channel can be anywhere.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "scene/scene.h"
+
+#include <cstdint>
+
+namespace obscura {
+
+/// In      texture: number, or -1 for none; channel: 0 to 3 for red to alpha
+/// Out     of the finest level, in [0, 1]: filtering never goes below; 1 where there is no texture
+float lowest_texel(const Scene& scene, int32_t texture, int channel);
+
+}  // namespace obscura
