@@ -1,4 +1,4 @@
-// math/gather4.h - four neighbouring words for every lane, for less than four gathers.
+// math/gather4.h - two or four neighbouring words for every lane, for less than that many gathers.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -98,6 +98,67 @@ OBSCURA_INLINE Four<IntOf<F>> gather4(const int32_t* base, const IntOf<F>& i) {
         return {float_bits(words.x), float_bits(words.y), float_bits(words.z), float_bits(words.w)};
     } else {
         return {base[i], base[i + 1], base[i + 2], base[i + 3]};
+    }
+}
+
+/// Words [i, i + 2) of a table.
+template <typename T>
+struct Two {
+    T x, y;
+};
+
+#if defined(__x86_64__)
+/// Loads of 8 bytes: a vector of the words of lanes 0, 1, 4, 5, ..., one of 2, 3, 6, 7, ...
+OBSCURA_INLINE Two<LanesI> gather2_lanes(const int32_t* base, LanesI first) {
+    alignas(64) int32_t at[lane_count];
+    first.v.store_aligned(at);
+    const auto two = [&](int k) {  // lanes k and k + 1
+        const __m128i low = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(base + at[k]));
+        return _mm_loadh_pi(_mm_castsi128_ps(low),
+                            reinterpret_cast<const __m64*>(base + at[k + 1]));
+    };
+    constexpr int first_words = _MM_SHUFFLE(2, 0, 2, 0);
+    constexpr int second_words = _MM_SHUFFLE(3, 1, 3, 1);
+#if defined(__AVX512F__)
+    const auto four = [&](int k) {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(two(k)), two(k + 4), 1);
+    };
+    const auto eight = [&](int k) {
+        return _mm512_insertf32x8(_mm512_castps256_ps512(four(k)), four(k + 8), 1);
+    };
+    const __m512 a = eight(0);
+    const __m512 b = eight(2);
+    return {BatchI(_mm512_castps_si512(_mm512_shuffle_ps(a, b, first_words))),
+            BatchI(_mm512_castps_si512(_mm512_shuffle_ps(a, b, second_words)))};
+#elif defined(__AVX2__)
+    const auto four = [&](int k) {
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(two(k)), two(k + 4), 1);
+    };
+    const __m256 a = four(0);
+    const __m256 b = four(2);
+    return {BatchI(_mm256_castps_si256(_mm256_shuffle_ps(a, b, first_words))),
+            BatchI(_mm256_castps_si256(_mm256_shuffle_ps(a, b, second_words)))};
+#else
+    const __m128 a = two(0);
+    const __m128 b = two(2);
+    return {BatchI(_mm_castps_si128(_mm_shuffle_ps(a, b, first_words))),
+            BatchI(_mm_castps_si128(_mm_shuffle_ps(a, b, second_words)))};
+#endif
+}
+#else
+OBSCURA_INLINE Two<LanesI> gather2_lanes(const int32_t* base, LanesI first) {
+    return {BatchI::gather(base, first.v), BatchI::gather(base + 1, first.v)};
+}
+#endif
+
+/// Reads base[i] and base[i + 1] for every lane. Both must exist, in idle lanes too.
+template <typename F>
+OBSCURA_INLINE Two<UintOf<F>> gather2(const uint32_t* base, const IntOf<F>& i) {
+    if constexpr (std::is_same_v<F, Lanes>) {
+        const Two<LanesI> words = gather2_lanes(reinterpret_cast<const int32_t*>(base), i);
+        return {as_uint(words.x), as_uint(words.y)};
+    } else {
+        return {base[i], base[i + 1]};
     }
 }
 

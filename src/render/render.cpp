@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "render/camera_bodies.h"
+#include "render/film_rows.h"
 #include "render/filter_table.h"
 #include "render/integrators.h"
 #include "render/prepared_scene.h"
@@ -153,23 +154,6 @@ void render_tile(const WalkInput& walk_input,
     }
 }
 
-/// Writes rows of samples to the film, from the tile's pixel `first` on.
-template <int channels>
-void store_samples(const ThreadState& state, int first, int count, Film& film) {
-    const SampleRows& s = state.work.samples;
-    const float* const columns[] = {s.r, s.g, s.b, s.a};
-    const auto width = static_cast<size_t>(film.width);
-    float* const pixels = film.pixels.data();
-    const int32_t* xs = state.xs.data() + first;
-    const int32_t* ys = state.ys.data() + first;
-    for (int i = 0; i < count; ++i) {
-        float* pixel =
-            pixels + channels * (static_cast<size_t>(ys[i]) * width + static_cast<size_t>(xs[i]));
-        for (int c = 0; c < channels; ++c)
-            pixel[c] = columns[c][i];
-    }
-}
-
 /// Finds the quantity in one tile and writes it into the film.
 void render_quantity_tile(const WalkInput& walk_input,
                           const Tile& tile,
@@ -186,19 +170,7 @@ void render_quantity_tile(const WalkInput& walk_input,
         in.batch.pixel_y = state.ys.data() + first;
         walk_quantity(in, count, state.work, state.counters);
         const SumOfTime time(state.counters.seconds.accumulate);
-        switch (film.channels.size()) {
-            case 1:
-                store_samples<1>(state, first, count, film);
-                break;
-            case 2:
-                store_samples<2>(state, first, count, film);
-                break;
-            case 3:
-                store_samples<3>(state, first, count, film);
-                break;
-            default:
-                store_samples<4>(state, first, count, film);
-        }
+        write_film(state.work.samples, {in.batch.pixel_x, in.batch.pixel_y, count}, film);
     }
 }
 

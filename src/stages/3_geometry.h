@@ -56,8 +56,22 @@ OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
     return shift * min(Lanes(1.0f), most / max(length(shift), Lanes(1e-30f)));
 }
 
-OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& hit) {
-    HitGeometry g;
+/// HitGeometry::offset: the rounding of the barycentric sum and of Embree's own arithmetic, 2^-24
+/// each step.
+OBSCURA_INLINE Lanes rounding_offset(const HitGeometry& g, const Vec3<Lanes> (&p)[3]) {
+    const Vec3<Lanes> size =
+        abs(p[0]) * g.weight[0] + abs(p[1]) * g.weight[1] + abs(p[2]) * g.weight[2];
+    const Lanes extent = max_component(max3(abs(p[1] - p[0]), abs(p[2] - p[0])));
+    return Lanes(32.0f / 16777216.0f) * (dot(abs(g.ng), size) + extent * Lanes(0.25f));
+}
+
+/// What a hit is wanted for: quantities need not know where rays that leave it may start.
+enum class HitUse { look, start_rays };
+
+/// Fills `g` where it is, for it is long to copy.
+template <HitUse use>
+OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, HitGeometry& g) {
+    g.has_shapes = false;
     g.primitive = {scene.primitives, hit.primitive, primitive_words};
     g.material = {scene.materials, g.primitive.integer(2), material_words};
     g.one_triangle = g.primitive.shared() && all(hit.triangle == LanesI(first_lane(hit.triangle)));
@@ -106,15 +120,12 @@ OBSCURA_INLINE HitGeometry hit_geometry(const SceneView& scene, const HitLanes& 
                 n[k] = moved.at[k];
         }
         g.normal = select(smooth, normalize(weighted(g, n)), g.ng);
-        g.smooth_shift =
-            select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
+        if constexpr (use == HitUse::start_rays) {
+            g.smooth_shift =
+                select(smooth, smooth_surface_shift(g, p, n, g.position), splat3(Lanes(0.0f)));
+        }
     }
-    // Rounding of the barycentric sum and of Embree's own arithmetic, 2^-24 each step.
-    const Vec3<Lanes> size =
-        abs(p[0]) * g.weight[0] + abs(p[1]) * g.weight[1] + abs(p[2]) * g.weight[2];
-    const Lanes extent = max_component(max3(abs(p[1] - p[0]), abs(p[2] - p[0])));
-    g.offset = Lanes(32.0f / 16777216.0f) * (dot(abs(g.ng), size) + extent * Lanes(0.25f));
-    return g;
+    g.offset = use == HitUse::start_rays ? rounding_offset(g, p) : Lanes(0.0f);
 }
 
 /// Moves the lanes that hit an instance from object space to world space.

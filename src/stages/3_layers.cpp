@@ -200,12 +200,13 @@ OBSCURA_INLINE void disperse(const LayerReader& layers,
     out.tint = select(first, wavelength.color, out.tint);
 }
 
-LayeredPoint read_point(const LayerReader& layers,
-                        const SceneView& scene,
-                        const PathLanes& path,
-                        const BsdfParams<Lanes>& base,
-                        LayerPlace& place) {
-    LayeredPoint out;
+void read_point(const LayerReader& layers,
+                const LayerHit& hit,
+                const BsdfParams<Lanes>& base,
+                LayerPlace& place,
+                LayeredPoint& out) {
+    const SceneView& scene = hit.scene;
+    const PathLanes& path = hit.path;
     out.layered = place.layered;
     const LanesI medium = layers.integer(OBSCURA_LAYER_WORD(medium));
     const LanesI body = select(out.layered, medium, LanesI(0));
@@ -237,16 +238,16 @@ LayeredPoint read_point(const LayerReader& layers,
     out.weights = layered_weights(p, to_local(place.frame, place.wo));
     out.lets_through =
         out.layered & ((p.transmission > Lanes(0.0f)) | (p.diffuse_transmission > Lanes(0.0f)));
-    return out;
 }
 
 }  // namespace
 
-LayeredPoint read_layered_point(const LayerHit& hit,
-                                const BsdfParams<Lanes>& base,
-                                LayerPlace& place) {
+void read_layered_point(const LayerHit& hit,
+                        const BsdfParams<Lanes>& base,
+                        LayerPlace& place,
+                        LayeredPoint& out) {
     const LayerReader reader(hit.scene, hit.geometry, hit.look, place.layered);
-    return read_point(reader, hit.scene, hit.path, base, place);
+    read_point(reader, hit, base, place, out);
 }
 
 StraightLight<Lanes> take_straight(LayeredPoint& point, const Vec3<Lanes>& wo) {

@@ -45,9 +45,11 @@ struct LayerHit {
 };
 
 /// In   base: the core material; place: layered lanes; its frame may be turned
-LayeredPoint read_layered_point(const LayerHit& hit,
-                                const BsdfParams<Lanes>& base,
-                                LayerPlace& place);
+/// Out  out: filled where it is, for it is long to copy
+void read_layered_point(const LayerHit& hit,
+                        const BsdfParams<Lanes>& base,
+                        LayerPlace& place,
+                        LayeredPoint& out);
 
 /// take_straight_light of the lanes that have layers; the others let nothing pass straight.
 StraightLight<Lanes> take_straight(LayeredPoint& point, const Vec3<Lanes>& wo);

@@ -35,9 +35,12 @@ CornerVectors moved_corners(const SceneView& scene,
 /// In  instance: rows; lanes in world space may have any
 OBSCURA_INLINE InstanceMaps instance_maps(const SceneView& scene, LanesI instance, Lanes time) {
     const TableRow<Lanes> row(scene.instances, max(instance, LanesI(0)), instance_words);
-    const InstanceMaps still{read_affine(row, 0), read_affine(row, 12)};
-    if (scene.motion.instances == nullptr) return still;
-    return moved_instance(scene, row.integer(instance_motion_word), time, still);
+    InstanceMaps maps{read_affine(row, 0), read_affine(row, 12)};
+    if (scene.motion.instances != nullptr) {
+        const InstanceMaps still = maps;
+        maps = moved_instance(scene, row.integer(instance_motion_word), time, still);
+    }
+    return maps;
 }
 
 }  // namespace OBSCURA_ISA

@@ -31,7 +31,8 @@ OBSCURA_INLINE Lanes distance_along_ray(const Camera& camera, const PathLanes& p
 OBSCURA_INLINE Vec3<Lanes> surface_uv(const SceneView& scene,
                                       const PathLanes& path,
                                       const HitLanes& hit) {
-    HitGeometry g = hit_geometry(scene, hit);
+    HitGeometry g;
+    find_geometry<HitUse::look>(scene, hit, g);
     instance_to_world(scene, hit, g);
     const LanesI base = g.primitive.integer(6);
     const Mask present = base != LanesI(no_attribute);
@@ -72,7 +73,7 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
         return identity(scene, hit);
     } else {
         const SeenSurface seen =
-            see_surface(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
+            see_surface<HitUse::look>(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
         const int slot_word = quantity == Quantity::albedo ? base_color_slot : normal_slot;
         const FoundSlot slot = find_slot(scene, seen.g, slot_word, seen.look, {});
         if constexpr (quantity == Quantity::albedo) {

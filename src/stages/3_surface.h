@@ -48,6 +48,7 @@ struct SeenSurface {
     LookUp look;
 };
 
+template <HitUse use>
 OBSCURA_INLINE SeenSurface see_surface(const SceneView& scene,
                                        const HitLanes& hit,
                                        const PathLanes& path,
@@ -55,7 +56,7 @@ OBSCURA_INLINE SeenSurface see_surface(const SceneView& scene,
                                        Filtering filtering) {
     SeenSurface seen;
     HitGeometry& g = seen.g;
-    g = hit_geometry(scene, hit);
+    find_geometry<use>(scene, hit, g);
     instance_to_world(scene, hit, g);
     read_first_uv_set(scene, g);
     shapes_to_world(scene, hit, path, g);
@@ -166,7 +167,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
                                           const PathLanes& path,
                                           const Vec3<Lanes>& random,
                                           Filtering filtering) {
-    const SeenSurface seen = see_surface(scene, hit, path, random, filtering);
+    const SeenSurface seen = see_surface<HitUse::start_rays>(scene, hit, path, random, filtering);
     const HitGeometry& g = seen.g;
     const LookUp& look = seen.look;
     const FoundSlots slots = find_slots(scene, g, look);
@@ -190,7 +191,7 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     if (s.any_layers) {
         const Vec3<Lanes> smooth = select(dot(g.normal, s.ng) < Lanes(0.0f), -g.normal, g.normal);
         LayerPlace place{tangents, s.frame, smooth, s.ng, seen.wo, front, layered};
-        s.layers = read_layered_point({scene, g, look, path}, s.bsdf, place);
+        read_layered_point({scene, g, look, path}, s.bsdf, place, s.layers);
         s.frame.tangent = select(layered, place.frame.tangent, s.frame.tangent);
         s.frame.bitangent = select(layered, place.frame.bitangent, s.frame.bitangent);
         s.start_beyond = g.position - s.ng * g.offset;

@@ -143,7 +143,8 @@ void write_all_wires(const SceneView& scene,
         HitLanes hit = hits_or_first(rows.hits, i, hits);
         if (rows.time != nullptr) hit.time = load(rows.time + i);  // row i is pixel i
         const PathLanes path = load_paths(rows.paths, i);
-        HitGeometry g = hit_geometry(scene, hit);
+        HitGeometry g;
+        find_geometry<HitUse::look>(scene, hit, g);
         instance_to_world(scene, hit, g);
         RaysAround around;
         find_rays_around<Maker>(batch, i, around);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "math/gather4.h"
 #include "math/table_row.h"
 #include "math/vec.h"
 #include "surface/srgb.h"
@@ -63,23 +64,26 @@ OBSCURA_INLINE MaskOf<F> has_bits(const IntOf<F>& bits, uint32_t flag) {
 template <typename F>
 OBSCURA_INLINE F wrap_unit(const F& coordinate, const IntOf<F>& mode) {
     const F repeated = coordinate - floor(coordinate);
+    // inf - inf for infinite UV
+    const auto finite = [](const F& x) { return select(x == x, x, F(0.0f)); };
+    if (all(mode == IntOf<F>(0))) return finite(repeated);
     const F half = coordinate * F(0.5f);
     const F two = (half - floor(half)) * F(2.0f);
     const F mirrored = select(two > F(1.0f), F(2.0f) - two, two);
     const F clamped = clamp(coordinate, F(0.0f), F(1.0f));
     F out = select(mode == IntOf<F>(1), clamped, repeated);
     out = select(mode == IntOf<F>(2), mirrored, out);
-    return select(out == out, out, F(0.0f));  // infinite UV: inf - inf
+    return finite(out);
 }
 
 /// Brings a texel index that is at most one period outside back into [0, size).
 template <typename F>
 OBSCURA_INLINE IntOf<F> wrap_texel(const IntOf<F>& i, const IntOf<F>& size, const IntOf<F>& mode) {
     const IntOf<F> last = size - IntOf<F>(1);
-    const IntOf<F> clamped = max(min(i, last), IntOf<F>(0));  // mirror: the edge texel repeats
-    const IntOf<F> wrapped =
-        select(i < IntOf<F>(0), IntOf<F>(i + size), select(i > last, IntOf<F>(i - size), i));
-    return select(mode == IntOf<F>(0), max(min(wrapped, last), IntOf<F>(0)), clamped);
+    const MaskOf<F> repeats = mode == IntOf<F>(0);
+    const IntOf<F> below = select(repeats & (i < IntOf<F>(0)), IntOf<F>(i + size), i);
+    const IntOf<F> inside = select(repeats & (i > last), IntOf<F>(i - size), below);
+    return max(min(inside, last), IntOf<F>(0));  // clamp and mirror: the edge texel repeats
 }
 
 /// Unpacks one RGBA8 texel; sRGB-encoded where the sampler says so.
@@ -198,6 +202,16 @@ OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
     return decode_texel<F>(texel, has_bits<F>(info.sampler, sampler_srgb));
 }
 
+template <typename F>
+OBSCURA_INLINE void add_texel(const UintOf<F>& texel,
+                              const MaskOf<F>& srgb,
+                              const F& weight,
+                              Rgba<F>& sum) {
+    const Rgba<F> value = decode_texel<F>(texel, srgb);
+    sum.rgb = sum.rgb + value.rgb * weight;
+    sum.alpha = sum.alpha + value.alpha * weight;
+}
+
 /// Reads the bilinearly filtered value of the nearest mip level: no randomness, four texels.
 template <typename F>
 OBSCURA_INLINE Rgba<F> sample_texture_bilinear(const TextureView& view,
@@ -215,15 +229,19 @@ OBSCURA_INLINE Rgba<F> sample_texture_bilinear(const TextureView& view,
     const IntOf<F> y0 = to_int(floor(y));
     const MaskOf<F> srgb = has_bits<F>(info.sampler, sampler_srgb);
     Rgba<F> sum{splat3(F(0.0f)), F(0.0f)};
-    for (int corner = 0; corner < 4; ++corner) {
-        const IntOf<F> cx = x0 + IntOf<F>(corner & 1);
-        const IntOf<F> cy = y0 + IntOf<F>(corner >> 1);
-        const F wx = (corner & 1) != 0 ? fx : F(1.0f) - fx;
-        const F wy = (corner >> 1) != 0 ? fy : F(1.0f) - fy;
-        const Rgba<F> value =
-            decode_texel<F>(gather<F>(view.texels, texel_number<F>(at, cx, cy)), srgb);
-        sum.rgb = sum.rgb + value.rgb * (wx * wy);
-        sum.alpha = sum.alpha + value.alpha * (wx * wy);
+    const IntOf<F> left = wrap_texel<F>(x0, at.level.width, at.wrap_u);
+    const IntOf<F> right = wrap_texel<F>(x0 + IntOf<F>(1), at.level.width, at.wrap_u);
+    const bool side_by_side = all(right == left + IntOf<F>(1));
+    for (int line = 0; line < 2; ++line) {
+        const IntOf<F> row = wrap_texel<F>(y0 + IntOf<F>(line), at.level.height, at.wrap_v);
+        const IntOf<F> start = at.level.offset + row * at.level.width;
+        const Two<UintOf<F>> texels = side_by_side
+                                          ? gather2<F>(view.texels, start + left)
+                                          : Two<UintOf<F>>{gather<F>(view.texels, start + left),
+                                                           gather<F>(view.texels, start + right)};
+        const F weight = line == 0 ? F(1.0f) - fy : fy;
+        add_texel<F>(texels.x, srgb, (F(1.0f) - fx) * weight, sum);
+        add_texel<F>(texels.y, srgb, fx * weight, sum);
     }
     return sum;
 }

@@ -23,7 +23,7 @@ TEST(ClosedParts, ACubeIsClosedAndAnOpenOneIsNot) {
 
 TEST(ClosedParts, VerticesAreOneWhereTheyCoincide) {
     Scene split = closed_cube();  // three vertices a triangle
-    std::vector<float> positions;
+    LargeArray<float> positions;
     for (size_t i = 0; i < 36; ++i) {
         for (size_t c = 0; c < 3; ++c)
             positions.push_back(split.positions[3 * split.indices[i] + c]);

@@ -82,7 +82,7 @@ TEST(Glb, LoadsItsBinaryChunk) {
     const Loaded loaded = load_bytes(triangle_builder().glb(), "scene.glb");
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_EQ(loaded.warnings, "");
-    EXPECT_EQ(loaded.scene->indices, (std::vector<uint32_t>{0, 1, 2, 0}));
+    EXPECT_EQ(loaded.scene->indices, (LargeArray<uint32_t>{0, 1, 2, 0}));
 }
 
 TEST(Glb, CutAtEveryByteIsAnErrorAndNeverACrash) {

@@ -59,7 +59,8 @@ TEST(Meshes, OneUseIsBakedToTheWorld) {
     EXPECT_EQ(scene.primitives[0].triangle_count, 1);
     EXPECT_EQ(scene.primitives[0].material, 0);
     EXPECT_EQ(scene.primitives[0].tangent_base, no_attribute);
-    EXPECT_EQ(scene.positions, (F{10, 0, 0, 12, 0, 0, 10, 3, 0, 0, 0, 0, 0}));  // padded by 4
+    EXPECT_EQ(scene.positions,
+              (LargeArray<float>{10, 0, 0, 12, 0, 0, 10, 3, 0, 0, 0, 0, 0}));  // padded by 4
     EXPECT_EQ(low_of(scene), (F{10, 0, 0}));
     EXPECT_EQ(high_of(scene), (F{12, 3, 0}));
     EXPECT_EQ(scene.info.triangles_in_world, 1U);
@@ -139,7 +140,7 @@ TEST(Meshes, WorldPrimitivesComeFirst) {
     EXPECT_EQ(scene.primitives[1].node, 2);
     EXPECT_EQ(scene.primitives[1].first_triangle, 1);
     EXPECT_EQ(scene.meshes[0].first_primitive, 2);
-    EXPECT_EQ(scene.indices, (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 0}));
+    EXPECT_EQ(scene.indices, (LargeArray<uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 0}));
     // The base of an attribute is such that the absolute vertex number finds its place.
     EXPECT_EQ(attribute_of(scene, scene.primitives[1].normal_base, 4, 3), (F{0, 0, 1}));
     EXPECT_EQ(position_of(scene, 4), (F{2, 0, 9}));
