@@ -146,12 +146,13 @@ TEST(ShapeCallbacks, HitsLieBetweenTnearAndTfar) {
 }
 
 TEST(ShapeCallbacks, BlocksFindTheNearestSphere) {
+    constexpr int count = 600;  // three clusters
     Pcg32 random(5);
     std::vector<float> spheres;
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < count; ++i) {
         for (int c = 0; c < 3; ++c)
             spheres.push_back(between(random, -1, 1));
-        spheres.push_back(between(random, 0.05F, 0.3F));
+        spheres.push_back(between(random, 0.02F, 0.12F));
     }
     Scene scene = empty_scene({});
     add_spheres(scene, spheres, 0);
@@ -167,7 +168,7 @@ TEST(ShapeCallbacks, BlocksFindTheNearestSphere) {
     for (int i = 0; i < rays.count(); ++i) {
         double nearest_t = 1e30;
         int which = -1;
-        for (int s = 0; s < 100; ++s) {
+        for (int s = 0; s < count; ++s) {
             const float* at = &spheres[static_cast<size_t>(4 * s)];
             const Sphere<double> sphere{{at[0], at[1], at[2]}, at[3]};
             const auto ray =
