@@ -20,6 +20,17 @@ void append(const RayColumns& rays, int row, uint32_t segment, RecordedRays& out
     out.key.push_back(rays.key != nullptr ? segment_key(rays.key[row], segment) : 0U);
 }
 
+void append_hits(const RayColumns& rays,
+                 const HitColumns& hits,
+                 uint32_t segment,
+                 RecordedRays& out) {
+    for (int row = 0; row < rays.count; ++row) {
+        if (!is_safe(rays, row)) continue;
+        append(rays, row, segment, out);
+        out.hits += hits.primitive[row] >= 0 ? 1 : 0;
+    }
+}
+
 }  // namespace
 
 RayColumns RecordedRays::columns() const {
@@ -28,13 +39,15 @@ RayColumns RecordedRays::columns() const {
 }
 
 void RayRecorder::add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through) {
-    RecordedRays& out = list(see_through.segment == 0 ? RayKind::camera : RayKind::bounce);
     fixed_alpha_ = see_through.fixed_alpha;
-    for (int row = 0; row < rays.count; ++row) {
-        if (!is_safe(rays, row)) continue;
-        append(rays, row, see_through.segment, out);
-        out.hits += hits.primitive[row] >= 0 ? 1 : 0;
-    }
+    const RayKind kind = see_through.segment == 0 ? RayKind::camera : RayKind::bounce;
+    append_hits(rays, hits, see_through.segment, list(kind));
+}
+
+void RayRecorder::add_shadow_hits(const RayColumns& rays,
+                                  const HitColumns& hits,
+                                  SeeThrough see_through) {
+    append_hits(rays, hits, see_through.segment, shadow_hits_);
 }
 
 void RayRecorder::add_shadows(const RayColumns& rays,
@@ -52,15 +65,19 @@ void RayRecorder::add_shadows(const RayColumns& rays,
 
 uint64_t RayRecording::count(RayKind kind) const {
     uint64_t sum = 0;
-    for (const auto& thread : threads)
+    for (const auto& thread : threads) {
         sum += thread->rays(kind).count();
+        if (kind == RayKind::shadow) sum += thread->shadow_hits().count();
+    }
     return sum;
 }
 
 uint64_t RayRecording::hits(RayKind kind) const {
     uint64_t sum = 0;
-    for (const auto& thread : threads)
+    for (const auto& thread : threads) {
         sum += thread->rays(kind).hits;
+        if (kind == RayKind::shadow) sum += thread->shadow_hits().hits;
+    }
     return sum;
 }
 

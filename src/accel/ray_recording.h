@@ -34,14 +34,19 @@ public:
                      const uint8_t* occluded,
                      uint32_t segment,
                      bool passes_walls);
+    /// Shadow rays that ask for the nearest hit, for they may go on behind it.
+    void add_shadow_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through);
 
+    /// Of shadow rays, those that ask for any hit.
     const RecordedRays& rays(RayKind kind) const { return rays_[static_cast<size_t>(kind)]; }
+    const RecordedRays& shadow_hits() const { return shadow_hits_; }
     bool fixed_alpha() const { return fixed_alpha_; }
-    bool passes_walls() const { return passes_walls_; }  ///< of shadow rays
+    bool passes_walls() const { return passes_walls_; }  ///< of shadow rays that ask for any hit
 
 private:
     RecordedRays& list(RayKind kind) { return rays_[static_cast<size_t>(kind)]; }
     std::array<RecordedRays, ray_kinds> rays_;
+    RecordedRays shadow_hits_;
     bool fixed_alpha_ = false;
     bool passes_walls_ = false;
 };

@@ -20,7 +20,7 @@ constexpr size_t chunk_rays = 4096;
 /// Some rows of one thread's recording.
 struct Chunk {
     const RecordedRays* rays;
-    bool fixed_alpha, passes_walls;
+    bool fixed_alpha, passes_walls, any_hit;
     size_t begin, end;
 };
 
@@ -31,12 +31,18 @@ struct Tally {
 
 std::vector<Chunk> cut_chunks(const RayRecording& recording, RayKind kind) {
     std::vector<Chunk> chunks;
-    for (const auto& thread : recording.threads) {
-        const RecordedRays& rays = thread->rays(kind);
-        for (size_t begin = 0; begin < rays.count(); begin += chunk_rays) {
-            const size_t end = std::min(begin + chunk_rays, rays.count());
-            chunks.push_back({&rays, thread->fixed_alpha(), thread->passes_walls(), begin, end});
+    const auto cut = [&](Chunk chunk) {
+        for (size_t begin = 0; begin < chunk.rays->count(); begin += chunk_rays) {
+            chunk.begin = begin;
+            chunk.end = std::min(begin + chunk_rays, chunk.rays->count());
+            chunks.push_back(chunk);
         }
+    };
+    const bool shadow = kind == RayKind::shadow;
+    for (const auto& thread : recording.threads) {
+        const bool fixed = thread->fixed_alpha();
+        cut({&thread->rays(kind), fixed, thread->passes_walls(), shadow, 0, 0});
+        if (shadow) cut({&thread->shadow_hits(), fixed, false, false, 0, 0});
     }
     return chunks;
 }
@@ -144,22 +150,21 @@ Tally occlude_sixteen(const Accel::Impl& impl, const Chunk& chunk, bool coherent
     return tally;
 }
 
-Tally replay_chunk(const Accel::Impl& impl, const Chunk& chunk, bool any_hit, ReplayWay way) {
+Tally replay_chunk(const Accel::Impl& impl, const Chunk& chunk, ReplayWay way) {
     if (way == ReplayWay::single) {
-        return any_hit ? occlude_one_by_one(impl.top, chunk)
-                       : intersect_one_by_one(impl.top, chunk);
+        return chunk.any_hit ? occlude_one_by_one(impl.top, chunk)
+                             : intersect_one_by_one(impl.top, chunk);
     }
     const bool coherent = way == ReplayWay::coherent_packets;
-    return any_hit ? occlude_sixteen(impl, chunk, coherent)
-                   : intersect_sixteen(impl, chunk, coherent);
+    return chunk.any_hit ? occlude_sixteen(impl, chunk, coherent)
+                         : intersect_sixteen(impl, chunk, coherent);
 }
 
 }  // namespace
 
 ReplayResult Accel::replay(const RayRecording& recording, RayKind kind, ReplayWay way) const {
-    const bool any_hit = kind == RayKind::shadow;
     // On instances the coherent kernel of Embree 3.13 for AVX-512 may never come back.
-    if (any_hit && impl_->has_instances && way == ReplayWay::coherent_packets) {
+    if (kind == RayKind::shadow && impl_->has_instances && way == ReplayWay::coherent_packets) {
         way = ReplayWay::packets;
     }
     const std::vector<Chunk> chunks = cut_chunks(recording, kind);
@@ -167,7 +172,7 @@ ReplayResult Accel::replay(const RayRecording& recording, RayKind kind, ReplayWa
     std::atomic<uint64_t> checksum = 0;
     const Stopwatch replaying;
     parallel_for(chunks.size(), [&](size_t i) {
-        const Tally tally = replay_chunk(*impl_, chunks[i], any_hit, way);
+        const Tally tally = replay_chunk(*impl_, chunks[i], way);
         hits.fetch_add(tally.hits, std::memory_order_relaxed);
         checksum.fetch_add(tally.checksum, std::memory_order_relaxed);
     });

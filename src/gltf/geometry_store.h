@@ -34,9 +34,9 @@ struct GeometryBlock {
 
 /// Blocks at the start of a scene's arrays.
 struct GeometryStore {
-    std::vector<float> positions;  ///< of the latest scene; empty: it has not been given back
-    std::vector<uint32_t> indices;
-    std::vector<float> attributes;
+    LargeArray<float> positions;  ///< of the latest scene; empty: it has not been given back
+    LargeArray<uint32_t> indices;
+    LargeArray<float> attributes;
     std::vector<GeometryBlock> blocks;
     std::vector<Affined> mover_from_node;  ///< of all nodes, which no time changes
 

@@ -27,7 +27,7 @@ void turn(float* v, const Affined& map, double sign) {
 }
 
 /// Appends a block and returns the base that an absolute vertex number is added to.
-int32_t append_block(std::vector<float>& attributes,
+int32_t append_block(LargeArray<float>& attributes,
                      const std::vector<float>& block,
                      size_t first_vertex,
                      size_t width) {

@@ -12,9 +12,9 @@ namespace {
 using Poses = std::span<const ScenePose>;
 
 /// Whether what lies behind the still part of an array is equal.
-bool has_same_tail(const std::vector<uint32_t>& all,
+bool has_same_tail(const LargeArray<uint32_t>& all,
                    size_t still,
-                   const std::vector<uint32_t>& tail) {
+                   const LargeArray<uint32_t>& tail) {
     return all.size() == still + tail.size() && std::equal(tail.begin(), tail.end(), &all[still]);
 }
 

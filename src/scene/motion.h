@@ -27,9 +27,9 @@ struct StillSizes {
 /// What of a scene a time may change.
 struct ScenePose {
     StillSizes still;
-    std::vector<float> positions;  ///< those behind the still ones, and so on
-    std::vector<uint32_t> indices;
-    std::vector<float> attributes;
+    LargeArray<float> positions;  ///< those behind the still ones, and so on
+    LargeArray<uint32_t> indices;
+    LargeArray<float> attributes;
     std::vector<Primitive> primitives;
     std::vector<Instance> instances;
     std::vector<SceneCamera> cameras;

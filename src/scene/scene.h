@@ -166,14 +166,14 @@ struct Bounds {
 /// `meshes` and appear through `instances` only.
 struct Scene {
     // These three end with the padding of pad_tables.
-    std::vector<float> positions;  ///< 3 floats a vertex, metres
+    LargeArray<float> positions;  ///< 3 floats a vertex, metres
     /// 3 absolute vertex numbers a triangle, counter-clockwise from the front (before mirroring).
-    std::vector<uint32_t> indices;
+    LargeArray<uint32_t> indices;
     std::vector<ShapeRow> shapes;
     UnsetArray<float> spheres;  ///< particles, see shape/sphere_block.h; rays read them anywhere
     std::vector<float> curve_points;       ///< x, y, z and radius, in metres
     std::vector<uint32_t> curve_segments;  ///< each goes from this curve point to the next one
-    std::vector<float> attributes;         ///< normals, tangents, UVs and colours; see Primitive
+    LargeArray<float> attributes;          ///< normals, tangents, UVs and colours; see Primitive
     std::vector<Primitive> primitives;
     int32_t world_primitive_count = 0;
     /// The first of the world's primitives, which are the same at every time (stamped as a mesh

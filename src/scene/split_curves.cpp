@@ -57,7 +57,7 @@ private:
 
     void add_colors(Primitive& primitive, size_t first_point) {
         if (primitive.color_base == no_attribute) return;
-        std::vector<float>& all = scene_.attributes;
+        LargeArray<float>& all = scene_.attributes;
         const int64_t old_base = primitive.color_base;
         const auto base = static_cast<int64_t>(all.size()) - static_cast<int64_t>(first_point * 4);
         for (const Vertex& vertex : vertices_) {

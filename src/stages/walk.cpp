@@ -116,7 +116,6 @@ void scatter_in_bodies(
 }
 
 /// Stage 4 for the rays that wait at thin walls: nearest hits, for which wall is met now counts.
-/// The bench neither counts nor replays them.
 void cross_walls(
     const WalkInput& in, int count, uint32_t segment, Workspace& work, WalkCounters& c) {
     const bool raycast = in.kind == WalkKind::raycast;
@@ -124,15 +123,17 @@ void cross_walls(
     const WallRows rows{work.shadows, work.walker_hits, work.samples, time};
     int waiting = in.stages->take_waiting(count, work.occluded.data(), work.shadows);
     for (uint32_t number = 0; waiting > 0 && number <= most_walls; ++number) {
+        RayColumns rays = rays_of(work.shadows, waiting);
+        if (raycast) rays.key = nullptr;
+        rays.time = times_of(in, work.shadows.slot, waiting, work);
+        const SeeThrough see_through{false, raycast, segment};
+        c.shadow_rays += static_cast<uint64_t>(waiting);
         {
             const SumOfTime timing(c.seconds.shadow);
-            RayColumns rays = rays_of(work.shadows, waiting);
-            if (raycast) rays.key = nullptr;
-            rays.time = times_of(in, work.shadows.slot, waiting, work);
-            const SeeThrough see_through{false, raycast, segment};
             c.refused_rays += static_cast<uint64_t>(
                 in.accel->intersect(rays, rows.hits, Coherence::incoherent, see_through));
         }
+        if (in.recorder != nullptr) in.recorder->add_shadow_hits(rays, rows.hits, see_through);
         const SumOfTime timing(c.seconds.shade);
         const WallStep step{segment, number, !raycast};
         waiting = in.stages->cross_walls(in.scene, step, waiting, rows);

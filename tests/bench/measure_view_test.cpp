@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/scene_builder.h"
+#include "support/wall_scenes.h"
 #include <numeric>
 
 namespace obscura {
@@ -14,8 +14,8 @@ using namespace test;
 
 const std::atomic<bool> never_stop = false;
 
-/// A room of two-sided spheres and squares, half of them half transparent.
-PreparedScene some_scene() {
+/// Two-sided spheres on a square, one half transparent; under a thin pane of glass, if asked.
+PreparedScene some_scene(bool with_pane = false) {
     SceneBuilder builder;
     Material solid;
     solid.flags = material_double_sided;
@@ -27,8 +27,13 @@ PreparedScene some_scene() {
     builder.quad({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}, solid_row);
     builder.sphere({-1, 0, 0}, 0.8f, 12, solid_row);
     builder.sphere({1, 0, 0}, 0.8f, 12, glass_row);
+    Material pane = glass_material();
+    pane.layers = 0;
+    if (with_pane) builder.quad({-3, 1.5f, 3}, {6, 0, 0}, {0, 0, -6}, builder.material(pane));
+    Scene scene = builder.take();
+    scene.layers = {glass_layers()};
     Log silent(Verbosity::quiet);
-    auto prepared = PreparedScene::create(builder.take(), {}, Isa::automatic, silent);
+    auto prepared = PreparedScene::create(std::move(scene), {}, Isa::automatic, silent);
     EXPECT_TRUE(prepared);
     return std::move(*prepared);
 }
@@ -66,6 +71,18 @@ TEST(Recording, LeavesThePictureAlone) {
     EXPECT_GT(recording.count(RayKind::shadow), 0U);
 }
 
+void expect_replay_finds_all_hits(const PreparedScene& scene, const RayRecording& recording) {
+    for (size_t k = 0; k < ray_kinds; ++k) {
+        const auto kind = static_cast<RayKind>(k);
+        for (const ReplayWay way :
+             {ReplayWay::single, ReplayWay::packets, ReplayWay::coherent_packets}) {
+            const ReplayResult got = scene.accel().replay(recording, kind, way);
+            EXPECT_EQ(got.hits, recording.hits(kind)) << ray_kind_names[k] << way_name(way);
+        }
+    }
+    EXPECT_GT(recording.hits(RayKind::camera), 0U);
+}
+
 TEST(Replay, FindsTheHitsOfTheRendering) {
     const PreparedScene scene = some_scene();
     for (const Integrator integrator : {Integrator::path, Integrator::ao, Integrator::normal}) {
@@ -73,16 +90,23 @@ TEST(Replay, FindsTheHitsOfTheRendering) {
         RenderOptions options = some_options(integrator);
         options.recording = &recording;
         ASSERT_TRUE(render(scene, some_camera(), options, {}, never_stop));
-        for (size_t k = 0; k < ray_kinds; ++k) {
-            const auto kind = static_cast<RayKind>(k);
-            for (const ReplayWay way :
-                 {ReplayWay::single, ReplayWay::packets, ReplayWay::coherent_packets}) {
-                const ReplayResult got = scene.accel().replay(recording, kind, way);
-                EXPECT_EQ(got.hits, recording.hits(kind)) << ray_kind_names[k] << way_name(way);
-            }
-        }
-        EXPECT_GT(recording.hits(RayKind::camera), 0U);
+        expect_replay_finds_all_hits(scene, recording);
     }
+}
+
+TEST(Replay, ShadowRaysGoOnBehindPanes) {
+    const PreparedScene scene = some_scene(true);
+    RenderOptions options = some_options();
+    RayRecording recording;
+    options.recording = &recording;
+    const auto rendered = render(scene, some_camera(), options, {}, never_stop);
+    ASSERT_TRUE(rendered);
+    uint64_t behind = 0;
+    for (const auto& thread : recording.threads)
+        behind += thread->shadow_hits().count();
+    EXPECT_GT(behind, 100U);
+    EXPECT_EQ(recording.count(RayKind::shadow), rendered->counters.shadow_rays);
+    expect_replay_finds_all_hits(scene, recording);
 }
 
 TEST(MeasureView, CountsAndShares) {
