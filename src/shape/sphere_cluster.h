@@ -50,7 +50,8 @@ OBSCURA_INLINE BoxAxis box_axis(const float* boxes, int axis, float origin, floa
     return {origin, 1.0f / steep, up ? low : high, up ? high : low};
 }
 
-/// The boxes that a ray enters within its limits. Each side's t has been rounded three times, a
+/// The boxes that a ray enters within its limits; one in whose side it runs may be left out, for
+/// there is room between sides and spheres. Each side's t has been rounded three times, a
 /// difference, a reciprocal and a product: in and out are told apart with room for six.
 OBSCURA_INLINE BoxEntries enter_boxes(const float* boxes,
                                       const ShapeRay<float>& ray,
