@@ -191,6 +191,7 @@ void drop_moved(Accel::Impl& impl) {
 Result<void> build_scenes(Accel::Impl& impl) {
     drop_moved(impl);
     impl.shapes.assign(impl.scene->primitives.size(), {});
+    impl.block_boxes.assign(impl.scene->primitives.size(), {});
     build_parts(impl);
     build_top(impl);
     impl.list_endless_planes();
@@ -278,8 +279,10 @@ bool Accel::has_thin_walls() const {
 }
 
 size_t Accel::memory_bytes() const {
-    const int64_t bytes = impl_->memory.load();
-    return bytes > 0 ? static_cast<size_t>(bytes) : 0;
+    size_t bytes = static_cast<size_t>(std::max<int64_t>(impl_->memory.load(), 0));
+    for (const auto& boxes : impl_->block_boxes)
+        bytes += boxes.size() * sizeof(float);
+    return bytes;
 }
 
 std::string Accel::embree_version() const {

@@ -92,7 +92,7 @@ public:
     /// accel/ray_recording.h.
     ReplayResult replay(const RayRecording& recording, RayKind kind, ReplayWay way) const;
 
-    size_t memory_bytes() const;  ///< as Embree's allocation monitor counts it
+    size_t memory_bytes() const;  ///< of Embree, by its allocation monitor, and of spheres' boxes
     std::string embree_version() const;
 
     struct Impl;

@@ -8,6 +8,7 @@
 #include "accel/embree.h"
 #include "accel/reference_kernels.h"
 #include "accel/shape_geometry.h"
+#include "base/unset_array.h"
 
 #include <atomic>
 #include <mutex>
@@ -71,11 +72,12 @@ struct Accel::Impl {
     SharedArrays arrays;
     bool has_instances = false;  ///< in `top`
     std::vector<uint8_t> materials_with_holes;
-    std::vector<uint8_t> thin_walls;          ///< by material
-    bool has_thin_walls = false;              ///< some primitive's material is one
-    std::vector<AlphaGeometry> alpha;         ///< by primitive; empty: no filters
-    std::vector<ShapeGeometry> shapes;        ///< by primitive; filled where it is one of shapes
-    std::vector<UserElements> user_elements;  ///< by primitive; empty: Embree's own kinds
+    std::vector<uint8_t> thin_walls;             ///< by material
+    bool has_thin_walls = false;                 ///< some primitive's material is one
+    std::vector<AlphaGeometry> alpha;            ///< by primitive; empty: no filters
+    std::vector<ShapeGeometry> shapes;           ///< by primitive; filled where it is one of shapes
+    std::vector<UnsetArray<float>> block_boxes;  ///< by primitive; what ShapeGeometry::boxes reads
+    std::vector<UserElements> user_elements;     ///< by primitive; empty: Embree's own kinds
     AccelFunctions functions;
     std::vector<EndlessPlane> endless_planes;
     std::vector<uint8_t> single_sided;              ///< by primitive

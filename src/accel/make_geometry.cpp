@@ -3,6 +3,9 @@
 #include "accel/accel_impl.h"
 #include "accel/moving_geometry.h"
 #include "accel/reference_geometry.h"
+#include "base/parallel.h"
+
+#include <algorithm>
 
 namespace obscura {
 
@@ -104,12 +107,30 @@ bool fill_shape_geometry(Accel::Impl& impl, int32_t primitive_index) {
     return spheres || !is_unbounded(scene.shapes[first]);
 }
 
+/// Boxes around the blocks of a primitive of spheres. Returns the number of its clusters.
+size_t fill_boxes(const ShapeGeometry& spheres, UnsetArray<float>& boxes) {
+    const size_t blocks = (static_cast<size_t>(spheres.count) + sphere_block - 1) / sphere_block;
+    const size_t clusters = (blocks + cluster_blocks - 1) / cluster_blocks;
+    boxes.resize(clusters * cluster_floats);
+    parallel_for(clusters, [&](size_t cluster) {
+        const size_t first = cluster * cluster_blocks;
+        fill_cluster_boxes(spheres.spheres + first * sphere_block_floats,
+                           static_cast<int>(std::min<size_t>(blocks - first, cluster_blocks)),
+                           &boxes[cluster * cluster_floats]);
+    });
+    return clusters;
+}
+
 RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
-    ShapeGeometry& shapes = impl.shapes[static_cast<size_t>(primitive_index)];
-    const int32_t blocks = (shapes.count + sphere_block - 1) / sphere_block;
+    const auto primitive = static_cast<size_t>(primitive_index);
+    ShapeGeometry& shapes = impl.shapes[primitive];
+    auto count = static_cast<size_t>(shapes.count);
+    if (shapes.rows == nullptr) {
+        count = fill_boxes(shapes, impl.block_boxes[primitive]);
+        shapes.boxes = impl.block_boxes[primitive].data();
+    }
     RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_USER);
-    rtcSetGeometryUserPrimitiveCount(
-        geometry, static_cast<unsigned>(shapes.rows != nullptr ? shapes.count : blocks));
+    rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(count));
     rtcSetGeometryUserData(geometry, &shapes);
     rtcSetGeometryBoundsFunction(geometry, impl.functions.shapes->bounds, nullptr);
     rtcSetGeometryIntersectFunction(

@@ -32,6 +32,7 @@ struct Call {
     const int* valid;
     unsigned primitive;
     bool front_only;
+    bool any;  ///< whichever hit is found first will do
 };
 
 struct Found {
@@ -62,10 +63,16 @@ OBSCURA_INLINE Found find_on_shape(const Call& call, int i) {
     return {};
 }
 
+/// What of a block is asked for.
+struct BlockPart {
+    int32_t first;  ///< row of its first sphere
+    Span<float> limits;
+};
+
 /// One ray against the spheres of a block one after the other, for alpha may open each of them.
-Found find_in_open_block(const Call& call, int i, const float* block, int32_t first) {
+Found find_in_open_block(const Call& call, int i, const float* block, const BlockPart& part) {
     const ShapeRay<float> ray = call.rays.ray(i);
-    const Span<float> limits = call.rays.limits(i);
+    const auto& [first, limits] = part;
     Found best{limits.high, -1};
     for (int s = 0; s < sphere_block; ++s) {
         const Sphere<float> sphere{{block[s], block[sphere_block + s], block[2 * sphere_block + s]},
@@ -83,15 +90,36 @@ Found find_in_open_block(const Call& call, int i, const float* block, int32_t fi
     return best;
 }
 
-OBSCURA_INLINE Found find_in_block(const Call& call, int i) {
-    const auto block_number = static_cast<int32_t>(call.primitive);
-    const int32_t first = block_number * sphere_block;
-    const float* block =
-        call.geometry.spheres + static_cast<int64_t>(block_number) * sphere_block_floats;
-    if (call.geometry.alpha != nullptr) return find_in_open_block(call, i, block, first);
-    const BlockHit hit =
-        intersect_sphere_block(block, call.rays.ray(i), call.rays.limits(i), call.front_only);
+/// The nearest hit of one ray within the limits, with block `number` of the geometry.
+OBSCURA_INLINE Found find_in_block(const Call& call,
+                                   int i,
+                                   int32_t number,
+                                   const Span<float>& limits) {
+    const int32_t first = number * sphere_block;
+    const float* block = call.geometry.spheres + static_cast<int64_t>(number) * sphere_block_floats;
+    if (call.geometry.alpha != nullptr) return find_in_open_block(call, i, block, {first, limits});
+    const BlockHit hit = intersect_sphere_block(block, call.rays.ray(i), limits, call.front_only);
     return {hit.t, hit.sphere < 0 ? -1 : first + hit.sphere};
+}
+
+/// One ray against a cluster: its blocks one after the other as the ray enters them.
+OBSCURA_INLINE Found find_in_cluster(const Call& call, int i) {
+    const auto cluster = static_cast<int32_t>(call.primitive);
+    const float* boxes = call.geometry.boxes + static_cast<int64_t>(cluster) * cluster_floats;
+    Span<float> limits = call.rays.limits(i);
+    const BoxEntries entries = enter_boxes(boxes, call.rays.ray(i), limits);
+    Found best;
+    for (uint32_t bits = entries.bits; bits != 0;) {
+        const int next = first_entry(entries, bits);
+        if (entries.t[next] > limits.high) break;
+        bits &= ~(1U << next);
+        const Found found = find_in_block(call, i, cluster * cluster_blocks + next, limits);
+        if (found.row < 0) continue;
+        best = found;
+        if (call.any) break;
+        limits.high = found.t;
+    }
+    return best;
 }
 
 /// Lanes [i, i + lane_count) that exist and are active.
@@ -140,7 +168,7 @@ OBSCURA_INLINE void find_hits(const Call& call, const Hit& hit) {
     for (int first = 0; first < call.rays.n; first += lane_count) {
         for (uint32_t bits = mask_bits(active_lanes(call, first)); bits != 0; bits &= bits - 1) {
             const int i = first + __builtin_ctz(bits);
-            const Found found = is_shape ? find_on_shape(call, i) : find_in_block(call, i);
+            const Found found = is_shape ? find_on_shape(call, i) : find_in_cluster(call, i);
             if (found.row >= 0) hit(i, found);
         }
     }
@@ -154,7 +182,7 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
     const RayFields rays{reinterpret_cast<float*>(RTCRayHitN_RayN(args->rayhit, n)),
                          static_cast<int>(n)};
     const bool front_only = context.culls_back_faces && geometry.single_sided;
-    const Call call{geometry, context, rays, args->valid, args->primID, front_only};
+    const Call call{geometry, context, rays, args->valid, args->primID, front_only, false};
     find_hits(call, [&](int row, const Found& found) {
         const auto i = static_cast<unsigned>(row);
         rays.tfar()[row] = found.t;
@@ -173,7 +201,7 @@ void occluded(const RTCOccludedFunctionNArguments* args) {
     const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
     const RayFields rays{reinterpret_cast<float*>(args->ray), static_cast<int>(args->N)};
-    const Call call{geometry, context, rays, args->valid, args->primID, false};
+    const Call call{geometry, context, rays, args->valid, args->primID, false, true};
     find_hits(call, [&](int row, const Found&) {
         if (geometry.wall && passes_wall(context, rays.id(row))) return;
         rays.tfar()[row] = -INFINITY;
@@ -196,9 +224,8 @@ void bounds(const RTCBoundsFunctionArguments* args) {
         set_bounds(shape_bounds(geometry.rows[primitive]), *args->bounds_o);
         return;
     }
-    set_bounds(sphere_block_bounds(geometry.spheres +
-                                   static_cast<int64_t>(primitive) * sphere_block_floats),
-               *args->bounds_o);
+    const float* boxes = geometry.boxes + static_cast<int64_t>(primitive) * cluster_floats;
+    set_bounds(cluster_bounds(boxes), *args->bounds_o);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include "accel/embree.h"
 #include "math/transform.h"
 #include "shape/shape_row.h"
-#include "shape/sphere_block.h"
+#include "shape/sphere_cluster.h"
 
 #include <cstdint>
 
@@ -16,11 +16,12 @@ struct AlphaGeometry;
 /// What the user geometry of one primitive knows; the geometry's user pointer.
 struct ShapeGeometry {
     const ShapeRow* rows = nullptr;  ///< by Embree's primitive; null: spheres
-    const float* spheres = nullptr;  ///< blocks, one an Embree primitive
+    const float* spheres = nullptr;  ///< blocks; a cluster is an Embree primitive
     int32_t count = 0;               ///< rows, or spheres
     bool single_sided = false;
     bool wall = false;                     ///< it may be a thin wall
     const AlphaGeometry* alpha = nullptr;  ///< null: every point is opaque
+    const float* boxes = nullptr;          ///< of the clusters of spheres
 };
 
 /// One place where a ray meets a shape, before anyone knows whether it counts.

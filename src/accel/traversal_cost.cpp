@@ -115,11 +115,30 @@ RTCGeometry make_counted_curves(Accel::Impl& impl, int32_t primitive_index) {
         impl, primitive_index, {segment_bounds, intersect_counted_curve, nullptr});
 }
 
+namespace {
+
+/// Blocks of a cluster whose boxes the ray meets before its nearest hit so far.
+unsigned entered_blocks(const RTCIntersectFunctionNArguments* args,
+                        const ShapeGeometry& geometry,
+                        unsigned i) {
+    const unsigned n = args->N;
+    RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
+    const float* boxes = geometry.boxes + static_cast<size_t>(args->primID) * cluster_floats;
+    const Span<float> limits{RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i)};
+    const BoxEntries entries = enter_boxes(boxes, read_ray(rays, n, i), limits);
+    return static_cast<unsigned>(__builtin_popcount(entries.bits));
+}
+
+}  // namespace
+
 void intersect_counted_shape(const RTCIntersectFunctionNArguments* args) {
     CountingContext& context = counting_context(args);
-    for (unsigned i = 0; i < args->N; ++i)
-        context.tests += args->valid[i] != 0 ? 1U : 0U;
     context.shapes->intersect(args);
+    const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        context.tests += geometry.rows != nullptr ? 1U : entered_blocks(args, geometry, i);
+    }
 }
 
 int Accel::count_tests(const RayColumns& rays, float* tests) const {

@@ -220,9 +220,14 @@ bool is_at_seam(const Question& q, const Answer& answer) {
     return touches(answer.item) || touches_next(-1) || touches_next(1);
 }
 
-/// True when rounding alone decides whether a piece of a line that the ray meets is met.
-bool is_along(const Question& q, const Item& item) {
-    return q.scene.is_piece(item) && PieceTest(q.scene.piece(item), q.ray).is_chance();
+/// True when rounding alone decides whether the piece of a line that a hit belongs to is met. The
+/// ball between two pieces belongs to the first: Embree's test of the second leaves it out.
+bool is_along(const Question& q, const Answer& passed) {
+    if (!q.scene.is_piece(passed.item)) return false;
+    const PieceTest own(q.scene.piece(passed.item), q.ray);
+    const std::optional<Item> previous = q.scene.next_piece(passed.item, -1);
+    if (!previous || !own.is_on_first_ball(passed.t)) return own.is_chance();
+    return PieceTest(q.scene.piece(*previous), q.ray).is_chance();
 }
 
 /// agree: what the answer says is there is there within 4 ulp, and all that it has passed by is at
@@ -244,7 +249,7 @@ Finding excuse(const Question& q, const Answer& answer) {
         if (item == answer.item || t >= answer.t) return;
         if (answer.found() && depth_gap(q, passed, answer) <= depth_ulps) return;
         const bool good = is_at_its_edge(q, passed) || is_at_seam(q, passed);
-        judge(good, !good && (is_edge_on(q, item) || is_along(q, item)));
+        judge(good, !good && (is_edge_on(q, item) || is_along(q, passed)));
     });
     return worst;
 }

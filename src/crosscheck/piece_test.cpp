@@ -98,6 +98,10 @@ double PieceTest::surface_m(double t) const {
     return std::max(ball_m(), cone_error(t) / slope);
 }
 
+bool PieceTest::is_on_first_ball(double t) const {
+    return cone_ > 0 && place_ + (t - start_) * speed_ < 0;
+}
+
 bool PieceTest::is_at_seam(double t) const {
     const double steepness = std::abs(a_.value);
     if (cone_ <= 0 || steepness <= a_.error) return false;  // no cone, or no place on it

@@ -20,7 +20,8 @@ struct RoundedNumber {
 ///     F(t) = g |x|^2 - (x . p)^2 - r0^2 l - 2 r0 dr (x . p) = a t^2 + 2 b t + c,   x = o + t d
 ///
 /// for the cone, which lies where 0 <= x . p + r0 dr <= g. A ball of radius r at the second end
-/// takes over from there. The ends, the radii and o are taken as moved by what p, o and dr have
+/// takes over from there; before the cone there is a ball of the piece's own only where no piece
+/// ends. The ends, the radii and o are taken as moved by what p, o and dr have
 /// been rounded; every other number is off by at most its products' sizes times how often one of
 /// them has been rounded, half an ulp each time.
 ///
@@ -42,6 +43,9 @@ public:
     /// True when the place at t is where cone and ball touch, as far as rounding tells them apart:
     /// each may take the hit for the other's.
     bool is_at_seam(double t) const;
+
+    /// True when the place at t lies before the cone, on the ball at the first end.
+    bool is_on_first_ball(double t) const;
 
     RoundedNumber a() const { return a_; }
     RoundedNumber b() const { return b_; }

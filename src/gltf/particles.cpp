@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/particles.h"
 
+#include "shape/sphere_cluster.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,8 +15,9 @@ namespace obscura {
 namespace {
 
 constexpr double farthest_position = 1e18;
-/// Splits spheres along the longest edge of their box until each part fills one block: boxes around
-/// blocks get smaller than along any curve.
+
+/// Splits spheres along the longest edge of their box until each part fills one cluster, then one
+/// block: boxes around them get smaller than along any curve.
 void split_into_blocks(const std::vector<float>& positions, std::span<uint32_t> order) {
     if (order.size() <= sphere_block) return;
     float low[3] = {INFINITY, INFINITY, INFINITY};
@@ -29,8 +32,9 @@ void split_into_blocks(const std::vector<float>& positions, std::span<uint32_t> 
     for (size_t c = 1; c < 3; ++c) {
         if (high[c] - low[c] > high[axis] - low[axis]) axis = c;
     }
-    const size_t blocks = (order.size() + sphere_block - 1) / sphere_block;
-    const size_t half = blocks / 2 * sphere_block;
+    const size_t part = order.size() > cluster_spheres ? cluster_spheres : sphere_block;
+    const size_t parts = (order.size() + part - 1) / part;
+    const size_t half = parts / 2 * part;
     const auto place = [&](uint32_t sphere) { return positions[3 * size_t{sphere} + axis]; };
     std::nth_element(
         order.begin(),

@@ -145,45 +145,60 @@ TEST(ShapeCallbacks, HitsLieBetweenTnearAndTfar) {
     }
 }
 
-TEST(ShapeCallbacks, BlocksFindTheNearestSphere) {
-    Pcg32 random(5);
-    std::vector<float> spheres;
-    for (int i = 0; i < 100; ++i) {
-        for (int c = 0; c < 3; ++c)
-            spheres.push_back(between(random, -1, 1));
-        spheres.push_back(between(random, 0.05F, 0.3F));
+/// The nearest of some spheres by the formula in double.
+NearHit<double> nearest_of(const std::vector<float>& spheres,
+                           const ShapeRay<float>& ray,
+                           size_t& which) {
+    NearHit<double> best{1e30, false};
+    for (size_t s = 0; s < spheres.size() / 4; ++s) {
+        const float* at = &spheres[4 * s];
+        const Sphere<double> sphere{{at[0], at[1], at[2]}, at[3]};
+        const auto hit = nearest(intersect_sphere(sphere, ray_cast_to<double>(ray)), 0.0, best.t);
+        if (!hit.found) continue;
+        best = hit;
+        which = s;
     }
+    return best;
+}
+
+void expect_nearest_of(const std::vector<float>& spheres, Isa isa) {
     Scene scene = empty_scene({});
     add_spheres(scene, spheres, 0);
-    const BuiltScene built = build(std::move(scene));
+    const BuiltScene built = build(std::move(scene), embree_isa_for(isa));
+    Pcg32 random(5);
     RayList rays;
     for (int i = 0; i < 2000; ++i) {
-        const Vec3f origin = random_unit(random) * 3.0F;
+        const Vec3f origin = random_unit(random) * (i % 2 == 0 ? 3.0F : 0.5F);
         rays.add(origin, normalize(random_in_cube(random, 1) - origin));
     }
     rays.intersect(built.accel, Coherence::incoherent);
     rays.occlude(built.accel, Coherence::incoherent);
     int hits = 0;
     for (int i = 0; i < rays.count(); ++i) {
-        double nearest_t = 1e30;
-        int which = -1;
-        for (int s = 0; s < 100; ++s) {
-            const float* at = &spheres[static_cast<size_t>(4 * s)];
-            const Sphere<double> sphere{{at[0], at[1], at[2]}, at[3]};
-            const auto ray =
-                ray_cast_to<double>(ShapeRay<float>{rays.origin(i), rays.direction(i)});
-            const auto hit = nearest(intersect_sphere(sphere, ray), 0.0, nearest_t);
-            if (hit.found) nearest_t = hit.t;
-            if (hit.found) which = s;
-        }
-        ASSERT_EQ(rays.hit(i), which >= 0) << i;
-        ASSERT_EQ(rays.occluded[static_cast<size_t>(i)] != 0, which >= 0) << i;
-        if (which < 0) continue;
+        const auto row = static_cast<size_t>(i);
+        size_t which = 0;
+        const NearHit<double> hit = nearest_of(spheres, {rays.origin(i), rays.direction(i)}, which);
+        ASSERT_EQ(rays.hit(i), hit.found) << i;
+        ASSERT_EQ(rays.occluded[row] != 0, hit.found) << i;
+        if (!hit.found) continue;
         ++hits;
-        ASSERT_EQ(rays.triangle[static_cast<size_t>(i)], which);
-        ASSERT_NEAR(rays.t[static_cast<size_t>(i)], nearest_t, 1e-5);
+        ASSERT_EQ(static_cast<size_t>(rays.triangle[row]), which) << i;
+        ASSERT_NEAR(rays.t[row], hit.t, 1e-5);
     }
     EXPECT_GT(hits, 300);
+}
+
+/// Three clusters of up to 256 spheres.
+TEST(ShapeCallbacks, ClustersFindTheNearestSphere) {
+    Pcg32 random(5);
+    std::vector<float> spheres;
+    for (int i = 0; i < 600; ++i) {
+        for (int c = 0; c < 3; ++c)
+            spheres.push_back(between(random, -1, 1));
+        spheres.push_back(between(random, 0.02F, 0.12F));
+    }
+    for (const Isa isa : all_isas())
+        expect_nearest_of(spheres, isa);
 }
 
 TEST(ShapeScenes, EveryInstructionSetAndWayAgrees) {

@@ -8,7 +8,9 @@
 #include <gtest/gtest.h>
 
 #include "support/stroke_scenes.h"
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace obscura {
 namespace {
@@ -174,6 +176,37 @@ TEST_F(PieceOfALine, AlongItsAxisEmbreeMayMissIt) {
     ASSERT_EQ(truth().nearest(slanted).item.row, 0);
     EXPECT_FALSE(test(slanted, 0).is_chance());
     EXPECT_EQ(verdict(slanted, {}), Finding::missed);
+}
+
+/// The ball between two pieces is the first one's: where that is missed, nobody reports the ball.
+TEST_F(PieceOfALine, WhoseBallEndsItMayBeMissedThere) {
+    const TrueRay along{{-4, -0.002, 0.003}, {1, 1e-5, 1e-5}};
+    double out = 0;
+    std::vector<int32_t> rows;
+    truth().all_hits(along, [&](double t, const Item& item) {
+        if (t <= 4) return;
+        out = t;
+        rows.push_back(item.row);
+    });
+    std::sort(rows.begin(), rows.end());
+    ASSERT_EQ(rows, (std::vector<int32_t>{0, 1}));
+    EXPECT_TRUE(test(along, 0).is_chance());
+    EXPECT_FALSE(test(along, 1).is_chance());
+    EXPECT_TRUE(test(along, 1).is_on_first_ball(out));
+    EXPECT_FALSE(test(along, 0).is_on_first_ball(out));
+    EXPECT_EQ(verdict(along, {}), Finding::edge_on);
+}
+
+/// Along the second piece, across the first, whose ball the ray meets: Embree must report that.
+TEST_F(PieceOfALine, TheBallBeforeAMissedPieceIsStillThere) {
+    const TrueRay up{{0.003, -3, 0.004}, {0, 1, 0}};
+    EXPECT_FALSE(test(up, 0).is_chance());
+    EXPECT_TRUE(test(up, 1).is_chance());
+    const TrueHit ball = truth().nearest(up);
+    ASSERT_TRUE(ball.found());
+    EXPECT_TRUE(test(up, 1).is_on_first_ball(ball.t));
+    EXPECT_EQ(verdict(up, {}), Finding::missed);
+    EXPECT_FALSE(test(up, 1).is_on_first_ball(4.009)) << "its other end is its own";
 }
 
 TEST_F(PieceOfALine, AcrossItOnlyItsSilhouetteIsChance) {
