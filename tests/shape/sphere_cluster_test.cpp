@@ -1,5 +1,5 @@
-// tests/shape/sphere_cluster_test.cpp - boxes around blocks of spheres, and the rays that enter
-// them. SPDX-License-Identifier: Apache-2.0
+// tests/shape/sphere_cluster_test.cpp - boxes around blocks of spheres, and rays that enter them.
+// SPDX-License-Identifier: Apache-2.0
 #include "shape/sphere_cluster.h"
 
 #include "shape/shape_truth.h"
