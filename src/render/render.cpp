@@ -117,8 +117,8 @@ struct ThreadState {
 int list_pixels(const Tile& tile, ThreadState& state) {
     fill_pattern(tile.width, tile.height, state.pattern);
     const size_t count = state.pattern.dx.size();
-    state.xs.assign(count + 16, 0);
-    state.ys.assign(count + 16, 0);
+    state.xs.resize(count + 16);
+    state.ys.resize(count + 16);
     for (size_t i = 0; i < count; ++i) {
         state.xs[i] = tile.x + state.pattern.dx[i];
         state.ys[i] = tile.y + state.pattern.dy[i];
