@@ -361,6 +361,7 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     request.size_is_given = arguments.size.has_value();
     parse_picture(arguments, request.options, steps);
     parse_transport(arguments, request.options, steps);
+    request.load.keeps_uv = request.options.integrator == Integrator::uv;
     parse_strokes(arguments, request.strokes, steps);
     parse_camera(arguments, request.camera, steps);
     parse_light_and_display(arguments, request, steps);

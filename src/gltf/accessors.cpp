@@ -346,20 +346,23 @@ Result<std::vector<uint32_t>> read_indices(const Document& document,
                             "vertex indices must be SCALAR, of 8, 16 or 32 unsigned bits, and not "
                             "normalized");
     }
-    if (row.view < 0 || row.sparse.count != 0) {
-        return bad_accessor(document,
-                            accessor,
-                            "E-ACC-TYPE",
-                            "vertex indices must have a bufferView and must not be sparse");
-    }
-    const ElementRange range = element_range(document, row);
-    const auto bytes = checked_span(view_bytes(document, store, row.view), range);
-    if (!bytes) {
-        return bad_accessor(document, accessor, "E-ACC-RANGE", "the buffer has too few data");
-    }
     std::vector<uint32_t> out(row.count);
-    for (size_t i = 0; i < out.size(); ++i) {
-        out[i] = load_unsigned(bytes->data() + i * range.stride, row.component);
+    if (row.view >= 0) {
+        const ElementRange range = element_range(document, row);
+        const auto bytes = checked_span(view_bytes(document, store, row.view), range);
+        if (!bytes) {
+            return bad_accessor(document, accessor, "E-ACC-RANGE", "the buffer has too few data");
+        }
+        for (size_t i = 0; i < out.size(); ++i)
+            out[i] = load_unsigned(bytes->data() + i * range.stride, row.component);
+    }
+    if (row.sparse.count == 0) return out;
+    const Result<Replacements> replacements = read_replacements(document, store, accessor);
+    if (!replacements) return fail(replacements.error());
+    for (size_t i = 0; i < replacements->elements.size(); ++i) {
+        const std::byte* value =
+            replacements->values.data() + replacements->order[i] * element_size(row);
+        out[replacements->elements[i]] = load_unsigned(value, row.component);
     }
     return out;
 }

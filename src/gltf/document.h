@@ -271,6 +271,7 @@ struct Document {
     std::string xmp;                    ///< the asset's XMP packet as JSON text
     std::vector<ExtensionInfo> extensions;
     std::vector<ReportRow> report;
+    bool keeps_uv = false;  ///< LoadOptions::keeps_uv
 
     /// "scene.glb#/accessors/12", for messages.
     std::string at(std::string_view pointer) const { return file + "#" + std::string(pointer); }

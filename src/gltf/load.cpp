@@ -173,6 +173,7 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     if (!opened) return fail(std::move(opened.error()));
     asset = std::move(*opened);
     Document& document = asset.document;
+    document.keeps_uv = options.keeps_uv;
     const Result<int> chosen = choose_scene(document, options, log);
     if (!chosen) return fail(chosen.error());
     scene = *chosen;

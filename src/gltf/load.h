@@ -22,6 +22,8 @@ struct LoadOptions {
     /// time is given.
     std::optional<std::string> animation = {};
     std::optional<double> time_s = {};  ///< of load_gltf; nothing: as stored, or 0 with `animation`
+    /// Meshes keep TEXCOORD_0 where no texture looks it up, too: for pictures of it.
+    bool keeps_uv = false;
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
     /// What would change the picture is made do with and warned of, not refused: see
     /// gltf/problems.h.

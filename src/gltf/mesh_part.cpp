@@ -268,6 +268,7 @@ std::string_view mesh_issue_text(MeshIssue issue) {
 
 MaterialNeeds material_needs(const Document& document, int material) {
     MaterialNeeds needs;
+    if (document.keeps_uv) needs.uv_sets = 1;
     if (material < 0) return needs;
     const GltfMaterial& from = document.materials[static_cast<size_t>(material)];
     const MaterialLayers layers = from.layers.value_or(MaterialLayers{});

@@ -74,24 +74,40 @@ tl::unexpected<Error> missing(std::string_view uri,
                 "the file " + shown(uri) + " cannot be read: " + why);
 }
 
+/// Schemes and encodings are the same in either case.
+bool is_same_word(std::string_view a, std::string_view lower_case) {
+    return std::equal(
+        a.begin(), a.end(), lower_case.begin(), lower_case.end(), [](char c, char lower) {
+            return std::tolower(static_cast<unsigned char>(c)) == lower;
+        });
+}
+
+/// Source  RFC 2397
 Result<UriBytes> read_data_uri(std::string_view uri, const std::string& where) {
     const size_t comma = uri.find(',');
     const auto broken = [&](const std::string& why) {
-        return fail(ExitCode::bad_data,
-                    "E-URI-DATA",
-                    where,
-                    shown(uri) + " " + why + "; accepted is data:<media type>;base64,<data>");
+        return fail(
+            ExitCode::bad_data,
+            "E-URI-DATA",
+            where,
+            shown(uri) + " " + why +
+                "; accepted are data:<media type>;base64,<data> and data:<media type>,<data>");
     };
     if (comma == std::string_view::npos) return broken("has no comma");
     const std::string_view header = uri.substr(5, comma - 5);
     constexpr std::string_view base64 = ";base64";
-    if (header.size() < base64.size() || header.substr(header.size() - base64.size()) != base64) {
-        return broken("is not base64-encoded");
-    }
+    const bool is_base64 = header.size() >= base64.size() &&
+                           is_same_word(header.substr(header.size() - base64.size()), base64);
     UriBytes out;
     out.mime = std::string(header.substr(0, header.find(';')));
-    const std::string fault = decode_base64(uri.substr(comma + 1), out.bytes);
-    if (!fault.empty()) return broken(fault);
+    const std::string_view data = uri.substr(comma + 1);
+    if (is_base64) {
+        const std::string fault = decode_base64(data, out.bytes);
+        if (!fault.empty()) return broken(fault);
+    } else {
+        for (const char c : percent_decode(data))
+            out.bytes.push_back(static_cast<std::byte>(c));
+    }
     out.size = out.bytes.size();
     return out;
 }
@@ -99,7 +115,7 @@ Result<UriBytes> read_data_uri(std::string_view uri, const std::string& where) {
 }  // namespace
 
 bool is_data_uri(std::string_view uri) {
-    return uri.substr(0, 5) == "data:";
+    return is_same_word(uri.substr(0, 5), "data:");
 }
 
 std::string percent_decode(std::string_view text) {

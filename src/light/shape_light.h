@@ -30,13 +30,14 @@ struct ShapeLight {
     float radius = 1;               ///< of a sphere
     float area = 0;                 ///< square metres
     float emission[3] = {0, 0, 0};  ///< radiance, before the texture
+    float coat = 0;                 ///< as TriangleLight::coat
     int32_t texture = -1;           ///< multiplies emission; -1: none
     float uv_from_shape[6] = {1, 0, 0, 0, 1, 0};
     float select = 0;  ///< probability of choosing this light
     int32_t two_sided = 0;
 };
 
-static_assert(sizeof(ShapeLight) == 27 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(ShapeLight) == 28 * 4, "read as 32-bit words: no padding");
 
 inline namespace OBSCURA_ISA {
 

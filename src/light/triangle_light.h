@@ -5,6 +5,7 @@
 #include "light/row_words.h"
 #include "math/gather4.h"
 #include "math/vec.h"
+#include "surface/fresnel.h"
 
 #include <cstdint>
 
@@ -16,6 +17,7 @@ struct TriangleLight {
     float e1[3] = {0, 0, 0};        ///< to the second vertex
     float e2[3] = {0, 0, 0};        ///< to the third; cross(e1, e2) points to the front
     float emission[3] = {0, 0, 0};  ///< radiance, before the texture
+    float coat = 0;                 ///< clear coat over it, the mean of its texture
     float uv0[2] = {0, 0};
     float uv1[2] = {0, 0};
     float uv2[2] = {0, 0};
@@ -26,7 +28,7 @@ struct TriangleLight {
     int32_t motion = -1;    ///< first row in LightView::moving_triangles; -1: it stands still
 };
 
-static_assert(sizeof(TriangleLight) == 23 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(TriangleLight) == 24 * 4, "read as 32-bit words: no padding");
 
 /// Where a moving triangle is at one time.
 struct MovingTriangle {
@@ -50,7 +52,7 @@ struct TriangleLightSample {
     F cosine;           ///< between normal and -direction: negative when seen from behind
     /// 1/sr, the choice of the triangle included (it is part of pdf_area); 0: no light from here
     F pdf;
-    Vec3<F> emission;  ///< before the texture
+    Vec3<F> emission;  ///< before the texture, behind the coat
     Vec2<F> uv;
     IntOf<F> texture;
 };
@@ -147,7 +149,9 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
     const F facing = select(both, abs(sample.cosine), sample.cosine);
     sample.pdf = solid_angle_pdf<F>(corners.pdf_area, sample.distance, facing);
 
-    sample.emission = {emission.x, emission.y, emission.z};
+    static_assert(offsetof(TriangleLight, coat) == offsetof(TriangleLight, emission) + 12);
+    sample.emission = Vec3<F>{emission.x, emission.y, emission.z} *
+                      coat_lets_pass<F>(emission.w, abs(sample.cosine));
     sample.texture = read_int(offsetof(TriangleLight, texture));
     const Vec2<F> uv0{uv0_uv1.x, uv0_uv1.y};
     const Vec2<F> uv1{uv0_uv1.z, uv0_uv1.w};

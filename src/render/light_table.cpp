@@ -91,6 +91,7 @@ TriangleLight light_row(const Emitter& e, int32_t triangle) {
     TriangleLight row =
         mirrored ? make_triangle_light(p[0], p[2], p[1]) : make_triangle_light(p[0], p[1], p[2]);
     std::copy_n(e.material.emission, 3, row.emission);
+    row.coat = mean_coat(e.scene, e.material);
     row.two_sided = (e.material.flags & material_double_sided) != 0 ? 1 : 0;
     const TextureSlot& slot = e.material.emissive_texture;
     const bool has_uv = e.primitive.uv_base[slot.uv_set] != no_attribute;
@@ -109,7 +110,8 @@ TriangleLight light_row(const Emitter& e, int32_t triangle) {
 /// least: what a black texture counts as.
 Vec3f emission_of(const Scene& scene, const TriangleLight& row, float least) {
     const Vec3f emission{row.emission[0], row.emission[1], row.emission[2]};
-    return row.texture < 0 ? emission : emission * (mean_texture(scene, row) + splat3(least));
+    const Vec3f below = emission * (1 - row.coat * mean_coat_reflectance);
+    return row.texture < 0 ? below : below * (mean_texture(scene, row) + splat3(least));
 }
 
 double triangle_power(const Scene& scene, const TriangleLight& row, float least) {
@@ -296,6 +298,17 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
         table.shapes[i].select = static_cast<float>(pdf[first_shape + i]);
     if (has_environment) table.environment_select = table.select_pdf.back();
     return table;
+}
+
+float mean_coat(const Scene& scene, const Material& material) {
+    if (material.layers < 0) return 0;
+    const MaterialLayers& layers = scene.layers[static_cast<size_t>(material.layers)];
+    const int32_t texture = layers.clearcoat_texture.texture;
+    if (texture < 0 || !(layers.clearcoat > 0)) return layers.clearcoat;
+    const TextureRow& row = scene.textures.rows[static_cast<size_t>(texture)];
+    // The mean, where the mip chain goes down to one texel.
+    const auto last = static_cast<size_t>(row.level_offset[row.levels - 1]);
+    return layers.clearcoat * static_cast<float>(scene.textures.texels[last] & 255U) / 255.0f;
 }
 
 Vec3f mean_emission(const Scene& scene, const TriangleLight& row) {

@@ -35,7 +35,10 @@ struct LightTable {
 /// In      environment: null or black: none
 LightTable make_light_table(Scene& scene, const EnvironmentTable* environment);
 
-/// Radiance of a row, with its texture, averaged over the triangle.
+/// KHR_materials_clearcoat's factor of a material, times the mean of its texture.
+float mean_coat(const Scene& scene, const Material& material);
+
+/// Radiance of a row, with its texture and coat, averaged over the triangle and all directions.
 Vec3f mean_emission(const Scene& scene, const TriangleLight& row);
 
 /// Radiance of the emissive surface that has most of it, averaged over its area with its texture:

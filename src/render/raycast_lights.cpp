@@ -93,7 +93,8 @@ CentreLight centre_of(const Scene& scene, const TriangleLight* rows, size_t coun
 
 /// Mean of a shape light's texture over its surface.
 Vec3d mean_shape_emission(const Scene& scene, const ShapeLight& light) {
-    const Vec3d emission = vector(light.emission);
+    const double below_coat = 1 - static_cast<double>(light.coat * mean_coat_reflectance);
+    const Vec3d emission = vector(light.emission) * below_coat;
     if (light.texture < 0) return emission;
     const TextureView view{scene.textures.texels.data(),
                            reinterpret_cast<const int32_t*>(scene.textures.rows.data())};

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/shape_light_table.h"
 
+#include "render/light_table.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -100,6 +102,7 @@ std::optional<ShapeLight> light_of(const Scene& scene,
     const Vec3d centre{row.centre[0], row.centre[1], row.centre[2]};
     store(transform_point(world, centre), light->centre);
     std::copy_n(material.emission, 3, light->emission);
+    light->coat = mean_coat(scene, material);
     light->texture = material.emissive_texture.texture;
     std::copy_n(material.emissive_texture.uv_from_mesh, 6, light->uv_from_shape);
     light->two_sided = (material.flags & material_double_sided) != 0 ? 1 : 0;

@@ -152,6 +152,29 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     return out;
 }
 
+/// What the coat of an emitter lets pass in light sampling's eyes, which know neither its texture
+/// nor its normals. Lanes whose `light` is -1 get 1.
+OBSCURA_INLINE Lanes sampled_coat_lets_pass(const SceneView& scene, LanesI light, Lanes cosine) {
+    const LanesI shape = light - LanesI(scene.lights.triangle_count);
+    const Mask is_triangle = (light >= LanesI(0)) & (shape < LanesI(0));
+    const Mask is_shape = shape >= LanesI(0);
+    Lanes coat(0.0f);
+    if (any(is_triangle)) {
+        const auto* words =
+            member_words<float>(scene.lights.triangles, offsetof(TriangleLight, coat));
+        const LanesI row = select(is_triangle, light, LanesI(0));
+        const Lanes read = gather<Lanes>(words, row * LanesI(words_per_row<TriangleLight>));
+        coat = select(is_triangle, read, coat);
+    }
+    if (any(is_shape)) {
+        const auto* words = member_words<float>(scene.lights.shapes, offsetof(ShapeLight, coat));
+        const LanesI row = select(is_shape, shape, LanesI(0));
+        const Lanes read = gather<Lanes>(words, row * LanesI(words_per_row<ShapeLight>));
+        coat = select(is_shape, read, coat);
+    }
+    return coat_lets_pass<Lanes>(coat, cosine);
+}
+
 /// Density with which sample_light would have chosen the emitter that a BSDF ray hit: `point`.
 OBSCURA_INLINE Lanes light_pdf(const SceneView& scene,
                                const ShadingPoint& point,

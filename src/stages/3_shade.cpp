@@ -102,6 +102,11 @@ OBSCURA_INLINE void add_emission(const SceneView& scene,
         } else if (batch.strategies == sample_lights) {
             weight = select(chosen_by_bsdf & (s.light >= LanesI(0)), Lanes(0.0f), weight);
         }
+        if (s.any_layers) {
+            const LanesI sampled = select(glows & chosen_by_bsdf, s.light, LanesI(-1));
+            const Lanes cosine = abs(dot(s.ng, path.direction));
+            weight = weight * sampled_coat_lets_pass(scene, sampled, cosine);
+        }
         light = select(glows, s.emission * weight, light);
     }
     const Mask unlit = active & s.unlit;

@@ -45,6 +45,8 @@ inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene
     const Lanes size = dot(abs(s.normal), abs(s.point) + abs(from));
     const Lanes clear = Lanes(32.0f / 16777216.0f) * (size + s.distance * Lanes(0.25f));
     const Lanes cosine = abs(dot(s.normal, s.direction));
+    const Lanes coat = row.number(offsetof(ShapeLight, coat) / 4);
+    out.emission = out.emission * coat_lets_pass<Lanes>(coat, cosine);
     out.direction = s.direction;
     out.distance = max(s.distance - clear / max(cosine, Lanes(0.02f)), Lanes(0.0f));
     out.pdf = s.pdf * row.number(offsetof(ShapeLight, select) / 4);

@@ -158,6 +158,11 @@ OBSCURA_INLINE void read_emission(const SceneView& scene,
             light = light + select(instanced, instance_row(scene, hit).integer(27), LanesI(0));
         }
         s.light = select(emits & (base >= LanesI(0)), light, LanesI(-1));
+        if (s.any_layers) {
+            // Where light sampling may find the same light, both take its view of the coat.
+            const Mask coated = s.layers.layered & !(seen.by_bsdf & (s.light >= LanesI(0)));
+            s.emission = select(coated, s.emission * s.layers.weights.below_coat, s.emission);
+        }
     }
 }
 

@@ -15,6 +15,17 @@ OBSCURA_INLINE F schlick_weight(const F& cosine) {
     return m2 * m2 * m;
 }
 
+/// Share of the light from below that a clear coat lets pass: of an index of 1.5, in the share
+/// `coat`.
+/// Source  KHR_materials_clearcoat, Emission
+template <typename F>
+OBSCURA_INLINE F coat_lets_pass(const F& coat, const F& cosine) {
+    return F(1.0f) - coat * (F(0.04f) + F(0.96f) * schlick_weight(cosine));
+}
+
+/// The mean of what coat_lets_pass takes, over a Lambertian surface.
+inline constexpr float mean_coat_reflectance = 0.04f + 0.96f / 21;
+
 /// Reflectance at normal incidence between media whose indices of refraction have the ratio eta.
 template <typename F>
 OBSCURA_INLINE F normal_reflectance(const F& eta) {

@@ -160,6 +160,23 @@ TEST(Accessors, SparseOverNothingReplacesZeros) {
     EXPECT_EQ(store.floats(accessor), (std::vector<float>{8, 0, 0}));
 }
 
+TEST(Accessors, IndicesMayBeSparse) {
+    // Indices 10 11 12 13; elements 3, 1 and 1 become 20, 21 and 22: the last of equal ones counts.
+    std::vector<std::byte> bytes = bytes_of(std::vector<uint16_t>{10, 11, 12, 13, 20, 21, 22});
+    const std::vector<std::byte> tail = bytes_of(std::vector<uint8_t>{3, 1, 1});
+    bytes.insert(bytes.end(), tail.begin(), tail.end());
+    Store store(bytes);
+    GltfAccessor accessor = accessor_of(ComponentType::uint16, 4, 1);
+    accessor.sparse = {3, 0, 14, ComponentType::uint8, 0, 8};
+    EXPECT_EQ(*read_indices(store.document, store.buffers, store.add(accessor)),
+              (std::vector<uint32_t>{10, 22, 12, 20}));
+    accessor.view = -1;
+    EXPECT_EQ(*read_indices(store.document, store.buffers, store.add(accessor)),
+              (std::vector<uint32_t>{0, 22, 0, 20}));
+    accessor.count = 3;  // the sparse element 3 is behind the end
+    EXPECT_FALSE(read_indices(store.document, store.buffers, store.add(accessor)));
+}
+
 TEST(Accessors, IndicesOfEverySize) {
     const auto read = [](const std::vector<std::byte>& bytes, ComponentType type, uint64_t stride) {
         Store store(bytes, stride);

@@ -46,6 +46,19 @@ Loaded load_placed(const std::vector<json>& nodes) {
     return load_tree(builder.finished());
 }
 
+TEST(Meshes, TextureCoordinatesWithoutATextureAreKeptOnRequest) {
+    const json tree = triangle_builder().finished();
+    const Loaded plain = load_tree(tree);
+    ASSERT_TRUE(plain.scene) << plain.text();
+    EXPECT_EQ(plain.scene->primitives[0].uv_base[0], no_attribute);
+    LoadOptions options;
+    options.keeps_uv = true;
+    const Loaded kept = load_tree(tree, options);
+    ASSERT_TRUE(kept.scene) << kept.text();
+    EXPECT_NE(kept.scene->primitives[0].uv_base[0], no_attribute);
+    EXPECT_EQ(kept.scene->attributes.size(), plain.scene->attributes.size() + 2 * size_t{3});
+}
+
 TEST(Meshes, OneUseIsBakedToTheWorld) {
     const Loaded loaded = load_placed({{{"translation", {10, 0, 0}}, {"scale", {1, 3, 1}}}});
     ASSERT_TRUE(loaded.scene) << loaded.text();

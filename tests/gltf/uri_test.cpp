@@ -155,7 +155,14 @@ TEST(Uri, DataUrisAreDecoded) {
     ASSERT_TRUE(bytes);
     EXPECT_EQ(as_text(bytes->bytes), "abc");
     EXPECT_EQ(bytes->mime, "image/png");
-    for (const char* uri : {"data:", "data:text/plain,abc", "data:;base64", "data:;base64,A"}) {
+    for (const char* uri :
+         {"DATA:image/png;Base64,YWJj", "data:image/png,abc", "data:image/png;x=y,%61b%63"}) {
+        const Result<UriBytes> same = read_uri(uri, {"", "w"}, {});
+        ASSERT_TRUE(same) << uri;
+        EXPECT_EQ(as_text(same->bytes), "abc") << uri;
+        EXPECT_EQ(same->mime, "image/png") << uri;
+    }
+    for (const char* uri : {"data:", "data:text/plain", "data:;base64", "data:;base64,A"}) {
         EXPECT_EQ(read("", uri), "E-URI-DATA 65") << uri;
     }
 }

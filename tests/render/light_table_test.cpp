@@ -28,6 +28,24 @@ EnvironmentTable sky(float radiance) {
     return EnvironmentTable::create({image.width, image.height, image.pixels.data()}, 1, 0).value();
 }
 
+TEST(LightTable, CoatIsItsFactorTimesTheMeanOfItsTexture) {
+    Scene scene;
+    Material material;
+    EXPECT_EQ(mean_coat(scene, material), 0);
+    material.layers = 0;
+    scene.layers.resize(1);
+    scene.layers[0].clearcoat = 0.5F;
+    EXPECT_EQ(mean_coat(scene, material), 0.5F);
+    scene.layers[0].clearcoat_texture.texture = 0;
+    TextureRow row;
+    row.width = 2;
+    row.levels = 2;
+    row.level_offset[1] = 2;
+    scene.textures.rows = {row};
+    scene.textures.texels = {0xFF0000FFU, 0xFF000001U, 0xFF000080U};
+    EXPECT_FLOAT_EQ(mean_coat(scene, material), 0.5F * 128 / 255);
+}
+
 /// Sum of `count` probabilities.
 double chosen(const LightTable& table, size_t first, size_t count) {
     const auto begin = table.select_pdf.begin() + static_cast<std::ptrdiff_t>(first);
