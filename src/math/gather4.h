@@ -119,10 +119,12 @@ OBSCURA_INLINE Two<LanesI> gather2_lanes(const int32_t* base, LanesI first) {
     };
     constexpr int first_words = _MM_SHUFFLE(2, 0, 2, 0);
     constexpr int second_words = _MM_SHUFFLE(3, 1, 3, 1);
-#if defined(__AVX512F__)
+#if defined(__AVX2__)
     const auto four = [&](int k) {
         return _mm256_insertf128_ps(_mm256_castps128_ps256(two(k)), two(k + 4), 1);
     };
+#endif
+#if defined(__AVX512F__)
     const auto eight = [&](int k) {
         return _mm512_insertf32x8(_mm512_castps256_ps512(four(k)), four(k + 8), 1);
     };
@@ -131,9 +133,6 @@ OBSCURA_INLINE Two<LanesI> gather2_lanes(const int32_t* base, LanesI first) {
     return {BatchI(_mm512_castps_si512(_mm512_shuffle_ps(a, b, first_words))),
             BatchI(_mm512_castps_si512(_mm512_shuffle_ps(a, b, second_words)))};
 #elif defined(__AVX2__)
-    const auto four = [&](int k) {
-        return _mm256_insertf128_ps(_mm256_castps128_ps256(two(k)), two(k + 4), 1);
-    };
     const __m256 a = four(0);
     const __m256 b = four(2);
     return {BatchI(_mm256_castps_si256(_mm256_shuffle_ps(a, b, first_words))),

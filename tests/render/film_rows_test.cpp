@@ -26,6 +26,13 @@ struct Tile {
             }
         }
     }
+    /// Leaves the first ones out, as where a tile is rendered in parts.
+    Tile from(size_t first) const {
+        Tile rest = *this;
+        rest.x.erase(rest.x.begin(), rest.x.begin() + static_cast<std::ptrdiff_t>(first));
+        rest.y.erase(rest.y.begin(), rest.y.begin() + static_cast<std::ptrdiff_t>(first));
+        return rest;
+    }
     FilmPixels pixels() const { return {x.data(), y.data(), static_cast<int>(x.size())}; }
 };
 
@@ -56,6 +63,7 @@ TEST(FilmRows, EveryNumberOfChannelsComesToItsPixels) {
         expect_written(64, 48, channels, Tile(32, 16, 32, 32));
         expect_written(37, 29, channels, Tile(32, 16, 5, 13));
         expect_written(3, 2, channels, Tile(0, 0, 3, 2));
+        expect_written(64, 48, channels, Tile(0, 0, 16, 8).from(15));
     }
 }
 
