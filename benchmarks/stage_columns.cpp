@@ -68,7 +68,7 @@ void StageColumns::make_shadow_rays() {
     restore();
     shaded = scene.stages->shade(view, batch, bounce, rows_, shade_rows());
     restore();
-    scene.accel->occluded(shadow_rays(), work.occluded.data(), Coherence::incoherent, 1);
+    scene.accel->occluded(shadow_rays(), work.occluded.data(), Coherence::incoherent, {1});
 }
 
 ShadeRows StageColumns::shade_rows() const {

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -21,6 +22,19 @@ struct SeeThrough {
     bool fixed_alpha = false;       ///< alpha BLEND is a cut at one half, not a random choice
     /// Another number for every segment of a path, so that its alpha decisions are independent.
     uint32_t segment = 0;
+    /// Appended to, with culls_back_faces: the first back that each ray passes, of those that may
+    /// be cut away (meshes that send out no light); null: nobody asks.
+    std::vector<PassedBack>* passed_backs = nullptr;
+    const Cutaway* cutaway = nullptr;  ///< null: all faces are there
+};
+
+/// How shadow rays are asked.
+struct ShadowQuery {
+    uint32_t segment = 0;  ///< as in SeeThrough
+    /// Null, or 0 in every row: what may be a thin wall does not occlude, but makes this 1; see
+    /// scene/thin_walls.h
+    uint8_t* walls = nullptr;
+    const Cutaway* cutaway = nullptr;  ///< null: all faces are there
 };
 
 struct RayRecording;
@@ -68,14 +82,10 @@ public:
                   SeeThrough see_through) const;
 
     /// occluded[i] = 1 when anything lies in (0, tfar), else 0; refused rays count as occluded.
-    ///
-    /// In/Out  walls: null, or 0 in every row: what may be a thin wall does not occlude, but makes
-    ///         this 1; see scene/thin_walls.h
     int occluded(const RayColumns& rays,
                  uint8_t* occluded,
                  Coherence coherence,
-                 uint32_t segment,
-                 uint8_t* walls = nullptr) const;
+                 const ShadowQuery& query = {}) const;
 
     /// True when some primitive may be a thin wall.
     bool has_thin_walls() const;

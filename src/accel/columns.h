@@ -23,6 +23,30 @@ struct RayColumns {
     const float* time = nullptr;  ///< in [0, 1]; null: 0. What moves does so from 0 to 1
 };
 
+/// What a hit lies on, as rows of the scene's tables.
+struct SceneRows {
+    int32_t instance = -1;
+    int32_t primitive = -1;  ///< -1: nothing
+};
+
+/// A camera ray that looked through the back of a single-sided surface.
+struct PassedBack {
+    int row = 0;  ///< of the ray
+    SceneRows surface;
+};
+
+/// Faces that are not there for a ray: those of one surface whose backs face the eye.
+struct Cutaway {
+    const SceneRows* surface = nullptr;  ///< by slot
+    const uint32_t* slot = nullptr;      ///< by row of the rays
+    float eye[4] = {0, 0, 0, 1};         ///< homogeneous: w is 0 where the view is parallel
+};
+
+/// Whether anything is cut away for the row's ray.
+inline bool cuts(const Cutaway& cutaway, int row) {
+    return cutaway.surface[cutaway.slot[row]].primitive >= 0;
+}
+
 /// Hits as columns, padded like the rays: whole blocks are written. primitive -1 is a miss; the
 /// other columns then hold nothing of use.
 struct HitColumns {

@@ -10,7 +10,12 @@
 #include <embree3/rtcore.h>
 #endif
 
+#include <vector>
+
 namespace obscura {
+
+struct Cutaway;
+struct PassedBack;
 
 /// Scene flag without which Query::set_filter must not be used.
 #if OBSCURA_EMBREE == 4
@@ -33,6 +38,8 @@ struct QueryContext {
     bool culls_back_faces = false;   ///< of single-sided analytic shapes
     bool passes_walls = false;       ///< occlusion goes on behind what may be a thin wall
     unsigned char* walls = nullptr;  ///< then, by the ray's id: becomes 1 where it does; or null
+    std::vector<PassedBack>* passed_backs = nullptr;  ///< see SeeThrough
+    const Cutaway* cutaway = nullptr;                 ///< likewise
 };
 
 /// Whether a shadow ray goes on behind what may be a thin wall; if so, that is noted.
@@ -75,12 +82,14 @@ public:
 #endif
     }
 
-    /// Calls `filter` for every candidate hit of intersect, after the geometry's own filter.
+    /// Calls `filter` for every candidate hit, after the geometry's own filter.
     void set_filter(RTCFilterFunctionN filter) {
 #if OBSCURA_EMBREE == 4
+        constexpr auto asks = RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER;
         intersect_.filter = filter;
-        intersect_.flags = static_cast<RTCRayQueryFlags>(intersect_.flags |
-                                                         RTC_RAY_QUERY_FLAG_INVOKE_ARGUMENT_FILTER);
+        intersect_.flags = static_cast<RTCRayQueryFlags>(intersect_.flags | asks);
+        occluded_.filter = filter;
+        occluded_.flags = static_cast<RTCRayQueryFlags>(occluded_.flags | asks);
 #else
         context_.embree.filter = filter;
 #endif

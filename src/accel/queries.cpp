@@ -5,7 +5,7 @@
 #include "accel/packets.h"
 #include "accel/safe_ray.h"
 #include "accel/scene_rows.h"
-#include "scene/motion.h"
+#include "accel/single_sided.h"
 
 #include <algorithm>
 
@@ -52,70 +52,6 @@ Loaded load_packet(
     return {refused, load_part(rays, first, valid, out)};
 }
 
-/// A direction in the world, at a time.
-struct TimedDirection {
-    Vec3f world;
-    float time;
-};
-
-TimedDirection direction_of(const RayColumns& rays, int row) {
-    return {{rays.dx[row], rays.dy[row], rays.dz[row]},
-            rays.time != nullptr ? rays.time[row] : 0.0f};
-}
-
-/// True when the hit is the back of a single-sided surface. Embree's Ng is in object space, and a
-/// mirroring instance turns both the winding and glTF's rule: only the object-space sign matters.
-bool is_hidden_back(const Accel::Impl& impl,
-                    const SceneRows& rows,
-                    const Vec3f& ng,
-                    const TimedDirection& direction) {
-    if (impl.single_sided[static_cast<size_t>(rows.primitive)] == 0) return false;
-    if (rows.instance < 0) return dot(ng, direction.world) > 0.0f;
-    const Affinef map = object_from_world_at(
-        *impl.scene, impl.scene->instances[static_cast<size_t>(rows.instance)], direction.time);
-    return dot(ng, transform_vector(map, direction.world)) > 0.0f;
-}
-
-/// A query of one ray that passes hidden backs. The common part must come first.
-struct CullingContext {
-    QueryContext common;
-    const Accel::Impl* impl;
-    TimedDirection direction;
-};
-
-/// Embree filter function: hidden backs do not count.
-void pass_hidden_backs(const RTCFilterFunctionNArguments* args) {
-    const auto& context = *reinterpret_cast<const CullingContext*>(args->context);
-    for (unsigned i = 0; i < args->N; ++i) {
-        if (args->valid[i] == 0) continue;
-        const SceneRows rows = scene_rows(*context.impl,
-                                          RTCHitN_geomID(args->hit, args->N, i),
-                                          RTCHitN_instID(args->hit, args->N, i, 0));
-        const Vec3f ng{RTCHitN_Ng_x(args->hit, args->N, i),
-                       RTCHitN_Ng_y(args->hit, args->N, i),
-                       RTCHitN_Ng_z(args->hit, args->N, i)};
-        if (is_hidden_back(*context.impl, rows, ng, context.direction)) args->valid[i] = 0;
-    }
-}
-
-/// Traces a camera ray that met a hidden back again, from its start: what lies behind the back or
-/// in the very same plane may be the first surface that the ray can see.
-void look_behind(const Accel::Impl& impl,
-                 const QueryContext& common,
-                 const RayColumns& rays,
-                 const HitColumns& hits,
-                 int row) {
-    CullingContext context{common, &impl, direction_of(rays, row)};
-    Query query(context.common, false);
-    query.set_filter(pass_hidden_backs);
-    RTCRayHit ray;
-    load_ray(rays, row, ray.ray);
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    query.intersect1(impl.top, &ray);
-    store_hit(impl, ray, hits, row);
-}
-
 /// Writes 16 rows: the columns have room for whole packets.
 void store_packet(const Accel::Impl& impl,
                   const ValidMask& valid,
@@ -129,34 +65,6 @@ void store_packet(const Accel::Impl& impl,
         const SceneRows rows = scene_rows(impl, block.hit.geomID[i], block.hit.instID[0][i]);
         hits.primitive[first + i] = rows.primitive;
         hits.instance[first + i] = rows.instance;
-    }
-}
-
-/// Looks behind the hidden backs among a packet's hits.
-void pass_hidden_backs_of_packet(const Accel::Impl& impl,
-                                 const QueryContext& context,
-                                 const RayColumns& rays,
-                                 const RTCHit16& hit,
-                                 const HitColumns& hits,
-                                 int first) {
-    int candidates = 0;  // a first look without branches: mostly there are none
-    for (int i = 0; i < packet; ++i) {
-        const int row = first + i;
-        const float along =
-            hit.Ng_x[i] * rays.dx[row] + hit.Ng_y[i] * rays.dy[row] + hit.Ng_z[i] * rays.dz[row];
-        const int turned =
-            static_cast<int>(along > 0.0f) | static_cast<int>(hits.instance[row] >= 0);
-        candidates |= turned & static_cast<int>(hits.primitive[row] >= 0);
-    }
-    if (candidates == 0) return;
-    const int count = std::min(packet, rays.count - first);
-    for (int i = 0; i < count; ++i) {
-        const int row = first + i;
-        if (hits.primitive[row] < 0) continue;
-        const Vec3f ng{hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]};
-        const SceneRows rows{hits.instance[row], hits.primitive[row]};
-        if (is_hidden_back(impl, rows, ng, direction_of(rays, row)))
-            look_behind(impl, context, rays, hits, row);
     }
 }
 
@@ -174,6 +82,8 @@ int Accel::intersect(const RayColumns& rays,
     context.fixed_threshold = see_through.fixed_alpha || rays.key == nullptr;
     context.segment = see_through.segment;
     context.culls_back_faces = see_through.culls_back_faces;
+    context.passed_backs = see_through.passed_backs;
+    context.cutaway = see_through.cutaway;
     int refused = 0;
     ValidMask valid;
     RTCRayHit16 block;
@@ -192,7 +102,12 @@ int Accel::intersect(const RayColumns& rays,
         query.intersect16(valid.lane, impl_->top, &block);
         store_packet(*impl_, valid, block, hits, first);
         if (see_through.culls_back_faces) {
-            pass_hidden_backs_of_packet(*impl_, context, rays, block.hit, hits, first);
+            pass_hidden_backs(*impl_, context, block.hit, first, {rays, hits});
+        }
+        if (see_through.cutaway != nullptr) {
+            const int end = std::min(first + packet, rays.count);
+            for (int row = first; row < end; ++row)
+                pass_cutaway(*impl_, context, row, {rays, hits});
         }
         if (impl_->endless_planes.empty()) continue;
         for (int i = 0; i < packet; ++i) {
@@ -205,17 +120,17 @@ int Accel::intersect(const RayColumns& rays,
 int Accel::occluded(const RayColumns& rays,
                     uint8_t* occluded,
                     Coherence coherence,
-                    uint32_t segment,
-                    uint8_t* walls) const {
+                    const ShadowQuery& asked) const {
     // On instances the coherent kernel of Embree 3.13 for AVX-512 may never come back.
     const bool coherent = coherence == Coherence::coherent && !impl_->has_instances;
     QueryContext context;
     Query query(context, coherent);
     context.keys = rays.key;
     context.fixed_threshold = rays.key == nullptr;
-    context.segment = segment;
-    context.passes_walls = walls != nullptr;
-    context.walls = walls;
+    context.segment = asked.segment;
+    context.passes_walls = asked.walls != nullptr;
+    context.walls = asked.walls;
+    context.cutaway = asked.cutaway;
     int refused = 0;
     ValidMask valid;
     RTCRay16 block;
@@ -227,6 +142,11 @@ int Accel::occluded(const RayColumns& rays,
         const int count = std::min(packet, rays.count - first);
         for (int i = 0; i < count; ++i) {
             occluded[first + i] = valid.lane[i] == 0 || block.tfar[i] < 0.0f ? 1 : 0;
+        }
+        for (int i = 0; asked.cutaway != nullptr && i < count; ++i) {
+            const int row = first + i;
+            if (valid.lane[i] == 0 || occluded[row] == 0) continue;
+            occluded[row] = is_hidden_beside_cutaway(*impl_, context, row, rays) ? 1 : 0;
         }
         if (impl_->endless_planes.empty()) continue;
         for (int i = 0; i < count; ++i) {

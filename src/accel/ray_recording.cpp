@@ -52,14 +52,15 @@ void RayRecorder::add_shadow_hits(const RayColumns& rays,
 
 void RayRecorder::add_shadows(const RayColumns& rays,
                               const uint8_t* occluded,
-                              uint32_t segment,
-                              bool passes_walls) {
+                              const ShadowQuery& query) {
     RecordedRays& out = list(RayKind::shadow);
-    passes_walls_ = passes_walls;
+    passes_walls_ = query.walls != nullptr;
     for (int row = 0; row < rays.count; ++row) {
         if (!is_safe(rays, row)) continue;
-        append(rays, row, segment, out);
-        out.hits += occluded[row] != 0 ? 1 : 0;
+        append(rays, row, query.segment, out);
+        const bool arrives = occluded[row] == 0;
+        out.hits += arrives ? 0 : 1;
+        out.spared += arrives && query.cutaway != nullptr && cuts(*query.cutaway, row) ? 1 : 0;
     }
 }
 
@@ -69,6 +70,13 @@ uint64_t RayRecording::count(RayKind kind) const {
         sum += thread->rays(kind).count();
         if (kind == RayKind::shadow) sum += thread->shadow_hits().count();
     }
+    return sum;
+}
+
+uint64_t RayRecording::spared(RayKind kind) const {
+    uint64_t sum = 0;
+    for (const auto& thread : threads)
+        sum += thread->rays(kind).spared;
     return sum;
 }
 

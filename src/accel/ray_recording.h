@@ -20,6 +20,7 @@ struct RecordedRays {
     std::vector<float> tfar;    ///< shadow rays only
     std::vector<uint32_t> key;  ///< of the alpha decisions, with the path's segment mixed in
     uint64_t hits = 0;          ///< what the renderer found: hits, or occluded rays
+    uint64_t spared = 0;        ///< rays that met nothing, but may have met what is cut away
 
     size_t count() const { return key.size(); }
     /// The columns; their count is 0, for there may be more rows than it holds.
@@ -30,10 +31,7 @@ struct RecordedRays {
 class RayRecorder {
 public:
     void add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through);
-    void add_shadows(const RayColumns& rays,
-                     const uint8_t* occluded,
-                     uint32_t segment,
-                     bool passes_walls);
+    void add_shadows(const RayColumns& rays, const uint8_t* occluded, const ShadowQuery& query);
     /// Shadow rays that ask for the nearest hit, for they may go on behind it.
     void add_shadow_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through);
 
@@ -57,6 +55,7 @@ struct RayRecording {
 
     uint64_t count(RayKind kind) const;
     uint64_t hits(RayKind kind) const;  ///< as the renderer found them
+    uint64_t spared(RayKind kind) const;
 };
 
 /// How Embree is asked: one ray a call, or packets of 16 with one flag or the other.

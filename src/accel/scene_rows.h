@@ -6,12 +6,6 @@
 
 namespace obscura {
 
-/// What a hit lies on, as rows of the scene's tables.
-struct SceneRows {
-    int32_t instance = -1;
-    int32_t primitive = -1;
-};
-
 inline SceneRows scene_rows(const Accel::Impl& impl, unsigned geometry, unsigned instance_id) {
     const auto first = static_cast<int32_t>(geometry);
     if (instance_id == RTC_INVALID_GEOMETRY_ID) return {-1, first};

@@ -75,6 +75,7 @@ struct KindFigures {
     uint64_t rays = 0;
     uint64_t hits = 0;                  ///< or occluded rays, in the rendering
     uint64_t bare_hits = 0;             ///< likewise, in the replay
+    uint64_t spared = 0;                ///< rays that only the replay may find occluded
     ReplayWay way = ReplayWay::single;  ///< the fastest
     Spread bare_s;                      ///< asked that way
     double render_s = 0;                ///< wall-clock share of the stage that asks them

@@ -127,7 +127,7 @@ std::vector<Kernel> production_kernels(const std::shared_ptr<const Accel>& accel
                            accel->intersect(rays, hits, Coherence::coherent, {});
                        }),
             occlusion_kernel("obscura occluded", [accel](const RayColumns& rays, uint8_t* out) {
-                accel->occluded(rays, out, Coherence::incoherent, 0);
+                accel->occluded(rays, out, Coherence::incoherent);
             })};
 }
 

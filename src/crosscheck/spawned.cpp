@@ -283,8 +283,7 @@ SpawnedSum wall_leaks(const Spawner& spawner, const Wall& wall, uint64_t rays, u
         const int count = spawner.spawn(block, static_cast<uint32_t>(begin), work, starts);
         RayBlock spawned = shadows_as_rays(work, count);
         std::vector<uint8_t> occluded(static_cast<size_t>(count) + 16);
-        spawner.scene().accel().occluded(
-            spawned.columns(), occluded.data(), Coherence::incoherent, 0);
+        spawner.scene().accel().occluded(spawned.columns(), occluded.data(), Coherence::incoherent);
         SpawnedSum mine;
         for (int i = 0; i < count; ++i) {
             const TrueRay ray = spawned.true_ray(i);

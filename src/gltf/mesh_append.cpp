@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/cofactors.h"
 #include "gltf/meshes.h"
+#include "gltf/node_graph.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -48,8 +49,9 @@ size_t attribute_floats(const MeshPart& part) {
 }  // namespace
 
 bool bake_part(MeshPart& part, const Affined& world_from_mesh) {
-    const double volume = determinant(world_from_mesh);
-    const double sign = volume < 0 ? -1 : 1;
+    // What is flattened has no inside: its winding stays, whatever rounding makes of the volume.
+    const bool mirrors = determinant(world_from_mesh) < 0 && !is_singular(world_from_mesh);
+    const double sign = mirrors ? -1 : 1;
     const Affined normal_map = cofactors(world_from_mesh);
     for (size_t i = 0; i < part.positions.size(); i += 3) {
         float* p = &part.positions[i];

@@ -50,7 +50,7 @@ private:
     void add_single(const MeshUse& use);
     void add_strokes(const MeshUse& use, int placed);
     void add_shared(const MeshUse& use);
-    bool is_flat(int placed, const Affined& transform);
+    bool is_shrunk(int placed, const Affined& transform);
     MeshBlock& of_mover(std::vector<MeshBlock>& blocks, BlockSpace space, int placed);
 
     const Document& document_;
@@ -60,7 +60,7 @@ private:
     MeshBlock still_, loose_;
     std::vector<MeshBlock> movers_, shared_, bent_, anchored_;
     std::map<std::pair<BlockSpace, int>, size_t> of_mover_;
-    std::vector<std::string> flat_nodes_;
+    std::vector<std::string> shrunk_nodes_;
 };
 
 void Planner::add_jobs(const MeshUse& use, int placed, JobKind kind, MeshBlock& block) const {
@@ -73,9 +73,9 @@ void Planner::add_jobs(const MeshUse& use, int placed, JobKind kind, MeshBlock& 
     }
 }
 
-bool Planner::is_flat(int placed, const Affined& transform) {
-    if (!is_singular(transform)) return false;
-    flat_nodes_.push_back(node_label(document_, place(placed).node));
+bool Planner::is_shrunk(int placed, const Affined& transform) {
+    if (!is_singular(transform) || is_flattening(transform)) return false;
+    shrunk_nodes_.push_back(node_label(document_, place(placed).node));
     return true;
 }
 
@@ -90,12 +90,12 @@ void Planner::add_single(const MeshUse& use) {
     const int placed = use.placed[0];
     const PlacedNode& from = place(placed);
     if (use.bends) {
-        if (use.skin >= 0 || mover(placed) < 0 || !is_flat(placed, from.world_from_node)) {
+        if (use.skin >= 0 || mover(placed) < 0 || !is_shrunk(placed, from.world_from_node)) {
             add_jobs(use, placed, JobKind::triangles, loose_);
         }
     } else if (mover(placed) < 0) {
         add_jobs(use, placed, JobKind::triangles, still_);
-    } else if (!is_flat(placed, mover_from_node_[static_cast<size_t>(from.node)])) {
+    } else if (!is_shrunk(placed, mover_from_node_[static_cast<size_t>(from.node)])) {
         add_jobs(use, placed, JobKind::triangles, of_mover(movers_, BlockSpace::mover, placed));
     }
 }
@@ -109,9 +109,9 @@ void Planner::add_strokes(const MeshUse& use, int placed) {
     if (follows) {
         const PlacedNode& from = place(placed);
         const Affined& within = mover_from_node_[static_cast<size_t>(from.node)];
-        if (is_flat(placed, compose(within, from.node_from_mesh))) return;
+        if (is_shrunk(placed, compose(within, from.node_from_mesh))) return;
     } else if (moves) {
-        if (!place(placed).visible || is_flat(placed, place(placed).world_from_node)) return;
+        if (!place(placed).visible || is_shrunk(placed, place(placed).world_from_node)) return;
     }
     MeshBlock& to = follows ? of_mover(anchored_, BlockSpace::anchored_mover, placed)
                             : (options_.posed ? loose_ : still_);
@@ -136,7 +136,7 @@ MeshPlan Planner::plan(const std::vector<MeshUse>& uses) {
         if (!is_alone(use)) add_shared(use);
     }
     MeshPlan out;
-    out.flat_nodes = std::move(flat_nodes_);
+    out.shrunk_nodes = std::move(shrunk_nodes_);
     const auto take = [&](std::vector<MeshBlock>& blocks) {
         for (MeshBlock& block : blocks)
             out.blocks.push_back(std::move(block));

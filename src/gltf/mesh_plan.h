@@ -32,7 +32,8 @@ struct MeshBlock {
 
 struct MeshPlan {
     std::vector<MeshBlock> blocks;  ///< those that keep come first, the world's before others
-    std::vector<std::string> flat_nodes = {};  ///< nodes that squash their mesh: not drawn
+    std::vector<std::string> shrunk_nodes =
+        {};  ///< nodes that leave no area of their mesh: not drawn
 };
 
 /// What tells how an asset may change.

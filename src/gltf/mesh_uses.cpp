@@ -45,13 +45,21 @@ MeshUses find_mesh_uses(const Document& document, const std::vector<PlacedNode>&
         const PlacedNode& place = placed[i];
         const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
         if (node.mesh < 0 || !place.may_show) continue;
-        if (node.skin < 0 && place.mover < 0 && is_singular(place.world_from_node)) {
-            out.flat_nodes.push_back(node_label(document, place.node));
+        const bool flat = node.skin < 0 && is_flattening(place.world_from_node);
+        if (node.skin < 0 && place.mover < 0 && !flat && is_singular(place.world_from_node)) {
+            out.shrunk_nodes.push_back(node_label(document, place.node));
             continue;
         }
-        const bool is_bent = bends(document, place, moving);
+        // No instance can be flat: the mesh is read again where its node squashes it.
+        const bool is_bent = bends(document, place, moving) || (flat && place.mover >= 0);
         if (is_bent && !place.visible) continue;
         std::vector<double> weights = weights_of(document, node);
+        if (flat) {
+            out.flat_nodes.push_back(node_label(document, place.node));
+            const auto row = static_cast<int>(i);
+            out.uses.push_back({node.mesh, -1, std::move(weights), is_bent, {row}});
+            continue;
+        }
         // Nodes that bend on their own share no shape, though at some time they may look alike.
         const int own = node.skin >= 0 || node.bends ? place.node : -1;
         const auto [entry, is_new] = known.try_emplace({node.mesh, own, weights}, out.uses.size());

@@ -19,8 +19,9 @@ struct MeshUse {
 };
 
 struct MeshUses {
-    std::vector<MeshUse> uses;            ///< in the order they are met
-    std::vector<std::string> flat_nodes;  ///< nodes that squash their mesh: not drawn
+    std::vector<MeshUse> uses;              ///< in the order they are met
+    std::vector<std::string> flat_nodes;    ///< nodes that press their mesh into a plane
+    std::vector<std::string> shrunk_nodes;  ///< nodes that leave no area of their mesh: not drawn
 };
 
 /// Nodes that are never seen are left out.

@@ -64,7 +64,7 @@ private:
     BlockSources block_sources_{
         sources_, skins_, sources_.store != nullptr ? sources_.store->mover_from_node : no_movers_};
     BlockReader reader_;
-    NameList flat_nodes_;
+    NameList flat_nodes_, shrunk_nodes_;
 };
 
 void grow(Bounds& bounds, const Vec3d& p) {
@@ -89,6 +89,8 @@ void MeshBuilder::find_uses() {
     uses_ = std::move(found.uses);
     for (const std::string& name : found.flat_nodes)
         flat_nodes_.add(name);
+    for (const std::string& name : found.shrunk_nodes)
+        shrunk_nodes_.add(name);
     skins_.resize(document().skins.size());
     if (sources_.store != nullptr && sources_.store->mover_from_node.empty()) {
         sources_.store->mover_from_node = mover_transforms(document());
@@ -198,7 +200,7 @@ bool MeshBuilder::place_of(const MeshBlock& block, const PlacedNode& place, Affi
     }
     if (place.mover >= 0 && is_singular(out)) {
         const int node = block.space == BlockSpace::mesh ? place.node : place.mover;
-        flat_nodes_.add(node_label(document(), node));
+        shrunk_nodes_.add(node_label(document(), node));
         return false;
     }
     if (block.space != BlockSpace::anchored_mover) return true;
@@ -298,9 +300,16 @@ void MeshBuilder::warn() {
                   std::string(mesh_issue_text(issue)) + "; meshes: " + list.text());
     }
     if (!flat_nodes_.empty()) {
+        log_.warn(
+            document().file,
+            "nodes whose scale is zero along one axis, or whose matrix is singular, are drawn "
+            "flat: " +
+                flat_nodes_.text());
+    }
+    if (!shrunk_nodes_.empty()) {
         log_.warn(document().file,
-                  "nodes whose scale is zero or whose matrix is singular are not drawn: " +
-                      flat_nodes_.text());
+                  "nodes whose scale is zero, or leaves no more than a line, are not drawn: " +
+                      shrunk_nodes_.text());
     }
 }
 
@@ -311,8 +320,8 @@ Result<void> MeshBuilder::build() {
                                       sources_.placed,
                                       block_sources_.mover_from_node,
                                       {sources_.store != nullptr, sources_.anchors != nullptr});
-    for (const std::string& name : plan.flat_nodes)
-        flat_nodes_.add(name);
+    for (const std::string& name : plan.shrunk_nodes)
+        shrunk_nodes_.add(name);
     Result<std::vector<GeometryBlock>> parts = read(plan.blocks);
     if (!parts) return fail(std::move(parts.error()));
     add_world(plan.blocks, *parts);

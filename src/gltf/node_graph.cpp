@@ -213,4 +213,19 @@ bool is_singular(const Affined& transform) {
     return !std::isfinite(lengths) || !std::isfinite(translation) || !(volume > flattest * lengths);
 }
 
+bool is_flattening(const Affined& transform) {
+    if (!is_singular(transform)) return false;
+    constexpr double narrowest = 1e-6;  // area of a unit parallelogram that counts as a line
+    const auto column = [&](int c) {
+        return Vec3d{transform.m[0][c], transform.m[1][c], transform.m[2][c]};
+    };
+    for (int c = 0; c < 3; ++c) {
+        const Vec3d a = column(c);
+        const Vec3d b = column((c + 1) % 3);
+        const double lengths = length(a) * length(b);
+        if (std::isfinite(lengths) && length(cross(a, b)) > narrowest * lengths) return true;
+    }
+    return false;
+}
+
 }  // namespace obscura

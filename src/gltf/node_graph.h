@@ -44,4 +44,7 @@ std::string node_label(const Document& document, int node);
 /// True when a transform squashes space to a plane, a line or a point, or is not finite.
 bool is_singular(const Affined& transform);
 
+/// True when it squashes space to a plane: what lies in it is still to be seen.
+bool is_flattening(const Affined& transform);
+
 }  // namespace obscura

@@ -73,6 +73,29 @@ void intersect_rays(const WalkInput& in,
     if (in.recorder != nullptr) in.recorder->add_hits(rays, hits, see_through);
 }
 
+/// Notes by slot what the camera's rays looked through; before they are shaded, row i is slot i.
+void note_passed_backs(Workspace& work) {
+    for (const PassedBack& back : work.passed_backs)
+        work.cut_surface[static_cast<size_t>(back.row)] = back.surface;
+}
+
+void forget_passed_backs(Workspace& work) {
+    for (const PassedBack& back : work.passed_backs)
+        work.cut_surface[static_cast<size_t>(back.row)] = {};
+    work.passed_backs.clear();
+}
+
+/// What is cut away for all rays of a path but the first; null: nothing, for any path.
+const Cutaway* cut_away(const WalkInput& in, const uint32_t* slot, Workspace& work) {
+    if (work.passed_backs.empty()) return nullptr;
+    const Affinef& world_from_camera = in.batch.camera.world_from_camera;
+    const bool parallel = in.batch.camera.model == CameraModel::orthographic;
+    const Vec3f eye = parallel ? transform_vector(world_from_camera, {0.0f, 0.0f, 1.0f})
+                               : transform_point(world_from_camera, {0.0f, 0.0f, 0.0f});
+    work.cutaway = {work.cut_surface.data(), slot, {eye.x, eye.y, eye.z, parallel ? 0.0f : 1.0f}};
+    return &work.cutaway;
+}
+
 /// Stage 2 for the paths of this bounce.
 void intersect(
     const WalkInput& in, int count, SeeThrough see_through, Workspace& work, WalkCounters& c) {
@@ -96,7 +119,7 @@ void scatter_in_bodies(
     constexpr int most_flights = 4096;
     const ScatterRows rows{
         work.paths[0], work.hits, work.paths[1], work.walker_hits, work.walker_row.data()};
-    const SeeThrough see_through{false, false, 2U * static_cast<uint32_t>(bounce)};
+    SeeThrough see_through{false, false, 2U * static_cast<uint32_t>(bounce)};
     int walkers = 0;
     {
         const SumOfTime time(c.seconds.shade);
@@ -111,6 +134,7 @@ void scatter_in_bodies(
         if (walkers == 0) return;
         RayColumns rays = rays_of(rows.walkers, walkers);
         rays.time = times_of(in, rows.walkers.slot, walkers, work);
+        see_through.cutaway = cut_away(in, rows.walkers.slot, work);
         intersect_rays(in, rays, rows.walker_hits, see_through, c);
     }
 }
@@ -126,7 +150,8 @@ void cross_walls(
         RayColumns rays = rays_of(work.shadows, waiting);
         if (raycast) rays.key = nullptr;
         rays.time = times_of(in, work.shadows.slot, waiting, work);
-        const SeeThrough see_through{false, raycast, segment};
+        const SeeThrough see_through{
+            false, raycast, segment, nullptr, cut_away(in, work.shadows.slot, work)};
         c.shadow_rays += static_cast<uint64_t>(waiting);
         {
             const SumOfTime timing(c.seconds.shadow);
@@ -155,15 +180,17 @@ void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, 
     if (in.kind == WalkKind::raycast) rays.key = nullptr;
     rays.time = times_of(in, work.shadows.slot, count, work);
     c.shadow_rays += static_cast<uint64_t>(count);
+    if (passes_walls) work.walls.assign(padded_rows, 0);
+    const ShadowQuery query{segment,
+                            passes_walls ? work.walls.data() : nullptr,
+                            cut_away(in, work.shadows.slot, work)};
     {
         const SumOfTime time(c.seconds.shadow);
-        if (passes_walls) work.walls.assign(padded_rows, 0);
-        uint8_t* walls = passes_walls ? work.walls.data() : nullptr;
         c.refused_rays += static_cast<uint64_t>(
-            in.accel->occluded(rays, work.occluded.data(), Coherence::incoherent, segment, walls));
+            in.accel->occluded(rays, work.occluded.data(), Coherence::incoherent, query));
     }
     if (in.recorder != nullptr) {
-        in.recorder->add_shadows(rays, work.occluded.data(), segment, passes_walls);
+        in.recorder->add_shadows(rays, work.occluded.data(), query);
     }
     if (passes_walls) keep_waiting(count, work);
     {
@@ -190,7 +217,11 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
     const int segments = in.batch.max_bounces + 2 + (in.scene.thin_walls ? most_walls : 0);
     if (in.scene.thin_walls) work.passed.assign(padded_rows, 0.0f);
     for (int bounce = 0; count > 0 && bounce < segments; ++bounce) {
-        intersect(in, count, {bounce == 0, false, 2U * static_cast<uint32_t>(bounce)}, work, c);
+        SeeThrough see_through{bounce == 0, false, 2U * static_cast<uint32_t>(bounce)};
+        if (bounce == 0) see_through.passed_backs = &work.passed_backs;
+        if (bounce > 0) see_through.cutaway = cut_away(in, work.paths[0].slot, work);
+        intersect(in, count, see_through, work, c);
+        if (bounce == 0) note_passed_backs(work);
         if (in.scene.scatters) scatter_in_bodies(in, count, bounce, work, c);
         ShadeCounts out;
         {
@@ -204,7 +235,8 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
 }
 
 void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
-    intersect(in, count, {true, false, 0}, work, c);
+    intersect(in, count, {true, false, 0, &work.passed_backs}, work, c);
+    note_passed_backs(work);
     int shadows = 0;
     {
         const SumOfTime time(c.seconds.shade);
@@ -217,7 +249,8 @@ void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
 /// come in the same order however they are cut.
 void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     constexpr int most_lights = batch_rows / 16;
-    intersect(in, count, {true, true, 0}, work, c);
+    intersect(in, count, {true, true, 0, &work.passed_backs}, work, c);
+    note_passed_backs(work);
     int hits = 0;
     {
         const SumOfTime time(c.seconds.shade);
@@ -296,6 +329,7 @@ Workspace::Workspace() {
     camera_length_m.resize(padded_rows);
     slot_time.resize(padded_rows);
     ray_time.resize(padded_rows);
+    cut_surface.resize(padded_rows);
 }
 
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {
@@ -311,6 +345,7 @@ void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCou
         }
     }
     counters.paths += static_cast<uint64_t>(count);
+    forget_passed_backs(work);
     switch (in.kind) {
         case WalkKind::path:
             walk_paths(in, count, work, counters);

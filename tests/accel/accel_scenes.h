@@ -63,7 +63,7 @@ public:
         occluded.assign(ray_[0].size() + 16, 9);
         walls.assign(ray_[0].size() + 16, 0);
         const int refused = accel.occluded(
-            rays, occluded.data(), coherence, segment, passes_walls ? walls.data() : nullptr);
+            rays, occluded.data(), coherence, {segment, passes_walls ? walls.data() : nullptr});
         unpad();
         return refused;
     }

@@ -81,8 +81,8 @@ public:
         recorder.add_hits(columns(false), hits, see_through);
     }
     void occlude(const Accel& accel, uint32_t segment, RayRecorder& recorder) {
-        accel.occluded(columns(true), occluded_.data(), Coherence::incoherent, segment);
-        recorder.add_shadows(columns(true), occluded_.data(), segment, false);
+        accel.occluded(columns(true), occluded_.data(), Coherence::incoherent, {segment});
+        recorder.add_shadows(columns(true), occluded_.data(), {segment});
     }
 
 private:

@@ -79,7 +79,7 @@ private:
         built_.accel.occluded({s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.slot, shadows},
                               work_.occluded.data(),
                               Coherence::incoherent,
-                              1);
+                              {1});
         sum.rays += shadows;
         sum.occluded += static_cast<int>(
             std::count(work_.occluded.begin(), work_.occluded.begin() + shadows, uint8_t{1}));

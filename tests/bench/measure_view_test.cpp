@@ -148,13 +148,15 @@ TEST(MeasureView, StopsOnRequest) {
 
 TEST(MeasureView, DoubtsHitsThatDiffer) {
     ViewFigures view;
-    view.kinds[1] = {1000, 500, 500, ReplayWay::single, {}, 0};
+    view.kinds[1] = {1000, 500, 500, 0, ReplayWay::single, {}, 0};
     EXPECT_TRUE(doubts_about(view).empty());
     view.kinds[1].bare_hits = 700;
     EXPECT_TRUE(doubts_about(view).empty()) << "backs that the renderer passes";
     view.kinds[1].bare_hits = 400;
     EXPECT_EQ(doubts_about(view).size(), 1U);
-    view.kinds[2] = {1000, 500, 700, ReplayWay::single, {}, 0};
+    view.kinds[2] = {1000, 500, 700, 200, ReplayWay::single, {}, 0};
+    EXPECT_EQ(doubts_about(view).size(), 1U) << "faces that are cut away";
+    view.kinds[2].spared = 100;
     EXPECT_EQ(doubts_about(view).size(), 2U);
     view.recording_changed_picture = true;
     EXPECT_EQ(doubts_about(view).size(), 3U);

@@ -159,12 +159,42 @@ TEST(Meshes, WorldPrimitivesComeFirst) {
     EXPECT_EQ(position_of(scene, 4), (F{2, 0, 9}));
 }
 
-TEST(Meshes, FlattenedNodesAreSkippedAndNamed) {  // E6
-    const Loaded loaded = load_placed({{{"name", "Flat"}, {"scale", {1, 0, 1}}}, json::object()});
+TEST(Meshes, NodesThatLeaveNoAreaAreSkippedAndNamed) {  // E6
+    const Loaded loaded = load_placed({{{"name", "Line"}, {"scale", {1, 0, 0}}}, json::object()});
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_EQ(loaded.scene->world_primitive_count, 1);
     EXPECT_TRUE(loaded.scene->instances.empty());
-    EXPECT_TRUE(loaded.warns("not drawn: Flat")) << loaded.warnings;
+    EXPECT_TRUE(loaded.warns("not drawn: Line")) << loaded.warnings;
+}
+
+/// A slanting triangle is pressed into the plane z = 5, beside two instances of it. What one axis
+/// mirrors there turns round, as anything does that is seen from its other side.
+TEST(Meshes, NodesThatFlattenAreDrawn) {
+    for (const float x : {1.0f, -1.0f}) {
+        AssetBuilder builder = triangle_builder();
+        builder.add_accessor("VEC3", 5126, F{0, 0, -1, 2, 0, 3, 0, 1, 0});
+        builder.add_accessor("VEC3", 5126, F{0, 0, 1, 0.6f, 0, 0.8f, 0, 0.6f, 0.8f});
+        json& attributes = builder.tree["meshes"][0]["primitives"][0]["attributes"];
+        attributes["POSITION"] = 4;
+        attributes["NORMAL"] = 5;
+        builder.add_root(
+            {{"mesh", 0}, {"name", "Flat"}, {"scale", {x, 3, 0}}, {"translation", {0, 0, 5}}});
+        builder.add_root({{"mesh", 0}});
+        const Loaded loaded = load_tree(builder.finished());
+        ASSERT_TRUE(loaded.scene) << loaded.text();
+        const Scene& scene = *loaded.scene;
+        EXPECT_TRUE(loaded.warns("drawn flat: Flat")) << loaded.warnings;
+        EXPECT_EQ(scene.instances.size(), 2U);
+        ASSERT_EQ(scene.world_primitive_count, 1);
+        EXPECT_EQ(position_of(scene, 0), (F{0, 0, 5}));
+        EXPECT_EQ(position_of(scene, 1), (F{2 * x, 0, 5}));
+        EXPECT_EQ(position_of(scene, 2), (F{0, 3, 5}));
+        EXPECT_GT(x * winding_normal(scene, 0)[2], 0);
+        for (uint32_t vertex = 0; vertex < 3; ++vertex) {
+            EXPECT_EQ(attribute_of(scene, scene.primitives[0].normal_base, vertex, 3),
+                      (F{0, 0, x}));
+        }
+    }
 }
 
 TEST(Meshes, TinyScalesAreFine) {

@@ -39,6 +39,24 @@ TEST(NodeGraph, SingularMeansFlatNotSmall) {  // E6
     EXPECT_TRUE(is_singular(lost));
 }
 
+TEST(NodeGraph, FlatteningLeavesAnArea) {
+    EXPECT_FALSE(is_flattening(Affined{}));
+    EXPECT_FALSE(is_flattening(scaling(1e-9, 1e-9, 1e-9)));
+    EXPECT_FALSE(is_flattening(scaling(0, 0, 1)));
+    EXPECT_FALSE(is_flattening(scaling(0, 0, 0)));
+    for (const Affined& flat :
+         {scaling(0, 1, 1), scaling(1, 0, 1), scaling(1, -1, 0), scaling(1e-6, 1e6, 0)})
+        EXPECT_TRUE(is_flattening(flat));
+    Affined parallel;  // x and y fall on one line, z beside it
+    parallel.m[0][1] = 1;
+    parallel.m[1][1] = 0;
+    EXPECT_TRUE(is_flattening(parallel));
+    parallel.m[0][2] = 5;
+    parallel.m[2][2] = 0;
+    EXPECT_FALSE(is_flattening(parallel));
+    EXPECT_FALSE(is_flattening(scaling(INFINITY, 0, 0)));
+}
+
 /// A chain of nodes, each moved by (1, 0, 0) from its parent; the mesh hangs on the last.
 Document chain(int length) {
     Document document;

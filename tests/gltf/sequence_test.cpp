@@ -214,6 +214,18 @@ TEST(Sequence, NodesMayGrowFromNothing) {
     EXPECT_EQ(load_at(tree, 1).scene->instances.size(), 3U);
 }
 
+/// Along one axis alone it is flat for a while, and drawn all the same.
+TEST(Sequence, NodesMayGrowFromAPlane) {
+    AssetBuilder builder = sliding_asset();
+    builder.tree["animations"].clear();
+    add_animation(builder, "Grow", {{node_target(1, "scale"), {0, 2}, "VEC3", {1, 1, 0, 1, 1, 1}}});
+    const json tree = builder.finished();
+    expect_sequence(tree);
+    const Loaded flat = load_at(tree, 0);
+    EXPECT_TRUE(flat.warns("drawn flat")) << flat.warnings;
+    EXPECT_EQ(flat.scene->info.triangles_in_world, load_at(tree, 1).scene->info.triangles_in_world);
+}
+
 /// Points on a sliding node are an instance only while a shutter is open; it starts where they are.
 TEST(Sequence, PointsMoveWithTheirNodeWhileAShutterIsOpen) {
     AssetBuilder builder = sliding_asset();

@@ -1,0 +1,217 @@
+// tests/truth/cutaway_test.cpp - what a camera looked through takes no light from what it sees.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "support/wall_scenes.h"
+#include <functional>
+#include <string>
+
+namespace obscura::test {
+namespace {
+
+constexpr int size = 24;
+
+Material plaster(const Vec3f& color = {0.8f, 0.8f, 0.8f}) {
+    Material m;
+    m.metallic = 0;
+    m.roughness = 1;
+    m.base_color[0] = color.x;
+    m.base_color[1] = color.y;
+    m.base_color[2] = color.z;
+    return m;
+}
+
+/// How a scene is looked at.
+struct View {
+    int bounces = 0;
+    Integrator integrator = Integrator::path;
+    float sky = 1;
+    bool parallel = false;
+    int strategies = sample_lights | sample_bsdfs;
+    int samples = 16;
+};
+
+/// From high above the origin.
+Film from_above(Scene scene, const View& view) {
+    // How often a lamp is sampled and how often the sky follows from it: for equal pictures.
+    scene.bounds = {{-5, 0, -5}, {5, 5, 5}};
+    RenderOptions options;
+    options.width = options.height = size;
+    options.samples_per_pixel = view.samples;
+    options.max_bounces = view.bounces;
+    options.ao_distance_m = 1;
+    options.integrator = view.integrator;
+    options.strategies = view.strategies;
+    LightingOptions lighting;
+    lighting.environment = constant_environment(view.sky);
+    Camera camera = look_at({0, 20, 0}, {0, 0, 0}, 0.09f, size, size);
+    if (view.parallel) {
+        camera.model = CameraModel::orthographic;
+        camera.orthographic.half_width_m = camera.orthographic.half_height_m = 0.9f;
+    }
+    return render_scene(std::move(scene), lighting, camera, options).film;
+}
+
+void expect_equal(const Film& a, const Film& b, const std::string& what) {
+    ASSERT_EQ(a.pixels.size(), b.pixels.size());
+    double sum = 0;
+    size_t different = 0;
+    for (size_t i = 0; i < a.pixels.size(); ++i) {
+        different += a.pixels[i] == b.pixels[i] ? 0 : 1;
+        sum += static_cast<double>(b.pixels[i]);
+    }
+    EXPECT_EQ(different, 0U) << what;
+    EXPECT_GT(sum, 1) << what;  // a black picture would prove nothing
+}
+
+/// A roof over the floor that faces down: from above only its back is seen.
+void add_roof(WallScene& scene, float height, float half, int32_t row) {
+    scene.builder.quad({-half, height, -half}, {2 * half, 0, 0}, {0, 0, 2 * half}, row);
+}
+
+Scene floor_with(const std::function<void(WallScene&)>& add) {
+    WallScene scene;
+    scene.light(lamp_at({0.4f, 3, 0.2f}));
+    add(scene);
+    return scene.take();
+}
+
+TEST(Cutaway, ARoofThatTheCameraLooksThroughCastsNoShadow) {
+    const Scene open = floor_with([](WallScene&) {});
+    const Scene roofed =
+        floor_with([](WallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
+    for (const bool parallel : {false, true}) {
+        for (const int bounces : {0, 3}) {
+            const View view{.bounces = bounces, .parallel = parallel};
+            expect_equal(from_above(roofed, view), from_above(open, view), "path");
+        }
+        for (const Integrator i : {Integrator::raycast, Integrator::ao, Integrator::direct}) {
+            const View view{.integrator = i, .parallel = parallel};
+            expect_equal(from_above(roofed, view), from_above(open, view), "others");
+        }
+    }
+}
+
+/// The roof as an instance, placed by `places` while the shutter is open.
+Scene with_instance(const std::vector<Affinef>& places) {
+    Scene scene =
+        floor_with([](WallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
+    scene.world_primitive_count = 1;
+    scene.meshes.push_back({1, 1});
+    Instance instance;
+    instance.world_from_object = places[0];
+    instance.object_from_world = inverse(places[0]);
+    const auto& m = places[0].m;
+    instance.mirrored = m[0][0] * m[1][1] * m[2][2] < 0 ? 1 : 0;
+    if (places.size() > 1) {
+        instance.motion = 0;
+        scene.motion.steps = static_cast<int32_t>(places.size());
+        scene.motion.instances = places;
+    }
+    scene.instances.push_back(instance);
+    return scene;
+}
+
+Affinef placing(const Vec3f& scale, float up) {
+    Affinef out;
+    out.m[0][0] = scale.x;
+    out.m[1][1] = scale.y;
+    out.m[2][2] = scale.z;
+    out.m[1][3] = up;
+    return out;
+}
+
+TEST(Cutaway, InstancesAreCutAwayToo) {
+    const Scene open = floor_with([](WallScene&) {});
+    const View view{.bounces = 2};
+    const Film expected = from_above(open, view);
+    expect_equal(from_above(with_instance({placing({2, 1, 1}, 0.5f)}), view), expected, "scaled");
+    // Mirrored across: the same faces are fronts.
+    expect_equal(from_above(with_instance({placing({-1, 1, 1}, 0)}), view), expected, "mirrored");
+}
+
+TEST(Cutaway, AMovingRoofIsCutAwayAsFarAsItsOwnTimeGoes) {
+    // Every path has its own time; a still roof beside the moving one keeps their numbers alike.
+    const std::vector<Affinef> moving = {placing({1, 1, 1}, 0), placing({1, 1, 1}, 0.4f)};
+    const std::vector<Affinef> far = {placing({1, 1, 1}, -9), placing({1, 1, 1}, -9.5f)};
+    const View view{.bounces = 2};
+    expect_equal(
+        from_above(with_instance(moving), view), from_above(with_instance(far), view), "moving");
+}
+
+TEST(Cutaway, ARoofOverTheCameraGivesShadow) {
+    const Scene lit = floor_with([](WallScene&) {});
+    const Scene shaded =
+        floor_with([](WallScene& s) { add_roof(s, 25, 200, s.builder.material(plaster())); });
+    const View view;
+    EXPECT_LT(film_mean(from_above(shaded, view)).value,
+              0.5 * film_mean(from_above(lit, view)).value);
+}
+
+/// A room open at no side whose fronts face inwards; without its ceiling where `open`.
+Scene room(bool open, float ceiling_emission = 0) {
+    SceneBuilder builder;
+    const int32_t red = builder.material(plaster({0.9f, 0.1f, 0.1f}));
+    Material white = plaster();
+    std::fill_n(white.emission, 3, ceiling_emission);
+    const int32_t top = ceiling_emission > 0 ? builder.material(white) : red;
+    const float w = 1.2f;
+    builder.quad({-w, 0, w}, {2 * w, 0, 0}, {0, 0, -2 * w}, red);
+    builder.quad({-w, 0, w}, {0, 0, -2 * w}, {0, 1, 0}, red);
+    builder.quad({w, 0, -w}, {0, 0, 2 * w}, {0, 1, 0}, red);
+    builder.quad({-w, 0, -w}, {2 * w, 0, 0}, {0, 1, 0}, red);
+    builder.quad({w, 0, w}, {-2 * w, 0, 0}, {0, 1, 0}, red);
+    if (!open) builder.quad({-w, 1, -w}, {2 * w, 0, 0}, {0, 0, 2 * w}, top);
+    Scene scene = builder.take();
+    if (ceiling_emission > 0) return scene;
+    // One surface: floor, walls and ceiling.
+    Primitive whole = scene.primitives[0];
+    whole.triangle_count = static_cast<int32_t>(scene.indices.size() / 3);
+    scene.primitives = {whole};
+    scene.world_primitive_count = 1;
+    return scene;
+}
+
+TEST(Cutaway, OnlyWhatShowsItsBackToTheEyeIsTakenAway) {
+    for (const bool parallel : {false, true}) {
+        for (const int bounces : {0, 1, 5}) {
+            const View view{.bounces = bounces, .parallel = parallel};
+            expect_equal(from_above(room(false), view), from_above(room(true), view), "room");
+        }
+    }
+}
+
+TEST(Cutaway, WhatSendsOutLightStaysAndItsLightCountsOnce) {
+    double seen[3];
+    for (int i = 0; i < 3; ++i) {
+        constexpr int strategies[] = {sample_lights, sample_bsdfs, sample_lights | sample_bsdfs};
+        const View view{.sky = 0, .strategies = strategies[i], .samples = 1024};
+        seen[i] = film_mean(from_above(room(false, 2), view)).value;
+    }
+    EXPECT_GT(seen[0], 0.1);
+    EXPECT_NEAR(seen[1], seen[0], 0.01 * seen[0]);
+    EXPECT_NEAR(seen[2], seen[0], 0.01 * seen[0]);
+    // And the sky stays outside.
+    const View with_sky{.sky = 1, .samples = 1024};
+    EXPECT_NEAR(film_mean(from_above(room(false, 2), with_sky)).value, seen[0], 0.01 * seen[0]);
+}
+
+TEST(Cutaway, ShadowRaysGoOnThroughPanesAboveTheRoof) {
+    const auto build = [](bool roof) {
+        return floor_with([&](WallScene& s) {
+            // On edge to the camera, and between the lamp and half of the floor.
+            s.builder.quad({0.3f, 0.35f, 5},
+                           {0, 2.5f, 0},
+                           {0, 0, -10},
+                           s.add(glass_material(), glass_layers()));
+            if (roof) add_roof(s, 0.3f, 5, s.builder.material(plaster()));
+        });
+    };
+    for (const Integrator i : {Integrator::path, Integrator::raycast}) {
+        const View view{.bounces = 0, .integrator = i, .sky = 0, .parallel = true};
+        expect_equal(from_above(build(true), view), from_above(build(false), view), "pane");
+    }
+}
+
+}  // namespace
+}  // namespace obscura::test
