@@ -67,7 +67,8 @@ void register_rays(const std::string& isa, const std::string& kind, const Column
 void register_light(const std::string& isa, const Columns& columns) {
     const int shadows = columns->shaded.shadow;
     register_stage("stage/4_shadow/" + isa, columns, shadows, [](StageColumns& c) {
-        c.scene.accel->occluded(c.shadow_rays(), c.work.occluded.data(), Coherence::incoherent, {1});
+        c.scene.accel->occluded(
+            c.shadow_rays(), c.work.occluded.data(), Coherence::incoherent, {1});
     });
     register_stage("stage/5_add_shadows/" + isa, columns, shadows, [](StageColumns& c) {
         c.scene.stages->add_shadows(

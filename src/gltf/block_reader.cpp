@@ -31,6 +31,7 @@ PartNote note_of(const PartJob& job, const MeshPart& part) {
     PartNote out;
     out.name = job.name;
     out.corners = part.corners;
+    out.look = {!part.normals.empty(), !part.colors.empty()};
     out.issues = part.issues;
     for (size_t set = 0; set < part.uvs.size(); ++set) {
         if (!part.uvs[set].empty()) out.uv_sets |= 1U << set;
@@ -123,7 +124,9 @@ void BlockReader::use_material(const PartName& name) {
 
 int BlockReader::choose_material(const PartNote& note) {
     const int material = primitive(note.name).material;
-    const MaterialChoice choice = material_row(materials_, material, note.uv_sets);
+    const MaterialChoice choice = note.corners == 3
+                                      ? material_row(materials_, material, note.uv_sets)
+                                      : stroke_material_row(materials_, material, note.look);
     if (choice.lost.empty()) return choice.row;
     const std::string text = lost_slots_text(materials_, choice);
     if (note.corners == 3) {
@@ -136,7 +139,7 @@ int BlockReader::choose_material(const PartNote& note) {
     return choice.row;
 }
 
-Result<void> BlockReader::append(const PartJob& job, const MeshPart& part, GeometryBlock& to) {
+Result<void> BlockReader::append(const PartJob& job, MeshPart& part, GeometryBlock& to) {
     PartNote note = note_of(job, part);
     note.node = node_of(job);
     note.needs = material_needs(document(), this->primitive(job.name).material);
@@ -148,8 +151,16 @@ Result<void> BlockReader::append(const PartJob& job, const MeshPart& part, Geome
         if (!part.faults.empty()) use_material(job.name);
         return {};
     }
-    Result<Primitive> primitive = part.corners == 3 ? append_part(scene_, part, place(job.name))
-                                                    : append_strokes(scene_, part, place(job.name));
+    GeometryStore* store = sources_.meshes.store;
+    SphereOrders* orders = store != nullptr ? &store->sphere_orders : nullptr;
+    const Material& material =
+        materials_.rows[static_cast<size_t>(this->primitive(job.name).material) + 1];
+    if (part.corners != 3 && part.normals.empty() && (material.flags & material_unlit) == 0) {
+        sum_colors(material, part.colors);
+    }
+    Result<Primitive> primitive = part.corners == 3
+                                      ? append_part(scene_, part, place(job.name))
+                                      : append_strokes(scene_, part, place(job.name), orders);
     if (!primitive) return fail(std::move(primitive.error()));
     if (primitive->triangle_count == 0) return {};  // lines of no length
     to.notes.back().drawn = true;

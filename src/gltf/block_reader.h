@@ -56,7 +56,7 @@ private:
     Affined block_from_mesh(BlockSpace space, const PlacedNode& from) const;
     size_t batch_end(const std::vector<PartJob>& jobs, size_t begin) const;
     Result<MeshPart> read_job(BlockSpace space, const PartJob& job) const;
-    Result<void> append(const PartJob& job, const MeshPart& part, GeometryBlock& to);
+    Result<void> append(const PartJob& job, MeshPart& part, GeometryBlock& to);
     void use_material(const PartName& name);
     int choose_material(const PartNote& note);
     void note_issues(const PartNote& note);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "gltf/materials.h"
 #include "gltf/mesh_part.h"
+#include "gltf/particles.h"
 #include "scene/motion.h"
 #include "scene/scene.h"
 
@@ -16,6 +18,7 @@ struct PartNote {
     int node = -1;        ///< as Primitive::node
     MaterialNeeds needs;  ///< at that time
     size_t corners = 3;
+    StrokeLook look;       ///< where they are less
     uint32_t uv_sets = 0;  ///< bit n: it has TEXCOORD_n
     uint32_t issues = 0;   ///< issue_bit
     bool drawn = false;
@@ -39,6 +42,7 @@ struct GeometryStore {
     LargeArray<float> attributes;
     std::vector<GeometryBlock> blocks;
     std::vector<Affined> mover_from_node;  ///< of all nodes, which no time changes
+    SphereOrders sphere_orders;
 
     StillSizes still() const { return blocks.empty() ? StillSizes{} : blocks.back().end; }
     void take_back(Scene& scene) {

@@ -104,6 +104,15 @@ void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
                  "the scene lies so far from the origin, for its size, that positions lose "
                  "precision");
     }
+    constexpr float smallest_m = 1e-6f;
+    constexpr float largest_m = 1e12f;
+    const float size = max_component(extent);
+    if ((size > 0 && size < smallest_m) || farthest > largest_m) {
+        log.warn(
+            document.file,
+            "the scene is smaller than 1e-6 m or reaches further than 1e12 m: single precision "
+            "finds wrong hits and light there; a scale on its root nodes helps");
+    }
 }
 
 /// Where the last keyframe of each animation is.

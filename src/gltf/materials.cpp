@@ -47,6 +47,17 @@ MaterialTable make_material_table(const Document& document) {
     return table;
 }
 
+int add_copy(MaterialTable& table, int row, const Material& values, const MaterialLayers& layers) {
+    const auto from = static_cast<size_t>(row);
+    table.rows.push_back(values);
+    table.layers.push_back(layers);
+    table.layered.push_back(table.layered[from]);
+    table.names.push_back(table.names[from]);
+    table.numbers.push_back(table.numbers[from]);
+    table.used.push_back(0);
+    return static_cast<int>(table.rows.size()) - 1;
+}
+
 MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets) {
     const size_t own = static_cast<size_t>(material) + 1;
     MaterialChoice choice{static_cast<int>(own)};
@@ -69,16 +80,39 @@ MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets
             for (size_t i = 0; i < slot_count; ++i) {
                 if ((lost >> i & 1U) != 0) *slot_of(i, copy, layers) = TextureSlot{};
             }
-            table.rows.push_back(copy);
-            table.layers.push_back(layers);
-            table.layered.push_back(table.layered[own]);
-            table.names.push_back(table.names[own]);
-            table.numbers.push_back(material);
-            table.used.push_back(0);
+            add_copy(table, static_cast<int>(own), copy, layers);
         }
     }
     table.used[static_cast<size_t>(choice.row)] = 1;
     return choice;
+}
+
+MaterialChoice stroke_material_row(MaterialTable& table, int material, const StrokeLook& look) {
+    MaterialChoice choice = material_row(table, material, 0);
+    Material values = table.rows[static_cast<size_t>(choice.row)];
+    if (look.has_normals || (values.flags & material_unlit) != 0) return choice;
+    const auto [entry, is_new] =
+        table.unlit.try_emplace({choice.row, look.has_colors}, static_cast<int>(table.rows.size()));
+    if (is_new) {
+        values.flags |= material_unlit;
+        for (int c = 0; c < 3; ++c) {
+            values.base_color[c] =
+                look.has_colors ? 1.0f : values.base_color[c] + values.emission[c];
+            values.emission[c] = 0;
+        }
+        const int row = add_copy(table, choice.row, values, {});
+        table.layered[static_cast<size_t>(row)] = 0;
+    }
+    choice.row = entry->second;
+    table.used[static_cast<size_t>(choice.row)] = 1;
+    return choice;
+}
+
+void sum_colors(const Material& material, std::vector<float>& colors) {
+    for (size_t i = 0; i < colors.size(); ++i) {
+        if (i % 4 == 3) continue;  // alpha is the row's, times this one
+        colors[i] = colors[i] * material.base_color[i % 4] + material.emission[i % 4];
+    }
 }
 
 std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice) {

@@ -42,6 +42,8 @@ struct MaterialTable {
     std::vector<char> used;        ///< by a primitive that is drawn
     /// Row of (glTF material, bit mask of the slots taken away).
     std::map<std::pair<int, uint32_t>, int> reduced;
+    /// Row of (row, whether the vertices have colours) of points and lines without normals.
+    std::map<std::pair<int, bool>, int> unlit;
 };
 
 /// Row 0 is the default material, row m + 1 is glTF material m.
@@ -57,6 +59,27 @@ struct MaterialChoice {
 /// The row for a primitive that has `uv_sets` (bit n: TEXCOORD_n); -1 is no material. Slots whose
 /// set is absent are taken away.
 MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets);
+
+/// Adds a row that is like another one in all but its values, and returns it. It is not used yet.
+int add_copy(MaterialTable& table, int row, const Material& values, const MaterialLayers& layers);
+
+/// What of points or lines decides how their material is seen.
+struct StrokeLook {
+    bool has_normals = false;
+    bool has_colors = false;
+};
+
+/// The row for points or lines, which have no textures. Without normals they are not lit: their
+/// radiance is base colour plus emission. With colours the sum is in the vertices, see
+/// sum_colors, and the row is white.
+/// Source  glTF 2.0, Point and Line Materials
+MaterialChoice stroke_material_row(MaterialTable& table, int material, const StrokeLook& look);
+
+/// Makes COLOR_0 of points or lines without normals the sum of base colour and emission.
+///
+/// In      material: glTF's own
+/// In/Out  colors: 4 floats a vertex
+void sum_colors(const Material& material, std::vector<float>& colors);
 
 /// "the material "Glass" needs ...", for messages about slots that were taken away.
 std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice);

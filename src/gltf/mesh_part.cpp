@@ -143,6 +143,15 @@ void finish_uvs(MeshPart& part) {
     }
 }
 
+/// Normals of points and lines that say nothing are 0: shading takes the round surface's there.
+void finish_stroke_normals(MeshPart& part) {
+    for (size_t i = 0; i < part.normals.size(); i += 3) {
+        float* n = &part.normals[i];
+        if (!std::all_of(n, n + 3, [](float x) { return std::isfinite(x); }))
+            std::fill_n(n, 3, 0.0f);
+    }
+}
+
 /// Reads what the material needs beside positions.
 Result<void> read_attributes(PartReader& reader, MeshPart& part, const MaterialNeeds& needs) {
     const GltfPrimitive& primitive = reader.primitive();
@@ -341,7 +350,7 @@ Result<MeshPart> read_mesh_part(const Document& document,
     if (has_surface) {
         finish_shading(part, needs);
     } else {
-        part.normals.clear();  // spheres and capsules have their own
+        finish_stroke_normals(part);
     }
     return part;
 }

@@ -314,6 +314,7 @@ void MeshBuilder::warn() {
 }
 
 Result<void> MeshBuilder::build() {
+    if (sources_.store != nullptr) sources_.store->sphere_orders.begin_pose();
     find_uses();
     const MeshPlan plan = plan_meshes(document(),
                                       uses_,

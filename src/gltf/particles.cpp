@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/particles.h"
 
+#include "base/parallel.h"
 #include "shape/sphere_cluster.h"
 
 #include <algorithm>
@@ -16,10 +17,9 @@ namespace {
 
 constexpr double farthest_position = 1e18;
 
-/// Splits spheres along the longest edge of their box until each part fills one cluster, then one
-/// block: boxes around them get smaller than along any curve.
-void split_into_blocks(const std::vector<float>& positions, std::span<uint32_t> order) {
-    if (order.size() <= sphere_block) return;
+/// Splits spheres along the longest edge of their box into two parts of whole clusters, or of whole
+/// blocks where there is one cluster at most. Returns how many the first one gets.
+size_t split_in_two(const std::vector<float>& positions, std::span<uint32_t> order) {
     float low[3] = {INFINITY, INFINITY, INFINITY};
     float high[3] = {-INFINITY, -INFINITY, -INFINITY};
     for (const uint32_t sphere : order) {
@@ -41,15 +41,25 @@ void split_into_blocks(const std::vector<float>& positions, std::span<uint32_t> 
         order.begin() + static_cast<std::ptrdiff_t>(half),
         order.end(),
         [&](uint32_t a, uint32_t b) { return place(a) != place(b) ? place(a) < place(b) : a < b; });
-    split_into_blocks(positions, order.first(half));
-    split_into_blocks(positions, order.subspan(half));
+    return half;
 }
 
-/// Order of the spheres in which neighbours share blocks.
+/// Splits until each part fills one block: boxes around them get smaller than along any curve. All
+/// parts of a size are split at the same time.
 std::vector<uint32_t> block_order(const std::vector<float>& positions) {
     std::vector<uint32_t> order(positions.size() / 3);
     std::iota(order.begin(), order.end(), 0U);
-    split_into_blocks(positions, order);
+    std::vector<std::span<uint32_t>> parts = {order};
+    while (!parts.empty()) {
+        std::erase_if(parts, [](const auto& part) { return part.size() <= sphere_block; });
+        std::vector<std::span<uint32_t>> halves(2 * parts.size());
+        parallel_for(parts.size(), [&](size_t i) {
+            const size_t half = split_in_two(positions, parts[i]);
+            halves[2 * i] = parts[i].first(half);
+            halves[2 * i + 1] = parts[i].subspan(half);
+        });
+        parts = std::move(halves);
+    }
     return order;
 }
 
@@ -68,13 +78,31 @@ std::string find_problem(const std::vector<float>& positions, const std::vector<
 
 }  // namespace
 
+void SphereOrders::begin_pose() {
+    known_ = std::move(asked_);
+    asked_.clear();
+}
+
+const std::vector<uint32_t>& SphereOrders::order_of(const std::vector<float>& positions) {
+    const auto is_it = [&](const Entry& entry) { return entry.positions == positions; };
+    const auto known = std::find_if(known_.begin(), known_.end(), is_it);
+    if (known == known_.end()) {
+        asked_.push_back({positions, block_order(positions)});
+    } else {
+        asked_.push_back(std::move(*known));
+        known_.erase(known);
+    }
+    return asked_.back().order;
+}
+
 ParticleRange append_spheres(const std::vector<float>& positions,
                              const std::vector<float>& radii,
-                             Scene& scene) {
+                             Scene& scene,
+                             SphereOrders* orders) {
     const size_t count = positions.size() / 3;
     ParticleRange range{static_cast<int32_t>(scene.spheres.size() / 4),
                         static_cast<int32_t>(count),
-                        block_order(positions)};
+                        orders != nullptr ? orders->order_of(positions) : block_order(positions)};
     const size_t blocks = (count + sphere_block - 1) / sphere_block;
     const size_t base = scene.spheres.size();
     scene.spheres.resize(base + blocks * sphere_block_floats,
@@ -123,7 +151,7 @@ Result<ParticleRange> append_particles(const ParticleSources& sources,
     const std::string problem = find_problem(*positions, *radii);
     if (!problem.empty()) return fail(ExitCode::bad_data, "E-SHAPE-SPHERES", where, problem);
 
-    return append_spheres(*positions, *radii, scene);
+    return append_spheres(*positions, *radii, scene, sources.orders);
 }
 
 ShapeBox primitive_box(const Scene& scene, const Primitive& primitive) {

@@ -7,9 +7,29 @@
 
 namespace obscura {
 
+/// Orders of spheres from one pose for the next: positions that come again need no sorting.
+class SphereOrders {
+public:
+    /// What is not asked for between two calls is forgotten.
+    void begin_pose();
+
+    /// The order in which neighbours among the spheres share blocks.
+    ///
+    /// In   positions: 3 numbers a sphere
+    const std::vector<uint32_t>& order_of(const std::vector<float>& positions);
+
+private:
+    struct Entry {
+        std::vector<float> positions;
+        std::vector<uint32_t> order;
+    };
+    std::vector<Entry> known_, asked_;
+};
+
 struct ParticleSources {
     const Document& document;
     const BufferStore& buffers;
+    SphereOrders* orders = nullptr;  ///< of an animated asset; null: there is one pose alone
 };
 
 /// Spheres as a primitive counts them; `first` is the first of a block.
@@ -24,9 +44,11 @@ inline constexpr size_t most_spheres = size_t{1} << 29;  ///< their words have 3
 /// Appends spheres to Scene::spheres in an order in which blocks are small boxes.
 ///
 /// In      positions: 3 numbers a sphere; radii: one for all, or one a sphere
+/// In/Out  orders: see ParticleSources
 ParticleRange append_spheres(const std::vector<float>& positions,
                              const std::vector<float>& radii,
-                             Scene& scene);
+                             Scene& scene,
+                             SphereOrders* orders = nullptr);
 
 /// Appends a "spheres" shape.
 ///

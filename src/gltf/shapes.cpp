@@ -84,12 +84,8 @@ int32_t ShapeBuilder::choose_material(int material, bool double_sided) {
     if (is_new) {
         Material copy = materials_.rows[index];
         copy.flags |= material_double_sided;
-        materials_.rows.push_back(copy);
-        materials_.layers.push_back(materials_.layers[index]);
-        materials_.layered.push_back(materials_.layered[index]);
-        materials_.names.push_back(materials_.names[index]);
-        materials_.numbers.push_back(materials_.numbers[index]);
-        materials_.used.push_back(1);
+        const int added = add_copy(materials_, row, copy, materials_.layers[index]);
+        materials_.used[static_cast<size_t>(added)] = 1;
     }
     return entry->second;
 }
@@ -107,8 +103,10 @@ void ShapeBuilder::count(const GltfShape& counted, int32_t rows) {
 
 Result<void> ShapeBuilder::add_particles(const PlacedNode& place, Primitive& primitive) {
     const GltfShape& particles = shape(node(place).shape);
-    const Result<ParticleRange> range =
-        append_particles({document(), sources_.buffers}, particles, node(place).shape, scene_);
+    GeometryStore* store = sources_.store;
+    SphereOrders* orders = store != nullptr ? &store->sphere_orders : nullptr;
+    const Result<ParticleRange> range = append_particles(
+        {document(), sources_.buffers, orders}, particles, node(place).shape, scene_);
     if (!range) return fail(range.error());
     primitive.geometry = static_cast<int32_t>(GeometryKind::spheres);
     primitive.first_triangle = range->first;

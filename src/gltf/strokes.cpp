@@ -3,7 +3,6 @@
 #include "gltf/strokes.h"
 
 #include "gltf/meshes.h"
-#include "gltf/particles.h"
 
 #include <algorithm>
 
@@ -13,37 +12,52 @@ namespace {
 
 constexpr float unset_radius = 1;
 
-/// Appends the colours of vertices that have the numbers from `first` on.
-int32_t append_colors(Scene& scene,
-                      const MeshPart& part,
-                      const std::vector<uint32_t>& vertices,
-                      size_t first) {
-    if (part.colors.empty()) return no_attribute;
-    const int64_t base =
-        static_cast<int64_t>(scene.attributes.size()) - static_cast<int64_t>(first * 4);
-    for (const uint32_t vertex : vertices) {
-        const auto color = part.colors.begin() + static_cast<std::ptrdiff_t>(size_t{vertex} * 4);
-        scene.attributes.insert(scene.attributes.end(), color, color + 4);
+/// Vertices of a part, in the order in which they get the numbers from `first` on.
+struct NumberedVertices {
+    std::vector<uint32_t> vertices;
+    size_t first = 0;
+};
+
+/// Appends an attribute of `width` floats a vertex; returns its base.
+int32_t append_attribute(Scene& scene,
+                         const std::vector<float>& values,
+                         size_t width,
+                         const NumberedVertices& numbered) {
+    if (values.empty()) return no_attribute;
+    const int64_t base = static_cast<int64_t>(scene.attributes.size()) -
+                         static_cast<int64_t>(numbered.first * width);
+    for (const uint32_t vertex : numbered.vertices) {
+        const auto from = values.begin() + static_cast<std::ptrdiff_t>(size_t{vertex} * width);
+        scene.attributes.insert(
+            scene.attributes.end(), from, from + static_cast<std::ptrdiff_t>(width));
     }
     return static_cast<int32_t>(base);
 }
 
-Primitive append_points(Scene& scene, const MeshPart& part) {
+void append_attributes(Scene& scene,
+                       const MeshPart& part,
+                       const NumberedVertices& numbered,
+                       Primitive& out) {
+    out.color_base = append_attribute(scene, part.colors, 4, numbered);
+    out.normal_base = append_attribute(scene, part.normals, 3, numbered);
+}
+
+Primitive append_points(Scene& scene, const MeshPart& part, SphereOrders* orders) {
     std::vector<float> positions;
     positions.reserve(part.indices.size() * 3);
     for (const uint32_t vertex : part.indices) {
         const float* p = &part.positions[size_t{vertex} * 3];
         positions.insert(positions.end(), p, p + 3);
     }
-    const ParticleRange range = append_spheres(positions, {unset_radius}, scene);
-    std::vector<uint32_t> vertices;
+    const ParticleRange range = append_spheres(positions, {unset_radius}, scene, orders);
+    NumberedVertices numbered{{}, static_cast<size_t>(range.first)};
     for (const uint32_t point : range.order)
-        vertices.push_back(part.indices[point]);
+        numbered.vertices.push_back(part.indices[point]);
     Primitive out;
     out.geometry = static_cast<int32_t>(GeometryKind::spheres);
     out.first_triangle = range.first;
     out.triangle_count = range.count;
-    out.color_base = append_colors(scene, part, vertices, static_cast<size_t>(range.first));
+    append_attributes(scene, part, numbered, out);
     return out;
 }
 
@@ -70,13 +84,16 @@ Primitive append_lines(Scene& scene, const MeshPart& part) {
         add_point(to);
         ++out.triangle_count;
     }
-    out.color_base = append_colors(scene, part, vertices, first);
+    append_attributes(scene, part, {vertices, first}, out);
     return out;
 }
 
 }  // namespace
 
-Result<Primitive> append_strokes(Scene& scene, const MeshPart& part, const std::string& where) {
+Result<Primitive> append_strokes(Scene& scene,
+                                 const MeshPart& part,
+                                 const std::string& where,
+                                 SphereOrders* orders) {
     const bool points = part.corners == 1;
     const size_t added = part.indices.size();
     if (points && added > most_spheres - scene.spheres.size() / 4) {
@@ -84,7 +101,8 @@ Result<Primitive> append_strokes(Scene& scene, const MeshPart& part, const std::
             ExitCode::refused, "E-LIMIT-SPHERES", where, "at most 2^29 spheres are accepted");
     }
     const size_t vertices = points ? 0 : scene.curve_points.size() / 4 + added;
-    const size_t floats = scene.attributes.size() + (part.colors.empty() ? 0 : added * 4);
+    const size_t width = (part.colors.empty() ? 0 : 4) + (part.normals.empty() ? 0 : 3);
+    const size_t floats = scene.attributes.size() + added * width;
     const char* limit = broken_limit({vertices, 0, floats});
     if (limit != nullptr) {
         return fail(ExitCode::refused,
@@ -93,7 +111,7 @@ Result<Primitive> append_strokes(Scene& scene, const MeshPart& part, const std::
                     "the scene is too large for 32-bit numbers; accepted are 2^29 - 1 points on "
                     "lines and 2^31 - 1 attribute floats");
     }
-    const Primitive out = points ? append_points(scene, part) : append_lines(scene, part);
+    const Primitive out = points ? append_points(scene, part, orders) : append_lines(scene, part);
     (points ? scene.info.points_in_world : scene.info.line_segments_in_world) +=
         static_cast<size_t>(out.triangle_count);
     return out;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "gltf/mesh_part.h"
+#include "gltf/particles.h"
 #include "scene/scene.h"
 
 #include <string>
@@ -12,8 +13,12 @@ namespace obscura {
 /// Adds a part of points or lines behind the scene's tables; material and node are the caller's.
 /// Their radius is set later: see set_stroke_radii. Pieces of no length are left out.
 ///
-/// In      part: in world space
+/// In      part: in world space; where: for messages
+/// In/Out  orders: as for append_spheres
 /// Errors  77 E-LIMIT-SPHERES, E-LIMIT-VERTICES, E-LIMIT-ATTRIBUTES
-Result<Primitive> append_strokes(Scene& scene, const MeshPart& part, const std::string& where);
+Result<Primitive> append_strokes(Scene& scene,
+                                 const MeshPart& part,
+                                 const std::string& where,
+                                 SphereOrders* orders = nullptr);
 
 }  // namespace obscura

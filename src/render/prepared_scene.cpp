@@ -6,6 +6,7 @@
 #include "light/studio.h"
 #include "render/shape_light_table.h"
 #include "scene/alike_textures.h"
+#include "scene/edge_scale.h"
 #include "scene/split_curves.h"
 
 #include <algorithm>
@@ -99,6 +100,7 @@ Result<void> prepare(PreparedScene::Impl& impl,
     impl.scene = std::move(scene);
     mark_alike_textures(impl.scene);
     split_long_curves(impl.scene);
+    impl.edge_scale = edge_scale(impl.scene);
     auto lit = make_lighting(impl, lighting, log);
     if (!lit) return lit;
     const Stopwatch building_bvh;
@@ -119,6 +121,7 @@ Result<void> prepare(PreparedScene::Impl& impl,
 SceneView PreparedScene::Impl::view() const {
     SceneView out;
     out.positions = scene.positions.data();
+    out.edge_scale = edge_scale;
     out.indices = reinterpret_cast<const int32_t*>(scene.indices.data());
     out.attributes = scene.attributes.data();
     out.primitives = reinterpret_cast<const int32_t*>(scene.primitives.data());

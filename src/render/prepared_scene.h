@@ -26,6 +26,7 @@ struct PreparedScene::Impl {
     LightTable lights;
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;
+    float edge_scale = 1;    ///< see scene/edge_scale.h
     std::string embree_isa;  ///< as Accel::build takes it
     BuildSeconds build_seconds;
 

@@ -37,7 +37,7 @@ struct Primitive {
     int32_t first_triangle = 0;
     int32_t triangle_count = 0;
     int32_t material = 0;
-    int32_t normal_base = no_attribute;   ///< 3 floats a vertex, unit; absent: flat shading
+    int32_t normal_base = no_attribute;   ///< 3 floats a vertex, unit; absent: flat or round
     int32_t tangent_base = no_attribute;  ///< 4 floats a vertex, w = handedness
     int32_t color_base = no_attribute;    ///< 4 floats a vertex, linear, multiplies base colour
     int32_t uv_base[max_uv_sets] = {no_attribute,

@@ -36,6 +36,7 @@ public:
         for (Primitive& primitive : scene_.primitives) {
             if (primitive.geometry == static_cast<int32_t>(GeometryKind::curves)) split(primitive);
         }
+        scene_.attributes.resize(scene_.attributes.size() + 1, 0.0f);  // normals are read in fours
         scene_.curve_points = std::move(points_);
         scene_.curve_segments = std::move(segments_);
     }
@@ -55,19 +56,21 @@ private:
         add_point(to);
     }
 
-    void add_colors(Primitive& primitive, size_t first_point) {
-        if (primitive.color_base == no_attribute) return;
+    /// Writes an attribute of `width` floats a vertex anew, for the points from `first` on.
+    void split_attribute(int32_t& base, size_t width, size_t first) {
+        if (base == no_attribute) return;
         LargeArray<float>& all = scene_.attributes;
-        const int64_t old_base = primitive.color_base;
-        const auto base = static_cast<int64_t>(all.size()) - static_cast<int64_t>(first_point * 4);
+        const int64_t old_base = base;
+        base = static_cast<int32_t>(static_cast<int64_t>(all.size()) -
+                                    static_cast<int64_t>(first * width));
         for (const Vertex& vertex : vertices_) {
-            const auto at = static_cast<size_t>(old_base + int64_t{vertex.first} * 4);
-            for (size_t c = 0; c < 4; ++c) {
-                const double next = vertex.share > 0 ? all[at + c + 4] : all[at + c];
+            const auto at =
+                static_cast<size_t>(old_base + int64_t{vertex.first} * static_cast<int64_t>(width));
+            for (size_t c = 0; c < width; ++c) {
+                const double next = vertex.share > 0 ? all[at + c + width] : all[at + c];
                 all.push_back(static_cast<float>(mix(all[at + c], next, vertex.share)));
             }
         }
-        primitive.color_base = static_cast<int32_t>(base);
     }
 
     void split(Primitive& primitive) {
@@ -86,7 +89,8 @@ private:
         }
         primitive.first_triangle = static_cast<int32_t>(first_segment);
         primitive.triangle_count = static_cast<int32_t>(segments_.size() - first_segment);
-        add_colors(primitive, first_point);
+        split_attribute(primitive.color_base, 4, first_point);
+        split_attribute(primitive.normal_base, 3, first_point);
     }
 
     Scene& scene_;

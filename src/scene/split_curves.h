@@ -8,8 +8,8 @@
 
 namespace obscura {
 
-/// Splits every piece of a line whose ends lie on different sides, where `side` is 0. Colours are
-/// interpolated; the new points' radii are for the caller to set.
+/// Splits every piece of a line whose ends lie on different sides, where `side` is 0. Colours and
+/// normals are interpolated; the new points' radii are for the caller to set.
 ///
 /// In   side: linear along every line
 void split_curves(Scene& scene, const std::function<double(const Vec3d& place_m)>& side);

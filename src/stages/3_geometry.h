@@ -65,6 +65,20 @@ OBSCURA_INLINE Lanes rounding_offset(const HitGeometry& g, const Vec3<Lanes> (&p
     return Lanes(32.0f / 16777216.0f) * (dot(abs(g.ng), size) + extent * Lanes(0.25f));
 }
 
+/// The face's normal and area.
+OBSCURA_INLINE void set_face(float scale, const Vec3<Lanes> (&p)[3], HitGeometry& g) {
+    Vec3<Lanes> a = p[1] - p[0];
+    Vec3<Lanes> b = p[2] - p[0];
+    if (scale != 1.0f) {
+        a = a * Lanes(scale);
+        b = b * Lanes(scale);
+    }
+    const Vec3<Lanes> face = cross(a, b);
+    g.ng = normalize(face);
+    g.area2 = length(face);
+    if (scale != 1.0f) g.area2 = g.area2 * Lanes(1.0f / scale) * Lanes(1.0f / scale);
+}
+
 /// What a hit is wanted for: quantities need not know where rays that leave it may start.
 enum class HitUse { look, start_rays };
 
@@ -100,13 +114,12 @@ OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, H
     g.weight[1] = hit.u;
     g.weight[2] = hit.v;
     g.position = weighted(g, p);
-    const Vec3<Lanes> face = cross(p[1] - p[0], p[2] - p[0]);
-    g.ng = normalize(face);
+    set_face(scene.edge_scale, p, g);
     g.normal = g.ng;
     g.smooth_shift = splat3(Lanes(0.0f));
-    g.area2 = length(face);
     const LanesI normal_base = g.primitive.integer(3);
-    const Mask smooth = normal_base != LanesI(no_attribute);
+    Mask smooth = normal_base != LanesI(no_attribute);
+    if (g.has_shapes) smooth = smooth & !g.shapes;
     if (any(smooth)) {
         Vec3<Lanes> n[3];
         for (int k = 0; k < 3; ++k) {

@@ -24,6 +24,7 @@ struct ShapeQuery {
     Mask shapes;        ///< other lanes get anything
     LanesI first, row;  ///< first row of the primitive, row within it
     LanesI geometry;    ///< GeometryKind
+    LanesI normals;     ///< as Primitive::normal_base: points and lines may have them
     LanesI instance;
     Vec3<Lanes> origin, direction;
     Lanes t;
@@ -136,6 +137,47 @@ OBSCURA_INLINE void find_vertices(const ShapeQuery& q,
     out.share = select(curves.lanes, share, out.share);
 }
 
+/// Lets points and lines with normals of their own face where these say, from all sides: as small
+/// pieces of surface through their middle, from which rays start where the round surface ends. A
+/// normal along the line says nothing.
+///
+/// In   s: in the primitive's own space; out: with the vertices
+/// Source  glTF 2.0, Point and Line Materials
+inline __attribute__((noinline)) void turn_strokes(const SceneView& scene,
+                                                   const ShapeQuery& q,
+                                                   const ShapeWords& words,
+                                                   SurfacePoint<Lanes>& s,
+                                                   ShapeLanes& out) {
+    const Mask has_normals = q.shapes & (q.normals != LanesI(no_attribute));
+    const auto normal_of = [&](LanesI vertex) {
+        return gather3(scene.attributes,
+                       select(has_normals, q.normals + vertex * LanesI(3), LanesI(0)));
+    };
+    const Vec3<Lanes> first = normal_of(out.vertex);
+    const Vec3<Lanes> next = normal_of(out.next_vertex);
+    Vec3<Lanes> n = first + (next - first) * out.share;
+    const Lanes size = length(n);
+    Mask turns = has_normals & (size > Lanes(1e-6f));
+    n = n * (Lanes(1.0f) / max(size, Lanes(1e-6f)));
+    Vec3<Lanes> middle{words(1), words(2), words(3)};
+    Lanes radius = words(4);
+    const CurveLanes& curves = words.curves();
+    if (curves.any) {
+        const Capsule<Lanes>& capsule = curves.frame.capsule;
+        const Vec3<Lanes> axis = curves.frame.axes.normal;
+        const Lanes height = capsule.half_height * (out.share + out.share - Lanes(1.0f));
+        middle = select(curves.lanes, curves.frame.centre + axis * height, middle);
+        // The more the normal leans along the line, the further is the way out of it.
+        const Lanes width = length(n - axis * dot(n, axis));
+        const Lanes thickness = capsule.bottom + (capsule.top - capsule.bottom) * out.share;
+        radius = select(curves.lanes, thickness / max(width, Lanes(0.1f)), radius);
+        turns = turns & (!(curves.lanes & (width < Lanes(0.1f))));
+    }
+    s.position = select(turns, middle, s.position);
+    s.normal = select(turns, n, s.normal);
+    out.offset = select(turns, radius, out.offset);
+}
+
 /// The hit point, brought onto the shape, with its normal and parametrisation.
 ///
 /// In      q: rays in world space; at least one lane of q.shapes
@@ -165,6 +207,8 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
     SurfacePoint<Lanes> s = surface_of_shape<Lanes>(words.kind(), words, at);
     find_vertices(q, curves, s.position, out);
     if (curves.any) leave_frame(curves, s);
+    out.offset = Lanes(0.0f);
+    if (any(q.shapes & (q.normals != LanesI(no_attribute)))) turn_strokes(scene, q, words, s, out);
     constexpr float steps = 32.0f / 16777216.0f;
     const Vec3<Lanes> half{words(4), words(5), words(6)};
     const Lanes extent = min(max_component(abs(half)), max_component(abs(s.position)));
@@ -173,7 +217,7 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
     out.dpdu = s.dpdu;
     out.dpdv = s.dpdv;
     out.uv = s.uv;
-    out.offset = s.error * Lanes(4.0f) +
+    out.offset = out.offset + s.error * Lanes(4.0f) +
                  Lanes(steps) * (dot(abs(s.normal), abs(s.position)) + extent * Lanes(0.25f));
     if (curves.any) out.offset = out.offset + curve_slack(curves);
     if (none(instanced)) return;
@@ -208,6 +252,7 @@ OBSCURA_INLINE void shapes_to_world(const SceneView& scene,
                            g.primitive.integer(0),
                            hit.triangle,
                            g.primitive.integer(16),
+                           g.primitive.integer(3),
                            hit.instance,
                            path.origin,
                            path.direction,

@@ -98,6 +98,7 @@ inline bool moves(const MotionView& motion) {
 /// The scene as the stages see it: raw tables, all read by gathers.
 struct SceneView {
     const float* positions = nullptr;
+    float edge_scale = 1;  ///< see scene/edge_scale.h
     const int32_t* indices = nullptr;
     const float* attributes = nullptr;
     const float* shapes = nullptr;   ///< ShapeRow as words; null: the scene has no shapes at all

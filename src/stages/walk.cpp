@@ -181,9 +181,8 @@ void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, 
     rays.time = times_of(in, work.shadows.slot, count, work);
     c.shadow_rays += static_cast<uint64_t>(count);
     if (passes_walls) work.walls.assign(padded_rows, 0);
-    const ShadowQuery query{segment,
-                            passes_walls ? work.walls.data() : nullptr,
-                            cut_away(in, work.shadows.slot, work)};
+    const ShadowQuery query{
+        segment, passes_walls ? work.walls.data() : nullptr, cut_away(in, work.shadows.slot, work)};
     {
         const SumOfTime time(c.seconds.shadow);
         c.refused_rays += static_cast<uint64_t>(

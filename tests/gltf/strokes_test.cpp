@@ -163,6 +163,82 @@ TEST(Strokes, FaultsAreFoundAsInMeshes) {
     EXPECT_EQ(load_tree(builder.finished()).id(), "E-MESH-COUNT");
 }
 
+/// glTF 2.0, Point and Line Materials.
+TEST(Strokes, WithoutNormalsAreNotLit) {
+    const json material = {
+        {"emissiveFactor", {0.25, 0, 0.5}},
+        {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.125, 0.75}}}}};
+    for (const int mode : {0, 3}) {
+        AssetBuilder builder = curve(3, mode);
+        builder.tree["materials"].push_back(material);
+        builder.tree["meshes"][0]["primitives"][0]["material"] = 0;
+        const Scene colored = load_curve(builder);
+        const Primitive& row = colored.primitives[0];
+        const Material& sum = colored.materials[static_cast<size_t>(row.material)];
+        EXPECT_NE(sum.flags & material_unlit, 0U);
+        EXPECT_EQ((std::vector<float>(sum.base_color, sum.base_color + 4)),
+                  (std::vector<float>{1, 1, 1, 0.75F}));
+        const uint32_t vertex = mode == 0 ? 0 : 2;
+        const float red =
+            colored.primitives[0].geometry == static_cast<int32_t>(GeometryKind::curves)
+                ? 0.25F
+                : colored.spheres[sphere_word(size_t{0})] / 8;
+        EXPECT_EQ(attribute_of(colored, row.color_base, vertex, 4),
+                  (std::vector<float>{0.5F * red + 0.25F, 0.125F, 0.125F + 0.5F, 1}));
+
+        builder.tree["meshes"][0]["primitives"][0]["attributes"].erase("COLOR_0");
+        const Scene plain = load_curve(builder);
+        const Material& one = plain.materials[static_cast<size_t>(plain.primitives[0].material)];
+        EXPECT_NE(one.flags & material_unlit, 0U);
+        EXPECT_EQ((std::vector<float>(one.base_color, one.base_color + 4)),
+                  (std::vector<float>{0.75F, 0.25F, 0.625F, 0.75F}));
+        EXPECT_EQ(one.emission[0], 0);
+        EXPECT_EQ(plain.material_numbers[static_cast<size_t>(plain.primitives[0].material)], 0);
+    }
+}
+
+TEST(Strokes, WithNormalsAreLitAndKeepThem) {
+    for (const int mode : {0, 3}) {
+        AssetBuilder builder = curve(3, mode);
+        builder.tree["meshes"][0]["primitives"][0]["attributes"]["NORMAL"] =
+            builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 1, 0, 1, 0, NAN, 0, 0});
+        builder.add_root({{"mesh", 0}, {"rotation", {1, 0, 0, 0}}});
+        const Scene scene = load_curve(builder);
+        ASSERT_EQ(scene.primitives.size(), 2U);
+        const Primitive& own = scene.primitives[0];
+        const Primitive& turned = scene.primitives[1];  // half round about x
+        EXPECT_EQ(scene.materials[static_cast<size_t>(own.material)].flags & material_unlit, 0U);
+        const auto normal = [&](const Primitive& primitive, size_t number) {
+            size_t vertex = number;
+            if (mode != 0)
+                vertex += scene.curve_segments[static_cast<size_t>(primitive.first_triangle)];
+            if (mode == 0) vertex += static_cast<size_t>(primitive.first_triangle);
+            return attribute_of(scene, primitive.normal_base, static_cast<uint32_t>(vertex), 3);
+        };
+        std::vector<float> sums(3);
+        for (size_t i = 0; i < 3; ++i) {
+            const std::vector<float> n = normal(own, i);
+            const std::vector<float> m = normal(turned, i);
+            EXPECT_FLOAT_EQ(m[1], -n[1]);
+            EXPECT_FLOAT_EQ(m[2], -n[2]);
+            for (size_t c = 0; c < 3; ++c)
+                sums[c] += n[c];
+        }
+        EXPECT_EQ(sums, (std::vector<float>{0, 1, 1})) << "what is not finite is 0";
+    }
+}
+
+TEST(Strokes, UnlitMaterialsStayAsTheyAre) {
+    AssetBuilder builder = curve(3, 0);
+    builder.tree["extensionsUsed"] = {"KHR_materials_unlit"};
+    builder.tree["materials"].push_back(
+        {{"emissiveFactor", {1, 1, 1}}, {"extensions", {{"KHR_materials_unlit", json::object()}}}});
+    builder.tree["meshes"][0]["primitives"][0]["material"] = 0;
+    const Scene scene = load_curve(builder);
+    EXPECT_LE(attribute_of(scene, scene.primitives[0].color_base, 0, 4)[0], 0.25F);
+    EXPECT_EQ(attribute_of(scene, scene.primitives[0].color_base, 0, 4)[1], 0.5F);
+}
+
 TEST(Splats, ColourOfTheConstantHarmonic) {
     const std::vector<float> linear = splat_colors({0, 1, -9}, {0.25F}, true);
     EXPECT_NEAR(linear[0], 0.5, 1e-6);

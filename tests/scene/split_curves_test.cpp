@@ -9,13 +9,16 @@
 namespace obscura {
 namespace {
 
-/// A strip from x = -1 over 3 to 4, behind it a single piece from 10 to 11; red is the x.
+/// A strip from x = -1 over 3 to 4, behind it a single piece from 10 to 11; red and the
+/// normal are the x.
 Scene two_lines() {
     Scene scene;
     for (const float x : {-1.0F, 3.0F, 4.0F, 10.0F, 11.0F}) {
         scene.curve_points.insert(scene.curve_points.end(), {x, 0, 0, 0});
         scene.attributes.insert(scene.attributes.end(), {x, 1, 1, 1});
     }
+    for (const float x : {-1.0F, 3.0F, 4.0F, 10.0F, 11.0F})
+        scene.attributes.insert(scene.attributes.end(), {x, 2, 3});  // a normal
     scene.curve_segments = {0, 1, 3};
     for (const int32_t first : {0, 2}) {
         Primitive primitive;
@@ -23,6 +26,7 @@ Scene two_lines() {
         primitive.first_triangle = first;
         primitive.triangle_count = first == 0 ? 2 : 1;
         primitive.color_base = 0;
+        primitive.normal_base = 20;
         scene.primitives.push_back(primitive);
     }
     scene.materials.emplace_back();
@@ -49,6 +53,10 @@ TEST(SplitCurves, APieceThatPassesThePlaneBecomesTwo) {
             const uint32_t from = scene.curve_segments[row];
             EXPECT_EQ(red_of(scene, primitive, from), scene.curve_points[size_t{from} * 4]);
             EXPECT_EQ(red_of(scene, primitive, from + 1), scene.curve_points[size_t{from} * 4 + 4]);
+            const auto normal =
+                static_cast<size_t>(primitive.normal_base + static_cast<int32_t>(from) * 3);
+            EXPECT_EQ(scene.attributes[normal], scene.curve_points[size_t{from} * 4]);
+            EXPECT_EQ(scene.attributes[normal + 2], 3);
         }
     }
 }

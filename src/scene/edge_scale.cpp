@@ -1,0 +1,30 @@
+// scene/edge_scale.cpp - the unit in which edges of tiny and huge scenes are multiplied.
+// SPDX-License-Identifier: Apache-2.0
+#include "scene/edge_scale.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+template <typename Floats>
+float farthest(const Floats& coordinates, float out) {
+    for (const float x : coordinates)
+        out = std::max(out, std::fabs(x));
+    return out;
+}
+
+}  // namespace
+
+float edge_scale(const Scene& scene) {
+    constexpr float least = 1e-3f;
+    constexpr float most = 1e6f;
+    const float reach = farthest(scene.motion.positions, farthest(scene.positions, 0.0f));
+    if (reach == 0.0f || (reach >= least && reach <= most)) return 1.0f;
+    const int wanted = reach > most ? std::ilogb(most) : 0;
+    return std::ldexp(1.0f, wanted - std::ilogb(reach));
+}
+
+}  // namespace obscura
