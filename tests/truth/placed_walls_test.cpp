@@ -1,0 +1,132 @@
+// tests/truth/placed_walls_test.cpp - thin walls that are instances or move, and measured lamps.
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "support/wall_scenes.h"
+
+namespace obscura::test {
+namespace {
+
+/// A level pane at a height of 2, under which the floor is lit by `light`.
+WallScene under_pane(const PunctualLight& light) {
+    WallScene scene;
+    scene.light(light);
+    scene.pane(2, scene.add(glass_material(), glass_layers()));
+    return scene;
+}
+
+Affinef placing(const Vec3f& scale, const Vec3f& to) {
+    Affinef out;
+    const float s[3] = {scale.x, scale.y, scale.z};
+    const float t[3] = {to.x, to.y, to.z};
+    for (int r = 0; r < 3; ++r) {
+        out.m[r][r] = s[r];
+        out.m[r][3] = t[r];
+    }
+    return out;
+}
+
+/// The scene's last primitive as an instance at evenly spaced times; one: it stands still.
+Scene with_placed_pane(const PunctualLight& light, const std::vector<Affinef>& places) {
+    Scene scene = under_pane(light).take();
+    scene.world_primitive_count = 1;
+    scene.meshes.push_back({1, 1});
+    Instance instance;
+    instance.world_from_object = places[0];
+    instance.object_from_world = inverse(places[0]);
+    instance.mirrored = determinant(places[0]) < 0 ? 1 : 0;
+    if (places.size() > 1) {
+        instance.motion = 0;
+        scene.motion.steps = static_cast<int32_t>(places.size());
+        scene.motion.instances = places;
+    }
+    scene.instances.push_back(instance);
+    return scene;
+}
+
+const Affinef there;
+
+TEST(PlacedWalls, InstancesLetPassWhatTheMeshDoes) {
+    for (const PunctualLight& light : {lamp_at({6, 8, 0}), slanting_sun()}) {
+        const double expected = floor_value(under_pane(light).take());
+        ASSERT_GT(expected, 0.01);
+        for (const Affinef& place : {there,
+                                     placing({2, 1, 3}, {0, 1, 0}),
+                                     placing({1, -1, 1}, {0, 4.5f, 0}),
+                                     placing({-0.5f, 1, 1}, {0, -0.5f, 0})}) {
+            for (const Integrator i : {Integrator::path, Integrator::raycast}) {
+                WallView view;
+                view.integrator = i;
+                EXPECT_NEAR(
+                    floor_value(with_placed_pane(light, {place}), view), expected, 1e-5 * expected);
+            }
+        }
+    }
+}
+
+/// A pane that rises lets pass as much at any height; one that turns does so at its own angle.
+TEST(PlacedWalls, MovingOnesDoSoAtEveryTime) {
+    const PunctualLight light = slanting_sun();
+    const double expected = floor_value(under_pane(light).take());
+    const std::vector<Affinef> rising = {
+        there, placing({1, 1, 1}, {0, 1, 0}), placing({1, 1, 1}, {3, 5, 0})};
+    EXPECT_NEAR(
+        floor_value(with_placed_pane(light, rising), {.samples = 64}), expected, 1e-5 * expected);
+
+    // Sheared from level towards (0, 1, -s): the sun stands in the plane x y, so that only the
+    // normal's length and its y count.
+    Affinef sheared;
+    sheared.m[1][2] = 1;
+    const double open = [&] {
+        WallScene scene;
+        scene.light(light);
+        return floor_value(scene.take());
+    }();
+    double mean = 0;
+    constexpr int parts = 1000;
+    for (int i = 0; i < parts; ++i) {
+        const double s = (i + 0.5) / parts;
+        mean += pane_lets_pass(0.8 / std::hypot(1, s)) / parts;
+    }
+    EXPECT_NEAR(floor_value(with_placed_pane(light, {there, sheared}), {.samples = 1024}) / open,
+                mean,
+                2e-4);
+}
+
+/// Half of the time the pane is where the light does not come through it.
+TEST(PlacedWalls, ThoseThatComeAndGoCountForTheirTime) {
+    const PunctualLight light = slanting_sun();
+    const double covered = floor_value(under_pane(light).take());
+    const double open = covered / pane_lets_pass(0.8);
+    // At height 2 the floor's light comes by x = 1.5, where the pane's edge is at one half.
+    const std::vector<Affinef> leaving = {there, placing({1, 1, 1}, {203, 0, 0})};
+    EXPECT_NEAR(floor_value(with_placed_pane(light, leaving), {.samples = 4096}),
+                0.5 * (covered + open),
+                2e-3 * open);
+}
+
+TEST(PlacedWalls, MeasuredLampsShineThroughThem) {
+    PunctualLight lamp = lamp_at({3, 4, 0});
+    lamp.profile = 0;
+    lamp.direction[0] = 0;
+    lamp.direction[1] = -1;
+    lamp.direction[2] = 0;
+    LightProfile profile;  // brighter aside than below
+    profile.polar_deg = {0, 90};
+    profile.azimuth_deg = {0, 360};
+    profile.candela = {100, 1000, 100, 1000};
+    const auto lit = [&](bool pane) {
+        WallScene walls;
+        walls.light(lamp);
+        if (pane) walls.pane(2, walls.add(glass_material(), glass_layers()));
+        Scene scene = walls.take();
+        scene.light_profiles = {profile};
+        return floor_value(scene);
+    };
+    const double open = lit(false);
+    ASSERT_GT(open, 0.1);
+    EXPECT_NEAR(lit(true) / open, pane_lets_pass(0.8), 1e-5);
+}
+
+}  // namespace
+}  // namespace obscura::test
