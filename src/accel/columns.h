@@ -32,19 +32,27 @@ struct SceneRows {
 /// A camera ray that looked through the back of a single-sided surface.
 struct PassedBack {
     int row = 0;  ///< of the ray
+    float t = 0;  ///< how far away the back is
     SceneRows surface;
 };
 
-/// Faces that are not there for a ray: those of one surface whose backs face the eye.
+/// Faces that are not there for a path: those of one surface whose backs face the eye.
+struct CutFaces {
+    SceneRows surface;
+    float eye[4] = {0, 0, 0, 1};  ///< homogeneous: w is 0 where the view is parallel
+};
+
+/// What is cut away for rays.
 struct Cutaway {
-    const SceneRows* surface = nullptr;  ///< by slot
-    const uint32_t* slot = nullptr;      ///< by row of the rays
-    float eye[4] = {0, 0, 0, 1};         ///< homogeneous: w is 0 where the view is parallel
+    const CutFaces* faces = nullptr;  ///< by slot
+    const uint32_t* slot = nullptr;   ///< by row of the rays
+
+    const CutFaces& of(int row) const { return faces[slot[row]]; }
 };
 
 /// Whether anything is cut away for the row's ray.
 inline bool cuts(const Cutaway& cutaway, int row) {
-    return cutaway.surface[cutaway.slot[row]].primitive >= 0;
+    return cutaway.of(row).surface.primitive >= 0;
 }
 
 /// Hits as columns, padded like the rays: whole blocks are written. primitive -1 is a miss; the

@@ -36,6 +36,13 @@ bool load_part(const RayColumns& rays, int first, const ValidMask& valid, RTCRay
     return true;
 }
 
+/// Planes without end may lie before backs: these were not looked through.
+void forget_unseen_backs(const HitColumns& hits, std::vector<PassedBack>& backs) {
+    std::erase_if(backs, [&](const PassedBack& back) {
+        return hits.primitive[back.row] >= 0 && hits.t[back.row] < back.t;
+    });
+}
+
 /// What became of loading 16 rows.
 struct Loaded {
     int refused = 0;
@@ -113,6 +120,9 @@ int Accel::intersect(const RayColumns& rays,
         for (int i = 0; i < packet; ++i) {
             if (valid.lane[i] != 0) meet_endless_planes(*impl_, context, rays, hits, first + i);
         }
+    }
+    if (see_through.passed_backs != nullptr && !impl_->endless_planes.empty()) {
+        forget_unseen_backs(hits, *see_through.passed_backs);
     }
     return refused;
 }

@@ -20,14 +20,19 @@ void append(const RayColumns& rays, int row, uint32_t segment, RecordedRays& out
     out.key.push_back(rays.key != nullptr ? segment_key(rays.key[row], segment) : 0U);
 }
 
+void note_answer(bool hit, const Cutaway* cutaway, int row, RecordedRays& out) {
+    out.hits += hit ? 1 : 0;
+    out.spared += !hit && cutaway != nullptr && cuts(*cutaway, row) ? 1 : 0;
+}
+
 void append_hits(const RayColumns& rays,
                  const HitColumns& hits,
-                 uint32_t segment,
+                 const SeeThrough& see_through,
                  RecordedRays& out) {
     for (int row = 0; row < rays.count; ++row) {
         if (!is_safe(rays, row)) continue;
-        append(rays, row, segment, out);
-        out.hits += hits.primitive[row] >= 0 ? 1 : 0;
+        append(rays, row, see_through.segment, out);
+        note_answer(hits.primitive[row] >= 0, see_through.cutaway, row, out);
     }
 }
 
@@ -41,13 +46,13 @@ RayColumns RecordedRays::columns() const {
 void RayRecorder::add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through) {
     fixed_alpha_ = see_through.fixed_alpha;
     const RayKind kind = see_through.segment == 0 ? RayKind::camera : RayKind::bounce;
-    append_hits(rays, hits, see_through.segment, list(kind));
+    append_hits(rays, hits, see_through, list(kind));
 }
 
 void RayRecorder::add_shadow_hits(const RayColumns& rays,
                                   const HitColumns& hits,
                                   SeeThrough see_through) {
-    append_hits(rays, hits, see_through.segment, shadow_hits_);
+    append_hits(rays, hits, see_through, shadow_hits_);
 }
 
 void RayRecorder::add_shadows(const RayColumns& rays,
@@ -58,9 +63,7 @@ void RayRecorder::add_shadows(const RayColumns& rays,
     for (int row = 0; row < rays.count; ++row) {
         if (!is_safe(rays, row)) continue;
         append(rays, row, query.segment, out);
-        const bool arrives = occluded[row] == 0;
-        out.hits += arrives ? 0 : 1;
-        out.spared += arrives && query.cutaway != nullptr && cuts(*query.cutaway, row) ? 1 : 0;
+        note_answer(occluded[row] != 0, query.cutaway, row, out);
     }
 }
 
@@ -75,8 +78,10 @@ uint64_t RayRecording::count(RayKind kind) const {
 
 uint64_t RayRecording::spared(RayKind kind) const {
     uint64_t sum = 0;
-    for (const auto& thread : threads)
+    for (const auto& thread : threads) {
         sum += thread->rays(kind).spared;
+        if (kind == RayKind::shadow) sum += thread->shadow_hits().spared;
+    }
     return sum;
 }
 

@@ -54,8 +54,8 @@ struct RayRecording {
     std::vector<std::unique_ptr<RayRecorder>> threads;
 
     uint64_t count(RayKind kind) const;
-    uint64_t hits(RayKind kind) const;  ///< as the renderer found them
-    uint64_t spared(RayKind kind) const;
+    uint64_t hits(RayKind kind) const;    ///< as the renderer found them
+    uint64_t spared(RayKind kind) const;  ///< see RecordedRays
 };
 
 /// How Embree is asked: one ray a call, or packets of 16 with one flag or the other.

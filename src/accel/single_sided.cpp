@@ -51,7 +51,7 @@ struct FaceContext {
     const Accel::Impl* impl;
     TimedDirection direction;
     Vec3f origin{0, 0, 0};
-    SceneRows cut_away;  ///< surface of which faces are cut away
+    CutFaces cut = {};
 };
 
 /// What a filter function is asked about.
@@ -86,11 +86,11 @@ bool is_same(const SceneRows& a, const SceneRows& b) {
 /// Embree filter function: faces of the one surface whose backs face the eye do not count.
 void drop_cutaway(const RTCFilterFunctionNArguments* args) {
     const auto& context = *reinterpret_cast<const FaceContext*>(args->context);
-    const float* eye = context.common.cutaway->eye;
+    const float* eye = context.cut.eye;
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const Candidate c = candidate(args, *context.impl, i);
-        if (!is_same(c.rows, context.cut_away)) continue;
+        if (!is_same(c.rows, context.cut.surface)) continue;
         const float t = RTCRayN_tfar(args->ray, args->N, i);
         const Vec3f met = context.origin + context.direction.world * t;
         const Vec3f view = met * eye[3] - Vec3f{eye[0], eye[1], eye[2]};
@@ -104,11 +104,9 @@ FaceContext face_context(const Accel::Impl& impl,
                          const QueryContext& common,
                          const RayColumns& rays,
                          int row) {
-    FaceContext context{common, &impl, direction_of(rays, row), {}, {}};
+    FaceContext context{common, &impl, direction_of(rays, row)};
     context.origin = {rays.ox[row], rays.oy[row], rays.oz[row]};
-    if (common.cutaway != nullptr) {
-        context.cut_away = common.cutaway->surface[common.cutaway->slot[row]];
-    }
+    if (common.cutaway != nullptr) context.cut = common.cutaway->of(row);
     return context;
 }
 
@@ -128,7 +126,8 @@ void ask_again(FaceContext& context,
     store_hit(*context.impl, ray, columns.hits, row);
 }
 
-/// True where faces of a surface may be cut away: not of what light sampling knows.
+/// True where faces of a surface may be cut away: not where light sampling may choose places on
+/// them. Analytic shapes answer themselves which of their hits count, and ask no filter.
 bool may_be_cut(const Scene& scene, const SceneRows& rows) {
     const Primitive& primitive = scene.primitives[static_cast<size_t>(rows.primitive)];
     const float* emission = scene.materials[static_cast<size_t>(primitive.material)].emission;
@@ -164,11 +163,11 @@ void pass_hidden_backs(const Accel::Impl& impl,
         if (rows.primitive < 0) continue;
         const Vec3f ng{hit.Ng_x[i], hit.Ng_y[i], hit.Ng_z[i]};
         if (!is_hidden_back(impl, rows, ng, direction_of(columns.rays, row))) continue;
+        if (context.passed_backs != nullptr && may_be_cut(*impl.scene, rows)) {
+            context.passed_backs->push_back({row, columns.hits.t[row], rows});
+        }
         FaceContext again = face_context(impl, context, columns.rays, row);
         ask_again(again, drop_hidden_backs, row, columns);
-        if (context.passed_backs != nullptr && may_be_cut(*impl.scene, rows)) {
-            context.passed_backs->push_back({row, rows});
-        }
     }
 }
 
@@ -177,8 +176,7 @@ void pass_cutaway(const Accel::Impl& impl,
                   int row,
                   const RaysAndHits& columns) {
     const SceneRows met{columns.hits.instance[row], columns.hits.primitive[row]};
-    const SceneRows& cut = context.cutaway->surface[context.cutaway->slot[row]];
-    if (met.primitive < 0 || !is_same(met, cut)) return;
+    if (met.primitive < 0 || !is_same(met, context.cutaway->of(row).surface)) return;
     FaceContext again = face_context(impl, context, columns.rays, row);
     ask_again(again, drop_cutaway, row, columns);
 }

@@ -87,21 +87,36 @@ MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets
     return choice;
 }
 
+namespace {
+
+/// Base colour plus emission, without light; white where the vertices hold that sum.
+void make_unlit(bool has_colors, Material& values) {
+    values.flags |= material_unlit;
+    for (int c = 0; c < 3; ++c) {
+        values.base_color[c] = has_colors ? 1.0f : values.base_color[c] + values.emission[c];
+        values.emission[c] = 0;
+    }
+}
+
+}  // namespace
+
 MaterialChoice stroke_material_row(MaterialTable& table, int material, const StrokeLook& look) {
     MaterialChoice choice = material_row(table, material, 0);
-    Material values = table.rows[static_cast<size_t>(choice.row)];
-    if (look.has_normals || (values.flags & material_unlit) != 0) return choice;
-    const auto [entry, is_new] =
-        table.unlit.try_emplace({choice.row, look.has_colors}, static_cast<int>(table.rows.size()));
+    const auto plain = static_cast<size_t>(choice.row);
+    if ((table.rows[plain].flags & material_unlit) != 0) return choice;
+    const auto [entry, is_new] = table.strokes.try_emplace(
+        {choice.row, look.has_normals, look.has_colors}, static_cast<int>(table.rows.size()));
     if (is_new) {
-        values.flags |= material_unlit;
-        for (int c = 0; c < 3; ++c) {
-            values.base_color[c] =
-                look.has_colors ? 1.0f : values.base_color[c] + values.emission[c];
-            values.emission[c] = 0;
+        Material values = table.rows[plain];
+        MaterialLayers layers = table.layers[plain];
+        if (look.has_normals) {
+            values.flags |= material_double_sided;
+            layers.medium = 0;
+        } else {
+            make_unlit(look.has_colors, values);
         }
-        const int row = add_copy(table, choice.row, values, {});
-        table.layered[static_cast<size_t>(row)] = 0;
+        const int row = add_copy(table, choice.row, values, layers);
+        if (!look.has_normals) table.layered[static_cast<size_t>(row)] = 0;
     }
     choice.row = entry->second;
     table.used[static_cast<size_t>(choice.row)] = 1;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -42,8 +43,8 @@ struct MaterialTable {
     std::vector<char> used;        ///< by a primitive that is drawn
     /// Row of (glTF material, bit mask of the slots taken away).
     std::map<std::pair<int, uint32_t>, int> reduced;
-    /// Row of (row, whether the vertices have colours) of points and lines without normals.
-    std::map<std::pair<int, bool>, int> unlit;
+    /// Row of (row, look) of points and lines.
+    std::map<std::tuple<int, bool, bool>, int> strokes;
 };
 
 /// Row 0 is the default material, row m + 1 is glTF material m.
@@ -71,7 +72,8 @@ struct StrokeLook {
 
 /// The row for points or lines, which have no textures. Without normals they are not lit: their
 /// radiance is base colour plus emission. With colours the sum is in the vertices, see
-/// sum_colors, and the row is white.
+/// sum_colors, and the row is white. With normals they are pieces of surface, without an inside,
+/// that are alike on both sides.
 /// Source  glTF 2.0, Point and Line Materials
 MaterialChoice stroke_material_row(MaterialTable& table, int material, const StrokeLook& look);
 

@@ -73,26 +73,31 @@ void intersect_rays(const WalkInput& in,
     if (in.recorder != nullptr) in.recorder->add_hits(rays, hits, see_through);
 }
 
-/// Notes by slot what the camera's rays looked through; before they are shaded, row i is slot i.
-void note_passed_backs(Workspace& work) {
-    for (const PassedBack& back : work.passed_backs)
-        work.cut_surface[static_cast<size_t>(back.row)] = back.surface;
+/// Notes by slot what the camera's rays looked through, and from where: before they are shaded, row
+/// i is slot i.
+void note_passed_backs(const WalkInput& in, Workspace& work) {
+    const PathRows& p = work.paths[0];
+    const bool parallel = in.batch.camera.model == CameraModel::orthographic;
+    for (const PassedBack& back : work.passed_backs) {
+        const auto i = static_cast<size_t>(back.row);
+        if (parallel) {
+            work.cut_faces[i] = {back.surface, {-p.dx[i], -p.dy[i], -p.dz[i], 0.0f}};
+        } else {
+            work.cut_faces[i] = {back.surface, {p.ox[i], p.oy[i], p.oz[i], 1.0f}};
+        }
+    }
 }
 
 void forget_passed_backs(Workspace& work) {
     for (const PassedBack& back : work.passed_backs)
-        work.cut_surface[static_cast<size_t>(back.row)] = {};
+        work.cut_faces[static_cast<size_t>(back.row)] = {};
     work.passed_backs.clear();
 }
 
 /// What is cut away for all rays of a path but the first; null: nothing, for any path.
-const Cutaway* cut_away(const WalkInput& in, const uint32_t* slot, Workspace& work) {
+const Cutaway* cut_away(const uint32_t* slot, Workspace& work) {
     if (work.passed_backs.empty()) return nullptr;
-    const Affinef& world_from_camera = in.batch.camera.world_from_camera;
-    const bool parallel = in.batch.camera.model == CameraModel::orthographic;
-    const Vec3f eye = parallel ? transform_vector(world_from_camera, {0.0f, 0.0f, 1.0f})
-                               : transform_point(world_from_camera, {0.0f, 0.0f, 0.0f});
-    work.cutaway = {work.cut_surface.data(), slot, {eye.x, eye.y, eye.z, parallel ? 0.0f : 1.0f}};
+    work.cutaway = {work.cut_faces.data(), slot};
     return &work.cutaway;
 }
 
@@ -134,7 +139,7 @@ void scatter_in_bodies(
         if (walkers == 0) return;
         RayColumns rays = rays_of(rows.walkers, walkers);
         rays.time = times_of(in, rows.walkers.slot, walkers, work);
-        see_through.cutaway = cut_away(in, rows.walkers.slot, work);
+        see_through.cutaway = cut_away(rows.walkers.slot, work);
         intersect_rays(in, rays, rows.walker_hits, see_through, c);
     }
 }
@@ -151,7 +156,7 @@ void cross_walls(
         if (raycast) rays.key = nullptr;
         rays.time = times_of(in, work.shadows.slot, waiting, work);
         const SeeThrough see_through{
-            false, raycast, segment, nullptr, cut_away(in, work.shadows.slot, work)};
+            false, raycast, segment, nullptr, cut_away(work.shadows.slot, work)};
         c.shadow_rays += static_cast<uint64_t>(waiting);
         {
             const SumOfTime timing(c.seconds.shadow);
@@ -182,7 +187,7 @@ void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, 
     c.shadow_rays += static_cast<uint64_t>(count);
     if (passes_walls) work.walls.assign(padded_rows, 0);
     const ShadowQuery query{
-        segment, passes_walls ? work.walls.data() : nullptr, cut_away(in, work.shadows.slot, work)};
+        segment, passes_walls ? work.walls.data() : nullptr, cut_away(work.shadows.slot, work)};
     {
         const SumOfTime time(c.seconds.shadow);
         c.refused_rays += static_cast<uint64_t>(
@@ -218,9 +223,9 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
     for (int bounce = 0; count > 0 && bounce < segments; ++bounce) {
         SeeThrough see_through{bounce == 0, false, 2U * static_cast<uint32_t>(bounce)};
         if (bounce == 0) see_through.passed_backs = &work.passed_backs;
-        if (bounce > 0) see_through.cutaway = cut_away(in, work.paths[0].slot, work);
+        if (bounce > 0) see_through.cutaway = cut_away(work.paths[0].slot, work);
         intersect(in, count, see_through, work, c);
-        if (bounce == 0) note_passed_backs(work);
+        if (bounce == 0) note_passed_backs(in, work);
         if (in.scene.scatters) scatter_in_bodies(in, count, bounce, work, c);
         ShadeCounts out;
         {
@@ -235,7 +240,7 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
 
 void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     intersect(in, count, {true, false, 0, &work.passed_backs}, work, c);
-    note_passed_backs(work);
+    note_passed_backs(in, work);
     int shadows = 0;
     {
         const SumOfTime time(c.seconds.shade);
@@ -249,7 +254,7 @@ void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
 void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     constexpr int most_lights = batch_rows / 16;
     intersect(in, count, {true, true, 0, &work.passed_backs}, work, c);
-    note_passed_backs(work);
+    note_passed_backs(in, work);
     int hits = 0;
     {
         const SumOfTime time(c.seconds.shade);
@@ -328,7 +333,7 @@ Workspace::Workspace() {
     camera_length_m.resize(padded_rows);
     slot_time.resize(padded_rows);
     ray_time.resize(padded_rows);
-    cut_surface.resize(padded_rows);
+    cut_faces.resize(padded_rows);
 }
 
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {

@@ -48,7 +48,7 @@ public:
     std::vector<float> slot_time;          ///< where something moves; see 1_shutter.h
     std::vector<float> ray_time;           ///< the same, by row of the rays to be asked
     std::vector<PassedBack> passed_backs;  ///< of this batch's camera rays
-    std::vector<SceneRows> cut_surface;    ///< the same by slot, else nothing
+    std::vector<CutFaces> cut_faces;       ///< the same by slot, else nothing
     Cutaway cutaway;                       ///< of the rays that are asked now
     std::vector<float> camera_length_m;    ///< how far camera rays may go; for cameras that say it
 

@@ -146,6 +146,33 @@ TEST(MeasureView, StopsOnRequest) {
     EXPECT_EQ(view.error().id, "E-STOPPED");
 }
 
+/// What is cut away for the rendering's shadow rays, the replay meets: also behind panes.
+TEST(MeasureView, CutAwayFacesAreNoReasonForDoubt) {
+    for (const bool pane : {false, true}) {
+        WallScene walls;
+        walls.light(slanting_sun());
+        if (pane) walls.pane(1, walls.add(glass_material(), glass_layers()), 3);
+        Material white;
+        white.metallic = 0;
+        walls.builder.quad({-4, 2, -4}, {8, 0, 0}, {0, 0, 8}, walls.builder.material(white));
+        Log silent(Verbosity::quiet);
+        const auto scene = PreparedScene::create(walls.take(), {}, Isa::automatic, silent);
+        ASSERT_TRUE(scene);
+        ViewTask task;
+        task.scene = &*scene;
+        task.camera = look_at({0, 8, 0}, {0, 0, 0}, 0.2f, 48, 32);
+        task.options = some_options();
+        task.repeat = 1;
+        task.threads = 1;
+        const Result<ViewFigures> view = measure_view(task, never_stop);
+        ASSERT_TRUE(view);
+        const KindFigures& shadow = view->kinds[static_cast<size_t>(RayKind::shadow)];
+        EXPECT_GT(shadow.spared, 100U);
+        EXPECT_GT(shadow.bare_hits, shadow.hits + 100) << "the replay knows no cutting away";
+        EXPECT_TRUE(doubts_about(*view).empty()) << doubts_about(*view)[0];
+    }
+}
+
 TEST(MeasureView, DoubtsHitsThatDiffer) {
     ViewFigures view;
     view.kinds[1] = {1000, 500, 500, 0, ReplayWay::single, {}, 0};

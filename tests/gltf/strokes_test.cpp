@@ -207,7 +207,9 @@ TEST(Strokes, WithNormalsAreLitAndKeepThem) {
         ASSERT_EQ(scene.primitives.size(), 2U);
         const Primitive& own = scene.primitives[0];
         const Primitive& turned = scene.primitives[1];  // half round about x
-        EXPECT_EQ(scene.materials[static_cast<size_t>(own.material)].flags & material_unlit, 0U);
+        const uint32_t flags = scene.materials[static_cast<size_t>(own.material)].flags;
+        EXPECT_EQ(flags & material_unlit, 0U);
+        EXPECT_NE(flags & material_double_sided, 0U) << "alike from both sides";
         const auto normal = [&](const Primitive& primitive, size_t number) {
             size_t vertex = number;
             if (mode != 0)
@@ -226,6 +228,29 @@ TEST(Strokes, WithNormalsAreLitAndKeepThem) {
         }
         EXPECT_EQ(sums, (std::vector<float>{0, 1, 1})) << "what is not finite is 0";
     }
+}
+
+/// A piece of surface has no inside.
+TEST(Strokes, WithNormalsAreNoBodies) {
+    AssetBuilder builder = curve(2, 0);
+    builder.tree["extensionsUsed"] = {"KHR_materials_volume", "KHR_materials_transmission"};
+    builder.tree["materials"].push_back(
+        {{"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 1}}},
+           {"KHR_materials_volume",
+            {{"thicknessFactor", 1},
+             {"attenuationDistance", 1},
+             {"attenuationColor", {0, 1, 0}}}}}}});
+    json& primitive = builder.tree["meshes"][0]["primitives"][0];
+    primitive["material"] = 0;
+    primitive["attributes"]["NORMAL"] =
+        builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 1, 0, 0, 1});
+    const Scene scene = load_curve(builder);
+    const Material& m = scene.materials[static_cast<size_t>(scene.primitives[0].material)];
+    ASSERT_GE(m.layers, 0);
+    const MaterialLayers& layers = scene.layers[static_cast<size_t>(m.layers)];
+    EXPECT_EQ(layers.transmission, 1);
+    EXPECT_EQ(layers.medium, 0);
 }
 
 TEST(Strokes, UnlitMaterialsStayAsTheyAre) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include "support/shape_scenes.h"
 #include "support/wall_scenes.h"
 #include <functional>
 #include <string>
@@ -27,6 +28,8 @@ struct View {
     Integrator integrator = Integrator::path;
     float sky = 1;
     bool parallel = false;
+    float lens_radius_m = 0;
+    std::vector<Affined> moving_camera = {};
     int strategies = sample_lights | sample_bsdfs;
     int samples = 16;
 };
@@ -40,6 +43,7 @@ Film from_above(Scene scene, const View& view) {
     options.samples_per_pixel = view.samples;
     options.max_bounces = view.bounces;
     options.ao_distance_m = 1;
+    options.moving_camera = view.moving_camera;
     options.integrator = view.integrator;
     options.strategies = view.strategies;
     LightingOptions lighting;
@@ -48,6 +52,14 @@ Film from_above(Scene scene, const View& view) {
     if (view.parallel) {
         camera.model = CameraModel::orthographic;
         camera.orthographic.half_width_m = camera.orthographic.half_height_m = 0.9f;
+    }
+    if (!view.moving_camera.empty()) {
+        camera.world_from_camera = affine_cast<float>(view.moving_camera[0]);
+    }
+    if (view.lens_radius_m > 0) {
+        camera.model = CameraModel::thin_lens;
+        camera.thin_lens.aperture.radius_m = view.lens_radius_m;
+        camera.thin_lens.inverse_focus = 1.0f / 20;
     }
     return render_scene(std::move(scene), lighting, camera, options).film;
 }
@@ -137,6 +149,94 @@ TEST(Cutaway, AMovingRoofIsCutAwayAsFarAsItsOwnTimeGoes) {
     const View view{.bounces = 2};
     expect_equal(
         from_above(with_instance(moving), view), from_above(with_instance(far), view), "moving");
+}
+
+/// Every path has faces of its own: those that did not look through the roof find it solid.
+TEST(Cutaway, PathsBesideTheRoofAreInItsShadow) {
+    const auto half_a_roof = [](uint32_t flags) {
+        return floor_with([&](WallScene& s) {
+            Material m = plaster();
+            m.flags |= flags;
+            s.builder.quad({-5, 0.3f, -5}, {5, 0, 0}, {0, 0, 10}, s.builder.material(m));
+        });
+    };
+    for (const int bounces : {0, 3}) {
+        const View view{.bounces = bounces, .parallel = true};
+        const Film cut = from_above(half_a_roof(0), view);
+        const Film open = from_above(floor_with([](WallScene&) {}), view);
+        const Film solid = from_above(half_a_roof(material_double_sided), view);
+        size_t shaded = 0;
+        for (size_t i = 0; i < cut.pixels.size(); ++i) {
+            const bool through = i / 4 % size >= size / 2;  // x grows to the left
+            ASSERT_EQ(cut.pixels[i], through ? open.pixels[i] : solid.pixels[i]) << i;
+            shaded += !through && solid.pixels[i] < open.pixels[i] ? 1 : 0;
+        }
+        EXPECT_GT(shaded, 100U);
+    }
+}
+
+/// The roof's plane passes between the places that the eye has: each path goes by its own.
+TEST(Cutaway, EachPathHasItsOwnEye) {
+    const auto build = [](bool roofed) {
+        return floor_with([&](WallScene& s) {
+            // Standing, its front away from x = 0: looked through by rays from the left alone.
+            const int32_t row = s.builder.material(plaster());
+            if (roofed) s.builder.quad({0, 0.05f, -9}, {0, 9, 0}, {0, 0, 18}, row);
+        });
+    };
+    // The camera goes past the plane of the wall.
+    const Camera above = look_at({0, 20, 0}, {0, 0, 0}, 0.09f, size, size);
+    const auto at = [&](double x) {
+        Affined out = affine_cast<double>(above.world_from_camera);
+        out.m[0][3] = x;
+        return out;
+    };
+    const auto mean = [&](bool roofed, const std::vector<Affined>& way, float lens) {
+        const View view{.lens_radius_m = lens, .moving_camera = way, .samples = 256};
+        return film_mean(from_above(build(roofed), view)).value;
+    };
+    const double there = mean(true, {at(-2), at(2)}, 0);
+    const double back = mean(true, {at(2), at(-2)}, 0);
+    EXPECT_NEAR(there, back, 0.01 * there) << "the same places in the other order";
+    EXPECT_LT(there, 0.99 * mean(false, {at(-2), at(2)}, 0));
+}
+
+/// A lens under which the roof is small sees through it everywhere.
+TEST(Cutaway, LensesLookThroughToo) {
+    const View view{.lens_radius_m = 0.5f};
+    const Scene roofed =
+        floor_with([](WallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
+    expect_equal(from_above(roofed, view), from_above(floor_with([](WallScene&) {}), view), "lens");
+}
+
+/// What a plane without end hides was not looked through: a slanting sheet that faces down gives
+/// the same shadow whether it ends at the plane or goes on below.
+TEST(Cutaway, BacksBehindPlanesWithoutEndStay) {
+    const auto build = [](bool goes_on) {
+        SceneBuilder builder;
+        const int32_t row = builder.material(plaster());
+        const float low = goes_on ? -1.0f : 0.0f;
+        builder.quad({5, low, -0.5f * low}, {-10, 0, 0}, {0, 0.2f - low, 0.5f * low - 0.1f}, row);
+        Scene scene = builder.take();
+        add_shape(scene, make_shape(ShapeKind::plane, unbounded, unbounded), row);
+        PunctualLight sun = slanting_sun();  // the shadow falls on what lies over the lower part
+        sun.direction[0] = 0;
+        sun.direction[1] = -0.6f;
+        sun.direction[2] = 0.8f;
+        scene.lights = {sun};
+        return scene;
+    };
+    const View view{.integrator = Integrator::raycast, .sky = 0};
+    const Film one = from_above(build(true), view);
+    const Film other = from_above(build(false), view);
+    size_t dark = 0;
+    size_t different = 0;
+    for (size_t i = 0; i < one.pixels.size(); i += 4) {
+        dark += other.pixels[i] == 0 ? 1 : 0;
+        different += std::fabs(one.pixels[i] - other.pixels[i]) > 1e-3f ? 1 : 0;
+    }
+    EXPECT_GT(dark, size * size / 20);
+    EXPECT_LE(different, size);
 }
 
 TEST(Cutaway, ARoofOverTheCameraGivesShadow) {
