@@ -75,6 +75,34 @@ inline Affined raised(double height) {
     return out;
 }
 
+inline Affinef placing(const Vec3f& scale, const Vec3f& to) {
+    Affinef out;
+    const float s[3] = {scale.x, scale.y, scale.z};
+    const float t[3] = {to.x, to.y, to.z};
+    for (int r = 0; r < 3; ++r) {
+        out.m[r][r] = s[r];
+        out.m[r][3] = t[r];
+    }
+    return out;
+}
+
+/// Makes the last primitive of a scene without instances one, at evenly spaced times while the
+/// shutter is open; with one place it stands still.
+inline void place_last(Scene& scene, const std::vector<Affinef>& places) {
+    const int32_t row = --scene.world_primitive_count;
+    scene.meshes.push_back({row, 1});
+    Instance instance;
+    instance.world_from_object = places[0];
+    instance.object_from_world = inverse(places[0]);
+    instance.mirrored = determinant(places[0]) < 0 ? 1 : 0;
+    if (places.size() > 1) {
+        instance.motion = 0;
+        scene.motion.steps = static_cast<int32_t>(places.size());
+        scene.motion.instances = places;
+    }
+    scene.instances.push_back(instance);
+}
+
 inline PunctualLight lamp_at(const Vec3f& place) {
     PunctualLight light;
     light.position[0] = place.x;

@@ -108,44 +108,27 @@ TEST(Cutaway, ARoofThatTheCameraLooksThroughCastsNoShadow) {
 Scene with_instance(const std::vector<Affinef>& places) {
     Scene scene =
         floor_with([](WallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
-    scene.world_primitive_count = 1;
-    scene.meshes.push_back({1, 1});
-    Instance instance;
-    instance.world_from_object = places[0];
-    instance.object_from_world = inverse(places[0]);
-    const auto& m = places[0].m;
-    instance.mirrored = m[0][0] * m[1][1] * m[2][2] < 0 ? 1 : 0;
-    if (places.size() > 1) {
-        instance.motion = 0;
-        scene.motion.steps = static_cast<int32_t>(places.size());
-        scene.motion.instances = places;
-    }
-    scene.instances.push_back(instance);
+    place_last(scene, places);
     return scene;
-}
-
-Affinef placing(const Vec3f& scale, float up) {
-    Affinef out;
-    out.m[0][0] = scale.x;
-    out.m[1][1] = scale.y;
-    out.m[2][2] = scale.z;
-    out.m[1][3] = up;
-    return out;
 }
 
 TEST(Cutaway, InstancesAreCutAwayToo) {
     const Scene open = floor_with([](WallScene&) {});
     const View view{.bounces = 2};
     const Film expected = from_above(open, view);
-    expect_equal(from_above(with_instance({placing({2, 1, 1}, 0.5f)}), view), expected, "scaled");
+    expect_equal(
+        from_above(with_instance({placing({2, 1, 1}, {0, 0.5f, 0})}), view), expected, "scaled");
     // Mirrored across: the same faces are fronts.
-    expect_equal(from_above(with_instance({placing({-1, 1, 1}, 0)}), view), expected, "mirrored");
+    expect_equal(
+        from_above(with_instance({placing({-1, 1, 1}, {0, 0, 0})}), view), expected, "mirrored");
 }
 
 TEST(Cutaway, AMovingRoofIsCutAwayAsFarAsItsOwnTimeGoes) {
     // Every path has its own time; a still roof beside the moving one keeps their numbers alike.
-    const std::vector<Affinef> moving = {placing({1, 1, 1}, 0), placing({1, 1, 1}, 0.4f)};
-    const std::vector<Affinef> far = {placing({1, 1, 1}, -9), placing({1, 1, 1}, -9.5f)};
+    const std::vector<Affinef> moving = {placing({1, 1, 1}, {0, 0, 0}),
+                                         placing({1, 1, 1}, {0, 0.4f, 0})};
+    const std::vector<Affinef> far = {placing({1, 1, 1}, {0, -9, 0}),
+                                      placing({1, 1, 1}, {0, -9.5f, 0})};
     const View view{.bounces = 2};
     expect_equal(
         from_above(with_instance(moving), view), from_above(with_instance(far), view), "moving");

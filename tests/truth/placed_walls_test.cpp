@@ -15,32 +15,9 @@ WallScene under_pane(const PunctualLight& light) {
     return scene;
 }
 
-Affinef placing(const Vec3f& scale, const Vec3f& to) {
-    Affinef out;
-    const float s[3] = {scale.x, scale.y, scale.z};
-    const float t[3] = {to.x, to.y, to.z};
-    for (int r = 0; r < 3; ++r) {
-        out.m[r][r] = s[r];
-        out.m[r][3] = t[r];
-    }
-    return out;
-}
-
-/// The scene's last primitive as an instance at evenly spaced times; one: it stands still.
 Scene with_placed_pane(const PunctualLight& light, const std::vector<Affinef>& places) {
     Scene scene = under_pane(light).take();
-    scene.world_primitive_count = 1;
-    scene.meshes.push_back({1, 1});
-    Instance instance;
-    instance.world_from_object = places[0];
-    instance.object_from_world = inverse(places[0]);
-    instance.mirrored = determinant(places[0]) < 0 ? 1 : 0;
-    if (places.size() > 1) {
-        instance.motion = 0;
-        scene.motion.steps = static_cast<int32_t>(places.size());
-        scene.motion.instances = places;
-    }
-    scene.instances.push_back(instance);
+    place_last(scene, places);
     return scene;
 }
 
