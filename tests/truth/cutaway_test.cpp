@@ -43,6 +43,7 @@ Film from_above(Scene scene, const View& view) {
     options.samples_per_pixel = view.samples;
     options.max_bounces = view.bounces;
     options.ao_distance_m = 1;
+    options.tile_size = 8;  // several tiles a thread: what one leaves behind, the next may find
     options.moving_camera = view.moving_camera;
     options.integrator = view.integrator;
     options.strategies = view.strategies;
