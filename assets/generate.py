@@ -18,8 +18,8 @@ sys.dont_write_bytecode = True
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 
-from generator import (analytic, cameras, instances, motion, plain_scenes,  # noqa: E402
-                       showcase, sky)
+from generator import (analytic, cameras, instances, lecture, motion,  # noqa: E402
+                       plain_scenes, showcase, sky)
 
 MAKERS = {
     'environments': lambda folder: sky.write_sky(os.path.join(folder, 'environments')),
@@ -33,6 +33,7 @@ MAKERS = {
     'analytic': analytic.write_analytic,
     'particles': analytic.write_particles,
     'motion': motion.write_motion,
+    'lecture': lecture.write_lecture,
 }
 
 

@@ -30,7 +30,7 @@ _STILL_LIFE = [
 ]
 
 
-class _Shapes:
+class Shapes:
     """Adds shapes to a file and the nodes that draw them."""
 
     def __init__(self, gltf):
@@ -59,7 +59,7 @@ def write_analytic(folder):
         'Leaf': gltf.material('Leaf', color=(0.1, 0.4, 0.12), roughness=0.35, double_sided=True),
         'Lamp': gltf.material('Lamp', color=(0, 0, 0), emission=(110.0, 98.0, 80.0)),
         'Panel': gltf.material('Panel', color=(0, 0, 0), emission=(20.0, 23.0, 29.0))}
-    shapes = _Shapes(gltf)
+    shapes = Shapes(gltf)
     shapes.draw('plane', None, materials['Floor'], name='Floor')
     for i, (kind, sizes, height, material) in enumerate(_STILL_LIFE):
         place = {'translation': (1.15 * (i % 5) - 2.3, height, 1.2 * (i // 5) - 0.6)}
@@ -98,7 +98,7 @@ def write_particles(folder, count=20000):
         radii.append((0.006 + 0.010 * (1.18 - wave) / 0.36,))
     material = gltf.material('Particles', color=(0.8, 0.45, 0.15), roughness=0.5)
     floor = gltf.material('Floor', color=(0.5, 0.5, 0.5), roughness=0.9)
-    shapes = _Shapes(gltf)
+    shapes = Shapes(gltf)
     shapes.draw('plane', None, floor, name='Floor')
     shapes.draw('spheres', {'positions': gltf._floats(positions, bounds=True),
                             'radii': gltf._floats(radii)}, material, name='Particles')

@@ -3,6 +3,7 @@
 #include "accel/accel_impl.h"
 #include "accel/moving_geometry.h"
 #include "base/stopwatch.h"
+#include "scene/media.h"
 #include "scene/thin_walls.h"
 
 #include <algorithm>
@@ -77,6 +78,7 @@ Accel::Impl::~Impl() {
     for (BuiltGeometry& mesh : meshes)
         release(mesh);
     if (top != nullptr) rtcReleaseScene(top);
+    if (splats != nullptr) rtcReleaseScene(splats);
     if (device != nullptr) rtcReleaseDevice(device);
 }
 
@@ -190,10 +192,12 @@ void drop_moved(Accel::Impl& impl) {
 /// Hands everything over to Embree and builds; without filters where impl.alpha is empty.
 Result<void> build_scenes(Accel::Impl& impl) {
     drop_moved(impl);
+    impl.reach = scene_reach(*impl.scene);
     impl.shapes.assign(impl.scene->primitives.size(), {});
     impl.block_boxes.assign(impl.scene->primitives.size(), {});
     build_parts(impl);
     build_top(impl);
+    build_splats(impl);
     impl.list_endless_planes();
     if (impl.errors.code != RTC_ERROR_NONE) return embree_failure(impl.errors);
     return {};
@@ -202,8 +206,7 @@ Result<void> build_scenes(Accel::Impl& impl) {
 /// Builds, or builds again, with filters and tables as the scene asks for.
 Result<void> build_all(Accel::Impl& impl) {
     const Scene& scene = *impl.scene;
-    impl.textures = {scene.textures.texels.data(),
-                     reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
+    impl.textures = view_of(scene.textures);
     if (impl.kernels.filters) {
         impl.alpha.resize(scene.primitives.size());
         for (size_t i = 0; i < impl.alpha.size(); ++i)
@@ -258,10 +261,12 @@ Result<BareBuild> Accel::build_bare(const Scene& scene, const std::string& embre
 
 void Accel::Impl::fill_primitive_tables() {
     single_sided.resize(scene->primitives.size());
+    bodies.resize(scene->primitives.size());
     instance_first_primitive.clear();
     for (size_t i = 0; i < single_sided.size(); ++i) {
         const auto material = static_cast<size_t>(scene->primitives[i].material);
         single_sided[i] = (scene->materials[material].flags & material_double_sided) == 0;
+        bodies[i] = medium_of(*scene, scene->primitives[i]);
     }
     for (const Instance& instance : scene->instances) {
         const Mesh& mesh = scene->meshes[static_cast<size_t>(instance.mesh)];
@@ -273,6 +278,10 @@ Accel::Accel(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Accel::Accel(Accel&&) noexcept = default;
 Accel& Accel::operator=(Accel&&) noexcept = default;
 Accel::~Accel() = default;
+
+RayReach Accel::ray_reach() const {
+    return impl_->reach;
+}
 
 bool Accel::has_thin_walls() const {
     return impl_->has_thin_walls;

@@ -4,6 +4,7 @@
 
 #include "accel/columns.h"
 #include "base/error.h"
+#include "scene/ray_reach.h"
 #include "scene/scene.h"
 #include "surface/texture.h"
 
@@ -74,7 +75,8 @@ public:
     Accel& operator=(Accel&&) noexcept;
     ~Accel();
 
-    /// Nearest hit of every ray. Rays that are not finite are refused: a miss, and counted.
+    /// Nearest hit of every ray. Rays that are not finite, in the world or in an instance's space,
+    /// are refused: a miss, and counted.
     /// Returns how many were refused. Thread-safe.
     int intersect(const RayColumns& rays,
                   const HitColumns& hits,
@@ -86,6 +88,26 @@ public:
                  uint8_t* occluded,
                  Coherence coherence,
                  const ShadowQuery& query = {}) const;
+
+    /// All faces of bodies in (0, tfar) of one row's ray, in no order and now and then twice;
+    /// appended to `out`. None for rays that are refused. Thread-safe.
+    void list_crossings(const RayColumns& rays,
+                        int row,
+                        const SeeThrough& see_through,
+                        std::vector<Crossing>& out) const;
+    /// Which rays are not refused.
+    RayReach ray_reach() const;
+    /// True when there are Gaussian splats. They are no geometry: no other query here finds them.
+    bool has_splats() const;
+
+    /// The light of the splats that each ray passes before its end, in their order, and what they
+    /// leave of light from there. Refused rays pass none. Thread-safe.
+    ///
+    /// In   parallel: as all rays of an orthographic camera are
+    void blend_splats(const RayColumns& rays, bool parallel, const SplatColumns& out) const;
+
+    /// What splats leave of light that comes along the rays, but where skips[i] is 1.
+    void dim_by_splats(const RayColumns& rays, const uint8_t* skips, float* transmittance) const;
 
     /// True when some primitive may be a thin wall.
     bool has_thin_walls() const;

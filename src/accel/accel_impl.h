@@ -8,7 +8,9 @@
 #include "accel/embree.h"
 #include "accel/reference_kernels.h"
 #include "accel/shape_geometry.h"
+#include "accel/splat_layers.h"
 #include "base/unset_array.h"
+#include "scene/ray_reach.h"
 
 #include <atomic>
 #include <mutex>
@@ -71,6 +73,9 @@ struct Accel::Impl {
     std::vector<BuiltGeometry> meshes;  ///< as Scene::meshes
     SharedArrays arrays;
     bool has_instances = false;  ///< in `top`
+    RayReach reach;              ///< of the rays that `top` may see
+    RTCScene splats = nullptr;   ///< of all splats, which are not in `top`; null: there are none
+    SplatGeometry splat_geometry;
     std::vector<uint8_t> materials_with_holes;
     std::vector<uint8_t> thin_walls;             ///< by material
     bool has_thin_walls = false;                 ///< some primitive's material is one
@@ -81,6 +86,7 @@ struct Accel::Impl {
     AccelFunctions functions;
     std::vector<EndlessPlane> endless_planes;
     std::vector<uint8_t> single_sided;              ///< by primitive
+    std::vector<int32_t> bodies;                    ///< by primitive, see medium_of
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };
 
@@ -89,6 +95,9 @@ FilterKinds filters_of(const Accel::Impl& impl, const Primitive& primitive);
 
 /// A primitive as Embree's geometry; null for a plane without end.
 RTCGeometry make_geometry(Accel::Impl& impl, int32_t row);
+
+/// The hierarchy over the splats of impl.scene, anew.
+void build_splats(Accel::Impl& impl);
 
 /// Triangles as user geometry whose callback counts: see accel/traversal_cost.cpp.
 RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index);

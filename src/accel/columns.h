@@ -6,8 +6,6 @@
 
 namespace obscura {
 
-/// Embree's assertions refuse components of 1e30; its boxes hold up to 1.8e18.
-inline constexpr float largest_component = 1.8e18f;
 /// tfar of rays without an end.
 inline constexpr float unlimited = 3.0e38f;
 
@@ -27,6 +25,15 @@ struct RayColumns {
 struct SceneRows {
     int32_t instance = -1;
     int32_t primitive = -1;  ///< -1: nothing
+};
+
+/// A face of a body that a ray goes through.
+struct Crossing {
+    float t = 0, u = 0, v = 0;
+    SceneRows surface;
+    int32_t triangle = 0;
+    int32_t body = 0;     ///< number of its medium
+    bool enters = false;  ///< the ray comes from the front
 };
 
 /// A camera ray that looked through the back of a single-sided surface.
@@ -62,6 +69,12 @@ struct HitColumns {
     int32_t* instance;   ///< row in Scene::instances, -1 for world-space primitives
     int32_t* primitive;  ///< row in Scene::primitives
     int32_t* triangle;   ///< within the primitive
+};
+
+/// What Gaussian splats do to light along rays, as columns.
+struct SplatColumns {
+    float *r, *g, *b;      ///< their own light
+    float* transmittance;  ///< share of the light from behind them that they leave
 };
 
 }  // namespace obscura

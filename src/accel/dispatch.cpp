@@ -4,6 +4,7 @@
 
 #include "accel/packets.h"
 #include "accel/shape_geometry.h"
+#include "accel/splat_layers.h"
 #include "base/cpu.h"
 
 namespace obscura {
@@ -12,27 +13,33 @@ namespace obscura {
 inline namespace isa_baseline {
 extern const ShapeCallbacks shape_callbacks;
 extern const PacketMoves packet_moves;
+extern const SplatCallbacks splat_callbacks;
 }  // namespace isa_baseline
 namespace isa_avx2 {
 extern const ShapeCallbacks shape_callbacks;
 extern const PacketMoves packet_moves;
+extern const SplatCallbacks splat_callbacks;
 }  // namespace isa_avx2
 namespace isa_avx512 {
 extern const ShapeCallbacks shape_callbacks;
 extern const PacketMoves packet_moves;
+extern const SplatCallbacks splat_callbacks;
 }  // namespace isa_avx512
 
 AccelFunctions accel_functions_for(const std::string& embree_isa) {
 #if defined(__x86_64__)
     if (embree_isa == "avx512" || (embree_isa.empty() && cpu_has_avx512())) {
-        return {&isa_avx512::shape_callbacks, &isa_avx512::packet_moves};
+        return {
+            &isa_avx512::shape_callbacks, &isa_avx512::packet_moves, &isa_avx512::splat_callbacks};
     }
     if (embree_isa == "avx2" || (embree_isa.empty() && cpu_has_avx2())) {
-        return {&isa_avx2::shape_callbacks, &isa_avx2::packet_moves};
+        return {&isa_avx2::shape_callbacks, &isa_avx2::packet_moves, &isa_avx2::splat_callbacks};
     }
 #endif
     (void)embree_isa;
-    return {&isa_baseline::shape_callbacks, &isa_baseline::packet_moves};
+    return {&isa_baseline::shape_callbacks,
+            &isa_baseline::packet_moves,
+            &isa_baseline::splat_callbacks};
 }
 
 }  // namespace obscura

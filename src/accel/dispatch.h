@@ -8,10 +8,12 @@ namespace obscura {
 
 struct PacketMoves;
 struct ShapeCallbacks;
+struct SplatCallbacks;
 
 struct AccelFunctions {
     const ShapeCallbacks* shapes = nullptr;
     const PacketMoves* packets = nullptr;
+    const SplatCallbacks* splats = nullptr;
 };
 
 /// In   embree_isa: as Accel::build; "" takes the widest that this CPU has

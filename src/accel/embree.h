@@ -14,6 +14,7 @@
 
 namespace obscura {
 
+struct CrossingNotes;
 struct Cutaway;
 struct PassedBack;
 
@@ -40,6 +41,7 @@ struct QueryContext {
     unsigned char* walls = nullptr;  ///< then, by the ray's id: becomes 1 where it does; or null
     std::vector<PassedBack>* passed_backs = nullptr;  ///< see SeeThrough
     const Cutaway* cutaway = nullptr;                 ///< likewise
+    CrossingNotes* crossings = nullptr;  ///< nothing is met, all is noted; see accel/crossings.cpp
 };
 
 /// Whether a shadow ray goes on behind what may be a thin wall; if so, that is noted.

@@ -77,6 +77,27 @@ void meet_endless_planes(const Accel::Impl& impl,
     }
 }
 
+void list_endless_crossings(const Accel::Impl& impl,
+                            const QueryContext& context,
+                            const RayColumns& rays,
+                            int row,
+                            std::vector<Crossing>& out) {
+    for (const EndlessPlane& plane : impl.endless_planes) {
+        const int32_t body = impl.bodies[static_cast<size_t>(plane.primitive)];
+        if (body == 0) continue;
+        const EndlessPlane there = at_ray(impl, plane, rays, row);
+        const ShapeRay<float> ray = shape_ray(rays, row);
+        const auto hit =
+            intersect_endless(there, context, ray, static_cast<unsigned>(row), longest(rays, row));
+        if (!hit.found) continue;
+        const Vec3f direction = plane.instance < 0
+                                    ? ray.direction
+                                    : transform_vector(there.object_from_world, ray.direction);
+        const SceneRows surface{plane.instance, plane.primitive};
+        out.push_back({hit.t, 0.0f, 0.0f, surface, 0, body, direction.y < 0.0f});
+    }
+}
+
 bool endless_plane_hides(const Accel::Impl& impl,
                          const QueryContext& context,
                          const RayColumns& rays,

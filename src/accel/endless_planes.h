@@ -13,6 +13,13 @@ void meet_endless_planes(const Accel::Impl& impl,
                          const HitColumns& hits,
                          int row);
 
+/// Appends the planes without end that bound bodies in (0, tfar) of the row's ray.
+void list_endless_crossings(const Accel::Impl& impl,
+                            const QueryContext& context,
+                            const RayColumns& rays,
+                            int row,
+                            std::vector<Crossing>& out);
+
 /// True when a plane without end lies in (0, tfar) of the row's ray.
 bool endless_plane_hides(const Accel::Impl& impl,
                          const QueryContext& context,

@@ -22,7 +22,9 @@ OBSCURA_INLINE Lanes copy3(const float* const (&from)[3], int row, float* const 
     return sum;
 }
 
-bool load_rays(const RayColumns& rays, int first, RTCRay16& out) {
+bool load_rays(const RayColumns& rays, int first, const RayReach& reach, RTCRay16& out) {
+    const Lanes farthest(reach.origin);
+    const Lanes longest(reach.direction);
     bool safe = true;
     for (int i = 0; i < packet; i += lane_count) {
         const int row = first + i;
@@ -34,9 +36,8 @@ bool load_rays(const RayColumns& rays, int first, RTCRay16& out) {
         store(out.tfar + i, end);
         if (rays.time != nullptr) store(out.time + i, load(rays.time + row));
         store(reinterpret_cast<int32_t*>(out.id) + i, LanesI(row) + lane_numbers());
-        const Lanes most(largest_component);
-        safe = safe && all((origin <= most) & (direction <= most) & (direction > Lanes(0.0f)) &
-                           (end >= Lanes(0.0f)));
+        safe = safe && all((origin <= farthest) & (direction <= longest) &
+                           (direction > Lanes(0.0f)) & (end >= Lanes(0.0f)));
     }
     return safe;
 }

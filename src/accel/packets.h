@@ -4,6 +4,7 @@
 
 #include "accel/columns.h"
 #include "accel/embree.h"
+#include "scene/ray_reach.h"
 
 namespace obscura {
 
@@ -19,7 +20,7 @@ struct alignas(64) ValidMask {
 struct PacketMoves {
     /// Loads the rows [first, first + 16), whose ids are their numbers; false, with a packet that
     /// must not be used, when one of them is not safe (accel/safe_ray.h).
-    bool (*load)(const RayColumns& rays, int first, RTCRay16& out);
+    bool (*load)(const RayColumns& rays, int first, const RayReach& reach, RTCRay16& out);
 
     /// Writes 16 rows of hits, as of a scene without instances.
     void (*store)(const RTCRayHit16& block,

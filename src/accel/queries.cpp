@@ -14,11 +14,11 @@ namespace obscura {
 namespace {
 
 /// Marks the rows [first, first + 16) that exist and are safe; counts the refused ones.
-int mark_valid(const RayColumns& rays, int first, ValidMask& valid) {
+int mark_valid(const RayColumns& rays, int first, const RayReach& reach, ValidMask& valid) {
     const int existing = std::min(packet, rays.count - first);
     int safe = 0;
     for (int i = 0; i < packet; ++i) {
-        valid.lane[i] = i < existing && is_safe(rays, first + i) ? -1 : 0;
+        valid.lane[i] = i < existing && is_safe(rays, first + i, reach) ? -1 : 0;
         safe -= valid.lane[i];
     }
     return existing - safe;
@@ -50,12 +50,13 @@ struct Loaded {
 };
 
 Loaded load_packet(
-    const PacketMoves& moves, const RayColumns& rays, int first, ValidMask& valid, RTCRay16& out) {
-    if (rays.count - first >= packet && moves.load(rays, first, out)) {
+    const Accel::Impl& impl, const RayColumns& rays, int first, ValidMask& valid, RTCRay16& out) {
+    if (rays.count - first >= packet &&
+        impl.functions.packets->load(rays, first, impl.reach, out)) {
         std::fill_n(valid.lane, packet, -1);
         return {};
     }
-    const int refused = mark_valid(rays, first, valid);
+    const int refused = mark_valid(rays, first, impl.reach, valid);
     return {refused, load_part(rays, first, valid, out)};
 }
 
@@ -98,7 +99,7 @@ int Accel::intersect(const RayColumns& rays,
     for (float* ng : {block.hit.Ng_x, block.hit.Ng_y, block.hit.Ng_z})
         std::fill_n(ng, packet, 0.0f);  // read for misses too
     for (int first = 0; first < rays.count; first += packet) {
-        const Loaded loaded = load_packet(*impl_->functions.packets, rays, first, valid, block.ray);
+        const Loaded loaded = load_packet(*impl_, rays, first, valid, block.ray);
         refused += loaded.refused;
         std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
@@ -146,7 +147,7 @@ int Accel::occluded(const RayColumns& rays,
     RTCRay16 block;
     begin_packets(block);
     for (int first = 0; first < rays.count; first += packet) {
-        const Loaded loaded = load_packet(*impl_->functions.packets, rays, first, valid, block);
+        const Loaded loaded = load_packet(*impl_, rays, first, valid, block);
         refused += loaded.refused;
         if (loaded.any) query.occluded16(valid.lane, impl_->top, &block);
         const int count = std::min(packet, rays.count - first);

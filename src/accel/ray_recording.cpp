@@ -28,9 +28,10 @@ void note_answer(bool hit, const Cutaway* cutaway, int row, RecordedRays& out) {
 void append_hits(const RayColumns& rays,
                  const HitColumns& hits,
                  const SeeThrough& see_through,
+                 const RayReach& reach,
                  RecordedRays& out) {
     for (int row = 0; row < rays.count; ++row) {
-        if (!is_safe(rays, row)) continue;
+        if (!is_safe(rays, row, reach)) continue;
         append(rays, row, see_through.segment, out);
         note_answer(hits.primitive[row] >= 0, see_through.cutaway, row, out);
     }
@@ -46,13 +47,13 @@ RayColumns RecordedRays::columns() const {
 void RayRecorder::add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through) {
     fixed_alpha_ = see_through.fixed_alpha;
     const RayKind kind = see_through.segment == 0 ? RayKind::camera : RayKind::bounce;
-    append_hits(rays, hits, see_through, list(kind));
+    append_hits(rays, hits, see_through, reach_, list(kind));
 }
 
 void RayRecorder::add_shadow_hits(const RayColumns& rays,
                                   const HitColumns& hits,
                                   SeeThrough see_through) {
-    append_hits(rays, hits, see_through, shadow_hits_);
+    append_hits(rays, hits, see_through, reach_, shadow_hits_);
 }
 
 void RayRecorder::add_shadows(const RayColumns& rays,
@@ -61,7 +62,7 @@ void RayRecorder::add_shadows(const RayColumns& rays,
     RecordedRays& out = list(RayKind::shadow);
     passes_walls_ = query.walls != nullptr;
     for (int row = 0; row < rays.count; ++row) {
-        if (!is_safe(rays, row)) continue;
+        if (!is_safe(rays, row, reach_)) continue;
         append(rays, row, query.segment, out);
         note_answer(occluded[row] != 0, query.cutaway, row, out);
     }

@@ -30,6 +30,9 @@ struct RecordedRays {
 /// What one thread recorded. Refused rays are left out.
 class RayRecorder {
 public:
+    /// In   reach: Accel::ray_reach
+    explicit RayRecorder(const RayReach& reach = {}) : reach_(reach) {}
+
     void add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through);
     void add_shadows(const RayColumns& rays, const uint8_t* occluded, const ShadowQuery& query);
     /// Shadow rays that ask for the nearest hit, for they may go on behind it.
@@ -45,6 +48,7 @@ private:
     RecordedRays& list(RayKind kind) { return rays_[static_cast<size_t>(kind)]; }
     std::array<RecordedRays, ray_kinds> rays_;
     RecordedRays shadow_hits_;
+    RayReach reach_;
     bool fixed_alpha_ = false;
     bool passes_walls_ = false;
 };

@@ -39,13 +39,24 @@ struct alignas(64) Valid {
     bool any = false;
 };
 
+/// What one call is about.
+struct Asked {
+    const Accel::Impl& impl;
+    const RayColumns& rays;
+    QueryContext& context;
+    Query& query;
+    const NormalColumns* normals = nullptr;
+};
+
 /// Loads rows from `first` on. Idle lanes repeat one that is valid: Embree may look at them.
 template <int width>
-Valid<width> load_packet(const RayColumns& rays, int first, typename Packet<width>::Rays& out) {
+Valid<width> load_packet(const Asked& asked, int first, typename Packet<width>::Rays& out) {
+    const RayColumns& rays = asked.rays;
     Valid<width> valid;
     int stand_in = -1;
     for (int i = 0; i < width; ++i) {
-        valid.lane[i] = first + i < rays.count && is_safe(rays, first + i) ? -1 : 0;
+        valid.lane[i] =
+            first + i < rays.count && is_safe(rays, first + i, asked.impl.reach) ? -1 : 0;
         if (valid.lane[i] != 0 && stand_in < 0) stand_in = first + i;
     }
     valid.any = stand_in >= 0;
@@ -88,31 +99,34 @@ void ask(Query& query, const int* valid, RTCScene scene, RTCRay16& rays) {
     query.occluded16(valid, scene, &rays);
 }
 
-/// What one call is about.
-struct Asked {
-    const Accel::Impl& impl;
-    const RayColumns& rays;
-    QueryContext& context;
-    Query& query;
-};
+void store(const Asked& asked, const RTCRayHit& one, const HitColumns& hits, int row) {
+    store_hit(asked.impl, one, hits, row);
+    if (asked.normals == nullptr || one.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
+    asked.normals->x[row] = one.hit.Ng_x;
+    asked.normals->y[row] = one.hit.Ng_y;
+    asked.normals->z[row] = one.hit.Ng_z;
+}
 
 template <int width>
 void intersect_packets(const Asked& asked, const HitColumns& hits) {
     typename Packet<width>::Hits block;
     for (int first = 0; first < asked.rays.count; first += width) {
-        const Valid<width> valid = load_packet<width>(asked.rays, first, block.ray);
+        const Valid<width> valid = load_packet<width>(asked, first, block.ray);
         std::fill_n(block.hit.geomID, width, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(block.hit.instID[0], width, RTC_INVALID_GEOMETRY_ID);
         if (valid.any) ask(asked.query, valid.lane, asked.impl.top, block);
         for (int i = 0; i < width && first + i < asked.rays.count; ++i) {
             RTCRayHit one;
             one.ray.tfar = block.ray.tfar[i];
+            one.hit.Ng_x = block.hit.Ng_x[i];
+            one.hit.Ng_y = block.hit.Ng_y[i];
+            one.hit.Ng_z = block.hit.Ng_z[i];
             one.hit.u = block.hit.u[i];
             one.hit.v = block.hit.v[i];
             one.hit.primID = block.hit.primID[i];
             one.hit.geomID = valid.lane[i] != 0 ? block.hit.geomID[i] : RTC_INVALID_GEOMETRY_ID;
             one.hit.instID[0] = block.hit.instID[0][i];
-            store_hit(asked.impl, one, hits, first + i);
+            store(asked, one, hits, first + i);
         }
     }
 }
@@ -122,11 +136,11 @@ void intersect_one_by_one(const Asked& asked, const HitColumns& hits) {
         RTCRayHit one;
         one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        if (is_safe(asked.rays, row)) {
+        if (is_safe(asked.rays, row, asked.impl.reach)) {
             load_ray(asked.rays, row, one.ray);
             asked.query.intersect1(asked.impl.top, &one);
         }
-        store_hit(asked.impl, one, hits, row);
+        store(asked, one, hits, row);
     }
 }
 
@@ -134,7 +148,7 @@ template <int width>
 void occlude_packets(const Asked& asked, uint8_t* occluded) {
     typename Packet<width>::Rays block;
     for (int first = 0; first < asked.rays.count; first += width) {
-        const Valid<width> valid = load_packet<width>(asked.rays, first, block);
+        const Valid<width> valid = load_packet<width>(asked, first, block);
         if (valid.any) ask(asked.query, valid.lane, asked.impl.top, block);
         for (int i = 0; i < width && first + i < asked.rays.count; ++i) {
             occluded[first + i] = valid.lane[i] != 0 && block.tfar[i] < 0.0f ? 1 : 0;
@@ -145,7 +159,7 @@ void occlude_packets(const Asked& asked, uint8_t* occluded) {
 void occlude_one_by_one(const Asked& asked, uint8_t* occluded) {
     for (int row = 0; row < asked.rays.count; ++row) {
         occluded[row] = 0;
-        if (!is_safe(asked.rays, row)) continue;
+        if (!is_safe(asked.rays, row, asked.impl.reach)) continue;
         RTCRay one;
         load_ray(asked.rays, row, one);
         asked.query.occluded1(asked.impl.top, &one);
@@ -172,18 +186,21 @@ Result<ReferenceKernels> ReferenceKernels::build(const Scene& scene, const Kerne
     return ReferenceKernels(std::shared_ptr<const Accel::Impl>(std::move(*impl)));
 }
 
-void ReferenceKernels::intersect(const RayColumns& rays, const HitColumns& hits, int width) const {
+void ReferenceKernels::intersect(const RayColumns& rays,
+                                 const HitColumns& hits,
+                                 int width,
+                                 const NormalColumns* normals) const {
     QueryContext context;
     Query query(context, false);
     context.keys = rays.key;
-    const Asked asked{*impl_, rays, context, query};
+    const Asked asked{*impl_, rays, context, query, normals};
     if (width == 16) intersect_packets<16>(asked, hits);
     if (width == 8) intersect_packets<8>(asked, hits);
     if (width == 4) intersect_packets<4>(asked, hits);
     if (width == 1) intersect_one_by_one(asked, hits);
     if (impl_->endless_planes.empty()) return;
     for (int row = 0; row < rays.count; ++row) {
-        if (is_safe(rays, row)) meet_endless_planes(*impl_, context, rays, hits, row);
+        if (is_safe(rays, row, impl_->reach)) meet_endless_planes(*impl_, context, rays, hits, row);
     }
 }
 
@@ -198,7 +215,7 @@ void ReferenceKernels::occluded(const RayColumns& rays, uint8_t* occluded, int w
     if (width == 1) occlude_one_by_one(asked, occluded);
     if (impl_->endless_planes.empty()) return;
     for (int row = 0; row < rays.count; ++row) {
-        if (occluded[row] != 0 || !is_safe(rays, row)) continue;
+        if (occluded[row] != 0 || !is_safe(rays, row, impl_->reach)) continue;
         occluded[row] = endless_plane_hides(*impl_, context, rays, row) ? 1 : 0;
     }
 }

@@ -24,6 +24,11 @@ struct KernelChoice {
 /// choice.
 std::vector<std::string> embree_isas();
 
+/// Ng of each hit as Embree gives it: not normalised, in the space of the instance's mesh.
+struct NormalColumns {
+    float *x, *y, *z;
+};
+
 /// One hierarchy, asked one ray a call or in packets.
 class ReferenceKernels {
 public:
@@ -33,8 +38,11 @@ public:
 
     /// Nearest hits, as Accel::intersect. Rays that are not finite miss.
     ///
-    /// In   width: 1, 4, 8 or 16 rays a call
-    void intersect(const RayColumns& rays, const HitColumns& hits, int width) const;
+    /// In   width: 1, 4, 8 or 16 rays a call; normals: null where nobody asks
+    void intersect(const RayColumns& rays,
+                   const HitColumns& hits,
+                   int width,
+                   const NormalColumns* normals = nullptr) const;
 
     /// occluded[i] = 1 where anything is hit; 0 for rays that are not finite.
     void occluded(const RayColumns& rays, uint8_t* occluded, int width) const;

@@ -56,8 +56,8 @@ void give_keys(QueryContext& context, const Chunk& chunk) {
 
 /// Loads rows [first, first + count); the lanes behind them repeat the first.
 void load_sixteen(
-    const PacketMoves& moves, const RayColumns& rays, int first, int count, RTCRay16& out) {
-    if (count == packet && moves.load(rays, first, out)) return;
+    const Accel::Impl& impl, const RayColumns& rays, int first, int count, RTCRay16& out) {
+    if (count == packet && impl.functions.packets->load(rays, first, impl.reach, out)) return;
     for (int i = 0; i < packet; ++i)
         load_lane(rays, i < count ? first + i : first, i, out);
 }
@@ -116,7 +116,7 @@ Tally intersect_sixteen(const Accel::Impl& impl, const Chunk& chunk, bool cohere
     for (auto first = static_cast<int>(chunk.begin); first < end; first += packet) {
         const int count = std::min(packet, end - first);
         const ValidMask valid = first_lanes(count);
-        load_sixteen(*impl.functions.packets, rays, first, count, block.ray);
+        load_sixteen(impl, rays, first, count, block.ray);
         std::fill_n(block.hit.geomID, packet, RTC_INVALID_GEOMETRY_ID);
         std::fill_n(block.hit.instID[0], packet, RTC_INVALID_GEOMETRY_ID);
         query.intersect16(valid.lane, impl.top, &block);
@@ -141,7 +141,7 @@ Tally occlude_sixteen(const Accel::Impl& impl, const Chunk& chunk, bool coherent
     for (auto first = static_cast<int>(chunk.begin); first < end; first += packet) {
         const int count = std::min(packet, end - first);
         const ValidMask valid = first_lanes(count);
-        load_sixteen(*impl.functions.packets, rays, first, count, block);
+        load_sixteen(impl, rays, first, count, block);
         query.occluded16(valid.lane, impl.top, &block);
         for (int i = 0; i < count; ++i)
             tally.hits += block.tfar[i] < 0.0f ? 1 : 0;

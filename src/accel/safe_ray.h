@@ -4,18 +4,19 @@
 
 #include "accel/columns.h"
 #include "accel/embree.h"
+#include "scene/ray_reach.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace obscura {
 
-/// True when Embree may see the ray: finite, in range, and with a direction.
-inline bool is_safe(const RayColumns& rays, int i) {
+/// True when Embree may see the ray: finite, in the scene's reach, and with a direction.
+inline bool is_safe(const RayColumns& rays, int i, const RayReach& reach) {
     const float origin = std::fabs(rays.ox[i]) + std::fabs(rays.oy[i]) + std::fabs(rays.oz[i]);
     const float direction = std::fabs(rays.dx[i]) + std::fabs(rays.dy[i]) + std::fabs(rays.dz[i]);
     const bool far_ok = rays.tfar == nullptr || rays.tfar[i] >= 0.0f;
-    return (origin <= largest_component) & (direction <= largest_component) & (direction > 0.0f) &
+    return (origin <= reach.origin) & (direction <= reach.direction) & (direction > 0.0f) &
            far_ok;  // no branches: a loop over rows becomes vector code
 }
 

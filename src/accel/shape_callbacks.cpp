@@ -174,6 +174,49 @@ OBSCURA_INLINE void find_hits(const Call& call, const Hit& hit) {
     }
 }
 
+/// Notes the roots of one ray with one shape that lie within its limits.
+template <typename IsFront>
+void note_roots(const Call& call,
+                int i,
+                const Roots<float>& roots,
+                ShapeCrossing crossing,
+                const IsFront& is_front_at) {
+    const ShapeRay<float> ray = call.rays.ray(i);
+    const Span<float> limits = call.rays.limits(i);
+    for (int k = 0; k < 2; ++k) {
+        crossing.t = roots.t[k];
+        if (!roots.hit[k] || !(crossing.t > limits.low) || !(crossing.t <= limits.high)) continue;
+        crossing.front = is_front_at(crossing.t, k);
+        if (call.front_only && !crossing.front) continue;
+        const Vec3f position = ray.origin + ray.direction * crossing.t;
+        if (!counts(call, i, crossing.row, k, position)) continue;
+        call.context.crossings->note_shape(*call.context.crossings, crossing);
+    }
+}
+
+/// All places where one ray goes through a shape, or the spheres of a cluster.
+void note_crossings(const Call& call, int i, unsigned geometry) {
+    const ShapeRay<float> ray = call.rays.ray(i);
+    ShapeCrossing crossing{0.0f, geometry, call.context.embree.instID[0], 0, false};
+    const auto primitive = static_cast<int32_t>(call.primitive);
+    if (call.geometry.rows != nullptr) {
+        const ShapeRow& row = call.geometry.rows[call.primitive];
+        crossing.row = primitive;
+        const auto front = [&](float t, int k) { return is_front<float>(row, ray, t, k); };
+        note_roots(call, i, intersect_shape<float>(row, ray), crossing, front);
+        return;
+    }
+    const int32_t first = primitive * cluster_spheres;
+    const int32_t end = min(first + cluster_spheres, call.geometry.count);
+    for (crossing.row = first; crossing.row < end; ++crossing.row) {
+        const float* at = call.geometry.spheres + sphere_word(crossing.row);
+        const Sphere<float> sphere{{at[0], at[sphere_block], at[2 * sphere_block]},
+                                   at[3 * sphere_block]};
+        const auto front = [](float, int k) { return k == 0; };
+        note_roots(call, i, intersect_sphere(sphere, ray), crossing, front);
+    }
+}
+
 void intersect(const RTCIntersectFunctionNArguments* args) {
     const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
@@ -183,6 +226,12 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
                          static_cast<int>(n)};
     const bool front_only = context.culls_back_faces && geometry.single_sided;
     const Call call{geometry, context, rays, args->valid, args->primID, front_only, false};
+    if (context.crossings != nullptr) {
+        for (int i = 0; i < rays.n; ++i) {
+            if (args->valid[i] != 0) note_crossings(call, i, args->geomID);
+        }
+        return;
+    }
     find_hits(call, [&](int row, const Found& found) {
         const auto i = static_cast<unsigned>(row);
         rays.tfar()[row] = found.t;

@@ -38,6 +38,20 @@ bool is_opaque_there(const ShapeGeometry& geometry,
                      const QueryContext& context,
                      const ShapeCandidate& candidate);
 
+/// One place where a ray goes through a shape.
+struct ShapeCrossing {
+    float t = 0;
+    unsigned geometry = 0;  ///< Embree's id
+    unsigned instance = 0;  ///< likewise
+    int32_t row = 0;        ///< within the primitive
+    bool front = false;     ///< the ray comes from there
+};
+
+/// Takes all crossings where a query wants more than the nearest hit.
+struct CrossingNotes {
+    void (*note_shape)(CrossingNotes& notes, const ShapeCrossing& crossing) = nullptr;
+};
+
 /// The callbacks of one instruction set. Back faces of single-sided shapes do not count where
 /// QueryContext::culls_back_faces; hits carry no u and v (shading rebuilds the point), and a
 /// geometric normal against the ray.

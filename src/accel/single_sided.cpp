@@ -11,22 +11,11 @@
 
 namespace obscura {
 
-namespace {
-
-/// A direction in the world, at a time.
-struct TimedDirection {
-    Vec3f world;
-    float time;
-};
-
 TimedDirection direction_of(const RayColumns& rays, int row) {
     return {{rays.dx[row], rays.dy[row], rays.dz[row]},
             rays.time != nullptr ? rays.time[row] : 0.0f};
 }
 
-/// True when a face shows its back to whoever looks along a direction. Embree's Ng is in object
-/// space, and a mirroring instance turns both the winding and glTF's rule: only the object-space
-/// sign matters.
 bool shows_back(const Accel::Impl& impl,
                 const SceneRows& rows,
                 const Vec3f& ng,
@@ -44,6 +33,23 @@ bool is_hidden_back(const Accel::Impl& impl,
     return impl.single_sided[static_cast<size_t>(rows.primitive)] != 0 &&
            shows_back(impl, rows, ng, direction);
 }
+
+namespace {
+
+bool is_same(const SceneRows& a, const SceneRows& b) {
+    return a.primitive == b.primitive && a.instance == b.instance;
+}
+
+}  // namespace
+
+bool is_cut_away(const Accel::Impl& impl, const CutFaces& cut, const MetFace& face) {
+    if (!is_same(face.rows, cut.surface)) return false;
+    const float* eye = cut.eye;
+    const Vec3f view = face.met * eye[3] - Vec3f{eye[0], eye[1], eye[2]};
+    return shows_back(impl, face.rows, face.ng, {view, face.time});
+}
+
+namespace {
 
 /// A query of one ray that passes faces. The common part must come first.
 struct FaceContext {
@@ -79,24 +85,16 @@ void drop_hidden_backs(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-bool is_same(const SceneRows& a, const SceneRows& b) {
-    return a.primitive == b.primitive && a.instance == b.instance;
-}
-
 /// Embree filter function: faces of the one surface whose backs face the eye do not count.
 void drop_cutaway(const RTCFilterFunctionNArguments* args) {
     const auto& context = *reinterpret_cast<const FaceContext*>(args->context);
-    const float* eye = context.cut.eye;
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const Candidate c = candidate(args, *context.impl, i);
-        if (!is_same(c.rows, context.cut.surface)) continue;
         const float t = RTCRayN_tfar(args->ray, args->N, i);
         const Vec3f met = context.origin + context.direction.world * t;
-        const Vec3f view = met * eye[3] - Vec3f{eye[0], eye[1], eye[2]};
-        if (shows_back(*context.impl, c.rows, c.ng, {view, context.direction.time})) {
-            args->valid[i] = 0;
-        }
+        const MetFace face{c.rows, c.ng, met, context.direction.time};
+        if (is_cut_away(*context.impl, context.cut, face)) args->valid[i] = 0;
     }
 }
 

@@ -6,6 +6,40 @@
 
 namespace obscura {
 
+/// A direction in the world, at a time.
+struct TimedDirection {
+    Vec3f world;
+    float time;
+};
+
+TimedDirection direction_of(const RayColumns& rays, int row);
+
+/// True when a face shows its back to whoever looks along a direction.
+///
+/// In   ng: Embree's, which is in object space; a mirroring instance turns both the winding and
+///      glTF's rule: only the object-space sign matters
+bool shows_back(const Accel::Impl& impl,
+                const SceneRows& rows,
+                const Vec3f& ng,
+                const TimedDirection& direction);
+
+/// The same, of a face that camera rays pass.
+bool is_hidden_back(const Accel::Impl& impl,
+                    const SceneRows& rows,
+                    const Vec3f& ng,
+                    const TimedDirection& direction);
+
+/// A face where a ray meets it.
+struct MetFace {
+    SceneRows rows;
+    Vec3f ng;   ///< as Embree says
+    Vec3f met;  ///< world
+    float time;
+};
+
+/// Whether the face is one of those that are cut away.
+bool is_cut_away(const Accel::Impl& impl, const CutFaces& cut, const MetFace& face);
+
 /// Rays and what they hit.
 struct RaysAndHits {
     const RayColumns& rays;

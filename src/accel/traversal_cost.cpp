@@ -150,7 +150,7 @@ int Accel::count_tests(const RayColumns& rays, float* tests) const {
     int refused = 0;
     for (int row = 0; row < rays.count; ++row) {
         tests[row] = 0.0f;
-        if (!is_safe(rays, row)) {
+        if (!is_safe(rays, row, impl_->reach)) {
             ++refused;
             continue;
         }

@@ -57,7 +57,7 @@ Result<size_t> find_camera(const std::vector<SceneCamera>& cameras, const std::s
                     "E-CAM-AMBIGUOUS",
                     "--camera",
                     "several cameras are called '" + choice +
-                        "'; give one of the indices: " + list_cameras(cameras));
+                        "'; give the index of one: " + list_cameras(cameras));
     }
     if (is_index(choice) && choice.size() < 10 && std::stoul(choice) < cameras.size()) {
         return std::stoul(choice);

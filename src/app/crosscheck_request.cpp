@@ -13,13 +13,20 @@ namespace {
 constexpr uint64_t most_rays = 1000000000000;
 
 Result<TrueRay> parse_ray(const std::string& text) {
-    const Result<std::vector<double>> numbers = parse_numbers(
-        text,
-        "--ray",
-        {"ox,oy,oz,dx,dy,dz: where the ray begins and its direction", 6, 6, -1e18, 1e18});
+    const Result<std::vector<double>> numbers =
+        parse_numbers(text,
+                      "--ray",
+                      {"ox,oy,oz,dx,dy,dz: where the ray begins and its direction; a seventh, its "
+                       "end, in lengths "
+                       "of the direction",
+                       6,
+                       7,
+                       -1e18,
+                       1e18});
     if (!numbers) return fail(numbers.error());
     const std::vector<double>& n = *numbers;
-    const TrueRay ray{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    TrueRay ray{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    if (n.size() > 6) ray.end = n[6];
     if (static_cast<float>(length(ray.direction)) > 0.0f) return ray;
     return fail(ExitCode::usage, "E-USAGE-RANGE", "--ray", "the direction must not be 0,0,0");
 }

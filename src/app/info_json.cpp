@@ -96,6 +96,7 @@ void write_images(JsonWriter& json, const AssetInfo& info) {
         json.member("format", image.format);
         json.member("width", image.width);
         json.member("height", image.height);
+        json.member("bits", image.bits);
         json.member("used_as_color", image.used_as_color);
         json.member("used_as_data", image.used_as_data);
         json.member("memory_bytes", texture_bytes(image));
@@ -204,6 +205,7 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     json.member("instances", scene.instances.size());
     json.member("points", info.points_in_world);
     json.member("line_segments", info.line_segments_in_world);
+    json.member("splats", info.splats_in_world);
     write_names(json, "materials", file_materials(scene));
     write_images(json, info);
     write_lights(json, scene);

@@ -62,6 +62,8 @@ void append_meshes(const Scene& scene, std::string& text) {
                                                info.points_in_world,
                                                info.line_segments_in_world);
     }
+    if (info.splats_in_world > 0)
+        text += title("splats") + fmt::format("{}\n", info.splats_in_world);
 }
 
 void append_materials(const Scene& scene, std::string& text) {
@@ -76,12 +78,13 @@ void append_materials(const Scene& scene, std::string& text) {
                                             mebibytes(all_texture_bytes(info)));
     for (size_t i = 0; i < info.images.size(); ++i) {
         const ImageInfo& image = info.images[i];
-        text += fmt::format("  {:>4} {}: {} {}x{}, {}, {}\n",
+        text += fmt::format("  {:>4} {}: {} {}x{}{}, {}, {}\n",
                             i,
                             quoted_name(image.name),
                             image.format.empty() ? "unread" : image.format,
                             image.width,
                             image.height,
+                            image.bits == 16 ? ", 16 bits" : "",
                             use_of(image),
                             mebibytes(texture_bytes(image)));
     }
@@ -203,7 +206,8 @@ size_t triangles_in_file(const AssetInfo& info) {
 size_t texture_bytes(const ImageInfo& image) {
     const size_t copies = (image.used_as_color ? 1U : 0U) + (image.used_as_data ? 1U : 0U);
     if (copies == 0 || image.width < 1 || image.height < 1) return 0;
-    return copies * mip_chain_texels(image.width, image.height) * sizeof(uint32_t);
+    const size_t planes = image.bits == 16 ? 2 : 1;
+    return copies * planes * mip_chain_texels(image.width, image.height) * sizeof(uint32_t);
 }
 
 std::string info_table(const Scene& scene) {

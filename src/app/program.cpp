@@ -6,6 +6,8 @@
 #include "app/bench_options.h"
 #include "app/crosscheck_command.h"
 #include "app/crosscheck_options.h"
+#include "app/explain_pixel_command.h"
+#include "app/explain_pixel_options.h"
 #include "app/info_command.h"
 #include "app/numbers.h"
 #include "app/outcome.h"
@@ -13,6 +15,7 @@
 #include "app/render_options.h"
 #include "app/signals.h"
 #include "bench/machine.h"
+#include "image/plugins.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -33,6 +36,7 @@ Examples:
   obscura info helmet.glb --json
   obscura bench helmet.glb --json helmet.json
   obscura crosscheck helmet.glb --rays 10M
+  obscura explain-pixel helmet.glb 640,360 -o pixel.svg
 
 `obscura COMMAND --help` explains a command's options.)";
 
@@ -98,7 +102,8 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
         return report_usage("command-line",
                             got +
                                 "; expected `obscura render SCENE`, `obscura info SCENE`, "
-                                "`obscura bench` or `obscura crosscheck`, see `obscura --help`");
+                                "`obscura bench`, `obscura crosscheck` or `obscura explain-pixel "
+                                "SCENE X,Y`, see `obscura --help`");
     }
     const CLI::App& command = *chosen.front();
     const std::string hint = "; `obscura " + command.get_name() + " --help` lists what is accepted";
@@ -119,6 +124,7 @@ int report_parse_error(const CLI::App& app, const CLI::ParseError& error) {
 
 int run_program(int argc, char** argv) {
     ignore_broken_pipes();
+    ignore_plugin_paths();
     CLI::App app("Renders glTF 2.0 assets to scene-linear EXR, PNG and JPEG by path tracing.",
                  "obscura");
     app.set_version_flag("--version", version_text(), "Print versions and exit");
@@ -138,7 +144,11 @@ int run_program(int argc, char** argv) {
     CLI::App* crosscheck =
         app.add_subcommand("crosscheck", "Check intersections against Embree and in double");
     add_crosscheck_options(*crosscheck, crosscheck_arguments);
-    for (CLI::App* command : {render, info, bench, crosscheck}) {
+    ExplainPixelArguments explain_arguments;
+    CLI::App* explain =
+        app.add_subcommand("explain-pixel", "Print and draw how one pixel comes about");
+    add_explain_pixel_options(*explain, explain_arguments);
+    for (CLI::App* command : {render, info, bench, crosscheck, explain}) {
         command->get_formatter()->column_width(28);
     }
     try {
@@ -154,6 +164,7 @@ int run_program(int argc, char** argv) {
     }
     if (bench->parsed()) return run_bench(bench_arguments);
     if (crosscheck->parsed()) return run_crosscheck(crosscheck_arguments);
+    if (explain->parsed()) return run_explain_pixel(explain_arguments);
     return render->parsed() ? run_render(render_arguments) : run_info(info_arguments);
 }
 

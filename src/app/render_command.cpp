@@ -7,14 +7,16 @@
 #include "app/outcome.h"
 #include "app/outputs.h"
 #include "app/progress.h"
+#include "app/requested_camera.h"
 #include "app/signals.h"
 #include "app/statistics.h"
 #include "app/stroke_scaling.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "gltf/camera_json.h"
 #include "gltf/load.h"
+#include "render/enclosed_lights.h"
+#include "render/integrators.h"
 #include "scene/scene_memory.h"
 #include "stages/dispatch.h"
 
@@ -51,20 +53,6 @@ private:
     Log& log_;
     std::optional<Log> own_;
 };
-
-/// Reads --camera-json; without --size its picture has the size that the file names.
-Result<void> load_requested_camera(RenderRequest& request, Log& log) {
-    if (!request.camera_json) return {};
-    Result<SceneCamera> camera = load_camera_json(*request.camera_json, log);
-    if (!camera) return fail(camera.error());
-    const Intrinsics& intrinsics = *camera->settings.intrinsics;
-    if (!request.size_is_given) {
-        request.options.width = static_cast<int>(intrinsics.width_px);
-        request.options.height = static_cast<int>(intrinsics.height_px);
-    }
-    request.camera.loaded = std::move(*camera);
-    return check_crop(request.options);
-}
 
 /// One command from the request to the statistics.
 struct Job {
@@ -128,6 +116,10 @@ Result<ChosenCamera> prepare(Job& job, const MovieFrame& frame, const Turn& turn
         job.prepared = std::move(*created);
     }
     const PreparedScene& prepared = *job.prepared;
+    if (!is_quantity(job.request.options.integrator)) {
+        const auto& eye = camera->camera.world_from_camera.m;
+        warn_of_enclosed_lights(prepared, {eye[0][3], eye[1][3], eye[2][3]}, log);
+    }
     statistics.build_s += prepared.build_seconds().all;
     statistics.bvh_bytes = prepared.bvh_bytes();
     statistics.isa = prepared.isa_name();

@@ -201,6 +201,12 @@ void add_light_options(CLI::App& command, RenderArguments& arguments) {
                arguments.env_rotation,
                "DEG",
                "Turns it about +Y, counter-clockwise from above [0]");
+    group.text("--occlusion",
+               arguments.occlusion,
+               "KIND",
+               "What occlusion textures do: off, or ambient, as in viewers:\n"
+               "they dim the environment's light, for assets whose crevices\n"
+               "are in the texture alone [off]");
 }
 
 void add_render_options(CLI::App& command, RenderArguments& arguments) {

@@ -36,6 +36,7 @@ constexpr std::array<Choice<PixelFilter>, 3> filters = {
     {{"box", PixelFilter::box},
      {"gaussian", PixelFilter::gaussian},
      {"blackman-harris", PixelFilter::blackman_harris}}};
+constexpr std::array<Choice<bool>, 2> occlusions = {{{"off", false}, {"ambient", true}}};
 constexpr std::array<Choice<Isa>, 4> instruction_sets = {{{"auto", Isa::automatic},
                                                           {"baseline", Isa::baseline},
                                                           {"avx2", Isa::avx2},
@@ -361,6 +362,10 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     request.size_is_given = arguments.size.has_value();
     parse_picture(arguments, request.options, steps);
     parse_transport(arguments, request.options, steps);
+    steps.option(
+        arguments.occlusion,
+        [](const std::string& text) { return choose_option(text, "--occlusion", occlusions); },
+        [&](bool applied) { request.load.occlusion = applied; });
     request.load.keeps_uv = request.options.integrator == Integrator::uv;
     parse_strokes(arguments, request.strokes, steps);
     parse_camera(arguments, request.camera, steps);

@@ -22,8 +22,8 @@ namespace obscura {
 struct RenderRequest {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
-    LoadOptions load;                  ///< --scene, --variant, --animation, --time, --lenient
-    std::optional<FrameRange> frames;  ///< then the outputs are patterns; see frame_file
+    LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
+    std::optional<FrameRange> frames;         ///< then the outputs are patterns; see frame_file
     std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
     double fps = 24;
     CameraRequest camera;
@@ -50,7 +50,7 @@ struct RenderArguments {
     std::optional<std::string> size, spp, depth, seed, threads, isa, tile_size, crop;
     std::optional<std::string> scene, variant, camera, camera_model, eye, target, up, fov;
     LensArguments lens;
-    std::optional<std::string> env, env_intensity, env_rotation, background;
+    std::optional<std::string> env, env_intensity, env_rotation, background, occlusion;
     std::optional<std::string> integrator, ao_distance, wire_width, filter;
     std::optional<std::string> point_size, line_width;
     std::optional<std::string> view, display, ocio, exposure, stats;

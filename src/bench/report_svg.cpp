@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/report_svg.h"
 
+#include "base/xml_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -20,29 +22,6 @@ const char* color_of(size_t i) {
     return colors[i % colors.size()];
 }
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-        }
-    }
-    return out;
-}
-
 /// SVG elements, one a line.
 class Drawing {
 public:
@@ -51,13 +30,13 @@ public:
                             x,
                             y,
                             anchor,
-                            escaped(words));
+                            escape_xml(words));
     }
     void title(double x, double y, const std::string& words) {
         out_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" font-weight=\"bold\">{}</text>\n",
                             x,
                             y,
-                            escaped(words));
+                            escape_xml(words));
     }
     void line(double x0, double y0, double x1, double y1, const char* style) {
         out_ += fmt::format("<line x1=\"{:.1f}\" y1=\"{:.1f}\" x2=\"{:.1f}\" y2=\"{:.1f}\" {}/>\n",

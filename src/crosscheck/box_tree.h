@@ -13,6 +13,7 @@ namespace obscura {
 /// A ray in double. The direction need not have length 1.
 struct TrueRay {
     Vec3d origin, direction;
+    double end = INFINITY;  ///< the last t that counts
 };
 
 struct TrueBox {

@@ -85,6 +85,11 @@ std::vector<std::string> faults_of(const CheckedScene& scene) {
                         scene.formulas.wrong,
                         scene.formulas.segments));
     }
+    if (scene.formulas.wrong_truth > 0) {
+        faults.push_back(fmt::format("the truth is wrong about {} of {} segments",
+                                     scene.formulas.wrong_truth,
+                                     scene.formulas.segments));
+    }
     for (const PairFigures& pair : scene.pairs) {
         if (pair.standard != Standard::none) check_pair(pair, faults);
     }

@@ -43,12 +43,14 @@ struct Comparing {
     const TrueScene& truth;
     const RayBatch& batch;
     CheckedScene& out;
+    const CheckTask& task;
     Log& log;
     AnswerList truths = {};
     AnswerList base = {};  ///< of the first kernel
     size_t compared = 0;   ///< pairs so far: the same ones in every batch
 
-    void run(const Kernel& kernel, Standard standard) {
+    void run(const Kernel& planned, Standard standard) {
+        const Kernel kernel = task.stand_in ? task.stand_in(planned) : planned;
         std::vector<AnswerList*> references = {&truths};
         const bool first = base.answers.empty();
         if (!first) references.push_back(&base);
@@ -121,7 +123,7 @@ Result<CheckedScene> check_scene(const CheckTask& task, Log& log) {
     out.formulas = check_formulas(truth, rays.count(), task.rays.seed);
     out.truth = check_truth(truth, rays);
     for (const RayBatch& batch : batches_of(rays)) {
-        Comparing comparing{truth, batch, out, log};
+        Comparing comparing{truth, batch, out, task, log};
         if (auto done = compare_all(comparing, scene, task.isa); !done) return fail(done.error());
     }
     auto twins = check_twins(scene, rays.count(), embree_isa_for(task.isa));
@@ -154,6 +156,7 @@ Result<std::string> replay_ray(const Scene& scene, const TrueRay& ray, Isa isa) 
     const TrueScene truth(opaque);
     RayBlock block;
     block.add(ray.origin, ray.direction);
+    if (std::isfinite(ray.end)) block.set_end(0, ray.end);
     const Answer expected = answer_of(truth.nearest_of_all(block.true_ray(0)));
     std::string text;
     const auto add = [&](const Kernel& kernel) {

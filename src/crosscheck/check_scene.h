@@ -47,6 +47,8 @@ struct CheckTask {
     RaySetOptions rays;
     Isa isa = Isa::automatic;                                 ///< of the renderer's own queries
     std::optional<std::filesystem::path> export_embree = {};  ///< folder for Embree's programs
+    /// What is asked in a kernel's place: tests spoil answers here. Empty: the kernels themselves.
+    std::function<Kernel(const Kernel&)> stand_in = {};
 };
 
 /// Runs all checks of one scene. Memory: answers to one batch of rays (200 MB at most), and two

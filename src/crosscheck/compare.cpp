@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/compare.h"
 
-#include "crosscheck/piece_distance.h"
 #include "crosscheck/piece_test.h"
 #include "crosscheck/side_test.h"
 #include "math/warp.h"
@@ -52,17 +51,18 @@ void look_around(const Question& q, double ulps, const std::array<double, 2>& t,
     const Vec3d& direction = q.ray.direction;
     const Vec3d forward = normalize(direction) * distance;
     const Frame<double> frame = frame_around(normalize(direction));
-    look(TrueRay{origin + forward, direction});
-    look(TrueRay{origin - forward, direction});
+    const double end = q.ray.end;
+    look(TrueRay{origin + forward, direction, end});
+    look(TrueRay{origin - forward, direction, end});
     for (int i = 0; i < turns; ++i) {
         const double angle = 2 * pi_d * (i + 0.5) / turns;
         const Vec3d side =
             (frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle)) * distance;
-        look(TrueRay{origin + side, direction});
-        look(TrueRay{origin + (side + forward) * 0.70710678, direction});
-        look(TrueRay{origin + (side - forward) * 0.70710678, direction});
+        look(TrueRay{origin + side, direction, end});
+        look(TrueRay{origin + (side + forward) * 0.70710678, direction, end});
+        look(TrueRay{origin + (side - forward) * 0.70710678, direction, end});
         for (const double at : t) {
-            if (std::isfinite(at)) look(TrueRay{origin - side, direction + side * (2 / at)});
+            if (std::isfinite(at)) look(TrueRay{origin - side, direction + side * (2 / at), end});
         }
     }
 }
@@ -132,12 +132,16 @@ bool is_near_its_item(const Question& q, const Answer& answer) {
 
 /// True when rays at most 4 ulp away meet the answer's item at its depth, whatever hides it.
 bool is_met_nearby(const Question& q, const Answer& answer) {
-    bool met = is_near_its_item(q, answer);
+    const auto meets = [&](const TrueRay& ray, double ulps) {
+        for (const double t : q.scene.meetings(ray, answer.item)) {
+            if (depth_gap(q, {t, answer.item}, answer) <= depth_ulps + ulps) return true;
+        }
+        return false;
+    };
+    bool met = meets(q.ray, 0) || is_near_its_item(q, answer);
     for (double ulps = edge_ulps / 16; ulps <= edge_ulps && !met; ulps *= 2) {
         look_around(q, ulps, {answer.t, INFINITY}, [&](const TrueRay& ray) {
-            for (const double t : q.scene.meetings(ray, answer.item)) {
-                met = met || depth_gap(q, {t, answer.item}, answer) <= depth_ulps + ulps;
-            }
+            met = met || meets(ray, ulps);
         });
     }
     return met;
@@ -214,7 +218,7 @@ bool is_at_seam(const Question& q, const Answer& answer) {
     const auto touches_next = [&](int32_t step) {
         const std::optional<Item> next = q.scene.next_piece(answer.item, step);
         if (!next) return false;
-        const double height = piece_distance(frame_of(q.scene.piece(*next)), place);
+        const double height = q.scene.side_of_piece(*next, place);
         return std::abs(height) <= edge_ulps * q.unit_m && touches(*next);
     };
     return touches(answer.item) || touches_next(-1) || touches_next(1);
@@ -254,6 +258,18 @@ Finding excuse(const Question& q, const Answer& answer) {
     return worst;
 }
 
+/// What another item at the same depth is: there too, or beyond what the ray decides; or a wrong
+/// name.
+Finding judge_other_item(const Question& q, const Answer& got) {
+    const bool good = is_met_nearby(q, got) || is_at_its_edge(q, got) || is_at_seam(q, got) ||
+                      is_edge_on(q, got.item) || is_along(q, got);
+    return good ? Finding::equal_depth : Finding::item;
+}
+
+bool is_named_wrong(const TrueScene& scene, const Answer& answer) {
+    return answer.item.primitive >= 0 && !scene.has(answer.item);
+}
+
 double rounding_of(const TrueScene& scene, const TrueRay& ray, const Answer& answer) {
     if (answer.item.primitive < 0) return 0;
     return scene.rounding_m(ray, answer.item, answer.t);
@@ -267,6 +283,9 @@ Comparison compare(const TrueScene& scene,
                    const Answer& got) {
     if (!expected.found() && !got.found()) return {};
     if (expected.found() && got.found() && (expected.any || got.any)) return {};
+    if (is_named_wrong(scene, expected) || is_named_wrong(scene, got)) {
+        return {Finding::item, INFINITY};
+    }
     const bool same = expected.item == got.item;
     if (same && expected.found() == got.found() && expected.t == got.t) return {};
     double unit = std::max(rounding_of(scene, ray, expected), rounding_of(scene, ray, got));
@@ -274,7 +293,7 @@ Comparison compare(const TrueScene& scene,
     const Question question{scene, ray, unit};
     const bool both = expected.found() && got.found();
     if (both && depth_gap(question, expected, got) <= depth_ulps) {
-        return {same ? Finding::agree : Finding::equal_depth, 0};
+        return {same ? Finding::agree : judge_other_item(question, got), 0};
     }
     double ulps = explanation(question, expected, got, edge_ulps);
     if (ulps <= edge_ulps) return {Finding::edge, ulps};

@@ -127,6 +127,19 @@ PixelDifference compare_pixel(const TrueScene& truth,
     return out;
 }
 
+/// True when the ray meets more than one thing where it is hit: either is right.
+bool is_shared_place(const TrueScene& truth, const TrueRay& ray, const Answer& own) {
+    if (!own.found()) return false;
+    const double room = ray_ulps * truth.rounding_m(ray, own.item, own.t) / length(ray.direction);
+    const double cosine =
+        std::abs(dot(truth.normal(own.item, {}), ray.direction)) / length(ray.direction);
+    bool shared = false;
+    truth.all_hits(ray, [&](double t, const Item& item) {
+        shared = shared || (item != own.item && std::abs(t - own.t) * cosine <= room);
+    });
+    return shared;
+}
+
 /// True when a ray a few ulp beside this one hits something else.
 bool is_tie(const TrueScene& truth, const TrueRay& ray, const Answer& own) {
     constexpr int turns = 16;
@@ -208,7 +221,7 @@ Result<ViewerReport> compare_with_viewer(const ViewerTask& task) {
         const TrueRay ray = rays.true_ray(static_cast<int>(i));
         const PixelDifference found = compare_pixel(truth, ray, answers[i], pictures, i);
         if (!found.any()) continue;
-        if (is_tie(truth, ray, answers[i])) {
+        if (is_shared_place(truth, ray, answers[i]) || is_tie(truth, ray, answers[i])) {
             ++report.ties;
             continue;
         }

@@ -1,9 +1,11 @@
-// crosscheck/formula_check.cpp - the formulas in double against what a point's own place says.
+// crosscheck/formula_check.cpp - formulas in double against what a point's own place says.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/formula_check.h"
 
 #include "base/parallel.h"
 #include "crosscheck/random.h"
+#include "crosscheck/shape_side.h"
+#include "crosscheck/special_lines.h"
 
 #include <algorithm>
 #include <atomic>
@@ -15,153 +17,213 @@ namespace {
 
 constexpr size_t block_size = 1024;
 
-/// Distance from the axis less the radius at that height.
-double side_of_cone(const Vec3d& p, double half_height, double bottom, double top) {
-    const double share = (p.y + half_height) / (2 * half_height);
-    const double radius = bottom + (top - bottom) * share;
-    return std::max(std::hypot(p.x, p.z) - radius, std::abs(p.y) - half_height);
-}
+/// Of a shape's or a triangle's size: nearer to a boundary than that, rounding decides.
+constexpr double least_room = 1e-9;
+/// Likewise of a quadric's terms, which have coefficients of single precision.
+constexpr double least_of_terms = 1e-6;
 
-/// A capsule holds the balls around all points of its axis, their radii in proportion: the nearest
-/// ball's surface, by a search over the axis, for the difference is convex along it.
-double side_of_capsule(const Vec3d& p, double half_height, double bottom, double top) {
-    const auto side = [&](double share) {
-        const double y = half_height * (2 * share - 1);
-        return std::hypot(p.x, p.y - y, p.z) - (bottom + (top - bottom) * share);
-    };
-    double low = 0;
-    double high = 1;
-    for (int i = 0; i < 100; ++i) {
-        const double a = low + (high - low) / 3;
-        const double b = high - (high - low) / 3;
-        (side(a) < side(b) ? high : low) = side(a) < side(b) ? b : a;
-    }
-    return side(0.5 * (low + high));
-}
+/// Of a segment.
+struct Ends {
+    Vec3d a, b;
+};
 
-double side_of_quadric(const float (&k)[10], const Vec3d& p) {
-    const double monomials[10] = {
-        p.x * p.x, p.y * p.y, p.z * p.z, p.x * p.y, p.x * p.z, p.y * p.z, p.x, p.y, p.z, 1};
-    double sum = 0;
-    for (size_t i = 0; i < 10; ++i)
-        sum += static_cast<double>(k[i]) * monomials[i];
-    return sum;
-}
-
-/// A point in a box of a shape's size around its centre, or `wider` times as far.
-Vec3d near_shape(const ShapeRow& row, double wider, RandomStream& random) {
-    const ShapeBox box = shape_bounds(row);
-    const auto along = [&](float centre, float low, float high) {
-        const bool ends = std::abs(low) < 1e18f && std::abs(high) < 1e18f;
-        const double half = ends ? 0.5 * (static_cast<double>(high) - static_cast<double>(low)) : 1;
-        return static_cast<double>(centre) + random.between(-1, 1) * half * wider;
-    };
-    return {along(row.centre[0], box.low.x, box.high.x),
-            along(row.centre[1], box.low.y, box.high.y),
-            along(row.centre[2], box.low.z, box.high.z)};
-}
-
-bool is_open(ShapeKind kind) {
-    return kind == ShapeKind::plane || kind == ShapeKind::disk;
-}
-
-/// Whether the place where a segment crosses the level of a flat shape is on it.
-bool is_on_flat(const ShapeRow& row, const Vec3d& p) {
-    const double x = p.x - static_cast<double>(row.centre[0]);
-    const double z = p.z - static_cast<double>(row.centre[2]);
-    const double a = static_cast<double>(row.size[0]);
-    const double b = static_cast<double>(row.size[1]);
+/// How far inside of the rim the place is where a segment crosses the level of a flat shape.
+double room_on_flat(const ShapeRow& row, const Vec3d& p) {
+    const Vec3d from = p - centre_of(row);
+    const Vec3d size = size_of(row);
     if (static_cast<ShapeKind>(row.kind) == ShapeKind::plane) {
-        return std::abs(x) <= a && std::abs(z) <= b;
+        return std::min(size.x - std::abs(from.x), size.y - std::abs(from.z));
     }
-    return std::hypot(x, z) <= a && std::hypot(x, z) >= b;
+    const double around = std::hypot(from.x, from.z);
+    return std::min(size.x - around, size.y > 0 ? around - size.y : around + size.x);
 }
 
-size_t meetings_on_segment(const ShapeRow& row, const Vec3d& a, const Vec3d& b) {
-    const Roots<double> roots = intersect_shape<double>(row, ShapeRay<double>{a, b - a});
-    size_t count = 0;
-    for (int k = 0; k < 2; ++k) {
-        const bool same = k == 1 && roots.hit[0] && roots.t[0] == roots.t[1];  // flat shapes
-        count += roots.hit[k] && !same && roots.t[k] > 0 && roots.t[k] < 1 ? 1 : 0;
-    }
-    return count;
+/// Two places on a special line; those of a quadric in its box, for beyond that it is cut off.
+Ends on_special_line(const ShapeRow& row, RandomStream& random) {
+    const TrueRay line = special_line(row, random);
+    const ShapeBox box = shape_bounds(row);
+    const Vec3f whole = box.high - box.low;
+    const double size = std::min(static_cast<double>(max_component(whole)), 4.0 * 1e18);
+    const double reach = size < 1e18 ? size : 2;
+    const auto in_box = [&](const Vec3d& p) {
+        const Vec3d room = size_of(row) * 0.999 - abs(p - centre_of(row));
+        return std::min({room.x, room.y, room.z}) > 0;
+    };
+    const auto somewhere = [&] {
+        for (int i = 0; i < 32; ++i) {
+            const Vec3d p = line.origin + line.direction * (random.between(-1, 1) * reach);
+            if (!is_quadric(row) || in_box(p)) return p;
+        }
+        return place_near(row, 0.999, random);
+    };
+    const Vec3d a = somewhere();
+    return {a, somewhere()};
 }
 
-bool is_shape_right(const ShapeRow& row, RandomStream& random) {
-    const auto kind = static_cast<ShapeKind>(row.kind);
-    const bool quadric = kind == ShapeKind::quadric || kind == ShapeKind::quadric_from_above;
-    // A quadric's equation holds beyond its box, where the box has cut it off.
-    Vec3d a = near_shape(row, quadric ? 0.999 : 1.3, random);
-    Vec3d b = near_shape(row, quadric ? 0.999 : 1.3, random);
-    if (is_open(kind)) {
-        a.y += random.between(0.1, 1);
-        b.y -= random.between(0.1, 1);
+/// Two places near a shape; of a flat one, above and below.
+Ends anywhere(const ShapeRow& row, RandomStream& random) {
+    const double wider = is_quadric(row) ? 0.999 : 1.3;
+    Ends out{place_near(row, wider, random), place_near(row, wider, random)};
+    if (is_flat(row)) {
+        out.a.y += random.between(0.1, 1);
+        out.b.y -= random.between(0.1, 1);
     }
-    const double side_a = side_of_shape(row, a);
-    const double side_b = side_of_shape(row, b);
-    bool odd = (side_a < 0) != (side_b < 0);
-    if (is_open(kind)) {
-        const double share = side_a / (side_a - side_b);
-        odd = odd && is_on_flat(row, a + (b - a) * share);
-    }
-    return (meetings_on_segment(row, a, b) % 2 == 1) == odd;
+    return out;
 }
 
-bool is_triangle_right(const Triangle<double>& t, RandomStream& random) {
-    const double u = random.between(-0.5, 1.5);
-    const double v = random.between(-0.5, 1.5);
+/// What the sides of its ends say about a segment.
+enum class Parity { even, odd, unknown };
+
+Parity parity_of(const ShapeRow& row, const Ends& segment) {
+    const double side_a = side_of_shape(row, segment.a);
+    const double side_b = side_of_shape(row, segment.b);
+    const Vec3d far = max3(abs(segment.a - centre_of(row)), abs(segment.b - centre_of(row)));
+    const double scale = is_quadric(row) ? terms_of_quadric(row, far) : max_component(far);
+    const double room = (is_quadric(row) ? least_of_terms : least_room) * scale;
+    if (std::min(std::abs(side_a), std::abs(side_b)) <= room) return Parity::unknown;
+    if ((side_a < 0) == (side_b < 0)) return Parity::even;
+    if (!is_flat(row)) return Parity::odd;
+    const double share = side_a / (side_a - side_b);
+    const double inside = room_on_flat(row, segment.a + (segment.b - segment.a) * share);
+    if (std::abs(inside) <= room) return Parity::unknown;
+    return inside > 0 ? Parity::odd : Parity::even;
+}
+
+bool is_right(const ShapeRow& row, const Ends& segment, Parity parity, const LineMeeting& way) {
+    const Crossings met = way.shape(row, {segment.a, segment.b - segment.a});
+    const auto within =
+        std::count_if(met.t, met.t + met.count, [](double t) { return t > 0 && t < 1; });
+    return (within % 2 == 1) == (parity == Parity::odd);
+}
+
+/// A segment through a place in a triangle's plane, u and v of the way along its edges.
+struct TrianglePlace {
+    double u, v;
+    TrueRay line;
+
+    double room() const { return std::min({u, v, 1 - u - v}); }
+};
+
+bool is_right(const Triangle<double>& t, const TrianglePlace& place, const LineMeeting& way) {
+    if (std::abs(place.room()) < 1e-6) return true;
+    const Crossings met = way.triangle(t, place.line);
+    if ((met.count > 0) != (place.room() > 0)) return false;
+    return met.count == 0 || std::abs(met.t[0] - 0.5) < 1e-6;
+}
+
+/// Whether a line that may run in the triangle's plane meets it nowhere but on it.
+bool is_on_triangle(const Triangle<double>& t, const TrueRay& line, const LineMeeting& way) {
+    const Crossings met = way.triangle(t, line);
+    if (met.count == 0) return true;
     const Vec3d normal = cross(t.b - t.a, t.c - t.a);
     const double size = std::max(length(t.b - t.a), length(t.c - t.a));
-    if (length(normal) < 1e-7 * size * size) return true;  // too thin to have an inside
-    const Vec3d place = t.a + (t.b - t.a) * u + (t.c - t.a) * v;
-    const Vec3d off = (normalize(normal) + random.direction() * 0.7) * size;
-    const TriangleHit<double> hit =
-        intersect_triangle(t, ShapeRay<double>{place + off, off * -2.0});
-    const double inside = std::min({u, v, 1 - u - v});
-    if (std::abs(inside) < 1e-6) return true;
-    return hit.hit == (inside > 0) && (!hit.hit || std::abs(hit.t - 0.5) < 1e-6);
+    if (std::abs(dot(normalize(normal), line.direction)) < 1e-9) return true;  // in the plane
+    const Vec3d p = line.origin + line.direction * met.t[0];
+    const auto share = [&](const Vec3d& a, const Vec3d& b) {
+        return dot(cross(a - p, b - p), normal) / dot(normal, normal);
+    };
+    const double least = std::min({share(t.a, t.b), share(t.b, t.c), share(t.c, t.a)});
+    return least > -1e-6 && std::abs(dot(p - t.a, normalize(normal))) < 1e-6 * size;
 }
+
+/// Which of some ways of meeting lines are wrong about one segment.
+struct Wrong {
+    bool formulas = false, truth = false;
+};
+
+template <typename Test>
+Wrong wrong_of(const LineMeeting& formulas, const LineMeeting& truth, const Test& is_right_by) {
+    return {!is_right_by(formulas), !is_right_by(truth)};
+}
+
+class Checker {
+public:
+    Checker(const TrueScene& scene, const LineMeeting& formulas)
+        : scene_(scene), formulas_(formulas) {}
+
+    Wrong check(RandomStream& random, bool special) const {
+        const Item item = scene_.item(random.below(scene_.item_count()));
+        return scene_.is_triangle(item) ? check(scene_.triangle(item), random, special)
+                                        : check(scene_.shape(item), random, special);
+    }
+
+private:
+    Wrong check(const ShapeRow& row, RandomStream& random, bool special) const {
+        const Ends segment = special ? on_special_line(row, random) : anywhere(row, random);
+        const Parity parity = parity_of(row, segment);
+        if (parity == Parity::unknown) return {};
+        return wrong_of(formulas_, truth_, [&](const LineMeeting& way) {
+            return is_right(row, segment, parity, way);
+        });
+    }
+
+    Wrong check(const Triangle<double>& t, RandomStream& random, bool special) const {
+        const Vec3d normal = cross(t.b - t.a, t.c - t.a);
+        const double size = std::max(length(t.b - t.a), length(t.c - t.a));
+        // Too thin to have an inside, or no triangle at all.
+        if (!(length(normal) > 1e-7 * size * size)) return {};
+        if (special) {
+            const TrueRay line = special_line(t, random);
+            return wrong_of(formulas_, truth_, [&](const LineMeeting& way) {
+                return is_on_triangle(t, line, way);
+            });
+        }
+        const double u = random.between(-0.5, 1.5);
+        const double v = random.between(-0.5, 1.5);
+        const Vec3d middle = t.a + (t.b - t.a) * u + (t.c - t.a) * v;
+        const Vec3d off = (normalize(normal) + random.direction() * 0.7) * size;
+        const TrianglePlace place{u, v, {middle + off, off * -2.0}};
+        return wrong_of(
+            formulas_, truth_, [&](const LineMeeting& way) { return is_right(t, place, way); });
+    }
+
+    const TrueScene& scene_;
+    const LineMeeting& formulas_;
+    LineMeeting truth_ = true_crossings();
+};
 
 }  // namespace
 
-double side_of_shape(const ShapeRow& row, const Vec3d& point) {
-    const Vec3d p = point - Vec3d{row.centre[0], row.centre[1], row.centre[2]};
-    const double a = static_cast<double>(row.size[0]);
-    const double b = static_cast<double>(row.size[1]);
-    const double c = static_cast<double>(row.size[2]);
-    switch (static_cast<ShapeKind>(row.kind)) {
-        case ShapeKind::sphere:
-            return std::hypot(p.x, p.y, p.z) - a;
-        case ShapeKind::box:
-            return std::max({std::abs(p.x) - a, std::abs(p.y) - b, std::abs(p.z) - c});
-        case ShapeKind::frustum:
-            return side_of_cone(p, a, b, c);
-        case ShapeKind::capsule:
-            return side_of_capsule(p, a, b, c);
-        case ShapeKind::plane:
-        case ShapeKind::disk:
-            return p.y;
-        case ShapeKind::quadric:
-        case ShapeKind::quadric_from_above:
-            break;
-    }
-    return side_of_quadric(row.k, p);
+LineMeeting formulas_in_double() {
+    return {[](const ShapeRow& row, const TrueRay& line) {
+                const Roots<double> roots =
+                    intersect_shape<double>(row, ShapeRay<double>{line.origin, line.direction});
+                Crossings out;
+                for (int k = 0; k < (is_flat(row) ? 1 : 2); ++k) {
+                    if (roots.hit[k]) out.add(roots.t[k]);
+                }
+                return out;
+            },
+            [](const Triangle<double>& triangle, const TrueRay& line) {
+                const TriangleHit<double> hit =
+                    intersect_triangle(triangle, ShapeRay<double>{line.origin, line.direction});
+                Crossings out;
+                if (hit.hit) out.add(hit.t);
+                return out;
+            }};
 }
 
-FormulaCheck check_formulas(const TrueScene& scene, uint64_t segments, uint64_t seed) {
+LineMeeting true_crossings() {
+    return {cross_shape, cross_triangle};
+}
+
+FormulaCheck check_formulas(const TrueScene& scene,
+                            uint64_t segments,
+                            uint64_t seed,
+                            const LineMeeting& formulas) {
     if (scene.item_count() == 0) return {};
     std::atomic<uint64_t> wrong = 0;
+    std::atomic<uint64_t> wrong_truth = 0;
+    const Checker checker(scene, formulas);
     parallel_ranges(static_cast<size_t>(segments), block_size, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             RandomStream random(i ^ (seed << 40));
-            const Item item = scene.item(random.below(scene.item_count()));
-            const bool right = scene.is_triangle(item)
-                                   ? is_triangle_right(scene.triangle(item), random)
-                                   : is_shape_right(scene.shape(item), random);
-            if (!right) wrong.fetch_add(1, std::memory_order_relaxed);
+            const Wrong found = checker.check(random, i % 2 == 1);
+            if (found.formulas) wrong.fetch_add(1, std::memory_order_relaxed);
+            if (found.truth) wrong_truth.fetch_add(1, std::memory_order_relaxed);
         }
     });
-    return {segments, wrong.load()};
+    return {segments, wrong.load(), wrong_truth.load()};
 }
 
 }  // namespace obscura

@@ -1,26 +1,41 @@
-// crosscheck/formula_check.h - the formulas in double against what a point's own place says.
+// crosscheck/formula_check.h - formulas in double against what a point's own place says.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "crosscheck/truth.h"
 
 #include <cstdint>
+#include <functional>
 
 namespace obscura {
 
-/// Which side of a shape a point lies on, by the shape's definition alone: below 0 inside, or
-/// behind a flat or open one. Nothing of src/shape is used but the row's numbers.
-double side_of_shape(const ShapeRow& row, const Vec3d& point);
+/// Somebody's way of meeting lines.
+struct LineMeeting {
+    std::function<Crossings(const ShapeRow&, const TrueRay&)> shape;
+    std::function<Crossings(const Triangle<double>&, const TrueRay&)> triangle;
+};
+
+/// src/shape's formulas with F = double: those that the renderer has in single precision.
+LineMeeting formulas_in_double();
+
+/// Those of crossings.h: the truth.
+LineMeeting true_crossings();
 
 struct FormulaCheck {
     uint64_t segments = 0;
-    uint64_t wrong = 0;
+    uint64_t wrong = 0;        ///< of the formulas
+    uint64_t wrong_truth = 0;  ///< of the truth
+
+    bool operator==(const FormulaCheck&) const = default;
 };
 
-/// Takes two random points near random items: a segment between them must meet a shape an odd
-/// number of times when its ends lie on different sides, and a triangle when it goes through a
-/// place inside of it. This is what the truth itself rests on: a wrong formula of src/shape, in
-/// double as in single precision, ends here.
-FormulaCheck check_formulas(const TrueScene& scene, uint64_t segments, uint64_t seed);
+/// Takes two points near random items, every second time on a line along an axis, a ruling, an edge
+/// or a surface (special_lines.h): a segment between them must meet a shape an odd number of times
+/// when its ends lie on different sides (shape_side.h) and an even number when not, and a triangle
+/// when and where it goes through a place inside of it.
+FormulaCheck check_formulas(const TrueScene& scene,
+                            uint64_t segments,
+                            uint64_t seed,
+                            const LineMeeting& formulas = formulas_in_double());
 
 }  // namespace obscura

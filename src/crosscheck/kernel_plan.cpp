@@ -8,23 +8,47 @@ namespace obscura {
 
 namespace {
 
-Answer hit_answer(const HitBlock& hits, int i) {
+/// Ng of hits, where it is asked for.
+struct NormalBlock {
+    std::array<std::vector<float>, 3> number;
+    bool is_filled = false;
+
+    NormalColumns columns(int count) {
+        is_filled = true;
+        for (auto& column : number)
+            column.resize(static_cast<size_t>(count));
+        return {number[0].data(), number[1].data(), number[2].data()};
+    }
+    Vec3d at(int i) const {
+        const auto row = static_cast<size_t>(i);
+        return {number[0][row], number[1][row], number[2][row]};
+    }
+};
+
+Answer hit_answer(const HitBlock& hits, const NormalBlock& normals, int i) {
     const Item item = hits.item(i);
     if (item.primitive < 0) return {};
-    return {static_cast<double>(hits.t(i)), item};
+    Answer answer{static_cast<double>(hits.t(i)), item};
+    answer.place = {static_cast<double>(hits.u(i)), static_cast<double>(hits.v(i)), {}, true};
+    if (normals.is_filled) {
+        answer.place.ng = normals.at(i);
+        answer.place.has_ng = true;
+    }
+    return answer;
 }
 
-using AskHits = std::function<void(const RayColumns&, const HitColumns&)>;
+using AskHits = std::function<void(const RayColumns&, const HitColumns&, NormalBlock&)>;
 using AskOccluded = std::function<void(const RayColumns&, uint8_t*)>;
 
 Kernel hit_kernel(std::string name, AskHits ask) {
     return {std::move(name), [ask = std::move(ask)](RayBlock& rays, std::vector<Answer>& answers) {
                 HitBlock hits;
                 const RayColumns columns = rays.columns();
-                ask(columns, hits.columns(columns.count));
+                NormalBlock normals;
+                ask(columns, hits.columns(columns.count), normals);
                 answers.resize(static_cast<size_t>(columns.count));
                 for (int i = 0; i < columns.count; ++i)
-                    answers[static_cast<size_t>(i)] = hit_answer(hits, i);
+                    answers[static_cast<size_t>(i)] = hit_answer(hits, normals, i);
             }};
 }
 
@@ -111,19 +135,21 @@ Kernel make_kernel(const std::shared_ptr<const ReferenceKernels>& kernels,
                                     kernels->occluded(rays, occluded, width);
                                 });
     }
-    return hit_kernel(planned.name,
-                      [kernels, width](const RayColumns& rays, const HitColumns& hits) {
-                          kernels->intersect(rays, hits, width);
-                      });
+    return hit_kernel(
+        planned.name,
+        [kernels, width](const RayColumns& rays, const HitColumns& hits, NormalBlock& normals) {
+            const NormalColumns columns = normals.columns(rays.count);
+            kernels->intersect(rays, hits, width, &columns);
+        });
 }
 
 std::vector<Kernel> production_kernels(const std::shared_ptr<const Accel>& accel) {
     return {hit_kernel("obscura",
-                       [accel](const RayColumns& rays, const HitColumns& hits) {
+                       [accel](const RayColumns& rays, const HitColumns& hits, NormalBlock&) {
                            accel->intersect(rays, hits, Coherence::incoherent, {});
                        }),
             hit_kernel("obscura coherent",
-                       [accel](const RayColumns& rays, const HitColumns& hits) {
+                       [accel](const RayColumns& rays, const HitColumns& hits, NormalBlock&) {
                            accel->intersect(rays, hits, Coherence::coherent, {});
                        }),
             occlusion_kernel("obscura occluded", [accel](const RayColumns& rays, uint8_t* out) {

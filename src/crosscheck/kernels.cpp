@@ -3,6 +3,7 @@
 #include "crosscheck/kernels.h"
 
 #include "base/parallel.h"
+#include "crosscheck/place_check.h"
 
 #include <algorithm>
 #include <mutex>
@@ -32,19 +33,50 @@ struct ChunkPair {
     const TrueScene& scene;
     const RayBlock& rays;
     const std::vector<Answer>& got;
+    const AnswerList& reference;
     const Answer* expected;
     KnownDifferences& known;
     RayGroup group;
     uint64_t first;
 
+    /// Of a ray that ends before what is expected, nothing is.
+    Answer expected_of(int row) const {
+        return expected[row].t > rays.true_ray(row).end ? Answer{} : expected[row];
+    }
+
     Comparison compare_row(int row) const {
         const Answer& answer = got[static_cast<size_t>(row)];
-        if (const Comparison* found = known.find(row, answer)) return *found;
-        const Comparison found = compare(scene, rays.true_ray(row), expected[row], answer);
-        if (found.verdict > Finding::equal_depth) known.add(row, answer, found);
+        const TrueRay ray = rays.true_ray(row);
+        Comparison found = compare_answers(row, ray, answer);
+        // Its place is the answer's own affair: once is enough.
+        if (reference.is_truth && found.verdict < Finding::place &&
+            !is_right_place(scene, ray, answer)) {
+            found = {Finding::place, INFINITY};
+        }
+        return found;
+    }
+
+private:
+    Comparison compare_answers(int row, const TrueRay& ray, const Answer& answer) const {
+        const bool ends = std::isfinite(ray.end);
+        if (const Comparison* found = known.find(row, ends, answer)) return *found;
+        const Answer wanted = expected_of(row);
+        const Comparison found = compare(scene, ray, wanted, answer);
+        const bool same = found.verdict == Finding::agree || wanted.item == answer.item;
+        if (found.verdict > Finding::equal_depth || !same) known.add(row, ends, answer, found);
         return found;
     }
 };
+
+/// Ends for the rays of a question about occlusion: see compare_kernel.
+void set_ends(const Answer* truth, RayBlock& rays) {
+    for (int i = 1; i < rays.count(); i += 2) {
+        if (!truth[i].found()) continue;
+        RandomStream random(static_cast<uint64_t>(i));
+        const double share = i % 4 == 1 ? random.between(0.1, 0.95) : 1.01;
+        rays.set_end(i, share * truth[i].t);
+    }
+}
 
 /// Adds a chunk to a pair's figures; noted(row, verdict) sees every ray.
 template <typename Noted>
@@ -64,7 +96,7 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
         figures.worst.push_back({chunk.group,
                                  chunk.first + static_cast<uint64_t>(i),
                                  chunk.rays.true_ray(i),
-                                 chunk.expected[i],
+                                 chunk.expected_of(i),
                                  got,
                                  found});
     }
@@ -73,15 +105,16 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
 
 }  // namespace
 
-const Comparison* KnownDifferences::find(int row, const Answer& got) const {
+const Comparison* KnownDifferences::find(int row, bool ends, const Answer& got) const {
     const auto [begin, end] = by_row_.equal_range(row);
-    const auto known =
-        std::find_if(begin, end, [&](const auto& entry) { return entry.second.got == got; });
+    const auto known = std::find_if(begin, end, [&](const auto& entry) {
+        return entry.second.ends == ends && entry.second.got == got;
+    });
     return known == end ? nullptr : &known->second.comparison;
 }
 
-void KnownDifferences::add(int row, const Answer& got, const Comparison& comparison) {
-    by_row_.emplace(row, Known{got, comparison});
+void KnownDifferences::add(int row, bool ends, const Answer& got, const Comparison& comparison) {
+    by_row_.emplace(row, Known{ends, got, comparison});
 }
 
 void keep_worst(std::vector<Difference>& worst) {
@@ -90,7 +123,8 @@ void keep_worst(std::vector<Difference>& worst) {
 }
 
 uint64_t Tally::unexplained() const {
-    return of(Finding::depth) + of(Finding::missed) + of(Finding::false_hit);
+    return of(Finding::place) + of(Finding::item) + of(Finding::depth) + of(Finding::missed) +
+           of(Finding::false_hit);
 }
 
 void Tally::add(const Tally& other) {
@@ -146,8 +180,11 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
         RayBlock block;
         std::vector<Answer> answers;
         batch.rays.fill(chunk, block);
-        kernel.ask(block, answers);
         const size_t first = number * chunk_rays;
+        if (kernel.occlusion && !references.empty() && references[0]->is_truth) {
+            set_ends(&references[0]->answers[first], block);
+        }
+        kernel.ask(block, answers);
         if (kept != nullptr) std::copy(answers.begin(), answers.end(), &kept->answers[first]);
         const RayGroup group = RaySet::group(chunk);
         for (size_t r = 0; r < references.size(); ++r) {
@@ -157,6 +194,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                 {scene,
                  block,
                  answers,
+                 *references[r],
                  &references[r]->answers[first],
                  references[r]->known[number],
                  group,

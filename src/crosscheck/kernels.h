@@ -26,11 +26,14 @@ struct Kernel {
 class KnownDifferences {
 public:
     /// Null where this answer has not been compared.
-    const Comparison* find(int row, const Answer& got) const;
-    void add(int row, const Answer& got, const Comparison& comparison);
+    ///
+    /// In   ends: the ray was asked with an end, as occlusion is
+    const Comparison* find(int row, bool ends, const Answer& got) const;
+    void add(int row, bool ends, const Answer& got, const Comparison& comparison);
 
 private:
     struct Known {
+        bool ends;
         Answer got;
         Comparison comparison;
     };
@@ -106,7 +109,8 @@ struct ScreenVerdicts {
 };
 
 /// Asks a kernel all rays of a batch and compares it with others that have been asked. The same
-/// figures for any number of threads.
+/// figures for any number of threads. Occlusion is asked of every fourth ray up to a place before
+/// its true hit, where nothing may hide it, and of every fourth up to a place just behind it.
 ///
 /// In      references: answers to the same batch, always with the same scene; may be empty
 /// Out     kept: the kernel's answers, where it is not null; screen: worse verdicts of this pair,

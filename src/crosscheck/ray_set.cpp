@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/ray_set.h"
 
+#include "crosscheck/special_lines.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -16,7 +18,8 @@ constexpr std::array group_pattern = {RayGroup::camera,
                                       RayGroup::camera,
                                       RayGroup::vertex,
                                       RayGroup::grazing,
-                                      RayGroup::far_origin};
+                                      RayGroup::far_origin,
+                                      RayGroup::special};
 
 constexpr size_t batch_chunks = 4096;
 
@@ -26,7 +29,6 @@ constexpr double least_half = 1e-3;
 /// Steps through all pixels of a picture of any size up to its own: scattered, each once.
 constexpr uint64_t pixel_step = 2654435761;  ///< prime
 
-/// Any direction where a triangle without area has no normal.
 Vec3d tangent_to(const Vec3d& normal, RandomStream& random) {
     const Vec3d tangent = cross(normal, random.direction());
     return dot(tangent, tangent) > 0 ? normalize(tangent) : random.direction();
@@ -37,7 +39,13 @@ Vec3d tangent_to(const Vec3d& normal, RandomStream& random) {
 void RayBlock::clear() {
     for (auto& column : ray_)
         column.clear();
+    end_.clear();
     key_.clear();
+}
+
+void RayBlock::set_end(int i, double end) {
+    end_.resize((key_.size() + 15) / 16 * 16, unlimited);
+    end_[static_cast<size_t>(i)] = static_cast<float>(std::min(end, double{unlimited}));
 }
 
 void RayBlock::add(const Vec3d& origin, const Vec3d& direction) {
@@ -50,7 +58,9 @@ void RayBlock::add(const Vec3d& origin, const Vec3d& direction) {
 TrueRay RayBlock::true_ray(int i) const {
     const Vec3f o = origin(i);
     const Vec3f d = direction(i);
-    return {{o.x, o.y, o.z}, {d.x, d.y, d.z}};
+    const float end = end_.empty() ? unlimited : end_[static_cast<size_t>(i)];
+    const bool ends = end < unlimited;
+    return {{o.x, o.y, o.z}, {d.x, d.y, d.z}, ends ? static_cast<double>(end) : INFINITY};
 }
 
 RayColumns RayBlock::columns() {
@@ -68,7 +78,7 @@ RayColumns RayBlock::columns() {
             padded_[3].data(),
             padded_[4].data(),
             padded_[5].data(),
-            nullptr,
+            end_.empty() ? nullptr : end_.data(),
             key_.data(),
             rows};
 }
@@ -158,6 +168,29 @@ void RaySet::add_camera_ray(size_t chunk, int row, RayBlock& out) const {
             {ray.direction.x, ray.direction.y, ray.direction.z});
 }
 
+TrueRay RaySet::special_ray(const Item& item, RandomStream& random) const {
+    const bool triangle = scene_.is_triangle(item);
+    TrueRay line = triangle ? special_line(scene_.triangle(item), random)
+                            : special_line(scene_.shape(item), random);
+    if (triangle) {
+        // Of rays in a triangle's own plane rounding decides everything: parallel to it is enough.
+        const Triangle<double> t = scene_.triangle(item);
+        const Vec3d normal = normalize(cross(t.b - t.a, t.c - t.a));
+        if (std::abs(dot(normal, line.direction)) < 1e-3 * length(line.direction)) {
+            line.origin = line.origin + normal * (length(t.b - t.a) * random.between(-0.5, 0.5));
+        }
+    } else {
+        const Affined world = scene_.world_from_object(item);
+        line = {transform_point(world, line.origin), transform_vector(world, line.direction)};
+    }
+    // Along a line Embree misses whole pieces of it (PieceTest): nothing new would be found.
+    if (scene_.is_piece(item)) line.direction = random.direction();
+    const double size = length(line.direction);
+    line.direction = size > 0 ? line.direction * (1 / size) : random.direction();
+    line.origin = line.origin - line.direction * (radius_ * random.between(0.1, 2));
+    return line;
+}
+
 Vec3d RaySet::origin_around(RandomStream& random) const {
     if (random.unit() < 0.5) return centre_ + random.direction() * (2 * radius_);
     return centre_ +
@@ -169,7 +202,8 @@ RaySet::SurfaceSample RaySet::sample_triangle(const Item& item,
                                               RandomStream& random) const {
     const Triangle<double> t = scene_.triangle(item);
     const Vec3d corner[3] = {t.a, t.b, t.c};
-    const Vec3d normal = normalize(cross(t.b - t.a, t.c - t.a));
+    const Vec3d across = cross(t.b - t.a, t.c - t.a);
+    const Vec3d normal = dot(across, across) > 0 ? normalize(across) : random.direction();
     const size_t first = random.below(3);
     const Vec3d& a = corner[first];
     const Vec3d& b = corner[(first + 1) % 3];
@@ -214,6 +248,11 @@ void RaySet::add_ray(RayGroup group, RandomStream& random, RayBlock& out) const 
         return;
     }
     const Item item = scene_.item(random.below(scene_.item_count()));
+    if (group == RayGroup::special) {
+        const TrueRay line = special_ray(item, random);
+        out.add(line.origin, line.direction);
+        return;
+    }
     const SurfaceSample at = scene_.is_triangle(item) ? sample_triangle(item, group, random)
                                                       : sample_shape(item, random);
     if (group == RayGroup::far_origin) {

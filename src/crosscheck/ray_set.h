@@ -16,10 +16,10 @@ namespace obscura {
 
 /// How a ray was chosen. To add one: append it, give it a name in ray_group_names and a case in
 /// RaySet::make_ray; shares are in group_pattern.
-enum class RayGroup : int { camera, inside, outside, edge, vertex, grazing, far_origin };
-inline constexpr size_t ray_groups = 7;
+enum class RayGroup : int { camera, inside, outside, edge, vertex, grazing, far_origin, special };
+inline constexpr size_t ray_groups = 8;
 inline constexpr std::array<const char*, ray_groups> ray_group_names{
-    "camera", "inside", "outside", "edge", "vertex", "grazing", "far"};
+    "camera", "inside", "outside", "edge", "vertex", "grazing", "far", "special"};
 
 /// Groups whose rays are aimed at no particular place: shares of them mean something.
 inline constexpr bool is_unaimed(RayGroup group) {
@@ -31,6 +31,8 @@ class RayBlock {
 public:
     void clear();
     void add(const Vec3d& origin, const Vec3d& direction);
+    /// Rays have no ends before.
+    void set_end(int i, double end);
     int count() const { return static_cast<int>(key_.size()); }
     Vec3f origin(int i) const { return {at(0, i), at(1, i), at(2, i)}; }
     Vec3f direction(int i) const { return {at(3, i), at(4, i), at(5, i)}; }
@@ -41,6 +43,7 @@ public:
 private:
     float at(size_t column, int i) const { return ray_[column][static_cast<size_t>(i)]; }
     std::array<std::vector<float>, 6> ray_;
+    std::vector<float> end_;  ///< empty: no ray has one
     std::vector<uint32_t> key_;
     std::array<std::vector<float>, 6> padded_;
 };
@@ -50,6 +53,8 @@ class HitBlock {
 public:
     HitColumns columns(int count);
     float t(int i) const { return number_[0][static_cast<size_t>(i)]; }
+    float u(int i) const { return number_[1][static_cast<size_t>(i)]; }
+    float v(int i) const { return number_[2][static_cast<size_t>(i)]; }
     Item item(int i) const;
 
 private:
@@ -95,6 +100,7 @@ private:
     void add_ray(RayGroup group, RandomStream& random, RayBlock& out) const;
     SurfaceSample sample_triangle(const Item& item, RayGroup group, RandomStream& random) const;
     SurfaceSample sample_shape(const Item& item, RandomStream& random) const;
+    TrueRay special_ray(const Item& item, RandomStream& random) const;
     Vec3d origin_around(RandomStream& random) const;
 
     const TrueScene& scene_;

@@ -20,6 +20,8 @@ std::array<float, 3> color_of(int worst, bool hit) {
         case Finding::crack:
         case Finding::edge_on:
             return {1, 0.85f, 0};
+        case Finding::place:
+        case Finding::item:
         case Finding::depth:
         case Finding::missed:
         case Finding::false_hit:

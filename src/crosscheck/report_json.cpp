@@ -10,8 +10,16 @@ namespace obscura {
 
 namespace {
 
-constexpr std::array<const char*, verdicts> verdict_keys{
-    "agree", "equal_depth", "edge", "crack", "edge_on", "depth", "missed", "false_hit"};
+constexpr std::array<const char*, verdicts> verdict_keys{"agree",
+                                                         "equal_depth",
+                                                         "edge",
+                                                         "crack",
+                                                         "edge_on",
+                                                         "place",
+                                                         "item",
+                                                         "depth",
+                                                         "missed",
+                                                         "false_hit"};
 
 constexpr std::array<const char*, 3> standard_names{"full", "edges", "none"};
 
@@ -127,7 +135,9 @@ void add_scene(JsonWriter& out, const CheckedScene& scene) {
     out.member("searched_through_everything", scene.truth.rays).member("wrong", scene.truth.wrong);
     out.end_object();
     out.key("formulas").begin_object();
-    out.member("segments", scene.formulas.segments).member("wrong", scene.formulas.wrong);
+    out.member("segments", scene.formulas.segments)
+        .member("wrong", scene.formulas.wrong)
+        .member("wrong_truth", scene.formulas.wrong_truth);
     out.end_object();
     out.key("pairs").begin_array();
     for (const PairFigures& pair : scene.pairs)

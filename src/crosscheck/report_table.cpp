@@ -11,7 +11,7 @@ namespace obscura {
 namespace {
 
 constexpr std::array<const char*, verdicts> names{
-    "agree", "eq.depth", "edge", "crack", "edge-on", "depth", "missed", "false"};
+    "agree", "eq.depth", "edge", "crack", "edge-on", "place", "item", "depth", "missed", "false"};
 
 void add_row(const std::string& got,
              const std::string& expected,
@@ -32,7 +32,7 @@ void add_head(const char* first, const char* second, std::string& out) {
 
 void add_worst(const PairFigures& pair, std::string& out) {
     for (const Difference& d : pair.worst) {
-        if (d.comparison.verdict < Finding::depth) continue;
+        if (d.comparison.verdict < Finding::place) continue;
         out += fmt::format("    {} ray {} ({}): {}, expected {}; {}\n      {}\n",
                            pair.got,
                            d.number,
@@ -112,13 +112,14 @@ std::string describe(const Comparison& comparison) {
 }
 
 std::string replay_option(const TrueRay& ray) {
-    return fmt::format("--ray {:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}",
-                       ray.origin.x,
-                       ray.origin.y,
-                       ray.origin.z,
-                       ray.direction.x,
-                       ray.direction.y,
-                       ray.direction.z);
+    const std::string option = fmt::format("--ray {:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.9g}",
+                                           ray.origin.x,
+                                           ray.origin.y,
+                                           ray.origin.z,
+                                           ray.direction.x,
+                                           ray.direction.y,
+                                           ray.direction.z);
+    return std::isinf(ray.end) ? option : option + fmt::format(",{:.9g}", ray.end);
 }
 
 std::string check_table(const CheckedScene& scene) {
@@ -132,9 +133,10 @@ std::string check_table(const CheckedScene& scene) {
         scene.rays,
         scene.truth.rays,
         scene.truth.wrong);
-    out += fmt::format("  formulas in double: {} of {} segments wrong\n",
+    out += fmt::format("  formulas in double: {} of {} segments wrong; the truth: {}\n",
                        scene.formulas.wrong,
-                       scene.formulas.segments);
+                       scene.formulas.segments,
+                       scene.formulas.wrong_truth);
     add_head("kernel", "against", out);
     for (const PairFigures& pair : scene.pairs)
         add_row(pair.got, pair.expected, pair.total(), out);

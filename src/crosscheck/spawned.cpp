@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "crosscheck/compare.h"
+#include "crosscheck/shape_side.h"
 #include "render/prepared_scene.h"
 #include "stages/walk.h"
 
@@ -91,11 +92,6 @@ RayBlock shadows_as_rays(const Workspace& work, int count) {
         out.add({s.ox[i], s.oy[i], s.oz[i]}, {s.dx[i], s.dy[i], s.dz[i]});
     }
     return out;
-}
-
-bool is_flat(const ShapeRow& row) {
-    return row.kind == static_cast<int32_t>(ShapeKind::plane) ||
-           row.kind == static_cast<int32_t>(ShapeKind::disk);
 }
 
 /// A hit of a ray on a shape.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/tessellation.h"
 
-#include "crosscheck/formula_check.h"
+#include "crosscheck/shape_side.h"
 #include "math/warp.h"
 
 #include <algorithm>

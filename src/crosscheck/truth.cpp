@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/truth.h"
 
-#include "crosscheck/piece_distance.h"
 #include "crosscheck/piece_test.h"
+#include "crosscheck/shape_side.h"
 #include "crosscheck/truth_rows.h"
 
 #include <algorithm>
@@ -13,19 +13,21 @@ namespace obscura {
 
 namespace {
 
-ShapeRay<double> into(const Affined& object_from_world, const TrueRay& ray) {
+TrueRay into(const Affined& object_from_world, const TrueRay& ray) {
     return {transform_point(object_from_world, ray.origin),
-            transform_vector(object_from_world, ray.direction)};
+            transform_vector(object_from_world, ray.direction),
+            ray.end};
 }
 
 Item placed(const Item& item, int32_t instance) {
     return {instance, item.primitive, item.row};
 }
 
+/// Takes what lies on the ray.
 template <typename Take>
-void take_in_front(const Roots<double>& found, const Item& item, const Take& take) {
-    for (int k = 0; k < 2; ++k) {
-        if (found.hit[k] && found.t[k] > 0) take(found.t[k], item);
+void take_ahead(const Crossings& found, const TrueRay& ray, const Item& item, const Take& take) {
+    for (int k = 0; k < found.count; ++k) {
+        if (found.t[k] > 0 && found.t[k] <= ray.end) take(found.t[k], item);
     }
 }
 
@@ -112,50 +114,6 @@ bool TrueScene::is_endless(const Item& item) const {
     return is_unbounded(scene_.shapes[static_cast<size_t>(row)]);
 }
 
-bool TrueScene::is_piece(const Item& item) const {
-    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
-    return primitive.geometry == static_cast<int32_t>(GeometryKind::curves);
-}
-
-int64_t TrueScene::curve_point(const Item& item) const {
-    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
-    const int32_t row = primitive.first_triangle + item.row;
-    return scene_.curve_segments[static_cast<size_t>(row)];
-}
-
-Segment<double> TrueScene::piece(const Item& item) const {
-    const float* p = &scene_.curve_points[4 * static_cast<size_t>(curve_point(item))];
-    return {{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]};
-}
-
-SegmentFrame<double> TrueScene::curve_frame(const Item& item) const {
-    return frame_of(piece(item));
-}
-
-std::optional<Item> TrueScene::next_piece(const Item& item, int32_t step) const {
-    const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
-    const Item next{item.instance, item.primitive, item.row + step};
-    if (next.row < 0 || next.row >= primitive.triangle_count) return {};
-    if (curve_point(next) != curve_point(item) + step) return {};
-    return next;
-}
-
-Roots<double> TrueScene::curve_roots(const Item& item, const ShapeRay<double>& ray) const {
-    Roots<double> found = intersect_segment(curve_frame(item), ray);
-    for (const int32_t step : {-1, 1}) {
-        const std::optional<Item> next = next_piece(item, step);
-        if (!next) continue;
-        const SegmentFrame<double> frame = curve_frame(*next);
-        // The sphere between two pieces is the surface of both.
-        const double inside = -1e-9 * (frame.capsule.half_height + frame.capsule.bottom);
-        for (int k = 0; k < 2; ++k) {
-            const Vec3d place = ray.origin + ray.direction * found.t[k];
-            found.hit[k] = found.hit[k] && piece_distance(frame, place) >= inside;
-        }
-    }
-    return found;
-}
-
 ShapeRow TrueScene::shape(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     const int32_t number = primitive.first_triangle + item.row;
@@ -209,16 +167,16 @@ TrueBox TrueScene::box_of(const Item& item) const {
     return box;
 }
 
-Roots<double> TrueScene::roots(const Item& item, const ShapeRay<double>& ray) const {
-    if (is_triangle(item)) return roots_of(own_triangle(item), ray);
-    if (is_piece(item)) return curve_roots(item, ray);
-    const ShapeRow row = shape(item);
-    return intersect_shape<double>(row, ray);
+Crossings TrueScene::crossings(const Item& item, const TrueRay& ray) const {
+    if (is_triangle(item)) return cross_triangle(own_triangle(item), ray);
+    if (is_piece(item)) return cross_piece(item, ray);
+    return cross_shape(shape(item), ray);
 }
 
-Roots<double> TrueScene::roots(const Group& group, size_t k, const ShapeRay<double>& ray) const {
+Crossings TrueScene::crossings(const Group& group, size_t k, const TrueRay& ray) const {
     const Item& item = group.items[k];
-    return is_triangle(item) ? roots_of(in_double(group.corners[k]), ray) : roots(item, ray);
+    return is_triangle(item) ? cross_triangle(in_double(group.corners[k]), ray)
+                             : crossings(item, ray);
 }
 
 template <typename Take>
@@ -226,24 +184,28 @@ void TrueScene::visit_hits(const TrueRay& ray, const double& limit, const Take& 
     objects_tree_->visit(ray, limit, [&](int32_t i) {
         const Object& object = objects_[boxed_objects_[static_cast<size_t>(i)]];
         const Group& group = groups_[object.group];
-        const ShapeRay<double> own = into(object.object_from_world, ray);
-        group.tree->visit({own.origin, own.direction}, limit, [&](int32_t number) {
+        const TrueRay own = into(object.object_from_world, ray);
+        group.tree->visit(own, limit, [&](int32_t number) {
             const auto k = static_cast<size_t>(number);
-            take_in_front(roots(group, k, own), placed(group.items[k], object.instance), take);
+            take_ahead(
+                crossings(group, k, own), ray, placed(group.items[k], object.instance), take);
         });
     });
     for (const size_t i : endless_objects_) {
         const Object& object = objects_[i];
-        const ShapeRay<double> own = into(object.object_from_world, ray);
+        const TrueRay own = into(object.object_from_world, ray);
         for (const Item& item : groups_[object.group].endless)
-            take_in_front(roots(item, own), placed(item, object.instance), take);
+            take_ahead(crossings(item, own), ray, placed(item, object.instance), take);
     }
 }
 
 TrueHit TrueScene::nearest(const TrueRay& ray) const {
     TrueHit best;
-    visit_hits(ray, best.t, [&](double t, const Item& item) {
-        if (t < best.t) best = {t, item};
+    double limit = ray.end;
+    visit_hits(ray, limit, [&](double t, const Item& item) {
+        if (!(t < best.t)) return;
+        best = {t, item};
+        limit = t;
     });
     return best;
 }
@@ -251,11 +213,11 @@ TrueHit TrueScene::nearest(const TrueRay& ray) const {
 TrueHit TrueScene::nearest_of_all(const TrueRay& ray) const {
     TrueHit best;
     for (const Object& object : objects_) {
-        const ShapeRay<double> own = into(object.object_from_world, ray);
+        const TrueRay own = into(object.object_from_world, ray);
         const Group& group = groups_[object.group];
         for (size_t k = 0; k < group.items.size(); ++k) {
             const Item item = placed(group.items[k], object.instance);
-            take_in_front(roots(group, k, own), item, [&](double t, const Item&) {
+            take_ahead(crossings(group, k, own), ray, item, [&](double t, const Item&) {
                 if (t < best.t) best = {t, item};
             });
         }
@@ -264,7 +226,7 @@ TrueHit TrueScene::nearest_of_all(const TrueRay& ray) const {
 }
 
 void TrueScene::all_hits(const TrueRay& ray, const std::function<void(double, Item)>& take) const {
-    visit_hits(ray, INFINITY, take);
+    visit_hits(ray, ray.end, take);
 }
 
 void TrueScene::near_items(const TrueRay& ray,
@@ -273,23 +235,23 @@ void TrueScene::near_items(const TrueRay& ray,
     const auto visit_object = [&](int32_t i) {
         const Object& object = objects_[boxed_objects_[static_cast<size_t>(i)]];
         const Group& group = groups_[object.group];
-        const ShapeRay<double> own = into(object.object_from_world, ray);
+        const TrueRay own = into(object.object_from_world, ray);
         const double room =
             max_component(transform_vector(absolute(object.object_from_world), splat3(room_m)));
         const auto visit_item = [&](int32_t k) {
             const Item& item = group.items[static_cast<size_t>(k)];
             take(placed(item, object.instance));
         };
-        group.tree->visit({own.origin, own.direction}, INFINITY, visit_item, room);
+        group.tree->visit(own, ray.end, visit_item, room);
     };
-    objects_tree_->visit(ray, INFINITY, visit_object, room_m);
+    objects_tree_->visit(ray, ray.end, visit_object, room_m);
 }
 
 std::vector<double> TrueScene::meetings(const TrueRay& ray, const Item& item) const {
     std::vector<double> found;
     const Object& object = object_of(item);
-    const ShapeRay<double> own = into(object.object_from_world, ray);
-    take_in_front(roots(item, own), item, [&](double t, const Item&) { found.push_back(t); });
+    const TrueRay own = into(object.object_from_world, ray);
+    take_ahead(crossings(item, own), ray, item, [&](double t, const Item&) { found.push_back(t); });
     return found;
 }
 
@@ -306,6 +268,17 @@ Affined TrueScene::world_from_object(const Item& item) const {
 Affined TrueScene::object_from_world(const Item& item) const {
     if (is_piece(item)) return inverse(world_from(curve_frame(item)));
     return object_of(item).object_from_world;
+}
+
+bool TrueScene::has(const Item& item) const {
+    const auto number = static_cast<size_t>(int64_t{item.instance} + 1);
+    if (item.instance < -1 || number >= objects_.size() || item.primitive < 0) return false;
+    const Mesh world{0, scene_.world_primitive_count};
+    const size_t group = objects_[number].group;
+    const Mesh& mesh = group == 0 ? world : scene_.meshes[group - 1];
+    const int64_t within = int64_t{item.primitive} - mesh.first_primitive;
+    return within >= 0 && within < mesh.primitive_count && item.row >= 0 &&
+           item.row < scene_.primitives[static_cast<size_t>(item.primitive)].triangle_count;
 }
 
 Item TrueScene::item(size_t number) const {
@@ -371,10 +344,8 @@ Vec3d TrueScene::normal(const Item& item, const Vec3d& place) const {
         const Triangle<double> own = own_triangle(item);
         return normalize(transform_normal(object, cross(own.b - own.a, own.c - own.a)));
     }
-    const ShapeRow row = shape(item);
-    const SurfacePoint<double> on = surface_of_shape<double>(
-        row.kind, UniformShape<double>(row), transform_point(object, place));
-    return normalize(transform_normal(object, on.normal));
+    return normalize(
+        transform_normal(object, normal_of_shape(shape(item), transform_point(object, place))));
 }
 
 }  // namespace obscura

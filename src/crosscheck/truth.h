@@ -3,9 +3,9 @@
 #pragma once
 
 #include "crosscheck/box_tree.h"
+#include "crosscheck/crossings.h"
 #include "scene/scene.h"
 #include "shape/segment.h"
-#include "shape/triangle.h"
 
 #include <functional>
 #include <optional>
@@ -46,7 +46,7 @@ public:
     ///      more than by rounding
     explicit TrueScene(const Scene& scene, double slack_m = 0);
 
-    /// The nearest hit with t > 0.
+    /// The nearest hit with t > 0, up to the ray's end.
     TrueHit nearest(const TrueRay& ray) const;
 
     /// The same without boxes: every triangle and every shape is looked at.
@@ -75,6 +75,9 @@ public:
     /// Unit normal of the item near a place, in the world.
     Vec3d normal(const Item& item, const Vec3d& place) const;
 
+    /// Whether there is such an item.
+    bool has(const Item& item) const;
+
     /// Items in the world; each instance's count.
     size_t item_count() const { return item_ends_.empty() ? 0 : item_ends_.back(); }
     Item item(size_t number) const;
@@ -90,6 +93,8 @@ public:
     /// A piece of a line; the numbers are Embree's, even where one ball holds the other.
     bool is_piece(const Item& item) const;
     Segment<double> piece(const Item& item) const;
+    /// Metres from a piece's surface, negative inside.
+    double side_of_piece(const Item& item, const Vec3d& place) const;
     /// The piece before (-1) or after (1) on the same line.
     std::optional<Item> next_piece(const Item& item, int32_t step) const;
 
@@ -120,12 +125,12 @@ private:
     SegmentFrame<double> curve_frame(const Item& item) const;
     /// Of a line's piece, without what lies inside the pieces before and after it: a line is one
     /// body.
-    Roots<double> curve_roots(const Item& item, const ShapeRay<double>& ray) const;
+    Crossings cross_piece(const Item& item, const TrueRay& ray) const;
     TrueBox box_of(const Item& item) const;
-    /// Roots of one item in its own space; t <= 0 means none.
-    Roots<double> roots(const Item& item, const ShapeRay<double>& ray) const;
+    /// Of one item in its own space, wherever the ray begins and ends.
+    Crossings crossings(const Item& item, const TrueRay& ray) const;
     /// Item k of a group; its corners lie beside it.
-    Roots<double> roots(const Group& group, size_t k, const ShapeRay<double>& ray) const;
+    Crossings crossings(const Group& group, size_t k, const TrueRay& ray) const;
     template <typename Take>
     void visit_hits(const TrueRay& ray, const double& limit, const Take& take) const;
 

@@ -35,9 +35,4 @@ inline Triangle<double> in_double(const Triangle<float>& t) {
     return {{t.a.x, t.a.y, t.a.z}, {t.b.x, t.b.y, t.b.z}, {t.c.x, t.c.y, t.c.z}};
 }
 
-inline Roots<double> roots_of(const Triangle<double>& triangle, const ShapeRay<double>& ray) {
-    const TriangleHit<double> hit = intersect_triangle(triangle, ray);
-    return {{hit.t, hit.t}, {hit.hit, false}};
-}
-
 }  // namespace obscura

@@ -54,7 +54,7 @@ constexpr PropertyRow property_rows[] = {
     {"/materials/*/alphaCutoff", 1},
     {"/materials/*/emissiveFactor", 3},
     {"/materials/*/normalTexture/scale", 1},
-    {"/materials/*/occlusionTexture/strength", 1, ChannelPath::json, false},
+    {"/materials/*/occlusionTexture/strength", 1},
     {"/materials/*/pbrMetallicRoughness/baseColorFactor", 4},
     {"/materials/*/pbrMetallicRoughness/metallicFactor", 1},
     {"/materials/*/pbrMetallicRoughness/roughnessFactor", 1},

@@ -25,7 +25,10 @@ Result<Bytes> read_asset_file(const std::filesystem::path& file) {
 
 }  // namespace
 
-Result<OpenedAsset> open_asset(const std::filesystem::path& path, Problems& problems, Log& log) {
+Result<OpenedAsset> open_asset(const std::filesystem::path& path,
+                               Problems& problems,
+                               Log& log,
+                               bool occlusion) {
     const std::string where = path.string();
     Result<Bytes> bytes = read_asset_file(path);
     if (!bytes) return fail(std::move(bytes.error()));
@@ -50,7 +53,7 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path, Problems& prob
     Result<nlohmann::json> tree = parse_json_text(text, where, log);
     if (!tree) return fail(std::move(tree.error()));
     if (!is_glb(all)) asset.file = Bytes();
-    Result<Document> document = read_document(*tree, where, problems, log);
+    Result<Document> document = read_document(*tree, where, problems, log, occlusion);
     if (!document) return fail(std::move(document.error()));
     asset.document = std::move(*document);
     if (!asset.document.animations.empty()) asset.tree = std::move(*tree);

@@ -31,11 +31,11 @@ PartNote note_of(const PartJob& job, const MeshPart& part) {
     PartNote out;
     out.name = job.name;
     out.corners = part.corners;
-    out.look = {!part.normals.empty(), !part.colors.empty()};
     out.issues = part.issues;
     for (size_t set = 0; set < part.uvs.size(); ++set) {
         if (!part.uvs[set].empty()) out.uv_sets |= 1U << set;
     }
+    out.look = {!part.normals.empty(), out.uv_sets};
     return out;
 }
 
@@ -133,7 +133,7 @@ int BlockReader::choose_material(const PartNote& note) {
         problems_.add(
             {ExitCode::bad_data, "E-MESH-TEXCOORD", place(note.name), text + "; it must have them"},
             {Loss::nothing, "there the factors alone count"});
-    } else if (choice.is_new) {  // points and lines have no textures
+    } else if (choice.is_new) {
         log_.warn(place(note.name), text + "; there the factors alone count");
     }
     return choice.row;
@@ -153,11 +153,6 @@ Result<void> BlockReader::append(const PartJob& job, MeshPart& part, GeometryBlo
     }
     GeometryStore* store = sources_.meshes.store;
     SphereOrders* orders = store != nullptr ? &store->sphere_orders : nullptr;
-    const Material& material =
-        materials_.rows[static_cast<size_t>(this->primitive(job.name).material) + 1];
-    if (part.corners != 3 && part.normals.empty() && (material.flags & material_unlit) == 0) {
-        sum_colors(material, part.colors);
-    }
     Result<Primitive> primitive = part.corners == 3
                                       ? append_part(scene_, part, place(job.name))
                                       : append_strokes(scene_, part, place(job.name), orders);

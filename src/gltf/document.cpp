@@ -124,11 +124,13 @@ void clamped_numbers(DocumentReading& reading,
 Result<Document> read_document(const nlohmann::json& tree,
                                const std::string& file,
                                Problems& problems,
-                               Log& log) {
+                               Log& log,
+                               bool occlusion) {
     JsonFault fault;
     fault.file = file;
     Document document;
     document.file = file;
+    document.reads_occlusion = occlusion;
     const JsonReader root(tree, "", fault);
 
     const Result<void> version = read_asset(root, document);
@@ -147,6 +149,14 @@ Result<Document> read_document(const nlohmann::json& tree,
         problems.add(
             {ExitCode::bad_data, "E-ACC-COUNT", where, "the count is 0; it must be 1 or more"},
             {Loss::nothing, "what needs the accessor is left out"});
+    }
+    for (const auto& [place, set] : reading.far_uv_sets) {
+        problems.add({ExitCode::bad_data,
+                      "E-MAT-TEXCOORD",
+                      document.at(place),
+                      "texCoord is " + std::to_string(set) + "; the largest that is read is " +
+                          std::to_string(max_uv_sets - 1)},
+                     {Loss::nothing, "the texture is ignored"});
     }
 
     const Result<void> graph = check_node_graph(document);

@@ -10,6 +10,7 @@
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
 #include "shape/shape_row.h"
+#include "surface/harmonics.h"
 #include "surface/material_layers.h"
 
 #include <array>
@@ -84,6 +85,10 @@ struct GltfAccessor {
     std::array<double, 3> high = {};
 };
 
+/// What lamps and surfaces send out at most, in nits, candela or lux: with a mirror's narrowest
+/// lobe or a lamp's shortest distance it makes products that single precision still holds.
+inline constexpr double brightest = 1e20;
+
 struct GltfImage {
     std::string name;
     std::optional<std::string> uri;
@@ -113,17 +118,26 @@ struct GltfMaterial {
     std::optional<MaterialLayers> layers = {};  ///< where it has extensions that need them
 };
 
+/// The attributes of KHR_gaussian_splatting.
+struct GltfSplatAttributes {
+    int rotation = -1;
+    int scale = -1;
+    int opacity = -1;
+    /// SH_DEGREE_l_COEF_n at l^2 + n
+    std::array<int, most_harmonics> harmonics = {
+        -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+};
+
 /// A number for each vertex attribute that is read; -1: it is absent.
 struct GltfAttributes {
     int position = -1;
     int normal = -1;
     int tangent = -1;
     int color = -1;
-    int splat_color = -1;  ///< KHR_gaussian_splatting: SH_DEGREE_0_COEF_0
-    int splat_opacity = -1;
     std::array<int, max_uv_sets> uv = {-1, -1, -1, -1, -1, -1, -1, -1};
     std::vector<int> joints = {};  ///< JOINTS_n, by set
     std::vector<int> weights = {};
+    GltfSplatAttributes splats = {};
 };
 
 /// KHR_materials_variants: a material that some variants give to a primitive.
@@ -137,7 +151,8 @@ struct GltfPrimitive : GltfAttributes {
     int indices = -1;
     int material = -1;
     int mode = 4;
-    bool splats_are_linear = false;  ///< KHR_gaussian_splatting: colours without the sRGB curve
+    bool is_splats = false;          ///< KHR_gaussian_splatting, not compressed
+    bool splats_are_linear = false;  ///< their colours have no sRGB curve
     int draco_view = -1;             ///< KHR_draco_mesh_compression; -1: it is not compressed
     GltfAttributes draco_ids;        ///< the attributes' numbers in the compressed data
     std::vector<GltfVariantMaterial> variants;
@@ -271,7 +286,8 @@ struct Document {
     std::string xmp;                    ///< the asset's XMP packet as JSON text
     std::vector<ExtensionInfo> extensions;
     std::vector<ReportRow> report;
-    bool keeps_uv = false;  ///< LoadOptions::keeps_uv
+    bool keeps_uv = false;         ///< LoadOptions::keeps_uv
+    bool reads_occlusion = false;  ///< LoadOptions::occlusion
 
     /// "scene.glb#/accessors/12", for messages.
     std::string at(std::string_view pointer) const { return file + "#" + std::string(pointer); }
@@ -283,10 +299,12 @@ struct Document {
 /// Reads and checks a whole asset: types, ranges, indices, version, required extensions, the node
 /// graph. Says once what is ignored. Accessors without elements go to `problems` (E-ACC-COUNT).
 ///
+/// In      occlusion: LoadOptions::occlusion
 /// Errors  65 E-JSON-TYPE, E-DOC-*, E-NODE-*; 69 E-VERSION, and E-EXT-REQUIRED unless lenient
 Result<Document> read_document(const nlohmann::json& root,
                                const std::string& file,
                                Problems& problems,
-                               Log& log);
+                               Log& log,
+                               bool occlusion = false);
 
 }  // namespace obscura

@@ -12,13 +12,13 @@ namespace {
 constexpr const char* ies_name = "EXT_lights_ies";
 constexpr const char* image_based_name = "EXT_lights_image_based";
 constexpr const char* ies_mime = "application/x-ies-lm-63";
-constexpr double brightest = 1e9;  ///< as a factor
+constexpr double largest_factor = 1e9;
 
 GltfEnvironment read_environment(DocumentReading& reading, const JsonReader& light, size_t index) {
     GltfEnvironment out;
     out.name = light.text("name");
     if (out.name.empty()) out.name = "image-based light " + std::to_string(index);
-    out.intensity = clamped_number(reading, light, "intensity", {1, 0, brightest});
+    out.intensity = clamped_number(reading, light, "intensity", {1, 0, largest_factor});
     light.numbers("rotation", out.rotation);
     if (!normalize_quaternion(out.rotation)) {
         light.fault("rotation", "E-LIGHT-ROTATION", "the quaternion has no length");
@@ -69,7 +69,7 @@ GltfProfileUse read_node_profile(DocumentReading& reading, const JsonReader& nod
     const JsonReader use = node.extension(ies_name);
     use.require("light");
     out.profile = use.index("light", reading.document.profiles.size(), "light profile");
-    out.multiplier = clamped_number(reading, use, "multiplier", {1, 0, brightest});
+    out.multiplier = clamped_number(reading, use, "multiplier", {1, 0, largest_factor});
     clamped_numbers(reading, use, "color", out.color, {1, 0, 1});
     return out;
 }

@@ -14,7 +14,10 @@ constexpr double largest_factor = 1e30;
 
 /// KHR_texture_transform as a matrix: uv' = offset + rotation * scale * uv. A positive angle turns
 /// the UV axes counter-clockwise as seen with v pointing down.
-void read_texture_transform(DocumentReading& reading, const JsonReader& info, TextureSlot& slot) {
+void read_texture_transform(DocumentReading& reading,
+                            const JsonReader& info,
+                            TextureSlot& slot,
+                            uint64_t& uv_set) {
     constexpr const char* name = "KHR_texture_transform";
     if (!info.has_extension(name)) return;
     const JsonReader object = info.extension(name);
@@ -30,10 +33,7 @@ void read_texture_transform(DocumentReading& reading, const JsonReader& info, Te
         c * scale[0], s * scale[1], offset[0], -s * scale[0], c * scale[1], offset[1]};
     for (size_t i = 0; i < 6; ++i)
         slot.uv_from_mesh[i] = static_cast<float>(matrix[i]);
-    if (object.has("texCoord")) {
-        slot.uv_set =
-            static_cast<int32_t>(std::min<uint64_t>(object.size("texCoord", 0), 1U << 20));
-    }
+    if (object.has("texCoord")) uv_set = object.size("texCoord", 0);
 }
 
 uint32_t read_flags(DocumentReading& reading, const JsonReader& object) {
@@ -75,11 +75,18 @@ Material read_material_values(DocumentReading& reading, const JsonReader& object
     constexpr const char* strength_name = "KHR_materials_emissive_strength";
     if (object.has_extension(strength_name)) {
         strength = clamped_number(
-            reading, object.extension(strength_name), "emissiveStrength", {1, 0, largest_factor});
+            reading, object.extension(strength_name), "emissiveStrength", {1, 0, brightest});
     }
     for (size_t i = 0; i < 3; ++i)
         out.emission[i] = static_cast<float>(emission[i] * strength);
     out.emissive_texture = read_texture_slot(reading, object, "emissiveTexture");
+
+    if (reading.document.reads_occlusion) {
+        out.occlusion_texture = read_texture_slot(reading, object, "occlusionTexture");
+        const JsonReader occlusion = object.child("occlusionTexture");
+        out.occlusion_strength =
+            static_cast<float>(clamped_number(reading, occlusion, "strength", unit));
+    }
 
     out.alpha_cutoff = static_cast<float>(
         clamped_number(reading, object, "alphaCutoff", {0.5, 0, largest_factor}));
@@ -97,8 +104,8 @@ TextureSlot read_texture_slot(DocumentReading& reading,
     const JsonReader info = object.child(key);
     info.require("index");
     slot.texture = info.index("index", reading.root.count("textures"), "texture");
-    slot.uv_set = static_cast<int32_t>(std::min<uint64_t>(info.size("texCoord", 0), 1U << 20));
-    read_texture_transform(reading, info, slot);
+    uint64_t uv_set = info.size("texCoord", 0);
+    read_texture_transform(reading, info, slot, uv_set);
     if (reading.root.failed()) return TextureSlot{};
     const GltfTexture& texture = reading.document.textures[static_cast<size_t>(slot.texture)];
     if (texture.image < 0) {
@@ -106,12 +113,11 @@ TextureSlot read_texture_slot(DocumentReading& reading,
                          "the texture has no image that can be read; it is ignored");
         return TextureSlot{};
     }
-    if (slot.uv_set >= max_uv_sets) {
-        reading.log.warn(reading.document.at(info.pointer()),
-                         "TEXCOORD_" + std::to_string(slot.uv_set) +
-                             " is out of reach (TEXCOORD_0 to 7 are read); the texture is ignored");
+    if (uv_set >= max_uv_sets) {
+        reading.far_uv_sets.emplace_back(info.pointer(), uv_set);
         return TextureSlot{};
     }
+    slot.uv_set = static_cast<int32_t>(uv_set);
     return slot;
 }
 

@@ -37,14 +37,13 @@ int* slot_of(GltfAttributes& attributes, const std::string& name) {
     if (name == "NORMAL") return &attributes.normal;
     if (name == "TANGENT") return &attributes.tangent;
     if (name == "COLOR_0") return &attributes.color;
-    if (name == "KHR_gaussian_splatting:SH_DEGREE_0_COEF_0") return &attributes.splat_color;
-    if (name == "KHR_gaussian_splatting:OPACITY") return &attributes.splat_opacity;
     int* joint_slot = set_slot(attributes.joints, name, "JOINTS_");
     if (joint_slot != nullptr) return joint_slot;
     int* weight_slot = set_slot(attributes.weights, name, "WEIGHTS_");
     if (weight_slot != nullptr) return weight_slot;
     const int set = uv_set_of(name);
-    return set < 0 ? nullptr : &attributes.uv[static_cast<size_t>(set)];
+    if (set >= 0) return &attributes.uv[static_cast<size_t>(set)];
+    return splat_slot(attributes.splats, name);
 }
 
 void read_draco(DocumentReading& reading, const JsonReader& object, GltfPrimitive& out) {
@@ -98,9 +97,7 @@ GltfPrimitive read_primitive(DocumentReading& reading, const JsonReader& object)
                      std::to_string(mode) + " is not a primitive mode; accepted are 0 to 6");
     }
     out.mode = static_cast<int>(mode);
-    constexpr const char* splats = "KHR_gaussian_splatting";
-    out.splats_are_linear = object.has_extension(splats) &&
-                            object.extension(splats).text("colorSpace") == "lin_rec709_display";
+    read_splats(object, out);
     read_draco(reading, object, out);
     read_variant_materials(reading, object, out);
     return out;

@@ -108,7 +108,7 @@ void read_spot(DocumentReading& reading, const JsonReader& light, GltfLight& out
 }
 
 GltfLight read_light(DocumentReading& reading, const JsonReader& light, size_t index) {
-    constexpr double brightest = 1e30;
+    constexpr double largest_range = 1e30;
     GltfLight out;
     out.name = light.text("name");
     if (out.name.empty()) out.name = "light " + std::to_string(index);
@@ -127,7 +127,7 @@ GltfLight read_light(DocumentReading& reading, const JsonReader& light, size_t i
     clamped_numbers(reading, light, "color", out.color, {1, 0, brightest});
     out.intensity = clamped_number(reading, light, "intensity", {1, 0, brightest});
     out.range = light.number("range", 0);
-    if (light.has("range") && !(out.range > 0 && out.range <= brightest)) {
+    if (light.has("range") && !(out.range > 0 && out.range <= largest_range)) {
         reading.log.warn(reading.document.at(light.pointer()),
                          "the range must be above 0; it is taken as unlimited");
         out.range = 0;

@@ -16,6 +16,7 @@ struct DocumentReading {
     std::vector<std::string> clamped = {};     ///< places of numbers outside their range
     std::vector<std::string> misaligned = {};  ///< places of accessors
     std::vector<std::string> empty = {};       ///< places of accessors without elements
+    std::vector<std::pair<std::string, uint64_t>> far_uv_sets = {};  ///< by place of the texture
 };
 
 struct NumberRange {
@@ -50,6 +51,12 @@ void read_meshes(DocumentReading& reading);  // document_meshes.cpp
 /// "weights" of a mesh or node, checked against the number of its morph targets;
 /// document_meshes.cpp
 std::vector<double> read_morph_weights(const JsonReader& object, size_t target_count);
+/// KHR_gaussian_splatting of a primitive whose attributes and mode are read; document_splats.cpp
+void read_splats(const JsonReader& primitive, GltfPrimitive& out);
+/// Where the number of an attribute of splats is kept; nullptr: the name is another one.
+int* splat_slot(GltfSplatAttributes& attributes, const std::string& name);
+/// "SH_DEGREE_2_COEF_4"
+std::string splat_harmonic_name(int degree, int number);
 void read_skins(DocumentReading& reading);  // document_animations.cpp
 void read_animations(DocumentReading& reading);
 void read_nodes(DocumentReading& reading);  // document_nodes.cpp

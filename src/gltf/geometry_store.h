@@ -18,7 +18,7 @@ struct PartNote {
     int node = -1;        ///< as Primitive::node
     MaterialNeeds needs;  ///< at that time
     size_t corners = 3;
-    StrokeLook look;       ///< where they are less
+    StrokeLook look;       ///< of points and lines
     uint32_t uv_sets = 0;  ///< bit n: it has TEXCOORD_n
     uint32_t issues = 0;   ///< issue_bit
     bool drawn = false;

@@ -84,7 +84,7 @@ std::optional<PunctualLight> place_light(const GltfLight& light, const Affined& 
         out.position[axis] = static_cast<float>(world.m[axis][3]);
         if (!std::isfinite(out.position[axis])) return std::nullopt;
         const double power =
-            std::min(light.color[static_cast<size_t>(axis)] * light.intensity, 1e30);
+            std::min(light.color[static_cast<size_t>(axis)] * light.intensity, brightest);
         out.intensity[axis] = static_cast<float>(power);
     }
     const Vec3d aim = direction.value_or(Vec3d{0, 0, -1});

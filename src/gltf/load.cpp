@@ -5,12 +5,14 @@
 #include "gltf/asset_file.h"
 #include "gltf/environment_light.h"
 #include "gltf/instancing.h"
+#include "gltf/left_out_nodes.h"
 #include "gltf/light_profiles.h"
 #include "gltf/lights_cameras.h"
 #include "gltf/meshes.h"
 #include "gltf/meshopt.h"
 #include "gltf/pose.h"
 #include "gltf/shapes.h"
+#include "gltf/splats.h"
 #include "gltf/textures.h"
 #include "gltf/variants.h"
 #include "scene/motion.h"
@@ -91,7 +93,8 @@ void fill_info(const Document& document, AssetInfo& info) {
 void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
     if (scene.bounds.empty()) {
         log.warn(document.file,
-                 "the scene has no triangles, shapes, points or lines; only its surroundings will "
+                 "the scene has no triangles, shapes, points, lines or splats; only its "
+                 "surroundings will "
                  "be seen");
         return;
     }
@@ -178,7 +181,7 @@ struct PosedAsset::Impl {
 Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     const auto start = std::chrono::steady_clock::now();
     problems = Problems(options.lenient);
-    Result<OpenedAsset> opened = open_asset(file, problems, log);
+    Result<OpenedAsset> opened = open_asset(file, problems, log, options.occlusion);
     if (!opened) return fail(std::move(opened.error()));
     asset = std::move(*opened);
     Document& document = asset.document;
@@ -227,15 +230,13 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
     const Result<std::vector<PlacedNode>> placed_meshes =
         expand_instances(document, buffers, placed);
     if (!placed_meshes) return fail(placed_meshes.error());
-    Result<void> done = add_meshes({document,
-                                    buffers,
-                                    *placed_meshes,
-                                    animator.empty() ? nullptr : &geometry,
-                                    anchors ? &*anchors : nullptr},
-                                   materials,
-                                   problems,
-                                   out,
-                                   log);
+    const MeshSources sources{document,
+                              buffers,
+                              *placed_meshes,
+                              animator.empty() ? nullptr : &geometry,
+                              anchors ? &*anchors : nullptr};
+    Result<void> done = add_meshes(sources, materials, problems, out, log);
+    if (done) done = add_splats(sources, problems, out, log);
     if (!done) return done;
     add_shapes({document, buffers, placed}, materials, problems, out, log);
     done = add_lights_and_cameras(document, placed, out, log);
@@ -263,6 +264,7 @@ Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials,
 Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene& out, Log& log) {
     Document& document = asset.document;
     if (last) release_geometry(document, buffers);
+    leave_out_nodes(document, out, log);
     if (!out.bounds.empty()) set_default_stroke_radii(out);
     const auto decode_start = std::chrono::steady_clock::now();
     const std::filesystem::path folder = file.parent_path();

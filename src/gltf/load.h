@@ -24,6 +24,7 @@ struct LoadOptions {
     std::optional<double> time_s = {};  ///< of load_gltf; nothing: as stored, or 0 with `animation`
     /// Meshes keep TEXCOORD_0 where no texture looks it up, too: for pictures of it.
     bool keeps_uv = false;
+    bool occlusion = false;  ///< --occlusion ambient: materials keep their occlusion textures
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
     /// What would change the picture is made do with and warned of, not refused: see
     /// gltf/problems.h.

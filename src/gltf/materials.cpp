@@ -4,6 +4,8 @@
 
 #include "scene/media.h"
 
+#include <algorithm>
+
 namespace obscura {
 
 const std::array<SlotRow, slot_count> slot_rows = {{
@@ -11,6 +13,7 @@ const std::array<SlotRow, slot_count> slot_rows = {{
     {"metallicRoughnessTexture", false, &Material::metallic_roughness_texture, nullptr},
     {"normalTexture", false, &Material::normal_texture, nullptr},
     {"emissiveTexture", true, &Material::emissive_texture, nullptr},
+    {"occlusionTexture", false, &Material::occlusion_texture, nullptr},
     {"specularTexture", false, nullptr, &MaterialLayers::specular_texture},
     {"specularColorTexture", true, nullptr, &MaterialLayers::specular_color_texture},
     {"clearcoatTexture", false, nullptr, &MaterialLayers::clearcoat_texture},
@@ -38,6 +41,9 @@ MaterialTable make_material_table(const Document& document) {
     table.numbers.push_back(-1);
     for (const GltfMaterial& material : document.materials) {
         table.rows.push_back(material.values);
+        // What has no light sends out its base colour alone; points and lines become so later.
+        const bool unlit = (material.values.flags & material_unlit) != 0;
+        if (unlit) std::fill_n(table.rows.back().emission, 3, 0.0f);
         table.layers.push_back(material.layers.value_or(MaterialLayers{}));
         table.layered.push_back(material.layers ? 1 : 0);
         table.names.push_back(material.name);
@@ -87,33 +93,22 @@ MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets
     return choice;
 }
 
-namespace {
-
-/// Base colour plus emission, without light; white where the vertices hold that sum.
-void make_unlit(bool has_colors, Material& values) {
-    values.flags |= material_unlit;
-    for (int c = 0; c < 3; ++c) {
-        values.base_color[c] = has_colors ? 1.0f : values.base_color[c] + values.emission[c];
-        values.emission[c] = 0;
-    }
-}
-
-}  // namespace
-
 MaterialChoice stroke_material_row(MaterialTable& table, int material, const StrokeLook& look) {
-    MaterialChoice choice = material_row(table, material, 0);
+    MaterialChoice choice = material_row(table, material, look.uv_sets);
     const auto plain = static_cast<size_t>(choice.row);
     if ((table.rows[plain].flags & material_unlit) != 0) return choice;
-    const auto [entry, is_new] = table.strokes.try_emplace(
-        {choice.row, look.has_normals, look.has_colors}, static_cast<int>(table.rows.size()));
+    const auto [entry, is_new] = table.strokes.try_emplace({choice.row, look.has_normals},
+                                                           static_cast<int>(table.rows.size()));
     if (is_new) {
         Material values = table.rows[plain];
         MaterialLayers layers = table.layers[plain];
+        values.normal_texture = {};  // there are no tangents
         if (look.has_normals) {
             values.flags |= material_double_sided;
             layers.medium = 0;
         } else {
-            make_unlit(look.has_colors, values);
+            values.flags |= material_unlit;
+            values.metallic_roughness_texture = {};
         }
         const int row = add_copy(table, choice.row, values, layers);
         if (!look.has_normals) table.layered[static_cast<size_t>(row)] = 0;
@@ -121,13 +116,6 @@ MaterialChoice stroke_material_row(MaterialTable& table, int material, const Str
     choice.row = entry->second;
     table.used[static_cast<size_t>(choice.row)] = 1;
     return choice;
-}
-
-void sum_colors(const Material& material, std::vector<float>& colors) {
-    for (size_t i = 0; i < colors.size(); ++i) {
-        if (i % 4 == 3) continue;  // alpha is the row's, times this one
-        colors[i] = colors[i] * material.base_color[i % 4] + material.emission[i % 4];
-    }
 }
 
 std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice) {

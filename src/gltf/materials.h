@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -24,7 +23,7 @@ struct SlotRow {
 };
 
 /// All slots, in one order everywhere. To add a slot: append it here and in its struct.
-inline constexpr size_t slot_count = 4 + layer_slot_count;
+inline constexpr size_t slot_count = core_slot_count + layer_slot_count;
 extern const std::array<SlotRow, slot_count> slot_rows;
 
 template <typename CoreRow, typename LayerRow>
@@ -43,8 +42,8 @@ struct MaterialTable {
     std::vector<char> used;        ///< by a primitive that is drawn
     /// Row of (glTF material, bit mask of the slots taken away).
     std::map<std::pair<int, uint32_t>, int> reduced;
-    /// Row of (row, look) of points and lines.
-    std::map<std::tuple<int, bool, bool>, int> strokes;
+    /// Row of (row, whether it is lit) of points and lines.
+    std::map<std::pair<int, bool>, int> strokes;
 };
 
 /// Row 0 is the default material, row m + 1 is glTF material m.
@@ -67,21 +66,14 @@ int add_copy(MaterialTable& table, int row, const Material& values, const Materi
 /// What of points or lines decides how their material is seen.
 struct StrokeLook {
     bool has_normals = false;
-    bool has_colors = false;
+    uint32_t uv_sets = 0;  ///< bit n: TEXCOORD_n
 };
 
-/// The row for points or lines, which have no textures. Without normals they are not lit: their
-/// radiance is base colour plus emission. With colours the sum is in the vertices, see
-/// sum_colors, and the row is white. With normals they are pieces of surface, without an inside,
-/// that are alike on both sides.
+/// The row for points or lines. Without normals they are not lit: their radiance is base colour
+/// plus emission. With normals they are pieces of surface, without an inside, that are alike on
+/// both sides.
 /// Source  glTF 2.0, Point and Line Materials
 MaterialChoice stroke_material_row(MaterialTable& table, int material, const StrokeLook& look);
-
-/// Makes COLOR_0 of points or lines without normals the sum of base colour and emission.
-///
-/// In      material: glTF's own
-/// In/Out  colors: 4 floats a vertex
-void sum_colors(const Material& material, std::vector<float>& colors);
 
 /// "the material "Glass" needs ...", for messages about slots that were taken away.
 std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice);

@@ -6,7 +6,6 @@
 #include "gltf/materials.h"
 #include "gltf/part_reader.h"
 #include "gltf/primitive_modes.h"
-#include "gltf/splats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +18,6 @@ namespace obscura {
 namespace {
 
 constexpr float farthest_position = 1e18f;  // Embree drops triangles beyond 1.8e18
-constexpr uint64_t most_vertices = (1U << 29) - 1;
-
-constexpr AttributeRule splat_color_rule = {"SH_DEGREE_0_COEF_0", 3, 3, 0, 0, 0};
-constexpr AttributeRule splat_opacity_rule = {"OPACITY", 1, 1, unsigned_types, unsigned_types, 0};
 
 /// The vertex order of a primitive: its indices, or 0, 1, 2...
 Result<std::vector<uint32_t>> read_vertex_order(PartReader& reader) {
@@ -182,48 +177,6 @@ Result<void> read_attributes(PartReader& reader, MeshPart& part, const MaterialN
     return {};
 }
 
-/// The colours of Gaussian splats that bring no COLOR_0.
-Result<void> read_splat_colors(PartReader& reader, MeshPart& part) {
-    const GltfPrimitive& primitive = reader.primitive();
-    if (primitive.color >= 0 || primitive.splat_color < 0) return {};
-    Result<std::vector<float>> harmonics =
-        read_attribute(reader, primitive.splat_color, -1, splat_color_rule);
-    if (!harmonics) return fail(std::move(harmonics.error()));
-    const Result<std::vector<float>> opacities =
-        read_attribute(reader, primitive.splat_opacity, -1, splat_opacity_rule);
-    if (!opacities) return fail(opacities.error());
-    part.colors = splat_colors(*harmonics, *opacities, primitive.splats_are_linear);
-    finish_colors(part, 4);
-    return {};
-}
-
-/// Limits what the file declares, and decompresses what is compressed.
-Result<void> prepare(PartReader& reader) {
-    const GltfPrimitive& primitive = reader.primitive();
-    const GltfAccessor& position =
-        reader.document.accessors[static_cast<size_t>(primitive.position)];
-    if (position.count > most_vertices) {
-        return fail(ExitCode::refused,
-                    "E-LIMIT-VERTICES",
-                    reader.where(),
-                    std::to_string(position.count) + " vertices; at most " +
-                        std::to_string(most_vertices) + " are accepted");
-    }
-    reader.vertex_count = position.count;
-    const bool no_indices =
-        primitive.indices >= 0 &&
-        reader.document.accessors[static_cast<size_t>(primitive.indices)].count == 0;
-    if (position.count == 0 || no_indices) {
-        return reader.bad("E-MESH-EMPTY", "the primitive has no vertices; 1 or more are expected");
-    }
-    if (primitive.draco_view < 0) return {};
-    Result<DracoMesh> mesh =
-        decode_draco({reader.document, reader.store}, primitive, reader.where());
-    if (!mesh) return fail(std::move(mesh.error()));
-    reader.draco = std::move(*mesh);
-    return {};
-}
-
 /// Fills part.indices with numbers among the vertices that it returns; empty: all are kept.
 Result<std::vector<uint32_t>> read_elements(PartReader& reader, int mode, MeshPart& part) {
     Result<std::vector<uint32_t>> order = read_vertex_order(reader);
@@ -316,7 +269,7 @@ Result<MeshPart> read_mesh_part(const Document& document,
         part.issues |= issue_bit(MeshIssue::no_position);
         return part;
     }
-    Result<void> done = prepare(reader);
+    Result<void> done = prepare_part(reader);
     if (!done) return fail(std::move(done.error()));
 
     // Draco keeps triangles, not the strip that they may have been.
@@ -331,12 +284,11 @@ Result<MeshPart> read_mesh_part(const Document& document,
     if (!positions) return fail(std::move(positions.error()));
     part.positions = std::move(*positions);
     const bool has_surface = !is_point_or_line_mode(mode);
-    const MaterialNeeds needs =
-        has_surface ? material_needs(document, primitive.material) : MaterialNeeds{};
+    MaterialNeeds needs = material_needs(document, primitive.material);
+    needs.tangents = needs.tangents && has_surface;
     check_positions(reader, "a position is used that is", part);
     if (part.indices.empty()) return part;
     done = read_attributes(reader, part, needs);
-    if (done && mode == points_mode) done = read_splat_colors(reader, part);
     if (!done) return fail(std::move(done.error()));
     check_declared_bounds(reader, part);
     done = deform_part(reader, pose, part);

@@ -52,7 +52,7 @@ struct PartFault {
 };
 
 /// Arrays are empty where the attribute is absent. No vertex that is not in a triangle matters.
-/// Points and lines have positions and colours alone.
+/// Points and lines have no tangents.
 struct MeshPart {
     size_t corners = 3;                               ///< of a triangle; 2: lines, 1: points
     std::vector<uint32_t> indices;                    ///< `corners` an element

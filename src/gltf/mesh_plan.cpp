@@ -44,7 +44,7 @@ private:
         const std::vector<GltfPrimitive>& primitives =
             document_.meshes[static_cast<size_t>(use.mesh)].primitives;
         return std::any_of(primitives.begin(), primitives.end(), [](const GltfPrimitive& p) {
-            return is_point_or_line_mode(p.mode);
+            return is_point_or_line_mode(p.mode) && !p.is_splats;
         });
     }
     void add_single(const MeshUse& use);
@@ -68,7 +68,7 @@ void Planner::add_jobs(const MeshUse& use, int placed, JobKind kind, MeshBlock& 
         document_.meshes[static_cast<size_t>(use.mesh)].primitives;
     for (size_t i = 0; i < primitives.size(); ++i) {
         const bool strokes = is_point_or_line_mode(primitives[i].mode);
-        if (strokes != (kind == JobKind::strokes)) continue;
+        if (strokes != (kind == JobKind::strokes) || primitives[i].is_splats) continue;
         block.jobs.push_back({{use.mesh, static_cast<int>(i)}, &use, placed});
     }
 }

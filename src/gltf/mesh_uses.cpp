@@ -50,12 +50,13 @@ MeshUses find_mesh_uses(const Document& document, const std::vector<PlacedNode>&
             out.shrunk_nodes.push_back(node_label(document, place.node));
             continue;
         }
+        const bool thin = node.skin < 0 && !flat && is_nearly_flat(place.world_from_node);
         // No instance can be flat: the mesh is read again where its node squashes it.
-        const bool is_bent = bends(document, place, moving) || (flat && place.mover >= 0);
+        const bool is_bent = bends(document, place, moving) || ((flat || thin) && place.mover >= 0);
         if (is_bent && !place.visible) continue;
         std::vector<double> weights = weights_of(document, node);
-        if (flat) {
-            out.flat_nodes.push_back(node_label(document, place.node));
+        if (flat) out.flat_nodes.push_back(node_label(document, place.node));
+        if (flat || thin) {
             const auto row = static_cast<int>(i);
             out.uses.push_back({node.mesh, -1, std::move(weights), is_bent, {row}});
             continue;

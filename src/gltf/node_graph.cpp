@@ -228,4 +228,16 @@ bool is_flattening(const Affined& transform) {
     return false;
 }
 
+bool is_nearly_flat(const Affined& transform) {
+    constexpr double thinnest = 1e-12;
+    double longest = 0;
+    double shortest = INFINITY;
+    for (int c = 0; c < 3; ++c) {
+        const double size = length(Vec3d{transform.m[0][c], transform.m[1][c], transform.m[2][c]});
+        longest = std::max(longest, size);
+        shortest = std::min(shortest, size);
+    }
+    return shortest > 0 && shortest < thinnest * longest && std::isfinite(longest);
+}
+
 }  // namespace obscura

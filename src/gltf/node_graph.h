@@ -47,4 +47,8 @@ bool is_singular(const Affined& transform);
 /// True when it squashes space to a plane: what lies in it is still to be seen.
 bool is_flattening(const Affined& transform);
 
+/// True when one axis is scaled to next to nothing beside another: single precision holds the
+/// vertices that it moves, but not the rays that its inverse would move.
+bool is_nearly_flat(const Affined& transform);
+
 }  // namespace obscura

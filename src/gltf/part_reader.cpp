@@ -8,6 +8,8 @@ namespace obscura {
 
 namespace {
 
+constexpr uint64_t most_vertices = (1U << 29) - 1;
+
 bool has_quantization(const Document& document) {
     const auto is_it = [](const ExtensionInfo& info) {
         return info.name == "KHR_mesh_quantization";
@@ -22,11 +24,37 @@ bool rule_allows(const AttributeRule& rule, const GltfAccessor& accessor, bool q
     if (rule.only != 0) return !accessor.normalized && (rule.only & type) != 0;
     if (type == float_type) return !accessor.normalized;
     const uint32_t normalized = rule.normalized | (quantization ? rule.quantized_normalized : 0U);
-    const uint32_t plain = quantization ? rule.quantized_plain : 0U;
+    const uint32_t plain = rule.plain | (quantization ? rule.quantized_plain : 0U);
     return ((accessor.normalized ? normalized : plain) & type) != 0;
 }
 
 }  // namespace
+
+Result<void> prepare_part(PartReader& reader) {
+    const GltfPrimitive& primitive = reader.primitive();
+    const GltfAccessor& position =
+        reader.document.accessors[static_cast<size_t>(primitive.position)];
+    if (position.count > most_vertices) {
+        return fail(ExitCode::refused,
+                    "E-LIMIT-VERTICES",
+                    reader.where(),
+                    std::to_string(position.count) + " vertices; at most " +
+                        std::to_string(most_vertices) + " are accepted");
+    }
+    reader.vertex_count = position.count;
+    const bool no_indices =
+        primitive.indices >= 0 &&
+        reader.document.accessors[static_cast<size_t>(primitive.indices)].count == 0;
+    if (position.count == 0 || no_indices) {
+        return reader.bad("E-MESH-EMPTY", "the primitive has no vertices; 1 or more are expected");
+    }
+    if (primitive.draco_view < 0) return {};
+    Result<DracoMesh> mesh =
+        decode_draco({reader.document, reader.store}, primitive, reader.where());
+    if (!mesh) return fail(std::move(mesh.error()));
+    reader.draco = std::move(*mesh);
+    return {};
+}
 
 Result<std::vector<float>> read_attribute(PartReader& reader,
                                           int accessor,

@@ -30,6 +30,7 @@ struct AttributeRule {
     uint32_t quantized_normalized;  ///< the same with the extension
     uint32_t quantized_plain;       ///< integers as they are, with the extension
     uint32_t only = 0;              ///< not 0: nothing but such integers, as they are
+    uint32_t plain = 0;             ///< integers as they are, with no extension for it
 };
 
 inline constexpr AttributeRule position_rule = {
@@ -62,6 +63,11 @@ struct PartReader {
         return fail(ExitCode::bad_data, id, where(), std::move(message));
     }
 };
+
+/// Limits what the file declares, and decompresses what is compressed. The primitive has POSITION.
+///
+/// Errors  65 E-MESH-EMPTY, E-DRACO-DATA; 69 E-DRACO-VERSION; 77 E-LIMIT-VERTICES
+Result<void> prepare_part(PartReader& reader);
 
 /// Reads one attribute of the vertices in reader.choice; an accessor of -1 gives nothing.
 ///

@@ -122,7 +122,8 @@ constexpr std::array feature_rows = {
     FeatureRow{"materials",
                "occlusionTexture",
                ignored,
-               "what it guesses is traced: light that nearby geometry blocks",
+               "what it guesses is traced: light that nearby geometry blocks; --occlusion ambient "
+               "applies it",
                [](const json& m) { return has(m, "occlusionTexture"); }},
     FeatureRow{"materials",
                "alphaMode MASK",

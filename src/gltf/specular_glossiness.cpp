@@ -69,15 +69,24 @@ void read_specular_glossiness(DocumentReading& reading,
     out.layers = layers;
 }
 
-void roughness_from_glossiness(std::span<uint32_t> texels, double factor) {
-    constexpr double most = 255;
-    uint32_t roughness[256];
-    for (size_t alpha = 0; alpha < 256; ++alpha) {
-        const double value = most - factor * static_cast<double>(alpha);
-        roughness[alpha] = static_cast<uint32_t>(std::lround(value)) << 8;
+void roughness_from_glossiness(std::span<uint32_t> texels,
+                               std::span<uint32_t> low_bytes,
+                               double factor) {
+    const bool wide = !low_bytes.empty();
+    const double most = wide ? 65535 : 255;
+    const auto roughness = [&](uint32_t alpha) {
+        return static_cast<uint32_t>(std::lround(most - factor * static_cast<double>(alpha)));
+    };
+    for (size_t i = 0; i < texels.size(); ++i) {
+        const uint32_t high = texels[i] >> 24;
+        if (wide) {
+            const uint32_t code = roughness(high << 8 | low_bytes[i] >> 24);
+            texels[i] = code >> 8 << 8 | 0xFF000000U;
+            low_bytes[i] = (code & 255U) << 8 | 0xFF000000U;
+        } else {
+            texels[i] = roughness(high) << 8 | 0xFF000000U;
+        }
     }
-    for (uint32_t& texel : texels)
-        texel = roughness[texel >> 24] | 0xFF000000U;
 }
 
 }  // namespace obscura

@@ -20,7 +20,11 @@ void read_specular_glossiness(DocumentReading& reading,
                               const JsonReader& material,
                               GltfMaterial& out);
 
-/// Turns RGBA8 texels of glossiness (in A) into those of roughness (in G): 1 - factor * A.
-void roughness_from_glossiness(std::span<uint32_t> texels, double factor);
+/// Turns texels of glossiness (in A) into those of roughness (in G): 1 - factor * A.
+///
+/// In      low_bytes: of 16-bit texels; empty where they have 8
+void roughness_from_glossiness(std::span<uint32_t> texels,
+                               std::span<uint32_t> low_bytes,
+                               double factor);
 
 }  // namespace obscura

@@ -1,19 +1,17 @@
-// gltf/splats.h - the colours of Gaussian splats that are drawn as points.
+// gltf/splats.h - the Gaussian splats of the chosen scene become one field in world space.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <vector>
+#include "gltf/meshes.h"
 
 namespace obscura {
 
-/// The colour that a splat has from all sides, as COLOR_0 would say it: linear, with the opacity as
-/// alpha (1 where there are no opacities).
+/// Fills Scene::splats, its bounds and counts. Nodes may turn, stretch and mirror splats; morph
+/// targets and skins do not move them.
 ///
-/// In      harmonics: 3 coefficients of degree 0 a splat; opacities: one a splat, or none
-///         linear: the colours have no sRGB curve
-/// Source  KHR_gaussian_splatting, "Calculating color from Spherical Harmonics"
-std::vector<float> splat_colors(const std::vector<float>& harmonics,
-                                const std::vector<float>& opacities,
-                                bool linear);
+/// Out     problems: for each primitive what read_splat_part finds; E-NODE-RANGE a node moves
+///         splats beyond 1e18
+/// Errors  77 E-LIMIT-SPLATS
+Result<void> add_splats(const MeshSources& sources, Problems& problems, Scene& scene, Log& log);
 
 }  // namespace obscura

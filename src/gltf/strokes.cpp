@@ -40,6 +40,8 @@ void append_attributes(Scene& scene,
                        Primitive& out) {
     out.color_base = append_attribute(scene, part.colors, 4, numbered);
     out.normal_base = append_attribute(scene, part.normals, 3, numbered);
+    for (size_t set = 0; set < part.uvs.size(); ++set)
+        out.uv_base[set] = append_attribute(scene, part.uvs[set], 2, numbered);
 }
 
 Primitive append_points(Scene& scene, const MeshPart& part, SphereOrders* orders) {
@@ -101,7 +103,9 @@ Result<Primitive> append_strokes(Scene& scene,
             ExitCode::refused, "E-LIMIT-SPHERES", where, "at most 2^29 spheres are accepted");
     }
     const size_t vertices = points ? 0 : scene.curve_points.size() / 4 + added;
-    const size_t width = (part.colors.empty() ? 0 : 4) + (part.normals.empty() ? 0 : 3);
+    size_t width = (part.colors.empty() ? 0 : 4) + (part.normals.empty() ? 0 : 3);
+    for (const std::vector<float>& uvs : part.uvs)
+        width += uvs.empty() ? 0 : 2;
     const size_t floats = scene.attributes.size() + added * width;
     const char* limit = broken_limit({vertices, 0, floats});
     if (limit != nullptr) {

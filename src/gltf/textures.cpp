@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "gltf/encoded_image.h"
 #include "gltf/specular_glossiness.h"
+#include "gltf/uri.h"
 #include "image/decode.h"
 
 #include <algorithm>
@@ -107,12 +108,35 @@ void TextureBuilder::find_uses() {
     }
 }
 
+/// The format that a file's name promises; "" where it promises none.
+std::string format_of_name(const GltfImage& image) {
+    if (!image.uri || is_data_uri(*image.uri)) return {};
+    std::string ending = std::filesystem::path(*image.uri).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    if (ending == ".jpg") return "jpeg";
+    for (const char* format : {"png", "jpeg", "webp", "ktx2"}) {
+        if (ending == std::string(".") + format) return format;
+    }
+    return {};
+}
+
 void TextureBuilder::warn_wrong_mime(size_t image,
                                      const std::string& mime,
                                      const std::string& format) const {
-    if (mime.empty() || mime == "image/" + format) return;
-    log_.warn(place(image),
-              "the media type is \"" + mime + "\" but the data are " + format + "; the data count");
+    if (!mime.empty() && mime != "image/" + format) {
+        log_.warn(
+            place(image),
+            "the media type is \"" + mime + "\" but the data are " + format + "; the data count");
+    }
+    const GltfImage& from = document().images[image];
+    const std::string promised = format_of_name(from);
+    if (!promised.empty() && promised != format) {
+        log_.warn(place(image),
+                  "the file \"" + *from.uri + "\" is named as " + promised + " but the data are " +
+                      format + "; the data count");
+    }
 }
 
 void TextureBuilder::warn_wrong_encoding(size_t image, ImageEncoding encoding) const {
@@ -162,11 +186,18 @@ void TextureBuilder::probe_all() {
         warn_wrong_encoding(i, header->encoding);
         images_[i].width = header->width;
         images_[i].height = header->height;
+        images_[i].wide = header->bits == 16;
         ImageInfo& info = scene_.info.images[i];
         info.format = header->format;
         info.width = header->width;
         info.height = header->height;
+        info.bits = header->bits;
     }
+}
+
+/// Words of the arena that one use of an image takes.
+size_t arena_texels(const ImageState& image) {
+    return (image.wide ? 2U : 1U) * mip_chain_texels(image.width, image.height);
 }
 
 Result<void> TextureBuilder::lay_out() {
@@ -175,7 +206,7 @@ Result<void> TextureBuilder::lay_out() {
         for (ImageUse& use : images_[i].uses) {
             if (!use.used) continue;
             use.base = total;
-            total += mip_chain_texels(images_[i].width, images_[i].height);
+            total += arena_texels(images_[i]);
             if (total <= most_texels) continue;
             return fail(ExitCode::refused,
                         "E-LIMIT-TEXELS",
@@ -204,6 +235,9 @@ int TextureBuilder::row_for(const TextureSlot& slot, bool srgb) {
     row.height = image.height;
     row.levels = mip_level_count(image.width, image.height);
     row.sampler = packed;
+    if (image.wide) {
+        row.low_plane = static_cast<int32_t>(mip_chain_texels(image.width, image.height));
+    }
     size_t offset = image.uses[srgb ? 1 : 0].base;
     for (int level = 0; level < row.levels; ++level) {
         row.level_offset[level] = static_cast<int32_t>(offset);
@@ -236,7 +270,7 @@ Result<void> TextureBuilder::decode(size_t image) {
     const std::string where = place(image);
     Result<EncodedImage> encoded = load_encoded(image_sources(), image);
     if (!encoded) return fail(std::move(encoded.error()));
-    Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_, MipLevels::stored);
+    Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_, Extent::stored);
     if (!decoded) return fail(std::move(decoded.error()));
     encoded->owned = Bytes();
     // Levels that the file stores are taken as they are; the others are made from its last one.
@@ -246,19 +280,27 @@ Result<void> TextureBuilder::decode(size_t image) {
         mip_chain_texels(state.width, state.height) - mip_chain_texels(width, height);
     const size_t texels = last_level + static_cast<size_t>(width) * static_cast<size_t>(height);
     if (decoded->width != state.width || decoded->height != state.height ||
-        decoded->texels.size() != texels) {
+        decoded->texels.size() != texels || decoded->low_bytes.empty() == state.wide) {
         return fail(ExitCode::bad_resource,
                     "E-IMG-CHANGED",
                     where,
                     "the image's size is not what its header said a moment ago");
     }
     const GltfImage& source = document().images[image];
-    if (source.glossiness_of >= 0) roughness_from_glossiness(decoded->texels, source.glossiness);
+    if (source.glossiness_of >= 0) {
+        roughness_from_glossiness(decoded->texels, decoded->low_bytes, source.glossiness);
+    }
     for (size_t srgb = 0; srgb < 2; ++srgb) {
         if (!state.uses[srgb].used) continue;
         uint32_t* base = scene_.textures.texels.data() + state.uses[srgb].base;
         std::copy(decoded->texels.begin(), decoded->texels.end(), base);
-        build_mip_chain(base + last_level, width, height, srgb == 1);
+        if (!state.wide) {
+            build_mip_chain(base + last_level, width, height, srgb == 1);
+            continue;
+        }
+        uint32_t* low = base + mip_chain_texels(width, height);
+        std::copy(decoded->low_bytes.begin(), decoded->low_bytes.end(), low);
+        build_wide_mip_chain(base, low, width, height, srgb == 1);
     }
     return {};
 }
@@ -267,7 +309,7 @@ void TextureBuilder::fill_broken(size_t image) {
     const ImageState& state = images_[image];
     const ImageUse& color = state.uses[1];
     if (!color.used) return;
-    const size_t texels = mip_chain_texels(state.width, state.height);
+    const size_t texels = arena_texels(state);
     std::fill_n(scene_.textures.texels.data() + color.base, texels, magenta);
 }
 

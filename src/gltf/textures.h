@@ -20,6 +20,7 @@ struct ImageState {
     std::array<ImageUse, 2> uses;  ///< by srgb
     int width = 0;
     int height = 0;
+    bool wide = false;    ///< 16 bits a channel: a plane of low bytes lies behind the mip chain
     bool broken = false;  ///< magenta stands for it where it is colour, nothing where it is data
 
     bool used() const { return uses[0].used || uses[1].used; }

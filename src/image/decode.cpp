@@ -35,6 +35,24 @@ void spread_grey(std::vector<uint32_t>& texels, bool has_alpha) {
     }
 }
 
+/// Reads 16-bit channels into both planes of an image.
+bool read_wide(OiioInput& input, ImageRgba8& image) {
+    constexpr uint64_t opaque = uint64_t{0xFFFF} << 48;
+    std::vector<uint64_t> wide(image.texels.size(), opaque);
+    if (!input.read(OIIO::TypeDesc::UINT16, wide.data(), sizeof(uint64_t))) return false;
+    for (size_t i = 0; i < wide.size(); ++i) {
+        uint32_t high = 0, low = 0;
+        for (int c = 0; c < 4; ++c) {
+            const auto code = static_cast<uint32_t>(wide[i] >> (16 * c) & 0xFFFFU);
+            high |= code >> 8 << (8 * c);
+            low |= (code & 255U) << (8 * c);
+        }
+        image.texels[i] = high;
+        image.low_bytes[i] = low;
+    }
+    return true;
+}
+
 /// Cut-off or undecodable data are an error. Anything else that the JPEG library complains about
 /// and survives, such as stray bytes after the pixels, is a warning.
 bool means_missing_pixels(const std::string& complaint) {
@@ -53,13 +71,18 @@ Result<void> decode_with_oiio(
         return corrupt(where, "the size or the number of channels contradicts the header");
     }
     const int channels = spec.nchannels;
-    const bool read = input.read(OIIO::TypeDesc::UINT8, image.texels.data(), sizeof(uint32_t));
+    const bool read = image.low_bytes.empty()
+                          ? input.read(OIIO::TypeDesc::UINT8, image.texels.data(), sizeof(uint32_t))
+                          : read_wide(input, image);
     const std::string complaint = input.errors();
     if (!read || means_missing_pixels(complaint)) {
         return corrupt(where, complaint.empty() ? "cut off or broken" : complaint);
     }
     if (!complaint.empty()) log.warn(where, complaint);
-    if (channels <= 2) spread_grey(image.texels, channels == 2);
+    if (channels <= 2) {
+        spread_grey(image.texels, channels == 2);
+        spread_grey(image.low_bytes, channels == 2);
+    }
     return {};
 }
 
@@ -89,13 +112,10 @@ Result<void> decode_first_webp_frame(Bytes bytes, ImageRgba8& image, const std::
     return {};
 }
 
-Result<ImageRgba8> decode_levels(Bytes bytes,
-                                 MipLevels levels,
-                                 const std::string& where,
-                                 Log& log) {
+Result<ImageRgba8> decode_levels(Bytes bytes, Extent extent, const std::string& where, Log& log) {
     Result<Ktx2Header> header = read_ktx2_header(bytes, where);
     if (!header) return fail(std::move(header.error()));
-    if (levels == MipLevels::base) header->levels = 1;
+    if (extent == Extent::base) header->levels = 1;
     return decode_ktx2(*header, where, log);
 }
 
@@ -109,18 +129,21 @@ Result<ImageRgba8> probe_image(Bytes bytes, const std::string& where) {
                       {},
                       format_name(header->format),
                       header->levels,
-                      header->encoding};
+                      header->encoding,
+                      header->bits};
 }
 
-Result<ImageRgba8> decode_image(Bytes bytes, const std::string& where, Log& log, MipLevels levels) {
+Result<ImageRgba8> decode_image(Bytes bytes, const std::string& where, Log& log, Extent extent) {
     const Result<ImageHeader> header = read_image_header(bytes, where);
     if (!header) return fail(header.error());
     ImageRgba8 image{header->width, header->height, {}, format_name(header->format)};
     if (header->animated) log.warn(where, "animated: only its first frame is used");
     try {
-        if (header->format == ImageFormat::ktx2) return decode_levels(bytes, levels, where, log);
+        if (header->format == ImageFormat::ktx2) return decode_levels(bytes, extent, where, log);
         const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
         image.texels.assign(count, 0xFF000000U);  // opaque, when the picture has no alpha
+        image.bits = header->bits;
+        if (image.bits == 16 && extent == Extent::stored) image.low_bytes = image.texels;
         Result<void> decoded = header->format != ImageFormat::webp
                                    ? decode_with_oiio(bytes, header->format, image, where, log)
                                : header->animated ? decode_first_webp_frame(bytes, image, where)

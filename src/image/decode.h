@@ -13,14 +13,15 @@
 
 namespace obscura {
 
-/// Which mip levels of a picture to decode.
-enum class MipLevels { base, stored };
+/// What to decode of a picture: 8 bits of its base level, or the bits and mip levels that it has.
+enum class Extent { base, stored };
 
 /// Decodes PNG, JPEG, WebP or KTX2 (told apart by their first bytes, not by name) to straight-alpha
 /// RGBA8.
 ///
-/// In      where: file with JSON pointer, for messages; levels: only KTX2 stores more than one
-/// Grey, palette, 16-bit and CMYK pictures are converted; of an animation the first frame is taken,
+/// In      where: file with JSON pointer, for messages; extent: only KTX2 stores more than one
+///         level, only PNG 16 bits
+/// Grey, palette and CMYK pictures are converted; of an animation the first frame is taken,
 /// with a warning. Thread-safe: different pictures may be decoded at the same time.
 ///
 /// Errors  67 E-IMG-CORRUPT truncated or broken, 67 E-IMG-FORMAT not one of the four,
@@ -31,10 +32,10 @@ enum class MipLevels { base, stored };
 Result<ImageRgba8> decode_image(std::span<const std::byte> bytes,
                                 const std::string& where,
                                 Log& log,
-                                MipLevels levels = MipLevels::base);
+                                Extent extent = Extent::base);
 
-/// Width, height, format, number of stored levels and encoding from the header only; texels stays
-/// empty. Loads no library.
+/// Width, height, format, number of stored levels, encoding and bits from the header only; texels
+/// stays empty. Loads no library.
 ///
 /// Errors  as decode_image, as far as the header shows them
 Result<ImageRgba8> probe_image(std::span<const std::byte> bytes, const std::string& where);

@@ -3,6 +3,7 @@
 #include "image/display.h"
 
 #include "image/ocio_config.h"
+#include "image/ocio_cycles.h"
 #include "image/pbr_neutral.h"
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -204,6 +205,8 @@ Result<DisplayTransform> DisplayTransform::create(const DisplayOptions& options,
         transform->setSrc(space.c_str());
         transform->setDisplay(chosen->display.c_str());
         transform->setView(chosen->view.c_str());
+        const std::string endless = endless_references(*from->config, transform);
+        if (!endless.empty()) return bad_configuration("E-OCIO-CYCLE", from->name, endless);
         auto impl = std::make_unique<Impl>();
         impl->processor = from->config->getProcessor(transform)->getDefaultCPUProcessor();
         impl->exposure = static_cast<float>(std::exp2(options.exposure_ev));

@@ -22,7 +22,7 @@ struct DisplayOptions {
 class DisplayTransform {
 public:
     /// Errors  78 E-OCIO-FILE unreadable or bad config, E-OCIO-DISPLAY / E-OCIO-VIEW unknown name
-    ///         (the message lists what there is)
+    ///         (the message lists what there is), E-OCIO-CYCLE references in a circle
     static Result<DisplayTransform> create(const DisplayOptions& options, Log& log);
 
     DisplayTransform(DisplayTransform&&) noexcept;

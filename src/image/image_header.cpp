@@ -109,6 +109,7 @@ Result<ImageHeader> read_png(Bytes bytes, const std::string& where) {
     }
     header.width = static_cast<int>(width);
     header.height = static_cast<int>(height);
+    header.bits = byte_at(bytes, 24) == 16 ? 16 : 8;
     for (size_t at = signature; !starts_with(bytes, "IEND", at + 4);) {
         constexpr size_t length_type_checksum = 12;
         const size_t left = bytes.size() - at;

@@ -21,6 +21,7 @@ struct ImageHeader {
     bool animated = false;
     int levels = 1;  ///< mip levels that it stores
     ImageEncoding encoding = ImageEncoding::unsaid;
+    int bits = 8;  ///< of a channel: 16, or 8 where there are fewer
 };
 
 /// "png", "jpeg", "webp" or "ktx2".

@@ -11,7 +11,8 @@ namespace obscura {
 /// What a file says of its colours' numbers.
 enum class ImageEncoding { unsaid, linear, srgb };
 
-/// 8 bits a channel, rows from the top, alpha not premultiplied; R in the lowest byte of a texel.
+/// 8 or 16 bits a channel, rows from the top, alpha not premultiplied; R in the lowest byte of a
+/// texel.
 struct ImageRgba8 {
     int width = 0;
     int height = 0;
@@ -19,6 +20,10 @@ struct ImageRgba8 {
     std::string format;  ///< "png", "jpeg", "webp", "ktx2"
     int levels = 1;      ///< mip levels in `texels`, one behind the other, level 0 first
     ImageEncoding encoding = ImageEncoding::unsaid;
+    int bits = 8;  ///< of a channel in the file
+    /// The low bytes of 16-bit channels, where they were asked for; then `texels` are the high
+    /// ones.
+    std::vector<uint32_t> low_bytes = {};
 };
 
 /// Linear Rec.709 RGB, 3 floats a pixel, rows from the top.

@@ -59,8 +59,7 @@ Vec2f corner_uv(const Emitter& e, uint32_t vertex) {
 
 /// Mean emission of a triangle's texture, by a small grid of look-ups at a fitting mip level.
 Vec3f mean_texture(const Scene& scene, const TriangleLight& row) {
-    const TextureView view{scene.textures.texels.data(),
-                           reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
+    const TextureView view = view_of(scene.textures);
     constexpr int side = 4;
     const float area = 0.5f * std::fabs((row.uv1[0] - row.uv0[0]) * (row.uv2[1] - row.uv0[1]) -
                                         (row.uv1[1] - row.uv0[1]) * (row.uv2[0] - row.uv0[0]));
@@ -308,7 +307,7 @@ float mean_coat(const Scene& scene, const Material& material) {
     const TextureRow& row = scene.textures.rows[static_cast<size_t>(texture)];
     // The mean, where the mip chain goes down to one texel.
     const auto last = static_cast<size_t>(row.level_offset[row.levels - 1]);
-    return layers.clearcoat * static_cast<float>(scene.textures.texels[last] & 255U) / 255.0f;
+    return layers.clearcoat * texel_channel(scene.textures, row, last, 0);
 }
 
 Vec3f mean_emission(const Scene& scene, const TriangleLight& row) {

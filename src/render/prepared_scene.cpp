@@ -8,6 +8,8 @@
 #include "scene/alike_textures.h"
 #include "scene/edge_scale.h"
 #include "scene/split_curves.h"
+#include "scene/thin_walls.h"
+#include "scene/touching_bodies.h"
 
 #include <algorithm>
 
@@ -38,7 +40,8 @@ bool needs_studio(const Scene& scene, const LightTable& lights) {
         return (material.flags & material_unlit) != 0;
     };
     const auto& all = scene.primitives;
-    if (!all.empty() && std::all_of(all.begin(), all.end(), is_unlit)) return false;
+    const bool shows = !all.empty() || !scene.splats.empty();
+    if (shows && std::all_of(all.begin(), all.end(), is_unlit)) return false;
     return !has_unlisted_emitter(scene) &&
            brightest_mean_radiance(scene, lights) < least_lamp_radiance &&
            brightest_shape_radiance(scene) < least_lamp_radiance;
@@ -101,6 +104,7 @@ Result<void> prepare(PreparedScene::Impl& impl,
     mark_alike_textures(impl.scene);
     split_long_curves(impl.scene);
     impl.edge_scale = edge_scale(impl.scene);
+    impl.touching_bodies = find_touching_bodies(impl.scene);
     auto lit = make_lighting(impl, lighting, log);
     if (!lit) return lit;
     const Stopwatch building_bvh;
@@ -143,8 +147,13 @@ SceneView PreparedScene::Impl::view() const {
     out.materials = reinterpret_cast<const float*>(scene.materials.data());
     out.layers = reinterpret_cast<const float*>(scene.layers.data());
     out.media = scene.media.size() > 1 ? scene.media.front().extinction : nullptr;
+    out.touching_bodies = touching_bodies.empty() ? nullptr : touching_bodies.data();
     out.scatters = std::any_of(scene.media.begin(), scene.media.end(), scatters);
-    out.thin_walls = accel && accel->has_thin_walls();
+    out.thin_walls = accel && (accel->has_thin_walls() || has_bodies_like_air(scene));
+    out.occludes =
+        std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+            return material.occlusion_texture.texture >= 0;
+        });
     out.material_numbers = scene.material_numbers.data();
     const Motion& motion = scene.motion;
     out.motion.steps = motion.steps;
@@ -153,8 +162,7 @@ SceneView PreparedScene::Impl::view() const {
         out.motion.normals = motion.normals.data();
     }
     if (!motion.instances.empty()) out.motion.instances = &motion.instances.front().m[0][0];
-    out.textures = {scene.textures.texels.data(),
-                    reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
+    out.textures = view_of(scene.textures);
     out.lights = lights.view();
     out.has_environment = environment && !environment->black();
     if (out.has_environment) out.environment = environment->view();

@@ -26,8 +26,9 @@ struct PreparedScene::Impl {
     LightTable lights;
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;
-    float edge_scale = 1;    ///< see scene/edge_scale.h
-    std::string embree_isa;  ///< as Accel::build takes it
+    float edge_scale = 1;                  ///< see scene/edge_scale.h
+    std::vector<int32_t> touching_bodies;  ///< see scene/touching_bodies.h
+    std::string embree_isa;                ///< as Accel::build takes it
     BuildSeconds build_seconds;
 
     SceneView view() const;

@@ -96,8 +96,7 @@ Vec3d mean_shape_emission(const Scene& scene, const ShapeLight& light) {
     const double below_coat = 1 - static_cast<double>(light.coat * mean_coat_reflectance);
     const Vec3d emission = vector(light.emission) * below_coat;
     if (light.texture < 0) return emission;
-    const TextureView view{scene.textures.texels.data(),
-                           reinterpret_cast<const int32_t*>(scene.textures.rows.data())};
+    const TextureView view = view_of(scene.textures);
     const bool sphere = light.kind == static_cast<int32_t>(ShapeLightKind::sphere);
     constexpr int side = 16;
     Vec3d sum = splat3(0.0);

@@ -20,6 +20,14 @@ namespace obscura {
 
 namespace {
 
+/// What one of a pixel's samples stands for, of the area that the pixel covers: samples share it,
+/// as long as their look-ups still find texels in nearby memory. Source  Pharr, Jakob, Humphreys,
+/// "Physically Based Rendering", 4th ed., 2023, section 10.1.1
+float footprint_share(int samples) {
+    constexpr float least = 1.0f / 64;
+    return std::max(least, 1.0f / static_cast<float>(samples));
+}
+
 WalkInput make_walk(const PreparedScene::Impl& scene,
                     const Camera& camera,
                     const RenderOptions& options) {
@@ -46,6 +54,7 @@ WalkInput make_walk(const PreparedScene::Impl& scene,
     const float diagonal = bounds.empty() ? 1.0f : length(bounds.high - bounds.low);
     batch.ao_distance =
         options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m) : 0.2f * diagonal;
+    batch.footprint_share = footprint_share(samples_taken(options));
     batch.wire_width_px = static_cast<float>(options.wire_width_px);
     const auto& eye = camera.world_from_camera.m;
     batch.bodies = bodies_around(*scene.accel, scene.scene, {eye[0][3], eye[1][3], eye[2][3]});
@@ -202,9 +211,10 @@ RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& sta
     return total;
 }
 
-std::unique_ptr<ThreadState> make_state(bool records) {
+/// reach: of the rays to be kept; null: none are
+std::unique_ptr<ThreadState> make_state(const RayReach* reach) {
     auto state = std::make_unique<ThreadState>();
-    if (records) state->recorder = std::make_unique<RayRecorder>();
+    if (reach != nullptr) state->recorder = std::make_unique<RayRecorder>(*reach);
     return state;
 }
 
@@ -267,6 +277,7 @@ Result<RenderResult> render(const PreparedScene& scene,
     WalkInput walk_input = make_walk(scene.impl(), camera, options);
     walk_input.batch.filter = filter.empty() ? nullptr : filter.data();
     walk_input.scene.raycast = supplies->raycast.view();
+    walk_input.notes = options.notes;
     if (!supplies->camera.empty()) {
         walk_input.scene.motion.camera = &supplies->camera.front().m[0][0];
         walk_input.scene.motion.camera_steps = static_cast<int>(supplies->camera.size());
@@ -277,12 +288,13 @@ Result<RenderResult> render(const PreparedScene& scene,
     const PixelRect whole{0, 0, options.width, options.height};
     const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), tile_side(options));
 
+    const RayReach reach = scene.accel().ray_reach();
     std::vector<std::unique_ptr<ThreadState>> states(max_thread_index());
     std::atomic<size_t> finished = 0;
     parallel_for(tiles.size(), [&](size_t i) {
         if (stop.load(std::memory_order_relaxed)) return;
         std::unique_ptr<ThreadState>& state = states[thread_index()];
-        if (!state) state = make_state(options.recording != nullptr);
+        if (!state) state = make_state(options.recording != nullptr ? &reach : nullptr);
         if (quantity) {
             render_quantity_tile(walk_input, tiles[i], stop, *state, result.film);
         } else {

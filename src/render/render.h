@@ -22,6 +22,8 @@
 
 namespace obscura {
 
+struct RaycastNotes;
+
 /// To add one: append it here and in render/integrators.h, with a name, channels and a walk. A
 /// quantity is computed in stages/3_quantity.cpp and, for PNG and JPEG, mapped to colours in
 /// app/preview.cpp; light transport is a case in stages/walk.cpp. Then docs/cli.md and the help in
@@ -79,6 +81,9 @@ struct RenderOptions {
     UnsetArray<float>* film_memory = nullptr;
     /// Filled with every ray that was asked, about 32 bytes each; null: nobody wants them.
     RayRecording* recording = nullptr;
+    /// Filled with what every light does for the one pixel of `crop`, where the integrator is
+    /// raycast; null: nobody wants it.
+    RaycastNotes* notes = nullptr;
 };
 
 /// Rays and faults, summed over all threads.

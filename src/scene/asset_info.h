@@ -32,6 +32,7 @@ struct ImageInfo {
     std::string format;  ///< "png", "jpeg", "webp", "ktx2"
     int width = 0;
     int height = 0;
+    int bits = 8;  ///< of a channel
     bool used_as_color = false;
     bool used_as_data = false;
 };
@@ -71,6 +72,7 @@ struct AssetInfo {
     size_t triangles_in_world = 0;  ///< with every instance counted
     size_t points_in_world = 0;     ///< likewise
     size_t line_segments_in_world = 0;
+    size_t splats_in_world = 0;
     double parse_seconds = 0;
     double decode_seconds = 0;  ///< images
 };

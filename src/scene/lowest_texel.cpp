@@ -9,12 +9,12 @@ namespace obscura {
 float lowest_texel(const Scene& scene, int32_t texture, int channel) {
     if (texture < 0) return 1.0f;
     const TextureRow& row = scene.textures.rows[static_cast<size_t>(texture)];
-    const uint32_t* texels = &scene.textures.texels[static_cast<size_t>(row.level_offset[0])];
+    const auto first = static_cast<size_t>(row.level_offset[0]);
     const size_t count = static_cast<size_t>(row.width) * static_cast<size_t>(row.height);
-    uint32_t lowest = 255U;
-    for (size_t i = 0; i < count && lowest > 0; ++i)
-        lowest = std::min(lowest, (texels[i] >> (8 * channel)) & 255U);
-    return static_cast<float>(lowest) / 255.0f;
+    float lowest = 1.0f;
+    for (size_t i = first; i < first + count && lowest > 0.0f; ++i)
+        lowest = std::min(lowest, texel_channel(scene.textures, row, i, channel));
+    return lowest;
 }
 
 }  // namespace obscura

@@ -21,6 +21,11 @@ Medium medium_of(const MaterialLayers& body) {
 
 }  // namespace
 
+int32_t medium_of(const Scene& scene, const Primitive& primitive) {
+    const int32_t layers = scene.materials[static_cast<size_t>(primitive.material)].layers;
+    return layers < 0 ? 0 : scene.layers[static_cast<size_t>(layers)].medium;
+}
+
 void number_media(Scene& scene) {
     std::vector<MaterialLayers*> bodies;
     for (MaterialLayers& layers : scene.layers) {

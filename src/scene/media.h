@@ -14,4 +14,7 @@ namespace obscura {
 /// share the last number.
 void number_media(Scene& scene);
 
+/// Number of the medium that a primitive bounds, 0: none.
+int32_t medium_of(const Scene& scene, const Primitive& primitive);
+
 }  // namespace obscura

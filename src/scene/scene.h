@@ -9,6 +9,7 @@
 #include "math/transform.h"
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
+#include "scene/splats.h"
 #include "scene/texture_arena.h"
 #include "shape/shape_row.h"
 #include "shape/sphere_block.h"
@@ -26,7 +27,7 @@ inline constexpr int32_t no_attribute = INT32_MIN;
 /// What a primitive's rows are: triangles of Scene::indices, rows of Scene::shapes, spheres of
 /// Scene::spheres or pieces of lines of Scene::curve_segments. Shapes have attributes of their own:
 /// for them UV set 0 and tangents are 0, the others no_attribute. glTF's points (spheres) and lines
-/// have colours at most: see is_point_or_line.
+/// have no tangents: see is_point_or_line.
 enum class GeometryKind : int32_t { triangles, shapes, spheres, curves };
 
 /// A run of triangles (or shapes) with one material. Attribute bases are float offsets such that
@@ -182,6 +183,7 @@ struct Scene {
     GeometryStamp still_stamp = 0;
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
+    SplatField splats;
     Motion motion;
     std::vector<Material> materials;     ///< never empty: row 0 exists for primitives without one
     std::vector<MaterialLayers> layers;  ///< of the materials that have any; see Material::layers

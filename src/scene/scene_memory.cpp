@@ -18,7 +18,8 @@ size_t geometry_bytes(const Scene& scene) {
            scene.curve_points.size() * sizeof(float) +
            scene.curve_segments.size() * sizeof(uint32_t) +
            scene.instances.size() * sizeof(Instance) + scene.materials.size() * sizeof(Material) +
-           scene.layers.size() * sizeof(MaterialLayers) + scene.media.size() * sizeof(Medium);
+           scene.layers.size() * sizeof(MaterialLayers) + scene.media.size() * sizeof(Medium) +
+           splat_bytes(scene.splats);
 }
 
 size_t texture_bytes(const Scene& scene) {
@@ -30,7 +31,8 @@ size_t base_texel_bytes(const Scene& scene) {
     std::set<int32_t> seen;  // textures that differ in their sampler alone share their texels
     for (const TextureRow& row : scene.textures.rows) {
         if (!seen.insert(row.level_offset[0]).second) continue;
-        texels += static_cast<size_t>(row.width) * static_cast<size_t>(row.height);
+        const size_t planes = row.low_plane != 0 ? 2 : 1;
+        texels += planes * static_cast<size_t>(row.width) * static_cast<size_t>(row.height);
     }
     return texels * sizeof(uint32_t);
 }

@@ -91,6 +91,8 @@ private:
         primitive.triangle_count = static_cast<int32_t>(segments_.size() - first_segment);
         split_attribute(primitive.color_base, 4, first_point);
         split_attribute(primitive.normal_base, 3, first_point);
+        for (int32_t& base : primitive.uv_base)
+            split_attribute(base, 2, first_point);
     }
 
     Scene& scene_;

@@ -3,6 +3,7 @@
 #include "scene/texture_arena.h"
 
 #include "base/parallel.h"
+#include "scene/texel_span.h"
 #include "surface/srgb.h"
 
 #include <algorithm>
@@ -18,25 +19,6 @@ struct Cover {
     uint32_t texel[N];
     float weight[N];
 };
-
-/// The run of source texels under one texel, along one axis.
-struct Span {
-    int first;
-    int count;        ///< 1 to 3
-    float weight[3];  ///< sum 1
-};
-
-Span span_under(int index, int source_size, int size) {
-    if (source_size == 1) return {0, 1, {1.0f, 0.0f, 0.0f}};
-    if (source_size % 2 == 0) return {2 * index, 2, {0.5f, 0.5f, 0.0f}};
-    // In units of 1/size source texels, this texel is [index, index + 1) * source_size.
-    const auto whole = static_cast<float>(source_size);
-    return {2 * index,
-            3,
-            {static_cast<float>(size - index) / whole,
-             static_cast<float>(size) / whole,
-             static_cast<float>(index + 1) / whole}};
-}
 
 /// Mean of the four bytes, each on its own: data such as normals, roughness or metalness.
 template <int N>
@@ -113,10 +95,10 @@ void halve_even_row(const Level& from, const Level& to, int y) {
 
 /// Row y of `to` in every other case.
 void halve_any_row(const Level& from, const Level& to, int y, bool srgb) {
-    const Span rows = span_under(y, from.height, to.height);
+    const TexelSpan rows = span_under(y, from.height, to.height);
     uint32_t* out = to.texels + static_cast<size_t>(y) * static_cast<size_t>(to.width);
     for (int x = 0; x < to.width; ++x) {
-        const Span columns = span_under(x, from.width, to.width);
+        const TexelSpan columns = span_under(x, from.width, to.width);
         Cover<9> cover{};
         for (int r = 0; r < rows.count; ++r) {
             const uint32_t* row =
@@ -161,6 +143,24 @@ size_t mip_chain_texels(int width, int height) {
                   static_cast<size_t>(std::max(height >> level, 1));
     }
     return texels;
+}
+
+TextureView view_of(const TextureArena& textures) {
+    const auto has_low_plane = [](const TextureRow& row) { return row.low_plane != 0; };
+    return {textures.texels.data(),
+            reinterpret_cast<const int32_t*>(textures.rows.data()),
+            std::any_of(textures.rows.begin(), textures.rows.end(), has_low_plane)};
+}
+
+float texel_channel(const TextureArena& textures,
+                    const TextureRow& row,
+                    size_t texel,
+                    int channel) {
+    const auto byte = [&](size_t at) { return textures.texels[at] >> (8 * channel) & 255U; };
+    const uint32_t high = byte(texel);
+    if (row.low_plane == 0) return static_cast<float>(high) / 255.0f;
+    const uint32_t low = byte(texel + static_cast<size_t>(row.low_plane));
+    return static_cast<float>(high << 8 | low) / 65535.0f;
 }
 
 void build_mip_chain(uint32_t* base, int width, int height, bool srgb) {

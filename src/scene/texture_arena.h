@@ -11,11 +11,19 @@
 
 namespace obscura {
 
-/// RGBA8 texels of all textures and the table of where they are.
+/// Texels of all textures and the table of where they are.
 struct TextureArena {
     LargeArray<uint32_t> texels;  ///< at most 2^31 - 1; see TextureRow
     std::vector<TextureRow> rows;
 };
+
+/// Valid as long as the arena stays as it is.
+TextureView view_of(const TextureArena& textures);
+
+/// A channel of one texel as it is stored, in [0, 1].
+///
+/// In      texel: number in the arena; channel: 0 to 3 for red to alpha
+float texel_channel(const TextureArena& textures, const TextureRow& row, size_t texel, int channel);
 
 /// Number of mip levels of an image: down to 1x1.
 int mip_level_count(int width, int height);
@@ -28,5 +36,8 @@ size_t mip_chain_texels(int width, int height);
 /// alpha, so that hidden colours of clear texels do not bleed in; data (not `srgb`) have no alpha
 /// in glTF, so their four bytes are averaged independently.
 void build_mip_chain(uint32_t* base, int width, int height, bool srgb);
+
+/// The same for 16-bit texels, whose low bytes lie at `low`.
+void build_wide_mip_chain(uint32_t* base, uint32_t* low, int width, int height, bool srgb);
 
 }  // namespace obscura

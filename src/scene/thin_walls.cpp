@@ -3,9 +3,10 @@
 #include "scene/thin_walls.h"
 
 #include "scene/lowest_texel.h"
-#include "surface/bsdf.h"
+#include "surface/layered_weights.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace obscura {
 
@@ -19,7 +20,7 @@ bool may_be_thin_wall(const Scene& scene, const Material& material) {
     if (texture < 0 && material.metallic >= 1.0f) return false;
     constexpr int green = 1;  // holds roughness
     const float roughness = material.roughness * lowest_texel(scene, texture, green);
-    return roughness * roughness <= min_ggx_alpha;
+    return roughness * roughness * thin_wall_spread(layers.ior) <= min_ggx_alpha;
 }
 
 }  // namespace
@@ -31,6 +32,12 @@ std::vector<uint8_t> find_thin_walls(const Scene& scene) {
             return static_cast<uint8_t>(may_be_thin_wall(scene, m) ? 1 : 0);
         });
     return walls;
+}
+
+bool has_bodies_like_air(const Scene& scene) {
+    return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
+        return &medium != scene.media.data() && std::fabs(medium.ior - 1.0F) < least_refraction;
+    });
 }
 
 }  // namespace obscura

@@ -13,4 +13,7 @@ namespace obscura {
 /// surface/thin_wall.h. What it is at one point, shading finds out.
 std::vector<uint8_t> find_thin_walls(const Scene& scene);
 
+/// Whether light passes straight through the boundary of some body, as its index is that of air.
+bool has_bodies_like_air(const Scene& scene);
+
 }  // namespace obscura

@@ -24,13 +24,13 @@ OBSCURA_INLINE F quadric_value(const Quadric<F>& q, const Vec3<F>& p) {
            p.z * (q.k[2] * p.z + q.k[4] * p.x + q.k[8]) + q.k[9];
 }
 
-/// The sum of its terms without their signs: what rounding is relative to.
+/// All terms without their signs: what rounding is relative to.
 template <typename F>
-OBSCURA_INLINE F quadric_size(const Quadric<F>& q, const Vec3<F>& p) {
-    Quadric<F> positive = q;
-    for (F& k : positive.k)
+OBSCURA_INLINE Quadric<F> quadric_sizes(const Quadric<F>& q) {
+    Quadric<F> sizes = q;
+    for (F& k : sizes.k)
         k = abs(k);
-    return quadric_value(positive, abs(p));
+    return sizes;
 }
 
 template <typename F>
@@ -41,36 +41,142 @@ OBSCURA_INLINE Vec3<F> quadric_gradient(const Quadric<F>& q, const Vec3<F>& p) {
             q.k[4] * p.x + q.k[5] * p.y + two * q.k[2] * p.z + q.k[8]};
 }
 
+/// Half the second derivative of the left side along a direction.
+template <typename F>
+OBSCURA_INLINE F quadric_bend(const Quadric<F>& q, const Vec3<F>& d) {
+    return d.x * (q.k[0] * d.x + q.k[3] * d.y) + d.y * (q.k[1] * d.y + q.k[5] * d.z) +
+           d.z * (q.k[2] * d.z + q.k[4] * d.x);
+}
+
+template <typename F>
+OBSCURA_INLINE MaskOf<F> is_in_box(const Quadric<F>& q, const Vec3<F>& p) {
+    return (abs(p.x) <= q.half.x) & (abs(p.y) <= q.half.y) & (abs(p.z) <= q.half.z);
+}
+
 /// A root, moved by one step of Newton's towards the surface where that is safe, and whether it is
 /// inside the box.
+///
+/// In   steady: the line runs along the surface there, and the step would be chance
 template <typename F>
-OBSCURA_INLINE NearHit<F> refined_root(const Quadric<F>& q, const NearRay<F>& ray, const F& root) {
+OBSCURA_INLINE NearHit<F> refined_root(const Quadric<F>& q,
+                                       const NearRay<F>& ray,
+                                       const F& root,
+                                       const MaskOf<F>& steady) {
     const Vec3<F> p = point_at(ray, root);
     const F slope = dot(quadric_gradient(q, p), ray.direction);
     const F step = quadric_value(q, p) / slope;
     const F far = max_component(q.half) * F(1e-3f) / sqrt(ray.squared);
-    const F t = select(abs(step) < far, root - step, root);
-    const Vec3<F> at = point_at(ray, t);
-    const MaskOf<F> inside =
-        (abs(at.x) <= q.half.x) & (abs(at.y) <= q.half.y) & (abs(at.z) <= q.half.z);
-    return {t, inside};
+    const F t = select((abs(step) < far) & !steady, root - step, root);
+    return {t, is_in_box(q, point_at(ray, t))};
+}
+
+/// Rounding steps that the left side's sum may be wrong by.
+template <typename F>
+inline constexpr float value_slack = 4.0f / 16777216.0f;
+template <>
+inline constexpr float value_slack<double> = 4.0f / 16777216.0f / 536870912.0f;
+
+/// Where a line meets the whole surface, whatever the box.
+template <typename F>
+struct QuadricRoots {
+    Quadratic<F> solved;
+    MaskOf<F> touch;  ///< both are one: the place where the line touches
+};
+
+/// Solves once more, from the middle between the roots: the equation's terms are as small there as
+/// the roots are close. Where rounding has moved the line, or is all that is left of the left side,
+/// the line touches: a plane squared is one surface, not what rounding leaves of it.
+///
+/// In   a, b: of the equation from the near ray's origin
+template <typename F>
+OBSCURA_INLINE QuadricRoots<F> solve_from_middle(const Quadric<F>& q,
+                                                 const NearRay<F>& ray,
+                                                 const F& a,
+                                                 const F& b) {
+    const auto slope_at = [&](const F& t) {
+        return F(0.5f) * dot(quadric_gradient(q, point_at(ray, t)), ray.direction);
+    };
+    const F rough = -b / a;
+    const F middle = rough - slope_at(rough) / a;
+    const Vec3<F> p = point_at(ray, middle);
+    const F value = quadric_value(q, p);
+    const Quadratic<F> near = solve_quadratic(a, slope_at(middle), value);
+    const F slack(value_slack<F>);
+    const Vec3<F> moved = (abs(ray.origin) + abs(ray.direction) * abs(middle)) * slack;
+    const Quadric<F> sizes = quadric_sizes(q);
+    const F rounding = quadric_value(sizes, abs(p)) * slack + quadric_bend(sizes, moved);
+    const MaskOf<F> touch = abs(value) <= rounding;
+    const auto from_here = [&](const F& t) { return middle + select(touch, F(0.0f), t); };
+    const MaskOf<F> real = near.real | touch;
+    return {{{from_here(near.t.low), from_here(near.t.high)}, real}, touch};
+}
+
+/// Roots that are far apart, for their places and for the box, are solved for once; where they are
+/// not, or not there, from between them.
+template <typename F>
+OBSCURA_INLINE QuadricRoots<F> solve_quadric(const Quadric<F>& q, const NearRay<F>& ray) {
+    const F a = quadric_bend(q, ray.direction);
+    const F b = F(0.5f) * dot(quadric_gradient(q, ray.origin), ray.direction);
+    QuadricRoots<F> roots{solve_quadratic(a, b, quadric_value(q, ray.origin)), MaskOf<F>(false)};
+    const auto& t = roots.solved.t;
+    const F gap = (t.high - t.low) * F(8.0f);
+    const F widest = max_component(q.half);
+    const MaskOf<F> apart = roots.solved.real & (abs(t.low + t.high) <= gap) &
+                            (gap * gap * ray.squared >= widest * widest);
+    const MaskOf<F> close = !apart;
+    if (none(close)) return roots;
+    const QuadricRoots<F> near = solve_from_middle(q, ray, a, b);
+    roots.solved.t.low = select(close, near.solved.t.low, t.low);
+    roots.solved.t.high = select(close, near.solved.t.high, t.high);
+    roots.solved.real = (roots.solved.real & !close) | (near.solved.real & close);
+    roots.touch = near.touch & close;
+    return roots;
 }
 
 template <typename F>
 OBSCURA_INLINE Roots<F> intersect_quadric(const Quadric<F>& q, const ShapeRay<F>& ray) {
     const NearRay<F> near = bring_near(ray, q.centre);
-    const Vec3<F>& o = near.origin;
-    const Vec3<F>& d = near.direction;
-    const F half(0.5f);
-    const F a = d.x * (q.k[0] * d.x + q.k[3] * d.y) + d.y * (q.k[1] * d.y + q.k[5] * d.z) +
-                d.z * (q.k[2] * d.z + q.k[4] * d.x);
-    const F b = half * dot(quadric_gradient(q, o), d);
-    const Quadratic<F> solved = solve_quadratic(a, b, quadric_value(q, o));
-    const NearHit<F> low = refined_root(q, near, solved.t.low);
-    const NearHit<F> high = refined_root(q, near, solved.t.high);
-    const MaskOf<F> first = solved.real & low.found;
-    const MaskOf<F> second = solved.real & high.found;
+    const QuadricRoots<F> roots = solve_quadric(q, near);
+    const MaskOf<F> no(false);
+    if (none(roots.solved.real)) return {{F(0.0f), F(0.0f)}, {no, no}};
+    const Span<F>& t = roots.solved.t;
+    const NearHit<F> low = refined_root(q, near, t.low, roots.touch);
+    const NearHit<F> high = refined_root(q, near, t.high, roots.touch);
+    const MaskOf<F> first = roots.solved.real & low.found;
+    const MaskOf<F> second = roots.solved.real & high.found;
     return on_ray<F>(near, {{low.t, high.t}, {first, second}});
+}
+
+/// True where the left side falls along a line that meets the surface at t: it meets the front.
+/// Where it only touches, it comes from the front and goes back to it if the left side bends
+/// upwards.
+template <typename F>
+OBSCURA_INLINE MaskOf<F> falls_along(const Quadric<F>& q, const ShapeRay<F>& ray, const F& t) {
+    const Vec3<F>& d = ray.direction;
+    const F slope = dot(quadric_gradient(q, ray.origin - q.centre + d * t), d);
+    const Vec3<F> corner = quadric_gradient(quadric_sizes(q), q.half);
+    if (none(abs(slope) <= dot(corner, abs(d)) * F(1e-3f))) return slope < F(0.0f);
+    const MaskOf<F> touch = solve_quadric(q, bring_near(ray, q.centre)).touch;
+    return (touch & (quadric_bend(q, d) > F(0.0f))) | ((!touch) & (slope < F(0.0f)));
+}
+
+/// Unit; along that of X, Y and Z in which the left side bends most, the way in which it rises off
+/// that axis most: the normal of a plane squared, which has no gradient.
+template <typename F>
+OBSCURA_INLINE Vec3<F> steepest_way(const Quadric<F>& q) {
+    const F two(2.0f);
+    const F x = abs(q.k[0]);
+    const F y = abs(q.k[1]);
+    const F z = abs(q.k[2]);
+    const auto most_y = (y >= x) & (y >= z);
+    const auto most_z = (!most_y) & (z >= x);
+    const Vec3<F> rows[3] = {{two * q.k[0], q.k[3], q.k[4]},
+                             {q.k[3], two * q.k[1], q.k[5]},
+                             {q.k[4], q.k[5], two * q.k[2]}};
+    const Vec3<F> row = select(most_z, rows[2], select(most_y, rows[1], rows[0]));
+    const F size = length(row);
+    const Vec3<F> up{F(0.0f), F(1.0f), F(0.0f)};
+    return select(size > F(1e-18f), row * (F(1.0f) / max(size, F(1e-18f))), up);
 }
 
 /// u goes once around the box's vertical axis (see Azimuth), v from the box's top to its bottom;
@@ -80,24 +186,27 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_quadric(const Quadric<F>& q,
                                                   const MaskOf<F>& from_above,
                                                   const Vec3<F>& near) {
     SurfacePoint<F> out;
+    const F widest = max_component(q.half);
+    const Quadric<F> sizes = quadric_sizes(q);
+    // Where no side is up hill: at the point of a cone, and all over a plane squared.
+    const F least = max(quadric_bend(sizes, splat3(widest)) / widest * F(1e-5f), F(1e-18f));
     // Newton's steps, as many as a point needs that was found from a hundred thousand sizes away.
-    const F most = max_component(q.half) * F(1e-3f);
-    const F longest = max_component(q.half) * F(0.1f);
+    const F most = widest * F(1e-3f);
+    const F longest = widest * F(0.1f);
     Vec3<F> p = near;
     for (int i = 0; i < 3; ++i) {
         const Vec3<F> up_hill = quadric_gradient(q, p);
-        const F steep = max(dot(up_hill, up_hill), F(1e-30f));
-        const Vec3<F> step = up_hill * (quadric_value(q, p) / steep);
-        p = select(length(step) < longest, p - step, p);
+        const F steep = dot(up_hill, up_hill);
+        const Vec3<F> step = up_hill * (quadric_value(q, p) / max(steep, F(1e-30f)));
+        p = select((length(step) < longest) & (steep > least * least), p - step, p);
     }
     const Vec3<F> gradient = quadric_gradient(q, p);
     const F slope = length(gradient);
-    const auto smooth = slope > F(1e-18f);
-    const Vec3<F> up{F(0.0f), F(1.0f), F(0.0f)};
-    const Vec3<F> n = select(smooth, gradient * (F(1.0f) / max(slope, F(1e-18f))), up);
+    const auto smooth = slope > least;
+    const Vec3<F> n = select(smooth, gradient * (F(1.0f) / max(slope, F(1e-18f))), steepest_way(q));
     out.position = p;
     out.normal = n;
-    const F fuzzy = quadric_size(q, p) / max(slope, F(1e-18f)) * F(surface_slack);
+    const F fuzzy = quadric_value(sizes, abs(p)) / max(slope, F(1e-18f)) * F(surface_slack);
     out.error = min(fuzzy, most);
 
     const Vec3<F> size = q.half + q.half;

@@ -105,8 +105,8 @@ struct Quadratic {
     MaskOf<F> real;
 };
 
-/// Neither root suffers from cancellation. a = 0 gives one root that is infinite (or both NaN,
-/// where b is 0 too).
+/// Neither root suffers from cancellation. What is not there is infinite or NaN, and no limits hold
+/// it: one root where a = 0, both where b = 0 too (a line along a ruling).
 /// Source  Kahan (as difference_of_products); Haines et al., "Precision Improvements for Ray/Sphere
 ///         Intersection", Ray Tracing Gems, 2019, ch. 7
 template <typename F>
@@ -114,8 +114,8 @@ OBSCURA_INLINE Quadratic<F> solve_quadratic(const F& a, const F& b, const F& c) 
     const F discriminant = difference_of_products(b, b, a, c);
     const F root = sqrt(max(discriminant, F(0.0f)));
     const F q = select(b < F(0.0f), root - b, F(-(b + root)));
-    const F first = select(q == F(0.0f), F(0.0f), c / q);
     const F second = q / a;
+    const F first = select(q == F(0.0f), second, c / q);
     const auto ordered = first < second;
     return {{select(ordered, first, second), select(ordered, second, first)},
             discriminant >= F(0.0f)};

@@ -154,8 +154,7 @@ OBSCURA_INLINE MaskOf<F> is_front(const ShapeRow& row, const ShapeRay<F>& ray, c
             return MaskOf<F>(k == 0);
     }
     const Quadric<F> q = read_quadric<F>(UniformShape<F>(row));
-    const Vec3<F> at = ray.origin - q.centre + ray.direction * t;
-    return dot(quadric_gradient(q, at), ray.direction) < F(0.0f);
+    return falls_along(q, ray, t);
 }
 
 /// The place on a shape nearest to a point that is known to be close to it; another shape for every

@@ -30,8 +30,9 @@ public:
     OBSCURA_INLINE Vec3<Lanes> color(int word) const { return read3(g_.material, word); }
 
     /// Lanes whose slot has a texture, and coordinates for it.
+    template <Detail detail = Detail::mean>
     OBSCURA_INLINE FoundSlot find(int slot) const {
-        FoundSlot found = find_slot(scene_, g_, slot, look_, {});
+        FoundSlot found = find_slot<detail>(scene_, g_, slot, look_, {});
         found.used = found.used & layered_;
         return found;
     }
@@ -64,9 +65,10 @@ OBSCURA_INLINE void read_dielectric(const LayerReader& layers, LayeredParams<Lan
     const Vec3<Lanes> f0 = color * normal_reflectance(p.eta);
     const Lanes one(1.0f);
     p.f0 = Vec3<Lanes>{min(f0.x, one), min(f0.y, one), min(f0.z, one)} * specular;
-    p.f90 = specular;
     p.transmission = layers.number(OBSCURA_LAYER_WORD(transmission)) *
                      layers.texel(OBSCURA_LAYER_WORD(transmission_texture)).rgb.x;
+    const Lanes passes = select(p.solid, one, p.transmission);
+    p.f90 = specular * lerp(one, grazing_reflectance(p.eta), passes);
     p.diffuse_transmission = layers.number(OBSCURA_LAYER_WORD(diffuse_transmission)) *
                              layers.texel(OBSCURA_LAYER_WORD(diffuse_transmission_texture)).alpha;
     p.diffuse_transmission_color =
@@ -94,7 +96,8 @@ OBSCURA_INLINE void read_coat(const LayerReader& layers,
                             layers.texel(OBSCURA_LAYER_WORD(clearcoat_roughness_texture)).rgb.y;
     p.coat_alpha = max(roughness * roughness, Lanes(min_ggx_alpha));
     Vec3<Lanes> normal = at.smooth_normal;
-    const FoundSlot slot = layers.find(OBSCURA_LAYER_WORD(clearcoat_normal_texture));
+    const FoundSlot slot =
+        layers.find<Detail::single>(OBSCURA_LAYER_WORD(clearcoat_normal_texture));
     if (any(slot.used)) {
         const Lanes scale = layers.number(OBSCURA_LAYER_WORD(clearcoat_normal_scale));
         normal = tilt_normal(at.tangents, slot.used, normal, layers.read(slot).rgb, scale);
@@ -112,6 +115,7 @@ OBSCURA_INLINE void read_film(const LayerReader& layers, LayeredParams<Lanes>& p
     const Lanes most = layers.number(OBSCURA_LAYER_WORD(film_thickness_nm) + 1);
     const Lanes share = layers.texel(OBSCURA_LAYER_WORD(film_thickness_texture)).rgb.y;
     p.film.thickness_nm = lerp(least, most, share);
+    p.film.strength = p.film.strength * film_presence(p.film.thickness_nm);
 }
 
 /// Stretches the highlight and turns the frame along it. Without tangents the highlight is round.
@@ -211,15 +215,20 @@ void read_point(const LayerReader& layers,
     const LanesI medium = layers.integer(OBSCURA_LAYER_WORD(medium));
     const LanesI body = select(out.layered, medium, LanesI(0));
     out.boundary = boundary_at(scene, path.bodies, body, place.front);
+    if (hit.shared != nullptr) {
+        SharedLanes shared = read_shared_faces(hit.shared, path.slot);
+        shared.exist = shared.exist & (body > LanesI(0));
+        if (any(shared.exist)) join_boundaries(scene, path.bodies, shared, out.boundary);
+    }
     LayeredParams<Lanes>& p = out.params;
-    p.solid = body > LanesI(0);
+    p.solid = (body > LanesI(0)) & (!out.boundary.matched);
     out.tint = splat3(Lanes(1.0f));
     out.wavelength = LanesU(0U);
     out.reflects_white = Mask(false);
     p.base_color = base.base_color;
     p.metallic = base.metallic;
     p.alpha = {base.alpha, base.alpha};
-    p.eta = select(p.solid, out.boundary.eta, layers.number(OBSCURA_LAYER_WORD(ior)));
+    p.eta = select(body > LanesI(0), out.boundary.eta, layers.number(OBSCURA_LAYER_WORD(ior)));
     read_dielectric(layers, p);
     disperse(layers, path, place.front, out);
     read_sheen(layers, p);
@@ -227,7 +236,7 @@ void read_point(const LayerReader& layers,
     read_coat(layers, place, p);
     read_film(layers, p);
     // Seen from inside, a body has no coat.
-    const Mask inside = p.solid & (!place.front);
+    const Mask inside = (body > LanesI(0)) & (!place.front);
     p.coat = select(inside, Lanes(0.0f), p.coat);
     p.sheen_color = select(inside, splat3(Lanes(0.0f)), p.sheen_color);
     p.film.strength = select(inside, Lanes(0.0f), p.film.strength);

@@ -42,6 +42,7 @@ struct LayerHit {
     const HitGeometry& geometry;
     const LookUp& look;
     const PathLanes& path;
+    const SharedFaces* shared = nullptr;  ///< as HitLanes has it
 };
 
 /// In   base: the core material; place: layered lanes; its frame may be turned

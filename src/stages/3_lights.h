@@ -31,6 +31,11 @@ struct LightLanes {
     Mask valid;
 };
 
+/// Of lights without end only the environment has an extent.
+OBSCURA_INLINE Mask is_environment(const LightLanes& light) {
+    return (light.pdf > Lanes(0.0f)) & (light.distance >= Lanes(directional_distance_m));
+}
+
 OBSCURA_INLINE void choose(LightLanes& out, Mask m, const LightLanes& in) {
     out.direction = select(m, in.direction, out.direction);
     out.distance = select(m, in.distance, out.distance);

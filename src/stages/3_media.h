@@ -3,6 +3,7 @@
 #pragma once
 
 #include "stages/3_tables.h"
+#include "surface/fresnel.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -76,14 +77,27 @@ struct Boundary {
     LanesU beyond;  ///< the bodies on the other side
     Lanes eta;      ///< index of refraction there / here
     Mask hidden;    ///< inside a denser body: nothing happens here
+    Mask matched;   ///< between equal indices: light passes straight; where SceneView::thin_walls
 };
+
+/// What the boundary does to light between the bodies that fill the places here and there.
+///
+/// In/Out  b: with `hidden`; lanes of `exists` change
+OBSCURA_INLINE void bend(
+    const SceneView& scene, Mask exists, LanesI here, LanesI there, Boundary& b) {
+    const Lanes eta = read_medium(scene, there).w / read_medium(scene, here).w;
+    const Mask equal = exists & (abs(eta - Lanes(1.0f)) < Lanes(least_refraction));
+    if (scene.thin_walls) b.matched = (equal & (!b.hidden)) | ((!exists) & b.matched);
+    b.eta = select(exists, select(equal, Lanes(1.0f + least_refraction), eta), b.eta);
+    b.eta = select(b.matched, Lanes(1.0f), b.eta);
+}
 
 /// In  body: number of the body that the surface bounds, 0: none; entering: seen from outside
 OBSCURA_INLINE Boundary boundary_at(const SceneView& scene,
                                     LanesU bodies,
                                     LanesI body,
                                     Mask entering) {
-    Boundary b{bodies, Lanes(1.0f), Mask(false)};
+    Boundary b{bodies, Lanes(1.0f), Mask(false), Mask(false)};
     const Mask exists = body > LanesI(0);
     if (scene.media == nullptr || none(exists)) return b;
     const LanesU inside = select(entering, enter_body(bodies, body), bodies);
@@ -91,14 +105,54 @@ OBSCURA_INLINE Boundary boundary_at(const SceneView& scene,
     b.beyond = select(exists, select(entering, inside, outside), bodies);
     // A path that starts inside has not entered: what it leaves is this body all the same.
     const LanesI within = max(filling_body(inside), body);
-    const Lanes ior_inside = read_medium(scene, within).w;
-    const Lanes ior_outside = read_medium(scene, filling_body(outside)).w;
-    const Lanes eta = select(entering, ior_inside / ior_outside, ior_outside / ior_inside);
-    // Equal media do not bend; the formulas need some difference, which bends by 1e-3 at most.
-    const Lanes apart = select(abs(eta - Lanes(1.0f)) < Lanes(1e-3f), Lanes(1.001f), eta);
-    b.eta = select(exists, apart, b.eta);
+    const LanesI around = filling_body(outside);
     b.hidden = exists & (within > body);
+    bend(scene, exists, select(entering, around, within), select(entering, within, around), b);
     return b;
+}
+
+/// SharedFaces of a group of paths.
+struct SharedLanes {
+    Mask exist;
+    LanesU left, entered;
+    Lanes before, beyond;
+};
+
+OBSCURA_INLINE SharedLanes read_shared_faces(const SharedFaces* by_slot, LanesU slot) {
+    static_assert((batch_rows & (batch_rows - 1)) == 0);
+    const auto words = reinterpret_cast<const int32_t*>(by_slot);
+    const LanesI in_range = as_int(slot & LanesU(uint32_t{batch_rows - 1}));  // in idle lanes too
+    const Four<LanesI> row = gather4<Lanes>(words, LanesI(in_range * LanesI(shared_faces_words)));
+    return {
+        row.x < LanesI(0), as_uint(row.x), as_uint(row.y), bits_float(row.z), bits_float(row.w)};
+}
+
+/// The boundary of all bodies whose faces lie together at a hit, in place of the one that was hit:
+/// from the body that fills the place before them to the one that does behind them.
+///
+/// In/Out  b: of the hit face; lanes of shared.exist change
+OBSCURA_INLINE void join_boundaries(const SceneView& scene,
+                                    LanesU bodies,
+                                    const SharedLanes& shared,
+                                    Boundary& b) {
+    const auto number = [](LanesU all, int shift) {
+        return as_int((all >> shift) & LanesU(255U));
+    };
+    LanesU beyond = bodies;
+    for (const int shift : {16, 8, 0}) {
+        const LanesI body = number(shared.left, shift);
+        beyond = select(body > LanesI(0), leave_body(beyond, body), beyond);
+    }
+    for (const int shift : {16, 8, 0}) {
+        const LanesI body = number(shared.entered, shift);
+        beyond = select(body > LanesI(0), enter_body(beyond, body), beyond);
+    }
+    // As above: what a path leaves without having entered it is around it all the same.
+    const LanesI here = max(filling_body(bodies), number(shared.left, 16U));
+    const LanesI there = filling_body(beyond);
+    b.beyond = select(shared.exist, beyond, b.beyond);
+    b.hidden = (shared.exist & (here == there)) | ((!shared.exist) & b.hidden);
+    bend(scene, shared.exist, here, there, b);
 }
 
 }  // namespace OBSCURA_ISA

@@ -73,11 +73,11 @@ inline void shade_misses(const SceneView& scene,
             const Lanes other = environment_density(pixel.w, met[k].sin_theta) *
                                 Lanes(scene.lights.environment_select);
             const Lanes weight = environment_weight(batch.strategies, load(m.pdf + i), other);
-            const Vec3<Lanes> light = Vec3<Lanes>{pixel.x, pixel.y, pixel.z} * weight;
-            add_radiance(rows.samples,
-                         rows_in_range(i, count_in),
-                         load(m.slot + i),
-                         light * load3(m.tr, m.tg, m.tb, i));
+            const Mask exists = rows_in_range(i, count_in);
+            const LanesU slot = load(m.slot + i);
+            Vec3<Lanes> light = Vec3<Lanes>{pixel.x, pixel.y, pixel.z} * weight;
+            if (scene.occludes) light = light * last_occlusion(rows, exists, slot);
+            add_radiance(rows.samples, exists, slot, light * load3(m.tr, m.tg, m.tb, i));
         }
     }
 }

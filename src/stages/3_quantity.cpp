@@ -38,8 +38,9 @@ OBSCURA_INLINE Vec3<Lanes> surface_uv(const SceneView& scene,
     const Mask present = base != LanesI(no_attribute);
     const Vec3<Lanes> zero = splat3(Lanes(0.0f));
     if (none(present)) return zero;
-    g.first_uv = read_mesh_uv(scene, g, base);
+    g.first_uv = read_mesh_uv(scene, g, mesh_uv_base(g, base));
     shapes_to_world(scene, hit, path, g);
+    read_stroke_uv(scene, g);
     return select(present, Vec3<Lanes>{g.first_uv.at.x, g.first_uv.at.y, Lanes(0.0f)}, zero);
 }
 
@@ -73,7 +74,7 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
         return identity(scene, hit);
     } else {
         const SeenSurface seen =
-            see_surface<HitUse::look>(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
+            see_surface<HitUse::look>(scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f))});
         const int slot_word = quantity == Quantity::albedo ? base_color_slot : normal_slot;
         const FoundSlot slot = find_slot(scene, seen.g, slot_word, seen.look, {});
         if constexpr (quantity == Quantity::albedo) {

@@ -20,11 +20,9 @@ OBSCURA_INLINE Vec3<Lanes> ambient_light(const AmbientLight& light,
     const Lanes inverse_pi(1.0f / pi_f);
     const Vec3<Lanes> diffuse = ambient_irradiance(light, n) * inverse_pi;
     const Vec3<Lanes> specular = ambient_irradiance(light, mirrored) * inverse_pi;
-    const auto albedo = [&](Lanes f0) { return specular_albedo(f0, cosine, p.alpha); };
-    const Vec3<Lanes> metal{albedo(p.base_color.x), albedo(p.base_color.y), albedo(p.base_color.z)};
-    const Lanes dielectric = (Lanes(1.0f) - p.metallic) * dielectric_albedo(cosine, p.alpha);
+    const SpecularAlbedo<Lanes> once = specular_albedo(cosine, p.alpha);
     return p.base_color * s.lobes.diffuse * diffuse +
-           (metal * p.metallic + splat3(dielectric)) * specular;
+           (s.lobes.specular_f0 * once.mirror + s.lobes.specular_rise * once.grazing) * specular;
 }
 
 /// Share of light from all around that sheen leaves to what is below it: for a view direction the
@@ -58,22 +56,19 @@ OBSCURA_INLINE Vec3<Lanes> ambient_layers(const AmbientLight& light,
     };
     const Vec3<Lanes>& n = s.frame.normal;
     const Lanes cosine = dot(n, wo);
-    const Lanes roughness = sqrt(sqrt(p.alpha.x * p.alpha.y));
-    const Lanes scale = look_up_albedo(specular_scale_cells, cosine, roughness);
-    const Lanes bias = look_up_albedo(specular_bias_cells, cosine, roughness);
-    const LayeredFresnel<Lanes> film = layered_fresnel(p, cosine);
-    const Lanes mirror = scale + bias;  // what rough facets that reflect everything reflect
+    const FacetShares<Lanes> facets = facet_shares(p, to_local(s.frame, wo));
     const auto albedo = [&](const Vec3<Lanes>& f0, Lanes f90, const Vec3<Lanes>& filmed) {
-        const Vec3<Lanes> plain = f0 * scale + splat3(f90 * bias);
-        return plain + (filmed * mirror - plain) * p.film.strength;
+        const Vec3<Lanes> plain =
+            f0 * (facets.once.mirror - facets.once.grazing) + splat3(f90 * facets.once.grazing);
+        return plain + (filmed * facets.once.mirror - plain) * p.film.strength;
     };
-    const Vec3<Lanes> dielectric = albedo(p.f0, p.f90, film.dielectric);
-    const Vec3<Lanes> metal = albedo(p.base_color, one, film.metal);
+    const Vec3<Lanes> dielectric = albedo(p.f0, p.f90, facets.fresnel.dielectric);
+    const Vec3<Lanes> metal = albedo(p.base_color, one, facets.fresnel.metal);
     const Vec3<Lanes> front = from(n);
-    Vec3<Lanes> sum = (dielectric * (one - p.metallic) + metal * p.metallic) * mirrored(n);
+    Vec3<Lanes> sum = facet_reflectance(w, {dielectric, metal}) * mirrored(n);
     sum = sum + p.base_color * front * (w.diffuse * (one - p.diffuse_transmission));
     if (any(s.layers.lets_through)) {
-        const Lanes passes = w.transmitted * (mirror - max_component(dielectric));
+        const Lanes passes = w.transmitted * select(p.solid, one - facets.boundary, one);
         sum = sum + p.base_color * from(-wo) * passes;
         sum = sum + p.diffuse_transmission_color * from(-n) * (w.diffuse * p.diffuse_transmission);
     }
@@ -98,13 +93,14 @@ OBSCURA_INLINE void add_unshadowed(const SceneView& scene,
             const Vec3<Lanes> all = ambient_layers(*scene.raycast.ambient, s, wo);
             around = select(s.layers.layered, all, around);
         }
+        if (scene.occludes) around = around * s.occlusion;
         light = light + around;
     }
     if (scene.raycast.headlight) {
         const Vec3<Lanes> local = to_local(s.frame, wo);
         light = light + evaluate_point(s, local, local).value_cos * Lanes(headlight_irradiance);
     }
-    light = select(s.unlit, s.bsdf.base_color, light);
+    light = select(s.unlit, s.emission + s.bsdf.base_color, light);
     // A mask made here: GCC 12 reads one kept from before this many registers with wrong high bits.
     const Mask glows = exists & !(max_component(light) <= Lanes(0.0f));
     if (any(glows)) add_radiance(samples, glows, path.slot, path.throughput * light);
@@ -132,7 +128,7 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Shade
         path.sample = LanesU(0U);
         const HitLanes hit = hits_of_paths(rows, i, exists, path);
         const ShadingPoint s =
-            shading_point(scene, hit, path, splat3(Lanes(0.5f)), Filtering::bilinear);
+            shading_point(scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f))});
         if (range.first_light == 0) add_unshadowed(scene, rows.samples, exists, path, s);
         const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
         for (int k = range.first_light; k < range.first_light + range.lights; ++k) {

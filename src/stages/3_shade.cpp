@@ -110,7 +110,7 @@ OBSCURA_INLINE void add_emission(const SceneView& scene,
         light = select(glows, s.emission * weight, light);
     }
     const Mask unlit = active & s.unlit;
-    light = select(unlit, s.bsdf.base_color, light);
+    light = select(unlit, light + s.bsdf.base_color, light);
     const Mask any_light = glows | unlit;
     if (any(any_light)) add_radiance(rows.samples, any_light, path.slot, path.throughput * light);
 }
@@ -150,6 +150,8 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
              : Lanes(1.0f);
     Vec3<Lanes> radiance = path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
     if (s.any_layers) radiance = radiance * wavelength_tint(s, before);
+    if (scene.occludes)
+        radiance = radiance * select(is_environment(light), s.occlusion, Lanes(1.0f));
     if (scene.media != nullptr) {
         const LanesU bodies =
             s.any_layers ? select(before, path.bodies, s.layers.boundary.beyond) : path.bodies;
@@ -306,7 +308,8 @@ ShadeCounts shade(const SceneView& scene,
         const HitLanes hit = hits_of_paths(rows, i, exists, path);
         if (scene.media != nullptr) absorb(scene, exists, hit.t, path);
         BounceRandom random = bounce_random(path, bounce, scene.lights.count, draws[group]);
-        ShadingPoint s = shading_point(scene, hit, path, random.texture, Filtering::stochastic);
+        ShadingPoint s = shading_point(
+            scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_share});
         add_emission(scene, batch, rows, exists, path, s, hit.t);
         Mask scatters = exists & (!s.unlit);
         const bool is_over = bounce > batch.max_bounces;
@@ -324,6 +327,7 @@ ShadeCounts shade(const SceneView& scene,
             scatters = scatters & (!hidden);
             turns = turns & (!hidden);
         }
+        if (scene.occludes) store_by_slot(rows.occlusion, turns, path.slot, s.occlusion);
         out.next = add_next_rays(rows.next, out.next, turns, path, s, random, bounce, hit.t);
         if (scene.lights.count > 0) {
             out.shadow =
@@ -345,8 +349,8 @@ int shade_ao(const SceneView& scene,
         const PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_of_paths(rows, i, exists, path);
         const BounceRandom random = bounce_random(path, 0, 0, {});
-        const ShadingPoint s =
-            shading_point(scene, hit, path, random.texture, Filtering::stochastic);
+        const ShadingPoint s = shading_point(
+            scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_share});
         const Vec3<Lanes> direction = normalize(to_world(s.frame, cosine_hemisphere(random.bsdf)));
         const Mask useful = exists & (dot(direction, s.ng) > Lanes(0.0f));
         shadows = append_shadows(rows.shadows,

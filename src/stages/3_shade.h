@@ -17,6 +17,7 @@ OBSCURA_INLINE HitLanes hits_of_paths(const ShadeRows& rows,
                                       Mask exists,
                                       const PathLanes& path) {
     HitLanes hit = hits_or_first(rows.hits, i, exists);
+    hit.shared = rows.shared;
     if (rows.time != nullptr) {
         hit.time = gather<Lanes>(rows.time, select(exists, as_int(path.slot), LanesI(0)));
     }

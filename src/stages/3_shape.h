@@ -273,15 +273,16 @@ OBSCURA_INLINE void shapes_to_world(const SceneView& scene,
     g.first_uv.area2 = select(m, Lanes(1.0f), g.first_uv.area2);
     g.dpdu = s.dpdu;
     g.dpdv = s.dpdv;
-    // Of all shapes, points and lines alone have colours: their vertices are the corners.
-    const Mask colored = m & (g.primitive.integer(5) != LanesI(no_attribute));
-    if (none(colored)) return;
-    g.corner[0] = select(colored, s.vertex, g.corner[0]);
-    g.corner[1] = select(colored, s.next_vertex, g.corner[1]);
-    g.corner[2] = select(colored, s.vertex, g.corner[2]);
-    g.weight[0] = select(colored, Lanes(1.0f) - s.share, g.weight[0]);
-    g.weight[1] = select(colored, s.share, g.weight[1]);
-    g.weight[2] = select(colored, Lanes(0.0f), g.weight[2]);
+    // Of all shapes, points and lines alone have colours, texture coordinates by vertex and no
+    // tangents: their vertices are the corners.
+    const Mask strokes = m & (g.primitive.integer(4) == LanesI(no_attribute));
+    if (none(strokes)) return;
+    g.corner[0] = select(strokes, s.vertex, g.corner[0]);
+    g.corner[1] = select(strokes, s.next_vertex, g.corner[1]);
+    g.corner[2] = select(strokes, s.vertex, g.corner[2]);
+    g.weight[0] = select(strokes, Lanes(1.0f) - s.share, g.weight[0]);
+    g.weight[1] = select(strokes, s.share, g.weight[1]);
+    g.weight[2] = select(strokes, Lanes(0.0f), g.weight[2]);
 }
 
 }  // namespace OBSCURA_ISA

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "stages/3_layers.h"
+#include "stages/3_occlusion.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -18,8 +19,9 @@ struct ShadingPoint {
     LobeWeights<Lanes> lobes;
     Vec3<Lanes> emission;
     Mask unlit;
-    LanesI light;  ///< row in the triangle light table, -1: none
-    Lanes time;    ///< of the hit, 0 when the shutter opens
+    LanesI light;     ///< row in the triangle light table, -1: none
+    Lanes time;       ///< of the hit, 0 when the shutter opens
+    Lanes occlusion;  ///< where SceneView::occludes
     bool any_layers = false;
     LayeredPoint layers;       ///< where any_layers
     Vec3<Lanes> start_beyond;  ///< of rays that leave on the other side; where any_layers
@@ -34,7 +36,7 @@ OBSCURA_INLINE FoundSlots find_slots(const SceneView& scene,
                                      const HitGeometry& g,
                                      const LookUp& look) {
     const CommonTexel common = find_common_texel(scene, g, look);
-    return {find_slot(scene, g, normal_slot, look, common),
+    return {find_slot<Detail::single>(scene, g, normal_slot, look, common),
             find_slot(scene, g, metallic_roughness_slot, look, common),
             find_slot(scene, g, base_color_slot, look, common)};
 }
@@ -52,20 +54,21 @@ template <HitUse use>
 OBSCURA_INLINE SeenSurface see_surface(const SceneView& scene,
                                        const HitLanes& hit,
                                        const PathLanes& path,
-                                       const Vec3<Lanes>& random,
-                                       Filtering filtering) {
+                                       const Reading& reading) {
     SeenSurface seen;
     HitGeometry& g = seen.g;
     find_geometry<use>(scene, hit, g);
     instance_to_world(scene, hit, g);
     read_first_uv_set(scene, g);
     shapes_to_world(scene, hit, path, g);
+    read_stroke_uv(scene, g);
     seen.wo = -path.direction;
     seen.cos_front = dot(g.ng, seen.wo);
     seen.ng = select(seen.cos_front >= Lanes(0.0f), g.ng, -g.ng);
     const Lanes width = path.cone_width + path.cone_spread * hit.t;
     // The cone's cross section on the slanted surface: geometric mean of its two widths.
-    seen.look = {width * width / max(abs(seen.cos_front), Lanes(0.05f)), random, filtering};
+    const Lanes area = width * width / max(abs(seen.cos_front), Lanes(0.05f));
+    seen.look = {area * Lanes(reading.share), reading.random, reading.filtering};
     return seen;
 }
 
@@ -139,7 +142,7 @@ OBSCURA_INLINE void read_emission(const SceneView& scene,
     s.emission = read3(g.material, 8);
     const Mask emits =
         (max_component(s.emission) > Lanes(0.0f)) &
-        (seen.front | has_bits<Lanes>(g.material.integer(11), material_double_sided)) & (!s.unlit);
+        (seen.front | s.unlit | has_bits<Lanes>(g.material.integer(11), material_double_sided));
     s.emission = select(emits, s.emission, splat3(Lanes(0.0f)));
     s.light = LanesI(-1);
     if (any(emits)) {
@@ -166,13 +169,29 @@ OBSCURA_INLINE void read_emission(const SceneView& scene,
     }
 }
 
+/// Rays start clear of all faces that lie where the hit is.
+OBSCURA_INLINE void start_clear_of_all(const SharedFaces* by_slot,
+                                       const HitGeometry& g,
+                                       const PathLanes& path,
+                                       ShadingPoint& s) {
+    const SharedLanes shared = read_shared_faces(by_slot, path.slot);
+    if (none(shared.exist)) return;
+    const Lanes none_more(0.0f);
+    const auto more = [&](Lanes clear) {
+        return select(shared.exist, max(clear - g.offset, none_more), none_more);
+    };
+    const Vec3<Lanes> back = s.ng * more(shared.before);
+    s.start = s.start + back;
+    s.light_start = s.light_start + back;
+    s.start_beyond = s.start_beyond - s.ng * more(shared.beyond);
+}
+
 /// Everything about the hits of one group. `wo` points to the viewer.
 OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
                                           const HitLanes& hit,
                                           const PathLanes& path,
-                                          const Vec3<Lanes>& random,
-                                          Filtering filtering) {
-    const SeenSurface seen = see_surface<HitUse::start_rays>(scene, hit, path, random, filtering);
+                                          const Reading& reading) {
+    const SeenSurface seen = see_surface<HitUse::start_rays>(scene, hit, path, reading);
     const HitGeometry& g = seen.g;
     const LookUp& look = seen.look;
     const FoundSlots slots = find_slots(scene, g, look);
@@ -190,17 +209,20 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
     s.normal = shading_normal(scene, seen, tangents, slots.normal);
     s.frame = frame_around(bend_towards_viewer(s.normal, s.ng, seen.wo));
     s.bsdf = bsdf_params(scene, g, look, slots);
-    s.lobes = {Lanes(0.0f), Lanes(0.0f)};
+    const Vec3<Lanes> black = splat3(Lanes(0.0f));
+    s.lobes = {Lanes(0.0f), Lanes(0.0f), black, black};
     if (!all(layered)) s.lobes = lobe_weights(s.bsdf, dot(s.frame.normal, seen.wo));
     s.any_layers = any(layered);
     if (s.any_layers) {
         const Vec3<Lanes> smooth = select(dot(g.normal, s.ng) < Lanes(0.0f), -g.normal, g.normal);
         LayerPlace place{tangents, s.frame, smooth, s.ng, seen.wo, front, layered};
-        read_layered_point({scene, g, look, path}, s.bsdf, place, s.layers);
+        read_layered_point({scene, g, look, path, hit.shared}, s.bsdf, place, s.layers);
         s.frame.tangent = select(layered, place.frame.tangent, s.frame.tangent);
         s.frame.bitangent = select(layered, place.frame.bitangent, s.frame.bitangent);
         s.start_beyond = g.position - s.ng * g.offset;
+        if (hit.shared != nullptr) start_clear_of_all(hit.shared, g, path, s);
     }
+    if (scene.occludes) s.occlusion = read_occlusion(scene, g, look);
     s.unlit = has_bits<Lanes>(flags, material_unlit);
 
     read_emission(scene, hit, g, {look, front, path.pdf > Lanes(0.0f)}, s);

@@ -27,6 +27,10 @@ inline constexpr int normal_slot = metallic_roughness_slot + slot_words;
 inline constexpr int layers_word = 12;
 static_assert(offsetof(Material, layers) == layers_word * 4);
 inline constexpr int emissive_slot = normal_slot + slot_words;
+inline constexpr int occlusion_slot = emissive_slot + slot_words;
+inline constexpr int occlusion_strength_word = occlusion_slot + slot_words;
+static_assert(offsetof(Material, occlusion_texture) == occlusion_slot * 4);
+static_assert(offsetof(Material, occlusion_strength) == occlusion_strength_word * 4);
 static_assert(offsetof(Material, base_color_texture) == base_color_slot * 4);
 static_assert(offsetof(Material, emissive_texture) == emissive_slot * 4);
 

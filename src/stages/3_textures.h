@@ -11,6 +11,13 @@ inline namespace OBSCURA_ISA {
 /// How textures are read: one random texel, or exact bilinear for noise-free quantities.
 enum class Filtering { stochastic, bilinear };
 
+/// How the textures at hits are read.
+struct Reading {
+    Filtering filtering;
+    Vec3<Lanes> random;  ///< for Filtering::stochastic
+    float share = 1;     ///< of the area under a ray's cone that one look-up stands for
+};
+
 /// A texture slot of the hit materials, with the coordinates of its UV set.
 struct SlotLanes {
     Mask used;
@@ -33,9 +40,27 @@ OBSCURA_INLINE MeshUv read_mesh_uv(const SceneView& scene, const HitGeometry& g,
     return {base, uv[0] + e1 * g.weight[1] + e2 * g.weight[2], e1.x * e2.y - e1.y * e2.x};
 }
 
+/// The UV set of lanes that hit triangles; others have no corners yet.
+OBSCURA_INLINE LanesI mesh_uv_base(const HitGeometry& g, LanesI base) {
+    return g.has_shapes ? select(g.shapes, LanesI(no_attribute), base) : base;
+}
+
+/// UV set 0 of points and lines, whose vertices are known after shapes_to_world.
+OBSCURA_INLINE void read_stroke_uv(const SceneView& scene, HitGeometry& g) {
+    if (!g.has_shapes) return;
+    const Mask strokes = g.shapes & (g.primitive.integer(4) == LanesI(no_attribute));
+    if (none(strokes)) return;
+    const MeshUv uv =
+        read_mesh_uv(scene, g, select(strokes, g.primitive.integer(6), LanesI(no_attribute)));
+    g.first_uv.base = select(strokes, uv.base, g.first_uv.base);
+    g.first_uv.at = {select(strokes, uv.at.x, g.first_uv.at.x),
+                     select(strokes, uv.at.y, g.first_uv.at.y)};
+    g.first_uv.area2 = select(strokes, uv.area2, g.first_uv.area2);
+}
+
 /// Reads UV set 0, which most textures use, once for all of them.
 OBSCURA_INLINE void read_first_uv_set(const SceneView& scene, HitGeometry& g) {
-    const LanesI base = g.primitive.integer(6);
+    const LanesI base = mesh_uv_base(g, g.primitive.integer(6));
     const Mask textured =
         (max(g.material.integer(base_color_slot), g.material.integer(metallic_roughness_slot)) >=
          LanesI(0)) |
@@ -62,9 +87,10 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
     const bool first = none(s.used & (base != g.first_uv.base));
     MeshUv mesh = first ? g.first_uv : read_mesh_uv(scene, g, base);
     if (g.has_shapes && !first) {
-        mesh.at = {select(g.shapes, g.first_uv.at.x, mesh.at.x),
-                   select(g.shapes, g.first_uv.at.y, mesh.at.y)};
-        mesh.area2 = select(g.shapes, g.first_uv.area2, mesh.area2);
+        const Mask known = g.shapes & (base == g.first_uv.base);
+        mesh.at = {select(known, g.first_uv.at.x, mesh.at.x),
+                   select(known, g.first_uv.at.y, mesh.at.y)};
+        mesh.area2 = select(known, g.first_uv.area2, mesh.area2);
     }
     // The transform's six words end the slot: two of them are read twice.
     const Four<Lanes> first_four = g.material.four_numbers(slot + 2);
@@ -93,17 +119,23 @@ OBSCURA_INLINE Lanes texture_footprint(const HitGeometry& g,
 /// A slot whose texel is known and on its way: look-ups of one hit are found first and read later.
 struct FoundSlot {
     Mask used;
-    SlotLanes lanes;  ///< for Filtering::bilinear
-    LanesU texel;     ///< number in the arena, for Filtering::stochastic
+    SlotLanes lanes;   ///< for Filtering::bilinear
+    LanesU texel;      ///< number in the arena, for Filtering::stochastic
+    LanesI low_plane;  ///< of its texture
     Mask srgb;
 };
+
+/// Which texel stands for a footprint: one of the mip level whose texels have its size, each the
+/// mean of what it covers; or one of level 0, as the footprint holds them. A mean of normals is
+/// smoother than they are: only the normals themselves keep minified surfaces as rough.
+enum class Detail { mean, single };
 
 /// Where the textures of a material that are alike (material_textures_alike) are read: found once
 /// for all of them.
 struct CommonTexel {
     bool usable = false;  ///< all lanes have such a material
     Mask used;            ///< and texture coordinates
-    LanesI from_start;    ///< texel number, counted from the start of a texture
+    LanesI mean, single;  ///< texel numbers by Detail, counted from the start of a texture
 };
 
 OBSCURA_INLINE CommonTexel find_common_texel(const SceneView& scene,
@@ -119,12 +151,18 @@ OBSCURA_INLINE CommonTexel find_common_texel(const SceneView& scene,
     const SlotLanes s = slot_lanes(scene, g, base_color_slot, texture);
     if (none(s.used)) return common;
     const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, s.texture);
-    const LanesI texel =
-        stochastic_texel<Lanes>(info, s.uv, texture_footprint(g, s, look), look.random);
-    return {true, s.used, texel - info.row.integer(first_level_word)};
+    const Lanes footprint = texture_footprint(g, s, look);
+    const LanesI start = info.row.integer(first_level_word);
+    const LanesI mean = stochastic_texel<Lanes>(info, s.uv, footprint, look.random);
+    LanesI single = mean;
+    if (any(g.material.integer(normal_slot) >= LanesI(0))) {
+        single = stochastic_single_texel<Lanes>(info, s.uv, footprint, look.random);
+    }
+    return {true, s.used, mean - start, single - start};
 }
 
 /// Finds what a slot reads, and asks for its memory.
+template <Detail detail = Detail::mean>
 OBSCURA_INLINE FoundSlot find_slot(const SceneView& scene,
                                    const HitGeometry& g,
                                    int slot,
@@ -137,17 +175,23 @@ OBSCURA_INLINE FoundSlot find_slot(const SceneView& scene,
         if (none(found.used)) return found;
         const TableRow<Lanes> row(
             scene.textures.rows, select(found.used, texture, LanesI(0)), texture_row_words);
-        const LanesI texel = row.integer(first_level_word) + common.from_start;
+        const LanesI texel =
+            row.integer(first_level_word) + (detail == Detail::mean ? common.mean : common.single);
         found.texel = as_uint(select(found.used, texel, LanesI(0)));
         found.srgb = has_bits<Lanes>(row.integer(sampler_word), sampler_srgb);
+        found.low_plane = low_plane_of(scene.textures, row);
     } else {
         found.lanes = slot_lanes(scene, g, slot, texture);
         found.used = found.lanes.used;
         if (none(found.used) || look.filtering == Filtering::bilinear) return found;
         const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, found.lanes.texture);
-        found.texel = as_uint(stochastic_texel<Lanes>(
-            info, found.lanes.uv, texture_footprint(g, found.lanes, look), look.random));
+        const Lanes footprint = texture_footprint(g, found.lanes, look);
+        found.texel = as_uint(
+            detail == Detail::mean
+                ? stochastic_texel<Lanes>(info, found.lanes.uv, footprint, look.random)
+                : stochastic_single_texel<Lanes>(info, found.lanes.uv, footprint, look.random));
         found.srgb = has_bits<Lanes>(info.sampler, sampler_srgb);
+        found.low_plane = low_plane_of(scene.textures, info.row);
     }
     prefetch<Lanes>(scene.textures.texels, as_int(found.texel));
     return found;
@@ -163,8 +207,7 @@ OBSCURA_INLINE Rgba<Lanes> read_slot(const SceneView& scene,
                                               found.lanes.uv,
                                               texture_footprint(g, found.lanes, look));
     }
-    return decode_texel<Lanes>(gather<Lanes>(scene.textures.texels, as_int(found.texel)),
-                               found.srgb);
+    return read_texel<Lanes>(scene.textures, as_int(found.texel), found.low_plane, found.srgb);
 }
 
 }  // namespace OBSCURA_ISA

@@ -5,22 +5,6 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-namespace {
-
-/// Writes the ways of a group's paths: a slot has one path.
-OBSCURA_INLINE void store_passed(const ShadeRows& rows, Mask mask, LanesU slot, Lanes way) {
-    alignas(64) uint32_t slots[lane_count];
-    alignas(64) float ways[lane_count];
-    store(slots, slot);
-    store(ways, way);
-    for (uint32_t bits = mask_bits(mask); bits != 0; bits &= bits - 1) {
-        const int lane = __builtin_ctz(bits);
-        rows.passed[slots[lane]] = ways[lane];
-    }
-}
-
-}  // namespace
-
 PassedWalls pass_walls(const ShadeRows& rows,
                        int at,
                        const PathLanes& path,
@@ -44,11 +28,14 @@ PassedWalls pass_walls(const ShadeRows& rows,
             next.throughput =
                 path.throughput * light.transmittance * (one / select(passes, chance, one));
             next.cone_width = path.cone_width + path.cone_spread * hit.distance;
+            // Light sampling does not see through a body's boundary: what lies behind counts whole.
+            next.bodies = layers.boundary.beyond;
+            next.pdf = select(layers.boundary.matched, zero, path.pdf);
             out.next = append_paths(rows.next, at, passes, next);
         }
     }
     const Lanes way = passed_way(rows, hit.scatters, path) + hit.distance;
-    store_passed(rows, hit.scatters, path.slot, select(passes, way, zero));
+    store_by_slot(rows.passed, hit.scatters, path.slot, select(passes, way, zero));
     return out;
 }
 

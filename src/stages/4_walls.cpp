@@ -94,15 +94,15 @@ int cross_walls(const SceneView& scene, const WallStep& step, int count_in, cons
         if (rows.time != nullptr) {
             hit.time = gather<Lanes>(rows.time, select(met, as_int(ray.slot), LanesI(0)));
         }
-        ShadingPoint s =
-            shading_point(scene, hit, as_path(ray), texture_random(ray.path_key, step), filtering);
+        ShadingPoint s = shading_point(
+            scene, hit, as_path(ray), {filtering, texture_random(ray.path_key, step)});
         if (!s.any_layers) continue;
         const StraightLight<Lanes> light =
             take_straight(s.layers, to_local(s.frame, -ray.direction));
         ShadowLanes next = from_beyond(ray, s.start_beyond);
         next.radiance = ray.radiance * light.transmittance;
-        const Mask passes =
-            met & (!s.unlit) & (max_component(next.radiance) > Lanes(0.0f)) & s.layers.layered;
+        const Mask passes = met & (!s.unlit) & (max_component(next.radiance) > Lanes(0.0f)) &
+                            s.layers.layered & (!s.layers.boundary.matched);
         // In place: the rows written here have all been read.
         out = append_shadows(rows.shadows, out, passes, next);
     }

@@ -103,14 +103,16 @@ struct SceneView {
     const float* attributes = nullptr;
     const float* shapes = nullptr;   ///< ShapeRow as words; null: the scene has no shapes at all
     const float* spheres = nullptr;  ///< see shape/sphere_block.h; null: none
-    const float* curve_points = nullptr;      ///< x, y, z, radius; null: there are no lines
-    const int32_t* curve_segments = nullptr;  ///< first point of each
-    const int32_t* primitives = nullptr;      ///< Primitive as words
-    const float* instances = nullptr;         ///< Instance as words
-    const float* materials = nullptr;         ///< Material as words
-    const float* layers = nullptr;            ///< MaterialLayers as words
-    const float* media = nullptr;             ///< Medium as words; null: no body has a volume
-    bool scatters = false;                    ///< some medium scatters light
+    const float* curve_points = nullptr;       ///< x, y, z, radius; null: there are no lines
+    const int32_t* curve_segments = nullptr;   ///< first point of each
+    const int32_t* primitives = nullptr;       ///< Primitive as words
+    const float* instances = nullptr;          ///< Instance as words
+    const float* materials = nullptr;          ///< Material as words
+    const float* layers = nullptr;             ///< MaterialLayers as words
+    const float* media = nullptr;              ///< Medium as words; null: no body has a volume
+    const int32_t* touching_bodies = nullptr;  ///< by primitive; null: no faces are shared
+    bool scatters = false;                     ///< some medium scatters light
+    bool occludes = false;    ///< some material has an occlusion texture: stages/3_occlusion.h
     bool thin_walls = false;  ///< some surface may let light pass straight: surface/thin_wall.h
     const int32_t* material_numbers = nullptr;  ///< in glTF, by row; -1: none
     MotionView motion;
@@ -120,6 +122,21 @@ struct SceneView {
     EnvironmentView environment;
     bool has_environment = false;
 };
+
+/// What a path goes through together with the face that it hit: faces of bodies that lie in the
+/// same place but for rounding. One a slot; see stages/shared_faces.h.
+struct SharedFaces {
+    uint32_t left = 0;     ///< numbers of up to three bodies, as PathRows::bodies; see faces_shared
+    uint32_t entered = 0;  ///< likewise
+    float before = 0;  ///< how far before the hit, and beyond it, rays start clear of all of them
+    float beyond = 0;
+};
+
+inline constexpr int shared_faces_words = 4;
+static_assert(sizeof(SharedFaces) == shared_faces_words * 4, "read as 32-bit words");
+
+/// In SharedFaces::left: there are such faces.
+inline constexpr uint32_t faces_shared = 1U << 31;
 
 /// Which light transport strategies count; bit 0 light sampling, bit 1 BSDF sampling.
 inline constexpr int sample_lights = 1, sample_bsdfs = 2;
@@ -140,6 +157,8 @@ struct BatchSettings {
     bool background_visible = true;      ///< camera rays that miss see the environment
     float background[4] = {0, 0, 0, 0};  ///< added where camera rays miss; premultiplied RGBA
     float ao_distance = 0;
+    /// Of the area that a pixel's cone covers: what one look-up of a texture stands for.
+    float footprint_share = 1;
     bool through_centres = false;      ///< all samples: through the pixel's and the lens' middle
     float film_offset_px[2] = {0, 0};  ///< of centre rays, from the pixel's centre
     float wire_width_px = 1;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/1_camera.h"
 #include "stages/1_shutter.h"
+#include "stages/2_probes.h"
 #include "stages/2_scatter.h"
 #include "stages/3_shade.h"
 #include "stages/4_walls.h"
@@ -24,6 +25,7 @@ const StageTable stage_table = {
     open_shutter,
     begin_scatter,
     scatter,
+    make_probes,
     shade,
     shade_ao,
     begin_raycast,

@@ -76,7 +76,8 @@ OBSCURA_INLINE int append_paths(const PathRows& rows, int at, Mask mask, const P
 struct HitLanes {
     Lanes t, u, v;
     LanesI instance, primitive, triangle;
-    Lanes time = Lanes(0.0f);  ///< 0 when the shutter opens, 1 when it closes
+    Lanes time = Lanes(0.0f);             ///< 0 when the shutter opens, 1 when it closes
+    const SharedFaces* shared = nullptr;  ///< by slot; null: no path meets any
 };
 
 OBSCURA_INLINE HitLanes load_hits(const HitRows& rows, int i) {
@@ -163,6 +164,18 @@ OBSCURA_INLINE void add_to_slots(Mask mask, LanesU slot, const SlotColumn (&to)[
         const int lane = __builtin_ctz(bits);
         for (int k = 0; k < columns; ++k)
             to[k].column[slots[lane]] += add[k][lane];
+    }
+}
+
+/// Writes one number by slot, for the lanes of `mask`.
+OBSCURA_INLINE void store_by_slot(float* column, Mask mask, LanesU slot, Lanes value) {
+    alignas(64) uint32_t slots[lane_count];
+    alignas(64) float values[lane_count];
+    store(slots, slot);
+    store(values, value);
+    for (uint32_t bits = mask_bits(mask); bits != 0; bits &= bits - 1) {
+        const int lane = __builtin_ctz(bits);
+        column[slots[lane]] = values[lane];
     }
 }
 

@@ -41,6 +41,8 @@ struct ShadeRows {
     SampleRows samples;  ///< in and out
     const float* time = nullptr;  ///< by slot; null: nothing moves
     float* passed = nullptr;      ///< where SceneView::thin_walls, by slot; see stages/3_walls.h
+    float* occlusion = nullptr;   ///< where SceneView::occludes, by slot; see stages/3_occlusion.h
+    const SharedFaces* shared = nullptr;  ///< where SceneView::touching_bodies, by slot
 };
 
 /// Smooth thin walls that a shadow ray passes at most, and a path after its last bounce: behind
@@ -74,6 +76,33 @@ struct ScatterRows {
     uint32_t* row;        ///< of a walker, in `paths`
 };
 
+/// Paths that may have met faces of several bodies at once, and the rays that look for them: along
+/// the normal through the hit, from its viewer's side.
+struct ProbeRows {
+    PathRows paths;               ///< in
+    HitRows hits;                 ///< in: what they hit
+    const float* time = nullptr;  ///< by slot; null: nothing moves
+    const SharedFaces* shared =
+        nullptr;  ///< by slot: only those that say so are looked at; or null
+    /// Out, packed. Their colours: how far along the hit lies; how far before the hit, along the
+    /// normal, the path began; the distance at which rays start clear of the hit.
+    ShadowRows probes;
+    uint32_t* row;  ///< out: of a probe, in `paths`; and seen_from_front
+};
+
+// Distances around a hit are counted in clearances: HitGeometry::offset, at which rays start clear
+// of the face that they leave, for Embree and shading round what lies nearer.
+
+/// Faces that are nearer to each other are in the same place: a ray that starts clear of one of
+/// them would miss the other.
+inline constexpr float company_distance = 2.0f;
+
+/// How far beyond a hit faces are looked for, each next one in company with the last.
+inline constexpr float probe_distance = 10.0f;
+
+/// In ProbeRows::row: the path comes from the front of what it hit.
+inline constexpr uint32_t seen_from_front = 1U << 31;
+
 /// One flight between two scatterings.
 struct Flight {
     int bounce = 0;
@@ -101,6 +130,9 @@ struct StageTable {
     /// Stage 2, inside bodies that scatter light: which paths are, then one flight of each.
     int (*begin_scatter)(const SceneView&, int count, const ScatterRows&);
     int (*scatter)(const SceneView&, const Flight&, int count, const ScatterRows&);
+
+    /// Stage 2, where bodies touch: rays that look for faces in the same place. Returns how many.
+    int (*make_probes)(const SceneView&, int count, const ProbeRows&);
 
     /// Stage 3: hits become radiance, shadow rays and next rays; misses see the environment.
     ShadeCounts (*shade)(

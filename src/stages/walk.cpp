@@ -3,6 +3,8 @@
 #include "stages/walk.h"
 
 #include "base/stopwatch.h"
+#include "stages/shared_faces.h"
+#include "stages/walk_splats.h"
 
 #include <algorithm>
 #include <memory>
@@ -11,33 +13,6 @@
 namespace obscura {
 
 namespace {
-
-constexpr size_t alignment = 64;
-constexpr size_t padded_rows = batch_rows + 16;
-
-/// Hands out aligned columns from one block of memory.
-class Carver {
-public:
-    explicit Carver(std::byte* memory) : next_(memory) {}
-
-    template <typename T>
-    void operator()(T*& column) {
-        column = reinterpret_cast<T*>(next_);
-        next_ += (padded_rows * sizeof(T) + alignment - 1) / alignment * alignment;
-    }
-    template <typename... T>
-    void all(T*&... columns) {
-        ((*this)(columns), ...);
-    }
-
-private:
-    std::byte* next_;
-};
-
-void carve_paths(Carver& carve, PathRows& p) {
-    carve.all(p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, p.tr, p.tg, p.tb);
-    carve.all(p.pdf, p.cone_width, p.cone_spread, p.slot, p.key, p.sample, p.path_key, p.bodies);
-}
 
 RayColumns rays_of(const PathRows& p, int count) {
     return {p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, nullptr, p.path_key, count};
@@ -144,6 +119,23 @@ void scatter_in_bodies(
     }
 }
 
+/// Stage 2, where bodies touch: their faces may lie in the same place. The second look is from the
+/// face that counts, so that nothing depends on which of them was met.
+void cross_shared_faces(const WalkInput& in, int count, SeeThrough see_through, Workspace& work) {
+    const float* time = moves(in.scene.motion) ? work.slot_time.data() : nullptr;
+    see_through.passed_backs = nullptr;
+    work.shared_faces.assign(padded_rows, {});
+    SharedFaces* const found = work.shared_faces.data();
+    for (const SharedFaces* only :
+         {static_cast<const SharedFaces*>(nullptr), static_cast<const SharedFaces*>(found)}) {
+        const ProbeRows rows{
+            work.paths[0], work.hits, time, only, work.shadows, work.walker_row.data()};
+        const int probes = in.stages->make_probes(in.scene, count, rows);
+        const CompanyQuery query{*in.accel, in.scene.touching_bodies, see_through};
+        if (meet_company(query, probes, rows, found) == 0) return;
+    }
+}
+
 /// Stage 4 for the rays that wait at thin walls: nearest hits, for which wall is met now counts.
 void cross_walls(
     const WalkInput& in, int count, uint32_t segment, Workspace& work, WalkCounters& c) {
@@ -197,6 +189,7 @@ void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, 
         in.recorder->add_shadows(rays, work.occluded.data(), query);
     }
     if (passes_walls) keep_waiting(count, work);
+    if (in.accel->has_splats() && in.kind != WalkKind::ao) dim_shadows(in, rays, work, c);
     {
         const SumOfTime time(c.seconds.accumulate);
         in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
@@ -212,14 +205,16 @@ ShadeRows shade_rows(const WalkInput& in, Workspace& work) {
             work.shadows,
             work.samples,
             moves(in.scene.motion) ? work.slot_time.data() : nullptr,
-            in.scene.thin_walls ? work.passed.data() : nullptr};
+            in.scene.thin_walls ? work.passed.data() : nullptr,
+            in.scene.occludes ? work.occlusion.data() : nullptr,
+            work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
 }
 
 void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     // One more segment than there are bounces: the last one only collects emitted light. It goes on
     // through thin walls, as the shadow rays of the last bounce do.
     const int segments = in.batch.max_bounces + 2 + (in.scene.thin_walls ? most_walls : 0);
-    if (in.scene.thin_walls) work.passed.assign(padded_rows, 0.0f);
+    work.clear_slots(in.scene);
     for (int bounce = 0; count > 0 && bounce < segments; ++bounce) {
         SeeThrough see_through{bounce == 0, false, 2U * static_cast<uint32_t>(bounce)};
         if (bounce == 0) see_through.passed_backs = &work.passed_backs;
@@ -227,6 +222,8 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
         intersect(in, count, see_through, work, c);
         if (bounce == 0) note_passed_backs(in, work);
         if (in.scene.scatters) scatter_in_bodies(in, count, bounce, work, c);
+        if (in.scene.touching_bodies != nullptr) cross_shared_faces(in, count, see_through, work);
+        if (in.accel->has_splats()) pass_splats(in, count, bounce == 0, work, c);
         ShadeCounts out;
         {
             const SumOfTime time(c.seconds.shade);
@@ -252,11 +249,13 @@ void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
 /// Hits and lights are joined in as many steps as the shadow columns need; for a sample the lights
 /// come in the same order however they are cut.
 void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
-    constexpr int most_lights = batch_rows / 16;
+    const int most_lights = in.notes != nullptr ? 1 : batch_rows / 16;
     intersect(in, count, {true, true, 0, &work.passed_backs}, work, c);
     note_passed_backs(in, work);
+    if (in.accel->has_splats()) pass_splats(in, count, true, work, c);
     int hits = 0;
     {
+        if (in.notes != nullptr) in.notes->add_ray(work.paths[0], work.hits);
         const SumOfTime time(c.seconds.shade);
         hits = in.stages->begin_raycast(in.scene, in.batch, count, shade_rows(in, work));
     }
@@ -273,7 +272,9 @@ void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters&
                 const SumOfTime time(c.seconds.shade);
                 shadows = in.stages->shade_raycast(in.scene, range, shade_rows(in, work));
             }
+            if (in.notes != nullptr) in.notes->add_offer(range, shadows, shade_rows(in, work));
             if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
+            if (in.notes != nullptr) in.notes->add_arrival(work.occluded[0], shade_rows(in, work));
         }
     }
 }
@@ -309,32 +310,6 @@ void count_heat(const WalkInput& in, int pixels, Workspace& work, WalkCounters& 
 }
 
 }  // namespace
-
-Workspace::Workspace() {
-    constexpr size_t words = 2 * words_per_path + 2 * words_per_hit + words_per_miss +
-                             words_per_shadow + words_per_sample;
-    memory_.resize(words * (padded_rows * 4 + alignment) + alignment);
-    void* start = memory_.data();
-    size_t space = memory_.size();
-    Carver carve(
-        static_cast<std::byte*>(std::align(alignment, memory_.size() - alignment, start, space)));
-    for (PathRows& p : paths)
-        carve_paths(carve, p);
-    carve.all(hits.t, hits.u, hits.v, hits.instance, hits.primitive, hits.triangle);
-    carve.all(walker_hits.t, walker_hits.u, walker_hits.v);
-    carve.all(walker_hits.instance, walker_hits.primitive, walker_hits.triangle);
-    carve.all(misses.dx, misses.dy, misses.dz, misses.tr, misses.tg, misses.tb);
-    carve.all(misses.pdf, misses.slot, misses.path_key);
-    carve.all(shadows.ox, shadows.oy, shadows.oz, shadows.dx, shadows.dy, shadows.dz);
-    carve.all(shadows.tfar, shadows.r, shadows.g, shadows.b, shadows.slot, shadows.path_key);
-    carve.all(samples.r, samples.g, samples.b, samples.a);
-    walker_row.resize(padded_rows);
-    occluded.resize(padded_rows);
-    camera_length_m.resize(padded_rows);
-    slot_time.resize(padded_rows);
-    ray_time.resize(padded_rows);
-    cut_faces.resize(padded_rows);
-}
 
 void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {
     if (in.kind == WalkKind::wireframe) return walk_wireframe(in, pixels, work, sums, counters);

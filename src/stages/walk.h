@@ -4,6 +4,7 @@
 
 #include "accel/accel.h"
 #include "accel/ray_recording.h"
+#include "stages/raycast_notes.h"
 #include "stages/stage_seconds.h"
 #include "stages/stages.h"
 
@@ -30,10 +31,19 @@ struct WalkCounters {
     StageSeconds seconds;
 };
 
+/// Of the columns of a batch: stages read and write whole registers.
+inline constexpr size_t padded_rows = batch_rows + 16;
+
 /// The columns of one batch, reused from batch to batch. One per thread.
 class Workspace {
 public:
     Workspace();
+
+    /// What slots keep from bounce to bounce, as it is before the first.
+    void clear_slots(const SceneView& scene) {
+        if (scene.thin_walls) passed.assign(slot_time.size(), 0.0f);
+        if (scene.occludes) occlusion.assign(slot_time.size(), 1.0f);
+    }
 
     PathRows paths[2];
     HitRows hits;
@@ -43,14 +53,18 @@ public:
     ShadowRows shadows;
     SampleRows samples;
     std::vector<uint8_t> occluded;
-    std::vector<uint8_t> walls;            ///< where there are thin walls; see Accel::occluded
-    std::vector<float> passed;             ///< likewise, by slot; see ShadeRows
-    std::vector<float> slot_time;          ///< where something moves; see 1_shutter.h
-    std::vector<float> ray_time;           ///< the same, by row of the rays to be asked
-    std::vector<PassedBack> passed_backs;  ///< of this batch's camera rays
-    std::vector<CutFaces> cut_faces;       ///< the same by slot, else nothing
-    Cutaway cutaway;                       ///< of the rays that are asked now
-    std::vector<float> camera_length_m;    ///< how far camera rays may go; for cameras that say it
+    std::vector<uint8_t> walls;             ///< where there are thin walls; see Accel::occluded
+    std::vector<float> passed;              ///< likewise, by slot; see ShadeRows
+    std::vector<float> occlusion;           ///< where SceneView::occludes; see ShadeRows
+    std::vector<SharedFaces> shared_faces;  ///< where bodies touch, by slot
+    std::vector<float> slot_time;           ///< where something moves; see 1_shutter.h
+    std::vector<float> ray_time;            ///< the same, by row of the rays to be asked
+    std::vector<PassedBack> passed_backs;   ///< of this batch's camera rays
+    std::vector<CutFaces> cut_faces;        ///< the same by slot, else nothing
+    Cutaway cutaway;                        ///< of the rays that are asked now
+    std::vector<float> splats[4];           ///< as SplatColumns, by row
+    std::vector<float> ray_end;             ///< of paths, where there are splats
+    std::vector<float> camera_length_m;     ///< how far camera rays may go; for cameras that say it
 
 private:
     std::vector<std::byte> memory_;
@@ -66,6 +80,7 @@ struct WalkInput {
     WalkKind kind = WalkKind::path;
     Quantity quantity = Quantity::normal;  ///< of walk_quantity
     RayRecorder* recorder = nullptr;       ///< keeps every ray; of this thread alone; null: nobody
+    RaycastNotes* notes = nullptr;         ///< of a raycast of one pixel; null: nobody
 };
 
 /// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_rows) and adds them

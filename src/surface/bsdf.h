@@ -19,10 +19,13 @@ struct BsdfParams {
     F alpha;  ///< GGX width, square of the perceptual roughness, >= min_ggx_alpha
 };
 
+/// What depends on the view direction only: how the lobes share the light.
 template <typename F>
 struct LobeWeights {
     F diffuse;               ///< scales base_color / pi
     F specular_probability;  ///< that sample_bsdf picks the specular lobe
+    Vec3<F> specular_f0;     ///< of all facets at normal incidence, with interreflection
+    Vec3<F> specular_rise;   ///< from there to grazing incidence
 };
 
 /// Directions are in the shading frame (z is the normal) and point away from the surface.
@@ -51,24 +54,31 @@ OBSCURA_INLINE F ggx_distribution(const Vec3<F>& h, const F& alpha) {
     return F(1.0f) / (F(pi_f) * a2 * t * t);
 }
 
-/// cos + sqrt(a^2 + (1 - a^2) cos^2): Smith's G1 is 2 cos divided by this.
+/// smith_length of a direction with this cosine, for one width.
 template <typename F>
-OBSCURA_INLINE F smith_denominator(const F& cosine, const F& alpha) {
+OBSCURA_INLINE F smith_length(const F& cosine, const F& alpha) {
     const F a2 = alpha * alpha;
-    return cosine + sqrt(a2 + (F(1.0f) - a2) * cosine * cosine);
+    return sqrt(a2 + (F(1.0f) - a2) * cosine * cosine);
 }
 
 /// How the lobes share the light, for one view direction.
 template <typename F>
 OBSCURA_INLINE LobeWeights<F> lobe_weights(const BsdfParams<F>& p, const F& cos_o) {
-    const F dielectric = dielectric_albedo(cos_o, p.alpha);
-    const F diffuse = (F(1.0f) - p.metallic) * (F(1.0f) - dielectric);
-    const F base = luminance(p.base_color);
-    const F metal = base + (F(1.0f) - base) * schlick_weight(cos_o);
-    const F specular_share = lerp(dielectric, metal, p.metallic);
-    const F diffuse_share = diffuse * base;
+    const F one(1.0f);
+    const SpecularAlbedo<F> once = specular_albedo(cos_o, p.alpha);
+    const DielectricLobe<F> dielectric = dielectric_lobe(once);
+    const F plastic = (one - p.metallic) * dielectric.factor;
+    const Vec3<F> metal = interreflection(once.mirror, mean_schlick(p.base_color)) * p.metallic;
+    LobeWeights<F> w;
+    w.diffuse = (one - p.metallic) * (one - dielectric.albedo);
+    w.specular_f0 = p.base_color * metal + splat3(plastic * F(dielectric_f0));
+    w.specular_rise = metal + splat3(plastic) - w.specular_f0;
+    const F specular_share =
+        luminance(w.specular_f0) * once.mirror + luminance(w.specular_rise) * once.grazing;
+    const F diffuse_share = w.diffuse * luminance(p.base_color);
     const F share = specular_share / max(specular_share + diffuse_share, F(1e-6f));
-    return {diffuse, select(diffuse_share > F(0.0f), clamp(share, F(0.1f), F(0.9f)), F(1.0f))};
+    w.specular_probability = select(diffuse_share > F(0.0f), clamp(share, F(0.1f), F(0.9f)), one);
+    return w;
 }
 
 /// The BRDF times cosine, and the density of sample_bsdf; both zero below either horizon.
@@ -77,9 +87,9 @@ OBSCURA_INLINE LobeWeights<F> lobe_weights(const BsdfParams<F>& p, const F& cos_
 /// two together never reflect more light than arrives, and all of it when the base is white.
 ///
 /// Source  glTF 2.0, Appendix B: mix(dielectric, metal, metallic) with Schlick's Fresnel on the
-///         half vector, Lambert under the dielectric's specular lobe, GGX with separable Smith
-///         shadowing; Kulla and Conty, "Revisiting Physically Based Shading at Imageworks", 2017
-///         (albedo scaling)
+///         half vector, Lambert under the dielectric's specular lobe, GGX with height-correlated
+///         Smith masking and multiple scattering (see interreflection); Kulla and Conty,
+///         "Revisiting Physically Based Shading at Imageworks", 2017 (albedo scaling)
 template <typename F>
 OBSCURA_INLINE BsdfValue<F> evaluate_bsdf(const BsdfParams<F>& p,
                                           const LobeWeights<F>& lobes,
@@ -87,17 +97,13 @@ OBSCURA_INLINE BsdfValue<F> evaluate_bsdf(const BsdfParams<F>& p,
                                           const Vec3<F>& wi) {
     const auto above = (wo.z > F(0.0f)) & (wi.z > F(0.0f));
     const Vec3<F> h = normalize(wo + wi);
-    const F weight = schlick_weight(dot(wo, h));
-    const F fd = F(dielectric_f0) + F(1.0f - dielectric_f0) * weight;
+    const Vec3<F> fresnel = lobes.specular_f0 + lobes.specular_rise * schlick_weight(dot(wo, h));
     const F distribution = ggx_distribution(h, p.alpha);
-    const F denominator_o = smith_denominator(wo.z, p.alpha);
-    const F denominator_i = smith_denominator(wi.z, p.alpha);
-    const F specular = distribution / (denominator_o * denominator_i);  // D * V
-    const F dielectric = (F(1.0f) - p.metallic) * fd;
-    const Vec3<F> metal = (p.base_color + (splat3(F(1.0f)) - p.base_color) * weight) * p.metallic;
-    const Vec3<F> f =
-        p.base_color * (lobes.diffuse * F(1.0f / pi_f)) + (splat3(dielectric) + metal) * specular;
-    const F pdf = lobes.specular_probability * distribution / (F(2.0f) * denominator_o) +
+    const F length_o = smith_length(wo.z, p.alpha);
+    const F length_i = smith_length(wi.z, p.alpha);
+    const F specular = distribution * smith_visibility(wo.z, length_o, wi.z, length_i);
+    const Vec3<F> f = p.base_color * (lobes.diffuse * F(1.0f / pi_f)) + fresnel * specular;
+    const F pdf = lobes.specular_probability * distribution / (F(2.0f) * (wo.z + length_o)) +
                   (F(1.0f) - lobes.specular_probability) * wi.z * F(1.0f / pi_f);
     const F zero = F(0.0f);
     return {select(above, f * wi.z, splat3(zero)), select(above, pdf, zero)};

@@ -26,10 +26,25 @@ OBSCURA_INLINE F coat_lets_pass(const F& coat, const F& cosine) {
 /// The mean of what coat_lets_pass takes, over a Lambertian surface.
 inline constexpr float mean_coat_reflectance = 0.04f + 0.96f / 21;
 
+/// Indices of refraction that differ by less, as a share, count as equal: refraction would bend by
+/// less than this, and its formulas divide by the difference.
+inline constexpr float least_refraction = 1e-3f;
+
 /// Reflectance at normal incidence between media whose indices of refraction have the ratio eta.
 template <typename F>
 OBSCURA_INLINE F normal_reflectance(const F& eta) {
     return square((eta - F(1.0f)) / (eta + F(1.0f)));
+}
+
+/// Reflectance at grazing incidence that goes with it in Schlick's formula: 1 from an index of 1.3
+/// on. Towards equal indices less and less is reflected at any angle short of 90 degrees, down to
+/// nothing; Schlick's curve to 1 would not see that.
+///
+/// Errors  against Fresnel's equations at 84 degrees: 0.05 at most
+template <typename F>
+OBSCURA_INLINE F grazing_reflectance(const F& eta) {
+    const F difference = max(eta, F(1.0f) / max(eta, F(1e-3f))) - F(1.0f);
+    return min(F(1.2f) * difference / (difference + F(0.06f)), F(1.0f));
 }
 
 /// Cosine of the refracted ray against the normal; negative under total reflection.
@@ -53,10 +68,20 @@ OBSCURA_INLINE F boundary_schlick_weight(const F& cosine, const F& eta) {
 /// A thin film on a surface.
 template <typename F>
 struct ThinFilm {
-    F strength;  ///< 0 to 1
+    F strength;  ///< 0 to 1; see film_presence
     F ior;
     F thickness_nm;
 };
+
+/// How much there is of a film: it disappears continuously towards no thickness, where the formulas
+/// below, made for films that light takes time to cross, do not.
+///
+/// Source  KHR_materials_iridescence: no film at a thickness of 0
+template <typename F>
+OBSCURA_INLINE F film_presence(const F& thickness_nm) {
+    const F near_zero = clamp(thickness_nm * F(1.0f / 30), F(0.0f), F(1.0f));
+    return near_zero * near_zero * (F(3.0f) - F(2.0f) * near_zero);
+}
 
 namespace film {
 
@@ -99,10 +124,7 @@ template <typename F>
 OBSCURA_INLINE Vec3<F> film_reflectance(const F& cosine,
                                         const ThinFilm<F>& thin,
                                         const Vec3<F>& base) {
-    // Towards no thickness the film disappears continuously.
-    const F near_zero = clamp(thin.thickness_nm * F(1.0f / 30), F(0.0f), F(1.0f));
-    const F fade = near_zero * near_zero * (F(3.0f) - F(2.0f) * near_zero);
-    const F ior = lerp(F(1.0f), thin.ior, fade);
+    const F ior = thin.ior;
     const F inside = refracted_cosine(cosine, ior);
     const F outer_weight = schlick_weight(cosine);
     const F outer = lerp(normal_reflectance(ior), F(1.0f), outer_weight);

@@ -20,7 +20,7 @@ enum MaterialFlag : uint32_t {
     material_alpha_mask = 1U << 0,   ///< alphaMode MASK: hit where alpha >= alpha_cutoff
     material_alpha_blend = 1U << 1,  ///< alphaMode BLEND: hit with probability alpha
     material_double_sided = 1U << 2,
-    material_unlit = 1U << 3,  ///< KHR_materials_unlit: base colour is the radiance
+    material_unlit = 1U << 3,  ///< not lit: base colour and emission are the radiance
     /// Base colour, metallic-roughness and normal texture, where present, have the same size,
     /// sampler and coordinates (absent ones have them too), so that a place in one is found for all
     material_textures_alike = 1U << 4,
@@ -43,8 +43,13 @@ struct Material {
     TextureSlot metallic_roughness_texture;  ///< G roughness, B metallic
     TextureSlot normal_texture;              ///< tangent space, +Y up
     TextureSlot emissive_texture;            ///< sRGB
+    TextureSlot occlusion_texture;           ///< R; only where the loader is asked for it
+    float occlusion_strength = 1;
 };
 
-static_assert(sizeof(Material) == (13 + 4 * 8) * 4, "gathered as 32-bit words: no padding");
+inline constexpr int core_slot_count = 5;
+
+static_assert(sizeof(Material) == (13 + core_slot_count * 8 + 1) * 4,
+              "gathered as 32-bit words: no padding");
 
 }  // namespace obscura

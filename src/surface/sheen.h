@@ -60,7 +60,9 @@ struct SheenAlbedo {
 
 template <typename F>
 OBSCURA_INLINE SheenAlbedo<F> sheen_albedo(const F& cosine, const F& alpha) {
-    const F raw = look_up_albedo(sheen_cells, cosine, sqrt(alpha));
+    const AlbedoCell<F> cell = albedo_cell(cosine, sqrt(alpha));
+    const Four<F> corners = gather4<F>(sheen_cells, IntOf<F>(cell.index * IntOf<F>(4)));
+    const F raw = bilinear(corners, cell.x, cell.y);
     return {min(raw, F(1.0f)), F(1.0f) / max(raw, F(1.0f))};
 }
 

@@ -12,17 +12,12 @@
 
 namespace obscura {
 
-/// All textures of a scene, as raw pointers for gathers.
-struct TextureView {
-    const uint32_t* texels = nullptr;
-    const int32_t* rows = nullptr;  ///< TextureRow as words
-};
-
 inline constexpr int texture_row_words = static_cast<int>(sizeof(TextureRow) / 4);
 
 // Words of a TextureRow.
-inline constexpr int sampler_word = 3, first_level_word = 4;
+inline constexpr int sampler_word = 3, low_plane_word = 4, first_level_word = 5;
 static_assert(offsetof(TextureRow, sampler) == sampler_word * 4);
+static_assert(offsetof(TextureRow, low_plane) == low_plane_word * 4);
 static_assert(offsetof(TextureRow, level_offset) == first_level_word * 4);
 
 template <typename F>
@@ -102,6 +97,57 @@ OBSCURA_INLINE Rgba<F> decode_texel(const UintOf<F>& texel, const MaskOf<F>& srg
         rgb = select(srgb, linear, rgb);
     }
     return {rgb, from_int<F>(as_int(texel >> 24)) * scale};
+}
+
+/// Linear light of a 16-bit sRGB code, by a straight line between 8-bit codes: off by 6e-6 at most.
+template <typename F>
+OBSCURA_INLINE F linear_from_srgb16(const F& code) {
+    const F place = code * F(1.0f / 257.0f);
+    const IntOf<F> below = min(to_int(place), IntOf<F>(254));
+    const F low = gather<F>(srgb_to_linear_table, below);
+    const F high = gather<F>(srgb_to_linear_table, IntOf<F>(below + IntOf<F>(1)));
+    return lerp(low, high, place - from_int<F>(below));
+}
+
+/// Unpacks one RGBA16 texel from its high and its low bytes. With an 8-bit texel in place of both
+/// it is decode_texel, to rounding.
+template <typename F>
+OBSCURA_INLINE Rgba<F> decode_wide_texel(const UintOf<F>& high,
+                                         const UintOf<F>& low,
+                                         const MaskOf<F>& srgb) {
+    using U = UintOf<F>;
+    const auto code = [&](int shift) {
+        const U bytes = U((high >> shift) & U(255U)) << 8 | U((low >> shift) & U(255U));
+        return from_int<F>(as_int(bytes));
+    };
+    const F scale = F(1.0f / 65535.0f);
+    const Vec3<F> codes{code(0), code(8), code(16)};
+    Vec3<F> rgb = codes * scale;
+    if (any(srgb)) {
+        const Vec3<F> linear{
+            linear_from_srgb16(codes.x), linear_from_srgb16(codes.y), linear_from_srgb16(codes.z)};
+        rgb = select(srgb, linear, rgb);
+    }
+    return {rgb, code(24) * scale};
+}
+
+/// Where a texture's low bytes lie, counted from its texels.
+template <typename F>
+OBSCURA_INLINE IntOf<F> low_plane_of(const TextureView& view, const TableRow<F>& row) {
+    return view.wide ? row.integer(low_plane_word) : IntOf<F>(0);
+}
+
+/// Reads a texel by its number.
+///
+/// In      low_plane: of its texture
+template <typename F>
+OBSCURA_INLINE Rgba<F> read_texel(const TextureView& view,
+                                  const IntOf<F>& number,
+                                  const IntOf<F>& low_plane,
+                                  const MaskOf<F>& srgb) {
+    const UintOf<F> texel = gather<F>(view.texels, number);
+    if (!view.wide) return decode_texel<F>(texel, srgb);
+    return decode_wide_texel<F>(texel, gather<F>(view.texels, IntOf<F>(number + low_plane)), srgb);
 }
 
 /// A mip level with its size, chosen for each lane.
@@ -187,6 +233,33 @@ OBSCURA_INLINE IntOf<F> stochastic_texel(const TextureInfo<F>& info,
     return texel_number<F>(at, to_int(floor(at.x + jitter_x)), to_int(floor(at.y + jitter_y)));
 }
 
+/// The number of a texel of level 0, each found as often as the footprint, a square, covers it:
+/// for what must not be averaged before it is used. Magnified, and without mip levels, it is
+/// stochastic_texel's.
+///
+/// In      as stochastic_texel
+template <typename F>
+OBSCURA_INLINE IntOf<F> stochastic_single_texel(const TextureInfo<F>& info,
+                                                const Vec2<F>& uv,
+                                                const F& footprint,
+                                                const Vec3<F>& random) {
+    const F width = from_int<F>(info.width);
+    const F height = from_int<F>(info.height);
+    const F texels = footprint * width * height;
+    const MaskOf<F> has_levels =
+        (info.sampler & IntOf<F>(static_cast<int32_t>(sampler_mip_bits))) != IntOf<F>(0);
+    const MaskOf<F> minified = (texels > F(1.0f)) & has_levels;
+    const IntOf<F> usual = stochastic_texel<F>(info, uv, footprint, random);
+    if (none(minified)) return usual;
+    const F side = sqrt(clamp(texels, F(1.0f), F(1e12f)));
+    const Vec2<F> at{uv.x + (random.x - F(0.5f)) * side / width,
+                     uv.y + (random.y - F(0.5f)) * side / height};
+    const TexelPosition<F> finest = texel_position<F>(info, at, F(0.0f), F(0.0f));
+    const IntOf<F> found =
+        texel_number<F>(finest, to_int(floor(finest.x)), to_int(floor(finest.y)));
+    return select(minified, found, usual);
+}
+
 /// Reads one random texel.
 ///
 /// In      texture: row number of every lane, all valid; the others as stochastic_texel
@@ -197,19 +270,26 @@ OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
                                                  const F& footprint,
                                                  const Vec3<F>& random) {
     const TextureInfo<F> info = texture_info<F>(view, texture);
-    const UintOf<F> texel =
-        gather<F>(view.texels, stochastic_texel<F>(info, uv, footprint, random));
-    return decode_texel<F>(texel, has_bits<F>(info.sampler, sampler_srgb));
+    return read_texel<F>(view,
+                         stochastic_texel<F>(info, uv, footprint, random),
+                         low_plane_of<F>(view, info.row),
+                         has_bits<F>(info.sampler, sampler_srgb));
 }
 
 template <typename F>
-OBSCURA_INLINE void add_texel(const UintOf<F>& texel,
-                              const MaskOf<F>& srgb,
-                              const F& weight,
-                              Rgba<F>& sum) {
-    const Rgba<F> value = decode_texel<F>(texel, srgb);
+OBSCURA_INLINE void add_texel(const Rgba<F>& value, const F& weight, Rgba<F>& sum) {
     sum.rgb = sum.rgb + value.rgb * weight;
     sum.alpha = sum.alpha + value.alpha * weight;
+}
+
+/// The words of two texels of a row.
+template <typename F>
+OBSCURA_INLINE Two<UintOf<F>> gather_texels(const uint32_t* texels,
+                                            const IntOf<F>& left,
+                                            const IntOf<F>& right,
+                                            bool side_by_side) {
+    if (side_by_side) return gather2<F>(texels, left);
+    return {gather<F>(texels, left), gather<F>(texels, right)};
 }
 
 /// Reads the bilinearly filtered value of the nearest mip level: no randomness, four texels.
@@ -235,13 +315,20 @@ OBSCURA_INLINE Rgba<F> sample_texture_bilinear(const TextureView& view,
     for (int line = 0; line < 2; ++line) {
         const IntOf<F> row = wrap_texel<F>(y0 + IntOf<F>(line), at.level.height, at.wrap_v);
         const IntOf<F> start = at.level.offset + row * at.level.width;
-        const Two<UintOf<F>> texels = side_by_side
-                                          ? gather2<F>(view.texels, start + left)
-                                          : Two<UintOf<F>>{gather<F>(view.texels, start + left),
-                                                           gather<F>(view.texels, start + right)};
+        const Two<UintOf<F>> texels =
+            gather_texels<F>(view.texels, start + left, start + right, side_by_side);
         const F weight = line == 0 ? F(1.0f) - fy : fy;
-        add_texel<F>(texels.x, srgb, (F(1.0f) - fx) * weight, sum);
-        add_texel<F>(texels.y, srgb, fx * weight, sum);
+        Two<UintOf<F>> low = texels;
+        if (view.wide) {
+            const IntOf<F> low_start = start + low_plane_of<F>(view, info.row);
+            low = gather_texels<F>(view.texels, low_start + left, low_start + right, side_by_side);
+        }
+        const auto decode = [&](const UintOf<F>& texel, const UintOf<F>& low_bytes) {
+            return view.wide ? decode_wide_texel<F>(texel, low_bytes, srgb)
+                             : decode_texel<F>(texel, srgb);
+        };
+        add_texel<F>(decode(texels.x, low.x), (F(1.0f) - fx) * weight, sum);
+        add_texel<F>(decode(texels.y, low.y), fx * weight, sum);
     }
     return sum;
 }

@@ -14,17 +14,28 @@ inline constexpr int max_mip_levels = 17;  ///< a side of 65536 has 17 levels
 /// One texture = one image in one colour interpretation + one sampler. Read word by word by lanes.
 ///
 /// Texels are 4 bytes, R in the lowest byte, alpha not premultiplied; rows from the top (v = 0);
-/// level l has max(1, width >> l) * max(1, height >> l) texels, starting at level_offset[l].
+/// level l has max(1, width >> l) * max(1, height >> l) texels, starting at level_offset[l]. Those
+/// of 16-bit textures hold the high bytes; a second mip chain of the same form, the low plane, the
+/// low ones: texels have the same number and the same cost whatever the others are.
 struct TextureRow {
     int32_t width = 1;
     int32_t height = 1;
     int32_t levels = 1;
     uint32_t sampler = 0;                       ///< see pack_sampler
+    int32_t low_plane = 0;                      ///< from a texel to its low bytes; 0: 8 bits
     int32_t level_offset[max_mip_levels] = {};  ///< in texels from the start of the arena
+};
+
+/// All textures of a scene, as raw pointers for gathers.
+struct TextureView {
+    const uint32_t* texels = nullptr;
+    const int32_t* rows = nullptr;  ///< TextureRow as words
+    bool wide = false;              ///< some have a low plane
 };
 
 inline constexpr uint32_t sampler_mag_nearest = 1U << 4;
 inline constexpr uint32_t sampler_min_nearest = 1U << 5;
+inline constexpr uint32_t sampler_mip_bits = 3U << 6;
 inline constexpr uint32_t sampler_srgb = 1U << 8;
 
 /// Bits 0-1 wrap of u, 2-3 wrap of v, 4 magnification nearest, 5 minification nearest within a

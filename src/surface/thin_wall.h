@@ -16,8 +16,9 @@ struct StraightLight {
 inline namespace OBSCURA_ISA {
 
 /// Takes transmission out of a smooth thin wall's lobes and returns it as what it is there: a lobe
-/// without a density, whose one direction is that of the light. A wall is smooth whose lobes are as
-/// narrow as any (min_ggx_alpha); one that is rougher keeps its blurred lobe.
+/// without a density, whose one direction is that of the light. A wall is smooth where what passes
+/// is spread as little as anything (min_ggx_alpha), as at an index of 1; where it is spread more,
+/// the blurred lobe stays.
 ///
 /// In      wo: in the shading frame, wo.z > 0
 /// In/Out  w: of layered_weights; the probabilities of its lobes then sum to 1 - probability
@@ -29,17 +30,19 @@ OBSCURA_INLINE StraightLight<F> take_straight_light(const LayeredParams<F>& p,
                                                     LayeredWeights<F>& w) {
     const F zero(0.0f);
     const F one(1.0f);
-    const LayeredFresnel<F> fresnel = layered_fresnel(p, wo.z);
-    const F passes = max(one - max_component(fresnel.dielectric), zero);
-    const F through = w.transmitted * passes * w.below_coat * w.below_sheen;
+    const F through = w.transmitted * w.below_coat * w.below_sheen;
     // Where nothing comes through, the lobe stays: worth nothing, but with its density.
-    const auto smooth = (!p.solid) & (max(p.alpha.x, p.alpha.y) <= F(min_ggx_alpha)) &
-                        (through * max_component(p.base_color) > zero) & (wo.z > zero);
-    const F chance = w.p_facet * (one - facet_reflects(p, w, fresnel));
+    const auto smooth = (!p.solid) & is_smooth(w.through_alpha) &
+                        (through * max_component(p.base_color) > zero) & (w.reflects < one) &
+                        (wo.z > zero);
+    const F chance = w.p_facet * (one - w.reflects);
     const StraightLight<F> light{select(smooth, p.base_color * through, splat3(zero)),
                                  select(smooth, chance, zero)};
     w.p_facet = w.p_facet - light.probability;
     w.transmitted = select(smooth, zero, w.transmitted);
+    w.through_factor = select(smooth, zero, w.through_factor);
+    w.reflects = select(smooth, one, w.reflects);
+    w.facetwise = w.facetwise & (!smooth);
     return light;
 }
 

@@ -94,9 +94,10 @@ private:
                 static_cast<int>(rows_)};
     }
     void unpad() {
+        const auto rows = static_cast<std::ptrdiff_t>(rows_);
         for (auto& column : ray_)
-            column.resize(rows_);
-        key_.resize(rows_);
+            column.erase(column.begin() + rows, column.end());
+        key_.erase(key_.begin() + rows, key_.end());
     }
 
     std::vector<float> ray_[7];

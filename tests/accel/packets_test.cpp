@@ -18,6 +18,7 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr size_t rows = 40;
+constexpr RayReach reach = {1.6e18f, 1.75e18f};
 
 /// Safe rays, all different.
 struct Rays {
@@ -69,7 +70,7 @@ TEST_P(Packets, RowsArriveAsTheyAre) {
         for (const bool extras : {false, true}) {
             RTCRay16 out;
             begin_packets(out);
-            ASSERT_TRUE(moves().load(rays.view(extras, extras), first, out));
+            ASSERT_TRUE(moves().load(rays.view(extras, extras), first, reach, out));
             for (int i = 0; i < packet; ++i) {
                 const auto row = static_cast<size_t>(first + i);
                 const float got[] = {out.org_x[i],
@@ -101,8 +102,8 @@ TEST_P(Packets, OneUnsafeRayRefusesThePacket) {
                 const int row = 5 + lane;
                 rays.columns[column][static_cast<size_t>(row)] = value;
                 RTCRay16 out;
-                const bool safe = is_safe(rays.view(true, false), row);
-                EXPECT_EQ(moves().load(rays.view(true, false), 5, out), safe)
+                const bool safe = is_safe(rays.view(true, false), row, reach);
+                EXPECT_EQ(moves().load(rays.view(true, false), 5, reach, out), safe)
                     << value << " in column " << column << ", lane " << lane;
             }
         }
@@ -111,8 +112,8 @@ TEST_P(Packets, OneUnsafeRayRefusesThePacket) {
     for (size_t c = 3; c < 6; ++c)
         rays.columns[c][9] = 0;
     RTCRay16 out;
-    EXPECT_FALSE(moves().load(rays.view(false, false), 0, out));
-    EXPECT_TRUE(moves().load(rays.view(false, false), 10, out));
+    EXPECT_FALSE(moves().load(rays.view(false, false), 0, reach, out));
+    EXPECT_TRUE(moves().load(rays.view(false, false), 10, reach, out));
 }
 
 TEST_P(Packets, HitsOfValidLanesAreStored) {

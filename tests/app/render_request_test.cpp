@@ -30,6 +30,7 @@ TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(request->isa, Isa::automatic);
     EXPECT_EQ(request->exr_depth, ExrDepth::half);
     EXPECT_EQ(request->load.scene, -1);
+    EXPECT_FALSE(request->load.occlusion);
     EXPECT_EQ(request->verbosity, Verbosity::normal);
     EXPECT_EQ(request->strokes.points.diameter, 3);
     EXPECT_EQ(request->strokes.lines.diameter, 2);
@@ -58,6 +59,7 @@ RenderArguments every_option() {
     a.env = "sky.hdr";
     a.env_intensity = "2";
     a.env_rotation = "-45";
+    a.occlusion = "ambient";
     a.background = "0.5,0.25,1";
     a.point_size = "0.25";
     a.line_width = "5px";
@@ -112,6 +114,7 @@ TEST(RenderRequest, CameraLightAndDisplayOptionsArrive) {
     EXPECT_EQ(request->environment, std::filesystem::path("sky.hdr"));
     EXPECT_EQ(request->environment_intensity, 2);
     EXPECT_EQ(request->environment_rotation_deg, -45);
+    EXPECT_TRUE(request->load.occlusion);
     EXPECT_EQ(options.background, BackgroundKind::color);
     EXPECT_EQ(options.background_color[1], 0.25f);
     EXPECT_EQ(request->display.view, "V");

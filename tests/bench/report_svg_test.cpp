@@ -4,12 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "support/xml_text.h"
 #include <gmock/gmock.h>
-#include <regex>
 
 namespace obscura {
 namespace {
 
+using test::is_well_formed;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -32,30 +33,6 @@ BenchReport some_report() {
     report.scenes = {scene, scene};
     report.scenes[1].name = "other";
     return report;
-}
-
-/// True when every element is closed in order and no bare & or < is left; for documents without
-/// comments and CDATA.
-bool is_well_formed(const std::string& text) {
-    std::vector<std::string> open;
-    const std::regex tag(R"(<(\?|/)?([a-z]+)((?:\s[a-zA-Z0-9:-]+="[^"<]*")*)\s*(\?|/)?>)");
-    std::string between;
-    auto end = text.begin();
-    for (std::sregex_iterator it(text.begin(), text.end(), tag), last; it != last; ++it) {
-        between += std::string(end, (*it)[0].first);
-        end = (*it)[0].second;
-        const std::string before = (*it)[1];
-        const std::string after = (*it)[4];
-        if (before == "/") {
-            if (open.empty() || open.back() != (*it)[2]) return false;
-            open.pop_back();
-        } else if (before.empty() && after.empty()) {
-            open.push_back((*it)[2]);
-        }
-    }
-    between += std::string(end, text.end());
-    const std::regex bare(R"([<>]|&(?!amp;|lt;|gt;|quot;))");
-    return open.empty() && !std::regex_search(between, bare);
 }
 
 TEST(BenchSvg, IsWellFormed) {

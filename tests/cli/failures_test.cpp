@@ -76,13 +76,14 @@ TEST_F(Failures, RefusedByPolicy) {
     }
 }
 
-/// A lamp of 1e30 candela 10 micrometres above a square: its illuminance exceeds every float.
+/// A lamp of 1e20 candela, the most that there is, 1e-10 m above a square: its illuminance exceeds
+/// every float.
 TEST_F(Failures, SamplesThatAreNotFinite) {
     SmallScene scene = lit_quad_scene();
     for (float& coordinate : scene.positions)
-        coordinate *= 1e-5f;
-    scene.nodes = R"({"mesh": 0}, {"camera": 0, "translation": [0, 0, 3e-5]},
-{"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 1e-5]})";
+        coordinate *= 1e-10f;
+    scene.nodes = R"({"mesh": 0}, {"camera": 0, "translation": [0, 0, 3e-10]},
+{"extensions": {"KHR_lights_punctual": {"light": 0}}, "translation": [0, 0, 1e-10]})";
     scene.more = replaced(scene.more, "\"directional\"", "\"point\"");
     scene.more = replaced(scene.more, "3.14159265", "1e30");
     folder_.write("bright.gltf", gltf_text(scene));

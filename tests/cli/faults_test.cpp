@@ -96,6 +96,7 @@ const std::vector<FaultCase>& fault_cases() {
         {"C14", "/accessors/2/count", 3, 65, 0},
         {"F1", "/extensionsRequired", json::array({"EXT_wishful"}), 69, 0},
         {"F5", "/materials/0/pbrMetallicRoughness/baseColorTexture/texCoord", 1, 65, 0},
+        {"F5 set", "/materials/0/pbrMetallicRoughness/baseColorTexture/texCoord", 8, 65, 0},
         {"B10", "/asset/version", "3.0", 69, 69},
         {"C20", "/buffers/0/uri", "absent.bin", 67, 67},
     };

@@ -25,19 +25,31 @@ std::vector<std::vector<std::string>> commands_of(const std::string& document) {
     return commands;
 }
 
-/// The same with few pixels, and scenes by their whole path.
+/// The same with few pixels, unless one of them is named, and scenes by their whole path.
 std::vector<std::string> small_and_absolute(const std::vector<std::string>& command) {
     std::vector<std::string> out;
+    const bool renders = command.front() == "render";
     for (size_t i = 0; i < command.size(); ++i) {
-        if (command[i] == "--size") {
+        if (renders && (command[i] == "--size" || command[i] == "--spp")) {
             ++i;
             continue;
         }
         const bool asset = command[i].rfind("assets/", 0) == 0;
         out.push_back(asset ? OBSCURA_SOURCE_DIR "/" + command[i] : command[i]);
     }
-    out.insert(out.end(), {"--size", "48x32", "--spp", "1"});
+    if (renders) out.insert(out.end(), {"--size", "48x32", "--spp", "4"});
     return out;
+}
+
+/// The share of pixels in which hardly anything is to be seen.
+double dark_share(const ReadPicture& picture) {
+    const size_t channels = picture.channels.size();
+    size_t dark = 0;
+    for (size_t i = 0; i < picture.pixels.size(); i += channels) {
+        const float* pixel = &picture.pixels[i];
+        dark += *std::max_element(pixel, pixel + std::min<size_t>(channels, 3)) < 0.04f ? 1U : 0U;
+    }
+    return static_cast<double>(dark * channels) / static_cast<double>(picture.pixels.size());
 }
 
 class Lecture : public Cli {};
@@ -48,11 +60,15 @@ TEST_F(Lecture, EveryCommandMakesItsPicture) {
     for (const std::vector<std::string>& command : commands) {
         SCOPED_TRACE(command[1] + " ... " + command.back());
         expect_result(run(small_and_absolute(command)), 0, "OK");
+        EXPECT_TRUE(fs::exists(fs::path(OBSCURA_SOURCE_DIR) / "docs/lecture" / command.back()));
+        if (command.front() != "render") continue;
         const auto picture = read_picture(folder_ / command.back());
         ASSERT_TRUE(picture);
         const auto [least, most] =
             std::minmax_element(picture->pixels.begin(), picture->pixels.end());
         EXPECT_GT(*most - *least, 0.1f) << "something is to be seen";
+        const bool lines = command.back() == "wires.png";  // white on black
+        EXPECT_LT(dark_share(*picture), lines ? 0.9 : 0.5) << "it is to be seen in most places";
     }
 }
 

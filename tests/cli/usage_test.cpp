@@ -36,7 +36,7 @@ TEST_F(Usage, HelpIsForPeople) {
           "--sensor",        "--focal-length", "--mag",          "--near",
           "--far",           "--ev100",        "--shutter",      "--iso",
           "--camera-json",   "--anamorphic",   "--fisheye-fit",  "--strict",
-          "--lenient",       "--check"}) {
+          "--lenient",       "--check",        "--occlusion",    "--animation"}) {
         EXPECT_THAT(help, HasSubstr("  " + std::string(option) + " ")) << option;
     }
 }

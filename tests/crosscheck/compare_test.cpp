@@ -3,6 +3,7 @@
 #include "crosscheck/compare.h"
 
 #include "crosscheck/check_scenes.h"
+#include "crosscheck/place_check.h"
 
 #include <gtest/gtest.h>
 
@@ -47,8 +48,77 @@ TEST_F(CompareAnswers, DepthAgreesWithinFourUlp) {
     EXPECT_EQ(verdict(ray, {4 - 20 * ulp(ray), lower}), Finding::depth);
 }
 
-TEST_F(CompareAnswers, ANeighbourAtTheSameDepthIsNoMismatch) {
-    EXPECT_EQ(verdict(down(0.5, -0.5), {4, upper}), Finding::equal_depth);
+TEST_F(CompareAnswers, ANeighbourAtTheCommonEdgeIsNoMismatch) {
+    const double beside = 3 * ulp(down(0, 0));
+    EXPECT_EQ(verdict(down(0.25 + beside, 0.25), {4, upper}), Finding::equal_depth);
+    EXPECT_EQ(verdict(down(0.25 - beside, 0.25), {4, lower}), Finding::equal_depth);
+}
+
+TEST_F(CompareAnswers, ANeighbourIsNotThereFarFromTheEdge) {
+    EXPECT_EQ(verdict(down(0.5, -0.5), {4, upper}), Finding::item);
+    EXPECT_EQ(verdict(down(-0.5, 0.5), {4, lower}), Finding::item);
+    EXPECT_EQ(verdict(down(0.25 + 40 * ulp(down(0, 0)), 0.25), {4, upper}), Finding::item);
+}
+
+TEST_F(CompareAnswers, WhatDoesNotExistIsNotThere) {
+    for (const Item& item : {Item{-1, 0, 2}, Item{-1, 1, 0}, Item{0, 0, 0}, Item{-2, 0, 0}}) {
+        EXPECT_FALSE(truth_.has(item));
+        EXPECT_EQ(verdict(down(0.5, -0.5), {4, item}), Finding::item);
+        EXPECT_EQ(verdict(down(5, 0), {4, item}), Finding::item);
+    }
+    EXPECT_TRUE(truth_.has(lower) && truth_.has(upper));
+}
+
+TEST(CompareCoplanar, SurfacesInOnePlaceAreEachThere) {
+    SceneBuilder builder;
+    const int32_t material = builder.material({});
+    builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, material);
+    builder.quad({-1, -1, 0}, {1, 0, 0}, {0, 2, 0}, material);  // its left half again
+    const Scene scene = builder.take();
+    const TrueScene truth(scene);
+    const auto verdict = [&](double x, const Item& item) {
+        const TrueRay ray{{x, -0.75, 4}, {0, 0, -1}};
+        return compare(truth, ray, answer_of(truth.nearest(ray)), {4, item}).verdict;
+    };
+    const Item whole{-1, 0, 0};
+    const Item half{-1, 1, 0};
+    ASSERT_TRUE(truth.has(half));
+    EXPECT_LE(verdict(-0.5, whole), Finding::equal_depth);
+    EXPECT_LE(verdict(-0.5, half), Finding::equal_depth);
+    EXPECT_EQ(verdict(0.5, whole), Finding::agree);
+    EXPECT_EQ(verdict(0.5, half), Finding::item);
+}
+
+/// The weights of the corners, and the cross product of two edges.
+TEST(CheckPlace, OfATriangleInAnInstance) {
+    Scene scene = square_scene();
+    Affined place;
+    place.m[0][0] = 2;
+    place.m[1][2] = 1;
+    place.m[2][1] = -3;
+    place.m[1][1] = place.m[2][2] = 0;
+    scene.meshes.push_back({0, scene.world_primitive_count});
+    scene.world_primitive_count = 0;
+    Instance instance;
+    instance.world_from_object = affine_cast<float>(place);
+    scene.instances.push_back(instance);
+    const TrueScene truth(scene);
+    const Item item = truth.item(0);
+    const Triangle<double> t = truth.triangle(item);
+    const Vec3d hit = t.a * 0.5 + t.b * 0.3 + t.c * 0.2;
+    const TrueRay ray{hit + Vec3d{0.4, 3, 0.2}, {-0.4, -3, -0.2}};
+    ASSERT_NEAR(truth.nearest(ray).t, 1, 1e-9);
+    const auto is_right = [&](double u, double v, const Vec3d& ng) {
+        Answer answer{1, item};
+        answer.place = {u, v, ng, true, true};
+        return is_right_place(truth, ray, answer);
+    };
+    EXPECT_TRUE(is_right(0.3, 0.2, {0, 0, 4}));
+    EXPECT_TRUE(is_right(0.3 + 1e-8, 0.2, {0, 1e-8, 4}));
+    EXPECT_FALSE(is_right(0.3 + 1e-4, 0.2, {0, 0, 4}));
+    EXPECT_FALSE(is_right(0.2, 0.3, {0, 0, 4}));
+    EXPECT_FALSE(is_right(0.3, 0.2, {0, 0, -4}));
+    EXPECT_FALSE(is_right(0.3, 0.2, {0, 0.001, 4}));
 }
 
 TEST_F(CompareAnswers, AtTheOuterEdgeHitAndMissAreBothRight) {

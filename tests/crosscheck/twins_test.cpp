@@ -3,6 +3,7 @@
 #include "crosscheck/twins.h"
 
 #include "crosscheck/check_scenes.h"
+#include "crosscheck/shape_side.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace {
 
 using namespace test;
 
-constexpr uint64_t ray_count = 8192;  // each group of rays once
+constexpr uint64_t ray_count = 9216;  // each group of rays once
 
 ShapeRow moved(ShapeRow row) {
     row.centre[0] = 0.5F;

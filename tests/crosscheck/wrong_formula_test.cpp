@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-constexpr uint64_t ray_count = 8192;  // each group of rays once
+constexpr uint64_t ray_count = 9216;  // each group of rays once
 
 /// What a check says of a kernel that is right but for `spoil`.
 template <typename Spoil>
@@ -62,7 +62,7 @@ TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
     add_shape(larger, make_shape(ShapeKind::sphere, 1.0001F), 0);
     const TrueScene truth(scene);
     const TrueScene wrong(larger);
-    const RaySet rays(truth, few_rays(ray_count));
+    const RaySet rays(truth, few_rays(ray_count / 4));
     AnswerList truths;
     compare_kernel(truth, batches_of(rays)[0], truth_kernel(truth), {}, &truths, nullptr);
     truths.is_truth = true;

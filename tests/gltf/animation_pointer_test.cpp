@@ -18,6 +18,7 @@ json tree() {
                      "extensions": {"OBSCURA_camera": {"lens": {"fstop": 2, "blades": 5}}}}],
         "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "spot": {}}, {}]}},
         "materials": [{"normalTexture": {"index": 0},
+                       "occlusionTexture": {"index": 0},
                        "extensions": {"KHR_materials_sheen": {"sheenColorTexture": {"index": 1}}}}]
     })");
 }
@@ -43,6 +44,7 @@ TEST(AnimationPointer, NamesEveryKindOfProperty) {
         {"/extensions/KHR_lights_punctual/lights/0/spot/innerConeAngle", ChannelPath::json, 0, 1},
         {"/materials/0/pbrMetallicRoughness/baseColorFactor", ChannelPath::json, 0, 4},
         {"/materials/0/normalTexture/scale", ChannelPath::json, 0, 1},
+        {"/materials/0/occlusionTexture/strength", ChannelPath::json, 0, 1},
         {"/materials/0/extensions/KHR_materials_ior/ior", ChannelPath::json, 0, 1},
         {"/materials/0/normalTexture/extensions/KHR_texture_transform/offset",
          ChannelPath::json,
@@ -79,7 +81,6 @@ TEST(AnimationPointer, FindsNothingElse) {
           "/cameras/0/orthographic/xmag",
           "/cameras/0/extensions/OBSCURA_camera/lens/radius",
           "/materials/1/alphaCutoff",
-          "/materials/0/occlusionTexture/strength",
           "/materials/0/emissiveTexture/extensions/KHR_texture_transform/scale",
           "/extensions/KHR_lights_punctual/lights/1/spot/innerConeAngle",
           "/materials/99999999999/alphaCutoff"}) {

@@ -61,16 +61,19 @@ TEST(Materials, FactorsAndFlags) {
                                  "metallicFactor": 0.5, "roughnessFactor": 0.6},
         "emissiveFactor": [0.5, 0.25, 1], "alphaMode": "MASK", "alphaCutoff": 0.7,
         "doubleSided": true, "normalTexture": {"index": 0, "scale": -2},
-        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8},
-                       "KHR_materials_unlit": {}}})"));
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 8}}})"));
     EXPECT_THAT(material.base_color, testing::ElementsAre(0.1f, 0.2f, 0.3f, 0.4f));
     EXPECT_EQ(material.metallic, 0.5f);
     EXPECT_EQ(material.roughness, 0.6f);
     EXPECT_THAT(material.emission, testing::ElementsAre(4, 2, 8));
     EXPECT_EQ(material.alpha_cutoff, 0.7f);
     EXPECT_EQ(material.normal_scale, -2);
-    EXPECT_EQ(material.flags, material_alpha_mask | material_double_sided | material_unlit);
+    EXPECT_EQ(material.flags, material_alpha_mask | material_double_sided);
     EXPECT_EQ(material_of({{"alphaMode", "BLEND"}}).flags, material_alpha_blend);
+    const Material unlit = material_of(json::parse(R"({
+        "emissiveFactor": [0.5, 0.25, 1], "extensions": {"KHR_materials_unlit": {}}})"));
+    EXPECT_EQ(unlit.flags, material_unlit);
+    EXPECT_THAT(unlit.emission, testing::ElementsAre(0, 0, 0)) << "the base colour is all";
 }
 
 TEST(Materials, FactorsOutOfRangeAreClamped) {  // F3, F13
@@ -84,7 +87,7 @@ TEST(Materials, FactorsOutOfRangeAreClamped) {  // F3, F13
     EXPECT_THAT(material.base_color, testing::ElementsAre(0, 1, 0.5f, 1));
     EXPECT_EQ(material.metallic, 0);
     EXPECT_EQ(material.roughness, 1);
-    EXPECT_THAT(material.emission, testing::ElementsAre(1e30f, 0, 0));
+    EXPECT_THAT(material.emission, testing::ElementsAre(1e20f, 0, 0));
     for (const char* name : {"baseColorFactor",
                              "metallicFactor",
                              "roughnessFactor",
@@ -131,12 +134,26 @@ TEST(Materials, TheTransformMayChooseTheUvSet) {
     EXPECT_EQ(attribute_of(*loaded.scene, primitive.uv_base[7], 1, 2), (std::vector<float>{1, 1}));
 }
 
-TEST(Materials, UvSetsBeyondSevenAreOutOfReach) {
-    std::string warnings;
-    EXPECT_EQ(material_of(base_texture({{"texCoord", 8}}), &warnings).base_color_texture.texture,
-              -1);
-    EXPECT_NE(warnings.find("TEXCOORD_8 is out of reach"), std::string::npos) << warnings;
-    EXPECT_EQ(material_of(base_texture({{"texCoord", 1e15}})).base_color_texture.texture, -1);
+TEST(Materials, UvSetsBeyondSevenAre65OrIgnored) {
+    const auto by_transform = [](uint64_t set) {
+        return json{{"extensions", {{"KHR_texture_transform", {{"texCoord", set}}}}}};
+    };
+    for (const uint64_t set : {uint64_t{8}, uint64_t{1} << 31, uint64_t{1} << 50}) {
+        for (const json& info : {json{{"texCoord", set}}, by_transform(set)}) {
+            const json tree = textured_triangle(base_texture(info));
+            const Loaded strict = load_tree(tree);
+            EXPECT_EQ(strict.id(), "E-MAT-TEXCOORD");
+            EXPECT_NE(strict.text().find("texCoord is " + std::to_string(set)), std::string::npos)
+                << strict.text();
+            EXPECT_NE(strict.text().find("largest that is read is 7"), std::string::npos);
+            LoadOptions options;
+            options.lenient = true;
+            const Loaded lenient = load_tree(tree, options);
+            ASSERT_TRUE(lenient.scene) << lenient.text();
+            EXPECT_EQ(lenient.scene->materials[1].base_color_texture.texture, -1);
+            EXPECT_TRUE(lenient.warns("the texture is ignored")) << lenient.warnings;
+        }
+    }
 }
 
 /// One material on two primitives, of which one lacks the UV set of a slot: it gets a copy.

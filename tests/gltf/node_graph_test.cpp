@@ -57,6 +57,16 @@ TEST(NodeGraph, FlatteningLeavesAnArea) {
     EXPECT_FALSE(is_flattening(scaling(INFINITY, 0, 0)));
 }
 
+TEST(NodeGraph, NearlyFlatMeansOneAxisBesideAnother) {
+    EXPECT_FALSE(is_nearly_flat(Affined{}));
+    EXPECT_FALSE(is_nearly_flat(scaling(1e-30, 1e-30, 1e-30)));
+    EXPECT_FALSE(is_nearly_flat(scaling(1e6, 1, 1e-5)));
+    EXPECT_TRUE(is_nearly_flat(scaling(1000, 1000, 1e-15)));
+    EXPECT_TRUE(is_nearly_flat(scaling(1e-15, 1, -1)));
+    EXPECT_FALSE(is_nearly_flat(scaling(1, 1, 0)));  // that is flat
+    EXPECT_FALSE(is_nearly_flat(scaling(INFINITY, 1, 1)));
+}
+
 /// A chain of nodes, each moved by (1, 0, 0) from its parent; the mesh hangs on the last.
 Document chain(int length) {
     Document document;

@@ -46,7 +46,7 @@ TEST(Report, NamesEveryPartWithWhatItAsksFor) {
                   "asset: X_unknown ignored (it is not known)",
                   "node 0 Lid: KHR_node_visibility honoured",
                   "material 0 Glass: occlusionTexture ignored (what it guesses is traced: light "
-                  "that nearby geometry blocks)",
+                  "that nearby geometry blocks; --occlusion ambient applies it)",
                   "material 0 Glass: alphaMode MASK honoured",
                   "material 0 Glass: KHR_materials_unlit honoured",
                   "animation 0: animation honoured (played by --time and --frames, chosen by "

@@ -92,10 +92,14 @@ TEST(SpecularGlossiness, UnlitMaterialsKeepTheCoresColour) {
 
 TEST(SpecularGlossiness, RoughnessIsOneMinusGlossiness) {
     std::vector<uint32_t> texels = {0x00FFFFFFU, 0xFF000000U, 0x80123456U};
-    roughness_from_glossiness(texels, 1);
+    roughness_from_glossiness(texels, {}, 1);
     EXPECT_EQ(texels[0] >> 8 & 255U, 255U);
     EXPECT_EQ(texels[1] >> 8 & 255U, 0U);
     EXPECT_EQ(texels[2] >> 8 & 255U, 127U);
+
+    std::vector<uint32_t> high = {0x12FFFFFFU}, low = {0x34000000U};
+    roughness_from_glossiness(high, low, 1);
+    EXPECT_EQ((high[0] >> 8 & 255U) << 8 | (low[0] >> 8 & 255U), 0xFFFFU - 0x1234U);
 }
 
 }  // namespace

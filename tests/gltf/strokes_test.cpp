@@ -3,8 +3,8 @@
 #include "gltf/strokes.h"
 
 #include "gltf/gltf_files.h"
+#include "gltf/pictures.h"
 #include "gltf/primitive_modes.h"
-#include "gltf/splats.h"
 
 #include <gtest/gtest.h>
 
@@ -177,22 +177,22 @@ TEST(Strokes, WithoutNormalsAreNotLit) {
         const Material& sum = colored.materials[static_cast<size_t>(row.material)];
         EXPECT_NE(sum.flags & material_unlit, 0U);
         EXPECT_EQ((std::vector<float>(sum.base_color, sum.base_color + 4)),
-                  (std::vector<float>{1, 1, 1, 0.75F}));
+                  (std::vector<float>{0.5F, 0.25F, 0.125F, 0.75F}));
+        EXPECT_EQ(sum.emission[2], 0.5F) << "is added to what COLOR_0 multiplies";
         const uint32_t vertex = mode == 0 ? 0 : 2;
         const float red =
             colored.primitives[0].geometry == static_cast<int32_t>(GeometryKind::curves)
                 ? 0.25F
                 : colored.spheres[sphere_word(size_t{0})] / 8;
         EXPECT_EQ(attribute_of(colored, row.color_base, vertex, 4),
-                  (std::vector<float>{0.5F * red + 0.25F, 0.125F, 0.125F + 0.5F, 1}));
+                  (std::vector<float>{red, 0.5F, 1, 1}));
 
         builder.tree["meshes"][0]["primitives"][0]["attributes"].erase("COLOR_0");
         const Scene plain = load_curve(builder);
         const Material& one = plain.materials[static_cast<size_t>(plain.primitives[0].material)];
         EXPECT_NE(one.flags & material_unlit, 0U);
-        EXPECT_EQ((std::vector<float>(one.base_color, one.base_color + 4)),
-                  (std::vector<float>{0.75F, 0.25F, 0.625F, 0.75F}));
-        EXPECT_EQ(one.emission[0], 0);
+        EXPECT_EQ(one.base_color[0], 0.5F);
+        EXPECT_EQ(one.emission[0], 0.25F);
         EXPECT_EQ(plain.material_numbers[static_cast<size_t>(plain.primitives[0].material)], 0);
     }
 }
@@ -262,45 +262,49 @@ TEST(Strokes, UnlitMaterialsStayAsTheyAre) {
     const Scene scene = load_curve(builder);
     EXPECT_LE(attribute_of(scene, scene.primitives[0].color_base, 0, 4)[0], 0.25F);
     EXPECT_EQ(attribute_of(scene, scene.primitives[0].color_base, 0, 4)[1], 0.5F);
+    EXPECT_EQ(scene.materials[static_cast<size_t>(scene.primitives[0].material)].emission[0], 0);
 }
 
-TEST(Splats, ColourOfTheConstantHarmonic) {
-    const std::vector<float> linear = splat_colors({0, 1, -9}, {0.25F}, true);
-    EXPECT_NEAR(linear[0], 0.5, 1e-6);
-    EXPECT_NEAR(linear[1], 0.5 + 0.5 * std::sqrt(1 / 3.14159265358979), 1e-6);
-    EXPECT_EQ(linear[2], 0);
-    EXPECT_EQ(linear[3], 0.25F);
-    const std::vector<float> display = splat_colors({0, 0, 0}, {}, false);
-    EXPECT_NEAR(display[0], std::pow((0.5 + 0.055) / 1.055, 2.4), 1e-6);
-    EXPECT_EQ(display[3], 1);
-}
-
-TEST(Splats, ArePointsInTheirOwnColourOrInColor0) {
-    AssetBuilder builder;
-    builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 0, 1, 0, 0});
-    builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 0, 9, 9, 9});
-    builder.add_accessor("SCALAR", 5126, std::vector<float>{1, 1});
-    json primitive = {{"attributes",
-                       {{"POSITION", 0},
-                        {"KHR_gaussian_splatting:SH_DEGREE_0_COEF_0", 1},
-                        {"KHR_gaussian_splatting:OPACITY", 2}}},
-                      {"mode", 0}};
-    primitive["extensions"]["KHR_gaussian_splatting"] = {{"kernel", "ellipse"},
-                                                         {"colorSpace", "lin_rec709_display"}};
-    builder.add_mesh(primitive);
-    builder.add_root({{"mesh", 0}});
-    builder.tree["extensionsUsed"] = {"KHR_gaussian_splatting"};
-    const Scene scene = load_curve(builder);
-    ASSERT_EQ(scene.primitives.size(), 1U);
-    const int32_t base = scene.primitives[0].color_base;
-    EXPECT_NEAR(attribute_of(scene, base, 0, 4)[0], 0.5, 1e-6);
-    EXPECT_EQ(attribute_of(scene, base, 1, 4)[0], 1);
-    primitive["attributes"]["COLOR_0"] =
-        builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 1, 0, 0, 1});
-    builder.tree["meshes"][0]["primitives"][0] = primitive;
-    const Scene with_colors = load_curve(builder);
-    EXPECT_EQ(attribute_of(with_colors, with_colors.primitives[0].color_base, 0, 4),
-              (std::vector<float>{0, 0, 1, 1}));
+/// Each vertex keeps its own place in the texture, of every set that the material reads.
+TEST(Strokes, HaveTextureCoordinates) {
+    for (const bool lit : {false, true}) {
+        for (const int mode : {0, 3}) {
+            AssetBuilder builder = curve(3, mode);
+            builder.tree["images"][0]["uri"] = png_uri(2, 2);
+            builder.tree["textures"][0]["source"] = 0;
+            builder.tree["materials"].push_back(
+                {{"normalTexture", {{"index", 0}}},
+                 {"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}, {"texCoord", 2}}}}},
+                 {"emissiveTexture", {{"index", 0}}}});
+            json& primitive = builder.tree["meshes"][0]["primitives"][0];
+            primitive["material"] = 0;
+            json& attributes = primitive["attributes"];
+            attributes["TEXCOORD_0"] =
+                builder.add_accessor("VEC2", 5126, std::vector<float>{0, 0, 0.5F, 1, 1, 2});
+            attributes["TEXCOORD_1"] = attributes["TEXCOORD_0"];
+            attributes["TEXCOORD_2"] =
+                builder.add_accessor("VEC2", 5126, std::vector<float>{1, 0, 2, 0, 3, 0});
+            if (lit) {
+                attributes["NORMAL"] = builder.add_accessor(
+                    "VEC3", 5126, std::vector<float>{0, 0, 1, 0, 0, 1, 0, 0, 1});
+            }
+            const Scene scene = load_curve(builder);
+            ASSERT_EQ(scene.primitives.size(), 1U);
+            const Primitive& row = scene.primitives[0];
+            EXPECT_EQ(row.uv_base[1], no_attribute) << "nothing reads it";
+            for (uint32_t i = 0; i < 3; ++i) {
+                const float x = mode == 3 ? scene.curve_points[size_t{i} * 4]
+                                          : scene.spheres[sphere_word(size_t{i})];
+                EXPECT_EQ(attribute_of(scene, row.uv_base[0], i, 2)[1], x);
+                EXPECT_EQ(attribute_of(scene, row.uv_base[2], i, 2)[0], x + 1);
+            }
+            const Material& material = scene.materials[static_cast<size_t>(row.material)];
+            EXPECT_GE(material.base_color_texture.texture, 0);
+            EXPECT_GE(material.emissive_texture.texture, 0);
+            EXPECT_EQ(material.normal_texture.texture, -1) << "there are no tangents";
+            EXPECT_EQ((material.flags & material_unlit) != 0, !lit);
+        }
+    }
 }
 
 }  // namespace

@@ -56,6 +56,50 @@ TEST(Textures, TexelsAndMipsLieInTheArena) {
     EXPECT_FALSE(info.used_as_data);
 }
 
+/// A row of 16-bit greys, each one code apart, as normals or heights have them.
+TEST(Textures, SixteenBitsStay) {
+    constexpr unsigned count = 2001;
+    std::vector<unsigned> bytes;
+    for (unsigned i = 0; i < count; ++i)
+        bytes.insert(bytes.end(), {(30000 + i) >> 8, (30000 + i) & 255U});
+    const auto png = testing_pictures::PngBuilder(count, 1, 16, 0).finish({bytes});
+    json tree = textured({{"normalTexture", {{"index", 0}}}});
+    tree["textures"][0]["source"] = 0;
+    tree["images"][0]["uri"] =
+        "data:image/png;base64," + base64({reinterpret_cast<const char*>(png.data()), png.size()});
+    const Loaded loaded = load_tree(tree);
+    ASSERT_TRUE(loaded.scene) << loaded.text();
+    const TextureArena& arena = loaded.scene->textures;
+    const TextureRow& row = arena.rows.at(0);
+    ASSERT_NE(row.low_plane, 0);
+    EXPECT_EQ(arena.texels.size(), 2 * mip_chain_texels(count, 1));
+    EXPECT_TRUE(view_of(arena).wide);
+    const auto first = static_cast<size_t>(row.level_offset[0]);
+    for (unsigned i = 0; i < count; ++i) {
+        ASSERT_NEAR(texel_channel(arena, row, first + i, 1), (30000 + i) / 65535.0, 1e-7);
+    }
+    const auto last = static_cast<size_t>(row.level_offset[row.levels - 1]);
+    EXPECT_NEAR(texel_channel(arena, row, last, 0), 31000 / 65535.0, 1e-4) << "the mean";
+    EXPECT_EQ(loaded.scene->info.images[0].bits, 16);
+}
+
+TEST(Textures, OcclusionIsReadOnlyWhereItIsAskedFor) {
+    json tree = textured({{"occlusionTexture", {{"index", 0}, {"strength", 0.25}}}});
+    tree["textures"][0]["source"] = 0;
+    tree["images"][0]["uri"] = png_uri(4, 2);
+    const Loaded off = load_tree(tree);
+    ASSERT_TRUE(off.scene) << off.text();
+    EXPECT_EQ(off.scene->materials.at(1).occlusion_texture.texture, -1);
+    EXPECT_TRUE(off.scene->textures.texels.empty());
+    LoadOptions options;
+    options.occlusion = true;
+    const Loaded ambient = load_tree(tree, options);
+    ASSERT_TRUE(ambient.scene) << ambient.text();
+    EXPECT_EQ(ambient.scene->materials.at(1).occlusion_texture.texture, 0);
+    EXPECT_EQ(ambient.scene->materials.at(1).occlusion_strength, 0.25f);
+    EXPECT_TRUE(ambient.scene->info.images[0].used_as_data);
+}
+
 TEST(Textures, InfoOnlyMeasures) {
     LoadOptions options;
     options.info_only = true;
@@ -181,6 +225,33 @@ TEST(Textures, BadImagesAreErrors) {
         EXPECT_EQ(loaded.id(), c.id) << c.name << ' ' << loaded.text();
         EXPECT_NE(loaded.text().find("#/images/0"), std::string::npos) << loaded.text();
     }
+}
+
+/// The data count, whatever the name or the media type promises.
+TEST(Textures, NamesAndMediaTypesThatLieWarn) {
+    struct Case {
+        const char* file;
+        const char* warning;
+    };
+    for (const Case& c : {Case{"a.jpg", "named as jpeg but the data are png"},
+                          Case{"a.JPEG", "named as jpeg but the data are png"},
+                          Case{"a.webp", "named as webp but the data are png"},
+                          Case{"a.png", ""},
+                          Case{"a.dat", ""},
+                          Case{"a", ""}}) {
+        json tree = one_texture();
+        tree["images"][0] = {{"uri", c.file}};
+        const TempFolder folder;
+        folder.write(c.file, png_bytes(1, 3));
+        const Loaded loaded = load_file(folder.write("s.gltf", tree.dump()));
+        ASSERT_TRUE(loaded.scene) << loaded.text();
+        EXPECT_EQ(loaded.warnings.empty(), std::string(c.warning).empty()) << loaded.warnings;
+        EXPECT_NE(loaded.warnings.find(c.warning), std::string::npos) << loaded.warnings;
+    }
+    const std::string uri = png_uri(4, 2);
+    const Loaded typed = load_image({{"uri", "data:image/jpeg" + uri.substr(uri.find(';'))}});
+    EXPECT_TRUE(typed.warns("the media type is \"image/jpeg\" but the data are png"))
+        << typed.warnings;
 }
 
 TEST(Textures, UnusedBadImagesOnlyWarn) {

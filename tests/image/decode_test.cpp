@@ -118,6 +118,40 @@ TEST(DecodePng, SixteenBitsAreRounded) {
               (std::vector{rgba(255, 0, 128, 64)}));
 }
 
+/// Channels of the first texel, as stored.
+std::array<uint32_t, 4> wide_texel(const ByteVector& png) {
+    Log log(Verbosity::quiet);
+    const Result<ImageRgba8> image = decode_image(png, "wide.png", log, Extent::stored);
+    std::array<uint32_t, 4> codes{};
+    if (!image || image->bits != 16 || image->low_bytes.size() != image->texels.size())
+        return codes;
+    for (size_t c = 0; c < 4; ++c) {
+        codes[c] =
+            (image->texels[0] >> (8 * c) & 255U) << 8 | (image->low_bytes[0] >> (8 * c) & 255U);
+    }
+    return codes;
+}
+
+TEST(DecodePng, SixteenBitsStayWhereTheyAreAskedFor) {
+    using Codes = std::array<uint32_t, 4>;
+    EXPECT_EQ(wide_texel(PngBuilder(1, 1, 16, 0).finish({{0x12, 0x34}})),
+              (Codes{0x1234, 0x1234, 0x1234, 0xFFFF}));
+    EXPECT_EQ(wide_texel(PngBuilder(1, 1, 16, 4).finish({{0x12, 0x34, 0x56, 0x78}})),
+              (Codes{0x1234, 0x1234, 0x1234, 0x5678}));
+    EXPECT_EQ(wide_texel(PngBuilder(1, 1, 16, 2).finish({{0x12, 0x34, 0x56, 0x78, 0x9A, 0xBC}})),
+              (Codes{0x1234, 0x5678, 0x9ABC, 0xFFFF}));
+    EXPECT_EQ(
+        wide_texel(
+            PngBuilder(1, 1, 16, 6).finish({{0x12, 0x34, 0x56, 0x78, 0x9A, 0xBC, 0x00, 0x01}})),
+        (Codes{0x1234, 0x5678, 0x9ABC, 0x0001}));
+    Log log(Verbosity::quiet);
+    const ByteVector narrow = PngBuilder(1, 1, 8, 0).finish({{42}});
+    const Result<ImageRgba8> image = decode_image(narrow, "narrow.png", log, Extent::stored);
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->bits, 8);
+    EXPECT_TRUE(image->low_bytes.empty());
+}
+
 TEST(DecodePng, GammaAndChromaticitiesChangeNothing) {
     EXPECT_EQ(row_of(PngBuilder(1, 1, 8, 6)
                          .chunk("gAMA", {0, 1, 0x86, 0xA0})

@@ -273,6 +273,70 @@ TEST_F(Display, AMissingLookUpTableIs78) {
     EXPECT_NE(error.message.find("absent.cube"), std::string::npos) << error.message;
 }
 
+/// A config whose view shows `out`; `parts` follows the colour spaces.
+std::string circle_config(const std::string& out, const std::string& parts) {
+    return "ocio_profile_version: 2\nroles: {default: lin, scene_linear: lin}\n"
+           "displays:\n  sRGB:\n    - !<View> {name: Film, colorspace: out, looks: soft}\n"
+           "colorspaces:\n  - !<ColorSpace> {name: lin}\n  - !<ColorSpace>\n    name: out\n"
+           "    from_scene_reference: " +
+           out + "\n" + parts;
+}
+
+/// OpenColorIO would follow these for ever, until the stack is full.
+TEST_F(Display, ReferencesInACircleAre78AndNamed) {
+    const std::string look = "looks:\n  - !<Look> {name: soft, process_space: ";
+    const std::string plain_look = look + "lin}\n";
+    const std::string between =
+        "  - !<ColorSpace>\n    name: between\n"
+        "    to_scene_reference: !<GroupTransform> {children: [!<ColorSpaceTransform> "
+        "{src: out, dst: lin}]}\n";
+    struct Case {
+        std::string config;
+        std::string circle;
+    };
+    for (const Case& c :
+         {Case{circle_config("!<ColorSpaceTransform> {src: lin, dst: out}", plain_look),
+               "colour space 'out' -> colour space 'out'"},
+          Case{circle_config("!<ColorSpaceTransform> {src: between, dst: lin}",
+                             between + plain_look),
+               "colour space 'out' -> colour space 'between' -> colour space 'out'"},
+          Case{
+              circle_config("!<LookTransform> {src: lin, dst: lin, looks: -soft}", look + "out}\n"),
+              "colour space 'out' -> look 'soft' -> colour space 'out'"},
+          Case{circle_config("!<DisplayViewTransform> {src: lin, display: sRGB, view: Film}",
+                             plain_look),
+               "view 'Film' of display 'sRGB' -> colour space 'out' -> view 'Film' of display "
+               "'sRGB'"},
+          Case{circle_config("!<ColorSpaceTransform> {src: lin, dst: $SHOT}", plain_look) +
+                   "environment: {SHOT: a$TAKE, TAKE: b$SHOT}\n",
+               "variable 'SHOT' -> variable 'TAKE' -> variable 'SHOT'"}}) {
+        const Error error = error_of(DisplayOptions{write_config(c.config), {}, {}, 0});
+        EXPECT_EQ(error.code, ExitCode::configuration);
+        EXPECT_EQ(error.id, "E-OCIO-CYCLE");
+        EXPECT_NE(error.message.find(c.circle), std::string::npos) << error.message;
+    }
+}
+
+/// Not a circle, but as deep as a stack can bear, or as long as no memory can hold.
+TEST_F(Display, TowersOfReferencesAre78) {
+    for (const bool doubles : {false, true}) {
+        std::string tower;
+        const int height = doubles ? 40 : 1000;
+        for (int i = 1; i <= height; ++i) {
+            const std::string below =
+                "!<ColorSpaceTransform> {src: lin, dst: " +
+                (i == 1 ? std::string("lin") : "step" + std::to_string(i - 1)) + "}";
+            tower += "  - !<ColorSpace>\n    name: step" + std::to_string(i) +
+                     "\n    from_scene_reference: !<GroupTransform> {children: [" + below +
+                     (doubles ? ", " + below : "") + "]}\n";
+        }
+        const std::string config = circle_config(
+            "!<ColorSpaceTransform> {src: lin, dst: step" + std::to_string(height) + "}",
+            tower + "looks:\n  - !<Look> {name: soft, process_space: lin}\n");
+        EXPECT_EQ(error_of(DisplayOptions{write_config(config), {}, {}, 0}).id, "E-OCIO-CYCLE");
+    }
+}
+
 struct AcesConfig {
     const char* file;
     int needs_library;  ///< OCIO_VERSION_HEX from which on the file can be read

@@ -17,7 +17,7 @@ namespace {
 using namespace testing_pictures;
 
 Result<ImageRgba8> read(const ByteVector& bytes, Log& log) {
-    return decode_image(bytes, "scene.gltf#/images/3", log, MipLevels::stored);
+    return decode_image(bytes, "scene.gltf#/images/3", log, Extent::stored);
 }
 
 ImageRgba8 decoded(const ByteVector& bytes) {

@@ -40,8 +40,24 @@ TEST(LectureDocument, ItsFilesExist) {
     EXPECT_GT(files.size(), 20U);
     for (const std::string& file : files)
         EXPECT_TRUE(fs::exists(source_dir / file)) << file;
-    for (const std::string& link : all_matches(text, R"re(\]\(([^)#]+)\))re"))
+    const std::string exercises = read_text(source_dir / "docs" / "lecture" / "exercises.md");
+    for (const std::string& link : all_matches(text, R"re(\]\(([^)#]+)(?:#[^)]*)?\))re"))
         EXPECT_TRUE(fs::exists(source_dir / "docs" / link)) << link;
+    for (const std::string& link : all_matches(exercises, R"re(\]\(([^)#]+)(?:#[^)]*)?\))re"))
+        EXPECT_TRUE(fs::exists(source_dir / "docs" / "lecture" / link)) << link;
+}
+
+/// Formulas are numbered from (1) on where they stand, and each has a row in the table of all.
+TEST(LectureDocument, ItsFormulasAreNumberedAndListed) {
+    const std::string text = read_text(source_dir / "docs" / "lecture.md");
+    const size_t table = text.find("## All formulas");
+    ASSERT_NE(table, std::string::npos);
+    const auto shown = all_matches(text.substr(0, table), R"re(\n    [^\n]* {4,}\((\d+)\)\n)re");
+    const auto listed = all_matches(text.substr(table), R"re(\n\| \((\d+)\) \|)re");
+    EXPECT_GE(shown.size(), 17U);
+    for (size_t i = 0; i < shown.size(); ++i)
+        EXPECT_EQ(shown[i], std::to_string(i + 1));
+    EXPECT_EQ(listed, shown);
 }
 
 TEST(LectureDocument, ItsFunctionsExistInTheFilesNamedBesideThem) {

@@ -16,7 +16,7 @@ inline constexpr size_t max_function_lines = 60;
 inline constexpr size_t max_columns = 100;
 
 /// The rooms in the order of the corridor: each may include itself and those before it.
-inline constexpr std::array<std::string_view, 15> rooms{"base",
+inline constexpr std::array<std::string_view, 16> rooms{"base",
                                                         "math",
                                                         "shape",
                                                         "camera",
@@ -29,6 +29,7 @@ inline constexpr std::array<std::string_view, 15> rooms{"base",
                                                         "stages",
                                                         "render",
                                                         "crosscheck",
+                                                        "explain",
                                                         "bench",
                                                         "app"};
 
@@ -57,7 +58,7 @@ inline constexpr std::array<Owner, 19> owners{{{"tbb/", "base"},
                                                {"embree3/", "accel"},
                                                {"embree4/", "accel"},
                                                {"CLI/", "app"},
-                                               {"fmt/", "image crosscheck bench app"}}};
+                                               {"fmt/", "image crosscheck explain bench app"}}};
 
 /// What the operating system and the C library bring along: everybody's.
 inline constexpr std::array<std::string_view, 15> system_headers{"dirent.h",

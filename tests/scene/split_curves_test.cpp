@@ -9,8 +9,8 @@
 namespace obscura {
 namespace {
 
-/// A strip from x = -1 over 3 to 4, behind it a single piece from 10 to 11; red and the
-/// normal are the x.
+/// A strip from x = -1 over 3 to 4, behind it a single piece from 10 to 11; red, the
+/// normal and u are the x.
 Scene two_lines() {
     Scene scene;
     for (const float x : {-1.0F, 3.0F, 4.0F, 10.0F, 11.0F}) {
@@ -19,6 +19,8 @@ Scene two_lines() {
     }
     for (const float x : {-1.0F, 3.0F, 4.0F, 10.0F, 11.0F})
         scene.attributes.insert(scene.attributes.end(), {x, 2, 3});  // a normal
+    for (const float x : {-1.0F, 3.0F, 4.0F, 10.0F, 11.0F})
+        scene.attributes.insert(scene.attributes.end(), {x, 5});  // texture coordinates
     scene.curve_segments = {0, 1, 3};
     for (const int32_t first : {0, 2}) {
         Primitive primitive;
@@ -27,6 +29,7 @@ Scene two_lines() {
         primitive.triangle_count = first == 0 ? 2 : 1;
         primitive.color_base = 0;
         primitive.normal_base = 20;
+        primitive.uv_base[2] = 35;
         scene.primitives.push_back(primitive);
     }
     scene.materials.emplace_back();
@@ -57,6 +60,10 @@ TEST(SplitCurves, APieceThatPassesThePlaneBecomesTwo) {
                 static_cast<size_t>(primitive.normal_base + static_cast<int32_t>(from) * 3);
             EXPECT_EQ(scene.attributes[normal], scene.curve_points[size_t{from} * 4]);
             EXPECT_EQ(scene.attributes[normal + 2], 3);
+            const auto uv =
+                static_cast<size_t>(primitive.uv_base[2] + static_cast<int32_t>(from) * 2);
+            EXPECT_EQ(scene.attributes[uv], scene.curve_points[size_t{from} * 4]);
+            EXPECT_EQ(scene.attributes[uv + 1], 5);
         }
     }
 }

@@ -24,8 +24,9 @@ ChiSquareOutcome compare(const LayeredParams<float>& p, const Vec3f& wo, double 
     };
     LayeredParams<double> claimed = convert<double>(p);
     const Vec3d wide = normalize(convert<double>(wo));
-    const LayeredWeights<double> wide_weights = layered_weights(claimed, wide);
+    LayeredWeights<double> wide_weights = layered_weights(claimed, wide);
     claimed.alpha.x *= lie;
+    wide_weights.through_alpha.x *= lie;
     const auto pdf = [&](const Vec3d& wi) {
         return evaluate_layered(claimed, wide_weights, wide, wi).pdf;
     };

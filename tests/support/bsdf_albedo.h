@@ -21,7 +21,21 @@ inline BsdfParams<double> bsdf_of(const Vec3d& base, double metallic, double rou
 struct AlbedoResult {
     Vec3d albedo;  ///< integral of f cos
     double pdf;    ///< integral of the density above the horizon
+    Vec3d single;  ///< of the metal's facets alone, after one bounce
+    double once;   ///< the same, of facets that reflect everything
 };
+
+/// D G / (4 cos_o cos_i) of GGX with height-correlated Smith masking, by its Lambda.
+inline double single_bounce(const Vec3d& wo, const Vec3d& wi, double alpha) {
+    const Vec3d h = normalize(wo + wi);
+    const auto lambda = [&](const Vec3d& w) {
+        const double tangent2 = (1 - w.z * w.z) / (w.z * w.z);
+        return (std::sqrt(1 + alpha * alpha * tangent2) - 1) / 2;
+    };
+    const double a2 = alpha * alpha;
+    const double d = h.z * h.z * (a2 - 1) + 1;
+    return a2 / (pi_d * d * d) / (1 + lambda(wo) + lambda(wi)) / (4 * wo.z * wi.z);
+}
 
 /// Tilt of a microfacet normal as the share `t` of GGX normals that are less tilted, then as
 /// 1 - sqrt(1 - t): steep ones, which grazing views see, are dense in it.
@@ -46,13 +60,18 @@ inline AlbedoResult quadrature_albedo(const BsdfParams<double>& p, const Vec3d& 
     constexpr int columns = 160;
     constexpr double cell = 1.0 / (rows * columns);
     const LobeWeights<double> lobes = lobe_weights(p, wo.z);
-    AlbedoResult sum{{0, 0, 0}, 0};
+    AlbedoResult sum{{0, 0, 0}, 0, {0, 0, 0}, 0};
+    const Vec3d white{1, 1, 1};
     const auto add = [&](const Vec3d& wi) {
         if (!(wi.z > 0)) return;
         const BsdfValue<double> at = evaluate_bsdf(p, lobes, wo, wi);
         const double weight = cell / (mirrored_density(wo, wi, p.alpha) + wi.z / pi_d);
         sum.albedo = sum.albedo + at.value_cos * weight;
         sum.pdf += at.pdf * weight;
+        const double once = single_bounce(wo, wi, p.alpha) * wi.z * weight;
+        const double rise = std::pow(1 - dot(wo, normalize(wo + wi)), 5);
+        sum.single = sum.single + (p.base_color + (white - p.base_color) * rise) * once;
+        sum.once += once;
     };
     for (int r = 0; r < rows; ++r) {
         const double t = (r + 0.5) / rows;

@@ -35,6 +35,7 @@ inline LayeredParams<float> clear_glass(float alpha, float eta) {
     p.solid = eta > 0;
     if (eta > 0) p.eta = eta;
     p.f0 = splat3(normal_reflectance(p.eta));
+    p.f90 = grazing_reflectance(p.eta);
     return p;
 }
 
@@ -57,8 +58,9 @@ inline LayeredParams<float> random_layers(Pcg32& random, float least_alpha) {
     p.solid = random.next_uint() % 2 == 0;
     p.eta = std::exp2(2 * random.next_float() - 1);
     if (std::fabs(p.eta - 1) < 0.02F) p.eta = 1.02F;
-    p.f90 = unit();
+    p.f90 = unit();  // the extension's specular factor
     p.f0 = color() * (p.f90 * normal_reflectance(p.eta));
+    p.f90 *= grazing_reflectance(p.eta);
     p.transmission = unit();
     p.diffuse_transmission = unit();
     p.diffuse_transmission_color = color();

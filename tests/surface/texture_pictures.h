@@ -4,6 +4,7 @@
 
 #include "surface/texture.h"
 
+#include "support/lane_rows.h"
 #include "support/random.h"
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,18 @@ public:
         texels_.resize(5);  // nothing starts at offset 0
     }
 
+    /// One with 16 bits a channel.
+    int32_t add_wide(int width, int height, uint32_t sampler) {
+        const int32_t texture = add(width, height, sampler);
+        TextureRow& row = rows_.back();
+        const size_t count = texels_.size() - static_cast<size_t>(row.level_offset[0]);
+        row.low_plane = static_cast<int32_t>(count);
+        for (size_t i = 0; i < count; ++i)
+            texels_.push_back(random_.next_uint());
+        has_wide_ = true;
+        return texture;
+    }
+
     /// Returns the texture's number.
     int32_t add(int width, int height, uint32_t sampler) {
         TextureRow row;
@@ -45,7 +58,7 @@ public:
     }
 
     TextureView view() const {
-        return {texels_.data(), reinterpret_cast<const int32_t*>(rows_.data())};
+        return {texels_.data(), reinterpret_cast<const int32_t*>(rows_.data()), has_wide_};
     }
     const TextureRow& row(int32_t texture) const { return rows_[static_cast<size_t>(texture)]; }
 
@@ -57,9 +70,13 @@ public:
         const int64_t at = r.level_offset[level] + wrapped(y, height, r.sampler >> 2 & 3U) * width +
                            wrapped(x, width, r.sampler & 3U);
         const uint32_t word = texels_[static_cast<size_t>(at)];
+        const uint32_t low = texels_[static_cast<size_t>(at + r.low_plane)];
         Rgba8 out{};
         for (int c = 0; c < 4; ++c) {
-            const double code = (word >> (8 * c) & 255U) / 255.0;
+            const uint32_t high_byte = word >> (8 * c) & 255U;
+            const double code = r.low_plane == 0
+                                    ? high_byte / 255.0
+                                    : (high_byte * 256 + (low >> (8 * c) & 255U)) / 65535.0;
             const bool encoded = c < 3 && (r.sampler & sampler_srgb) != 0;
             out.channel[c] = encoded ? srgb_to_linear(code) : code;
         }
@@ -107,6 +124,7 @@ private:
         return folded < size ? folded : 2 * size - 1 - folded;
     }
 
+    bool has_wide_ = false;
     Pcg32 random_;
     std::vector<uint32_t> texels_;
     std::vector<TextureRow> rows_;
@@ -127,6 +145,36 @@ inline double difference(const Rgba8& a, const Rgba8& b) {
         worst = d <= worst ? worst : d;  // NaN counts
     }
     return worst;
+}
+
+inline constexpr Wrap all_wraps[] = {Wrap::repeat, Wrap::clamp, Wrap::mirror};
+inline constexpr int sizes[][2] = {{8, 8}, {5, 3}, {1, 1}, {1, 7}, {16, 1}, {13, 32}};
+
+constexpr uint32_t linear_sampler(Wrap u, Wrap v, MipMode mip = MipMode::none) {
+    return pack_sampler(u, v, false, false, mip, false);
+}
+
+inline Rgba8 lanes_bilinear(const Pictures& pictures, int32_t texture, Vec2f uv, float footprint) {
+    const Rgba<Lanes> many = sample_texture_bilinear<Lanes>(
+        pictures.view(), LanesI(texture), {Lanes(uv.x), Lanes(uv.y)}, Lanes(footprint));
+    const int last = lane_count - 1;
+    return widen(Rgba<float>{lane(many.rgb, last), lane(many.alpha, last)});
+}
+
+/// Calls check(width, height, wrap of u, wrap of v).
+template <typename Check>
+void for_all_shapes(const Check& check) {
+    for (const auto& size : sizes) {
+        for (const Wrap u : all_wraps) {
+            for (const Wrap v : all_wraps)
+                check(size[0], size[1], u, v);
+        }
+    }
+}
+
+/// Footprint whose side is 2^lod texels of level 0.
+inline float footprint_of(const TextureRow& row, double lod) {
+    return static_cast<float>(std::exp2(2 * lod) / (row.width * row.height));
 }
 
 }  // namespace obscura::test

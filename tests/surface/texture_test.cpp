@@ -14,40 +14,11 @@
 namespace obscura {
 namespace {
 
-using test::difference;
-using test::lane;
-using test::Pictures;
-using test::Rgba8;
-using test::widen;
-
-constexpr Wrap all_wraps[] = {Wrap::repeat, Wrap::clamp, Wrap::mirror};
-constexpr int sizes[][2] = {{8, 8}, {5, 3}, {1, 1}, {1, 7}, {16, 1}, {13, 32}};
+using namespace test;
 
 constexpr uint32_t nearest_sampler(Wrap u, Wrap v) {
     return pack_sampler(u, v, true, true, MipMode::none, false);
 }
-constexpr uint32_t linear_sampler(Wrap u, Wrap v, MipMode mip = MipMode::none) {
-    return pack_sampler(u, v, false, false, mip, false);
-}
-
-Rgba8 lanes_bilinear(const Pictures& pictures, int32_t texture, Vec2f uv, float footprint) {
-    const Rgba<Lanes> many = sample_texture_bilinear<Lanes>(
-        pictures.view(), LanesI(texture), {Lanes(uv.x), Lanes(uv.y)}, Lanes(footprint));
-    const int last = lane_count - 1;
-    return widen(Rgba<float>{lane(many.rgb, last), lane(many.alpha, last)});
-}
-
-/// Calls check(width, height, wrap of u, wrap of v).
-template <typename Check>
-void for_all_shapes(const Check& check) {
-    for (const auto& size : sizes) {
-        for (const Wrap u : all_wraps) {
-            for (const Wrap v : all_wraps)
-                check(size[0], size[1], u, v);
-        }
-    }
-}
-
 TEST(Texture, NearestTakesTheTexelThatHoldsThePoint) {
     Pcg32 random(1);
     for_all_shapes([&](int width, int height, Wrap wrap_u, Wrap wrap_v) {
@@ -160,7 +131,7 @@ TEST(Texture, NoCoordinateReadsOutsideOfTheTexture) {
 TEST(Texture, SrgbCodesAreDecodedAndAlphaIsNot) {
     for (uint32_t code = 0; code < 256; ++code) {
         const uint32_t texel = code * 0x01010101U;
-        const double linear = test::srgb_to_linear(code / 255.0);
+        const double linear = srgb_to_linear(code / 255.0);
         const Rgba8 encoded = widen(decode_texel<float>(texel, true));
         EXPECT_LT(difference(encoded, {linear, linear, linear, code / 255.0}), 1e-6);
         const Rgba8 plain = widen(decode_texel<double>(texel, false));
@@ -172,7 +143,7 @@ TEST(Texture, SrgbCodesAreDecodedAndAlphaIsNot) {
     // Lanes may hold both kinds.
     const Mask first = lane_numbers() == LanesI(0);
     const Rgba<Lanes> mixed = decode_texel<Lanes>(LanesU(0x80808080U), first);
-    EXPECT_NEAR(lane(mixed.rgb.y, 0), test::srgb_to_linear(128 / 255.0), 1e-6);
+    EXPECT_NEAR(lane(mixed.rgb.y, 0), srgb_to_linear(128 / 255.0), 1e-6);
     EXPECT_NEAR(lane(mixed.rgb.y, 1), 128 / 255.0, 1e-6);
     EXPECT_NEAR(lane(mixed.alpha, 0), 128 / 255.0, 1e-6);
 }
@@ -191,7 +162,7 @@ TEST(Texture, LanesReadTheirOwnTexels) {
         const float width = n % 3 == 0 ? 0.5F : 4.0F;
         const auto coordinate = [&](int) { return 0.5F + width * (random.next_float() - 0.5F); };
         const LanesI texture = n % 2 == 0 ? lane_numbers() : LanesI(n / 2 % lane_count);
-        const Vec2<Lanes> uv{test::make_lanes(coordinate), test::make_lanes(coordinate)};
+        const Vec2<Lanes> uv{make_lanes(coordinate), make_lanes(coordinate)};
         const float footprint = 0.1F * random.next_float();
         const Rgba<Lanes> many =
             sample_texture_bilinear<Lanes>(pictures.view(), texture, uv, footprint);
@@ -202,11 +173,6 @@ TEST(Texture, LanesReadTheirOwnTexels) {
             ASSERT_LT(difference(widen(one), widen(same)), 2e-5) << "lane " << i;
         }
     }
-}
-
-/// Footprint whose side is 2^lod texels of level 0.
-float footprint_of(const TextureRow& row, double lod) {
-    return static_cast<float>(std::exp2(2 * lod) / (row.width * row.height));
 }
 
 TEST(Texture, MipModesChooseTheirLevel) {
@@ -267,8 +233,7 @@ void expect_mean(
     double squares[4] = {};
     for (int n = 0; n < rounds; ++n) {
         const auto number = [&](int) { return random.next_float(); };
-        const Vec3<Lanes> numbers{
-            test::make_lanes(number), test::make_lanes(number), test::make_lanes(number)};
+        const Vec3<Lanes> numbers{make_lanes(number), make_lanes(number), make_lanes(number)};
         const Rgba<Lanes> many = sample_texture_stochastic<Lanes>(
             pictures.view(), LanesI(texture), {Lanes(uv.x), Lanes(uv.y)}, footprint, numbers);
         for (int i = 0; i < lane_count; ++i) {

@@ -1,6 +1,7 @@
 // tests/truth/quantities_test.cpp - facing, distance, uv and heat against closed forms.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/camera_models.h"
+#include "camera/closed_rays.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ struct BallHit {
     double facing = 0;
 };
 
-void meet(const CameraRay<double>& ray, const Vec3d& centre, double radius, BallHit& hit) {
+void meet(const ClosedRay& ray, const Vec3d& centre, double radius, BallHit& hit) {
     const Vec3d from = ray.origin - centre;
     const double b = dot(from, ray.direction);
     const double discriminant = b * b - dot(from, from) + radius * radius;
@@ -85,13 +86,12 @@ TEST(Quantities, DistanceAndFacingOfBallsInEveryCamera) {
         EXPECT_EQ(distance.channels, (std::vector<std::string>{"distance"}));
         EXPECT_EQ(facing.channels, (std::vector<std::string>{"facing"}));
         for (int i = 0; i < width * height; ++i) {
-            const Vec2<double> film{(i % width + 0.5) / width, (i / width + 0.5) / height};
-            const CameraRay<double> ray = generate_ray<double>(named.camera, film);
+            const ClosedRay ray = closed_ray(named.camera, {i % width, i / width, width, height});
             BallHit hit;
             meet(ray, widen(ahead), 1.5, hit);
             const double edge = hit.facing;  // at the silhouette rounding decides
             meet(ray, widen(around), 20, hit);
-            if (!ray.valid || (hit.facing == edge && edge < 0.02)) continue;
+            if (!ray.seen || (hit.facing == edge && edge < 0.02)) continue;
             const auto at = static_cast<size_t>(i);
             ASSERT_NEAR(distance.pixels[at], hit.t, 3e-5 * hit.t) << named.name << " " << i;
             ASSERT_NEAR(facing.pixels[at], hit.facing, 5e-4) << named.name << " " << i;
@@ -130,8 +130,7 @@ TEST(Quantities, UvIsTheInterpolatedAttribute) {
     EXPECT_EQ(film.channels, (std::vector<std::string>{"UV.U", "UV.V"}));
     int inside = 0;
     for (int i = 0; i < width * height; ++i) {
-        const Vec2<double> at{(i % width + 0.5) / width, (i / width + 0.5) / height};
-        const CameraRay<double> ray = generate_ray<double>(camera, at);
+        const ClosedRay ray = closed_ray(camera, {i % width, i / width, width, height});
         const Vec3d p = ray.origin + ray.direction * (-ray.origin.z / ray.direction.z);
         const double out = std::max(std::fabs(p.x), std::fabs(p.y)) - 1;
         if (std::fabs(out) < 1e-5) continue;
@@ -150,8 +149,7 @@ TEST(Quantities, UvOfAShapeIsItsParametrisation) {
     const Film film = render_scene(scene, {}, camera, options_for(Integrator::uv)).film;
     int inside = 0;
     for (int i = 0; i < width * height; ++i) {
-        const Vec2<double> at{(i % width + 0.5) / width, (i / width + 0.5) / height};
-        const CameraRay<double> ray = generate_ray<double>(camera, at);
+        const ClosedRay ray = closed_ray(camera, {i % width, i / width, width, height});
         BallHit hit;
         meet(ray, {0, 0, 0}, 1, hit);
         if (hit.facing < 0.05) continue;
@@ -175,8 +173,7 @@ TEST(Quantities, HeatIsTheNumberOfTests) {
     const Film film = render_scene(scene, {}, camera, options_for(Integrator::heat)).film;
     EXPECT_EQ(film.channels, (std::vector<std::string>{"heat"}));
     for (int i = 0; i < width * height; ++i) {
-        const Vec2<double> at{(i % width + 0.5) / width, (i / width + 0.5) / height};
-        const CameraRay<double> ray = generate_ray<double>(camera, at);
+        const ClosedRay ray = closed_ray(camera, {i % width, i / width, width, height});
         const Vec3d p = ray.origin + ray.direction * (-ray.origin.z / ray.direction.z);
         const bool inside = std::max(std::fabs(p.x), std::fabs(p.y)) < 0.99;
         const bool outside = std::max(std::fabs(p.x), std::fabs(p.y)) > 1.05;

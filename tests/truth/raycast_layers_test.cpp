@@ -43,16 +43,17 @@ PunctualLight sun(double angle, float lux) {
     return light;
 }
 
-/// D F V cos of the coat seen along its normal: GGX, Smith's separable masking, Schlick's Fresnel
-/// with index 1.5, as KHR_materials_clearcoat says.
+/// D F V cos of the coat seen along its normal: GGX, Smith's height-correlated masking, Schlick's
+/// Fresnel with index 1.5, as KHR_materials_clearcoat says, and what its facets reflect once more.
 double coat_from_above(double roughness, double angle) {
     const double a2 = std::pow(roughness, 4);
     const double h = std::cos(angle / 2);
     const double i = std::cos(angle);
     const double distribution = a2 / (pi_d * square(h * h * (a2 - 1) + 1));
-    const auto visibility = [&](double c) { return 1 / (c + std::sqrt(a2 + (1 - a2) * c * c)); };
+    const double visibility = 0.5 / (i + std::sqrt(a2 + (1 - a2) * i * i));
+    const double gain = dielectric_lobe(specular_albedo(1.0, std::sqrt(a2))).factor;
     const double fresnel = 0.04 + 0.96 * std::pow(1 - h, 5);
-    return fresnel * distribution * visibility(1) * visibility(i) * i;
+    return gain * fresnel * distribution * visibility * i;
 }
 
 TEST(RaycastLayers, ACoatUnderASun) {

@@ -1,6 +1,7 @@
 // tests/truth/raycast_test.cpp - ray casting against radiances worked out by hand, pixel by pixel.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/camera_models.h"
+#include "camera/closed_rays.h"
 
 #include <gtest/gtest.h>
 
@@ -57,8 +58,7 @@ Vec3d floor_local(const Vec3d& v) {
 
 /// Where the middle of a pixel looks at the floor y = 0.
 Vec3d floor_point(const Camera& camera, int x, int y) {
-    const Vec2<double> film{(x + 0.5) / side, (y + 0.5) / side};
-    const CameraRay<double> ray = generate_ray<double>(camera, film);
+    const ClosedRay ray = closed_ray(camera, {x, y, side, side});
     return ray.origin + ray.direction * (-ray.origin.y / ray.direction.y);
 }
 
@@ -109,7 +109,7 @@ TEST(Raycast, WithoutSpecularReflectionItIsLambertsLaw) {
     const Camera camera = look_at({0, 500, 0}, {0, 0, 0}, 0.008f, side, side);
     const Film film = render_scene(std::move(scene), {}, camera, raycast_options()).film;
     const BsdfParams<double> params = exact_bsdf(ground);
-    const double left = 1 - specular_albedo(static_cast<double>(dielectric_f0), 1.0, params.alpha);
+    const double left = 1 - dielectric_lobe(specular_albedo(1.0, params.alpha)).albedo;
     for (int i = 0; i < side * side; i += 7) {
         const Vec3d at = floor_point(camera, i % side, i / side);
         const double d2 = dot(at, at) + 4;

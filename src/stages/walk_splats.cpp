@@ -1,0 +1,86 @@
+// stages/walk_splats.cpp - Gaussian splats on the way of paths and of shadow rays.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/walk_splats.h"
+
+#include "base/stopwatch.h"
+
+namespace obscura {
+
+namespace {
+
+/// Where the paths end, as far as they have been followed.
+const float* path_ends(const WalkInput& in, int count, bool camera, Workspace& work) {
+    const bool limited = camera && limits_rays(in.batch.camera);
+    for (int i = 0; i < count; ++i) {
+        const auto row = static_cast<size_t>(i);
+        const float farthest = limited ? work.camera_length_m[row] : unlimited;
+        work.ray_end[row] = work.hits.primitive[i] >= 0 ? work.hits.t[i] : farthest;
+    }
+    return work.ray_end.data();
+}
+
+/// Makes a camera's sample as opaque as what it sees, of which set_camera_alpha will add the part
+/// behind the splats: the whole background, and opaque hits. Before the paths are dimmed.
+void cover_sample(const WalkInput& in, int row, float transmittance, Workspace& work) {
+    const SampleRows& samples = work.samples;
+    const uint32_t slot = work.paths[0].slot[row];
+    const bool hit = work.hits.primitive[row] >= 0;
+    const float* background = in.batch.background;
+    const float behind = hit ? 1.0f : background[3];
+    const float held = 1.0f - transmittance;
+    // Without any light from behind the path counts as one that the camera does not show.
+    const float added = transmittance > 0 ? behind : 0.0f;
+    samples.a[slot] += 1.0f - transmittance * (1.0f - behind) - added;
+    if (hit || transmittance == 0) return;
+    samples.r[slot] -= held * background[0];
+    samples.g[slot] -= held * background[1];
+    samples.b[slot] -= held * background[2];
+}
+
+SplatColumns splat_columns_of(Workspace& work) {
+    return {
+        work.splats[0].data(), work.splats[1].data(), work.splats[2].data(), work.splats[3].data()};
+}
+
+}  // namespace
+
+void pass_splats(const WalkInput& in, int count, bool camera, Workspace& work, WalkCounters& c) {
+    const SumOfTime time(camera ? c.seconds.intersect_camera : c.seconds.intersect_bounce);
+    const PathRows& p = work.paths[0];
+    const RayColumns rays{
+        p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, path_ends(in, count, camera, work), nullptr, count};
+    const bool parallel = camera && in.batch.camera.model == CameraModel::orthographic;
+    const SplatColumns found = splat_columns_of(work);
+    in.accel->blend_splats(rays, parallel, found);
+    for (int i = 0; i < count; ++i) {
+        const float passes = found.transmittance[i];
+        const bool shows = p.tr[i] != 0;  // the camera shows something there
+        if (passes == 1.0f || (camera && !shows)) continue;
+        const uint32_t slot = p.slot[i];
+        work.samples.r[slot] += p.tr[i] * found.r[i];
+        work.samples.g[slot] += p.tg[i] * found.g[i];
+        work.samples.b[slot] += p.tb[i] * found.b[i];
+        if (camera) cover_sample(in, i, passes, work);
+        p.tr[i] *= passes;
+        p.tg[i] *= passes;
+        p.tb[i] *= passes;
+        if (passes == 0) work.hits.primitive[i] = -1;
+    }
+}
+
+void dim_shadows(const WalkInput& in,
+                 const RayColumns& rays,
+                 Workspace& work,
+                 WalkCounters& counters) {
+    const SumOfTime time(counters.seconds.shadow);
+    float* passes = splat_columns_of(work).transmittance;
+    in.accel->dim_by_splats(rays, work.occluded.data(), passes);
+    const ShadowRows& s = work.shadows;
+    for (int i = 0; i < rays.count; ++i) {
+        s.r[i] *= passes[i];
+        s.g[i] *= passes[i];
+        s.b[i] *= passes[i];
+    }
+}
+
+}  // namespace obscura

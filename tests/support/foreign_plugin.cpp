@@ -1,0 +1,13 @@
+// tests/support/foreign_plugin.cpp - a library that tells when it is loaded into a process.
+// SPDX-License-Identifier: Apache-2.0
+#include <cstdio>
+
+namespace {
+
+struct Announcement {
+    Announcement() { std::fputs("foreign code runs\n", stderr); }
+};
+
+const Announcement announcement;
+
+}  // namespace
