@@ -68,6 +68,12 @@ void KernelColumns::make_materials() {
     };
     data_.diffuse = column([&](size_t i) { return lobes(i).diffuse; });
     data_.specular_probability = column([&](size_t i) { return lobes(i).specular_probability; });
+    data_.f0_red = column([&](size_t i) { return lobes(i).specular_f0.x; });
+    data_.f0_green = column([&](size_t i) { return lobes(i).specular_f0.y; });
+    data_.f0_blue = column([&](size_t i) { return lobes(i).specular_f0.z; });
+    data_.rise_red = column([&](size_t i) { return lobes(i).specular_rise.x; });
+    data_.rise_green = column([&](size_t i) { return lobes(i).specular_rise.y; });
+    data_.rise_blue = column([&](size_t i) { return lobes(i).specular_rise.z; });
     data_.u0 = column(uniform);
     data_.u1 = column(uniform);
     data_.u2 = column(uniform);

@@ -62,7 +62,10 @@ OBSCURA_INLINE BsdfParams<F> material(const KernelData& d, int i) {
 
 template <typename F>
 OBSCURA_INLINE LobeWeights<F> weights(const KernelData& d, int i) {
-    return {read<F>(d.diffuse + i), read<F>(d.specular_probability + i)};
+    return {read<F>(d.diffuse + i),
+            read<F>(d.specular_probability + i),
+            read3<F>(d.f0_red, d.f0_green, d.f0_blue, i),
+            read3<F>(d.rise_red, d.rise_green, d.rise_blue, i)};
 }
 
 template <typename F>
@@ -70,7 +73,8 @@ void bsdf_weights(const KernelData& d) {
     for_rows<F>([&](int i) {
         const LobeWeights<F> lobes = lobe_weights(material<F>(d, i), read<F>(d.wo_z + i));
         write(d.out0 + i, lobes.diffuse);
-        write(d.out1 + i, lobes.specular_probability);
+        write(d.out1 + i,
+              lobes.specular_probability + sum3(lobes.specular_f0) + sum3(lobes.specular_rise));
     });
 }
 

@@ -22,7 +22,8 @@ struct KernelData {
     const float *world_x, *world_y, *world_z;  ///< unit, all around
     const float *red, *green, *blue, *metallic, *alpha;
     const float *diffuse, *specular_probability;  ///< lobe weights of these materials
-    const float *u0, *u1, *u2;                    ///< uniform in [0, 1)
+    const float *f0_red, *f0_green, *f0_blue, *rise_red, *rise_green, *rise_blue;
+    const float *u0, *u1, *u2;  ///< uniform in [0, 1)
     const float *texture_u, *texture_v, *footprint;
     const int32_t* texture;
     const uint32_t *bits0, *bits1;  ///< uniform 32-bit words
