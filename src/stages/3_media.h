@@ -135,9 +135,7 @@ OBSCURA_INLINE void join_boundaries(const SceneView& scene,
                                     LanesU bodies,
                                     const SharedLanes& shared,
                                     Boundary& b) {
-    const auto number = [](LanesU all, int shift) {
-        return as_int((all >> shift) & LanesU(255U));
-    };
+    const auto number = [](LanesU all, int shift) { return as_int((all >> shift) & LanesU(255U)); };
     LanesU beyond = bodies;
     for (const int shift : {16, 8, 0}) {
         const LanesI body = number(shared.left, shift);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/workings.h"
 
-#include "crosscheck/shape_side.h"
 #include "crosscheck/random.h"
+#include "crosscheck/shape_side.h"
 
 #include <gtest/gtest.h>
 
