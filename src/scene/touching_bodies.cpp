@@ -32,15 +32,14 @@ Boundary own_box(const Scene& scene, int32_t number) {
     Boundary box{far, -far, number};
     const auto first = static_cast<size_t>(primitive.first_triangle);
     const auto count = static_cast<size_t>(primitive.triangle_count);
-    if (moves(primitive)) {
-        grow(box, -far, far);
-    } else if (is_mesh(primitive)) {
+    const bool still = !moves(primitive);
+    if (still && is_mesh(primitive)) {
         for (size_t i = 3 * first; i < 3 * (first + count); ++i) {
             const float* p = &scene.positions[3 * static_cast<size_t>(scene.indices[i])];
             const Vec3f corner{p[0], p[1], p[2]};
             grow(box, corner, corner);
         }
-    } else if (primitive.geometry == static_cast<int32_t>(GeometryKind::shapes)) {
+    } else if (still && primitive.geometry == static_cast<int32_t>(GeometryKind::shapes)) {
         for (size_t i = first; i < first + count; ++i) {
             const ShapeBox around = shape_bounds(scene.shapes[i]);
             grow(box, around.low, around.high);
