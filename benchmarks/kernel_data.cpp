@@ -92,7 +92,7 @@ void KernelColumns::make_look_ups(const Scene& scene) {
         const float side = std::exp2(4.0f * next() - 1.0f);
         return side * side / static_cast<float>(row.width) / static_cast<float>(row.height);
     });
-    data_.textures = {scene.textures.texels.data(), reinterpret_cast<const int32_t*>(rows.data())};
+    data_.textures = {scene.textures.texels.data(), rows.data()};
     for (std::vector<uint32_t>& words : bits_) {
         for (int i = 0; i < kernel_rows; ++i)
             words.push_back(hash_word(++state_));

@@ -1,6 +1,5 @@
 // benchmarks/main.cpp - the micro-benchmark program: loads a scene, registers all, runs.
 // SPDX-License-Identifier: Apache-2.0
-#include "app/camera_choice.h"
 #include "base/parallel.h"
 #include "gltf/load.h"
 #include "image/decode.h"
@@ -8,6 +7,7 @@
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/benchmarks.h"
+#include "session/camera_choice.h"
 #include <cstdio>
 #include <deque>
 #include <filesystem>

@@ -3,7 +3,7 @@
 #include "accel/accel.h"
 #include "accel/embree.h"
 #include "accel/safe_ray.h"
-#include "gltf/particles.h"
+#include "gltf/geometry/particles.h"
 #include "math/sampler.h"
 #include "math/warp.h"
 

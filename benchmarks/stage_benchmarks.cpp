@@ -92,9 +92,9 @@ void register_stages(const PreparedScene& scene, const Camera& camera, Isa isa) 
     const auto shadow_rays = std::make_shared<StageColumns>(scene, camera, 0);
     shadow_rays->make_shadow_rays();
     register_light(name, shadow_rays);
-    const auto sums = std::make_shared<std::vector<float>>(4 * static_cast<size_t>(own->pixels));
+    const auto sums = std::make_shared<std::vector<PixelSum>>(own->pixels);
     register_stage("stage/5_accumulate/" + name, own, rows, [sums](StageColumns& c) {
-        c.scene.stages->accumulate(c.pixels, c.batch.samples, c.work.samples, sums->data());
+        c.scene.stages->accumulate(c.pixels, {0, c.batch.samples}, c.work.samples, sums->data());
     });
 }
 

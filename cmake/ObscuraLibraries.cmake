@@ -45,6 +45,11 @@ endif()
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpdemux)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 
+# A header alone, and only that: no version's CMake file is needed.
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h PATH_SUFFIXES tinygltf REQUIRED)
+add_library(tinygltf_header INTERFACE)
+target_include_directories(tinygltf_header SYSTEM INTERFACE ${TINYGLTF_INCLUDE_DIR})
+
 # Draco's CMake file changed its place, its target and its variables from version to version; its
 # header and its library stayed where they were.
 find_path(DRACO_INCLUDE_DIR draco/compression/decode.h REQUIRED)

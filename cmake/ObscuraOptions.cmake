@@ -3,10 +3,13 @@
 add_library(obscura_options INTERFACE)
 
 target_compile_options(obscura_options INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion -Werror
+  -Wall -Wextra -Wshadow -Wconversion
   -fno-math-errno -fno-trapping-math  # sqrt becomes an instruction; NaN and infinity still work
   -ffp-contract=fast                  # a*b+c may become one fused instruction
 )
+if(OBSCURA_WERROR)
+  target_compile_options(obscura_options INTERFACE -Werror)
+endif()
 # GCC 12 sees overlapping copies in "text" + std::string (PR 105651).
 if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
   target_compile_options(obscura_options INTERFACE -Wno-restrict)

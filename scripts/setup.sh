@@ -80,23 +80,28 @@ build_jobs() {
     printf '%s\n' "${OBSCURA_JOBS:-$((jobs > 1 ? jobs : 1))}"
 }
 
-# configure PRESET - makes build/PRESET; what CMake says is shown only when it fails.
+# configure PRESET [OPTION...] - makes build/PRESET; what CMake says is shown only when it fails.
 configure() {
     local folder="$OBSCURA_ROOT/build/$1"
     mkdir -p "$folder"
     say "configuring build/$1"
-    if ! (cd "$OBSCURA_ROOT" && cmake --preset "$1") >"$folder/configure.log" 2>&1; then
+    if ! (cd "$OBSCURA_ROOT" && cmake --preset "$@") >"$folder/configure.log" 2>&1; then
         cat "$folder/configure.log" >&2
         stop "configuring failed"
     fi
 }
+
+# Options for presets that are configured for the first time.
+OBSCURA_CONFIGURE=()
 
 # build PRESET [TARGET...] - configures when needed, then builds; silent when nothing is to be done.
 build() {
     local preset="$1" folder="$OBSCURA_ROOT/build/$1" targets=()
     shift
     if (($# > 0)); then targets=(--target "$@"); fi
-    if [[ ! -f "$folder/build.ninja" ]]; then configure "$preset"; fi
+    if [[ ! -f "$folder/build.ninja" ]]; then
+        configure "$preset" "${OBSCURA_CONFIGURE[@]}"
+    fi
     if ! cmake --build "$folder" -j "$(build_jobs)" "${targets[@]}" 2>&1 |
         sed -u -e '/^ninja: no work to do/d' -e '/Re-checking globbed directories/d' >&2; then
         stop "the build failed"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/moving_geometry.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "scene/media.h"
 #include "scene/thin_walls.h"
@@ -82,6 +83,10 @@ Accel::Impl::~Impl() {
     if (device != nullptr) rtcReleaseDevice(device);
 }
 
+void commit_scene(RTCScene scene) {
+    run_in_arena([&] { rtcJoinCommitScene(scene); });
+}
+
 namespace {
 
 Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const KernelChoice& kernels) {
@@ -130,7 +135,7 @@ BuiltGeometry build_range(Accel::Impl& impl, const Mesh& range, BuiltGeometry& k
     }
     out.scene = new_scene(impl);
     attach_primitives(impl, out.scene, range, 0);
-    rtcCommitScene(out.scene);
+    commit_scene(out.scene);
     return out;
 }
 
@@ -170,7 +175,7 @@ void build_top(Accel::Impl& impl) {
     }
     if (still > 0) attach_instance(impl, impl.still.scene, Instance{}, scene.instances.size());
     impl.has_instances = impl.has_instances || still > 0;
-    rtcCommitScene(impl.top);
+    commit_scene(impl.top);
 }
 
 /// Forgets what was built of arrays that have moved since.

@@ -60,7 +60,10 @@ public:
 
     /// Builds for another pose of the same asset: hierarchies of geometry whose stamp, place in
     /// the scene's arrays and need of an alpha filter are as before are kept. Embree's other errors
-    /// leave this object unusable. In: scene, as for build(). Errors  33 E-MEM; 70 E-EMBREE
+    /// leave this object unusable.
+    ///
+    /// In      scene: as for build()
+    /// Errors  33 E-MEM; 70 E-EMBREE
     Result<void> update(const Scene& scene);
 
     /// Builds the same triangles and instances as build(), with no filters and no tables, and lets

@@ -52,6 +52,9 @@ struct SharedArrays {
     size_t primitives = 0;  ///< rows of the tables that geometries point to
 };
 
+/// Builds a scene's hierarchy on the threads that loops run on, not on all that Embree sees.
+void commit_scene(RTCScene scene);
+
 struct Accel::Impl {
     Impl() = default;
     Impl(const Impl&) = delete;

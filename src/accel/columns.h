@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "accel/column_list.h"
+
 #include <cstdint>
 
 namespace obscura {
@@ -62,14 +64,21 @@ inline bool cuts(const Cutaway& cutaway, int row) {
     return cutaway.of(row).surface.primitive >= 0;
 }
 
-/// Hits as columns, padded like the rays: whole blocks are written. primitive -1 is a miss; the
-/// other columns then hold nothing of use.
-struct HitColumns {
-    float *t, *u, *v;
-    int32_t* instance;   ///< row in Scene::instances, -1 for world-space primitives
-    int32_t* primitive;  ///< row in Scene::primitives
-    int32_t* triangle;   ///< within the primitive
-};
+/// Distance along the ray, place on the surface; the rows in Scene::instances (-1: a primitive in
+/// world space) and in Scene::primitives (-1: a miss, and the other columns hold nothing of use);
+/// the triangle within the primitive.
+#define OBSCURA_HIT_COLUMNS(VECTOR, NUMBER, WORD, INTEGER) \
+    NUMBER(t)                                              \
+    NUMBER(u)                                              \
+    NUMBER(v)                                              \
+    INTEGER(instance)                                      \
+    INTEGER(primitive)                                     \
+    INTEGER(triangle)
+
+/// Hits as columns, padded like the rays: whole blocks are written.
+OBSCURA_COLUMNS(HitColumnsOf, OBSCURA_HIT_COLUMNS);
+using HitColumns = HitColumnsOf<float>;
+using HitView = HitColumnsOf<const float>;
 
 /// What Gaussian splats do to light along rays, as columns.
 struct SplatColumns {

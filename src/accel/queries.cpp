@@ -36,7 +36,8 @@ bool load_part(const RayColumns& rays, int first, const ValidMask& valid, RTCRay
     return true;
 }
 
-/// Planes without end may lie before backs: these were not looked through.
+/// Forgets the backs that lie behind what the ray hit: infinite planes are tested after the others,
+/// and may stop a ray before a back that was noted.
 void forget_unseen_backs(const HitColumns& hits, std::vector<PassedBack>& backs) {
     std::erase_if(backs, [&](const PassedBack& back) {
         return hits.primitive[back.row] >= 0 && hits.t[back.row] < back.t;

@@ -26,7 +26,7 @@ void note_answer(bool hit, const Cutaway* cutaway, int row, RecordedRays& out) {
 }
 
 void append_hits(const RayColumns& rays,
-                 const HitColumns& hits,
+                 const HitView& hits,
                  const SeeThrough& see_through,
                  const RayReach& reach,
                  RecordedRays& out) {
@@ -44,14 +44,14 @@ RayColumns RecordedRays::columns() const {
     return {ox.data(), oy.data(), oz.data(), dx.data(), dy.data(), dz.data(), ends, key.data(), 0};
 }
 
-void RayRecorder::add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through) {
+void RayRecorder::add_hits(const RayColumns& rays, const HitView& hits, SeeThrough see_through) {
     fixed_alpha_ = see_through.fixed_alpha;
     const RayKind kind = see_through.segment == 0 ? RayKind::camera : RayKind::bounce;
     append_hits(rays, hits, see_through, reach_, list(kind));
 }
 
 void RayRecorder::add_shadow_hits(const RayColumns& rays,
-                                  const HitColumns& hits,
+                                  const HitView& hits,
                                   SeeThrough see_through) {
     append_hits(rays, hits, see_through, reach_, shadow_hits_);
 }

@@ -33,10 +33,10 @@ public:
     /// In   reach: Accel::ray_reach
     explicit RayRecorder(const RayReach& reach = {}) : reach_(reach) {}
 
-    void add_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through);
+    void add_hits(const RayColumns& rays, const HitView& hits, SeeThrough see_through);
     void add_shadows(const RayColumns& rays, const uint8_t* occluded, const ShadowQuery& query);
     /// Shadow rays that ask for the nearest hit, for they may go on behind it.
-    void add_shadow_hits(const RayColumns& rays, const HitColumns& hits, SeeThrough see_through);
+    void add_shadow_hits(const RayColumns& rays, const HitView& hits, SeeThrough see_through);
 
     /// Of shadow rays, those that ask for any hit.
     const RecordedRays& rays(RayKind kind) const { return rays_[static_cast<size_t>(kind)]; }

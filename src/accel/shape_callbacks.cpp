@@ -1,6 +1,7 @@
 // accel/shape_callbacks.cpp - Embree's callbacks for shapes; compiled once per instruction set.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/shape_geometry.h"
+#include "math/word_of.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -12,16 +13,29 @@ struct RayFields {
     float* field;  ///< RTCRayN
     int n;
 
-    OBSCURA_INLINE float* column(int number) const { return field + number * n; }
-    OBSCURA_INLINE float* tfar() const { return column(8); }
+    /// In  member: of RTCRay, whose fields RTCRayN has in the same order
+    template <auto member>
+    OBSCURA_INLINE float* column() const {
+        return field + word_of<member> * n;
+    }
+    OBSCURA_INLINE float* tfar() const { return column<&RTCRay::tfar>(); }
     OBSCURA_INLINE unsigned id(int i) const {
-        return static_cast<unsigned>(float_bits(column(10)[i]));
+        return static_cast<unsigned>(float_bits(column<&RTCRay::id>()[i]));
     }
     OBSCURA_INLINE ShapeRay<float> ray(int i) const {
-        return {{column(0)[i], column(1)[i], column(2)[i]},
-                {column(4)[i], column(5)[i], column(6)[i]}};
+        return {
+            {column<&RTCRay::org_x>()[i], column<&RTCRay::org_y>()[i], column<&RTCRay::org_z>()[i]},
+            {column<&RTCRay::dir_x>()[i],
+             column<&RTCRay::dir_y>()[i],
+             column<&RTCRay::dir_z>()[i]}};
     }
-    OBSCURA_INLINE Span<float> limits(int i) const { return {column(3)[i], tfar()[i]}; }
+    OBSCURA_INLINE Span<float> limits(int i) const {
+        return {column<&RTCRay::tnear>()[i], tfar()[i]};
+    }
+    template <auto member>
+    OBSCURA_INLINE Lanes lanes(int i) const {
+        return load(column<member>() + i);
+    }
 };
 
 /// What one call is about.
@@ -137,14 +151,20 @@ OBSCURA_INLINE void packet_on_shape(const Call& call, const Hit& hit) {
     const ShapeRow& row = call.geometry.rows[call.primitive];
     for (int i = 0; i < call.rays.n; i += lane_count) {
         // Wider than what is left, a load reads the fields behind: they are there up to tfar.
-        const auto read = [&](int number) { return load(call.rays.column(number) + i); };
-        const ShapeRay<Lanes> ray{{read(0), read(1), read(2)}, {read(4), read(5), read(6)}};
+        const RayFields& rays = call.rays;
+        const ShapeRay<Lanes> ray{{rays.lanes<&RTCRay::org_x>(i),
+                                   rays.lanes<&RTCRay::org_y>(i),
+                                   rays.lanes<&RTCRay::org_z>(i)},
+                                  {rays.lanes<&RTCRay::dir_x>(i),
+                                   rays.lanes<&RTCRay::dir_y>(i),
+                                   rays.lanes<&RTCRay::dir_z>(i)}};
         Roots<Lanes> roots = intersect_shape<Lanes>(row, ray);
         if (call.front_only) {
             roots.hit[0] = roots.hit[0] & is_front<Lanes>(row, ray, roots.t[0], 0);
             roots.hit[1] = roots.hit[1] & is_front<Lanes>(row, ray, roots.t[1], 1);
         }
-        const NearHit<Lanes> found = nearest(roots, read(3), read(8));
+        const NearHit<Lanes> found =
+            nearest(roots, rays.lanes<&RTCRay::tnear>(i), rays.lanes<&RTCRay::tfar>(i));
         uint32_t bits = mask_bits(found.found & active_lanes(call, i));
         if (bits == 0) continue;
         alignas(64) float t[lane_count];
@@ -235,9 +255,9 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
     find_hits(call, [&](int row, const Found& found) {
         const auto i = static_cast<unsigned>(row);
         rays.tfar()[row] = found.t;
-        RTCHitN_Ng_x(hits, n, i) = -rays.column(4)[row];
-        RTCHitN_Ng_y(hits, n, i) = -rays.column(5)[row];
-        RTCHitN_Ng_z(hits, n, i) = -rays.column(6)[row];
+        RTCHitN_Ng_x(hits, n, i) = -rays.column<&RTCRay::dir_x>()[row];
+        RTCHitN_Ng_y(hits, n, i) = -rays.column<&RTCRay::dir_y>()[row];
+        RTCHitN_Ng_z(hits, n, i) = -rays.column<&RTCRay::dir_z>()[row];
         RTCHitN_u(hits, n, i) = 0.0f;
         RTCHitN_v(hits, n, i) = 0.0f;
         RTCHitN_primID(hits, n, i) = static_cast<unsigned>(found.row);

@@ -141,7 +141,7 @@ void build_splats(Accel::Impl& impl) {
     rtcSetSceneBuildQuality(impl.splats, RTC_BUILD_QUALITY_HIGH);
     rtcAttachGeometry(impl.splats, geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(impl.splats);
+    commit_scene(impl.splats);
 }
 
 bool Accel::has_splats() const {

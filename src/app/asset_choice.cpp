@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/asset_choice.h"
 
-#include "app/option_group.h"
 #include "bench/asset_files.h"
 
 #include <system_error>
@@ -45,14 +44,6 @@ Result<std::vector<RenderRequest>> requests_for(
         requests.push_back(std::move(*one));
     }
     return requests;
-}
-
-void add_assets_option(OptionGroup& group, std::optional<std::string>& assets) {
-    group.text("--assets",
-               assets,
-               "DIR",
-               "Where to look for scenes when none is given [the folder\n"
-               "assets beside the program or above it]");
 }
 
 }  // namespace obscura

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/option_row.h"
 #include "app/render_request.h"
 
 #include <functional>
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace obscura {
-
-class OptionGroup;
 
 /// A request for each of the scenes that were given; else for all of a folder, or of `assets`
 /// beside the program or above it.
@@ -22,7 +21,12 @@ Result<std::vector<RenderRequest>> requests_for(
     const std::optional<std::string>& assets,
     const std::function<Result<RenderRequest>(const std::string&)>& request_for);
 
-/// The option --assets.
-void add_assets_option(OptionGroup& group, std::optional<std::string>& assets);
+inline constexpr OptionInfo assets_option = {
+    .name = "--assets",
+    .argument = "DIR",
+    .help = "Where to look for scenes when none is given",
+    .fallback = "the folder assets beside the program or above it",
+    .files = "/",
+    .excludes = {"SCENE"}};
 
 }  // namespace obscura

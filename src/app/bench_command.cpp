@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_command.h"
 
-#include "app/lighting.h"
 #include "app/outcome.h"
 #include "app/signals.h"
 #include "app/skipped_scenes.h"
-#include "app/statistics.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/peak_memory.h"
@@ -17,6 +15,8 @@
 #include "bench/report_svg.h"
 #include "render/integrators.h"
 
+#include "session/lighting.h"
+#include "session/statistics.h"
 #include <algorithm>
 #include <fmt/format.h>
 #include <span>
@@ -231,7 +231,7 @@ Result<void> execute(const BenchRequest& request, Log& log) {
 }  // namespace
 
 int run_bench(const BenchArguments& arguments) {
-    Log log(verbosity_of(arguments.render));
+    TerminalLog log(verbosity_of(arguments.render));
     const Result<BenchRequest> request = make_bench_request(arguments);
     if (!request) return report_failure(request.error(), log);
     const Result<void> done = execute(*request, log);

@@ -1,19 +1,21 @@
-// app/bench_options.cpp - the options of `obscura bench`.
+// app/bench_options.cpp - the table of the options of `obscura bench`.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_options.h"
 
 #include "app/asset_choice.h"
-#include "app/option_group.h"
+#include "app/bench_command.h"
+#include "app/option_readers.h"
 #include "app/render_options.h"
-
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 
 namespace obscura {
 
 namespace {
 
-constexpr const char* examples = R"(
+using A = BenchArguments;
+using R = BenchRequest;
+using Row = OptionRow<A, R>;
+
+constexpr const char* notes = R"(
 "Of bare Embree" is the time in which Embree alone answers the rays of a rendering, as a share
 of the time of that rendering: 100 % is the limit. See docs/cli.md for every figure.
 
@@ -26,58 +28,78 @@ Examples:
   obscura bench helmet.glb --integrator normal
       camera rays only)";
 
-void add_measurement_options(CLI::App& command, BenchArguments& arguments) {
-    OptionGroup group(command, "Measurement");
-    group.text("--size",
-               arguments.render.size,
-               "WxH",
-               "Width and height in pixels [640x360; 1920x1080 for\n"
-               "quantities, which take one sample a pixel]");
-    group.text("--view",
-               arguments.view,
-               "NAME",
-               "whole: the file's camera or all in view; close: at least\n"
-               "70 % of the frame covered; both [both]");
-    group.text("--repeat", arguments.repeat, "N", "Times that each figure is measured [5]");
-    group.text("--threads",
-               arguments.threads,
-               "LIST",
-               "Thread counts, such as 1,2,4: the greatest for the main\n"
-               "figures, all for the table of scaling; 0: every core [0]");
-    group.text("--isa",
-               arguments.isa,
-               "LIST",
-               "Instruction sets: auto, baseline, avx2, avx512 or all; the\n"
-               "first for the main figures, all for a table [auto]");
-    add_assets_option(group, arguments.assets);
-}
+constexpr std::array<Choice<ViewChoice>, 3> views = {
+    {{"whole", ViewChoice::whole}, {"close", ViewChoice::close}, {"both", ViewChoice::both}}};
 
-void add_report_options(CLI::App& command, BenchArguments& arguments) {
-    OptionGroup group(command, "Report");
-    group.text("--json", arguments.json, "FILE", "Write all figures as JSON");
-    group.text("--compare",
-               arguments.compare,
-               "OLD.json",
-               "Say which figures changed since that report, and which of\n"
-               "it is noise");
-    group.text(
-        "--plot", arguments.plot, "FILE.svg", "Draw the tables of --threads and --isa as a chart");
-    group.flag("--quiet", arguments.render.quiet, "Print the tables and errors only");
-    group.flag("--verbose", arguments.render.verbose, "Print more notes");
-}
+// clang-format off
+constexpr Row scenes[] = {
+    {{.name = "SCENE", .help = "glTF 2.0 files", .fallback = "those in the assets folder",
+      .files = "gltf glb"},
+     text_at<&A::scenes>}};
+
+constexpr Row measurement[] = {
+    {{.name = "--view", .argument = "NAME",
+      .help = "whole: the file's camera or all in view; close: at least 70 % of the frame covered; "
+              "both",
+      .excludes = {"--eye", "--target", "--up"}},
+     text_at<&A::view>, choice_at<views, &R::views>},
+    {{.name = "--repeat", .argument = "N",
+      .help = "Times that each figure is measured; medians are reported", .range = {1, 1000}},
+     text_at<&A::repeat>, number_at<&R::repeat>},
+    {{.name = "--threads", .argument = "N[,N]",
+      .help = "Thread counts, such as 1,2,4: the greatest for the main figures, all for the table "
+              "of scaling; 0: every core",
+      .fallback = "0"},
+     text_at<&A::threads>, parsed_at<parse_thread_counts, &R::threads>},
+    {{.name = "--isa", .argument = "NAME[,NAME]",
+      .help = "Instruction sets: auto, baseline, avx2, avx512 or all; the first for the main "
+              "figures, all for a table",
+      .fallback = "auto"},
+     text_at<&A::isa>,
+     {.read = read_parsed<parse_isas, &R::isas>, .names = choice_names<instruction_sets>}},
+    {assets_option, text_at<&A::assets>}};
+
+constexpr Row report[] = {
+    {{.name = "--json", .argument = "FILE", .help = "Write all figures as JSON", .files = "json"},
+     text_at<&A::json>, name_at<&R::json>},
+    {{.name = "--compare", .argument = "OLD.json",
+      .help = "Say which figures changed since that report, and which of it is noise",
+      .files = "json"},
+     text_at<&A::compare>, name_at<&R::compare>},
+    {{.name = "--plot", .argument = "FILE.svg",
+      .help = "Draw the tables of --threads and --isa as a chart", .files = "svg"},
+     text_at<&A::plot>, name_at<&R::plot>}};
+// clang-format on
+
+constexpr OptionGroup<A, R> groups[] = {
+    {"", scenes}, {"Measurement", measurement}, {"Report", report}};
 
 }  // namespace
 
-void add_bench_options(CLI::App& command, BenchArguments& arguments) {
-    command.add_option("SCENE", arguments.scenes, "glTF 2.0 files [those in the assets folder]")
-        ->type_name("");
-    add_measurement_options(command, arguments);
-    add_report_options(command, arguments);
-    add_sampling_options(command, arguments.render, "4");
-    add_camera_options(command, arguments.render);
-    add_light_options(command, arguments.render);
-    add_fault_options(command, arguments.render);
-    command.footer(examples);
+std::span<const OptionGroup<A, R>> bench_option_groups() {
+    return groups;
+}
+
+Command bench_command(BenchArguments& arguments) {
+    Command command{"bench", "Measure how fast scenes render", notes};
+    command.options = bind_all(bench_option_groups(), arguments);
+    RenderArguments& render = arguments.render;
+    add_render_option(command, render, "--size", "Measurement").fallback =
+        size_text(bench_size) + "; " + size_text(bench_quantity_size) +
+        " for quantities, which take one sample a pixel";
+    add_render_option(command, render, "--quiet", "Report").info.help =
+        "Print the tables and errors only";
+    add_render_option(command, render, "--verbose", "Report");
+    add_render_group(command, render, "Sampling");
+    for (BoundOption& option : command.options) {
+        if (long_name(option.info) == "--spp") option.fallback = bench_spp;
+    }
+    add_render_group(command, render, "Camera");
+    add_render_group(command, render, "Light");
+    add_render_option(command, render, "--strict", "");
+    add_render_option(command, render, "--lenient", "");
+    command.run = [&arguments] { return run_bench(arguments); };
+    return command;
 }
 
 }  // namespace obscura

@@ -1,16 +1,16 @@
-// app/bench_options.h - the options of `obscura bench`.
+// app/bench_options.h - the table of the options of `obscura bench`.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "app/bench_request.h"
-
-namespace CLI {
-class App;
-}
+#include "app/command.h"
 
 namespace obscura {
 
-/// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.
-void add_bench_options(CLI::App& command, BenchArguments& arguments);
+/// The bench's own options.
+std::span<const OptionGroup<BenchArguments, BenchRequest>> bench_option_groups();
+
+/// The subcommand; parsing fills `arguments`, which must outlive it.
+Command bench_command(BenchArguments& arguments);
 
 }  // namespace obscura

@@ -3,7 +3,9 @@
 #include "app/bench_request.h"
 
 #include "app/asset_choice.h"
-#include "app/numbers.h"
+#include "app/bench_options.h"
+#include "app/option_readers.h"
+#include "app/render_options.h"
 #include "base/parallel.h"
 #include "render/integrators.h"
 
@@ -30,75 +32,8 @@ std::vector<std::string> split_at_commas(const std::string& text) {
     return parts;
 }
 
-/// Each thread count once, 0 as the number of cores; the greatest first.
-Result<std::vector<int>> parse_threads(const std::string& text) {
-    std::vector<int> counts;
-    for (const std::string& part : split_at_commas(text)) {
-        const Result<int64_t> count = parse_integer(part, "--threads", 0, 1024);
-        if (!count) return fail(count.error());
-        counts.push_back(ThreadLimit(static_cast<int>(*count)).threads());
-    }
-    std::sort(counts.begin(), counts.end(), std::greater<>());
-    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
-    return counts;
-}
-
-/// Each instruction set once, in the order given; "all" is what this CPU has, widest first.
-Result<std::vector<Isa>> parse_isas(const std::string& text) {
-    std::vector<Isa> isas;
-    const auto add = [&](Isa isa) {
-        if (std::find(isas.begin(), isas.end(), isa) == isas.end()) isas.push_back(isa);
-    };
-    for (const std::string& part : split_at_commas(text)) {
-        if (part == "all") {
-            for (const Isa isa : {Isa::avx512, Isa::avx2, Isa::baseline}) {
-                if (has_isa(isa)) add(isa);
-            }
-            continue;
-        }
-        const Result<Isa> isa = parse_isa(part);
-        if (!isa) return fail(isa.error());
-        add(*isa);
-    }
-    return isas;
-}
-
-Result<ViewChoice> parse_view(const std::string& text) {
-    if (text == "whole") return ViewChoice::whole;
-    if (text == "close") return ViewChoice::close;
-    if (text == "both") return ViewChoice::both;
-    return fail(ExitCode::usage,
-                "E-USAGE-CHOICE",
-                "--view",
-                in_quotes(text) + " is not accepted; expected one of: whole, close, both");
-}
-
-/// The bench's own numbers and lists.
-Result<void> parse_own(const BenchArguments& arguments, BenchRequest& request) {
-    const Result<std::vector<int>> threads = parse_threads(arguments.threads.value_or("0"));
-    if (!threads) return fail(threads.error());
-    request.threads = *threads;
-    const Result<std::vector<Isa>> isas = parse_isas(arguments.isa.value_or("auto"));
-    if (!isas) return fail(isas.error());
-    request.isas = *isas;
-    const Result<int64_t> repeat =
-        parse_integer(arguments.repeat.value_or("5"), "--repeat", 1, 1000);
-    if (!repeat) return fail(repeat.error());
-    request.repeat = static_cast<int>(*repeat);
-    const Result<ViewChoice> view = parse_view(arguments.view.value_or("both"));
-    if (!view) return fail(view.error());
-    request.views = *view;
-    return {};
-}
-
-Result<void> check_combinations(const BenchArguments& arguments, const BenchRequest& request) {
+Result<void> check_sense(const BenchArguments& arguments, const BenchRequest& request) {
     const RenderArguments& render = arguments.render;
-    const bool by_hand = render.eye || render.target || render.up;
-    if (arguments.view && by_hand) {
-        return conflict("--view",
-                        "it cannot go together with --eye, --target or --up, which are a view of "
-                        "their own; give one or the other");
-    }
     if (render.camera_model && *render.camera_model != "pinhole") {
         return conflict("--camera-model", "the bench measures through a pinhole; leave it out");
     }
@@ -107,19 +42,10 @@ Result<void> check_combinations(const BenchArguments& arguments, const BenchRequ
                         "there is nothing to draw; give several --threads (1,2,4) or several "
                         "--isa (all)");
     }
-    if (arguments.assets && !arguments.scenes.empty()) {
-        return conflict("--assets", "it cannot go together with a SCENE; give one or the other");
-    }
-    for (const auto* name : {&arguments.json, &arguments.plot, &arguments.compare}) {
-        if (*name && (*name)->empty()) {
-            return conflict("--json, --plot, --compare",
-                            "the name is empty; give one or leave out the option");
-        }
-    }
     return {};
 }
 
-/// One scene's request. Quantities take one sample a pixel, so they get more pixels.
+/// One scene's request.
 Result<RenderRequest> request_for(const BenchArguments& arguments, const std::string& scene) {
     RenderArguments render = arguments.render;
     render.scene_file = scene;
@@ -127,14 +53,15 @@ Result<RenderRequest> request_for(const BenchArguments& arguments, const std::st
     for (const auto* output : {&arguments.json, &arguments.plot}) {
         if (*output) render.outputs.push_back(**output);
     }
-    if (!render.spp) render.spp = "4";
+    if (!render.spp) render.spp = bench_spp;
     Result<RenderRequest> request = make_render_request(render);
-    if (request && !render.size) {
-        const bool quantity = is_quantity(request->options.integrator);
-        request->options.width = quantity ? 1920 : 640;
-        request->options.height = quantity ? 1080 : 360;
-    }
     if (!request) return request;
+    if (!render.size) {
+        const bool quantity = is_quantity(request->options.integrator);
+        const auto& [width, height] = quantity ? bench_quantity_size : bench_size;
+        request->options.width = width;
+        request->options.height = height;
+    }
     request->options.samples_per_pixel = samples_taken(request->options);
     if (request->options.integrator == Integrator::heat) {
         return fail(ExitCode::usage,
@@ -147,13 +74,47 @@ Result<RenderRequest> request_for(const BenchArguments& arguments, const std::st
 
 }  // namespace
 
+Result<std::vector<int>> parse_thread_counts(const std::string& text, const std::string& option) {
+    std::vector<int> counts;
+    for (const std::string& part : split_at_commas(text)) {
+        const Result<int64_t> count = parse_integer(part, option, 0, 1024);
+        if (!count) return fail(count.error());
+        counts.push_back(ThreadLimit(static_cast<int>(*count)).threads());
+    }
+    std::sort(counts.begin(), counts.end(), std::greater<>());
+    counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+    return counts;
+}
+
+Result<std::vector<Isa>> parse_isas(const std::string& text, const std::string& option) {
+    std::vector<Isa> isas;
+    const auto add = [&](Isa isa) {
+        if (std::find(isas.begin(), isas.end(), isa) == isas.end()) isas.push_back(isa);
+    };
+    for (const std::string& part : split_at_commas(text)) {
+        if (part == "all") {
+            for (const Isa isa : {Isa::avx512, Isa::avx2, Isa::baseline}) {
+                if (has_isa(isa)) add(isa);
+            }
+            continue;
+        }
+        const Result<Isa> isa = choose_option(part, option, instruction_sets);
+        if (!isa) return fail(isa.error());
+        add(*isa);
+    }
+    return isas;
+}
+
 Result<BenchRequest> make_bench_request(const BenchArguments& arguments) {
     BenchRequest request;
-    if (arguments.json) request.json = *arguments.json;
-    if (arguments.plot) request.plot = *arguments.plot;
-    if (arguments.compare) request.compare = *arguments.compare;
-    if (auto parsed = parse_own(arguments, request); !parsed) return fail(parsed.error());
-    if (auto sound = check_combinations(arguments, request); !sound) return fail(sound.error());
+    BenchArguments texts = arguments;
+    if (!texts.threads) texts.threads = "0";
+    if (!texts.isa) texts.isa = "auto";
+    const auto table = bench_option_groups();
+    if (auto read = read_options(table, texts, request); !read) return fail(read.error());
+    const Command command = bench_command(texts);
+    if (auto fit = check_combinations(command.options); !fit) return fail(fit.error());
+    if (auto sound = check_sense(arguments, request); !sound) return fail(sound.error());
     Result<std::vector<RenderRequest>> scenes =
         requests_for(arguments.scenes, arguments.assets, [&](const std::string& scene) {
             return request_for(arguments, scene);

@@ -32,6 +32,18 @@ struct BenchRequest {
     Verbosity verbosity = Verbosity::normal;
 };
 
+/// What the bench takes without --size and --spp: quantities take one sample a pixel, so they get
+/// more pixels.
+inline constexpr std::array<int, 2> bench_size = {640, 360};
+inline constexpr std::array<int, 2> bench_quantity_size = {1920, 1080};
+inline constexpr const char* bench_spp = "4";
+
+/// Each thread count once, 0 as the number of cores; the greatest first.
+Result<std::vector<int>> parse_thread_counts(const std::string& text, const std::string& option);
+
+/// Each instruction set once, in the order given; "all" is what this CPU has, widest first.
+Result<std::vector<Isa>> parse_isas(const std::string& text, const std::string& option);
+
 /// Reads the texts; looks for assets when no scene is given.
 ///
 /// Errors  those of make_render_request, with the same ids for the bench's own options;

@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_views.h"
 
-#include "app/framing.h"
-
+#include "session/framing.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -6,6 +6,7 @@
 #include "app/skipped_scenes.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
+#include "crosscheck/budget.h"
 #include "crosscheck/report_image.h"
 #include "crosscheck/report_json.h"
 #include "crosscheck/report_table.h"
@@ -73,11 +74,7 @@ Result<void> deliver(const CrosscheckRequest& request,
                                            nullptr);
         if (!written) return written;
     }
-    for (const CheckedScene& scene : scenes) {
-        if (scene.faults.empty()) continue;
-        return fail(ExitCode::outside_budget, "E-CROSSCHECK", scene.file, scene.faults.front());
-    }
-    return {};
+    return check_budget(scenes);
 }
 
 Result<void> execute(const CrosscheckRequest& request, Log& log) {
@@ -109,7 +106,7 @@ Result<void> execute(const CrosscheckRequest& request, Log& log) {
 }  // namespace
 
 int run_crosscheck(const CrosscheckArguments& arguments) {
-    Log log(verbosity_of(arguments.render));
+    TerminalLog log(verbosity_of(arguments.render));
     const Result<CrosscheckRequest> request = make_crosscheck_request(arguments);
     if (!request) return report_failure(request.error(), log);
     const Result<void> done = execute(*request, log);

@@ -1,19 +1,21 @@
-// app/crosscheck_options.cpp - the options of `obscura crosscheck`.
+// app/crosscheck_options.cpp - the table of the options of `obscura crosscheck`.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/crosscheck_options.h"
 
 #include "app/asset_choice.h"
-#include "app/option_group.h"
+#include "app/crosscheck_command.h"
+#include "app/option_readers.h"
 #include "app/render_options.h"
-
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 
 namespace obscura {
 
 namespace {
 
-constexpr const char* examples = R"(
+using A = CrosscheckArguments;
+using R = CrosscheckRequest;
+using Row = OptionRow<A, R>;
+
+constexpr const char* notes = R"(
 Ends with exit code 0 when everything is within the budget of docs/crosscheck.md, 1 otherwise.
 
 Examples:
@@ -26,55 +28,67 @@ Examples:
   obscura crosscheck helmet.glb --export-embree out
       beside the pictures of Embree's own viewer)";
 
-void add_check_options(CLI::App& command, CrosscheckArguments& arguments) {
-    OptionGroup group(command, "Check");
-    group.text("--rays",
-               arguments.rays,
-               "N",
-               "Rays that are compared, such as 250k or 10M; as many\n"
-               "are spawned and ten times as many look for leaks [1M]");
-    group.text("--ray",
-               arguments.ray,
-               "RAY",
-               "ox,oy,oz,dx,dy,dz: ask every kernel about this one ray\n"
-               "and print the answers");
-    group.text("--size", arguments.render.size, "WxH", "Picture of the camera's rays [640x360]");
-    group.text("--seed", arguments.render.seed, "N", "Random numbers; equal seeds, equal rays [0]");
-    group.text("--threads", arguments.render.threads, "N", "0 is every core [0]");
-    group.text("--isa",
-               arguments.render.isa,
-               "NAME",
-               "Instruction set of the renderer's own queries: auto,\n"
-               "baseline, avx2, avx512; Embree's are all checked [auto]");
-    add_assets_option(group, arguments.assets);
-}
+// clang-format off
+constexpr Row scenes[] = {
+    {{.name = "SCENE", .help = "glTF 2.0 files", .fallback = "those in the assets folder",
+      .files = "gltf glb"},
+     text_at<&A::scenes>}};
 
-void add_report_options(CLI::App& command, CrosscheckArguments& arguments) {
-    OptionGroup group(command, "Report");
-    group.text("--json", arguments.json, "FILE", "Write all figures as JSON");
-    group.text("--image",
-               arguments.image,
-               "FILE.png",
-               "Draw where on the screen answers differ from the truth");
-    group.text("--export-embree",
-               arguments.export_embree,
-               "DIR",
-               "Write what Embree's tutorial programs read and compare\n"
-               "with their viewer's pictures where it is installed");
-    group.flag("--quiet", arguments.render.quiet, "Print the tables and errors only");
-    group.flag("--verbose", arguments.render.verbose, "Print more notes");
-}
+constexpr Row check[] = {
+    {{.name = "--rays", .argument = "N",
+      .help = "Rays that are compared, such as 250k, 10M or 1G; as many are spawned and ten times "
+              "as many look for leaks. 48 bytes each are kept",
+      .fallback = "1M"},
+     text_at<&A::rays>, parsed_at<parse_count, &R::rays>},
+    {{.name = "--ray", .argument = "OX,OY,OZ,DX,DY,DZ[,END]",
+      .help = "Ask every kernel about this one ray and print the answers; with an end, in lengths "
+              "of its direction, about occlusion",
+      .excludes = {"--json", "--image", "--export-embree"}},
+     text_at<&A::ray>, parsed_at<parse_ray, &R::ray>},
+    {assets_option, text_at<&A::assets>}};
+
+constexpr Row report[] = {
+    {{.name = "--json", .argument = "FILE", .help = "Write all figures as JSON", .files = "json"},
+     text_at<&A::json>, name_at<&R::json>},
+    {{.name = "--image", .argument = "FILE.png",
+      .help = "Draw where on the screen answers differ from the truth: grey agrees, blue equal "
+              "depth, green edge, yellow crack or edge-on, red unexplained, black none",
+      .files = "png"},
+     text_at<&A::image>, name_at<&R::image>},
+    {{.name = "--export-embree", .argument = "DIR",
+      .help = "Write what Embree's tutorial programs read, mesh.obj and mesh.ecs, and compare with "
+              "their viewer's pictures where it is on $PATH",
+      .files = "/"},
+     text_at<&A::export_embree>, name_at<&R::export_embree>}};
+// clang-format on
+
+constexpr OptionGroup<A, R> groups[] = {{"", scenes}, {"Check", check}, {"Report", report}};
 
 }  // namespace
 
-void add_crosscheck_options(CLI::App& command, CrosscheckArguments& arguments) {
-    command.add_option("SCENE", arguments.scenes, "glTF 2.0 files [those in the assets folder]")
-        ->type_name("");
-    add_check_options(command, arguments);
-    add_report_options(command, arguments);
-    add_camera_options(command, arguments.render);
-    add_fault_options(command, arguments.render);
-    command.footer(examples);
+std::span<const OptionGroup<A, R>> crosscheck_option_groups() {
+    return groups;
+}
+
+Command crosscheck_command(CrosscheckArguments& arguments) {
+    Command command{"crosscheck", "Check intersections against Embree and in double", notes};
+    command.options = bind_all(crosscheck_option_groups(), arguments);
+    RenderArguments& render = arguments.render;
+    BoundOption& size = add_render_option(command, render, "--size", "Check");
+    size.info.help = "Width and height of the picture of the camera's rays";
+    size.fallback = crosscheck_size;
+    add_render_option(command, render, "--seed", "Check");
+    add_render_option(command, render, "--threads", "Check");
+    add_render_option(command, render, "--isa", "Check").info.help =
+        "Instruction set of the renderer's own queries (Embree's are all checked):";
+    add_render_option(command, render, "--quiet", "Report").info.help =
+        "Print the tables and errors only";
+    add_render_option(command, render, "--verbose", "Report");
+    add_render_group(command, render, "Camera");
+    add_render_option(command, render, "--strict", "");
+    add_render_option(command, render, "--lenient", "");
+    command.run = [&arguments] { return run_crosscheck(arguments); };
+    return command;
 }
 
 }  // namespace obscura

@@ -1,16 +1,16 @@
-// app/crosscheck_options.h - the options of `obscura crosscheck`.
+// app/crosscheck_options.h - the table of the options of `obscura crosscheck`.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/command.h"
 #include "app/crosscheck_request.h"
-
-namespace CLI {
-class App;
-}
 
 namespace obscura {
 
-/// Adds them to the subcommand; the texts arrive in `arguments`.
-void add_crosscheck_options(CLI::App& command, CrosscheckArguments& arguments);
+/// The command's own options.
+std::span<const OptionGroup<CrosscheckArguments, CrosscheckRequest>> crosscheck_option_groups();
+
+/// The subcommand; parsing fills `arguments`, which must outlive it.
+Command crosscheck_command(CrosscheckArguments& arguments);
 
 }  // namespace obscura

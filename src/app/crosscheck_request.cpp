@@ -3,8 +3,8 @@
 #include "app/crosscheck_request.h"
 
 #include "app/asset_choice.h"
+#include "app/crosscheck_options.h"
 #include "app/numbers.h"
-#include "app/option_steps.h"
 
 namespace obscura {
 
@@ -12,10 +12,35 @@ namespace {
 
 constexpr uint64_t most_rays = 1000000000000;
 
-Result<TrueRay> parse_ray(const std::string& text) {
+/// What shows one scene needs to know which.
+Result<void> check_one_scene(const CrosscheckArguments& arguments) {
+    if (arguments.scenes.size() == 1) return {};
+    for (const auto& [option, text] : {std::pair{"--ray", &arguments.ray},
+                                       std::pair{"--image", &arguments.image},
+                                       std::pair{"--export-embree", &arguments.export_embree}}) {
+        if (*text) return fail(ExitCode::usage, "E-USAGE-CONFLICT", option, "it needs one SCENE");
+    }
+    return {};
+}
+
+/// One scene's request.
+Result<RenderRequest> request_for(const CrosscheckArguments& arguments, const std::string& scene) {
+    RenderArguments render = arguments.render;
+    render.scene_file = scene;
+    render.writes_pictures = false;
+    if (!render.size) render.size = crosscheck_size;
+    for (const auto* output : {&arguments.json, &arguments.image}) {
+        if (*output) render.outputs.push_back(**output);
+    }
+    return make_render_request(render);
+}
+
+}  // namespace
+
+Result<TrueRay> parse_ray(const std::string& text, const std::string& option) {
     const Result<std::vector<double>> numbers =
         parse_numbers(text,
-                      "--ray",
+                      option,
                       {"ox,oy,oz,dx,dy,dz: where the ray begins and its direction; a seventh, its "
                        "end, in lengths "
                        "of the direction",
@@ -28,43 +53,8 @@ Result<TrueRay> parse_ray(const std::string& text) {
     TrueRay ray{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
     if (n.size() > 6) ray.end = n[6];
     if (static_cast<float>(length(ray.direction)) > 0.0f) return ray;
-    return fail(ExitCode::usage, "E-USAGE-RANGE", "--ray", "the direction must not be 0,0,0");
+    return fail(ExitCode::usage, "E-USAGE-RANGE", option, "the direction must not be 0,0,0");
 }
-
-Result<void> check_combinations(const CrosscheckArguments& arguments) {
-    OptionSteps steps;
-    const bool many = arguments.scenes.size() != 1;
-    steps.refuse(arguments.assets && !arguments.scenes.empty(),
-                 "--assets",
-                 "it cannot go together with a SCENE; give one or the other");
-    steps.refuse(arguments.ray && many, "--ray", "it needs one SCENE");
-    steps.refuse(arguments.image && many, "--image", "it needs one SCENE");
-    steps.refuse(arguments.export_embree && many, "--export-embree", "it needs one SCENE");
-    steps.refuse(arguments.ray && (arguments.json || arguments.image || arguments.export_embree),
-                 "--ray",
-                 "it prints one ray and writes no file; leave out --json, --image and "
-                 "--export-embree");
-    for (const auto* name : {&arguments.json, &arguments.image, &arguments.export_embree}) {
-        steps.refuse(*name && (*name)->empty(),
-                     "--json, --image, --export-embree",
-                     "the name is empty; give one or leave out the option");
-    }
-    return steps.done();
-}
-
-/// One scene's request.
-Result<RenderRequest> request_for(const CrosscheckArguments& arguments, const std::string& scene) {
-    RenderArguments render = arguments.render;
-    render.scene_file = scene;
-    render.writes_pictures = false;
-    if (!render.size) render.size = "640x360";
-    for (const auto* output : {&arguments.json, &arguments.image}) {
-        if (*output) render.outputs.push_back(**output);
-    }
-    return make_render_request(render);
-}
-
-}  // namespace
 
 Result<uint64_t> parse_count(const std::string& text, const std::string& option) {
     std::string digits = text;
@@ -99,17 +89,12 @@ Result<uint64_t> parse_count(const std::string& text, const std::string& option)
 
 Result<CrosscheckRequest> make_crosscheck_request(const CrosscheckArguments& arguments) {
     CrosscheckRequest request;
-    if (auto sound = check_combinations(arguments); !sound) return fail(sound.error());
-    OptionSteps steps;
-    steps.option(
-        arguments.rays,
-        [](const std::string& text) { return parse_count(text, "--rays"); },
-        [&](uint64_t rays) { request.rays = rays; });
-    steps.option(arguments.ray, parse_ray, [&](const TrueRay& ray) { request.ray = ray; });
-    if (auto done = steps.done(); !done) return fail(done.error());
-    if (arguments.json) request.json = *arguments.json;
-    if (arguments.image) request.image = *arguments.image;
-    if (arguments.export_embree) request.export_embree = *arguments.export_embree;
+    CrosscheckArguments texts = arguments;
+    const auto table = crosscheck_option_groups();
+    if (auto one = check_one_scene(arguments); !one) return fail(one.error());
+    if (auto read = read_options(table, texts, request); !read) return fail(read.error());
+    const Command command = crosscheck_command(texts);
+    if (auto fit = check_combinations(command.options); !fit) return fail(fit.error());
     Result<std::vector<RenderRequest>> scenes =
         requests_for(arguments.scenes, arguments.assets, [&](const std::string& scene) {
             return request_for(arguments, scene);

@@ -29,6 +29,14 @@ struct CrosscheckRequest {
     std::optional<std::filesystem::path> export_embree;
 };
 
+/// What the command takes without --size.
+inline constexpr const char* crosscheck_size = "640x360";
+
+/// "ox,oy,oz,dx,dy,dz" or with an end behind.
+///
+/// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE
+Result<TrueRay> parse_ray(const std::string& text, const std::string& option);
+
 /// "250000", "10M": a whole number, or one with k, M or G behind it.
 ///
 /// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE: from 1 to 10^12

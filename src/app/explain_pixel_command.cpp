@@ -2,31 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/explain_pixel_command.h"
 
-#include "app/autofocus.h"
-#include "app/lighting.h"
+#include "app/explain_pixel_options.h"
 #include "app/numbers.h"
 #include "app/outcome.h"
-#include "app/requested_camera.h"
-#include "app/stroke_scaling.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "gltf/load.h"
 
 #include "explain/explain_pixel.h"
+#include "session/focus.h"
+#include "session/lighting.h"
+#include "session/requested_camera.h"
 #include <span>
 
 namespace obscura {
 
 namespace {
-
-/// Everything that was asked for, checked.
-struct ExplainRequest {
-    RenderRequest render;
-    PixelPlace pixel;
-    std::optional<std::filesystem::path> output;
-    size_t most_objects = 16;
-    bool json = false;
-};
 
 /// Reads X,Y, once the picture's size is known.
 ///
@@ -59,11 +50,9 @@ Result<void> check_drawing(const std::filesystem::path& file) {
 
 Result<ExplainRequest> make_request(const ExplainPixelArguments& arguments, Log& log) {
     ExplainRequest request;
-    if (arguments.objects) {
-        const Result<int64_t> most = parse_integer(*arguments.objects, "--objects", 1, 100000);
-        if (!most) return fail(most.error());
-        request.most_objects = static_cast<size_t>(*most);
-    }
+    ExplainPixelArguments texts = arguments;
+    const auto table = explain_pixel_option_groups();
+    if (auto read = read_options(table, texts, request); !read) return fail(read.error());
     RenderArguments render = arguments.render;
     render.writes_pictures = false;
     if (arguments.output) render.outputs = {*arguments.output};  // must not replace what is read
@@ -83,7 +72,6 @@ Result<ExplainRequest> make_request(const ExplainPixelArguments& arguments, Log&
     const Result<PixelPlace> pixel = parse_place(arguments.pixel, request.render.options);
     if (!pixel) return fail(pixel.error());
     request.pixel = *pixel;
-    request.json = arguments.json;
     if (!arguments.output) return request;
     request.output = *arguments.output;
     if (auto sound = check_drawing(*request.output); !sound) return fail(sound.error());
@@ -94,9 +82,9 @@ Result<PixelReport> explain(const ExplainRequest& request, Log& log) {
     const RenderRequest& render = request.render;
     Result<Scene> scene = load_gltf(render.scene, render.load, log);
     if (!scene) return fail(scene.error());
-    if (auto scaled = scale_strokes(render, *scene); !scaled) return fail(scaled.error());
     Result<ChosenCamera> camera = choose_unfocused_camera(*scene, render, log);
     if (!camera) return fail(camera.error());
+    if (has_strokes(*scene)) size_strokes(render.strokes, camera->camera, *scene);
     const Result<LightingOptions> lighting = load_lighting(render, log);
     if (!lighting) return fail(lighting.error());
     const Result<PreparedScene> prepared =
@@ -130,7 +118,7 @@ Result<void> execute(const ExplainRequest& request, Log& log) {
 }  // namespace
 
 int run_explain_pixel(const ExplainPixelArguments& arguments) {
-    Log log(verbosity_of(arguments.render));
+    TerminalLog log(verbosity_of(arguments.render));
     const Result<ExplainRequest> request = make_request(arguments, log);
     if (!request) return report_failure(request.error(), log);
     const Result<void> done = execute(*request, log);

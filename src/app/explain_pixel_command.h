@@ -4,6 +4,11 @@
 
 #include "app/render_request.h"
 
+#include "explain/explain_pixel.h"
+#include <filesystem>
+#include <optional>
+#include <string>
+
 namespace obscura {
 
 /// The texts of the options as they stood on the command line. The scene, the picture's size, the
@@ -12,6 +17,15 @@ struct ExplainPixelArguments {
     RenderArguments render;
     std::string pixel;  ///< "X,Y"
     std::optional<std::string> output, objects;
+    bool json = false;
+};
+
+/// Everything that was asked for, checked.
+struct ExplainRequest {
+    RenderRequest render;
+    PixelPlace pixel;
+    std::optional<std::filesystem::path> output;
+    size_t most_objects = 16;
     bool json = false;
 };
 

@@ -1,16 +1,16 @@
-// app/explain_pixel_options.h - the options of `obscura explain-pixel`.
+// app/explain_pixel_options.h - the table of the options of `obscura explain-pixel`.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/command.h"
 #include "app/explain_pixel_command.h"
-
-namespace CLI {
-class App;
-}
 
 namespace obscura {
 
-/// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.
-void add_explain_pixel_options(CLI::App& command, ExplainPixelArguments& arguments);
+/// The command's own options.
+std::span<const OptionGroup<ExplainPixelArguments, ExplainRequest>> explain_pixel_option_groups();
+
+/// The subcommand; parsing fills `arguments`, which must outlive it.
+Command explain_pixel_command(ExplainPixelArguments& arguments);
 
 }  // namespace obscura

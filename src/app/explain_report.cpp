@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/explain_report.h"
 
-#include "base/json_writer.h"
+#include "base/json/json.h"
 #include "base/log.h"
 #include "gltf/report.h"
 
@@ -45,24 +45,19 @@ std::string explain_table(const AssetInfo& info) {
 }
 
 std::string explain_json(const AssetInfo& info) {
-    JsonWriter json;
-    json.begin_object();
-    json.member("version", OBSCURA_VERSION);
-    json.member("file", info.file_name);
+    Json json;
+    json["version"] = OBSCURA_VERSION;
+    json["file"] = info.file_name;
     for (const Verdict verdict : verdicts)
-        json.member(verdict_name(verdict), count_of(info, verdict));
-    json.key("report").begin_array();
+        json[verdict_name(verdict)] = count_of(info, verdict);
+    Json& report = json["report"] = Json::array();
     for (const ReportRow& row : info.report) {
-        json.begin_object();
-        json.member("place", row.place);
-        json.member("feature", row.feature);
-        json.member("verdict", verdict_name(row.verdict));
-        json.member("note", row.note);
-        json.end_object();
+        report.push_back({{"place", row.place},
+                          {"feature", row.feature},
+                          {"verdict", verdict_name(row.verdict)},
+                          {"note", row.note}});
     }
-    json.end_array();
-    json.end_object();
-    return std::move(json).take();
+    return json_document(json);
 }
 
 }  // namespace obscura

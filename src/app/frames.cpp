@@ -1,4 +1,4 @@
-// app/frames.cpp - the frames of a sequence: their numbers, times and file names.
+// app/frames.cpp - the options that ask for a sequence and for an open shutter.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/frames.h"
 
@@ -52,18 +52,6 @@ Result<FrameRange> parse_frames(std::string_view text, std::string_view option) 
     out.first = static_cast<int>(*first);
     out.last = static_cast<int>(*last);
     return out;
-}
-
-std::optional<std::filesystem::path> frame_file(const std::filesystem::path& pattern, int frame) {
-    const std::string name = pattern.filename().string();
-    const size_t begin = name.find('#');
-    if (begin == std::string::npos) return std::nullopt;
-    const size_t end = std::min(name.find_first_not_of('#', begin), name.size());
-    if (name.find('#', end) != std::string::npos) return std::nullopt;
-    std::string digits = std::to_string(frame);
-    const size_t width = end - begin;
-    if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
-    return pattern.parent_path() / (name.substr(0, begin) + digits + name.substr(end));
 }
 
 }  // namespace obscura

@@ -8,24 +8,9 @@
 #include "app/scene_choice.h"
 #include "gltf/load.h"
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
-
 namespace obscura {
 
 namespace {
-
-constexpr const char* examples = R"(
-Reads the whole file and checks it, but decodes no image; see `obscura render --help` for
-the exit codes.
-
-Examples:
-  obscura info helmet.glb
-  obscura info helmet.glb --json | jq .triangles_in_world
-      warnings and the closing RESULT line go to standard error, never into the JSON
-  obscura info helmet.glb --explain
-      what the file asks for, part by part: honoured, approximated (how), ignored (why))";
 
 std::string report_text(const InfoArguments& arguments, const Scene& scene, const Log& log) {
     if (arguments.explain) {
@@ -36,34 +21,8 @@ std::string report_text(const InfoArguments& arguments, const Scene& scene, cons
 
 }  // namespace
 
-void add_info_options(CLI::App& command, InfoArguments& arguments) {
-    command.add_option("SCENE", arguments.scene_file, "glTF 2.0 file, .gltf or .glb")
-        ->type_name("")
-        ->required();
-    command.add_flag("--json", arguments.json, "Print JSON instead of a table");
-    const auto store = [&arguments](const std::string& given) { arguments.scene = given; };
-    command
-        .add_option_function<std::string>(
-            "--scene", store, "Scene of a file that holds several [the file's default]")
-        ->type_name("NAME|INDEX");
-    const auto store_variant = [&arguments](const std::string& given) {
-        arguments.variant = given;
-    };
-    command
-        .add_option_function<std::string>(
-            "--variant", store_variant, "Look of a product [the file's own materials]")
-        ->type_name("NAME");
-    command.add_flag("--explain",
-                     arguments.explain,
-                     "Print what becomes of every extension and feature, part by part");
-    command.add_flag(
-        "--lenient", arguments.lenient, "Make do with faults as `obscura render --lenient` does");
-    command.add_flag("--quiet", arguments.quiet, "Print no warnings");
-    command.footer(examples);
-}
-
 int run_info(const InfoArguments& arguments) {
-    Log log(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
+    TerminalLog log(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
     Result<LoadOptions> options = choose_scene(arguments.scene, arguments.variant);
     if (!options) return report_failure(options.error(), log);
     options->info_only = true;

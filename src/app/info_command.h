@@ -5,10 +5,6 @@
 #include <optional>
 #include <string>
 
-namespace CLI {
-class App;
-}
-
 namespace obscura {
 
 struct InfoArguments {
@@ -19,9 +15,6 @@ struct InfoArguments {
     bool quiet = false;
     bool lenient = false;
 };
-
-/// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.
-void add_info_options(CLI::App& command, InfoArguments& arguments);
 
 /// Prints what is in the file, or what becomes of it, as a table or as JSON. Returns the exit code.
 int run_info(const InfoArguments& arguments);

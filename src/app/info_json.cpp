@@ -1,11 +1,11 @@
 // app/info_json.cpp - what `obscura info --json` says about a scene.
 // SPDX-License-Identifier: Apache-2.0
-#include "app/camera_build.h"
-#include "app/framing.h"
 #include "app/info_report.h"
-#include "base/json_writer.h"
+#include "base/json/json.h"
 #include "camera/matrices.h"
 
+#include "session/camera_build.h"
+#include "session/framing.h"
 #include <cmath>
 #include <numeric>
 
@@ -13,48 +13,38 @@ namespace obscura {
 
 namespace {
 
-void write_names(JsonWriter& json, const char* key, const std::vector<std::string>& names) {
-    json.key(key).begin_array();
-    for (const std::string& name : names)
-        json.value(name);
-    json.end_array();
+Json counts_json(const char* count_key, const std::vector<NamedCount>& items) {
+    Json out = Json::array();
+    for (const NamedCount& item : items)
+        out.push_back({{"name", item.name}, {count_key, item.count}});
+    return out;
 }
 
-void write_counts(JsonWriter& json,
-                  const char* key,
-                  const char* count_key,
-                  const std::vector<NamedCount>& items) {
-    json.key(key).begin_array();
-    for (const NamedCount& item : items) {
-        json.begin_object().member("name", item.name).member(count_key, item.count).end_object();
-    }
-    json.end_array();
-}
-
-void write_animations(JsonWriter& json, const AssetInfo& info) {
-    json.key("animations").begin_array();
+Json animations_json(const AssetInfo& info) {
+    Json out = Json::array();
     for (const AnimationInfo& animation : info.animations) {
-        json.begin_object().member("name", animation.name).member("channels", animation.channels);
-        json.member("duration_s", animation.end_s).end_object();
+        out.push_back({{"name", animation.name},
+                       {"channels", animation.channels},
+                       {"duration_s", animation.end_s}});
     }
-    json.end_array();
+    return out;
 }
 
 /// A 4x4 matrix for column vectors, row by row.
-void write_matrix(JsonWriter& json, const char* key, const Affined& matrix) {
-    json.key(key).begin_array();
+Json matrix_json(const Affined& matrix) {
+    Json out = Json::array();
     for (const auto& row : matrix.m) {
         for (const double number : row)
-            json.value(number);
+            out.push_back(number);
     }
     for (const double number : {0.0, 0.0, 0.0, 1.0})
-        json.value(number);
-    json.end_array();
+        out.push_back(number);
+    return out;
 }
 
 /// World to normalised device coordinates in the picture that the file's camera names, where there
 /// is such a matrix; for column vectors, row by row.
-void write_ndc(JsonWriter& json, const SceneCamera& source, const Affined& rigid) {
+void add_ndc(const SceneCamera& source, const Affined& rigid, Json& json) {
     const bool parallel = source.type == SceneCameraType::orthographic;
     const double aspect = parallel ? source.xmag_m / source.ymag_m : source.aspect;
     CameraBasis basis;
@@ -72,151 +62,140 @@ void write_ndc(JsonWriter& json, const SceneCamera& source, const Affined& rigid
     const double zfar = source.zfar_m > znear ? source.zfar_m : 1e6 * znear;
     const CameraMatrices matrices = camera_matrices(*camera, znear, zfar);
     if (!matrices.has_ndc) return;
-    json.key("ndc_from_world").begin_array();
+    Json& out = json["ndc_from_world"] = Json::array();
     for (int r = 0; r < 4; ++r) {
         for (int c = 0; c < 4; ++c)
-            json.value(static_cast<double>(matrices.world_to_ndc[4 * c + r]));
+            out.push_back(static_cast<double>(matrices.world_to_ndc[4 * c + r]));
     }
-    json.end_array();
 }
 
-void write_triple(JsonWriter& json, const char* key, const float* values) {
-    json.key(key).begin_array();
-    for (int i = 0; i < 3; ++i)
-        json.value(static_cast<double>(values[i]));
-    json.end_array();
+Json triple_json(const float* values) {
+    const auto number = [&](int i) { return static_cast<double>(values[i]); };
+    return Json::array({number(0), number(1), number(2)});
 }
 
-void write_images(JsonWriter& json, const AssetInfo& info) {
+Json triple_json(const Vec3f& v) {
+    const float values[3] = {v.x, v.y, v.z};
+    return triple_json(values);
+}
+
+void add_images(const AssetInfo& info, Json& json) {
     size_t all_bytes = 0;
-    json.key("textures").begin_array();
+    Json& textures = json["textures"] = Json::array();
     for (const ImageInfo& image : info.images) {
-        json.begin_object();
-        json.member("name", image.name);
-        json.member("format", image.format);
-        json.member("width", image.width);
-        json.member("height", image.height);
-        json.member("bits", image.bits);
-        json.member("used_as_color", image.used_as_color);
-        json.member("used_as_data", image.used_as_data);
-        json.member("memory_bytes", texture_bytes(image));
-        json.end_object();
+        textures.push_back({{"name", image.name},
+                            {"format", image.format},
+                            {"width", image.width},
+                            {"height", image.height},
+                            {"bits", image.bits},
+                            {"used_as_color", image.used_as_color},
+                            {"used_as_data", image.used_as_data},
+                            {"memory_bytes", texture_bytes(image)}});
         all_bytes += texture_bytes(image);
     }
-    json.end_array();
-    json.member("texture_memory_bytes", all_bytes);
+    json["texture_memory_bytes"] = all_bytes;
 }
 
-void write_lights(JsonWriter& json, const Scene& scene) {
-    json.key("lights").begin_array();
+Json lights_json(const Scene& scene) {
+    Json out = Json::array();
     for (size_t i = 0; i < scene.lights.size(); ++i) {
         const PunctualLight& light = scene.lights[i];
-        json.begin_object();
-        json.member("name", i < scene.info.light_names.size() ? scene.info.light_names[i] : "");
-        json.member("type", light_type_name(light));
-        write_triple(json, "intensity", light.intensity);
-        json.member("unit", light_unit_name(light));
-        write_triple(json, "position", light.position);
-        write_triple(json, "direction", light.direction);
-        json.key("range_m");
-        light.range > 0 ? json.value(static_cast<double>(light.range)) : json.value(INFINITY);
-        json.end_object();
+        const double range_m = light.range > 0 ? static_cast<double>(light.range) : INFINITY;
+        const auto& names = scene.info.light_names;
+        out.push_back({{"name", i < names.size() ? names[i] : ""},
+                       {"type", light_type_name(light)},
+                       {"intensity", triple_json(light.intensity)},
+                       {"unit", light_unit_name(light)},
+                       {"position", triple_json(light.position)},
+                       {"direction", triple_json(light.direction)},
+                       {"range_m", range_m}});
     }
-    json.end_array();
+    return out;
 }
 
-void write_cameras(JsonWriter& json, const Scene& scene) {
-    json.key("cameras").begin_array();
-    for (const SceneCamera& camera : scene.cameras) {
-        json.begin_object();
-        json.member("name", camera.name);
-        json.member("type", camera_type_name(camera));
-        json.member("model", camera_model_name(camera));
-        json.key("settings").begin_object();
-        for (const auto& [name, value] : settings_texts(camera.settings))
-            json.member(name, value);
-        json.end_object();
-        if (camera.type == SceneCameraType::orthographic) {
-            json.member("xmag_m", camera.xmag_m);
-            json.member("ymag_m", camera.ymag_m);
-        } else {
-            json.member("yfov_rad", camera.yfov_rad);
-            json.key("aspect");
-            json.value(camera.aspect > 0 ? camera.aspect : static_cast<double>(NAN));
-        }
-        json.member("znear_m", camera.znear_m);
-        json.key("zfar_m");
-        json.value(camera.zfar_m > 0 ? camera.zfar_m : static_cast<double>(INFINITY));
-        write_matrix(json, "world_from_node", camera.world_from_camera);
-        const Result<Affined> rigid = rigid_part(camera.world_from_camera, camera.name);
-        if (rigid) {
-            write_matrix(json, "world_from_camera", *rigid);
-            write_matrix(json, "camera_from_world", inverse(*rigid));
-            write_ndc(json, camera, *rigid);
-        }
-        json.end_object();
+Json camera_json(const SceneCamera& camera) {
+    Json out;
+    out["name"] = camera.name;
+    out["type"] = camera_type_name(camera);
+    out["model"] = camera_model_name(camera);
+    Json& settings = out["settings"] = Json::object();
+    for (const auto& [name, value] : settings_texts(camera.settings))
+        settings[name] = value;
+    if (camera.type == SceneCameraType::orthographic) {
+        out["xmag_m"] = camera.xmag_m;
+        out["ymag_m"] = camera.ymag_m;
+    } else {
+        out["yfov_rad"] = camera.yfov_rad;
+        out["aspect"] = camera.aspect > 0 ? Json(camera.aspect) : Json();
     }
-    json.end_array();
+    out["znear_m"] = camera.znear_m;
+    out["zfar_m"] = camera.zfar_m > 0 ? Json(camera.zfar_m) : Json();
+    out["world_from_node"] = matrix_json(camera.world_from_camera);
+    const Result<Affined> rigid = rigid_part(camera.world_from_camera, camera.name);
+    if (rigid) {
+        out["world_from_camera"] = matrix_json(*rigid);
+        out["camera_from_world"] = matrix_json(inverse(*rigid));
+        add_ndc(camera, *rigid, out);
+    }
+    return out;
 }
 
-void write_extensions(JsonWriter& json, const AssetInfo& info) {
-    json.key("extensions").begin_array();
+Json cameras_json(const Scene& scene) {
+    Json out = Json::array();
+    for (const SceneCamera& camera : scene.cameras)
+        out.push_back(camera_json(camera));
+    return out;
+}
+
+Json extensions_json(const AssetInfo& info) {
+    Json out = Json::array();
     for (const ExtensionInfo& extension : info.extensions) {
-        json.begin_object();
-        json.member("name", extension.name);
-        json.member("required", extension.required);
-        json.member("supported", extension.supported);
-        write_names(json, "materials", extension.materials);
-        json.end_object();
+        out.push_back({{"name", extension.name},
+                       {"required", extension.required},
+                       {"supported", extension.supported},
+                       {"materials", extension.materials}});
     }
-    json.end_array();
+    return out;
+}
+
+Json bounds_json(const Scene& scene) {
+    if (scene.bounds.empty()) return {};
+    return {{"low_m", triple_json(scene.bounds.low)}, {"high_m", triple_json(scene.bounds.high)}};
 }
 
 }  // namespace
 
 std::string info_json(const Scene& scene, const std::vector<std::string>& warnings) {
     const AssetInfo& info = scene.info;
-    JsonWriter json;
-    json.begin_object();
-    json.member("version", OBSCURA_VERSION);
-    json.member("file", info.file_name);
-    json.member("gltf_version", info.version);
-    json.member("generator", info.generator);
-    json.member("copyright", info.copyright);
-    write_names(json, "scenes", info.scenes);
-    json.member("scene", info.scene);
-    write_names(json, "variants", info.variants);
-    json.member("variant", info.variant);
-    json.key("bounds");
-    if (scene.bounds.empty()) {
-        json.value(NAN);
-    } else {
-        const float low[3] = {scene.bounds.low.x, scene.bounds.low.y, scene.bounds.low.z};
-        const float high[3] = {scene.bounds.high.x, scene.bounds.high.y, scene.bounds.high.z};
-        json.begin_object();
-        write_triple(json, "low_m", low);
-        write_triple(json, "high_m", high);
-        json.end_object();
-    }
-    write_counts(json, "meshes", "triangles", info.meshes);
-    json.member("triangles_in_file", triangles_in_file(info));
-    json.member("triangles_in_world", info.triangles_in_world);
-    write_counts(json, "shapes", "placed", info.shapes);
-    json.member("instances", scene.instances.size());
-    json.member("points", info.points_in_world);
-    json.member("line_segments", info.line_segments_in_world);
-    json.member("splats", info.splats_in_world);
-    write_names(json, "materials", file_materials(scene));
-    write_images(json, info);
-    write_lights(json, scene);
-    json.member("environment", info.environment);
-    write_cameras(json, scene);
-    write_animations(json, info);
-    write_extensions(json, info);
-    json.member("parse_s", info.parse_seconds);
-    write_names(json, "warnings", warnings);
-    json.end_object();
-    return std::move(json).take();
+    Json json;
+    json["version"] = OBSCURA_VERSION;
+    json["file"] = info.file_name;
+    json["gltf_version"] = info.version;
+    json["generator"] = info.generator;
+    json["copyright"] = info.copyright;
+    json["scenes"] = info.scenes;
+    json["scene"] = info.scene;
+    json["variants"] = info.variants;
+    json["variant"] = info.variant;
+    json["bounds"] = bounds_json(scene);
+    json["meshes"] = counts_json("triangles", info.meshes);
+    json["triangles_in_file"] = triangles_in_file(info);
+    json["triangles_in_world"] = info.triangles_in_world;
+    json["shapes"] = counts_json("placed", info.shapes);
+    json["instances"] = scene.instances.size();
+    json["points"] = info.points_in_world;
+    json["line_segments"] = info.line_segments_in_world;
+    json["splats"] = info.splats_in_world;
+    json["materials"] = file_materials(scene);
+    add_images(info, json);
+    json["lights"] = lights_json(scene);
+    json["environment"] = info.environment;
+    json["cameras"] = cameras_json(scene);
+    json["animations"] = animations_json(info);
+    json["extensions"] = extensions_json(info);
+    json["parse_s"] = info.parse_seconds;
+    json["warnings"] = warnings;
+    return json_document(json);
 }
 
 }  // namespace obscura

@@ -1,19 +1,14 @@
-// app/lens_options.h - the options of `obscura render` that make a camera more than a pinhole.
+// app/lens_options.h - the options that make a camera more than a pinhole: their texts and table.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <optional>
-#include <string>
-
-namespace CLI {
-class App;
-}
+#include "app/option_row.h"
 
 namespace obscura {
 
 /// The texts of these options as they stood on the command line.
 struct LensArguments {
-    using Text = std::optional<std::string>;
+    using Text = OptionText;
     Text camera_json, near_m, far_m, magnification, focal_length, sensor, shift, distortion;
     Text fstop, lens_radius, focus_distance, focus_on;
     Text blades, blade_rotation, anamorphic, aperture;
@@ -22,7 +17,10 @@ struct LensArguments {
     Text shutter, iso, ev100;
 };
 
-/// Adds them under headings of their own; `arguments` must live as long as the command.
-void add_lens_options(CLI::App& command, LensArguments& arguments);
+struct RenderArguments;
+struct RenderRequest;
+
+/// Under headings of their own.
+std::span<const OptionGroup<RenderArguments, RenderRequest>> lens_option_groups();
 
 }  // namespace obscura

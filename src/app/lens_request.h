@@ -1,4 +1,4 @@
-// app/lens_request.h - from the texts of the lens options to checked settings.
+// app/lens_request.h - what the lens options mean together, and for which camera models.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,16 +8,13 @@
 
 namespace obscura {
 
-/// Reads all but --camera-json and --focus-on; touches no file.
+/// Looks at the settings that were read as a whole, and lets --focus-on mean a lens.
 ///
 /// In      model: --camera-model, if it was given
-/// Errors  64, each with the option and what it accepts: E-USAGE-NUMBER, E-USAGE-RANGE,
-///         E-USAGE-CHOICE, E-USAGE-CONFLICT (options that exclude each other, or that the model
-///         which they or --camera-model mean does not have)
-Result<CameraSettings> parse_lens(const LensArguments& arguments,
-                                  const std::optional<CameraModel>& model);
-
-/// 64 E-USAGE-CONFLICT when an option says something that a camera of that model does not have.
-Result<void> check_model_has(const CameraSettings& settings, CameraModel model);
+/// Errors  64 E-USAGE-CONFLICT: options that exclude each other, or that the model which they or
+///         --camera-model mean does not have
+Result<void> complete_lens(const LensArguments& arguments,
+                           const std::optional<CameraModel>& model,
+                           CameraSettings& settings);
 
 }  // namespace obscura

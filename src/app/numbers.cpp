@@ -137,6 +137,10 @@ Result<std::array<int, 2>> parse_size(std::string_view text, std::string_view op
     return std::array<int, 2>{static_cast<int>(sides[0]), static_cast<int>(sides[1])};
 }
 
+std::string size_text(const std::array<int, 2>& size) {
+    return std::to_string(size[0]) + "x" + std::to_string(size[1]);
+}
+
 Result<Vec3d> parse_point(std::string_view text, std::string_view option) {
     const Result<std::vector<double>> list = parse_numbers(
         text, option, {"x,y,z in metres without blanks, such as 0,1.5,-3", 3, 3, -1e18, 1e18});
@@ -202,21 +206,6 @@ Result<std::vector<double>> parse_numbers(std::string_view text,
         return not_a_number(text, option, list.accepted);
     }
     return numbers;
-}
-
-bool is_index(std::string_view text) {
-    return !text.empty() &&
-           std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
-}
-
-std::string in_quotes(std::string_view text) {
-    return std::string("'").append(text).append("'");
-}
-
-std::string shortest(double number) {
-    char buffer[32];
-    const auto end = std::to_chars(buffer, buffer + sizeof buffer, number).ptr;
-    return {buffer, end};
 }
 
 }  // namespace obscura

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/text.h"
 #include "math/vec.h"
 
 #include <array>
@@ -37,6 +38,9 @@ Result<ParsedLength> parse_length(std::string_view text, std::string_view option
 /// "1280x720": width and height in pixels, each in [1, 65536], at most 2^29 pixels in all.
 Result<std::array<int, 2>> parse_size(std::string_view text, std::string_view option);
 
+/// "1280x720".
+std::string size_text(const std::array<int, 2>& size);
+
 /// "x,y,z" with finite components of magnitude up to 1e18.
 Result<Vec3d> parse_point(std::string_view text, std::string_view option);
 
@@ -60,14 +64,5 @@ struct NumberList {
 Result<std::vector<double>> parse_numbers(std::string_view text,
                                           std::string_view option,
                                           const NumberList& list);
-
-/// True when the text consists of decimal digits only: an index rather than a name.
-bool is_index(std::string_view text);
-
-/// The text between single quotes, for messages.
-std::string in_quotes(std::string_view text);
-
-/// A number in its shortest form, for messages.
-std::string shortest(double number);
 
 }  // namespace obscura

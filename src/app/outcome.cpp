@@ -13,9 +13,14 @@ namespace obscura {
 
 namespace {
 
+/// For a terminal, settings called as their options are.
+std::string shown(const std::string& text) {
+    return escape_control(spell_settings(text, SettingNames::options));
+}
+
 std::string one_word(const std::string& text) {
     std::string out;
-    for (const char c : escape_control(text)) {
+    for (const char c : shown(text)) {
         if (c == ' ') {
             out += "\\x20";
         } else {
@@ -27,9 +32,9 @@ std::string one_word(const std::string& text) {
 
 /// "ERROR where: message [E-ID]"; a sum of others has neither place nor id.
 std::string error_line(const Error& error) {
-    const std::string where = error.where.empty() ? "" : escape_control(error.where) + ": ";
+    const std::string where = error.where.empty() ? "" : shown(error.where) + ": ";
     const std::string id = error.id.empty() ? "" : " [" + error.id + "]";
-    return "ERROR " + where + escape_control(error.message) + id;
+    return "ERROR " + where + shown(error.message) + id;
 }
 
 /// Whole lines in one call each, so that they do not mix with other threads' lines.
@@ -38,7 +43,16 @@ void print_error_line(const std::string& line) {
     std::fputs((line + "\n").c_str(), stderr);
 }
 
+void print_message(const LogMessage& message) {
+    const std::string line =
+        message.is_warning ? "WARN " + std::string(message.where) + ": " : std::string("INFO ");
+    print_error_line(line + std::string(message.text));
+}
+
 }  // namespace
+
+TerminalLog::TerminalLog(Verbosity verbosity)
+    : Log(verbosity, print_message, SettingNames::options) {}
 
 std::string result_line(int code,
                         const std::string& id,

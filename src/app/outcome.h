@@ -9,6 +9,13 @@
 
 namespace obscura {
 
+/// The log of a command: "WARN where: text" and "INFO text" on standard error, where settings are
+/// called as their options are.
+class TerminalLog : public Log {
+public:
+    explicit TerminalLog(Verbosity verbosity = Verbosity::normal);
+};
+
 /// "RESULT code=65 id=E-ACC-TOOLONG where=scene.glb#/accessors/12 warnings=3". `where` is one word:
 /// blanks and control characters are written as \xNN, an empty one as "-".
 std::string result_line(int code, const std::string& id, const std::string& where, size_t warnings);

@@ -1,17 +1,29 @@
-// app/render_options.cpp - the options of `obscura render` and the help a person can work from.
+// app/render_options.cpp - the table of the options of `obscura render`, which others share.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_options.h"
 
-#include "app/option_group.h"
+#include "app/frames.h"
+#include "app/lens_options.h"
+#include "app/option_readers.h"
+#include "app/render_command.h"
+#include "camera/names.h"
+#include "render/integrators.h"
 
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
+#include <cstring>
 
 namespace obscura {
 
 namespace {
 
-constexpr const char* examples = R"(
+using A = RenderArguments;
+using C = CameraRequest;
+using D = DisplayOptions;
+using L = LoadOptions;
+using O = RenderOptions;
+using R = RenderRequest;
+using Row = RenderOptionRow;
+
+constexpr const char* notes = R"(
 Examples:
   obscura render helmet.glb
       writes helmet.exr, framed by the file's first camera or as a whole
@@ -31,203 +43,285 @@ cannot be created, 74 I/O error, 76 too many non-finite samples, 77 refused by a
 or a policy, 78 colour configuration, 128+N stopped by signal N.
 Names that begin with a dash: obscura render -o ./-out.exr -- -scene.glb)";
 
-void add_picture_options(CLI::App& command, RenderArguments& arguments) {
-    command
-        .add_option("-o,--output",
-                    arguments.outputs,
-                    "File to write: .exr scene-linear, .png or .jpg for a display.\n"
-                    "May be given several times [SCENE's name with .exr, here]")
-        ->type_name("FILE")
-        ->allow_extra_args(false)
-        ->group("Picture");
-    OptionGroup group(command, "Picture");
-    group.text("--size", arguments.size, "WxH", "Width and height in pixels [1280x720]");
-    group.text("--crop",
-               arguments.crop,
-               "X,Y,W,H",
-               "Render only this part, in pixels from the top left;\n"
-               "the rest of the picture stays zero");
-    group.flag("--float", arguments.float32, "Store EXR colours as 32-bit floats [16-bit half]");
-    group.text("--background",
-               arguments.background,
-               "KIND",
-               "What rays that hit nothing see: env, transparent, or\n"
-               "a linear colour R,G,B [env]");
-    group.text(
-        "--filter", arguments.filter, "NAME", "Pixel filter: box, gaussian, blackman-harris [box]");
-    group.text("--point-size",
-               arguments.point_size,
-               "LENGTH",
-               "Diameter of glTF's points: metres (0.01 or 0.01m) or\n"
-               "pixels (3px) [3px]");
-    group.text(
-        "--line-width", arguments.line_width, "LENGTH", "Diameter of glTF's lines, likewise [2px]");
+constexpr std::array<Choice<PixelFilter>, 3> filters = {
+    {{"box", PixelFilter::box},
+     {"gaussian", PixelFilter::gaussian},
+     {"blackman-harris", PixelFilter::blackman_harris}}};
+constexpr std::array<Choice<bool>, 2> occlusions = {{{"off", false}, {"ambient", true}}};
+constexpr std::array<Choice<BackgroundKind>, 2> backgrounds = {
+    {{"env", BackgroundKind::environment}, {"transparent", BackgroundKind::transparent}}};
+
+constexpr OptionReader<R> size = {
+    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
+        const Result<std::array<int, 2>> sides = parse_size(text, info.name);
+        if (!sides) return fail(sides.error());
+        r.options.width = (*sides)[0];
+        r.options.height = (*sides)[1];
+        r.size_is_given = true;
+        return {};
+    },
+    .show =
+        [](const OptionInfo& /*info*/, const R& r) {
+            return size_text({r.options.width, r.options.height});
+        }};
+
+constexpr OptionReader<R> background = {
+    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
+        for (const auto& kind : backgrounds) {
+            if (text != kind.name) continue;
+            r.options.background = kind.value;
+            return {};
+        }
+        const Result<std::array<float, 3>> color = parse_color(text, info.name);
+        if (!color) return fail(color.error());
+        r.options.background = BackgroundKind::color;
+        std::copy(color->begin(), color->end(), r.options.background_color);
+        return {};
+    },
+    .show = show_choice<backgrounds, &R::options, &O::background>,
+    .names = choice_names<backgrounds>};
+
+Result<PixelRect> parse_crop(const std::string& text, const std::string& option) {
+    const Result<std::array<int, 4>> r = parse_rectangle(text, option);
+    if (!r) return fail(r.error());
+    return PixelRect{(*r)[0], (*r)[1], (*r)[2], (*r)[3]};
 }
 
-void add_time_options(CLI::App& command, RenderArguments& arguments) {
-    OptionGroup group(command, "Time");
-    group.text("--time",
-               arguments.time,
-               "SECONDS",
-               "Show the scene as its animations have it then; before their\n"
-               "beginning and after their end they stand still [as stored]");
-    group.text("--animation",
-               arguments.animation,
-               "NAME|INDEX",
-               "Which animation plays: a name or an index, all, or none [the\n"
-               "first with --time or --frames, else none]");
-    group.text("--frames",
-               arguments.frames,
-               "FIRST-LAST",
-               "Render a sequence; the ### in the names of outputs become\n"
-               "each frame's number. Frame n is at n / fps seconds");
-    group.text("--fps", arguments.fps, "X", "Frames per second of --frames and --shutter [24]");
+Result<StrokeSize> parse_stroke(const std::string& text, const std::string& option) {
+    const Result<ParsedLength> length = parse_length(text, option);
+    if (!length) return fail(length.error());
+    return StrokeSize{length->value, length->pixels ? LengthUnit::pixels : LengthUnit::metres};
 }
 
-void add_display_options(CLI::App& command, RenderArguments& arguments) {
-    OptionGroup group(command, "Display (PNG and JPEG only)");
-    group.text("--exposure", arguments.exposure, "EV", "Brighter by this many stops [0]");
-    group.text("--view",
-               arguments.view,
-               "NAME",
-               "View of the OpenColorIO display. Built in: \"ACES 1.0 SDR\",\n"
-               "\"Un-tone-mapped\", \"Khronos PBR Neutral\", Raw [ACES 1.0 SDR]");
-    group.text("--display", arguments.display, "NAME", "OpenColorIO display [sRGB]");
-    group.text("--ocio", arguments.ocio, "FILE", "OpenColorIO config [$OCIO, else built in]");
+template <auto... path>
+constexpr OptionReader<R> stroke_at = {
+    .read = read_parsed<parse_stroke, path...>, .show = [](const OptionInfo& /*info*/, const R& r) {
+        const StrokeSize& stroke = field<path...>(r);
+        return shortest(stroke.diameter) + (stroke.unit == LengthUnit::pixels ? "px" : "m");
+    }};
+
+Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*option*/) {
+    return ExrDepth::float32;
 }
 
-void add_program_options(CLI::App& command, RenderArguments& arguments) {
-    OptionGroup group(command, "Program");
-    group.text("--scene",
-               arguments.scene,
-               "NAME|INDEX",
-               "Scene of a file that holds several [the file's default]");
-    group.text("--variant",
-               arguments.variant,
-               "NAME",
-               "Look of a product, as `obscura info` lists them\n"
-               "[the file's own materials]");
-    group.text("--threads", arguments.threads, "N", "Threads, 0 to 1024; 0 is every core [0]");
-    group.text(
-        "--isa", arguments.isa, "NAME", "Instruction set: auto, baseline, avx2, avx512 [auto]");
-    group.text("--tile-size",
-               arguments.tile_size,
-               "N",
-               "Side of a tile in pixels, 1 to 256; does not change\n"
-               "the picture [16]");
-    group.text(
-        "--stats", arguments.stats, "FILE.json", "Write times, rays, memory and warnings as JSON");
-    group.flag("--quiet", arguments.quiet, "Print errors only");
-    group.flag("--verbose", arguments.verbose, "Print more notes");
-}
+// clang-format off
+constexpr Row scene_file[] = {
+    {{.name = "SCENE", .help = "glTF 2.0 file, .gltf or .glb", .files = "gltf glb"},
+     text_at<&A::scene_file>}};
+
+constexpr Row picture[] = {
+    {{.name = "-o,--output", .argument = "FILE",
+      .help = "File to write: .exr scene-linear, .png or .jpg for a display. May be given several "
+              "times",
+      .fallback = "SCENE's name with .exr, here", .files = "exr png jpg jpeg"},
+     text_at<&A::outputs>},
+    {{.name = "--size", .argument = "WxH", .help = "Width and height in pixels"},
+     text_at<&A::size>, size},
+    {{.name = "--crop", .argument = "X,Y,W,H",
+      .help = "Render only this part, in pixels from the top left: the data window of an EXR; PNG "
+              "and JPEG are zero elsewhere"},
+     text_at<&A::crop>, parsed_at<parse_crop, &R::options, &O::crop>},
+    {{.name = "--float", .help = "Store EXR colours as 32-bit floats", .fallback = "16-bit half"},
+     text_at<&A::float32>, parsed_at<parse_depth, &R::exr_depth>},
+    {{.name = "--background", .argument = "KIND|R,G,B",
+      .help = "What rays that hit nothing see: env, transparent, or a linear colour R,G,B"},
+     text_at<&A::background>, background},
+    {{.name = "--filter", .argument = "NAME", .help = "Pixel filter:"},
+     text_at<&A::filter>, choice_at<filters, &R::options, &O::filter>},
+    {{.name = "--point-size", .argument = "LENGTH",
+      .help = "Diameter of glTF's points: metres (0.01 or 0.01m) or pixels (3px)"},
+     text_at<&A::point_size>, stroke_at<&R::strokes, &StrokeSizes::points>},
+    {{.name = "--line-width", .argument = "LENGTH", .help = "Diameter of glTF's lines, likewise"},
+     text_at<&A::line_width>, stroke_at<&R::strokes, &StrokeSizes::lines>}};
+
+constexpr Row time[] = {
+    {{.name = "--time", .argument = "SECONDS",
+      .help = "Show the scene as its animations have it then; before their beginning and after "
+              "their end they stand still",
+      .range = {-1e6, 1e6}, .fallback = "as stored"},
+     text_at<&A::time>, number_at<&R::load, &L::time_s>},
+    {{.name = "--animation", .argument = "NAME|INDEX",
+      .help = "Which animation plays: a name or an index, all, or none",
+      .fallback = "the first with --time or --frames, else none"},
+     text_at<&A::animation>, name_at<&R::load, &L::animation>},
+    {{.name = "--frames", .argument = "FIRST-LAST",
+      .help = "Render a sequence; the ### in the names of outputs become each frame's number. "
+              "Frame n is at n / fps seconds",
+      .excludes = {"--time"}},
+     text_at<&A::frames>, parsed_at<parse_frames, &R::frames>},
+    {{.name = "--fps", .argument = "X", .help = "Frames per second of --frames and --shutter",
+      .range = {1e-3, 1e5}},
+     text_at<&A::fps>, number_at<&R::fps>}};
+
+constexpr Row sampling[] = {
+    {{.name = "--spp", .argument = "N", .help = "Samples per pixel", .range = {1, 1 << 20}},
+     text_at<&A::spp>, number_at<&R::options, &O::samples_per_pixel>},
+    {{.name = "--depth", .argument = "N", .help = "Most bounces of a path", .range = {0, 1000}},
+     text_at<&A::depth>, number_at<&R::options, &O::max_bounces>},
+    {{.name = "--seed", .argument = "N", .help = "Random numbers; equal seeds, equal pictures"},
+     text_at<&A::seed>, number_at<&R::options, &O::seed>},
+    {{.name = "--integrator", .argument = "NAME",
+      .help = "path: full light transport; direct: no indirect light; raycast: one ray a pixel, "
+              "hard shadows, no noise; ao: ambient occlusion; wireframe; or a quantity, one ray "
+              "through each pixel's centre: normal, facing, depth, distance, uv, albedo, id, heat"},
+     text_at<&A::integrator>, choice_at<integrator_rows, &R::options, &O::integrator>},
+    {{.name = "--ao-distance", .argument = "METRES", .help = "How far ao looks",
+      .range = {1e-9, 1e12}, .fallback = "a fifth of the scene's diagonal",
+      .needs = {"--integrator ao"}},
+     text_at<&A::ao_distance>, number_at<&R::options, &O::ao_distance_m>},
+    {{.name = "--wire-width", .argument = "PIXELS", .help = "Lines of wireframe",
+      .range = {0.01, 1000}, .needs = {"--integrator wireframe"}},
+     text_at<&A::wire_width>, number_at<&R::options, &O::wire_width_px>}};
+
+constexpr Row camera[] = {
+    {{.name = "--camera", .argument = "NAME|INDEX", .help = "A camera of the file",
+      .fallback = "the first; without any, the whole scene is framed from the front, right and "
+                  "above",
+      .excludes = {"--eye", "--target", "--up"}},
+     text_at<&A::camera>, name_at<&R::camera, &C::choice>},
+    {{.name = "--eye", .argument = "X,Y,Z",
+      .help = "Place the camera by hand, in metres, +Y up. What is not given of eye, target and up "
+              "comes from the framing"},
+     text_at<&A::eye>, parsed_at<parse_point, &R::camera, &C::eye_m>},
+    {{.name = "--target", .argument = "X,Y,Z", .help = "Point that the camera looks at"},
+     text_at<&A::target>, parsed_at<parse_point, &R::camera, &C::target_m>},
+    {{.name = "--up", .argument = "X,Y,Z", .help = "Direction that is up in the picture",
+      .fallback = "0,1,0"},
+     text_at<&A::up>, parsed_at<parse_point, &R::camera, &C::up>},
+    {{.name = "--fov", .argument = "DEG",  // read_fov() knows of what camera it is
+      .help = "Vertical angle of view, 0.01 to 179; of a fisheye the whole circle's, up to 360",
+      .fallback = "the camera's, or 35; 180"},
+     text_at<&A::fov>},
+    {{.name = "--camera-model", .argument = "NAME",
+      .help = "orthographic shows what the angle shows at the target. One of:",
+      .fallback = "the camera's, or what the options below mean, or pinhole"},
+     text_at<&A::camera_model>, choice_at<camera_model_names, &R::camera, &C::model>}};
+
+constexpr Row light[] = {
+    {{.name = "--env", .argument = "FILE", .help = "Latitude-longitude environment, .hdr or .exr",
+      .fallback = "the file's own, else a neutral studio if the scene has no light",
+      .files = "hdr exr"},
+     text_at<&A::env>, name_at<&R::environment>},
+    {{.name = "--env-intensity", .argument = "X", .help = "Multiplies the environment",
+      .range = {0, 1e9}},
+     text_at<&A::env_intensity>, number_at<&R::environment_intensity>},
+    {{.name = "--env-rotation", .argument = "DEG",
+      .help = "Turns it about +Y, counter-clockwise from above", .range = {-36000, 36000}},
+     text_at<&A::env_rotation>, number_at<&R::environment_rotation_deg>},
+    {{.name = "--occlusion", .argument = "KIND",
+      .help = "What occlusion textures do: off, or ambient, as in viewers: they dim the "
+              "environment's light, for assets whose crevices are in the texture alone"},
+     text_at<&A::occlusion>, choice_at<occlusions, &R::load, &L::occlusion>}};
+
+constexpr Row display[] = {
+    {{.name = "--exposure", .argument = "EV", .help = "Brighter by this many stops",
+      .range = {-50, 50}},
+     text_at<&A::exposure>, number_at<&R::display, &D::exposure_ev>},
+    {{.name = "--view", .argument = "NAME",
+      .help = "View of the OpenColorIO display. Built in: \"ACES 1.0 SDR\", \"Un-tone-mapped\", "
+              "\"Khronos PBR Neutral\", Raw",
+      .fallback = "ACES 1.0 SDR"},
+     text_at<&A::view>, name_at<&R::display, &D::view>},
+    {{.name = "--display", .argument = "NAME", .help = "OpenColorIO display", .fallback = "sRGB"},
+     text_at<&A::display>, name_at<&R::display, &D::display>},
+    {{.name = "--ocio", .argument = "FILE", .help = "OpenColorIO config",
+      .fallback = "$OCIO, else built in", .files = "ocio"},
+     text_at<&A::ocio>, name_at<&R::display, &D::ocio_file>}};
+
+constexpr Row faults[] = {
+    {{.name = "--strict",
+      .help = "Refuse what would silently change the picture, such as a texture that cannot be "
+              "read; every problem is listed before anything is rendered. This is the default",
+      .excludes = {"--lenient"}},
+     text_at<&A::strict>},
+    {{.name = "--lenient",
+      .help = "Make do instead, with a warning each: magenta textures, skipped primitives, dropped "
+              "triangles"},
+     text_at<&A::lenient>, flag_at<&R::load, &L::lenient>},
+    {{.name = "--check",
+      .help = "Load and report only: nothing is rendered or written; the exit code is the one that "
+              "rendering would begin with"},
+     text_at<&A::check>, flag_at<&R::check>}};
+
+constexpr Row program[] = {
+    {{.name = "--scene", .argument = "NAME|INDEX", .help = "Scene of a file that holds several",
+      .fallback = "the file's default"},
+     text_at<&A::scene>},
+    {{.name = "--variant", .argument = "NAME",
+      .help = "Look of a product, as `obscura info` lists them",
+      .fallback = "the file's own materials"},
+     text_at<&A::variant>},
+    {{.name = "--threads", .argument = "N", .help = "Threads; 0 is every core",
+      .range = {0, 1024}},
+     text_at<&A::threads>, number_at<&R::threads>},
+    {{.name = "--isa", .argument = "NAME", .help = "Instruction set:"},
+     text_at<&A::isa>, choice_at<instruction_sets, &R::isa>},
+    {{.name = "--tile-size", .argument = "N",
+      .help = "Side of a tile in pixels, at least 32 for quantities; does not change the picture",
+      .range = {1, 256}},
+     text_at<&A::tile_size>, number_at<&R::options, &O::tile_size>},
+    {{.name = "--stats", .argument = "FILE.json",
+      .help = "Write times, rays, memory and warnings as JSON", .files = "json"},
+     text_at<&A::stats>, name_at<&R::statistics>},
+    {{.name = "--quiet", .help = "Print errors only", .excludes = {"--verbose"}},
+     text_at<&A::quiet>},
+    {{.name = "--verbose", .help = "Print more notes"},
+     text_at<&A::verbose>}};
+// clang-format on
 
 }  // namespace
 
-void add_sampling_options(CLI::App& command,
-                          RenderArguments& arguments,
-                          const std::string& default_spp) {
-    OptionGroup group(command, "Sampling");
-    group.text(
-        "--spp", arguments.spp, "N", "Samples per pixel, 1 to 1048576 [" + default_spp + "]");
-    group.text("--depth", arguments.depth, "N", "Most bounces of a path, 0 to 1000 [8]");
-    group.text("--seed", arguments.seed, "N", "Random numbers; equal seeds, equal pictures [0]");
-    group.text("--integrator",
-               arguments.integrator,
-               "NAME",
-               "path: full light transport; direct: no indirect light;\n"
-               "raycast: one ray a pixel, hard shadows, no noise; ao:\n"
-               "ambient occlusion; wireframe; or a quantity, one ray\n"
-               "through each pixel's centre: normal, facing, depth,\n"
-               "distance, uv, albedo, id, heat [path]");
-    group.text("--ao-distance",
-               arguments.ao_distance,
-               "METRES",
-               "How far ao looks [a fifth of the scene's diagonal]");
-    group.text(
-        "--wire-width", arguments.wire_width, "PIXELS", "Lines of wireframe, 0.01 to 1000 [1]");
+const std::vector<RenderOptionGroup>& render_option_groups() {
+    static const std::vector<RenderOptionGroup> all = [] {
+        std::vector<RenderOptionGroup> groups = {{"", scene_file},
+                                                 {"Picture", picture},
+                                                 {"Time", time},
+                                                 {"Sampling", sampling},
+                                                 {"Camera", camera}};
+        const auto lens = lens_option_groups();
+        groups.insert(groups.end(), lens.begin(), lens.end());
+        const std::initializer_list<RenderOptionGroup> rest = {
+            {"Light", light},
+            {"Display (PNG and JPEG only)", display},
+            {"Faulty scenes", faults},
+            {"Program", program}};
+        groups.insert(groups.end(), rest);
+        return groups;
+    }();
+    return all;
 }
 
-void add_camera_options(CLI::App& command, RenderArguments& arguments) {
-    OptionGroup group(command, "Camera");
-    group.text("--camera",
-               arguments.camera,
-               "NAME|INDEX",
-               "A camera of the file [the first; without any, the whole\n"
-               "scene is framed from the front, right and above]");
-    group.text("--eye",
-               arguments.eye,
-               "X,Y,Z",
-               "Place the camera by hand, in metres, +Y up. What is not\n"
-               "given of eye, target and up comes from the framing");
-    group.text("--target", arguments.target, "X,Y,Z", "Point that the camera looks at");
-    group.text("--up", arguments.up, "X,Y,Z", "Direction that is up in the picture [0,1,0]");
-    group.text("--fov",
-               arguments.fov,
-               "DEG",
-               "Vertical angle of view, 0.01 to 179 [the camera's, or\n"
-               "35]; of a fisheye the whole circle's, up to 360 [180]");
-    group.text("--camera-model",
-               arguments.camera_model,
-               "NAME",
-               "pinhole, orthographic, thinlens, fisheye or environment\n"
-               "[the camera's, or what the options below mean, or\n"
-               "pinhole]; orthographic shows what the angle shows at\n"
-               "the target");
+Command render_command(RenderArguments& arguments) {
+    Command command{"render", "Render a scene to EXR, PNG or JPEG", notes};
+    command.options = bind_all(std::span(render_option_groups()), arguments);
+    command.run = [&arguments] { return run_render(arguments); };
+    return command;
 }
 
-void add_fault_options(CLI::App& command, RenderArguments& arguments) {
-    OptionGroup group(command, "Faulty scenes");
-    group.flag("--strict",
-               arguments.strict,
-               "Refuse what would silently change the picture, such as a\n"
-               "texture that cannot be read; every problem is listed before\n"
-               "anything is rendered. This is the default");
-    group.flag("--lenient",
-               arguments.lenient,
-               "Make do instead, with a warning each: magenta textures,\n"
-               "skipped primitives, dropped triangles");
+void add_render_group(Command& command, RenderArguments& arguments, const char* heading) {
+    for (const RenderOptionGroup& group : render_option_groups()) {
+        if (std::strcmp(group.heading, heading) != 0) continue;
+        for (const Row& row : group.rows)
+            command.options.push_back(bind(row, arguments, heading));
+    }
 }
 
-void add_light_options(CLI::App& command, RenderArguments& arguments) {
-    OptionGroup group(command, "Light");
-    group.text("--env",
-               arguments.env,
-               "FILE",
-               "Latitude-longitude environment, .hdr or .exr\n"
-               "[the file's own, else a neutral studio if the scene has\n"
-               "no light]");
-    group.text("--env-intensity", arguments.env_intensity, "X", "Multiplies the environment [1]");
-    group.text("--env-rotation",
-               arguments.env_rotation,
-               "DEG",
-               "Turns it about +Y, counter-clockwise from above [0]");
-    group.text("--occlusion",
-               arguments.occlusion,
-               "KIND",
-               "What occlusion textures do: off, or ambient, as in viewers:\n"
-               "they dim the environment's light, for assets whose crevices\n"
-               "are in the texture alone [off]");
+void add_lens_groups(Command& command, RenderArguments& arguments) {
+    for (const RenderOptionGroup& group : lens_option_groups())
+        add_render_group(command, arguments, group.heading);
 }
 
-void add_render_options(CLI::App& command, RenderArguments& arguments) {
-    command.add_option("SCENE", arguments.scene_file, "glTF 2.0 file, .gltf or .glb")
-        ->type_name("")
-        ->required();
-    add_picture_options(command, arguments);
-    add_time_options(command, arguments);
-    add_sampling_options(command, arguments, "64");
-    add_camera_options(command, arguments);
-    add_lens_options(command, arguments.lens);
-    add_light_options(command, arguments);
-    add_display_options(command, arguments);
-    add_fault_options(command, arguments);
-    OptionGroup(command, "Faulty scenes")
-        .flag("--check",
-              arguments.check,
-              "Load and report only: nothing is rendered or written; the\n"
-              "exit code is the one that rendering would begin with");
-    add_program_options(command, arguments);
-    command.footer(examples);
+BoundOption& add_render_option(Command& command,
+                               RenderArguments& arguments,
+                               const char* name,
+                               const char* heading) {
+    for (const RenderOptionGroup& group : render_option_groups()) {
+        for (const Row& row : group.rows) {
+            if (std::strcmp(row.info.name, name) != 0) continue;
+            command.options.push_back(bind(row, arguments, *heading ? heading : group.heading));
+        }
+    }
+    return command.options.back();
 }
 
 }  // namespace obscura

@@ -1,25 +1,41 @@
-// app/render_options.h - the options of `obscura render` and the help a person can work from.
+// app/render_options.h - the table of the options of `obscura render`, which others share.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/command.h"
 #include "app/render_request.h"
-
-namespace CLI {
-class App;
-}
 
 namespace obscura {
 
-/// Declares every option on the subcommand; parsing fills `arguments`, which must outlive it.
-void add_render_options(CLI::App& command, RenderArguments& arguments);
+using RenderOptionRow = OptionRow<RenderArguments, RenderRequest>;
+using RenderOptionGroup = OptionGroup<RenderArguments, RenderRequest>;
 
-/// Options that other subcommands share: --spp to --ao-distance, --camera to --camera-model,
-/// --env to --env-rotation, --strict and --lenient.
-void add_sampling_options(CLI::App& command,
-                          RenderArguments& arguments,
-                          const std::string& default_spp);
-void add_camera_options(CLI::App& command, RenderArguments& arguments);
-void add_light_options(CLI::App& command, RenderArguments& arguments);
-void add_fault_options(CLI::App& command, RenderArguments& arguments);
+/// Every option of a rendering, in the order of its help; bench, crosscheck and explain-pixel take
+/// theirs from here.
+const std::vector<RenderOptionGroup>& render_option_groups();
+
+/// The instruction sets that --isa names, and how else it is called.
+template <typename T>
+struct Choice {
+    const char* name;
+    T value;
+};
+inline constexpr std::array<Choice<Isa>, 4> instruction_sets = {{{"auto", Isa::automatic},
+                                                                 {"baseline", Isa::baseline},
+                                                                 {"avx2", Isa::avx2},
+                                                                 {"avx512", Isa::avx512}}};
+
+/// The subcommand; parsing fills `arguments`, which must outlive it.
+Command render_command(RenderArguments& arguments);
+
+/// Adds options of a rendering to another command: a whole group, all groups of lenses, or one
+/// option, by its name as the table has it, under another heading ("": its own). What it gives back
+/// may be changed until the next is added.
+void add_render_group(Command& command, RenderArguments& arguments, const char* heading);
+void add_lens_groups(Command& command, RenderArguments& arguments);
+BoundOption& add_render_option(Command& command,
+                               RenderArguments& arguments,
+                               const char* name,
+                               const char* heading);
 
 }  // namespace obscura

@@ -12,7 +12,7 @@ namespace obscura {
 /// Process exit codes: sysexits.h, and what render farms retry on.
 ///
 /// To add one: append it here, give it a line in docs/cli.md, and a test in tests/cli that raises
-/// it.
+/// it. An id of an error needs a line in docs/errors.md and a test that raises it.
 enum class ExitCode : int {
     ok = 0,
     outside_budget = 1,  ///< a cross-check found more differences than it allows
@@ -25,7 +25,7 @@ enum class ExitCode : int {
     internal = 70,       ///< a bug in this program
     cannot_create = 73,  ///< the output cannot be created
     io_error = 74,       ///< reading or writing failed half-way
-    stopped_early = 75,  ///< stopped on request, resumable
+    stopped_early = 75,  ///< stopped on request; nothing was written
     too_many_nonfinite = 76,
     refused = 77,        ///< a limit or a policy forbids it
     configuration = 78,  ///< OCIO config, display or view

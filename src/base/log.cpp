@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/log.h"
 
-#include <cstdio>
-
 namespace obscura {
 
 namespace {
@@ -45,17 +43,23 @@ std::string escape_control(std::string_view text) {
     return out;
 }
 
+std::string Log::shown(std::string_view text) const {
+    return escape_control(spell_settings(text, names_));
+}
+
 void Log::warn(std::string_view where, std::string_view text) {
-    const std::string line = escape_control(where) + ": " + escape_control(text);
+    const std::string place = shown(where);
+    const std::string sentence = shown(text);
     const std::lock_guard lock(mutex_);
-    warnings_.push_back(line);
-    if (verbosity_ != Verbosity::quiet) std::fprintf(stderr, "WARN %s\n", line.c_str());
+    warnings_.push_back(place + ": " + sentence);
+    if (sink_ && verbosity_ != Verbosity::quiet) sink_({true, place, sentence});
 }
 
 void Log::info(std::string_view text) {
-    if (verbosity_ == Verbosity::quiet) return;
+    if (!sink_ || verbosity_ == Verbosity::quiet) return;
+    const std::string sentence = shown(text);
     const std::lock_guard lock(mutex_);
-    std::fprintf(stderr, "INFO %s\n", escape_control(text).c_str());
+    sink_({false, {}, sentence});
 }
 
 void Log::detail(std::string_view text) {

@@ -1,7 +1,10 @@
-// base/log.h - warnings and notes for people, on standard error, kept for the statistics.
+// base/log.h - warnings and notes, kept for the statistics and handed to whoever shows them.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/setting_names.h"
+
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -11,18 +14,33 @@ namespace obscura {
 
 enum class Verbosity { quiet, normal, verbose };
 
-/// Collects and prints messages. One object per command, handed down by reference; thread-safe.
+/// A message on its way to its readers; escaped, settings' names spelled.
+struct LogMessage {
+    bool is_warning;
+    std::string_view where;  ///< of a warning
+    std::string_view text;
+};
+
+/// Shows a message; called from any thread, by one at a time.
+using LogSink = std::function<void(const LogMessage&)>;
+
+/// Collects messages and hands them to a sink. One object per command or session, handed down by
+/// reference; thread-safe.
 ///
 /// Names that come from an asset may hold control characters: every line is escaped.
 class Log {
 public:
-    explicit Log(Verbosity verbosity = Verbosity::normal) : verbosity_(verbosity) {}
+    /// Without a sink nothing is shown.
+    explicit Log(Verbosity verbosity = Verbosity::normal,
+                 LogSink sink = {},
+                 SettingNames names = SettingNames::plain)
+        : verbosity_(verbosity), sink_(std::move(sink)), names_(names) {}
 
-    /// "WARN where: text"; kept for --stats. Printed unless quiet.
+    /// Kept for --stats; shown unless quiet.
     void warn(std::string_view where, std::string_view text);
-    /// "INFO text"; printed unless quiet.
+    /// Shown unless quiet.
     void info(std::string_view text);
-    /// "INFO text"; printed only when verbose.
+    /// As info(), but only when verbose.
     void detail(std::string_view text);
 
     /// All warnings so far, each as "where: text", in the order they came.
@@ -30,7 +48,11 @@ public:
     Verbosity verbosity() const { return verbosity_; }
 
 private:
+    std::string shown(std::string_view text) const;
+
     Verbosity verbosity_;
+    LogSink sink_;
+    SettingNames names_;
     mutable std::mutex mutex_;
     std::vector<std::string> warnings_;
 };

@@ -16,32 +16,48 @@
 
 namespace obscura {
 
+namespace {
+
+/// The arena of this thread's ThreadArena; null: the one that the thread is in.
+thread_local tbb::task_arena* own_arena = nullptr;
+
+int threads_of(int threads) {
+    return threads > 0 ? threads : tbb::info::default_concurrency();
+}
+
+template <typename Body>
+void in_arena(const Body& body) {
+    if (own_arena == nullptr) {
+        body();
+    } else {
+        own_arena->execute(body);
+    }
+}
+
+}  // namespace
+
+ThreadArena::ThreadArena(int threads)
+    : threads_(threads_of(threads)), arena_(new tbb::task_arena(threads_)), before_(own_arena) {
+    own_arena = static_cast<tbb::task_arena*>(arena_);
+}
+
+ThreadArena::~ThreadArena() {
+    own_arena = static_cast<tbb::task_arena*>(before_);
+    delete static_cast<tbb::task_arena*>(arena_);
+}
+
 ThreadLimit::ThreadLimit(int threads)
-    : threads_(threads > 0 ? threads : tbb::info::default_concurrency()),
-      control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                       static_cast<size_t>(threads_))) {}
+    : control_(new tbb::global_control(tbb::global_control::max_allowed_parallelism,
+                                       static_cast<size_t>(threads_of(threads)))),
+      arena_(threads) {}
 
 ThreadLimit::~ThreadLimit() {
     delete static_cast<tbb::global_control*>(control_);
 }
 
-namespace {
-
-/// TBB's default arena has as many slots as the machine has cores; a limit above that needs its
-/// own.
-template <typename Body>
-void in_arena(const Body& body) {
-    const auto allowed = static_cast<int>(
-        tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
-    if (tbb::this_task_arena::max_concurrency() >= allowed) {
-        body();
-        return;
-    }
-    tbb::task_arena arena(allowed);
-    arena.execute(body);
+void run_in_arena(const std::function<void()>& body) {
+    in_arena(body);
 }
-
-}  // namespace
 
 void parallel_for(size_t count, const std::function<void(size_t)>& body) {
     parallel_ranges(count, 1, [&](size_t begin, size_t end) {
@@ -68,8 +84,8 @@ size_t thread_index() {
 }
 
 size_t max_thread_index() {
-    return std::max(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
-                    static_cast<size_t>(tbb::this_task_arena::max_concurrency()));
+    return static_cast<size_t>(own_arena != nullptr ? own_arena->max_concurrency()
+                                                    : tbb::this_task_arena::max_concurrency());
 }
 
 #if defined(__x86_64__)

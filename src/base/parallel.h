@@ -7,21 +7,42 @@
 
 namespace obscura {
 
-/// Limits the number of threads for as long as it lives. One per process, made by the command.
-class ThreadLimit {
+/// For as long as it lives, loops that its own thread begins run on so many threads, and others as
+/// before: nothing of the process is changed. The latest of a thread counts.
+class ThreadArena {
 public:
     /// threads: 1 or more; 0 takes every core that the process may use.
-    explicit ThreadLimit(int threads);
-    ~ThreadLimit();
-    ThreadLimit(const ThreadLimit&) = delete;
-    ThreadLimit& operator=(const ThreadLimit&) = delete;
+    explicit ThreadArena(int threads);
+    ~ThreadArena();
+    ThreadArena(const ThreadArena&) = delete;
+    ThreadArena& operator=(const ThreadArena&) = delete;
 
     int threads() const { return threads_; }
 
 private:
     int threads_;
-    void* control_;
+    void* arena_;
+    void* before_;
 };
+
+/// A ThreadArena that also allows the process more threads than it has cores, or fewer. For a
+/// program that owns its process.
+class ThreadLimit {
+public:
+    explicit ThreadLimit(int threads);
+    ~ThreadLimit();
+    ThreadLimit(const ThreadLimit&) = delete;
+    ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+    int threads() const { return arena_.threads(); }
+
+private:
+    void* control_;
+    ThreadArena arena_;
+};
+
+/// Calls `body` where loops of the calling thread run, for a library that has loops of its own.
+void run_in_arena(const std::function<void()>& body);
 
 /// Calls `body(i)` for every i in [0, count), on all threads, in no particular order.
 /// An exception from a body ends the loop and reaches the caller.

@@ -1,12 +1,8 @@
-// bench/asset_files.cpp - the files that one asset consists of, and the assets in a folder.
+// bench/asset_files.cpp - the assets in a folder, and the bytes of their files.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/asset_files.h"
 
-#include "gltf/document.h"
-#include "gltf/file_bytes.h"
-#include "gltf/glb.h"
-#include "gltf/json_text.h"
-#include "gltf/uri.h"
+#include "base/file_bytes.h"
 
 #include <algorithm>
 #include <system_error>
@@ -16,38 +12,6 @@ namespace obscura {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string_view as_text(const Bytes& bytes) {
-    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
-Result<Document> read_document_of(const fs::path& file) {
-    Log silent(Verbosity::quiet);
-    const std::string where = file.string();
-    const FileBytes whole = read_file_bytes(file, {});
-    std::string_view text = as_text(whole.bytes);
-    if (is_glb(whole.bytes)) {
-        const Result<GlbParts> parts = split_glb(whole.bytes, where, silent);
-        if (!parts) return fail(parts.error());
-        text = parts->json;
-    }
-    const Result<nlohmann::json> tree = parse_json_text(text, where, silent);
-    if (!tree) return fail(tree.error());
-    Problems problems(true);  // whoever loads the asset tells them
-    return read_document(*tree, where, problems, silent);
-}
-
-void add_file(const fs::path& folder,
-              const std::optional<std::string>& uri,
-              std::vector<fs::path>& files) {
-    if (!uri || is_data_uri(*uri)) return;
-    const Result<fs::path> relative = relative_path_from_uri(*uri, "");
-    if (!relative) return;
-    fs::path file = folder / *relative;
-    if (std::find(files.begin(), files.end(), file) == files.end()) {
-        files.push_back(std::move(file));
-    }
-}
 
 bool is_asset(const fs::directory_entry& entry) {
     const fs::path extension = entry.path().extension();
@@ -63,18 +27,6 @@ tl::unexpected<Error> no_assets(const fs::path& folder, const std::string& what)
 }
 
 }  // namespace
-
-std::vector<fs::path> files_of_asset(const fs::path& file) {
-    std::vector<fs::path> files = {file};
-    const Result<Document> document = read_document_of(file);
-    if (!document) return files;
-    const fs::path folder = file.parent_path();
-    for (const GltfBuffer& buffer : document->buffers)
-        add_file(folder, buffer.uri, files);
-    for (const GltfImage& image : document->images)
-        add_file(folder, image.uri, files);
-    return files;
-}
 
 size_t read_all(const std::vector<fs::path>& files) {
     size_t sum = 0;

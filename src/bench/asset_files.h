@@ -1,4 +1,4 @@
-// bench/asset_files.h - the files that one asset consists of, and the assets in a folder.
+// bench/asset_files.h - the assets in a folder, and the bytes of their files.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,10 +8,6 @@
 #include <vector>
 
 namespace obscura {
-
-/// The file itself and every buffer and image that it names, each once. What cannot be read or
-/// understood is left out: loading is what complains.
-std::vector<std::filesystem::path> files_of_asset(const std::filesystem::path& file);
 
 /// Sum of the sizes of files read one after the other, nothing done with their bytes.
 size_t read_all(const std::vector<std::filesystem::path>& files);

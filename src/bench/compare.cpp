@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/compare.h"
 
-#include "gltf/file_bytes.h"
-#include "gltf/json_read.h"
-#include "gltf/json_text.h"
+#include "base/file_bytes.h"
+#include "base/json/json_read.h"
+#include "base/json/json_text.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include "base/peak_memory.h"
 #include "base/stopwatch.h"
 #include "bench/asset_files.h"
+#include "gltf/asset_files.h"
 #include "scene/scene_memory.h"
 
 #include <algorithm>

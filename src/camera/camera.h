@@ -14,8 +14,8 @@ namespace obscura {
 /// To add a model: write camera/<model>.h with its parameters, `generate_ray`, its inverse and the
 /// source of the formula; append a name here and in camera/names.h, a member to Camera, a case
 /// to local_ray and visit_model below, to project in camera/project.h, to camera_matrices in
-/// camera/matrices.cpp and to make_camera in app/camera_build.cpp; a test against the closed form
-/// in tests/camera and a section in docs/cameras.md.
+/// camera/matrices.cpp and to make_camera in session/camera_build.cpp; a test against the closed
+/// form in tests/camera and a section in docs/cameras.md.
 enum class CameraModel : int { pinhole = 0, orthographic, thin_lens, fisheye, environment };
 
 /// A camera in the world. `pinhole` holds the film of thin lenses too; else only the member that

@@ -115,4 +115,12 @@ std::vector<std::string> faults_of(const CheckedScene& scene) {
     return faults;
 }
 
+Result<void> check_budget(const std::vector<CheckedScene>& scenes) {
+    for (const CheckedScene& scene : scenes) {
+        if (scene.faults.empty()) continue;
+        return fail(ExitCode::outside_budget, "E-CROSSCHECK", scene.file, scene.faults.front());
+    }
+    return {};
+}
+
 }  // namespace obscura

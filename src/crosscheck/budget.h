@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/error.h"
 #include "crosscheck/check_scene.h"
 
 #include <string>
@@ -17,5 +18,10 @@ uint64_t mismatches_allowed(uint64_t rays);
 
 /// One sentence for everything that is outside the budget.
 std::vector<std::string> faults_of(const CheckedScene& scene);
+
+/// The first fault of the first scene that has some.
+///
+/// Errors  1 E-CROSSCHECK
+Result<void> check_budget(const std::vector<CheckedScene>& scenes);
 
 }  // namespace obscura

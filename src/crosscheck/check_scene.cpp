@@ -59,8 +59,8 @@ struct Comparing {
                            batch,
                            kernel,
                            references,
-                           first ? &base : nullptr,
-                           standard == Standard::full ? &out.screen : nullptr);
+                           {.answers = first ? &base : nullptr,
+                            .screen = standard == Standard::full ? &out.screen : nullptr});
         for (PairFigures& pair : pairs) {
             pair.standard = standard;
             if (compared < out.pairs.size()) {
@@ -96,7 +96,7 @@ Result<void> compare_production(Comparing& comparing, const Scene& scene, Isa is
 
 Result<void> compare_all(Comparing& comparing, const Scene& scene, Isa isa) {
     const TrueScene& truth = comparing.truth;
-    compare_kernel(truth, comparing.batch, truth_kernel(truth), {}, &comparing.truths, nullptr);
+    compare_kernel(truth, comparing.batch, truth_kernel(truth), {}, {.answers = &comparing.truths});
     comparing.truths.is_truth = true;
     comparing.log.detail(comparing.out.name + ": searched in double precision");
     if (auto done = compare_references(comparing, scene); !done) return done;

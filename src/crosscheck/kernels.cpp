@@ -161,8 +161,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                                         const RayBatch& batch,
                                         const Kernel& kernel,
                                         const std::vector<AnswerList*>& references,
-                                        AnswerList* kept,
-                                        ScreenVerdicts* screen) {
+                                        const KernelRecord& record) {
     std::vector<PairFigures> all(references.size());
     for (size_t r = 0; r < references.size(); ++r) {
         all[r].got = kernel.name;
@@ -170,6 +169,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
         all[r].against_truth = references[r]->is_truth;
         references[r]->known.resize(batch.chunks);
     }
+    AnswerList* const kept = record.answers;
     if (kept != nullptr) {
         kept->name = kernel.name;
         kept->answers.resize(static_cast<size_t>(batch.count()));
@@ -203,11 +203,11 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                 [&](int row, Finding verdict) { seen[static_cast<size_t>(row)] = verdict; });
             const std::lock_guard lock(merging);
             all[r].add(mine);
-            if (screen == nullptr || group != RayGroup::camera || !references[r]->is_truth) {
+            if (record.screen == nullptr || group != RayGroup::camera || !references[r]->is_truth) {
                 continue;
             }
             for (size_t i = 0; i < seen.size(); ++i)
-                note_on_screen(*screen,
+                note_on_screen(*record.screen,
                                batch.rays.place(chunk, static_cast<int>(i)),
                                seen[i],
                                answers[i].found());

@@ -108,19 +108,22 @@ struct ScreenVerdicts {
     std::vector<uint8_t> hit;  ///< 1: a kernel found something
 };
 
+/// What compare_kernel writes beside its figures, where it is not null.
+struct KernelRecord {
+    AnswerList* answers = nullptr;     ///< the kernel's answers
+    ScreenVerdicts* screen = nullptr;  ///< worse verdicts of this pair
+};
+
 /// Asks a kernel all rays of a batch and compares it with others that have been asked. The same
 /// figures for any number of threads. Occlusion is asked of every fourth ray up to a place before
 /// its true hit, where nothing may hide it, and of every fourth up to a place just behind it.
 ///
 /// In      references: answers to the same batch, always with the same scene; may be empty
-/// Out     kept: the kernel's answers, where it is not null; screen: worse verdicts of this pair,
-///         where it is not null
 std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                                         const RayBatch& batch,
                                         const Kernel& kernel,
                                         const std::vector<AnswerList*>& references,
-                                        AnswerList* kept,
-                                        ScreenVerdicts* screen);
+                                        const KernelRecord& record);
 
 /// The truth as a kernel.
 Kernel truth_kernel(const TrueScene& scene);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/report_json.h"
 
-#include "base/json_writer.h"
+#include "base/json/json.h"
 #include "crosscheck/budget.h"
 #include "crosscheck/report_table.h"
 
@@ -23,160 +23,129 @@ constexpr std::array<const char*, verdicts> verdict_keys{"agree",
 
 constexpr std::array<const char*, 3> standard_names{"full", "edges", "none"};
 
-void add_tally(JsonWriter& out, const Tally& tally) {
-    out.member("rays", tally.rays).member("hits", tally.hits);
+void add_tally(const Tally& tally, Json& out) {
+    out["rays"] = tally.rays;
+    out["hits"] = tally.hits;
     for (size_t v = 0; v < verdicts; ++v)
-        out.member(verdict_keys[v], tally.counts[v]);
-    out.member("widest_edge_ulp", tally.widest_edge);
+        out[verdict_keys[v]] = tally.counts[v];
+    out["widest_edge_ulp"] = tally.widest_edge;
 }
 
-void add_answer(JsonWriter& out, const char* name, const Answer& answer) {
-    out.key(name).begin_object();
-    out.member("found", answer.found());
+Json answer_json(const Answer& answer) {
+    Json out;
+    out["found"] = answer.found();
     if (answer.item.primitive >= 0) {
-        out.member("t", answer.t)
-            .member("instance", answer.item.instance)
-            .member("primitive", answer.item.primitive)
-            .member("row", answer.item.row);
+        out["t"] = answer.t;
+        out["instance"] = answer.item.instance;
+        out["primitive"] = answer.item.primitive;
+        out["row"] = answer.item.row;
     }
-    out.end_object();
+    return out;
 }
 
-void add_pair(JsonWriter& out, const PairFigures& pair) {
-    out.begin_object();
-    out.member("kernel", pair.got)
-        .member("against", pair.expected)
-        .member("held_to", standard_names[static_cast<size_t>(pair.standard)]);
-    add_tally(out, pair.total());
-    out.key("by_rays").begin_object();
-    for (size_t g = 0; g < ray_groups; ++g) {
-        out.key(ray_group_names[g]).begin_object();
-        add_tally(out, pair.groups[g]);
-        out.end_object();
-    }
-    out.end_object();
-    out.key("worst").begin_array();
+Json pair_json(const PairFigures& pair) {
+    Json out;
+    out["kernel"] = pair.got;
+    out["against"] = pair.expected;
+    out["held_to"] = standard_names[static_cast<size_t>(pair.standard)];
+    add_tally(pair.total(), out);
+    Json& by_rays = out["by_rays"] = Json::object();
+    for (size_t g = 0; g < ray_groups; ++g)
+        add_tally(pair.groups[g], by_rays[ray_group_names[g]]);
+    Json& worst = out["worst"] = Json::array();
     for (const Difference& d : pair.worst) {
-        out.begin_object();
-        out.member("rays", ray_group_names[static_cast<size_t>(d.group)])
-            .member("number", d.number)
-            .member("verdict", verdict_keys[static_cast<size_t>(d.comparison.verdict)])
-            .member("ulp", d.comparison.ulps)
-            .member("replay", replay_option(d.ray));
-        add_answer(out, "expected", d.expected);
-        add_answer(out, "got", d.got);
-        out.end_object();
+        worst.push_back({{"rays", ray_group_names[static_cast<size_t>(d.group)]},
+                         {"number", d.number},
+                         {"verdict", verdict_keys[static_cast<size_t>(d.comparison.verdict)]},
+                         {"ulp", d.comparison.ulps},
+                         {"replay", replay_option(d.ray)},
+                         {"expected", answer_json(d.expected)},
+                         {"got", answer_json(d.got)}});
     }
-    out.end_array();
-    out.end_object();
+    return out;
 }
 
-void add_twins(JsonWriter& out, const TwinReport& twins) {
-    out.key("twins").begin_object();
-    out.member("shapes", twins.shapes)
-        .member("skipped", twins.skipped)
-        .member("triangles", twins.triangles);
-    out.key("pairs").begin_array();
-    if (twins.figures) add_pair(out, *twins.figures);
-    out.end_array();
-    out.end_object();
+Json twins_json(const TwinReport& twins) {
+    Json out = {
+        {"shapes", twins.shapes}, {"skipped", twins.skipped}, {"triangles", twins.triangles}};
+    Json& pairs = out["pairs"] = Json::array();
+    if (twins.figures) pairs.push_back(pair_json(*twins.figures));
+    return out;
 }
 
-void add_leaks(JsonWriter& out, const LeakReport& leaks) {
-    out.key("leaks").begin_object();
-    out.member("closed_parts", leaks.parts_found).member("parts_used", leaks.parts_used);
-    out.key("kernels").begin_array();
+Json leaks_json(const LeakReport& leaks) {
+    Json out = {{"closed_parts", leaks.parts_found}, {"parts_used", leaks.parts_used}};
+    Json& kernels = out["kernels"] = Json::array();
     for (const LeakFigures& kernel : leaks.kernels) {
-        out.begin_object();
-        out.member("kernel", kernel.kernel).member("in_budget", kernel.in_budget);
+        Json& row = kernels.emplace_back();
+        row["kernel"] = kernel.kernel;
+        row["in_budget"] = kernel.in_budget;
         for (size_t aim = 0; aim < leak_aims; ++aim) {
-            out.key(leak_aim_names[aim]).begin_object();
-            out.member("rays", kernel.by_aim[aim].rays).member("leaks", kernel.by_aim[aim].leaks);
-            out.end_object();
+            row[leak_aim_names[aim]] = {{"rays", kernel.by_aim[aim].rays},
+                                        {"leaks", kernel.by_aim[aim].leaks}};
         }
-        if (kernel.first) out.member("first", replay_option(*kernel.first));
-        out.end_object();
+        if (kernel.first) row["first"] = replay_option(*kernel.first);
     }
-    out.end_array();
-    out.end_object();
+    return out;
 }
 
-void add_spawned(JsonWriter& out, const SpawnedReport& spawned) {
-    out.key("spawned").begin_object();
-    out.member("rays", spawned.rays)
-        .member("self_hits", spawned.self_hits)
-        .member("aimed_rays", spawned.aimed_rays)
-        .member("aimed_self_hits", spawned.aimed_self_hits)
-        .member("wall_rays", spawned.wall_rays)
-        .member("wall_passed", spawned.wall_leaks);
-    out.end_object();
+Json spawned_json(const SpawnedReport& spawned) {
+    return {{"rays", spawned.rays},
+            {"self_hits", spawned.self_hits},
+            {"aimed_rays", spawned.aimed_rays},
+            {"aimed_self_hits", spawned.aimed_self_hits},
+            {"wall_rays", spawned.wall_rays},
+            {"wall_passed", spawned.wall_leaks}};
 }
 
-void add_viewer(JsonWriter& out, const ViewerReport& viewer) {
-    out.key("embree_viewer").begin_object();
-    out.member("state", viewer.state)
-        .member("pixels", viewer.pixels)
-        .member("occlusion", viewer.occlusion)
-        .member("geometry", viewer.geometry)
-        .member("primitive", viewer.primitive)
-        .member("normal", viewer.normal)
-        .member("ties", viewer.ties);
-    out.end_object();
+Json viewer_json(const ViewerReport& viewer) {
+    return {{"state", viewer.state},
+            {"pixels", viewer.pixels},
+            {"occlusion", viewer.occlusion},
+            {"geometry", viewer.geometry},
+            {"primitive", viewer.primitive},
+            {"normal", viewer.normal},
+            {"ties", viewer.ties}};
 }
 
-void add_scene(JsonWriter& out, const CheckedScene& scene) {
-    out.begin_object();
-    out.member("name", scene.name).member("file", scene.file);
-    out.member("triangles", scene.counts.triangles)
-        .member("shapes", scene.counts.shapes)
-        .member("in_world", scene.items_in_world)
-        .member("rays", scene.rays);
-    out.key("truth").begin_object();
-    out.member("searched_through_everything", scene.truth.rays).member("wrong", scene.truth.wrong);
-    out.end_object();
-    out.key("formulas").begin_object();
-    out.member("segments", scene.formulas.segments)
-        .member("wrong", scene.formulas.wrong)
-        .member("wrong_truth", scene.formulas.wrong_truth);
-    out.end_object();
-    out.key("pairs").begin_array();
+Json scene_json(const CheckedScene& scene) {
+    Json out;
+    out["name"] = scene.name;
+    out["file"] = scene.file;
+    out["triangles"] = scene.counts.triangles;
+    out["shapes"] = scene.counts.shapes;
+    out["in_world"] = scene.items_in_world;
+    out["rays"] = scene.rays;
+    out["truth"] = {{"searched_through_everything", scene.truth.rays},
+                    {"wrong", scene.truth.wrong}};
+    out["formulas"] = {{"segments", scene.formulas.segments},
+                       {"wrong", scene.formulas.wrong},
+                       {"wrong_truth", scene.formulas.wrong_truth}};
+    Json& pairs = out["pairs"] = Json::array();
     for (const PairFigures& pair : scene.pairs)
-        add_pair(out, pair);
-    out.end_array();
-    add_twins(out, scene.twins);
-    add_leaks(out, scene.leaks);
-    add_spawned(out, scene.spawned);
-    if (scene.viewer) add_viewer(out, *scene.viewer);
-    out.key("faults").begin_array();
-    for (const std::string& fault : scene.faults)
-        out.value(fault);
-    out.end_array();
-    out.member("within_budget", scene.faults.empty());
-    out.end_object();
+        pairs.push_back(pair_json(pair));
+    out["twins"] = twins_json(scene.twins);
+    out["leaks"] = leaks_json(scene.leaks);
+    out["spawned"] = spawned_json(scene.spawned);
+    if (scene.viewer) out["embree_viewer"] = viewer_json(*scene.viewer);
+    out["faults"] = scene.faults;
+    out["within_budget"] = scene.faults.empty();
+    return out;
 }
 
 }  // namespace
 
 std::string crosscheck_json(const std::vector<CheckedScene>& scenes,
                             const std::vector<std::string>& warnings) {
-    JsonWriter out;
-    out.begin_object();
-    out.member("version", OBSCURA_VERSION);
-    out.key("budget").begin_object();
-    out.member("mismatch_share", mismatch_share)
-        .member("edge_ulp", edge_ulps)
-        .member("depth_ulp", depth_ulps);
-    out.end_object();
-    out.key("scenes").begin_array();
+    Json out;
+    out["version"] = OBSCURA_VERSION;
+    out["budget"] = {
+        {"mismatch_share", mismatch_share}, {"edge_ulp", edge_ulps}, {"depth_ulp", depth_ulps}};
+    Json& rows = out["scenes"] = Json::array();
     for (const CheckedScene& scene : scenes)
-        add_scene(out, scene);
-    out.end_array();
-    out.key("warnings").begin_array();
-    for (const std::string& warning : warnings)
-        out.value(warning);
-    out.end_array();
-    out.end_object();
-    return std::move(out).take();
+        rows.push_back(scene_json(scene));
+    out["warnings"] = warnings;
+    return json_document(out);
 }
 
 }  // namespace obscura

@@ -24,7 +24,12 @@ constexpr uint64_t most_passes = 8;
 /// Traces a block of rays and lets the stage start one ray at every hit.
 class Spawner {
 public:
-    explicit Spawner(const PreparedScene& scene) : scene_(scene), view_(scene.impl().view()) {}
+    explicit Spawner(const PreparedScene& scene) : scene_(scene) {
+        walk_.stages = scene.impl().stages;
+        walk_.accel = &scene.accel();
+        walk_.scene = scene.impl().view();
+        walk_.batch.ao_distance = 3e38f;
+    }
 
     /// starts[slot] is where the spawned row with that slot started. Returns the rows.
     int spawn(RayBlock& rays, uint32_t key, Workspace& work, std::vector<Answer>& starts) const {
@@ -45,30 +50,21 @@ public:
             p.path_key[i] = p.key[i];
             p.sample[i] = 0U;
         }
-        scene_.accel().intersect({p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, nullptr, p.key, rays.count()},
-                                 work.hits,
-                                 Coherence::incoherent,
-                                 {});
+        scene_.accel().intersect(rays_of(p, rays.count()), work.hits, Coherence::incoherent, {});
         starts.clear();
         for (int i = 0; i < rays.count(); ++i) {
             const HitRows& h = work.hits;
             starts.push_back(
                 {static_cast<double>(h.t[i]), {h.instance[i], h.primitive[i], h.triangle[i]}});
         }
-        BatchSettings batch;
-        batch.ao_distance = 3e38f;
-        return scene_.impl().stages->shade_ao(
-            view_,
-            batch,
-            rays.count(),
-            {p, work.hits, work.misses, work.paths[1], work.shadows, work.samples});
+        return spawn_ambient_rays(walk_, rays.count(), work);
     }
 
     const PreparedScene& scene() const { return scene_; }
 
 private:
     const PreparedScene& scene_;
-    SceneView view_;
+    WalkInput walk_{};
 };
 
 /// A Workspace a thread, made when it is first wanted.

@@ -126,9 +126,8 @@ Result<PairFigures> compare_with_mesh(const ShapeRow& row,
     PairFigures figures;
     for (const RayBatch& batch : batches_of(set)) {
         AnswerList own;
-        compare_kernel(truth, batch, of_shape, {}, &own, nullptr);
-        PairFigures part =
-            std::move(compare_kernel(truth, batch, of_mesh, {&own}, nullptr, nullptr)[0]);
+        compare_kernel(truth, batch, of_shape, {}, {.answers = &own});
+        PairFigures part = std::move(compare_kernel(truth, batch, of_mesh, {&own}, {})[0]);
         part.add(figures);
         figures = std::move(part);
     }

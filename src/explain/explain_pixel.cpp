@@ -26,12 +26,7 @@ Result<std::vector<float>> render_pixel(const PixelTask& task,
     const std::atomic<bool> never = false;
     const Result<RenderResult> result = render(*task.scene, task.camera, options, {}, never);
     if (!result) return fail(result.error());
-    const Film& film = result->film;
-    const size_t channels = film.channels.size();
-    const size_t pixel = static_cast<size_t>(task.pixel.y) * static_cast<size_t>(film.width) +
-                         static_cast<size_t>(task.pixel.x);
-    const float* first = film.pixels.data() + pixel * channels;
-    return std::vector<float>(first, first + channels);
+    return std::vector<float>(result->film.pixels.begin(), result->film.pixels.end());
 }
 
 std::string describe_surface(const Scene& scene, const Material& material) {

@@ -1,6 +1,6 @@
 // explain/report_json.cpp - one pixel for scripts.
 // SPDX-License-Identifier: Apache-2.0
-#include "base/json_writer.h"
+#include "base/json/json.h"
 
 #include "explain/explain_pixel.h"
 #include <array>
@@ -10,145 +10,117 @@ namespace obscura {
 
 namespace {
 
-void write_numbers(JsonWriter& json, const char* name, std::span<const double> numbers) {
-    json.key(name).begin_array();
-    for (const double number : numbers)
-        json.value(number);
-    json.end_array();
+Json vector_json(const Vec3d& v) {
+    return Json::array({v.x, v.y, v.z});
 }
 
-void write_vector(JsonWriter& json, const char* name, const Vec3d& v) {
-    write_numbers(json, name, std::array{v.x, v.y, v.z});
+Json vector_json(const Vec3f& v) {
+    return vector_json(Vec3d{v.x, v.y, v.z});
 }
 
-void write_vector(JsonWriter& json, const char* name, const Vec3f& v) {
-    write_vector(json, name, Vec3d{v.x, v.y, v.z});
+Json terms_json(const std::vector<Term>& terms) {
+    Json out = Json::array();
+    for (const Term& term : terms)
+        out.push_back({{"name", term.name}, {"value", term.value}});
+    return out;
 }
 
-void write_terms(JsonWriter& json, const std::vector<Term>& terms) {
-    json.key("terms").begin_array();
-    for (const Term& term : terms) {
-        json.begin_object();
-        json.member("name", term.name);
-        write_numbers(json, "value", term.value);
-        json.end_object();
-    }
-    json.end_array();
-}
-
-void write_camera(JsonWriter& json, const PixelReport& report) {
-    json.key("camera").begin_object();
-    json.member("name", report.camera);
-    json.member("model", report.working.model);
-    json.member("sees", report.working.sees);
-    write_terms(json, report.working.terms);
-    json.end_object();
+void add_camera(const PixelReport& report, Json& json) {
+    json["camera"] = {{"name", report.camera},
+                      {"model", report.working.model},
+                      {"sees", report.working.sees},
+                      {"terms", terms_json(report.working.terms)}};
     if (!report.working.sees) return;
-    json.key("ray").begin_object();
-    write_vector(json, "origin", report.working.ray.origin);
-    write_vector(json, "direction", report.working.ray.direction);
-    json.member("length", report.working.length_m);
-    json.end_object();
+    json["ray"] = {{"origin", vector_json(report.working.ray.origin)},
+                   {"direction", vector_json(report.working.ray.direction)},
+                   {"length", report.working.length_m}};
 }
 
-void write_item(JsonWriter& json, const Item& item) {
-    json.member("instance", item.instance);
-    json.member("primitive", item.primitive);
-    json.member("row", item.row);
+void add_item(const Item& item, Json& json) {
+    json["instance"] = item.instance;
+    json["primitive"] = item.primitive;
+    json["row"] = item.row;
 }
 
-void write_objects(JsonWriter& json, const PixelReport& report) {
-    json.key("objects").begin_array();
+void add_objects(const PixelReport& report, Json& json) {
+    Json& objects = json["objects"] = Json::array();
     for (const Candidate& object : report.objects) {
-        json.begin_object();
-        json.member("name", object.name);
-        write_item(json, object.item);
-        json.member("fate", fate_name(object.fate));
-        json.member("t", object.t);
-        json.member("note", object.note.empty() ? object.working.missed : object.note);
-        json.member("equation", object.working.equation);
-        write_terms(json, object.working.terms);
-        write_numbers(json, "roots", object.working.t);
-        json.end_object();
+        Json& out = objects.emplace_back();
+        out["name"] = object.name;
+        add_item(object.item, out);
+        out["fate"] = fate_name(object.fate);
+        out["t"] = object.t;
+        out["note"] = object.note.empty() ? object.working.missed : object.note;
+        out["equation"] = object.working.equation;
+        out["terms"] = terms_json(object.working.terms);
+        out["roots"] = object.working.t;
     }
-    json.end_array();
-    json.member("more_near", report.more_near);
-    json.member("elsewhere", report.elsewhere);
+    json["more_near"] = report.more_near;
+    json["elsewhere"] = report.elsewhere;
 }
 
-void write_renderer(JsonWriter& json, const PixelReport& report) {
+Json renderer_json(const PixelReport& report) {
     const RaycastNotes& r = report.renderer;
-    json.key("renderer").begin_object();
-    write_vector(json, "origin", r.origin);
-    write_vector(json, "direction", r.direction);
-    json.member("hit", r.primitive >= 0);
+    Json out;
+    out["origin"] = vector_json(r.origin);
+    out["direction"] = vector_json(r.direction);
+    out["hit"] = r.primitive >= 0;
     if (r.primitive >= 0) {
-        json.member("t", static_cast<double>(r.t));
-        json.member("name", report.renderer_item);
-        write_item(json, {r.instance, r.primitive, r.triangle});
+        out["t"] = static_cast<double>(r.t);
+        out["name"] = report.renderer_item;
+        add_item({r.instance, r.primitive, r.triangle}, out);
     }
-    json.member("agrees", !report.disagrees);
-    json.end_object();
+    out["agrees"] = !report.disagrees;
+    return out;
 }
 
-void write_seen(JsonWriter& json, const PixelReport& report) {
-    if (!report.seen) return;
-    const SeenPoint& seen = *report.seen;
-    json.key("seen").begin_object();
-    json.member("object", seen.object);
-    write_vector(json, "place", seen.place);
-    write_vector(json, "surface_normal", seen.face);
-    write_vector(json, "normal", seen.normal);
-    write_numbers(
-        json, "uv", std::array{static_cast<double>(seen.uv[0]), static_cast<double>(seen.uv[1])});
-    json.member("material", seen.material);
-    write_vector(json, "base_color", seen.base_color);
-    json.end_object();
+Json seen_json(const SeenPoint& seen) {
+    return {{"object", seen.object},
+            {"place", vector_json(seen.place)},
+            {"surface_normal", vector_json(seen.face)},
+            {"normal", vector_json(seen.normal)},
+            {"uv", Json::array({static_cast<double>(seen.uv[0]), static_cast<double>(seen.uv[1])})},
+            {"material", seen.material},
+            {"base_color", vector_json(seen.base_color)}};
 }
 
-void write_light(JsonWriter& json, const PixelReport& report) {
-    json.key("lights").begin_array();
+void add_light(const PixelReport& report, Json& json) {
+    Json& lights = json["lights"] = Json::array();
     for (const LightShare& light : report.lights) {
-        json.begin_object();
-        json.member("name", light.name);
-        write_terms(json, light.terms);
-        write_vector(json, "direction", light.direction);
-        json.member("distance", light.distance_m);
-        write_vector(json, "irradiance", light.irradiance);
-        json.member("cosine", light.cosine);
-        json.member("asked", light.noted.asked);
-        write_vector(json, "bsdf", light.bsdf);
-        write_vector(json, "offered", light.noted.offered);
-        write_vector(json, "arrived", light.noted.arrived);
-        json.member("blocked_by", light.blocked_by);
-        json.end_object();
+        lights.push_back({{"name", light.name},
+                          {"terms", terms_json(light.terms)},
+                          {"direction", vector_json(light.direction)},
+                          {"distance", light.distance_m},
+                          {"irradiance", vector_json(light.irradiance)},
+                          {"cosine", light.cosine},
+                          {"asked", light.noted.asked},
+                          {"bsdf", vector_json(light.bsdf)},
+                          {"offered", vector_json(light.noted.offered)},
+                          {"arrived", vector_json(light.noted.arrived)},
+                          {"blocked_by", light.blocked_by}});
     }
-    json.end_array();
-    write_vector(json, "unshadowed", report.renderer.unshadowed);
+    json["unshadowed"] = vector_json(report.renderer.unshadowed);
 }
 
 }  // namespace
 
 std::string pixel_json(const PixelReport& report) {
-    JsonWriter json;
-    json.begin_object();
-    json.member("version", OBSCURA_VERSION);
-    json.member("file", report.file);
-    json.key("pixel").begin_array().value(report.pixel.x).value(report.pixel.y).end_array();
-    json.key("size").begin_array().value(report.pixel.width).value(report.pixel.height).end_array();
-    write_camera(json, report);
+    Json json;
+    json["version"] = OBSCURA_VERSION;
+    json["file"] = report.file;
+    json["pixel"] = Json::array({report.pixel.x, report.pixel.y});
+    json["size"] = Json::array({report.pixel.width, report.pixel.height});
+    add_camera(report, json);
     if (report.working.sees) {
-        write_objects(json, report);
-        write_renderer(json, report);
-        write_seen(json, report);
-        write_light(json, report);
+        add_objects(report, json);
+        json["renderer"] = renderer_json(report);
+        if (report.seen) json["seen"] = seen_json(*report.seen);
+        add_light(report, json);
     }
-    json.key("rgba").begin_array();
+    Json& rgba = json["rgba"] = Json::array();
     for (const float channel : report.rgba)
-        json.value(static_cast<double>(channel));
-    json.end_array();
-    json.end_object();
-    return std::move(json).take();
+        rgba.push_back(static_cast<double>(channel));
+    return json_document(json);
 }
 
 }  // namespace obscura

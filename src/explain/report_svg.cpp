@@ -190,22 +190,25 @@ void draw_hits(const PixelReport& report, Drawing& draw) {
     }
 }
 
-/// An arrow from what is seen; a direction that leaves the plane is as much shorter.
-void draw_direction(const Spot& from,
-                    const Vec3d& direction,
-                    const std::string& name,
-                    const char* color,
-                    const char* more,
-                    Drawing& draw) {
+/// An arrow from what is seen.
+struct Arrow {
+    Vec3d direction;
+    std::string name;
+    const char* color;
+    const char* more = "";  ///< further attributes of the line
+};
+
+/// A direction that leaves the plane is as much shorter.
+void draw_direction(const Spot& from, const Arrow& arrow, Drawing& draw) {
     constexpr double arrow_length = 105;
     const CrossSection& plane = draw.plane();
-    const double x = dot(direction, plane.along);
-    const double y = dot(direction, plane.across);
+    const double x = dot(arrow.direction, plane.along);
+    const double y = dot(arrow.direction, plane.across);
     const Spot to{from.x + arrow_length * x, from.y - arrow_length * y};
-    draw.arrow(from, to, color, more);
+    draw.arrow(from, to, arrow.color, arrow.more);
     const double size = std::max(std::hypot(x, y), 1e-9);
     const Spot label{to.x + 20 * x / size, to.y - 20 * y / size + 5};
-    draw.text(label, color, name, " text-anchor=\"middle\" font-weight=\"bold\"");
+    draw.text(label, arrow.color, arrow.name, " text-anchor=\"middle\" font-weight=\"bold\"");
 }
 
 void draw_directions(const PixelReport& report, Drawing& draw) {
@@ -216,13 +219,14 @@ void draw_directions(const PixelReport& report, Drawing& draw) {
         const LightShare& light = report.lights[i];
         const bool lit = light.noted.asked && light.blocked_by.empty();
         draw_direction(at,
-                       light.direction,
-                       fmt::format("L{}", light.noted.number),
-                       lit ? light_color : shadow_color,
-                       lit ? "" : " stroke-dasharray=\"5 4\"",
+                       {.direction = light.direction,
+                        .name = fmt::format("L{}", light.noted.number),
+                        .color = lit ? light_color : shadow_color,
+                        .more = lit ? "" : " stroke-dasharray=\"5 4\""},
                        draw);
     }
-    draw_direction(at, report.seen->normal, "N", normal_color, "", draw);
+    draw_direction(
+        at, {.direction = report.seen->normal, .name = "N", .color = normal_color}, draw);
 }
 
 /// Adds words to the legend, as many a line as fit.

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/animation.h"
 
-#include "gltf/trs.h"
+#include "gltf/parse/trs.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gltf/accessors.h"
+#include "gltf/decode/accessors.h"
 
 #include <array>
 #include <span>

@@ -2,19 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/load.h"
 
-#include "gltf/asset_file.h"
-#include "gltf/environment_light.h"
-#include "gltf/instancing.h"
-#include "gltf/left_out_nodes.h"
-#include "gltf/light_profiles.h"
-#include "gltf/lights_cameras.h"
-#include "gltf/meshes.h"
-#include "gltf/meshopt.h"
+#include "base/setting_names.h"
+#include "gltf/decode/meshopt.h"
+#include "gltf/geometry/instancing.h"
+#include "gltf/geometry/left_out_nodes.h"
+#include "gltf/geometry/meshes.h"
+#include "gltf/geometry/shapes.h"
+#include "gltf/geometry/splats.h"
+#include "gltf/materials/environment_light.h"
+#include "gltf/materials/light_profiles.h"
+#include "gltf/materials/lights_cameras.h"
+#include "gltf/materials/textures.h"
+#include "gltf/parse/asset_file.h"
+#include "gltf/parse/variants.h"
 #include "gltf/pose.h"
-#include "gltf/shapes.h"
-#include "gltf/splats.h"
-#include "gltf/textures.h"
-#include "gltf/variants.h"
 #include "scene/motion.h"
 #include "scene/stroke_radii.h"
 
@@ -42,7 +43,7 @@ tl::unexpected<Error> unknown_scene(const Document& document, const std::string&
     }
     return fail(ExitCode::usage,
                 "E-SCENE-UNKNOWN",
-                "--scene",
+                setting("scene"),
                 "the asset has no scene " + asked + "; it has " + (names.empty() ? "none" : names));
 }
 
@@ -206,11 +207,10 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     auto profiles = load_light_profiles(document, buffers, file.parent_path());
     if (!profiles) return fail(std::move(profiles.error()));
     light_profiles = std::move(*profiles);
-    Result<Animator> made = Animator::create(asset.tree, document, buffers, *animations);
+    Result<Animator> made = Animator::create(document, buffers, *animations);
     if (!made) return fail(std::move(made.error()));
     animator = std::move(*made);
     animator.mark(document);
-    asset.tree = nullptr;
 
     info.file_name = file.filename().string();
     info.scene = std::max(scene, 0);

@@ -61,7 +61,8 @@ public:
     /// Reads and checks the file and everything that it refers to but the images.
     ///
     /// In      options: as for load_gltf, but for time_s; has_time: scenes at times will be asked
-    /// for Errors  those of load_gltf
+    ///         for
+    /// Errors  those of load_gltf
     static Result<PosedAsset> open(const std::filesystem::path& file,
                                    const LoadOptions& options,
                                    bool has_time,

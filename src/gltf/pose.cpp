@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/pose.h"
 
-#include "gltf/document_parts.h"
-#include "gltf/trs.h"
+#include "base/setting_names.h"
+#include "gltf/parse/animation_pointer.h"
+#include "gltf/parse/camera_extension.h"
+#include "gltf/parse/finish_material.h"
+#include "gltf/parse/trs.h"
 
 #include <algorithm>
 #include <charconv>
@@ -13,82 +16,88 @@ namespace obscura {
 
 namespace {
 
-using nlohmann::json;
-
-constexpr const char* lights_name = "KHR_lights_punctual";
-
-/// The parts that pointers change through their readers, and what those readers look at.
-json readable_parts(const json& tree) {
-    json out = json::object();
-    for (const char* key : {"materials", "cameras", "textures"}) {
-        if (tree.contains(key)) out[key] = tree[key];
-    }
-    const auto extensions = tree.find("extensions");
-    if (extensions != tree.end() && extensions->contains(lights_name)) {
-        out["extensions"][lights_name] = (*extensions)[lights_name];
-    }
-    return out;
-}
-
-void set_weights(const GltfChannel& channel,
+void set_weights(int element,
                  const std::vector<double>& value,
                  size_t count,
                  std::vector<double>& weights) {
     weights.resize(count, 0.0);
-    if (channel.element < 0) {
+    if (element < 0) {
         weights = value;
     } else {
-        weights[static_cast<size_t>(channel.element)] = value[0];
+        weights[static_cast<size_t>(element)] = value[0];
     }
 }
 
-/// A node's light profile.
-void set_profile(const GltfChannel& channel, const std::vector<double>& value, GltfNode& node) {
-    if (channel.path == ChannelPath::profile_multiplier) {
-        node.ies.multiplier = std::max(value[0], 0.0);
-        return;
-    }
-    for (size_t i = 0; i < 3; ++i)
-        node.ies.color[i] = std::clamp(value[i], 0.0, 1.0);
+void set_node_weights(int element,
+                      const std::vector<double>& value,
+                      Document& document,
+                      GltfNode& node) {
+    const GltfMesh& mesh = document.meshes[static_cast<size_t>(node.mesh)];
+    if (node.weights.empty()) node.weights = mesh.weights;
+    set_weights(element, value, mesh.target_count, node.weights);
 }
 
-void set_environment(const GltfChannel& channel,
-                     const std::vector<double>& value,
-                     GltfEnvironment& light) {
-    if (channel.path == ChannelPath::environment_intensity) {
-        light.intensity = std::max(value[0], 0.0);
-        return;
-    }
-    std::copy_n(value.begin(), 4, light.rotation.begin());
+/// The quaternion of a node or of an environment.
+template <typename AnyDocument>
+auto& quaternion_of(const AnimatedProperty& property, AnyDocument& document) {
+    const auto target = static_cast<size_t>(property.target);
+    return property.path == ChannelPath::rotation ? document.nodes[target].trs.rotation
+                                                  : document.environments[target].rotation;
 }
 
-void set_node(const GltfChannel& channel, const std::vector<double>& value, Document& document) {
-    GltfNode& node = document.nodes[static_cast<size_t>(channel.target)];
-    switch (channel.path) {
-        case ChannelPath::translation:
-            std::copy_n(value.begin(), 3, node.trs.translation.begin());
-            break;
-        case ChannelPath::rotation:
-            std::copy_n(value.begin(), 4, node.trs.rotation.begin());
-            break;
-        case ChannelPath::scale:
-            std::copy_n(value.begin(), 3, node.trs.scale.begin());
-            break;
-        case ChannelPath::profile_multiplier:
-        case ChannelPath::profile_color:
-            set_profile(channel, value, node);
-            return;
-        case ChannelPath::visible:
-            node.visible = value[0] >= 0.5;
-            return;
-        default: {
-            const GltfMesh& mesh = document.meshes[static_cast<size_t>(node.mesh)];
-            if (node.weights.empty()) node.weights = mesh.weights;
-            set_weights(channel, value, mesh.target_count, node.weights);
-            return;
-        }
+bool is_quaternion_element(const AnimatedProperty& property) {
+    const bool turns = property.path == ChannelPath::rotation ||
+                       property.path == ChannelPath::environment_rotation;
+    return turns && property.element >= 0;
+}
+
+/// Brings a quaternion of which single numbers were written to length 1.
+Result<void> finish_quaternion(const AnimatedProperty& property, Document& document) {
+    const bool of_node = property.path == ChannelPath::rotation;
+    const auto target = static_cast<size_t>(property.target);
+    if (!normalize_quaternion(quaternion_of(property, document))) {
+        const std::string place =
+            of_node ? document.at("nodes", target)
+                    : document.at("extensions/EXT_lights_image_based/lights", target);
+        return fail(ExitCode::bad_data,
+                    of_node ? "E-NODE-ROTATION" : "E-LIGHT-ROTATION",
+                    place + "/rotation",
+                    "the quaternion has no length");
     }
-    node.parent_from_node = affine_from_trs(node.trs);
+    if (of_node) {
+        GltfNode& node = document.nodes[target];
+        node.parent_from_node = affine_from_trs(node.trs);
+    }
+    return {};
+}
+
+/// What a camera has where one of its numbers is animated.
+CameraGiven given_numbers(const AnimatedProperty& property, const GltfCamera& stored) {
+    GltfCamera camera = stored;  // rows point into cameras that may be changed
+    CameraGiven given{.aspect = camera.aspect != 0, .zfar = camera.zfar_m != 0};
+    if (property.path != ChannelPath::camera) return given;
+    const auto rows = camera.orthographic ? orthographic_rows : perspective_rows;
+    const double* number = rows[static_cast<size_t>(property.row)].numbers(camera).data();
+    given.aspect = given.aspect || number == &camera.aspect;
+    given.zfar = given.zfar || number == &camera.zfar_m;
+    return given;
+}
+
+Result<void> finish_animated_camera(int number, const CameraGiven& given, Document& document) {
+    const auto index = static_cast<size_t>(number);
+    GltfCamera& camera = document.cameras[index];
+    const std::string place = document.at("cameras", index) + "/";
+    if (const auto fault = finish_camera(camera, given)) {
+        const char* type = camera.orthographic ? "orthographic/" : "perspective/";
+        return fail(ExitCode::bad_data, fault->id, place + type + fault->key, fault->message);
+    }
+    if (const auto wrong = clipping_fault(camera.settings)) {
+        return fail(ExitCode::bad_data,
+                    camera_value_id,
+                    place + "extensions/" + camera_extension_name + "/far",
+                    *wrong);
+    }
+    return {};
 }
 
 std::string list_animations(const Document& document) {
@@ -109,89 +118,97 @@ std::vector<int> all_animations(const Document& document) {
 
 }  // namespace
 
-Result<Animator> Animator::create(const json& tree,
-                                  const Document& document,
+void Animator::add(Track track, const Document& document) {
+    const AnimatedProperty& property = track.channel.property;
+    switch (property.path) {
+        case ChannelPath::material:
+        case ChannelPath::texture_transform:
+            has_materials_ = true;
+            break;
+        case ChannelPath::camera:
+        case ChannelPath::lens:
+        case ChannelPath::blades:
+            cameras_.push_back(
+                {property.target,
+                 given_numbers(property, document.cameras[static_cast<size_t>(property.target)])});
+            break;
+        default:
+            break;
+    }
+    if (is_quaternion_element(property)) {
+        quaternions_.push_back({property, quaternion_of(property, document)});
+    }
+    tracks_.push_back(std::move(track));
+}
+
+Result<Animator> Animator::create(const Document& document,
                                   const BufferStore& buffers,
                                   const std::vector<int>& animations) {
     Animator out;
-    bool has_pointers = false;
     for (const int number : animations) {
         const GltfAnimation& animation = document.animations[static_cast<size_t>(number)];
         for (const GltfChannel& channel : animation.channels) {
             const GltfAnimationSampler& sampler =
                 animation.samplers[static_cast<size_t>(channel.sampler)];
             KeyframeKind kind{sampler.interpolation, channel.width, false};
-            kind.quaternion = is_quaternion(channel.path);
+            kind.quaternion = is_quaternion(channel.property);
             Result<Keyframes> keys = read_keyframes(document, buffers, sampler, kind);
             if (!keys) return fail(std::move(keys.error()));
-            out.tracks_.push_back({channel, std::move(*keys)});
-            has_pointers = has_pointers || channel.path == ChannelPath::json;
+            out.add({channel, std::move(*keys)}, document);
         }
     }
-    if (has_pointers) out.tree_ = readable_parts(tree);
     return out;
 }
 
 void Animator::mark(Document& document) const {
     for (const Track& track : tracks_) {
-        const auto target = static_cast<size_t>(track.channel.target);
-        switch (track.channel.path) {
-            case ChannelPath::weights:
-                document.nodes[target].bends = true;
-                break;
-            case ChannelPath::mesh_weights:
-                document.meshes[target].bends = true;
-                break;
-            case ChannelPath::translation:
-            case ChannelPath::rotation:
-            case ChannelPath::scale:
-            case ChannelPath::visible:
-                document.nodes[target].moves = true;
-                break;
-            default:
-                break;  // lights, cameras and materials
-        }
+        const ChannelPath path = track.channel.property.path;
+        const auto target = static_cast<size_t>(track.channel.property.target);
+        if (path == ChannelPath::weights) document.nodes[target].bends = true;
+        if (path == ChannelPath::mesh_weights) document.meshes[target].bends = true;
+        if (moves_node(path) || path == ChannelPath::visible) document.nodes[target].moves = true;
     }
 }
 
-void Animator::apply(const Track& track, Document& document, double time_s) {
+Result<void> Animator::apply(const Track& track, Document& document, double time_s) const {
     const std::vector<double> value = sample(track.keys, time_s);
-    const GltfChannel& channel = track.channel;
-    if (channel.path == ChannelPath::json) {
-        json& property = tree_[json::json_pointer(channel.pointer)];
-        property = value.size() == 1 ? json(value[0]) : json(value);
-    } else if (channel.path == ChannelPath::mesh_weights) {
-        GltfMesh& mesh = document.meshes[static_cast<size_t>(channel.target)];
-        set_weights(channel, value, mesh.target_count, mesh.weights);
-    } else if (channel.path == ChannelPath::environment_intensity ||
-               channel.path == ChannelPath::environment_rotation) {
-        set_environment(channel, value, document.environments[static_cast<size_t>(channel.target)]);
-    } else {
-        set_node(channel, value, document);
+    const AnimatedProperty& property = track.channel.property;
+    const auto target = static_cast<size_t>(property.target);
+    switch (property.path) {
+        case ChannelPath::weights:
+            set_node_weights(property.element, value, document, document.nodes[target]);
+            return {};
+        case ChannelPath::mesh_weights: {
+            GltfMesh& mesh = document.meshes[target];
+            set_weights(property.element, value, mesh.target_count, mesh.weights);
+            return {};
+        }
+        case ChannelPath::visible:
+            document.nodes[target].visible = value[0] >= 0.5;
+            return {};
+        default:
+            break;
     }
+    const Result<void> done = set_property(property, value, document);
+    if (done && moves_node(property.path)) {
+        GltfNode& node = document.nodes[target];
+        node.parent_from_node = affine_from_trs(node.trs);
+    }
+    return done;
 }
 
-/// Materials, cameras and lights are read from the changed JSON as they were from the file's.
-Result<void> Animator::read_again(Document& document) const {
-    JsonFault fault;
-    fault.file = document.file;
-    Log silent(Verbosity::quiet);  // the file's own oddities have been told
-    const JsonReader root(tree_, "", fault);
-    DocumentReading reading{root, document, silent};
-    document.materials.clear();
-    document.cameras.clear();
-    document.lights.clear();
-    read_materials(reading);
-    read_cameras(reading);
-    read_lights(reading);
-    if (fault.error) return fail(std::move(*fault.error));
-    return {};
-}
-
-Result<void> Animator::pose(Document& document, double time_s) {
-    for (const Track& track : tracks_)
-        apply(track, document, time_s);
-    return tree_.is_null() ? Result<void>{} : read_again(document);
+Result<void> Animator::pose(Document& document, double time_s) const {
+    for (const Quaternion& quaternion : quaternions_)
+        quaternion_of(quaternion.property, document) = quaternion.stored;
+    Result<void> done;
+    for (size_t i = 0; i < tracks_.size() && done; ++i)
+        done = apply(tracks_[i], document, time_s);
+    for (size_t i = 0; i < quaternions_.size() && done; ++i)
+        done = finish_quaternion(quaternions_[i].property, document);
+    for (size_t i = 0; i < cameras_.size() && done; ++i)
+        done = finish_animated_camera(cameras_[i].number, cameras_[i].given, document);
+    if (done && has_materials_) finish_materials(document);
+    return done;
 }
 
 Result<std::vector<int>> choose_animations(const Document& document,
@@ -204,7 +221,7 @@ Result<std::vector<int>> choose_animations(const Document& document,
     const auto refuse = [&](const char* id, const std::string& message) {
         return fail(ExitCode::usage,
                     id,
-                    "--animation",
+                    setting("animation"),
                     message + "; " + list_animations(document) + "; accepted are all and none too");
     };
     std::vector<int> named;

@@ -3,8 +3,9 @@
 #pragma once
 
 #include "gltf/animation.h"
+#include "gltf/parse/light_camera_rows.h"
 
-#include <nlohmann/json.hpp>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,11 +18,8 @@ public:
     /// Reads the keyframes of animations (indices into Document::animations); where several change
     /// the same thing, the later one counts.
     ///
-    /// In      tree: the document's JSON; what pointers into materials, lights and cameras need of
-    ///         it is kept
     /// Errors  as read_keyframes
-    static Result<Animator> create(const nlohmann::json& tree,
-                                   const Document& document,
+    static Result<Animator> create(const Document& document,
                                    const BufferStore& buffers,
                                    const std::vector<int>& animations);
 
@@ -33,8 +31,10 @@ public:
     /// Writes every animated value at a time into the document. All of them are written whatever
     /// the time is: a document may be posed again and again, in any order.
     ///
-    /// Errors  those of read_document, of materials, lights and cameras that animated values break
-    Result<void> pose(Document& document, double time_s);
+    /// Errors  65 E-CAM-*, E-NODE-ROTATION, E-LIGHT-ROTATION of cameras and quaternions that
+    /// animated
+    ///         values break
+    Result<void> pose(Document& document, double time_s) const;
 
 private:
     struct Track {
@@ -42,11 +42,25 @@ private:
         Keyframes keys;
     };
 
-    void apply(const Track& track, Document& document, double time_s);
-    Result<void> read_again(Document& document) const;
+    /// A quaternion of which single numbers are animated: how the file has it. It is set back
+    /// before every pose, for a pose brings all four numbers to length 1.
+    struct Quaternion {
+        AnimatedProperty property;
+        std::array<double, 4> stored;
+    };
+
+    struct AnimatedCamera {
+        int number;
+        CameraGiven given;
+    };
+
+    void add(Track track, const Document& document);
+    Result<void> apply(const Track& track, Document& document, double time_s) const;
 
     std::vector<Track> tracks_;
-    nlohmann::json tree_;  ///< only what is read again
+    std::vector<Quaternion> quaternions_;
+    std::vector<AnimatedCamera> cameras_;
+    bool has_materials_ = false;
 };
 
 /// Indices of the animations that --animation means: "all", "none", an exact name, an index.

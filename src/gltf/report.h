@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gltf/extensions.h"
+#include "gltf/parse/extensions.h"
 
 #include <nlohmann/json_fwd.hpp>
 #include <span>

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/display.h"
 
+#include "base/setting_names.h"
 #include "image/ocio_config.h"
 #include "image/ocio_cycles.h"
 #include "image/pbr_neutral.h"
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <mutex>
 #include <sstream>
 #include <utility>
 #include <vector>
@@ -38,9 +40,10 @@ tl::unexpected<Error> bad_configuration(const char* id,
 }
 
 /// Sends OpenColorIO's notes to our log for as long as it lives, instead of standard error.
+/// The library has one function for all threads, so these wait for one another.
 class OcioNotesToLog {
 public:
-    OcioNotesToLog(Log& log, const std::string& where) {
+    OcioNotesToLog(Log& log, const std::string& where) : turn_(one_at_a_time) {
         ocio::SetLoggingFunction([&log, where](const char* text) {
             std::string line = text;
             while (!line.empty() && line.back() == '\n')
@@ -51,6 +54,10 @@ public:
     ~OcioNotesToLog() { ocio::ResetToDefaultLoggingFunction(); }
     OcioNotesToLog(const OcioNotesToLog&) = delete;
     OcioNotesToLog& operator=(const OcioNotesToLog&) = delete;
+
+private:
+    static inline std::recursive_mutex one_at_a_time;
+    std::lock_guard<std::recursive_mutex> turn_;
 };
 
 /// A config with the name that messages use for it.
@@ -80,7 +87,7 @@ Result<NamedConfig> load_config(const DisplayOptions& options, Log& log) {
         std::istringstream text(builtin_ocio_config);
         return NamedConfig{ocio::Config::CreateFromStream(text), "built-in OCIO config", true};
     }
-    const std::string where = (from_option ? "--ocio " : "$OCIO ") + file;
+    const std::string where = (from_option ? setting("ocio") : "$OCIO") + " " + file;
     const std::string expected = "; give an OpenColorIO config file (.ocio)";
     if (const std::string why = why_unreadable(file); !why.empty()) {
         return bad_configuration("E-OCIO-FILE", where, why + expected);
@@ -138,7 +145,7 @@ Result<DisplayAndView> choose(const NamedConfig& from, const DisplayOptions& opt
         if (chosen.display.empty()) {
             return bad_configuration(
                 "E-OCIO-DISPLAY",
-                "--display " + options.display,
+                setting("display") + " " + options.display,
                 from.name + " has no such display; it has " + quoted_list(displays));
         }
     }
@@ -152,7 +159,7 @@ Result<DisplayAndView> choose(const NamedConfig& from, const DisplayOptions& opt
         chosen.view = find_name(views, options.view);
         if (chosen.view.empty()) {
             return bad_configuration("E-OCIO-VIEW",
-                                     "--view " + options.view,
+                                     setting("view") + " " + options.view,
                                      "display '" + chosen.display + "' of " + from.name +
                                          " has no such view; it has " + quoted_list(views));
         }

@@ -12,9 +12,9 @@
 namespace obscura {
 
 struct DisplayOptions {
-    std::string ocio_file;   ///< --ocio; empty: $OCIO, else the built-in config
-    std::string display;     ///< --display; empty: the config's default
-    std::string view;        ///< --view; empty: the config's default for that display
+    std::string ocio_file;   ///< a config; empty: $OCIO, else the built-in config
+    std::string display;     ///< empty: the config's default
+    std::string view;        ///< empty: the config's default for that display
     double exposure_ev = 0;  ///< scene values are multiplied by 2^EV first
 };
 

@@ -80,6 +80,7 @@ Result<std::vector<std::byte>> encode_for_display(const Picture& picture,
     std::vector<unsigned char> encoded;
     OIIO::Filesystem::IOVecOutput stream(encoded);
     const auto output = OIIO::ImageOutput::create(is_png ? "png" : "jpeg");
+    if (output) output->threads(1);
     const bool done = output && output->set_ioproxy(&stream) && output->open(where, spec) &&
                       output->write_image(OIIO::TypeDesc::UINT8, codes.data()) && output->close();
     if (!done) {

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "image/encode.h"
 #include "image/exr_stream.h"
+#include "image/process_settings.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticities.h>
@@ -16,6 +17,7 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 
+#include <Imath/ImathBox.h>
 #include <Imath/ImathMatrix.h>
 #include <Imath/half.h>
 #include <algorithm>
@@ -39,8 +41,21 @@ void insert_text(Imf::Header& header, const std::string& name, const std::string
     if (!text.empty()) header.insert(name, Imf::StringAttribute(escape_control(text)));
 }
 
+/// The part of an image that the pixels are; at the origin where they are all of it.
+Imath::Box2i data_window(const Picture& picture) {
+    const Imath::V2i low =
+        picture.part_of ? Imath::V2i(picture.part_of->x, picture.part_of->y) : Imath::V2i(0, 0);
+    return {low, low + Imath::V2i(picture.width - 1, picture.height - 1)};
+}
+
+Imf::Header header_of_size(const Picture& picture) {
+    const Imath::Box2i data = data_window(picture);
+    if (!picture.part_of) return {data, data};
+    return {{{0, 0}, {picture.part_of->width - 1, picture.part_of->height - 1}}, data};
+}
+
 Imf::Header header_of(const Picture& picture, const PictureMetadata& metadata, ExrDepth depth) {
-    Imf::Header header(picture.width, picture.height);
+    Imf::Header header = header_of_size(picture);
     header.compression() = Imf::ZIP_COMPRESSION;
     const Imf::PixelType type = depth == ExrDepth::half ? Imf::HALF : Imf::FLOAT;
     for (const std::string& name : picture.channels) {
@@ -76,14 +91,17 @@ std::vector<half> halves_of(std::span<const float> values) {
     return halves;
 }
 
-/// Large pictures are compressed on several threads; small ones are not worth starting them.
+/// Large pictures are compressed on the threads that the process has for OpenEXR; small ones are
+/// not worth starting them.
 int compression_threads(const Picture& picture) {
     constexpr size_t large = 1 << 20;
     constexpr size_t most = 16;
     if (picture.pixels.size() < large) return 0;
     const int threads = static_cast<int>(std::min(max_thread_index(), most));
-    if (Imf::globalThreadCount() < threads) Imf::setGlobalThreadCount(threads);
-    return threads;
+    if (owns_process_settings() && Imf::globalThreadCount() < threads) {
+        Imf::setGlobalThreadCount(threads);
+    }
+    return std::min(threads, Imf::globalThreadCount());
 }
 
 }  // namespace
@@ -103,10 +121,11 @@ std::vector<std::byte> encode_exr(const Picture& picture,
     Imf::FrameBuffer buffer;
     for (size_t i = 0; i < picture.channels.size(); ++i) {
         buffer.insert(picture.channels[i],
-                      Imf::Slice(is_half ? Imf::HALF : Imf::FLOAT,
-                                 base + i * value_bytes,
-                                 pixel_bytes,
-                                 pixel_bytes * static_cast<size_t>(picture.width)));
+                      Imf::Slice::Make(is_half ? Imf::HALF : Imf::FLOAT,
+                                       base + i * value_bytes,
+                                       data_window(picture),
+                                       pixel_bytes,
+                                       pixel_bytes * static_cast<size_t>(picture.width)));
     }
     ExrMemoryWriter stream(name.c_str());
     {

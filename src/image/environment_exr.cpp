@@ -11,10 +11,11 @@
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <mutex>
+#include <optional>
 #include <string_view>
 
 namespace obscura {
@@ -48,29 +49,66 @@ struct HeaderReader {
     void skip(size_t count) { rest = rest.subspan(std::min(count, rest.size())); }
 };
 
-/// OpenEXR allocates tables in proportion to the size as soon as it opens a file: look at the
-/// first part's data window before.
-Result<void> check_data_window(Bytes bytes, const std::string& where) {
-    constexpr size_t magic_and_version = 8;
-    HeaderReader reader{bytes};
-    reader.skip(magic_and_version);
+/// One part's header: what OpenEXR allocates by as soon as it opens a file.
+struct PartSize {
+    bool is_whole = false;  ///< its end was found
+    std::optional<std::array<int64_t, 2>> window;
+    std::array<uint32_t, 2> tile = {1, 1};
+};
+
+PartSize read_part(HeaderReader& reader) {
+    PartSize part;
     while (!reader.rest.empty()) {
         const std::string_view name = reader.text();
-        if (name.empty()) break;
+        if (name.empty()) {
+            part.is_whole = true;
+            break;
+        }
         const std::string_view type = reader.text();
         const int32_t size = reader.number();
-        if (size < 0) break;
-        if (static_cast<size_t>(size) > reader.rest.size()) break;
-        if (name == "dataWindow" && type == "box2i" && size == 16) {
-            const int64_t left = reader.number();
-            const int64_t top = reader.number();
-            const int64_t right = reader.number();
-            const int64_t bottom = reader.number();
-            return check_environment_size(right - left + 1, bottom - top + 1, where);
-        }
+        if (size < 0 || static_cast<size_t>(size) > reader.rest.size()) break;
+        HeaderReader value{reader.rest.first(static_cast<size_t>(size))};
         reader.skip(static_cast<size_t>(size));
+        if (name == "dataWindow" && type == "box2i" && size == 16) {
+            const int64_t left = value.number();
+            const int64_t top = value.number();
+            const int64_t right = value.number();
+            const int64_t bottom = value.number();
+            part.window = {right - left + 1, bottom - top + 1};
+        } else if (name == "tiles" && type == "tiledesc") {
+            const auto width = static_cast<uint32_t>(value.number());
+            part.tile = {width, static_cast<uint32_t>(value.number())};
+        }
     }
-    return corrupt(where, "the OpenEXR header is cut off or has no data window");
+    return part;
+}
+
+/// OpenEXR allocates tables in proportion to the sizes of all parts and of their tiles: look at
+/// them before. Its own limits hold for a whole process, which is not ours to change.
+Result<void> check_sizes(Bytes bytes, const std::string& where) {
+    constexpr size_t magic_and_flags = 8;
+    constexpr int32_t several_parts = 0x1000;
+    constexpr int64_t longest_side = 65536;
+    HeaderReader reader{bytes};
+    reader.skip(magic_and_flags / 2);
+    const bool has_parts = (reader.number() & several_parts) != 0;
+    for (bool is_first = true; is_first || has_parts; is_first = false) {
+        const PartSize part = read_part(reader);
+        if (is_first) {
+            if (!part.window) {
+                return corrupt(where, "the OpenEXR header is cut off or has no data window");
+            }
+            auto fits = check_environment_size((*part.window)[0], (*part.window)[1], where);
+            if (!fits) return fits;
+        }
+        const std::array<int64_t, 2> window = part.window.value_or(std::array<int64_t, 2>{1, 1});
+        if (std::max(window[0], window[1]) > longest_side ||
+            std::max(part.tile[0], part.tile[1]) > longest_side) {
+            return corrupt(where, "a part or a tile is wider or higher than 65536 pixels");
+        }
+        if (!part.is_whole || reader.rest.empty() || reader.rest.front() == std::byte{0}) break;
+    }
+    return {};
 }
 
 /// The channels of red, green and blue; all the same for a luminance picture; empty if none.
@@ -155,13 +193,8 @@ bool is_exr(Bytes bytes) {
 }
 
 Result<ImageRgb32f> read_exr(Bytes bytes, const std::string& where, Log& log) {
-    if (auto fits = check_data_window(bytes, where); !fits) return fail(std::move(fits.error()));
+    if (auto fits = check_sizes(bytes, where); !fits) return fail(std::move(fits.error()));
     try {
-        static std::once_flag once;
-        std::call_once(once, [] {  // for tiles and for the parts after the first
-            Imf::Header::setMaxImageSize(65536, 65536);
-            Imf::Header::setMaxTileSize(65536, 65536);
-        });
         ExrMemoryReader stream(bytes, where.c_str());
         Imf::InputFile file(stream);
         warn_about_primaries(file.header(), where, log);

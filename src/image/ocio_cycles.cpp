@@ -26,7 +26,7 @@ public:
         : config_(config), context_(config.getCurrentContext()) {
         for (int i = 0; i < config.getNumEnvironmentVars(); ++i) {
             const char* name = config.getEnvironmentVarNameByIndex(i);
-            follow_variables("$" + std::string(name));
+            follow_variables(std::string("$").append(name));
         }
         follow_variables(config.getSearchPath());
     }

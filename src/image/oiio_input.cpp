@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/oiio_input.h"
 
-#include "image/plugins.h"
+#include "image/process_settings.h"
 
 #include <mutex>
 
 namespace obscura {
 
 void prepare_oiio() {
+    if (!owns_process_settings()) return;
     static std::once_flag once;
     std::call_once(once, [] {
-        ignore_plugin_paths();  // they would count besides the attribute
         OIIO::attribute("threads", 1);
         OIIO::attribute("exr_threads", 1);
         OIIO::attribute("plugin_searchpath", "");

@@ -12,8 +12,8 @@
 
 namespace obscura {
 
-/// Must be called before OpenImageIO is used: it makes no threads of its own (decoding runs in
-/// ours, one picture a task) and looks for no plug-ins.
+/// Must be called before OpenImageIO is used: in a process of our own (image/process_settings.h) it
+/// makes no threads (decoding runs in ours, one picture a task) and looks for no plug-ins.
 void prepare_oiio();
 
 /// An open picture; `bytes` must outlive it.

@@ -33,4 +33,10 @@ struct ImageRgb32f {
     std::vector<float> pixels;
 };
 
+/// Where some pixels lie in an image that they are a part of, from its top left corner.
+struct ImagePart {
+    int width = 0, height = 0;  ///< of the whole image
+    int x = 0, y = 0;
+};
+
 }  // namespace obscura

@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "image/encode.h"
 
+#include <algorithm>
 #include <new>
 
 namespace obscura {
@@ -68,7 +69,7 @@ Result<std::vector<std::byte>> encode(const std::filesystem::path& file,
             return encode_exr(picture, metadata, depth, file.string());
         }
         return encode_for_display(
-            picture,
+            picture.part_of ? whole_picture(picture) : picture,
             metadata,
             format == FileFormat::png ? DisplayFormat::png : DisplayFormat::jpeg,
             display,
@@ -84,6 +85,23 @@ Result<std::vector<std::byte>> encode(const std::filesystem::path& file,
 }
 
 }  // namespace
+
+Picture whole_picture(const Picture& picture) {
+    if (!picture.part_of) return picture;
+    const ImagePart& part = *picture.part_of;
+    const size_t channels = picture.channels.size();
+    const size_t row = static_cast<size_t>(picture.width) * channels;
+    const size_t whole_row = static_cast<size_t>(part.width) * channels;
+    Picture whole{part.width, part.height, picture.channels, {}};
+    whole.pixels.resize(whole_row * static_cast<size_t>(part.height));
+    std::fill(whole.pixels.begin(), whole.pixels.end(), 0.0f);
+    for (size_t y = 0; y < static_cast<size_t>(picture.height); ++y) {
+        float* const target = whole.pixels.data() + (static_cast<size_t>(part.y) + y) * whole_row +
+                              static_cast<size_t>(part.x) * channels;
+        std::copy_n(picture.pixels.data() + y * row, row, target);
+    }
+    return whole;
+}
 
 Result<void> write_picture(const std::filesystem::path& file,
                            const Picture& picture,

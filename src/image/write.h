@@ -5,9 +5,11 @@
 #include "base/error.h"
 #include "base/unset_array.h"
 #include "image/display.h"
+#include "image/pixels.h"
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,7 +23,11 @@ struct Picture {
     std::vector<std::string> channels;  ///< "R","G","B","A" or e.g. "Z", "N.X","N.Y","N.Z"
     /// alpha premultiplied where there is an A
     UnsetArray<float> pixels;
+    std::optional<ImagePart> part_of = {};  ///< none: the pixels are all there is
 };
+
+/// The image that a part belongs to, zero elsewhere.
+Picture whole_picture(const Picture& picture);
 
 /// What a picture says about itself. An EXR has the attributes Software, asset, copyright,
 /// samplesPerPixel (int), seed (text: it may need 64 bits), renderSeconds (float), worldToCamera,
@@ -47,7 +53,9 @@ enum class ExrDepth { half, float32 };
 /// Writes `file` by its extension: .exr, .png, .jpg/.jpeg. To a temporary file beside it, synced,
 /// renamed: an existing file is replaced whole or not at all.
 ///
-/// EXR: ZIP; half values are clamped to +-65504 and NaN becomes 0, float32 values are kept.
+/// EXR: ZIP; half values are clamped to +-65504 and NaN becomes 0, float32 values are kept. A part
+/// of an image has its own data window inside the image's display window; the other formats have
+/// none, and hold the whole image.
 /// PNG, JPEG: 8 bits; colour goes through `display`, data (or no display) is taken as values
 /// in [0, 1]. A PNG keeps straight alpha; a JPEG (quality 95) lies over black.
 ///

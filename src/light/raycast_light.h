@@ -23,8 +23,8 @@ static_assert(sizeof(CentreLight) == 13 * 4, "read as 32-bit words: no padding")
 
 inline constexpr int ambient_terms = 9;
 
-/// Irradiance of everything around on a surface, by its normal (x, y, z): red, green and blue
-/// factors of 1, x, y, z, xy, yz, zx, 3 z^2 - 1 and x^2 - y^2.
+/// Irradiance of everything around on a surface, by its normal: red, green and blue factors of
+/// the terms of ambient_basis.
 struct AmbientLight {
     float k[ambient_terms][3] = {};
 };
@@ -67,6 +67,25 @@ OBSCURA_INLINE PunctualSample<F> sample_centre_light(const CentreLight* rows,
     return out;
 }
 
+/// The functions of a unit normal whose factors AmbientLight holds.
+template <typename F>
+struct AmbientBasis {
+    F term[ambient_terms];
+};
+
+template <typename F>
+OBSCURA_INLINE AmbientBasis<F> ambient_basis(const Vec3<F>& n) {
+    return {{F(1.0f),
+             n.x,
+             n.y,
+             n.z,
+             n.x * n.y,
+             n.y * n.z,
+             n.z * n.x,
+             F(3.0f) * n.z * n.z - F(1.0f),
+             n.x * n.x - n.y * n.y}};
+}
+
 /// Irradiance on a surface with the unit normal n, without anything in the way.
 ///
 /// Errors  up to a few percent of the mean for an environment with a small bright light
@@ -74,18 +93,10 @@ OBSCURA_INLINE PunctualSample<F> sample_centre_light(const CentreLight* rows,
 ///         SIGGRAPH 2001
 template <typename F>
 OBSCURA_INLINE Vec3<F> ambient_irradiance(const AmbientLight& light, const Vec3<F>& n) {
-    const F terms[ambient_terms] = {F(1.0f),
-                                    n.x,
-                                    n.y,
-                                    n.z,
-                                    n.x * n.y,
-                                    n.y * n.z,
-                                    n.z * n.x,
-                                    F(3.0f) * n.z * n.z - F(1.0f),
-                                    n.x * n.x - n.y * n.y};
+    const AmbientBasis<F> basis = ambient_basis(n);
     Vec3<F> sum = splat3(F(0.0f));
     for (int i = 0; i < ambient_terms; ++i)
-        sum = sum + Vec3<F>{F(light.k[i][0]), F(light.k[i][1]), F(light.k[i][2])} * terms[i];
+        sum = sum + Vec3<F>{F(light.k[i][0]), F(light.k[i][1]), F(light.k[i][2])} * basis.term[i];
     return max3(sum, splat3(F(0.0f)));
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/lanes.h"
+#include "math/word_of.h"
 
 #include <cstddef>
 
@@ -17,9 +18,6 @@ OBSCURA_INLINE const Word* member_words(const Row* rows, size_t byte_offset) {
     static_assert(sizeof(Word) == 4 && sizeof(Row) % 4 == 0);
     return reinterpret_cast<const Word*>(reinterpret_cast<const char*>(rows) + byte_offset);
 }
-
-template <typename Row>
-inline constexpr int32_t words_per_row = static_cast<int32_t>(sizeof(Row) / 4);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

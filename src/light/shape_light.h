@@ -60,22 +60,22 @@ struct ShapeLightRow {
     MaskOf<F> two_sided;
 };
 
-template <typename F>
-OBSCURA_INLINE Vec3<F> light_vector(const TableRow<F>& row, size_t offset) {
-    const int word = static_cast<int>(offset / 4);
-    return {row.number(word), row.number(word + 1), row.number(word + 2)};
+template <auto member, typename F>
+OBSCURA_INLINE Vec3<F> light_vector(const TableRow<F, ShapeLight>& row) {
+    const auto number = [&](int k) { return row.template number<member>(k); };
+    return {number(0), number(1), number(2)};
 }
 
 template <typename F>
-OBSCURA_INLINE ShapeLightRow<F> read_shape_light(const TableRow<F>& row) {
-    return {row.integer(0),
-            light_vector(row, offsetof(ShapeLight, centre)),
-            light_vector(row, offsetof(ShapeLight, x)),
-            light_vector(row, offsetof(ShapeLight, y)),
-            light_vector(row, offsetof(ShapeLight, z)),
-            row.number(offsetof(ShapeLight, radius) / 4),
-            row.number(offsetof(ShapeLight, area) / 4),
-            row.integer(offsetof(ShapeLight, two_sided) / 4) != IntOf<F>(0)};
+OBSCURA_INLINE ShapeLightRow<F> read_shape_light(const TableRow<F, ShapeLight>& row) {
+    return {.kind = row.template integer<&ShapeLight::kind>(),
+            .centre = light_vector<&ShapeLight::centre>(row),
+            .x = light_vector<&ShapeLight::x>(row),
+            .y = light_vector<&ShapeLight::y>(row),
+            .z = light_vector<&ShapeLight::z>(row),
+            .radius = row.template number<&ShapeLight::radius>(),
+            .area = row.template number<&ShapeLight::area>(),
+            .two_sided = row.template integer<&ShapeLight::two_sided>() != IntOf<F>(0)};
 }
 
 /// 1 - cos of the angle that a sphere's radius is seen under; without cancellation far away.

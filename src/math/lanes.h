@@ -43,27 +43,49 @@ struct Mask {
     OBSCURA_INLINE explicit Mask(bool b) : v(b) {}
 #endif
 #if XSIMD_VERSION_MAJOR >= 9
-    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) { return {xs::batch_bool_cast<float>(b)}; }
-    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const { return xs::batch_bool_cast<T>(v); }
+    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) {
+        return {xs::batch_bool_cast<float>(b)};
+    }
+    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const {
+        return xs::batch_bool_cast<T>(v);
+    }
 #elif defined(__AVX512F__)
-    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) { return {xs::batch_bool<float>(b.data)}; }
-    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const { return xs::batch_bool<T>(v.data); }
+    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) {
+        return {xs::batch_bool<float>(b.data)};
+    }
+    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const {
+        return xs::batch_bool<T>(v.data);
+    }
 #elif defined(__AVX__)
-    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) { return {xs::batch_bool<float>(_mm256_castsi256_ps(b.data))}; }
-    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const { return xs::batch_bool<T>(_mm256_castps_si256(v.data)); }
+    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) {
+        return {xs::batch_bool<float>(_mm256_castsi256_ps(b.data))};
+    }
+    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const {
+        return xs::batch_bool<T>(_mm256_castps_si256(v.data));
+    }
 #elif defined(__x86_64__)
-    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) { return {xs::batch_bool<float>(_mm_castsi128_ps(b.data))}; }
-    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const { return xs::batch_bool<T>(_mm_castps_si128(v.data)); }
+    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) {
+        return {xs::batch_bool<float>(_mm_castsi128_ps(b.data))};
+    }
+    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const {
+        return xs::batch_bool<T>(_mm_castps_si128(v.data));
+    }
 #else
-    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) { return {xs::batch_bool<float>(b.data)}; }
-    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const { return xs::batch_bool<T>(v.data); }
+    template <typename T> OBSCURA_INLINE static Mask from(xs::batch_bool<T> b) {
+        return {xs::batch_bool<float>(b.data)};
+    }
+    template <typename T> OBSCURA_INLINE xs::batch_bool<T> as() const {
+        return xs::batch_bool<T>(v.data);
+    }
 #endif
 };
 
 OBSCURA_INLINE Mask operator&(Mask a, Mask b) { return a.v & b.v; }
 OBSCURA_INLINE Mask operator|(Mask a, Mask b) { return a.v | b.v; }
 #if defined(__AVX512F__)
-OBSCURA_INLINE Mask operator!(Mask a) { return xs::batch_bool<float>(static_cast<__mmask16>(~static_cast<__mmask16>(a.v.data))); }
+OBSCURA_INLINE Mask operator!(Mask a) {
+    return xs::batch_bool<float>(static_cast<__mmask16>(~static_cast<__mmask16>(a.v.data)));
+}
 #else
 OBSCURA_INLINE Mask operator!(Mask a) { return ~a.v; }
 #endif
@@ -121,7 +143,9 @@ OBSCURA_INLINE Mask operator<=(Lanes a, Lanes b) { return a.v <= b.v; }
 OBSCURA_INLINE Mask operator>(Lanes a, Lanes b) { return a.v > b.v; }
 OBSCURA_INLINE Mask operator>=(Lanes a, Lanes b) { return a.v >= b.v; }
 OBSCURA_INLINE Mask operator==(Lanes a, Lanes b) { return a.v == b.v; }
-OBSCURA_INLINE Mask operator!=(Lanes a, Lanes b) { return !Mask(a.v == b.v); }  // NaN differs from all
+OBSCURA_INLINE Mask operator!=(Lanes a, Lanes b) {  // NaN differs from all
+    return !Mask(a.v == b.v);
+}
 
 OBSCURA_INLINE LanesI operator+(LanesI a, LanesI b) { return a.v + b.v; }
 OBSCURA_INLINE LanesI operator-(LanesI a, LanesI b) { return a.v - b.v; }
@@ -148,8 +172,12 @@ OBSCURA_INLINE Mask operator!=(LanesU a, LanesU b) { return !(a == b); }
 OBSCURA_INLINE Mask operator<(LanesU a, LanesU b) { return Mask::from(a.v < b.v); }
 
 OBSCURA_INLINE Lanes select(Mask m, Lanes a, Lanes b) { return xs::select(m.v, a.v, b.v); }
-OBSCURA_INLINE LanesI select(Mask m, LanesI a, LanesI b) { return xs::select(m.as<int32_t>(), a.v, b.v); }
-OBSCURA_INLINE LanesU select(Mask m, LanesU a, LanesU b) { return xs::select(m.as<uint32_t>(), a.v, b.v); }
+OBSCURA_INLINE LanesI select(Mask m, LanesI a, LanesI b) {
+    return xs::select(m.as<int32_t>(), a.v, b.v);
+}
+OBSCURA_INLINE LanesU select(Mask m, LanesU a, LanesU b) {
+    return xs::select(m.as<uint32_t>(), a.v, b.v);
+}
 
 OBSCURA_INLINE Lanes sqrt(Lanes a) { return xs::sqrt(a.v); }
 #if defined(__AVX512F__)  // a third of the time of sqrt and division; one step of Newton's, 2 ulp
@@ -174,9 +202,13 @@ OBSCURA_INLINE LanesI max(LanesI a, LanesI b) { return xs::max(a.v, b.v); }
 
 /// The same bits in registers of another type; xsimd 10 went from naming the batch to its element.
 #if XSIMD_VERSION_MAJOR >= 10
-template <typename To, typename From> OBSCURA_INLINE To same_bits(From v) { return xs::bitwise_cast<typename To::value_type>(v); }
+template <typename To, typename From> OBSCURA_INLINE To same_bits(From v) {
+    return xs::bitwise_cast<typename To::value_type>(v);
+}
 #else
-template <typename To, typename From> OBSCURA_INLINE To same_bits(From v) { return xs::bitwise_cast<To>(v); }
+template <typename To, typename From> OBSCURA_INLINE To same_bits(From v) {
+    return xs::bitwise_cast<To>(v);
+}
 #endif
 
 /// Rounds towards zero.
@@ -288,7 +320,9 @@ struct LaneTypes<Lanes> {
 // clang-format off
 OBSCURA_INLINE Lanes load(const float* p) { return BatchF::load_unaligned(p); }
 OBSCURA_INLINE LanesI load(const int32_t* p) { return BatchI::load_unaligned(p); }
-OBSCURA_INLINE LanesU load(const uint32_t* p) { return as_uint(load(reinterpret_cast<const int32_t*>(p))); }
+OBSCURA_INLINE LanesU load(const uint32_t* p) {
+    return as_uint(load(reinterpret_cast<const int32_t*>(p)));
+}
 OBSCURA_INLINE int32_t first_lane(LanesI a) {
 #if defined(__AVX512F__)
     return _mm512_cvtsi512_si32(a.v);
@@ -300,7 +334,9 @@ OBSCURA_INLINE int32_t first_lane(LanesI a) {
 }
 OBSCURA_INLINE void store(float* p, Lanes a) { a.v.store_unaligned(p); }
 OBSCURA_INLINE void store(int32_t* p, LanesI a) { a.v.store_unaligned(p); }
-OBSCURA_INLINE void store(uint32_t* p, LanesU a) { store(reinterpret_cast<int32_t*>(p), as_int(a)); }
+OBSCURA_INLINE void store(uint32_t* p, LanesU a) {
+    store(reinterpret_cast<int32_t*>(p), as_int(a));
+}
 // clang-format on
 
 /// 0, 1, 2, ... in the lanes.

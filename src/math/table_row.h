@@ -3,46 +3,63 @@
 #pragma once
 
 #include "math/gather4.h"
+#include "math/vec.h"
+#include "math/word_of.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// One row of a table of 32-bit words for every lane. Neighbouring hits mostly lie on the same
-/// surface: where all lanes want the same row, a scalar load serves them in place of a gather.
-template <typename F>
+/// One row of a table of 32-bit words for every lane, read by the names of its members:
+/// row.number<&Material::roughness>(), row.integer<&Primitive::uv_base>(set). Neighbouring hits
+/// mostly lie on the same surface: where all lanes want the same row, a scalar load serves them in
+/// place of a gather.
+template <typename F, typename Record>
 class TableRow {
 public:
     TableRow() = default;
 
-    /// In  row: row numbers, valid in idle lanes too; row_words: words from row to row
-    OBSCURA_INLINE TableRow(const void* table, const IntOf<F>& row, int row_words)
-        : words_(static_cast<const int32_t*>(table)), first_(row * IntOf<F>(row_words)) {
+    /// In  row: row numbers, valid in idle lanes too
+    OBSCURA_INLINE TableRow(const Record* table, const IntOf<F>& row)
+        : words_(reinterpret_cast<const int32_t*>(table)),
+          first_(row * IntOf<F>(words_per_row<Record>)) {
         const int32_t row_of_first = first_lane(row);
         shared_ = all(row == IntOf<F>(row_of_first));
-        row_words_ = words_ + static_cast<int64_t>(row_of_first) * row_words;
+        row_words_ = words_ + static_cast<int64_t>(row_of_first) * words_per_row<Record>;
     }
 
     /// True when all lanes have the same row; then one_integer tells a word of it.
     OBSCURA_INLINE bool shared() const { return shared_; }
-    OBSCURA_INLINE int32_t one_integer(int word) const { return row_words_[word]; }
+    template <auto... member>
+    OBSCURA_INLINE int32_t one_integer() const {
+        return row_words_[integer_word<member...>()];
+    }
 
-    OBSCURA_INLINE IntOf<F> integer(int word) const {
+    /// In  element: of a member that is an array; else 0
+    template <auto... member>
+    OBSCURA_INLINE IntOf<F> integer(int element = 0) const {
+        const int word = integer_word<member...>() + element;
         if (shared_) return IntOf<F>(row_words_[word]);
         return gather<F>(words_ + word, first_);
     }
 
-    /// Another word for every lane.
-    OBSCURA_INLINE IntOf<F> varying_integer(const IntOf<F>& word) const {
-        return gather<F>(words_, IntOf<F>(first_ + word));
+    /// Another element of an array for every lane.
+    template <auto... member>
+    OBSCURA_INLINE IntOf<F> varying_integer(const IntOf<F>& element) const {
+        return gather<F>(
+            words_, IntOf<F>(first_ + IntOf<F>(element + IntOf<F>(integer_word<member...>()))));
     }
 
-    OBSCURA_INLINE F number(int word) const {
+    template <auto... member>
+    OBSCURA_INLINE F number(int element = 0) const {
+        const int word = number_word<member...>() + element;
         if (shared_) return F(bits_float(row_words_[word]));
         return gather<F>(reinterpret_cast<const float*>(words_) + word, first_);
     }
 
-    /// Numbers [word, word + 4), all within the row.
-    OBSCURA_INLINE Four<F> four_numbers(int word) const {
+    /// Elements [first, first + 4) of the array, or what follows it: all within the table.
+    template <auto... member>
+    OBSCURA_INLINE Four<F> four_numbers(int first = 0) const {
+        const int word = number_word<member...>() + first;
         if (shared_) {
             const auto one = [&](int k) { return F(bits_float(row_words_[word + k])); };
             return {one(0), one(1), one(2), one(3)};
@@ -50,7 +67,31 @@ public:
         return gather4<F>(reinterpret_cast<const float*>(words_) + word, first_);
     }
 
+    /// Three numbers that are followed by at least one more word.
+    template <auto... member>
+    OBSCURA_INLINE Vec3<F> vector() const {
+        static_assert(number_word<member...>() + 4 <= words_per_row<Record>);
+        const Four<F> words = four_numbers<member...>();
+        return {words.x, words.y, words.z};
+    }
+
 private:
+    template <auto first, auto... rest>
+    static constexpr bool is_own = std::is_same_v<RecordOf<first>, Record>;
+
+    template <auto... member>
+    static consteval int integer_word() {
+        static_assert(is_own<member...>, "another table's member");
+        static_assert(std::is_integral_v<ElementOf<member...>>, "no integer");
+        return word_of<member...>;
+    }
+    template <auto... member>
+    static consteval int number_word() {
+        static_assert(is_own<member...>, "another table's member");
+        static_assert(std::is_same_v<ElementOf<member...>, float>, "no number");
+        return word_of<member...>;
+    }
+
     const int32_t* words_ = nullptr;
     const int32_t* row_words_ = nullptr;  ///< the first lane's row
     IntOf<F> first_{};                    ///< word at which each lane's row begins

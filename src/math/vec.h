@@ -23,16 +23,34 @@ using Vec3d = Vec3<double>;
 inline namespace OBSCURA_ISA {
 
 // clang-format off
-template <typename F> OBSCURA_INLINE Vec2<F> operator+(const Vec2<F>& a, const Vec2<F>& b) { return {a.x + b.x, a.y + b.y}; }
-template <typename F> OBSCURA_INLINE Vec2<F> operator-(const Vec2<F>& a, const Vec2<F>& b) { return {a.x - b.x, a.y - b.y}; }
-template <typename F> OBSCURA_INLINE Vec2<F> operator*(const Vec2<F>& a, const F& s) { return {a.x * s, a.y * s}; }
+template <typename F> OBSCURA_INLINE Vec2<F> operator+(const Vec2<F>& a, const Vec2<F>& b) {
+    return {a.x + b.x, a.y + b.y};
+}
+template <typename F> OBSCURA_INLINE Vec2<F> operator-(const Vec2<F>& a, const Vec2<F>& b) {
+    return {a.x - b.x, a.y - b.y};
+}
+template <typename F> OBSCURA_INLINE Vec2<F> operator*(const Vec2<F>& a, const F& s) {
+    return {a.x * s, a.y * s};
+}
 
-template <typename F> OBSCURA_INLINE Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-template <typename F> OBSCURA_INLINE Vec3<F> operator-(const Vec3<F>& a, const Vec3<F>& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-template <typename F> OBSCURA_INLINE Vec3<F> operator*(const Vec3<F>& a, const Vec3<F>& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-template <typename F> OBSCURA_INLINE Vec3<F> operator*(const Vec3<F>& a, const F& s) { return {a.x * s, a.y * s, a.z * s}; }
-template <typename F> OBSCURA_INLINE Vec3<F> operator*(const F& s, const Vec3<F>& a) { return {a.x * s, a.y * s, a.z * s}; }
-template <typename F> OBSCURA_INLINE Vec3<F> operator-(const Vec3<F>& a) { return {-a.x, -a.y, -a.z}; }
+template <typename F> OBSCURA_INLINE Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <typename F> OBSCURA_INLINE Vec3<F> operator-(const Vec3<F>& a, const Vec3<F>& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <typename F> OBSCURA_INLINE Vec3<F> operator*(const Vec3<F>& a, const Vec3<F>& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+template <typename F> OBSCURA_INLINE Vec3<F> operator*(const Vec3<F>& a, const F& s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+template <typename F> OBSCURA_INLINE Vec3<F> operator*(const F& s, const Vec3<F>& a) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+template <typename F> OBSCURA_INLINE Vec3<F> operator-(const Vec3<F>& a) {
+    return {-a.x, -a.y, -a.z};
+}
 // clang-format on
 
 template <typename F>

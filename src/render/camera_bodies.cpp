@@ -15,15 +15,15 @@ using Crossings = std::array<int, most_media + 1>;  // by number of the medium
 
 /// Counts the boundaries of each medium from a point to the end of the scene.
 Crossings count_crossings(const Accel& accel, const Vec3f& point, const Vec3f& direction) {
-    const RayColumns ray{&point.x,
-                         &point.y,
-                         &point.z,
-                         &direction.x,
-                         &direction.y,
-                         &direction.z,
-                         nullptr,
-                         nullptr,
-                         1};
+    const RayColumns ray{.ox = &point.x,
+                         .oy = &point.y,
+                         .oz = &point.z,
+                         .dx = &direction.x,
+                         .dy = &direction.y,
+                         .dz = &direction.z,
+                         .tfar = nullptr,
+                         .key = nullptr,
+                         .count = 1};
     std::vector<Crossing> faces;
     accel.list_crossings(ray, 0, {}, faces);
     std::sort(faces.begin(), faces.end(), [](const Crossing& a, const Crossing& b) {

@@ -38,17 +38,21 @@ struct Rays {
         tfar[i] = length;
     }
     void intersect(const Accel& accel, const SeeThrough& see_through) {
-        const RayColumns rays{ox.data(),
-                              oy.data(),
-                              oz.data(),
-                              dx.data(),
-                              dy.data(),
-                              dz.data(),
-                              tfar.data(),
-                              nullptr,
-                              count};
-        const HitColumns hits{
-            t.data(), u.data(), v.data(), instance.data(), primitive.data(), triangle.data()};
+        const RayColumns rays{.ox = ox.data(),
+                              .oy = oy.data(),
+                              .oz = oz.data(),
+                              .dx = dx.data(),
+                              .dy = dy.data(),
+                              .dz = dz.data(),
+                              .tfar = tfar.data(),
+                              .key = nullptr,
+                              .count = count};
+        const HitColumns hits{.t = t.data(),
+                              .u = u.data(),
+                              .v = v.data(),
+                              .instance = instance.data(),
+                              .primitive = primitive.data(),
+                              .triangle = triangle.data()};
         accel.intersect(rays, hits, Coherence::incoherent, see_through);
     }
 };

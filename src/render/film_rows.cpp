@@ -25,12 +25,10 @@ void write_four(const float* const (&columns)[4], int row, float* out) {
 template <int channels>
 void write_pixels(const SampleRows& samples, const FilmPixels& pixels, Film& film) {
     const float* const columns[] = {samples.r, samples.g, samples.b, samples.a};
-    const auto width = static_cast<size_t>(film.width);
     const bool large = film.pixels.size() > large_film;
     float* const start = film.pixels.data();
     for (int i = 0; i < pixels.count;) {
-        const auto x = static_cast<size_t>(pixels.x[i]);
-        float* out = start + channels * (static_cast<size_t>(pixels.y[i]) * width + x);
+        float* out = start + channels * pixel_index(film, pixels.x[i], pixels.y[i]);
         const bool four = i + 4 <= pixels.count && pixels.y[i + 3] == pixels.y[i] &&
                           pixels.x[i + 3] == pixels.x[i] + 3;
         if (!four) {

@@ -5,9 +5,18 @@
 #include "render/render.h"
 #include "stages/doors.h"
 
+#include <cstddef>
 #include <cstdint>
 
 namespace obscura {
+
+/// Where a pixel of the whole image lies in a film that may be a part of it.
+inline size_t pixel_index(const Film& film, int32_t x, int32_t y) {
+    const int32_t x_0 = film.part_of ? film.part_of->x : 0;
+    const int32_t y_0 = film.part_of ? film.part_of->y : 0;
+    return static_cast<size_t>(y - y_0) * static_cast<size_t>(film.width) +
+           static_cast<size_t>(x - x_0);
+}
 
 /// Where each sample row goes.
 struct FilmPixels {

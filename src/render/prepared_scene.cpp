@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/prepared_scene.h"
 
+#include "base/setting_names.h"
 #include "base/stopwatch.h"
 #include "light/studio.h"
 #include "render/shape_light_table.h"
@@ -79,7 +80,7 @@ Result<void> make_environment(PreparedScene::Impl& impl,
 Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
     const EnvironmentSource source{lighting.environment.has_value(), impl.scene.environment};
     if (source.chosen && source.own) {
-        log.info("--env takes the place of the environment that the file brings");
+        log.info(setting("env") + " takes the place of the environment that the file brings");
     }
     if (!source.chosen && !source.own) {
         impl.lights = make_light_table(impl.scene, nullptr);
@@ -87,7 +88,8 @@ Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lig
             impl.environment.reset();
             return {};
         }
-        log.info("the scene has no light: using the built-in studio (--env FILE chooses another)");
+        log.info("the scene has no light: using the built-in studio (" + setting("env") +
+                 " FILE chooses another)");
     }
     Result<void> made = make_environment(impl, lighting, source);
     if (made) impl.lights = make_light_table(impl.scene, &*impl.environment);
@@ -128,8 +130,8 @@ SceneView PreparedScene::Impl::view() const {
     out.edge_scale = edge_scale;
     out.indices = reinterpret_cast<const int32_t*>(scene.indices.data());
     out.attributes = scene.attributes.data();
-    out.primitives = reinterpret_cast<const int32_t*>(scene.primitives.data());
-    out.instances = reinterpret_cast<const float*>(scene.instances.data());
+    out.primitives = scene.primitives.data();
+    out.instances = scene.instances.data();
     if (!scene.shapes.empty() || !scene.spheres.empty() || !scene.curve_points.empty()) {
         // Lanes that hit shapes read mesh tables at 0, whatever is there.
         static constexpr float zeros[16] = {};
@@ -138,15 +140,14 @@ SceneView PreparedScene::Impl::view() const {
         if (scene.indices.size() < 4) out.indices = zero_indices;
         if (scene.positions.size() < 3) out.positions = zeros;
         if (scene.attributes.empty()) out.attributes = zeros;
-        out.shapes =
-            reinterpret_cast<const float*>(scene.shapes.empty() ? &no_shape : scene.shapes.data());
+        out.shapes = scene.shapes.empty() ? &no_shape : scene.shapes.data();
         out.spheres = scene.spheres.empty() ? nullptr : scene.spheres.data();
         out.curve_points = scene.curve_points.empty() ? nullptr : scene.curve_points.data();
         out.curve_segments = reinterpret_cast<const int32_t*>(scene.curve_segments.data());
     }
-    out.materials = reinterpret_cast<const float*>(scene.materials.data());
-    out.layers = reinterpret_cast<const float*>(scene.layers.data());
-    out.media = scene.media.size() > 1 ? scene.media.front().extinction : nullptr;
+    out.materials = scene.materials.data();
+    out.layers = scene.layers.data();
+    out.media = scene.media.size() > 1 ? scene.media.data() : nullptr;
     out.touching_bodies = touching_bodies.empty() ? nullptr : touching_bodies.data();
     out.scatters = std::any_of(scene.media.begin(), scene.media.end(), scatters);
     out.thin_walls = accel && (accel->has_thin_walls() || has_bodies_like_air(scene));
@@ -161,7 +162,7 @@ SceneView PreparedScene::Impl::view() const {
         out.motion.positions = motion.positions.data();
         out.motion.normals = motion.normals.data();
     }
-    if (!motion.instances.empty()) out.motion.instances = &motion.instances.front().m[0][0];
+    if (!motion.instances.empty()) out.motion.instances = motion.instances.data();
     out.textures = view_of(scene.textures);
     out.lights = lights.view();
     out.has_environment = environment && !environment->black();
@@ -172,7 +173,7 @@ SceneView PreparedScene::Impl::view() const {
 Error missing_isa() {
     return {ExitCode::unsupported,
             "E-ISA",
-            "--isa",
+            setting("isa"),
             "this CPU does not have that instruction set; auto or baseline always work"};
 }
 

@@ -163,17 +163,9 @@ void add_row(const EnvironmentView& map, int32_t row, const Band& band, Terms& s
         const Vec3d n{map_x * c + map_z * s, cosine, map_z * c - map_x * s};
         const float* pixel = map.pixels + 4 * (int64_t{row} * map.width + column);
         const Vec3d light = vector(pixel) * band.steradians;
-        const double terms[ambient_terms] = {1.0,
-                                             n.x,
-                                             n.y,
-                                             n.z,
-                                             n.x * n.y,
-                                             n.y * n.z,
-                                             n.z * n.x,
-                                             3.0 * n.z * n.z - 1.0,
-                                             n.x * n.x - n.y * n.y};
+        const AmbientBasis<double> basis = ambient_basis(n);
         for (size_t i = 0; i < sum.size(); ++i)
-            sum[i] = sum[i] + light * terms[i];
+            sum[i] = sum[i] + light * basis.term[i];
     }
 }
 

@@ -21,8 +21,8 @@ namespace obscura {
 namespace {
 
 /// What one of a pixel's samples stands for, of the area that the pixel covers: samples share it,
-/// as long as their look-ups still find texels in nearby memory. Source  Pharr, Jakob, Humphreys,
-/// "Physically Based Rendering", 4th ed., 2023, section 10.1.1
+/// as long as their look-ups still find texels in nearby memory.
+/// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 10.1.1
 float footprint_share(int samples) {
     constexpr float least = 1.0f / 64;
     return std::max(least, 1.0f / static_cast<float>(samples));
@@ -117,7 +117,7 @@ struct ThreadState {
     Workspace work;
     TilePattern pattern;
     std::vector<int32_t> xs, ys;
-    std::vector<float> sums;
+    std::vector<PixelSum> sums;
     WalkCounters counters;
     std::unique_ptr<RayRecorder> recorder;  ///< null: nobody wants the rays
 };
@@ -142,7 +142,7 @@ void render_tile(const WalkInput& walk_input,
                  const std::atomic<bool>& stop,
                  ThreadState& state) {
     const int pixels = list_pixels(tile, state);
-    state.sums.assign(static_cast<size_t>(pixels) * 4, 0.0f);
+    state.sums.assign(static_cast<size_t>(pixels), {});
     WalkInput in = walk_input;
     in.recorder = state.recorder.get();
     const int per_batch = std::max(1, batch_rows / pixels);
@@ -157,7 +157,7 @@ void render_tile(const WalkInput& walk_input,
             walk(in,
                  std::min(pixels_per_batch, pixels - first),
                  state.work,
-                 state.sums.data() + 4 * static_cast<size_t>(first),
+                 state.sums.data() + first,
                  state.counters);
         }
     }
@@ -186,12 +186,10 @@ void render_quantity_tile(const WalkInput& walk_input,
 /// Writes a tile's means into the film.
 void store_tile(const ThreadState& state, int samples, Film& film) {
     const size_t channels = film.channels.size();
-    const float scale = 1.0f / static_cast<float>(samples);
     for (size_t i = 0; i < state.pattern.dx.size(); ++i) {
-        const size_t pixel = static_cast<size_t>(state.ys[i]) * static_cast<size_t>(film.width) +
-                             static_cast<size_t>(state.xs[i]);
+        const size_t pixel = pixel_index(film, state.xs[i], state.ys[i]);
         for (size_t c = 0; c < channels; ++c) {
-            film.pixels[pixel * channels + c] = state.sums[4 * i + c] * scale;
+            film.pixels[pixel * channels + c] = state.sums[i].mean(static_cast<int>(c), samples);
         }
     }
 }
@@ -253,6 +251,22 @@ Result<Supplies> make_supplies(const PreparedScene::Impl& scene, const RenderOpt
     return out;
 }
 
+/// As large as the crop, in old memory where there is some.
+Film make_film(const RenderOptions& options) {
+    Film film;
+    film.width = options.crop ? options.crop->width : options.width;
+    film.height = options.crop ? options.crop->height : options.height;
+    if (options.crop) {
+        film.part_of = ImagePart{options.width, options.height, options.crop->x, options.crop->y};
+    }
+    film.channels = film_channels(options.integrator);
+    if (options.film_memory != nullptr) film.pixels = std::move(*options.film_memory);
+    // Not cleared here: the threads that write the pixels first bring in their memory.
+    film.pixels.resize(static_cast<size_t>(film.width) * static_cast<size_t>(film.height) *
+                       film.channels.size());
+    return film;
+}
+
 }  // namespace
 
 Result<RenderResult> render(const PreparedScene& scene,
@@ -264,14 +278,7 @@ Result<RenderResult> render(const PreparedScene& scene,
     const Result<Supplies> supplies = make_supplies(scene.impl(), options);
     if (!supplies) return fail(supplies.error());
     RenderResult result;
-    result.film.width = options.width;
-    result.film.height = options.height;
-    result.film.channels = film_channels(options.integrator);
-    if (options.film_memory != nullptr) result.film.pixels = std::move(*options.film_memory);
-    // Not cleared here: the threads that write the pixels first bring in their memory.
-    result.film.pixels.resize(static_cast<size_t>(options.width) *
-                              static_cast<size_t>(options.height) * result.film.channels.size());
-    if (options.crop) std::fill(result.film.pixels.begin(), result.film.pixels.end(), 0.0f);
+    result.film = make_film(options);
 
     const std::vector<float> filter = make_filter_table(options.filter);
     WalkInput walk_input = make_walk(scene.impl(), camera, options);
@@ -279,7 +286,7 @@ Result<RenderResult> render(const PreparedScene& scene,
     walk_input.scene.raycast = supplies->raycast.view();
     walk_input.notes = options.notes;
     if (!supplies->camera.empty()) {
-        walk_input.scene.motion.camera = &supplies->camera.front().m[0][0];
+        walk_input.scene.motion.camera = supplies->camera.data();
         walk_input.scene.motion.camera_steps = static_cast<int>(supplies->camera.size());
     }
     walk_input.counting = supplies->counting ? &*supplies->counting : nullptr;
@@ -302,7 +309,11 @@ Result<RenderResult> render(const PreparedScene& scene,
             store_tile(*state, samples, result.film);
         }
         const size_t done = ++finished;
-        if (progress) progress(static_cast<double>(done) / static_cast<double>(tiles.size()));
+        if (!progress || stop.load(std::memory_order_relaxed)) return;
+        const Tile& tile = tiles[i];
+        progress({static_cast<double>(done) / static_cast<double>(tiles.size()),
+                  {tile.x, tile.y, tile.width, tile.height},
+                  &result.film});
     });
     if (stop.load()) {
         return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");

@@ -26,8 +26,8 @@ struct RaycastNotes;
 
 /// To add one: append it here and in render/integrators.h, with a name, channels and a walk. A
 /// quantity is computed in stages/3_quantity.cpp and, for PNG and JPEG, mapped to colours in
-/// app/preview.cpp; light transport is a case in stages/walk.cpp. Then docs/cli.md and the help in
-/// app/render_options.cpp.
+/// session/preview.cpp; light transport is a case in stages/walk.cpp. Then docs/cli.md and the help
+/// in app/render_options.cpp.
 enum class Integrator {
     path,
     direct,
@@ -65,7 +65,7 @@ struct RenderOptions {
     int max_bounces = 8;
     uint64_t seed = 0;
     int tile_size = 16;  ///< pixels; any value gives the same picture; at least 32 for quantities
-    std::optional<PixelRect> crop;  ///< renders only this part; the rest of the film is zero
+    std::optional<PixelRect> crop;  ///< renders only this part
     Integrator integrator = Integrator::path;
     PixelFilter filter = PixelFilter::box;
     BackgroundKind background = BackgroundKind::environment;
@@ -97,12 +97,13 @@ struct RenderCounters {
     StageSeconds stages;
 };
 
-/// A finished film, float32, rows from the top.
+/// A finished film, float32, rows from the top: as large as the crop where there is one.
 struct Film {
     int width = 0;
     int height = 0;
     std::vector<std::string> channels;  ///< R G B A; or e.g. Z; N.X N.Y N.Z
     UnsetArray<float> pixels;
+    std::optional<ImagePart> part_of = {};  ///< with a crop: of the whole image
 };
 
 struct RenderResult {
@@ -161,8 +162,15 @@ private:
 /// 69 E-ISA: what PreparedScene::create says of an instruction set that the CPU lacks.
 Error missing_isa();
 
-/// Called from any thread after every tile, with the finished share in [0, 1].
-using ProgressFunction = std::function<void(double)>;
+/// A part of the image that is ready.
+struct FinishedTile {
+    double done;       ///< share of the image that is finished, in [0, 1]
+    PixelRect area;    ///< from the image's top left corner
+    const Film* film;  ///< its pixels elsewhere may be written at this moment
+};
+
+/// Called from any thread after every tile.
+using ProgressFunction = std::function<void(const FinishedTile&)>;
 
 /// Renders one picture on all threads. The same arguments give the same bits for any number of
 /// threads, any tile size and any crop.

@@ -2,20 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/camera_settings.h"
 
-#include "camera/names.h"
+#include "scene/camera_setting_table.h"
 
 #include <charconv>
+#include <string_view>
 
 namespace obscura {
 
 namespace {
-
-constexpr double degrees_per_radian = 180.0 / pi_d;
-
-template <typename T>
-void take(std::optional<T>& base, const std::optional<T>& over) {
-    if (over) base = over;
-}
 
 std::string text_of(double number) {
     char buffer[32];
@@ -32,68 +26,43 @@ std::string text_of(const std::array<double, N>& numbers, double scale = 1) {
     return text;
 }
 
-/// Collects names and values.
-struct Texts {
-    std::vector<std::pair<std::string, std::string>> list;
-
-    void number(const char* name, const std::optional<double>& value, double scale = 1) {
-        if (value) list.emplace_back(name, text_of(*value * scale));
-    }
-    template <size_t N>
-    void numbers(const char* name,
-                 const std::optional<std::array<double, N>>& value,
-                 double scale = 1) {
-        if (value) list.emplace_back(name, text_of(*value, scale));
-    }
-    template <typename T, size_t N>
-    void choice(const char* name,
-                const std::optional<T>& value,
-                const std::array<Named<T>, N>& names) {
-        if (value) list.emplace_back(name, name_of(names, *value));
-    }
-};
+using Texts = std::vector<std::pair<std::string, std::string>>;
 
 void add_intrinsics(const Intrinsics& i, Texts& texts) {
-    texts.list.emplace_back("fx_px", text_of(i.fx_px));
-    texts.list.emplace_back("fy_px", text_of(i.fy_px));
-    texts.list.emplace_back("cx_px", text_of(i.cx_px));
-    texts.list.emplace_back("cy_px", text_of(i.cy_px));
-    texts.list.emplace_back("for_size", text_of(i.width_px) + "x" + text_of(i.height_px));
+    texts.emplace_back("fx_px", text_of(i.fx_px));
+    texts.emplace_back("fy_px", text_of(i.fy_px));
+    texts.emplace_back("cx_px", text_of(i.cx_px));
+    texts.emplace_back("cy_px", text_of(i.cy_px));
+    texts.emplace_back("for_size", text_of(i.width_px) + "x" + text_of(i.height_px));
+}
+
+template <typename T>
+void add_text(const CameraSetting<T>& row, const T& value, Texts& texts) {
+    if constexpr (std::is_same_v<T, Intrinsics>) {
+        add_intrinsics(value, texts);
+    } else if constexpr (std::is_enum_v<T>) {
+        for (const Named<T>& choice : row.choices)
+            if (choice.value == value) texts.emplace_back(row.info.report, choice.name);
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        texts.emplace_back(row.info.report, text_of(value * row.info.shown));
+    } else if constexpr (!std::is_same_v<T, std::string>) {
+        texts.emplace_back(row.info.report, text_of(value, row.info.shown));
+    }
 }
 
 }  // namespace
 
 CameraSettings merge_settings(const CameraSettings& base, const CameraSettings& over) {
     CameraSettings out = base;
+    if (over.model) out.model = over.model;
     if (over.fstop || over.lens_radius_m) {
-        out.fstop = over.fstop;
-        out.lens_radius_m = over.lens_radius_m;
+        out.fstop.reset();
+        out.lens_radius_m.reset();
     }
-    if (over.ev100 || over.shutter_s || over.iso) out.ev100 = over.ev100;
-    take(out.model, over.model);
-    take(out.near_m, over.near_m);
-    take(out.far_m, over.far_m);
-    take(out.magnification_m, over.magnification_m);
-    take(out.focal_length_m, over.focal_length_m);
-    take(out.sensor_m, over.sensor_m);
-    take(out.shift, over.shift);
-    take(out.distortion, over.distortion);
-    take(out.intrinsics, over.intrinsics);
-    take(out.focus_distance_m, over.focus_distance_m);
-    take(out.blades, over.blades);
-    take(out.blade_rotation_rad, over.blade_rotation_rad);
-    take(out.anamorphic, over.anamorphic);
-    take(out.aperture_file, over.aperture_file);
-    take(out.fisheye, over.fisheye);
-    take(out.fisheye_fov_rad, over.fisheye_fov_rad);
-    take(out.fisheye_fit, over.fisheye_fit);
-    take(out.fisheye_k, over.fisheye_k);
-    take(out.environment, over.environment);
-    take(out.cylinder_fov_rad, over.cylinder_fov_rad);
-    take(out.stereo_m, over.stereo_m);
-    take(out.align, over.align);
-    take(out.shutter_s, over.shutter_s);
-    take(out.iso, over.iso);
+    if (over.shutter_s || over.iso) out.ev100.reset();
+    for_each_camera_setting([&](const auto& row) {
+        if (over.*row.member) out.*row.member = over.*row.member;
+    });
     return out;
 }
 
@@ -110,39 +79,23 @@ std::optional<CameraModel> implied_model(const CameraSettings& s) {
     return std::nullopt;
 }
 
+const CameraSettingInfo* setting_without(const CameraSettings& settings, CameraModel model) {
+    const CameraSettingInfo* found = nullptr;
+    for_each_camera_setting([&](const auto& row) {
+        // Beside a shutter an f-number is part of the exposure.
+        const bool exposes = std::string_view(row.info.name) == "fstop" && settings.shutter_s;
+        const bool has_it = (row.info.models & model_bit(model)) != 0 || exposes;
+        if (settings.*row.member && !has_it && !found) found = &row.info;
+    });
+    return found;
+}
+
 std::vector<std::pair<std::string, std::string>> settings_texts(const CameraSettings& s) {
     Texts texts;
-    texts.number("near_m", s.near_m);
-    texts.number("far_m", s.far_m);
-    texts.numbers("mag_m", s.magnification_m);
-    texts.number("focal_length_mm", s.focal_length_m, 1000);
-    texts.numbers("sensor_mm", s.sensor_m, 1000);
-    texts.numbers("shift", s.shift);
-    texts.numbers("distortion", s.distortion);
-    if (s.intrinsics) add_intrinsics(*s.intrinsics, texts);
-    texts.number("fstop", s.fstop);
-    texts.number("lens_radius_m", s.lens_radius_m);
-    texts.number("focus_distance_m", s.focus_distance_m);
-    if (s.blades) texts.list.emplace_back("blades", std::to_string(*s.blades));
-    texts.number("blade_rotation_deg", s.blade_rotation_rad, degrees_per_radian);
-    texts.number("anamorphic", s.anamorphic);
-    texts.choice("fisheye", s.fisheye, fisheye_law_names);
-    texts.number("fisheye_fov_deg", s.fisheye_fov_rad, degrees_per_radian);
-    if (s.fisheye_fit) {
-        texts.list.emplace_back("fisheye_fit",
-                                *s.fisheye_fit == FisheyeFit::circle ? "circle" : "diagonal");
-    }
-    texts.numbers("fisheye_k", s.fisheye_k);
-    texts.choice("environment", s.environment, environment_projection_names);
-    texts.number("cylinder_fov_deg", s.cylinder_fov_rad, degrees_per_radian);
-    texts.number("stereo_m", s.stereo_m);
-    if (s.align) {
-        texts.list.emplace_back("align", *s.align == EnvironmentAlign::world ? "world" : "view");
-    }
-    texts.number("shutter_s", s.shutter_s);
-    texts.number("iso", s.iso);
-    texts.number("ev100", s.ev100);
-    return texts.list;
+    for_each_camera_setting([&](const auto& row) {
+        if (s.*row.member) add_text(row, *(s.*row.member), texts);
+    });
+    return texts;
 }
 
 }  // namespace obscura

@@ -31,8 +31,9 @@ enum class EnvironmentAlign : int { world, view };  ///< at +X, as environment m
 
 /// Empty: not said. docs/extensions/OBSCURA_camera/README.md has the meaning of each.
 ///
-/// To add one: append it here and to merge_settings; read it in gltf/camera_extension.cpp and
-/// app/lens_request.cpp; use it in app/camera_build.cpp; describe it in both places of docs/.
+/// To add one: append it here and to scene/camera_setting_table.h, use it in
+/// session/camera_build.cpp, give it a row in app/lens_options.cpp for an option, and describe it
+/// in both places of docs/.
 struct CameraSettings {
     std::optional<CameraModel> model = {};
     std::optional<double> near_m = {};

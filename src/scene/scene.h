@@ -126,7 +126,7 @@ struct SceneCamera {
     CameraSettings settings = {};  ///< from OBSCURA_camera
 };
 
-/// What fills a body; read as eight words.
+/// What fills a body; read as 32-bit words.
 struct Medium {
     float extinction[3] = {0, 0, 0};  ///< by absorption and scattering together, 1/m, by channel
     float ior = 1;
@@ -134,8 +134,7 @@ struct Medium {
     float anisotropy = 0;         ///< mean cosine of a scattering, in (-1, 1)
 };
 
-inline constexpr int medium_words = 8;
-static_assert(sizeof(Medium) == medium_words * 4, "no padding");
+static_assert(sizeof(Medium) == 8 * 4, "no padding");
 
 inline bool scatters(const Medium& medium) {
     return medium.albedo[0] > 0 || medium.albedo[1] > 0 || medium.albedo[2] > 0;

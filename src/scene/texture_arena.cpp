@@ -148,7 +148,7 @@ size_t mip_chain_texels(int width, int height) {
 TextureView view_of(const TextureArena& textures) {
     const auto has_low_plane = [](const TextureRow& row) { return row.low_plane != 0; };
     return {textures.texels.data(),
-            reinterpret_cast<const int32_t*>(textures.rows.data()),
+            textures.rows.data(),
             std::any_of(textures.rows.begin(), textures.rows.end(), has_low_plane)};
 }
 

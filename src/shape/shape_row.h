@@ -16,8 +16,8 @@
 namespace obscura {
 
 /// To add one: a header with its formulas; a name here; its reader, a case in intersect_shape and
-/// surface_of_shape below and in shape_bounds; its members in gltf/document_shapes.cpp, in the
-/// schema and in docs/extensions/OBSCURA_shape/README.md.
+/// surface_of_shape below and in shape_bounds; its members in gltf/parse/document_shapes.cpp, in
+/// the schema and in docs/extensions/OBSCURA_shape/README.md.
 enum class ShapeKind : int32_t {
     sphere,
     box,
@@ -40,8 +40,6 @@ struct ShapeRow {
 };
 
 static_assert(sizeof(ShapeRow) == 17 * 4, "read as 32-bit words: no padding");
-
-inline constexpr int shape_words = static_cast<int>(sizeof(ShapeRow) / 4);
 
 /// A box around a shape with room for rounding; infinite for planes without end.
 struct ShapeBox {
@@ -66,48 +64,61 @@ inline namespace OBSCURA_ISA {
 template <typename F>
 class UniformShape {
 public:
-    OBSCURA_INLINE explicit UniformShape(const ShapeRow& row)
-        : words_(reinterpret_cast<const float*>(&row)) {}
-    OBSCURA_INLINE F operator()(int word) const { return F(words_[word]); }
+    OBSCURA_INLINE explicit UniformShape(const ShapeRow& row) : row_(row) {}
+    template <auto member>
+    OBSCURA_INLINE F number(int element) const {
+        return F((row_.*member)[element]);
+    }
 
 private:
-    const float* words_;
+    const ShapeRow& row_;
 };
 
-// The shapes' own structs from a row's words, whatever `read` makes of them.
+// The shapes' own structs from a row's numbers, wherever `read` finds them.
+template <typename F, typename Read>
+OBSCURA_INLINE F shape_size(const Read& read, int element) {
+    return read.template number<&ShapeRow::size>(element);
+}
+template <typename F, typename Read>
+OBSCURA_INLINE Vec3<F> shape_size(const Read& read) {
+    return {shape_size<F>(read, 0), shape_size<F>(read, 1), shape_size<F>(read, 2)};
+}
 template <typename F, typename Read>
 OBSCURA_INLINE Vec3<F> shape_centre(const Read& read) {
-    return {read(1), read(2), read(3)};
+    const auto number = [&](int k) { return read.template number<&ShapeRow::centre>(k); };
+    return {number(0), number(1), number(2)};
 }
 template <typename F, typename Read>
 OBSCURA_INLINE Sphere<F> read_sphere(const Read& read) {
-    return {shape_centre<F>(read), read(4)};
+    return {shape_centre<F>(read), shape_size<F>(read, 0)};
 }
 template <typename F, typename Read>
 OBSCURA_INLINE AlignedBox<F> read_box(const Read& read) {
-    return {shape_centre<F>(read), {read(4), read(5), read(6)}};
+    return {shape_centre<F>(read), shape_size<F>(read)};
 }
 template <typename F, typename Read>
 OBSCURA_INLINE Frustum<F> read_frustum(const Read& read) {
-    return {shape_centre<F>(read), read(4), read(5), read(6)};
+    const Vec3<F> size = shape_size<F>(read);
+    return {shape_centre<F>(read), size.x, size.y, size.z};
 }
 template <typename F, typename Read>
 OBSCURA_INLINE Capsule<F> read_capsule(const Read& read) {
-    return {shape_centre<F>(read), read(4), read(5), read(6)};
+    const Vec3<F> size = shape_size<F>(read);
+    return {shape_centre<F>(read), size.x, size.y, size.z};
 }
 template <typename F, typename Read>
 OBSCURA_INLINE Plane<F> read_plane(const Read& read) {
-    return {shape_centre<F>(read), read(4), read(5)};
+    return {shape_centre<F>(read), shape_size<F>(read, 0), shape_size<F>(read, 1)};
 }
 template <typename F, typename Read>
 OBSCURA_INLINE Disk<F> read_disk(const Read& read) {
-    return {shape_centre<F>(read), read(4), read(5)};
+    return {shape_centre<F>(read), shape_size<F>(read, 0), shape_size<F>(read, 1)};
 }
 template <typename F, typename Read>
 OBSCURA_INLINE Quadric<F> read_quadric(const Read& read) {
-    Quadric<F> q{shape_centre<F>(read), {read(4), read(5), read(6)}, {}};
+    Quadric<F> q{shape_centre<F>(read), shape_size<F>(read), {}};
     for (int i = 0; i < 10; ++i)
-        q.k[i] = read(7 + i);
+        q.k[i] = read.template number<&ShapeRow::k>(i);
     return q;
 }
 
@@ -160,7 +171,7 @@ OBSCURA_INLINE MaskOf<F> is_front(const ShapeRow& row, const ShapeRay<F>& ray, c
 /// The place on a shape nearest to a point that is known to be close to it; another shape for every
 /// lane.
 ///
-/// In      kind: ShapeKind; read: words of ShapeRow; at: in the shape's space, metres
+/// In      kind: ShapeKind; read: numbers of ShapeRow; at: in the shape's space, metres
 template <typename F, typename Read>
 OBSCURA_INLINE SurfacePoint<F> surface_of_shape(const IntOf<F>& kind,
                                                 const Read& read,

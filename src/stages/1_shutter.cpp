@@ -3,8 +3,8 @@
 #include "stages/1_shutter.h"
 
 #include "math/sampler.h"
+#include "stages/3_tables.h"
 #include "stages/moment.h"
-#include "stages/rows.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -14,16 +14,9 @@ namespace {
 /// What the camera has moved by since the shutter opened.
 OBSCURA_INLINE Affine<Lanes> camera_moved(const MotionView& motion, Lanes time) {
     const Moment moment = moment_of(motion.camera_steps, time);
-    const LanesI word = moment.step * LanesI(affine_words);
-    Affine<Lanes> before;
-    Affine<Lanes> after;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c) {
-            before.m[r][c] = gather<Lanes>(motion.camera + r * 4 + c, word);
-            after.m[r][c] = gather<Lanes>(motion.camera + affine_words + r * 4 + c, word);
-        }
-    }
-    return blend(before, after, moment.share);
+    const TableRow<Lanes, Affinef> before(motion.camera, moment.step);
+    const TableRow<Lanes, Affinef> after(motion.camera, moment.step + LanesI(1));
+    return blend(read_affine(before), read_affine(after), moment.share);
 }
 
 }  // namespace

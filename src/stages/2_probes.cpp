@@ -52,12 +52,12 @@ int make_probes(const SceneView& scene, int count, const ProbeRows& rows) {
         probes = append_shadows(rows.probes,
                                 probes,
                                 shares,
-                                {g.position + normal * before,
-                                 -normal,
-                                 length,
-                                 {before, height, g.offset},
-                                 path.slot,
-                                 path.path_key});
+                                {.origin = g.position + normal * before,
+                                 .direction = -normal,
+                                 .tfar = length,
+                                 .radiance = {before, height, g.offset},
+                                 .slot = path.slot,
+                                 .path_key = path.path_key});
     }
     return probes;
 }

@@ -65,27 +65,22 @@ class RowWriter {
 public:
     OBSCURA_INLINE RowWriter(const uint32_t* rows, Mask mask) : rows_(rows), mask_(mask) {}
 
-    OBSCURA_INLINE void operator()(float* column, Lanes value) const {
-        alignas(64) float lanes[lane_count];
+    template <typename L, typename Word>
+    OBSCURA_INLINE void operator()(const L& value, Word* column) const {
+        alignas(64) Word lanes[lane_count];
         store(lanes, value);
         for (uint32_t bits = mask_bits(mask_); bits != 0; bits &= bits - 1) {
             const int lane = __builtin_ctz(bits);
             column[rows_[lane]] = lanes[lane];
         }
     }
-    OBSCURA_INLINE void operator()(int32_t* column, LanesI value) const {
-        alignas(64) int32_t lanes[lane_count];
-        store(lanes, value);
-        for (uint32_t bits = mask_bits(mask_); bits != 0; bits &= bits - 1) {
-            const int lane = __builtin_ctz(bits);
-            column[rows_[lane]] = lanes[lane];
-        }
+    OBSCURA_INLINE void operator()(const Vec3<Lanes>& v, float* x, float* y, float* z) const {
+        (*this)(v.x, x);
+        (*this)(v.y, y);
+        (*this)(v.z, z);
     }
-    OBSCURA_INLINE void operator()(float* x, float* y, float* z, const Vec3<Lanes>& v) const {
-        (*this)(x, v.x);
-        (*this)(y, v.y);
-        (*this)(z, v.z);
-    }
+    /// A flight does not change which path it is, nor what it travels in.
+    OBSCURA_INLINE void operator()(const LanesU&, uint32_t*) const {}
 
 private:
     const uint32_t* rows_;
@@ -97,24 +92,13 @@ OBSCURA_INLINE void give_back(const ScatterRows& rows,
                               const RowWriter& write,
                               const PathLanes& path,
                               const HitLanes& hit) {
-    const PathRows& p = rows.paths;
-    write(p.ox, p.oy, p.oz, path.origin);
-    write(p.dx, p.dy, p.dz, path.direction);
-    write(p.tr, p.tg, p.tb, path.throughput);
-    write(p.pdf, path.pdf);
-    write(p.cone_width, path.cone_width);
-    write(p.cone_spread, path.cone_spread);
-    const HitRows& h = rows.hits;
-    write(h.t, hit.t);
-    write(h.u, hit.u);
-    write(h.v, hit.v);
-    write(h.instance, hit.instance);
-    write(h.primitive, hit.primitive);
-    write(h.triangle, hit.triangle);
+    PathRows::for_each_field(write, path, rows.paths);
+    HitRows::for_each_field(write, hit, rows.hits);
 }
 
+template <typename Rows>
 OBSCURA_INLINE int append_walkers(
-    const ScatterRows& rows, int at, Mask mask, const PathLanes& path, LanesU row) {
+    const Rows& rows, int at, Mask mask, const PathLanes& path, LanesU row) {
     const Packer packer(mask);
     store(rows.row + at, pack(packer, row));
     return append_paths(rows.walkers, at, mask, path);
@@ -122,7 +106,7 @@ OBSCURA_INLINE int append_walkers(
 
 }  // namespace
 
-int begin_scatter(const SceneView& scene, int count, const ScatterRows& rows) {
+int begin_scatter(const SceneView& scene, int count, const ScatterStart& rows) {
     int walkers = 0;
     for (int i = 0; i < count; i += lane_count) {
         const PathLanes path = load_paths(rows.paths, i);

@@ -11,7 +11,7 @@ inline namespace OBSCURA_ISA {
 ///
 /// In      rows.paths, rows.hits: `count` rows after an intersection
 /// Out     rows.walkers, rows.walker_hits, rows.row: packed. Returns how many.
-int begin_scatter(const SceneView& scene, int count, const ScatterRows& rows);
+int begin_scatter(const SceneView& scene, int count, const ScatterStart& rows);
 
 /// One flight of every walker. Those that reach their surface go back to their row, with the light
 /// that the way leaves; those that scatter before stay, packed, with a new ray to be asked.

@@ -16,7 +16,8 @@ struct MeshUv {
 
 /// A hit's geometry in world space.
 struct HitGeometry {
-    TableRow<Lanes> primitive, material;
+    TableRow<Lanes, Primitive> primitive;
+    TableRow<Lanes, Material> material;
     bool one_triangle;     ///< all lanes hit the same: as camera rays of near pixels do
     LanesI corner[3];      ///< absolute vertex numbers
     Lanes weight[3];       ///< barycentric
@@ -24,11 +25,10 @@ struct HitGeometry {
     Vec3<Lanes> ng;        ///< geometric normal, unit, to the front
     Vec3<Lanes> normal;    ///< interpolated, unit, to the front
     Lanes offset;  ///< distance along ng at which rays start without hitting their own triangle
-    Vec3<Lanes>
-        smooth_shift;  ///< from position to the smooth surface, for shadow rays (toward the front)
-    Lanes area2;       ///< twice the triangle's area
-    MeshUv first_uv;   ///< of UV set 0, read where a texture may need it
-    bool has_shapes = false;  ///< some lanes hit analytic shapes: their tangents are below
+    Vec3<Lanes> smooth_shift;  ///< from position to the smooth surface, to the front
+    Lanes area2;               ///< twice the triangle's area
+    MeshUv first_uv;           ///< of UV set 0, read where a texture may need it
+    bool has_shapes = false;   ///< some lanes hit analytic shapes: their tangents are below
     Mask shapes;
     Vec3<Lanes> dpdu, dpdv;  ///< world space
 };
@@ -38,8 +38,8 @@ OBSCURA_INLINE Vec3<Lanes> weighted(const HitGeometry& g, const Vec3<Lanes> (&v)
 }
 
 /// Where the surface through the corners with their normals would be, relative to the flat
-/// triangle: shadow rays that start there do not graze the facets. Source  Hanika, "Hacking the
-/// Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4
+/// triangle: shadow rays that start there do not graze the facets.
+/// Source  Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4
 OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
                                                 const Vec3<Lanes> (&p)[3],
                                                 const Vec3<Lanes> (&n)[3],
@@ -86,12 +86,13 @@ enum class HitUse { look, start_rays };
 template <HitUse use>
 OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, HitGeometry& g) {
     g.has_shapes = false;
-    g.primitive = {scene.primitives, hit.primitive, primitive_words};
-    g.material = {scene.materials, g.primitive.integer(2), material_words};
+    g.primitive = {scene.primitives, hit.primitive};
+    g.material = {scene.materials, g.primitive.integer<&Primitive::material>()};
     g.one_triangle = g.primitive.shared() && all(hit.triangle == LanesI(first_lane(hit.triangle)));
-    LanesI index_word = (g.primitive.integer(0) + hit.triangle) * LanesI(3);
+    LanesI index_word =
+        (g.primitive.integer<&Primitive::first_triangle>() + hit.triangle) * LanesI(3);
     if (scene.shapes != nullptr) {
-        g.shapes = g.primitive.integer(16) != LanesI(0);
+        g.shapes = g.primitive.integer<&Primitive::geometry>() != LanesI(0);
         g.has_shapes = any(g.shapes);
         index_word = select(g.shapes, LanesI(0), index_word);  // any triangle: it is not looked at
     }
@@ -106,7 +107,7 @@ OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, H
     }
     if (scene.motion.positions != nullptr) {
         const CornerVectors moved = moved_corners(
-            scene, scene.motion.positions, g.primitive, hit.time, g.corner, {{p[0], p[1], p[2]}});
+            scene, scene.motion.positions, {g.primitive, g.corner, hit.time}, {{p[0], p[1], p[2]}});
         for (int k = 0; k < 3; ++k)
             p[k] = moved.at[k];
     }
@@ -117,7 +118,7 @@ OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, H
     set_face(scene.edge_scale, p, g);
     g.normal = g.ng;
     g.smooth_shift = splat3(Lanes(0.0f));
-    const LanesI normal_base = g.primitive.integer(3);
+    const LanesI normal_base = g.primitive.integer<&Primitive::normal_base>();
     Mask smooth = normal_base != LanesI(no_attribute);
     if (g.has_shapes) smooth = smooth & !g.shapes;
     if (any(smooth)) {
@@ -127,8 +128,10 @@ OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, H
             n[k] = read_corner3(scene.attributes, select(smooth, word, LanesI(0)), g.one_triangle);
         }
         if (scene.motion.normals != nullptr) {
-            const CornerVectors moved = moved_corners(
-                scene, scene.motion.normals, g.primitive, hit.time, g.corner, {{n[0], n[1], n[2]}});
+            const CornerVectors moved = moved_corners(scene,
+                                                      scene.motion.normals,
+                                                      {g.primitive, g.corner, hit.time},
+                                                      {{n[0], n[1], n[2]}});
             for (int k = 0; k < 3; ++k)
                 n[k] = moved.at[k];
         }

@@ -9,9 +9,6 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// Word of a MaterialLayers member.
-#define OBSCURA_LAYER_WORD(member) static_cast<int>(offsetof(MaterialLayers, member) / 4)
-
 /// Reads the layers of one group of hits.
 class LayerReader {
 public:
@@ -20,19 +17,29 @@ public:
                                const HitGeometry& g,
                                const LookUp& look,
                                Mask layered)
-        : scene_(scene), g_(g), look_(look), layered_(layered) {
-        const LanesI row = select(layered, g.material.integer(layers_word), LanesI(0));
-        g_.material = {scene.layers, row, layers_words};
+        : scene_(scene),
+          g_(g),
+          row_(scene.layers, select(layered, g.material.integer<&Material::layers>(), LanesI(0))),
+          look_(look),
+          layered_(layered) {}
+
+    template <auto member>
+    OBSCURA_INLINE Lanes number(int element = 0) const {
+        return row_.number<member>(element);
+    }
+    template <auto member>
+    OBSCURA_INLINE LanesI integer() const {
+        return row_.integer<member>();
+    }
+    template <auto member>
+    OBSCURA_INLINE Vec3<Lanes> color() const {
+        return row_.vector<member>();
     }
 
-    OBSCURA_INLINE Lanes number(int word) const { return g_.material.number(word); }
-    OBSCURA_INLINE LanesI integer(int word) const { return g_.material.integer(word); }
-    OBSCURA_INLINE Vec3<Lanes> color(int word) const { return read3(g_.material, word); }
-
     /// Lanes whose slot has a texture, and coordinates for it.
-    template <Detail detail = Detail::mean>
-    OBSCURA_INLINE FoundSlot find(int slot) const {
-        FoundSlot found = find_slot<detail>(scene_, g_, slot, look_, {});
+    template <auto slot, Detail detail = Detail::mean>
+    OBSCURA_INLINE FoundSlot find() const {
+        FoundSlot found = find_slot<slot, detail>(scene_, g_, row_, look_, {});
         found.used = found.used & layered_;
         return found;
     }
@@ -40,9 +47,10 @@ public:
         return read_slot(scene_, g_, found, look_);
     }
     /// A slot's texel, 1 where there is none.
-    OBSCURA_INLINE Rgba<Lanes> texel(int slot) const {
+    template <auto slot>
+    OBSCURA_INLINE Rgba<Lanes> texel() const {
         const Rgba<Lanes> white{splat3(Lanes(1.0f)), Lanes(1.0f)};
-        const FoundSlot found = find(slot);
+        const FoundSlot found = find<slot>();
         if (none(found.used)) return white;
         const Rgba<Lanes> value = read(found);
         return {select(found.used, value.rgb, white.rgb),
@@ -51,55 +59,55 @@ public:
 
 private:
     const SceneView& scene_;
-    HitGeometry g_;
+    const HitGeometry& g_;
+    TableRow<Lanes, MaterialLayers> row_;
     const LookUp& look_;
     Mask layered_;
 };
 
 /// Reflectance at the dielectric's boundary, and how the surface lets light through.
 OBSCURA_INLINE void read_dielectric(const LayerReader& layers, LayeredParams<Lanes>& p) {
-    const Lanes specular = layers.number(OBSCURA_LAYER_WORD(specular)) *
-                           layers.texel(OBSCURA_LAYER_WORD(specular_texture)).alpha;
-    const Vec3<Lanes> color = layers.color(OBSCURA_LAYER_WORD(specular_color)) *
-                              layers.texel(OBSCURA_LAYER_WORD(specular_color_texture)).rgb;
+    const Lanes specular = layers.number<&MaterialLayers::specular>() *
+                           layers.texel<&MaterialLayers::specular_texture>().alpha;
+    const Vec3<Lanes> color = layers.color<&MaterialLayers::specular_color>() *
+                              layers.texel<&MaterialLayers::specular_color_texture>().rgb;
     const Vec3<Lanes> f0 = color * normal_reflectance(p.eta);
     const Lanes one(1.0f);
     p.f0 = Vec3<Lanes>{min(f0.x, one), min(f0.y, one), min(f0.z, one)} * specular;
-    p.transmission = layers.number(OBSCURA_LAYER_WORD(transmission)) *
-                     layers.texel(OBSCURA_LAYER_WORD(transmission_texture)).rgb.x;
+    p.transmission = layers.number<&MaterialLayers::transmission>() *
+                     layers.texel<&MaterialLayers::transmission_texture>().rgb.x;
     const Lanes passes = select(p.solid, one, p.transmission);
     p.f90 = specular * lerp(one, grazing_reflectance(p.eta), passes);
-    p.diffuse_transmission = layers.number(OBSCURA_LAYER_WORD(diffuse_transmission)) *
-                             layers.texel(OBSCURA_LAYER_WORD(diffuse_transmission_texture)).alpha;
+    p.diffuse_transmission = layers.number<&MaterialLayers::diffuse_transmission>() *
+                             layers.texel<&MaterialLayers::diffuse_transmission_texture>().alpha;
     p.diffuse_transmission_color =
-        layers.color(OBSCURA_LAYER_WORD(diffuse_transmission_color)) *
-        layers.texel(OBSCURA_LAYER_WORD(diffuse_transmission_color_texture)).rgb;
+        layers.color<&MaterialLayers::diffuse_transmission_color>() *
+        layers.texel<&MaterialLayers::diffuse_transmission_color_texture>().rgb;
 }
 
 OBSCURA_INLINE void read_sheen(const LayerReader& layers, LayeredParams<Lanes>& p) {
-    p.sheen_color = layers.color(OBSCURA_LAYER_WORD(sheen_color)) *
-                    layers.texel(OBSCURA_LAYER_WORD(sheen_color_texture)).rgb;
-    const Lanes roughness = layers.number(OBSCURA_LAYER_WORD(sheen_roughness)) *
-                            layers.texel(OBSCURA_LAYER_WORD(sheen_roughness_texture)).alpha;
+    p.sheen_color = layers.color<&MaterialLayers::sheen_color>() *
+                    layers.texel<&MaterialLayers::sheen_color_texture>().rgb;
+    const Lanes roughness = layers.number<&MaterialLayers::sheen_roughness>() *
+                            layers.texel<&MaterialLayers::sheen_roughness_texture>().alpha;
     p.sheen_alpha = max(roughness * roughness, Lanes(min_sheen_alpha));
 }
 
 OBSCURA_INLINE void read_coat(const LayerReader& layers,
                               const LayerPlace& at,
                               LayeredParams<Lanes>& p) {
-    p.coat = layers.number(OBSCURA_LAYER_WORD(clearcoat)) *
-             layers.texel(OBSCURA_LAYER_WORD(clearcoat_texture)).rgb.x;
+    p.coat = layers.number<&MaterialLayers::clearcoat>() *
+             layers.texel<&MaterialLayers::clearcoat_texture>().rgb.x;
     p.coat_alpha = Lanes(1.0f);
     p.coat_normal = {Lanes(0.0f), Lanes(0.0f), Lanes(1.0f)};
     if (none(p.coat > Lanes(0.0f))) return;
-    const Lanes roughness = layers.number(OBSCURA_LAYER_WORD(clearcoat_roughness)) *
-                            layers.texel(OBSCURA_LAYER_WORD(clearcoat_roughness_texture)).rgb.y;
+    const Lanes roughness = layers.number<&MaterialLayers::clearcoat_roughness>() *
+                            layers.texel<&MaterialLayers::clearcoat_roughness_texture>().rgb.y;
     p.coat_alpha = max(roughness * roughness, Lanes(min_ggx_alpha));
     Vec3<Lanes> normal = at.smooth_normal;
-    const FoundSlot slot =
-        layers.find<Detail::single>(OBSCURA_LAYER_WORD(clearcoat_normal_texture));
+    const FoundSlot slot = layers.find<&MaterialLayers::clearcoat_normal_texture, Detail::single>();
     if (any(slot.used)) {
-        const Lanes scale = layers.number(OBSCURA_LAYER_WORD(clearcoat_normal_scale));
+        const Lanes scale = layers.number<&MaterialLayers::clearcoat_normal_scale>();
         normal = tilt_normal(at.tangents, slot.used, normal, layers.read(slot).rgb, scale);
         normal = select(dot(normal, at.ng) < Lanes(0.0f), -normal, normal);
     }
@@ -107,13 +115,13 @@ OBSCURA_INLINE void read_coat(const LayerReader& layers,
 }
 
 OBSCURA_INLINE void read_film(const LayerReader& layers, LayeredParams<Lanes>& p) {
-    p.film = {layers.number(OBSCURA_LAYER_WORD(iridescence)) *
-                  layers.texel(OBSCURA_LAYER_WORD(iridescence_texture)).rgb.x,
-              layers.number(OBSCURA_LAYER_WORD(iridescence_ior)),
+    p.film = {layers.number<&MaterialLayers::iridescence>() *
+                  layers.texel<&MaterialLayers::iridescence_texture>().rgb.x,
+              layers.number<&MaterialLayers::iridescence_ior>(),
               Lanes(0.0f)};
-    const Lanes least = layers.number(OBSCURA_LAYER_WORD(film_thickness_nm));
-    const Lanes most = layers.number(OBSCURA_LAYER_WORD(film_thickness_nm) + 1);
-    const Lanes share = layers.texel(OBSCURA_LAYER_WORD(film_thickness_texture)).rgb.y;
+    const Lanes least = layers.number<&MaterialLayers::film_thickness_nm>(0);
+    const Lanes most = layers.number<&MaterialLayers::film_thickness_nm>(1);
+    const Lanes share = layers.texel<&MaterialLayers::film_thickness_texture>().rgb.y;
     p.film.thickness_nm = lerp(least, most, share);
     p.film.strength = p.film.strength * film_presence(p.film.thickness_nm);
 }
@@ -123,18 +131,18 @@ OBSCURA_INLINE void read_anisotropy(const LayerReader& layers,
                                     LayerPlace& at,
                                     LayeredParams<Lanes>& p) {
     const Mask stretched = at.tangents.known;
-    Lanes strength = layers.number(OBSCURA_LAYER_WORD(anisotropy));
+    Lanes strength = layers.number<&MaterialLayers::anisotropy>();
     if (none(stretched & (strength > Lanes(0.0f)))) return;
     Vec2<Lanes> along{Lanes(1.0f), Lanes(0.0f)};
-    const FoundSlot slot = layers.find(OBSCURA_LAYER_WORD(anisotropy_texture));
+    const FoundSlot slot = layers.find<&MaterialLayers::anisotropy_texture>();
     if (any(slot.used)) {
         const Vec3<Lanes> texel = layers.read(slot).rgb;
         along.x = select(slot.used, texel.x * Lanes(2.0f) - Lanes(1.0f), along.x);
         along.y = select(slot.used, texel.y * Lanes(2.0f) - Lanes(1.0f), along.y);
         strength = select(slot.used, strength * texel.z, strength);
     }
-    const Lanes c = layers.number(OBSCURA_LAYER_WORD(anisotropy_cosine));
-    const Lanes s = layers.number(OBSCURA_LAYER_WORD(anisotropy_sine));
+    const Lanes c = layers.number<&MaterialLayers::anisotropy_cosine>();
+    const Lanes s = layers.number<&MaterialLayers::anisotropy_sine>();
     const Vec3<Lanes> direction = at.tangents.tangent * (along.x * c - along.y * s) +
                                   at.tangents.bitangent * (along.x * s + along.y * c);
     const Vec3<Lanes>& n = at.frame.normal;
@@ -187,16 +195,15 @@ OBSCURA_INLINE void disperse(const LayerReader& layers,
                              Mask entering,
                              LayeredPoint& out) {
     LayeredParams<Lanes>& p = out.params;
-    const Lanes dispersion = layers.number(OBSCURA_LAYER_WORD(dispersion));
+    const Lanes dispersion = layers.number<&MaterialLayers::dispersion>();
     const Mask disperses = out.layered & p.solid & (dispersion > Lanes(0.0f));
     if (none(disperses)) return;
     const Wavelength wavelength = wavelength_of(path);
     const Lanes denser =
-        relative_ior(layers.number(OBSCURA_LAYER_WORD(ior)), dispersion, wavelength.nm);
+        relative_ior(layers.number<&MaterialLayers::ior>(), dispersion, wavelength.nm);
     // Total reflection, from the denser side, is not the same for all wavelengths. The index is
     // least for the longest.
-    const Lanes least =
-        relative_ior(layers.number(OBSCURA_LAYER_WORD(ior)), dispersion, longest_nm);
+    const Lanes least = relative_ior(layers.number<&MaterialLayers::ior>(), dispersion, longest_nm);
     out.reflects_white = entering & (p.eta * least > Lanes(1.0f));
     p.eta = select(disperses, p.eta * select(entering, denser, Lanes(1.0f) / denser), p.eta);
     out.wavelength = select(disperses, LanesU(one_wavelength), LanesU(0U));
@@ -212,7 +219,7 @@ void read_point(const LayerReader& layers,
     const SceneView& scene = hit.scene;
     const PathLanes& path = hit.path;
     out.layered = place.layered;
-    const LanesI medium = layers.integer(OBSCURA_LAYER_WORD(medium));
+    const LanesI medium = layers.integer<&MaterialLayers::medium>();
     const LanesI body = select(out.layered, medium, LanesI(0));
     out.boundary = boundary_at(scene, path.bodies, body, place.front);
     if (hit.shared != nullptr) {
@@ -228,7 +235,7 @@ void read_point(const LayerReader& layers,
     p.base_color = base.base_color;
     p.metallic = base.metallic;
     p.alpha = {base.alpha, base.alpha};
-    p.eta = select(body > LanesI(0), out.boundary.eta, layers.number(OBSCURA_LAYER_WORD(ior)));
+    p.eta = select(body > LanesI(0), out.boundary.eta, layers.number<&MaterialLayers::ior>());
     read_dielectric(layers, p);
     disperse(layers, path, place.front, out);
     read_sheen(layers, p);

@@ -49,14 +49,23 @@ OBSCURA_INLINE LanesU leave_body(LanesU bodies, LanesI body) {
                        select(is_third, LanesI(0), third));
 }
 
+/// Four words of a medium, from a member on. Always gathered: lanes seldom travel in one medium.
+template <auto member>
+OBSCURA_INLINE Four<Lanes> gather_medium(const SceneView& scene, LanesI body) {
+    return gather4<Lanes>(reinterpret_cast<const float*>(scene.media) + word_of<member>,
+                          LanesI(body * LanesI(words_per_row<Medium>)));
+}
+
 /// Extinction per metre, and the index of refraction in w.
 OBSCURA_INLINE Four<Lanes> read_medium(const SceneView& scene, LanesI body) {
-    return gather4<Lanes>(scene.media, LanesI(body * LanesI(medium_words)));
+    static_assert(word_of<&Medium::ior> == word_of<&Medium::extinction> + 3);
+    return gather_medium<&Medium::extinction>(scene, body);
 }
 
 /// Share of the extinction that is scattering, and the mean cosine of a scattering in w.
 OBSCURA_INLINE Four<Lanes> read_scattering(const SceneView& scene, LanesI body) {
-    return gather4<Lanes>(scene.media, LanesI(body * LanesI(medium_words) + LanesI(4)));
+    static_assert(word_of<&Medium::anisotropy> == word_of<&Medium::albedo> + 3);
+    return gather_medium<&Medium::albedo>(scene, body);
 }
 
 OBSCURA_INLINE Mask scatters(const Four<Lanes>& scattering) {

@@ -1,4 +1,4 @@
-// stages/3_misses.h - what paths see that leave the scene, and what pictures are opaque.
+// stages/3_misses.h - the light that paths which leave the scene see, and the alpha of camera rays.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,7 +12,7 @@ inline namespace OBSCURA_ISA {
 /// Environment light of camera rays that left the scene.
 inline void add_background(const EnvironmentView& environment,
                            int count_in,
-                           const MissRows& m,
+                           const MissView& m,
                            const SampleRows& samples) {
     for (int i = 0; i < count_in; i += lane_count) {
         const Mask exists = rows_in_range(i, count_in);
@@ -39,7 +39,7 @@ struct MetPixel {
 };
 
 OBSCURA_INLINE MetPixel
-meet_pixel(const EnvironmentView& environment, const MissRows& m, int i, Mask exists, int bounce) {
+meet_pixel(const EnvironmentView& environment, const MissView& m, int i, Mask exists, int bounce) {
     const Vec3<Lanes> direction =
         select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
     const EnvironmentCell<Lanes> cell = environment_cell(environment, direction);
@@ -57,7 +57,7 @@ inline void shade_misses(const SceneView& scene,
                          int count_in,
                          const ShadeRows& rows) {
     const EnvironmentView& environment = scene.environment;
-    const MissRows& m = rows.misses;
+    const MissView m = rows.misses;
     if (!scene.has_environment) return;
     if (bounce == 0) {
         if (batch.background_visible) add_background(environment, count_in, m, rows.samples);

@@ -17,8 +17,8 @@ InstanceMaps moved_instance(const SceneView& scene,
     const LanesI before = select(moves, row + moment.step, LanesI(0));
     const LanesI after = select(moves, before + LanesI(1), LanesI(0));
     const Affine<Lanes> world =
-        blend(read_affine({scene.motion.instances, before, affine_words}, 0),
-              read_affine({scene.motion.instances, after, affine_words}, 0),
+        blend(read_affine(TableRow<Lanes, Affinef>(scene.motion.instances, before)),
+              read_affine(TableRow<Lanes, Affinef>(scene.motion.instances, after)),
               moment.share);
     const Affine<Lanes> object = inverse(world);
     InstanceMaps out;
@@ -35,18 +35,17 @@ InstanceMaps moved_instance(const SceneView& scene,
 
 CornerVectors moved_corners(const SceneView& scene,
                             const float* table,
-                            const TableRow<Lanes>& primitive,
-                            Lanes time,
-                            const LanesI (&corner)[3],
+                            const HitCorners& corners,
                             const CornerVectors& still) {
-    const LanesI base = primitive.integer(motion_base_word);
+    const TableRow<Lanes, Primitive>& primitive = corners.primitive;
+    const LanesI base = primitive.integer<&Primitive::motion_base>();
     const Mask moves = base != LanesI(no_attribute);
     if (none(moves)) return still;
-    const LanesI stride = primitive.integer(motion_base_word + 1);
-    const Moment moment = moment_of(scene.motion.steps, time);
+    const LanesI stride = primitive.integer<&Primitive::motion_stride>();
+    const Moment moment = moment_of(scene.motion.steps, corners.time);
     CornerVectors out;
     for (int k = 0; k < 3; ++k) {
-        const LanesI word = base + moment.step * stride + corner[k] * LanesI(3);
+        const LanesI word = base + moment.step * stride + corners.number[k] * LanesI(3);
         const Vec3<Lanes> before = gather3(table, select(moves, word, LanesI(0)));
         const Vec3<Lanes> after = gather3(table, select(moves, word + stride, LanesI(0)));
         out.at[k] = select(moves, before + (after - before) * moment.share, still.at[k]);

@@ -23,22 +23,27 @@ InstanceMaps moved_instance(const SceneView& scene,
                             Lanes time,
                             const InstanceMaps& still);
 
-/// In  table: MotionView::positions or normals; base, stride: Primitive's; still: of lanes whose
-///     primitive does not move
+/// The corners of the triangles that were hit.
+struct HitCorners {
+    const TableRow<Lanes, Primitive>& primitive;
+    const LanesI (&number)[3];
+    Lanes time;
+};
+
+/// In  table: MotionView::positions or normals; still: of lanes whose primitive does not move
 CornerVectors moved_corners(const SceneView& scene,
                             const float* table,
-                            const TableRow<Lanes>& primitive,
-                            Lanes time,
-                            const LanesI (&corner)[3],
+                            const HitCorners& corners,
                             const CornerVectors& still);
 
 /// In  instance: rows; lanes in world space may have any
 OBSCURA_INLINE InstanceMaps instance_maps(const SceneView& scene, LanesI instance, Lanes time) {
-    const TableRow<Lanes> row(scene.instances, max(instance, LanesI(0)), instance_words);
-    InstanceMaps maps{read_affine(row, 0), read_affine(row, 12)};
+    const TableRow<Lanes, Instance> row(scene.instances, max(instance, LanesI(0)));
+    InstanceMaps maps{read_affine<&Instance::world_from_object>(row),
+                      read_affine<&Instance::object_from_world>(row)};
     if (scene.motion.instances != nullptr) {
         const InstanceMaps still = maps;
-        maps = moved_instance(scene, row.integer(instance_motion_word), time, still);
+        maps = moved_instance(scene, row.integer<&Instance::motion>(), time, still);
     }
     return maps;
 }

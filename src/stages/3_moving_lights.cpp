@@ -25,27 +25,26 @@ TriangleCorners<Lanes> moved_light_corners(const SceneView& scene,
                                            LanesI index,
                                            Lanes time,
                                            const TriangleCorners<Lanes>& still) {
-    const TableRow<Lanes> light(scene.lights.triangles, index, words_per_row<TriangleLight>);
-    const LanesI first = light.integer(offsetof(TriangleLight, motion) / 4);
+    const TableRow<Lanes, TriangleLight> light(scene.lights.triangles, index);
+    const LanesI first = light.integer<&TriangleLight::motion>();
     const Mask moves = first >= LanesI(0);
     if (none(moves)) return still;
     const Moment moment = moment_of(scene.motion.steps, time);
     const LanesI row = select(moves, first + moment.step, LanesI(0));
-    constexpr int words = words_per_row<MovingTriangle>;
-    const TableRow<Lanes> before(scene.lights.moving_triangles, row, words);
-    const TableRow<Lanes> after(
-        scene.lights.moving_triangles, select(moves, row + LanesI(1), LanesI(0)), words);
-    const auto corner = [&](int word, const Vec3<Lanes>& otherwise) {
-        const auto mix = [&](int at) {
-            const Lanes from = before.number(at);
-            return from + (after.number(at) - from) * moment.share;
+    const TableRow<Lanes, MovingTriangle> before(scene.lights.moving_triangles, row);
+    const TableRow<Lanes, MovingTriangle> after(scene.lights.moving_triangles,
+                                                select(moves, row + LanesI(1), LanesI(0)));
+    const auto corner = [&]<auto member>(Member<member>, const Vec3<Lanes>& otherwise) {
+        const auto mix = [&](int k) {
+            const Lanes from = before.number<member>(k);
+            return from + (after.number<member>(k) - from) * moment.share;
         };
-        return select(moves, Vec3<Lanes>{mix(word), mix(word + 1), mix(word + 2)}, otherwise);
+        return select(moves, Vec3<Lanes>{mix(0), mix(1), mix(2)}, otherwise);
     };
     TriangleCorners<Lanes> out = still;
-    out.p0 = corner(0, still.p0);
-    out.e1 = corner(3, still.e1);
-    out.e2 = corner(6, still.e2);
+    out.p0 = corner(Member<&MovingTriangle::p0>{}, still.p0);
+    out.e1 = corner(Member<&MovingTriangle::e1>{}, still.e1);
+    out.e2 = corner(Member<&MovingTriangle::e2>{}, still.e2);
     // The choice of the triangle stays as likely while its area changes.
     const Lanes area = Lanes(0.5f) * length(cross(out.e1, out.e2));
     const Lanes choice = still.pdf_area * still.area;

@@ -19,10 +19,11 @@ OBSCURA_INLINE Lanes read_occlusion(const SceneView& scene,
                                     const HitGeometry& g,
                                     const LookUp& look) {
     const Lanes one(1.0f);
-    const FoundSlot slot = find_slot(scene, g, occlusion_slot, look, {});
+    const FoundSlot slot = find_slot<&Material::occlusion_texture>(scene, g, g.material, look, {});
     if (none(slot.used)) return one;
     const Lanes texel = read_slot(scene, g, slot, look).rgb.x;
-    return select(slot.used, lerp(one, texel, g.material.number(occlusion_strength_word)), one);
+    const Lanes strength = g.material.number<&Material::occlusion_strength>();
+    return select(slot.used, lerp(one, texel, strength), one);
 }
 
 /// Of slots whose paths left the scene.

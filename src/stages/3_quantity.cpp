@@ -34,7 +34,7 @@ OBSCURA_INLINE Vec3<Lanes> surface_uv(const SceneView& scene,
     HitGeometry g;
     find_geometry<HitUse::look>(scene, hit, g);
     instance_to_world(scene, hit, g);
-    const LanesI base = g.primitive.integer(6);
+    const LanesI base = g.primitive.integer<&Primitive::uv_base>();
     const Mask present = base != LanesI(no_attribute);
     const Vec3<Lanes> zero = splat3(Lanes(0.0f));
     if (none(present)) return zero;
@@ -46,12 +46,14 @@ OBSCURA_INLINE Vec3<Lanes> surface_uv(const SceneView& scene,
 
 /// Numbers of glTF node, glTF material and triangle, from 1; material 0 is the default one.
 OBSCURA_INLINE Vec3<Lanes> identity(const SceneView& scene, const HitLanes& hit) {
-    const TableRow<Lanes> primitive(scene.primitives, hit.primitive, primitive_words);
-    LanesI node = primitive.integer(14);
-    const LanesI material = gather<Lanes>(scene.material_numbers, primitive.integer(2));
+    const TableRow<Lanes, Primitive> primitive(scene.primitives, hit.primitive);
+    LanesI node = primitive.integer<&Primitive::node>();
+    const LanesI material =
+        gather<Lanes>(scene.material_numbers, primitive.integer<&Primitive::material>());
     const Mask instanced = hit.instance >= LanesI(0);
     if (any(instanced)) {
-        node = select(instanced, max(instance_row(scene, hit).integer(25), node), node);
+        const LanesI own = instance_row(scene, hit).integer<&Instance::node>();
+        node = select(instanced, max(own, node), node);
     }
     return {from_int<Lanes>(node + LanesI(1)),
             from_int<Lanes>(material + LanesI(1)),
@@ -75,8 +77,9 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
     } else {
         const SeenSurface seen =
             see_surface<HitUse::look>(scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f))});
-        const int slot_word = quantity == Quantity::albedo ? base_color_slot : normal_slot;
-        const FoundSlot slot = find_slot(scene, seen.g, slot_word, seen.look, {});
+        constexpr auto texture = quantity == Quantity::albedo ? &Material::base_color_texture
+                                                              : &Material::normal_texture;
+        const FoundSlot slot = find_slot<texture>(scene, seen.g, seen.g.material, seen.look, {});
         if constexpr (quantity == Quantity::albedo) {
             return base_color(scene, seen.g, seen.look, slot);
         } else {
@@ -91,7 +94,7 @@ OBSCURA_INLINE Vec3<Lanes> quantity_of(const SceneView& scene,
 /// A loop of its own for each quantity, so that the compiler drops what the quantity does not need.
 /// Row i is pixel i.
 template <Quantity quantity>
-void write_all(const SceneView& scene, const Camera& camera, int count, const ShadeRows& rows) {
+void write_all(const SceneView& scene, const Camera& camera, int count, const AovColumns& rows) {
     const SampleRows& out = rows.samples;
     for (int i = 0; i < count; i += lane_count) {
         const Mask hits = rows_in_range(i, count) & (load(rows.hits.primitive + i) >= LanesI(0));
@@ -115,7 +118,7 @@ void write_quantity(const SceneView& scene,
                     const BatchSettings& batch,
                     Quantity quantity,
                     int count,
-                    const ShadeRows& rows) {
+                    const AovColumns& rows) {
     switch (quantity) {
         case Quantity::normal:
             return write_all<Quantity::normal>(scene, batch.camera, count, rows);

@@ -118,7 +118,7 @@ int begin_raycast(const SceneView& scene,
     return sorted.hits;
 }
 
-int shade_raycast(const SceneView& scene, const RaycastRange& range, const ShadeRows& rows) {
+int shade_raycast(const SceneView& scene, const RaycastRange& range, const RaycastColumns& rows) {
     const int end = range.first_hit + range.hits;
     int shadows = 0;
     for (int i = range.first_hit; i < end; i += lane_count) {
@@ -147,11 +147,15 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Shade
             if (none(useful)) continue;
             const Vec3<Lanes> start =
                 s.any_layers ? select(before, s.light_start, s.start_beyond) : s.light_start;
-            shadows = append_shadows(
-                rows.shadows,
-                shadows,
-                useful,
-                {start, light.direction, light.distance, radiance, path.slot, path.path_key});
+            shadows = append_shadows(rows.shadows,
+                                     shadows,
+                                     useful,
+                                     {.origin = start,
+                                      .direction = light.direction,
+                                      .tfar = light.distance,
+                                      .radiance = radiance,
+                                      .slot = path.slot,
+                                      .path_key = path.path_key});
         }
     }
     return shadows;

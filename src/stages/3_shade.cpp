@@ -52,16 +52,33 @@ OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
     return r;
 }
 
-OBSCURA_INLINE void draw_ahead(const SceneView& scene,
-                               const PathRows& paths,
-                               int bounce,
+/// What the paths of one bounce share.
+struct Bounce {
+    const SceneView& scene;
+    const BatchSettings& batch;
+    int number;
+    bool is_over;  ///< paths do not scatter any more
+};
+
+/// One group of paths at their hits.
+struct ShadedGroup {
+    const PathLanes& path;
+    ShadingPoint& s;
+    BounceRandom& random;
+    Lanes distance;  ///< from where the paths come
+};
+
+/// Draws pixels of the environment for the groups that start at row `first`.
+OBSCURA_INLINE void draw_ahead(const Bounce& bounce,
+                               const PathView& paths,
                                int first,
                                int groups,
                                PixelDraw<Lanes> (&draws)[groups_ahead]) {
+    const SceneView& scene = bounce.scene;
     for (int g = 0; g < groups; ++g) {
         const int i = first + g * lane_count;
-        const Vec2<LanesU> random =
-            random_pair(load(paths.key + i), load(paths.sample + i), bounce, RandomUse::light);
+        const Vec2<LanesU> random = random_pair(
+            load(paths.key + i), load(paths.sample + i), bounce.number, RandomUse::light);
         if (scene.has_environment) {
             draws[g] = draw_block<Lanes>(scene.environment.choice, random);
         } else {
@@ -74,13 +91,14 @@ OBSCURA_INLINE void draw_ahead(const SceneView& scene,
 }
 
 /// Light that the hit surfaces send towards the viewer themselves.
-OBSCURA_INLINE void add_emission(const SceneView& scene,
-                                 const BatchSettings& batch,
+OBSCURA_INLINE void add_emission(const Bounce& bounce,
                                  const ShadeRows& rows,
                                  Mask active,
-                                 const PathLanes& path,
-                                 const ShadingPoint& s,
-                                 Lanes distance) {
+                                 const ShadedGroup& group) {
+    const SceneView& scene = bounce.scene;
+    const BatchSettings& batch = bounce.batch;
+    const PathLanes& path = group.path;
+    const ShadingPoint& s = group.s;
     const Mask glows = active & (max_component(s.emission) > Lanes(0.0f));
     Vec3<Lanes> light = splat3(Lanes(0.0f));
     if (any(glows)) {
@@ -88,7 +106,7 @@ OBSCURA_INLINE void add_emission(const SceneView& scene,
         Lanes weight(1.0f);
         if (batch.strategies == (sample_lights | sample_bsdfs)) {
             PathLanes chosen = path;  // as the last scattering chose it
-            Lanes way = distance;
+            Lanes way = group.distance;
             if (rows.passed != nullptr) {
                 const Lanes passed = passed_way(rows, glows, path);
                 way = way + passed;
@@ -115,8 +133,8 @@ OBSCURA_INLINE void add_emission(const SceneView& scene,
     if (any(any_light)) add_radiance(rows.samples, any_light, path.slot, path.throughput * light);
 }
 
-/// What a body leaves of the light of a lamp inside it. Lamps without end of the way lie outside:
-/// what is between, the shadow ray finds.
+/// The share of a light's radiance that the body around the path lets through. Lights at infinity
+/// lie outside of all bodies: the shadow ray finds the body's end.
 OBSCURA_INLINE Vec3<Lanes> way_to_light(const SceneView& scene,
                                         Mask useful,
                                         LanesU bodies,
@@ -129,15 +147,13 @@ OBSCURA_INLINE Vec3<Lanes> way_to_light(const SceneView& scene,
 }
 
 /// Writes the shadow rays of one group; returns the new number of rows.
-OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
-                                   const BatchSettings& batch,
-                                   const ShadowRows& rows,
-                                   int at,
-                                   Mask active,
-                                   const PathLanes& path,
-                                   const ShadingPoint& s,
-                                   const BounceRandom& random) {
-    const LightLanes light = sample_light(scene, s, random.light);
+OBSCURA_INLINE int add_shadow_rays(
+    const Bounce& bounce, const ShadowRows& rows, int at, Mask active, const ShadedGroup& group) {
+    const SceneView& scene = bounce.scene;
+    const BatchSettings& batch = bounce.batch;
+    const PathLanes& path = group.path;
+    const ShadingPoint& s = group.s;
+    const LightLanes light = sample_light(scene, s, group.random.light);
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
     const Mask before = dot(light.direction, s.ng) > Lanes(0.0f);
@@ -161,11 +177,15 @@ OBSCURA_INLINE int add_shadow_rays(const SceneView& scene,
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
     const Vec3<Lanes> start =
         s.any_layers ? select(before, s.light_start, s.start_beyond) : s.light_start;
-    return append_shadows(
-        rows,
-        at,
-        useful,
-        {start, light.direction, light.distance, radiance, path.slot, path.path_key});
+    return append_shadows(rows,
+                          at,
+                          useful,
+                          {.origin = start,
+                           .direction = light.direction,
+                           .tfar = light.distance,
+                           .radiance = radiance,
+                           .slot = path.slot,
+                           .path_key = path.path_key});
 }
 
 /// Probability of going on after a bounce; the survivors are divided by it.
@@ -189,14 +209,11 @@ OBSCURA_INLINE Vec3<Lanes> direction_random(const PathLanes& path,
 }
 
 /// Writes the next rays of one group; returns the new number of rows.
-OBSCURA_INLINE int add_next_rays(const PathRows& rows,
-                                 int at,
-                                 Mask active,
-                                 const PathLanes& path,
-                                 const ShadingPoint& s,
-                                 const BounceRandom& random,
-                                 int bounce,
-                                 Lanes distance) {
+OBSCURA_INLINE int add_next_rays(
+    const PathRows& rows, int at, Mask active, const ShadedGroup& group, int bounce) {
+    const PathLanes& path = group.path;
+    const ShadingPoint& s = group.s;
+    const BounceRandom& random = group.random;
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> u = direction_random(path, s, random, bounce);
     const BsdfSample<Lanes> sample = sample_point(s, wo, u);
@@ -214,7 +231,7 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
     next.direction = direction;
     next.throughput = throughput * (Lanes(1.0f) / survives);
     next.pdf = sample.at.pdf;
-    next.cone_width = path.cone_width + path.cone_spread * distance;
+    next.cone_width = path.cone_width + path.cone_spread * group.distance;
     next.cone_spread = path.cone_spread + sample.spread;
     next.slot = path.slot;
     next.key = path.key;
@@ -232,43 +249,34 @@ OBSCURA_INLINE int add_next_rays(const PathRows& rows,
 OBSCURA_INLINE int add_passing_rays(const PathRows& rows,
                                     int at,
                                     Mask active,
-                                    const PathLanes& path,
-                                    const ShadingPoint& s,
-                                    Lanes distance) {
+                                    const ShadedGroup& group) {
+    const PathLanes& path = group.path;
+    const ShadingPoint& s = group.s;
     const Mask passes = active & s.layers.layered & s.layers.boundary.hidden;
     if (none(passes)) return at;
     PathLanes next = path;
     next.origin = s.start_beyond;
     next.bodies = s.layers.boundary.beyond;
     next.pdf = Lanes(0.0f);  // light sampling did not see through the surface
-    next.cone_width = path.cone_width + path.cone_spread * distance;
+    next.cone_width = path.cone_width + path.cone_spread * group.distance;
     return append_paths(rows, at, passes, next);
 }
 
-/// The end of a path's segment, for paths that pass thin walls there.
-struct WalledBounce {
-    int number;
-    bool is_over;  ///< paths do not scatter any more
-    Lanes distance;
-};
-
 /// Lets paths pass smooth thin walls; what stays of the layers' lobes is sampled with `random`.
-OBSCURA_INLINE PassedWalls add_straight_rays(const ShadeRows& rows,
-                                             int at,
-                                             Mask scatters,
-                                             const PathLanes& path,
-                                             ShadingPoint& s,
-                                             BounceRandom& random,
-                                             const WalledBounce& at_bounce) {
-    const Vec3<Lanes> u = direction_random(path, s, random, at_bounce.number);
+OBSCURA_INLINE PassedWalls add_straight_rays(
+    const ShadeRows& rows, int at, Mask scatters, const ShadedGroup& group, const Bounce& bounce) {
+    const PathLanes& path = group.path;
+    ShadingPoint& s = group.s;
+    BounceRandom& random = group.random;
+    const Vec3<Lanes> u = direction_random(path, s, random, bounce.number);
     const PathLanes here = path;  // only a copy has an address: the path itself stays in registers
-    const WallHit hit{scatters,
-                      s.any_layers,
-                      at_bounce.is_over,
-                      at_bounce.distance,
-                      u.z,
-                      to_local(s.frame, -path.direction),
-                      s.any_layers ? s.start_beyond : s.start};
+    const WallHit hit{.scatters = scatters,
+                      .any_layers = s.any_layers,
+                      .only_passes = bounce.is_over,
+                      .distance = group.distance,
+                      .choice = u.z,
+                      .wo = to_local(s.frame, -path.direction),
+                      .start_beyond = s.any_layers ? s.start_beyond : s.start};
     const PassedWalls passed = pass_walls(rows, at, here, hit, s.layers);
     random.bsdf.x = random.bsdf.x * passed.left;
     return passed;
@@ -289,49 +297,49 @@ OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, 
 
 ShadeCounts shade(const SceneView& scene,
                   const BatchSettings& batch,
-                  int bounce,
+                  int number,
                   int count_in,
                   const ShadeRows& rows) {
-    if (bounce == 0) set_camera_alpha(batch, count_in, rows);
+    const Bounce bounce{
+        .scene = scene, .batch = batch, .number = number, .is_over = number > batch.max_bounces};
+    if (number == 0) set_camera_alpha(batch, count_in, rows);
     const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
-    shade_misses(scene, batch, bounce, sorted.misses, rows);
+    shade_misses(scene, batch, number, sorted.misses, rows);
     PixelDraw<Lanes> draws[groups_ahead];
     ShadeCounts out;
     for (int i = 0; i < sorted.hits; i += lane_count) {
-        const int group = i / lane_count % groups_ahead;
-        if (group == 0) {
+        const int k = i / lane_count % groups_ahead;
+        if (k == 0) {
             const int groups = (sorted.hits - i + lane_count - 1) / lane_count;
-            draw_ahead(scene, rows.paths, bounce, i, min(groups, groups_ahead), draws);
+            draw_ahead(bounce, rows.paths, i, min(groups, groups_ahead), draws);
         }
         const Mask exists = rows_in_range(i, sorted.hits);
         PathLanes path = load_paths(rows.paths, i);
         const HitLanes hit = hits_of_paths(rows, i, exists, path);
         if (scene.media != nullptr) absorb(scene, exists, hit.t, path);
-        BounceRandom random = bounce_random(path, bounce, scene.lights.count, draws[group]);
+        BounceRandom random = bounce_random(path, number, scene.lights.count, draws[k]);
         ShadingPoint s = shading_point(
             scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_share});
-        add_emission(scene, batch, rows, exists, path, s, hit.t);
+        const ShadedGroup group{path, s, random, hit.t};
+        add_emission(bounce, rows, exists, group);
         Mask scatters = exists & (!s.unlit);
-        const bool is_over = bounce > batch.max_bounces;
         Mask turns = scatters;
         if (rows.passed != nullptr) {
-            const PassedWalls passed = add_straight_rays(
-                rows, out.next, scatters, path, s, random, {bounce, is_over, hit.t});
+            const PassedWalls passed = add_straight_rays(rows, out.next, scatters, group, bounce);
             out.next = passed.next;
             turns = passed.others;
         }
-        if (is_over || none(scatters)) continue;
+        if (bounce.is_over || none(scatters)) continue;
         if (s.any_layers) {
-            out.next = add_passing_rays(rows.next, out.next, scatters, path, s, hit.t);
+            out.next = add_passing_rays(rows.next, out.next, scatters, group);
             const Mask hidden = s.layers.layered & s.layers.boundary.hidden;
             scatters = scatters & (!hidden);
             turns = turns & (!hidden);
         }
         if (scene.occludes) store_by_slot(rows.occlusion, turns, path.slot, s.occlusion);
-        out.next = add_next_rays(rows.next, out.next, turns, path, s, random, bounce, hit.t);
+        out.next = add_next_rays(rows.next, out.next, turns, group, number);
         if (scene.lights.count > 0) {
-            out.shadow =
-                add_shadow_rays(scene, batch, rows.shadows, out.shadow, scatters, path, s, random);
+            out.shadow = add_shadow_rays(bounce, rows.shadows, out.shadow, scatters, group);
         }
     }
     return out;
@@ -356,12 +364,12 @@ int shade_ao(const SceneView& scene,
         shadows = append_shadows(rows.shadows,
                                  shadows,
                                  useful,
-                                 {s.start,
-                                  direction,
-                                  Lanes(batch.ao_distance),
-                                  splat3(Lanes(1.0f)),
-                                  path.slot,
-                                  path.path_key});
+                                 {.origin = s.start,
+                                  .direction = direction,
+                                  .tfar = Lanes(batch.ao_distance),
+                                  .radiance = splat3(Lanes(1.0f)),
+                                  .slot = path.slot,
+                                  .path_key = path.path_key});
     }
     return shadows;
 }

@@ -12,10 +12,10 @@ inline namespace OBSCURA_ISA {
 inline constexpr int groups_ahead = 8;
 
 /// The hits of one group at their paths' times; see hits_or_first.
-OBSCURA_INLINE HitLanes hits_of_paths(const ShadeRows& rows,
-                                      int i,
-                                      Mask exists,
-                                      const PathLanes& path) {
+///
+/// In  rows: with hits, shared and time, as ShadeRows has them
+template <typename Rows>
+OBSCURA_INLINE HitLanes hits_of_paths(const Rows& rows, int i, Mask exists, const PathLanes& path) {
     HitLanes hit = hits_or_first(rows.hits, i, exists);
     hit.shared = rows.shared;
     if (rows.time != nullptr) {
@@ -26,7 +26,7 @@ OBSCURA_INLINE HitLanes hits_of_paths(const ShadeRows& rows,
 
 /// One bounce of path tracing.
 ///
-/// In      rows.paths, rows.hits: `count` rows of this bounce; bounce: 0 for camera rays
+/// In      rows.paths, rows.hits: `count` rows of this bounce; number: 0 for camera rays
 /// In/Out  rows.passed: by slot, see stages/3_walls.h
 /// Out     rows.next, rows.shadows: at most `count` rows each, packed, one a slot; rows.samples:
 ///         emission and environment light are added
@@ -35,7 +35,7 @@ OBSCURA_INLINE HitLanes hits_of_paths(const ShadeRows& rows,
 /// Source  Veach, PhD thesis, 1997, ch. 9 (multiple importance sampling), ch. 10.4 (roulette)
 ShadeCounts shade(const SceneView& scene,
                   const BatchSettings& batch,
-                  int bounce,
+                  int number,
                   int count,
                   const ShadeRows& rows);
 
@@ -55,14 +55,14 @@ int begin_raycast(const SceneView& scene,
 ///
 /// In      range: at most as many pairs as rows.shadows holds
 /// Source  Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968
-int shade_raycast(const SceneView& scene, const RaycastRange& range, const ShadeRows& rows);
+int shade_raycast(const SceneView& scene, const RaycastRange& range, const RaycastColumns& rows);
 
 /// Quantities of the first hit (see Quantity), without light. Misses leave zero.
 void write_quantity(const SceneView& scene,
                     const BatchSettings& batch,
                     Quantity quantity,
                     int count,
-                    const ShadeRows& rows);
+                    const AovColumns& rows);
 
 /// How much of a line's width lies around each ray: the edges of triangles, and on analytic shapes
 /// the lines on which u or v is a multiple of an eighth. Lines are batch.wire_width_px wide.
@@ -72,7 +72,7 @@ void write_quantity(const SceneView& scene,
 void write_wireframe(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const ShadeRows& rows);
+                     const AovColumns& rows);
 
 /// Moves the hits together at the front of their columns, those of one primitive side by side where
 /// that saves much (lanes that share a surface share its rows of tables), and the misses to

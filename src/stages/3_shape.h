@@ -72,8 +72,8 @@ OBSCURA_INLINE Lanes curve_slack(const CurveLanes& curves) {
     return select(curves.lanes, slack, Lanes(0.0f));
 }
 
-/// A table's row as ShapeRow's words; particles lie in blocks and know no other kind, and pieces of
-/// lines are capsules around their own origin.
+/// A table's row as ShapeRow's members; particles lie in blocks and know no other kind, and pieces
+/// of lines are capsules around their own origin.
 class ShapeWords {
 public:
     OBSCURA_INLINE ShapeWords(const SceneView& scene, const ShapeQuery& q) {
@@ -88,33 +88,42 @@ public:
             has_particles_ = true;
         }
         const LanesI none(0);
-        row_ = {scene.shapes, select(q.shapes & (!(particles_ | lines)), row, none), shape_words};
+        row_ = {scene.shapes, select(q.shapes & (!(particles_ | lines)), row, none)};
     }
 
     OBSCURA_INLINE LanesI kind() const {
         const LanesI sphere(static_cast<int32_t>(ShapeKind::sphere));
-        const LanesI own = select(particles_, sphere, row_.integer(0));
+        const LanesI own = select(particles_, sphere, row_.integer<&ShapeRow::kind>());
         if (!curves_.any) return own;
         return select(curves_.lanes, LanesI(static_cast<int32_t>(ShapeKind::capsule)), own);
     }
-    OBSCURA_INLINE Lanes operator()(int word) const {
-        Lanes value = row_.number(word);
-        if (has_particles_ && word <= 4) value = select(particles_, sphere_[word - 1], value);
-        if (curves_.any) value = select(curves_.lanes, capsule_word(word), value);
+    template <auto member>
+    OBSCURA_INLINE Lanes number(int element) const {
+        Lanes value = row_.number<member>(element);
+        if (has_particles_) {  // centre and radius
+            constexpr bool is_centre = same_member<member, &ShapeRow::centre>;
+            if (is_centre) value = select(particles_, sphere_[element], value);
+            if (same_member<member, &ShapeRow::size> && element == 0) {
+                value = select(particles_, sphere_[3], value);
+            }
+        }
+        if (curves_.any) {
+            const bool is_size = same_member<member, &ShapeRow::size>;
+            value = select(curves_.lanes, is_size ? capsule_size(element) : Lanes(0.0f), value);
+        }
         return value;
     }
     OBSCURA_INLINE const CurveLanes& curves() const { return curves_; }
 
 private:
-    OBSCURA_INLINE Lanes capsule_word(int word) const {
+    OBSCURA_INLINE Lanes capsule_size(int element) const {
         const Capsule<Lanes>& capsule = curves_.frame.capsule;
-        if (word == 4) return capsule.half_height;
-        if (word == 5) return capsule.bottom;
-        return word == 6 ? capsule.top : Lanes(0.0f);
+        if (element == 0) return capsule.half_height;
+        return element == 1 ? capsule.bottom : capsule.top;
     }
 
     CurveLanes curves_;
-    TableRow<Lanes> row_;
+    TableRow<Lanes, ShapeRow> row_;
     Lanes sphere_[4];
     Mask particles_;
     bool has_particles_ = false;
@@ -159,8 +168,8 @@ inline __attribute__((noinline)) void turn_strokes(const SceneView& scene,
     const Lanes size = length(n);
     Mask turns = has_normals & (size > Lanes(1e-6f));
     n = n * (Lanes(1.0f) / max(size, Lanes(1e-6f)));
-    Vec3<Lanes> middle{words(1), words(2), words(3)};
-    Lanes radius = words(4);
+    Vec3<Lanes> middle = shape_centre<Lanes>(words);
+    Lanes radius = words.number<&ShapeRow::size>(0);
     const CurveLanes& curves = words.curves();
     if (curves.any) {
         const Capsule<Lanes>& capsule = curves.frame.capsule;
@@ -210,7 +219,7 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
     out.offset = Lanes(0.0f);
     if (any(q.shapes & (q.normals != LanesI(no_attribute)))) turn_strokes(scene, q, words, s, out);
     constexpr float steps = 32.0f / 16777216.0f;
-    const Vec3<Lanes> half{words(4), words(5), words(6)};
+    const Vec3<Lanes> half = shape_size<Lanes>(words);
     const Lanes extent = min(max_component(abs(half)), max_component(abs(s.position)));
     out.position = s.position;
     out.normal = s.normal;
@@ -249,10 +258,10 @@ OBSCURA_INLINE void shapes_to_world(const SceneView& scene,
                                     Geometry& g) {
     if (!g.has_shapes) return;
     const ShapeQuery query{g.shapes,
-                           g.primitive.integer(0),
+                           g.primitive.template integer<&Primitive::first_triangle>(),
                            hit.triangle,
-                           g.primitive.integer(16),
-                           g.primitive.integer(3),
+                           g.primitive.template integer<&Primitive::geometry>(),
+                           g.primitive.template integer<&Primitive::normal_base>(),
                            hit.instance,
                            path.origin,
                            path.direction,
@@ -275,7 +284,8 @@ OBSCURA_INLINE void shapes_to_world(const SceneView& scene,
     g.dpdv = s.dpdv;
     // Of all shapes, points and lines alone have colours, texture coordinates by vertex and no
     // tangents: their vertices are the corners.
-    const Mask strokes = m & (g.primitive.integer(4) == LanesI(no_attribute));
+    const LanesI tangents = g.primitive.template integer<&Primitive::tangent_base>();
+    const Mask strokes = m & (tangents == LanesI(no_attribute));
     if (none(strokes)) return;
     g.corner[0] = select(strokes, s.vertex, g.corner[0]);
     g.corner[1] = select(strokes, s.next_vertex, g.corner[1]);

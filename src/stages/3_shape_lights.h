@@ -18,8 +18,8 @@ struct ShapeLightLanes {
     Lanes pdf;  ///< 1/sr, choice included
 };
 
-OBSCURA_INLINE TableRow<Lanes> shape_light_row(const SceneView& scene, LanesI index) {
-    return {scene.lights.shapes, index, words_per_row<ShapeLight>};
+OBSCURA_INLINE TableRow<Lanes, ShapeLight> shape_light_row(const SceneView& scene, LanesI index) {
+    return {scene.lights.shapes, index};
 }
 
 /// In      index: rows of the shape light table; from: where rays to lights start
@@ -28,14 +28,13 @@ inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene
                                                           const Vec2<Lanes>& u,
                                                           const Vec3<Lanes>& from,
                                                           ShapeLightLanes& out) {
-    const TableRow<Lanes> row = shape_light_row(scene, index);
+    const TableRow<Lanes, ShapeLight> row = shape_light_row(scene, index);
     const ShapeLightSample<Lanes> s = sample_shape_light(read_shape_light(row), u, from);
-    out.emission = light_vector(row, offsetof(ShapeLight, emission));
-    const LanesI texture = row.integer(offsetof(ShapeLight, texture) / 4);
+    out.emission = light_vector<&ShapeLight::emission>(row);
+    const LanesI texture = row.integer<&ShapeLight::texture>();
     const Mask textured = texture >= LanesI(0);
     if (any(textured)) {
-        const int word = offsetof(ShapeLight, uv_from_shape) / 4;
-        const auto m = [&](int k) { return row.number(word + k); };
+        const auto m = [&](int k) { return row.number<&ShapeLight::uv_from_shape>(k); };
         const Vec2<Lanes> uv{m(0) * s.uv.x + m(1) * s.uv.y + m(2),
                              m(3) * s.uv.x + m(4) * s.uv.y + m(5)};
         const Rgba<Lanes> texel = sample_texture_bilinear<Lanes>(
@@ -45,11 +44,11 @@ inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene
     const Lanes size = dot(abs(s.normal), abs(s.point) + abs(from));
     const Lanes clear = Lanes(32.0f / 16777216.0f) * (size + s.distance * Lanes(0.25f));
     const Lanes cosine = abs(dot(s.normal, s.direction));
-    const Lanes coat = row.number(offsetof(ShapeLight, coat) / 4);
+    const Lanes coat = row.number<&ShapeLight::coat>();
     out.emission = out.emission * coat_lets_pass<Lanes>(coat, cosine);
     out.direction = s.direction;
     out.distance = max(s.distance - clear / max(cosine, Lanes(0.02f)), Lanes(0.0f));
-    out.pdf = s.pdf * row.number(offsetof(ShapeLight, select) / 4);
+    out.pdf = s.pdf * row.number<&ShapeLight::select>();
 }
 
 /// Density with which light sampling would have chosen a direction that met a shape light; `other`
@@ -66,12 +65,12 @@ inline __attribute__((noinline)) Lanes shape_light_pdf(const SceneView& scene,
     const Mask known = index >= LanesI(0);
     const Lanes other = distance_and_other.y;
     if (none(known)) return other;
-    const TableRow<Lanes> row = shape_light_row(scene, select(known, index, LanesI(0)));
+    const TableRow<Lanes, ShapeLight> row = shape_light_row(scene, select(known, index, LanesI(0)));
     ShapeLightRow<Lanes> read = read_shape_light(row);
     read.two_sided = Mask(true);  // what shines has been decided: the normal faces the ray
     const Lanes cosine = abs(dot(ng, path.direction));
     const Lanes pdf = shape_light_density(read, path.origin, distance_and_other.x, cosine);
-    return select(known, pdf * row.number(offsetof(ShapeLight, select) / 4), other);
+    return select(known, pdf * row.number<&ShapeLight::select>(), other);
 }
 
 }  // namespace OBSCURA_ISA

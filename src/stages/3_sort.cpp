@@ -23,7 +23,7 @@ struct Order {
 static_assert(batch_rows <= 65536);
 
 /// Groups of rows that hit several primitives, or hit and miss.
-int mixed_groups(int count, const HitRows& hits) {
+int mixed_groups(int count, const HitView& hits) {
     int mixed = 0;
     for (int i = 0; i < count; i += lane_count) {
         const LanesI primitive = load(hits.primitive + i);
@@ -33,7 +33,7 @@ int mixed_groups(int count, const HitRows& hits) {
     return mixed;
 }
 
-void find_order(int count, const HitRows& hits, Order& order) {
+void find_order(int count, const HitView& hits, Order& order) {
     uint16_t begins[bucket_count] = {};
     const auto bucket = [&](int row) {
         return static_cast<uint32_t>(hits.primitive[row]) % bucket_count;
@@ -60,54 +60,23 @@ void find_order(int count, const HitRows& hits, Order& order) {
     order.counts = {count - misses, misses};
 }
 
-/// Takes rows out of a column. A column at a time stays in the nearest cache.
-template <typename T>
-void take(const T* column, const uint16_t* row, int count, T* out) {
-    for (int i = 0; i < count; ++i)
-        out[i] = column[row[i]];
-}
-
-void take_misses(const PathRows& paths, const Order& order, const MissRows& out) {
+void take_misses(const PathView& paths, const Order& order, const MissRows& out) {
     const auto column = [&](const auto* from, auto* to) {
-        take(from, order.miss, order.counts.misses, to);
+        take_rows(order.miss, order.counts.misses, from, to);
     };
-    column(paths.dx, out.dx);
-    column(paths.dy, out.dy);
-    column(paths.dz, out.dz);
-    column(paths.tr, out.tr);
-    column(paths.tg, out.tg);
-    column(paths.tb, out.tb);
-    column(paths.pdf, out.pdf);
-    column(paths.slot, out.slot);
-    column(paths.path_key, out.path_key);
+    MissRows::for_each_column(column, paths, out);
 }
 
-void sort_hits(const PathRows& p, const HitRows& h, const Order& order) {
+void sort_hits(const PathRows& paths, const HitRows& hits, const Order& order) {
     uint32_t sorted[batch_rows];
-    const auto columns = [&](auto... column) {
-        const auto one = [&](auto* words) {
-            using Word = std::remove_pointer_t<decltype(words)>;
-            take(words, order.hit, order.counts.hits, reinterpret_cast<Word*>(sorted));
-            std::memcpy(words, sorted, static_cast<size_t>(order.counts.hits) * sizeof(Word));
-        };
-        (one(column), ...);
+    const auto column = [&](auto* words) {
+        using Word = std::remove_pointer_t<decltype(words)>;
+        const int count = order.counts.hits;
+        take_rows<Word>(order.hit, count, words, reinterpret_cast<Word*>(sorted));
+        std::memcpy(words, sorted, static_cast<size_t>(count) * sizeof(Word));
     };
-    columns(p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, p.tr, p.tg, p.tb);
-    columns(p.pdf, p.cone_width, p.cone_spread, p.slot, p.key, p.sample, p.path_key, p.bodies);
-    columns(h.t, h.u, h.v, h.instance, h.primitive, h.triangle);
-}
-
-/// Appends the lanes of `mask` of the group that starts at row i; returns the new count.
-OBSCURA_INLINE int append_misses(const ShadeRows& rows, int i, Mask mask, int at) {
-    const Packer packer(mask);
-    const PathRows& p = rows.paths;
-    const MissRows& m = rows.misses;
-    store3(m.dx, m.dy, m.dz, at, pack(packer, load3(p.dx, p.dy, p.dz, i)));
-    store3(m.tr, m.tg, m.tb, at, pack(packer, load3(p.tr, p.tg, p.tb, i)));
-    store(m.pdf + at, packer(load(p.pdf + i)));
-    store(m.slot + at, pack(packer, load(p.slot + i)));
-    store(m.path_key + at, pack(packer, load(p.path_key + i)));
-    return at + count(mask);
+    PathRows::for_each_column(column, paths);
+    HitRows::for_each_column(column, hits);
 }
 
 /// As sort_hits_from_misses, in the order in which the rows come: camera rays of neighbouring
@@ -118,7 +87,9 @@ SortedCounts pack_hits(int count_in, const ShadeRows& rows) {
         const Mask exists = rows_in_range(i, count_in);
         const Mask is_hit = exists & (load(rows.hits.primitive + i) >= LanesI(0));
         const Mask is_miss = exists & (!is_hit);
-        if (any(is_miss)) sorted.misses = append_misses(rows, i, is_miss, sorted.misses);
+        if (any(is_miss)) {
+            sorted.misses = append_misses(rows.misses, sorted.misses, is_miss, rows.paths, i);
+        }
         if (none(is_hit)) continue;
         if (none(is_miss) && sorted.hits == i) {  // where they belong already
             sorted.hits += count(is_hit);

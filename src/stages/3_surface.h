@@ -36,9 +36,10 @@ OBSCURA_INLINE FoundSlots find_slots(const SceneView& scene,
                                      const HitGeometry& g,
                                      const LookUp& look) {
     const CommonTexel common = find_common_texel(scene, g, look);
-    return {find_slot<Detail::single>(scene, g, normal_slot, look, common),
-            find_slot(scene, g, metallic_roughness_slot, look, common),
-            find_slot(scene, g, base_color_slot, look, common)};
+    return {
+        find_slot<&Material::normal_texture, Detail::single>(scene, g, g.material, look, common),
+        find_slot<&Material::metallic_roughness_texture>(scene, g, g.material, look, common),
+        find_slot<&Material::base_color_texture>(scene, g, g.material, look, common)};
 }
 
 /// A surface where a ray met it, and how the ray looks at it.
@@ -81,7 +82,8 @@ OBSCURA_INLINE Vec3<Lanes> shading_normal(const SceneView& scene,
     Vec3<Lanes> n = g.normal;
     if (any(slot.used)) {
         const Rgba<Lanes> texel = read_slot(scene, g, slot, seen.look);
-        n = tilt_normal(tangents, slot.used, g.normal, texel.rgb, g.material.number(6));
+        const Lanes scale = g.material.number<&Material::normal_scale>();
+        n = tilt_normal(tangents, slot.used, g.normal, texel.rgb, scale);
     }
     return select(dot(n, seen.ng) < Lanes(0.0f), -n, n);
 }
@@ -90,8 +92,8 @@ OBSCURA_INLINE Vec3<Lanes> base_color(const SceneView& scene,
                                       const HitGeometry& g,
                                       const LookUp& look,
                                       const FoundSlot& slot) {
-    Vec3<Lanes> color = read3(g.material, 0);
-    const LanesI color_base = g.primitive.integer(5);
+    Vec3<Lanes> color = g.material.vector<&Material::base_color>();
+    const LanesI color_base = g.primitive.integer<&Primitive::color_base>();
     const Mask colored = color_base != LanesI(no_attribute);
     if (any(colored)) {
         Vec3<Lanes> c[3];
@@ -111,8 +113,8 @@ OBSCURA_INLINE BsdfParams<Lanes> bsdf_params(const SceneView& scene,
                                              const HitGeometry& g,
                                              const LookUp& look,
                                              const FoundSlots& slots) {
-    Lanes metallic = g.material.number(4);
-    Lanes roughness = g.material.number(5);
+    Lanes metallic = g.material.number<&Material::metallic>();
+    Lanes roughness = g.material.number<&Material::roughness>();
     const FoundSlot& slot = slots.metallic_roughness;
     if (any(slot.used)) {
         const Rgba<Lanes> texel = read_slot(scene, g, slot, look);
@@ -139,26 +141,28 @@ OBSCURA_INLINE void read_emission(const SceneView& scene,
                                   const HitGeometry& g,
                                   const EmissionLook& seen,
                                   ShadingPoint& s) {
-    s.emission = read3(g.material, 8);
-    const Mask emits =
-        (max_component(s.emission) > Lanes(0.0f)) &
-        (seen.front | s.unlit | has_bits<Lanes>(g.material.integer(11), material_double_sided));
+    s.emission = g.material.vector<&Material::emission>();
+    const LanesI flags = g.material.integer<&Material::flags>();
+    const Mask emits = (max_component(s.emission) > Lanes(0.0f)) &
+                       (seen.front | s.unlit | has_bits<Lanes>(flags, material_double_sided));
     s.emission = select(emits, s.emission, splat3(Lanes(0.0f)));
     s.light = LanesI(-1);
     if (any(emits)) {
         // Where light sampling may find the same light, both must see the same texels.
         LookUp sharp = seen.look;
         sharp.footprint = select(seen.by_bsdf, Lanes(0.0f), seen.look.footprint);
-        const FoundSlot slot = find_slot(scene, g, emissive_slot, sharp, {});
+        const FoundSlot slot =
+            find_slot<&Material::emissive_texture>(scene, g, g.material, sharp, {});
         if (any(slot.used & emits)) {
             s.emission =
                 select(slot.used, s.emission * read_slot(scene, g, slot, sharp).rgb, s.emission);
         }
-        const LanesI base = g.primitive.integer(15);
+        const LanesI base = g.primitive.integer<&Primitive::light_base>();
         LanesI light = base + hit.triangle;
         const Mask instanced = hit.instance >= LanesI(0);
         if (any(instanced)) {
-            light = light + select(instanced, instance_row(scene, hit).integer(27), LanesI(0));
+            const LanesI own = instance_row(scene, hit).integer<&Instance::light_base>();
+            light = light + select(instanced, own, LanesI(0));
         }
         s.light = select(emits & (base >= LanesI(0)), light, LanesI(-1));
         if (s.any_layers) {
@@ -198,12 +202,12 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
 
     ShadingPoint s;
     s.time = hit.time;
-    const LanesI flags = g.material.integer(11);
+    const LanesI flags = g.material.integer<&Material::flags>();
     const Mask front = seen.cos_front >= Lanes(0.0f);
     s.ng = seen.ng;
     s.start = g.position + s.ng * g.offset;
     s.light_start = s.start + select(front, g.smooth_shift, splat3(Lanes(0.0f)));
-    const LanesI layers_row = g.material.integer(layers_word);
+    const LanesI layers_row = g.material.integer<&Material::layers>();
     const Mask layered = layers_row >= LanesI(0);
     const TangentLanes tangents = read_tangents(scene, hit, g, slots.normal.used | layered);
     s.normal = shading_normal(scene, seen, tangents, slots.normal);

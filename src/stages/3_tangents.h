@@ -18,7 +18,7 @@ OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
                                           const HitLanes& hit,
                                           const HitGeometry& g,
                                           Mask wanted) {
-    const LanesI base = g.primitive.integer(4);
+    const LanesI base = g.primitive.integer<&Primitive::tangent_base>();
     TangentLanes out{wanted & (base != LanesI(no_attribute)), g.normal, g.normal};
     if (none(out.known)) return out;
     Vec3<Lanes> corners[3];
@@ -32,10 +32,10 @@ OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
     Vec3<Lanes> t = weighted(g, corners);
     const Mask instanced = out.known & (hit.instance >= LanesI(0));
     if (any(instanced)) {
-        const TableRow<Lanes> instance = instance_row(scene, hit);
+        const TableRow<Lanes, Instance> instance = instance_row(scene, hit);
         const InstanceMaps maps = instance_maps(scene, hit.instance, hit.time);
         t = select(instanced, transform_vector(maps.world_from_object, t), t);
-        const Mask mirrored = instanced & (instance.integer(26) != LanesI(0));
+        const Mask mirrored = instanced & (instance.integer<&Instance::mirrored>() != LanesI(0));
         handedness = select(mirrored, -handedness, handedness);
     }
     if (g.has_shapes) {

@@ -26,6 +26,12 @@ struct SlotLanes {
     Lanes uv_area2;  ///< twice the triangle's area in the texture's UV space
 };
 
+/// The texture in a slot of the row's record, -1: none.
+template <auto slot, typename Record>
+OBSCURA_INLINE LanesI texture_of(const TableRow<Lanes, Record>& row) {
+    return row.template integer<slot, &TextureSlot::texture>();
+}
+
 /// `base`: as Primitive::uv_base; lanes without the attribute get anything.
 OBSCURA_INLINE MeshUv read_mesh_uv(const SceneView& scene, const HitGeometry& g, LanesI base) {
     const Mask present = base != LanesI(no_attribute);
@@ -48,10 +54,11 @@ OBSCURA_INLINE LanesI mesh_uv_base(const HitGeometry& g, LanesI base) {
 /// UV set 0 of points and lines, whose vertices are known after shapes_to_world.
 OBSCURA_INLINE void read_stroke_uv(const SceneView& scene, HitGeometry& g) {
     if (!g.has_shapes) return;
-    const Mask strokes = g.shapes & (g.primitive.integer(4) == LanesI(no_attribute));
+    const Mask strokes =
+        g.shapes & (g.primitive.integer<&Primitive::tangent_base>() == LanesI(no_attribute));
     if (none(strokes)) return;
-    const MeshUv uv =
-        read_mesh_uv(scene, g, select(strokes, g.primitive.integer(6), LanesI(no_attribute)));
+    const LanesI base = g.primitive.integer<&Primitive::uv_base>();
+    const MeshUv uv = read_mesh_uv(scene, g, select(strokes, base, LanesI(no_attribute)));
     g.first_uv.base = select(strokes, uv.base, g.first_uv.base);
     g.first_uv.at = {select(strokes, uv.at.x, g.first_uv.at.x),
                      select(strokes, uv.at.y, g.first_uv.at.y)};
@@ -60,27 +67,33 @@ OBSCURA_INLINE void read_stroke_uv(const SceneView& scene, HitGeometry& g) {
 
 /// Reads UV set 0, which most textures use, once for all of them.
 OBSCURA_INLINE void read_first_uv_set(const SceneView& scene, HitGeometry& g) {
-    const LanesI base = mesh_uv_base(g, g.primitive.integer(6));
+    const LanesI base = mesh_uv_base(g, g.primitive.integer<&Primitive::uv_base>());
     const Mask textured =
-        (max(g.material.integer(base_color_slot), g.material.integer(metallic_roughness_slot)) >=
-         LanesI(0)) |
-        (max(g.material.integer(normal_slot), g.material.integer(emissive_slot)) >= LanesI(0));
+        (max(texture_of<&Material::base_color_texture>(g.material),
+             texture_of<&Material::metallic_roughness_texture>(g.material)) >= LanesI(0)) |
+        (max(texture_of<&Material::normal_texture>(g.material),
+             texture_of<&Material::emissive_texture>(g.material)) >= LanesI(0));
     g.first_uv = {LanesI(no_attribute), {Lanes(0.0f), Lanes(0.0f)}, Lanes(0.0f)};
     if (any(textured & (base != LanesI(no_attribute)))) g.first_uv = read_mesh_uv(scene, g, base);
 }
 
 /// The coordinates of a slot, for a texture that need not be the slot's own.
+///
+/// In  slot: a TextureSlot of the row's record
+template <auto slot, typename Record>
 OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
                                     const HitGeometry& g,
-                                    int slot,
+                                    const TableRow<Lanes, Record>& row,
                                     LanesI texture) {
     SlotLanes s;
     s.texture = texture;
     s.used = s.texture >= LanesI(0);
     if (none(s.used)) return s;
-    const LanesI base = g.primitive.shared()
-                            ? g.primitive.integer(6 + g.material.one_integer(slot + 1))
-                            : g.primitive.varying_integer(g.material.integer(slot + 1) + LanesI(6));
+    constexpr auto set = &TextureSlot::uv_set;
+    const LanesI base =
+        g.primitive.shared()
+            ? g.primitive.integer<&Primitive::uv_base>(row.template one_integer<slot, set>())
+            : g.primitive.varying_integer<&Primitive::uv_base>(row.template integer<slot, set>());
     s.used = s.used & (base != LanesI(no_attribute));
     if (none(s.used)) return s;
     s.texture = select(s.used, s.texture, LanesI(0));
@@ -93,8 +106,9 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
         mesh.area2 = select(known, g.first_uv.area2, mesh.area2);
     }
     // The transform's six words end the slot: two of them are read twice.
-    const Four<Lanes> first_four = g.material.four_numbers(slot + 2);
-    const Four<Lanes> last_four = g.material.four_numbers(slot + 4);
+    constexpr auto matrix = &TextureSlot::uv_from_mesh;
+    const Four<Lanes> first_four = row.template four_numbers<slot, matrix>(0);
+    const Four<Lanes> last_four = row.template four_numbers<slot, matrix>(2);
     const Vec3<Lanes> u_row{first_four.x, first_four.y, first_four.z};
     const Vec3<Lanes> v_row{first_four.w, last_four.z, last_four.w};
     const Vec2<Lanes>& at = mesh.at;
@@ -143,45 +157,49 @@ OBSCURA_INLINE CommonTexel find_common_texel(const SceneView& scene,
                                              const LookUp& look) {
     CommonTexel common;
     if (look.filtering == Filtering::bilinear) return common;
-    if (!all(has_bits<Lanes>(g.material.integer(11), material_textures_alike))) return common;
+    if (!all(has_bits<Lanes>(g.material.integer<&Material::flags>(), material_textures_alike)))
+        return common;
     // Absent slots have texture -1, and the coordinates of the others.
-    const LanesI texture =
-        max(max(g.material.integer(base_color_slot), g.material.integer(metallic_roughness_slot)),
-            g.material.integer(normal_slot));
-    const SlotLanes s = slot_lanes(scene, g, base_color_slot, texture);
+    const LanesI normal = texture_of<&Material::normal_texture>(g.material);
+    const LanesI texture = max(max(texture_of<&Material::base_color_texture>(g.material),
+                                   texture_of<&Material::metallic_roughness_texture>(g.material)),
+                               normal);
+    const SlotLanes s = slot_lanes<&Material::base_color_texture>(scene, g, g.material, texture);
     if (none(s.used)) return common;
     const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, s.texture);
     const Lanes footprint = texture_footprint(g, s, look);
-    const LanesI start = info.row.integer(first_level_word);
+    const LanesI start = info.row.integer<&TextureRow::level_offset>();
     const LanesI mean = stochastic_texel<Lanes>(info, s.uv, footprint, look.random);
     LanesI single = mean;
-    if (any(g.material.integer(normal_slot) >= LanesI(0))) {
+    if (any(normal >= LanesI(0))) {
         single = stochastic_single_texel<Lanes>(info, s.uv, footprint, look.random);
     }
     return {true, s.used, mean - start, single - start};
 }
 
 /// Finds what a slot reads, and asks for its memory.
-template <Detail detail = Detail::mean>
+///
+/// In  slot: a TextureSlot of the row's record; common: of the core material's row, or none
+template <auto slot, Detail detail = Detail::mean, typename Record>
 OBSCURA_INLINE FoundSlot find_slot(const SceneView& scene,
                                    const HitGeometry& g,
-                                   int slot,
+                                   const TableRow<Lanes, Record>& material,
                                    const LookUp& look,
                                    const CommonTexel& common) {
     FoundSlot found;
-    const LanesI texture = g.material.integer(slot);
+    const LanesI texture = texture_of<slot>(material);
     if (common.usable) {
         found.used = common.used & (texture >= LanesI(0));
         if (none(found.used)) return found;
-        const TableRow<Lanes> row(
-            scene.textures.rows, select(found.used, texture, LanesI(0)), texture_row_words);
-        const LanesI texel =
-            row.integer(first_level_word) + (detail == Detail::mean ? common.mean : common.single);
+        const TableRow<Lanes, TextureRow> row(scene.textures.rows,
+                                              select(found.used, texture, LanesI(0)));
+        const LanesI texel = row.integer<&TextureRow::level_offset>() +
+                             (detail == Detail::mean ? common.mean : common.single);
         found.texel = as_uint(select(found.used, texel, LanesI(0)));
-        found.srgb = has_bits<Lanes>(row.integer(sampler_word), sampler_srgb);
+        found.srgb = has_bits<Lanes>(row.integer<&TextureRow::sampler>(), sampler_srgb);
         found.low_plane = low_plane_of(scene.textures, row);
     } else {
-        found.lanes = slot_lanes(scene, g, slot, texture);
+        found.lanes = slot_lanes<slot>(scene, g, material, texture);
         found.used = found.lanes.used;
         if (none(found.used) || look.filtering == Filtering::bilinear) return found;
         const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, found.lanes.texture);

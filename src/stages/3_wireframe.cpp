@@ -49,8 +49,9 @@ OBSCURA_INLINE Lanes slope(Lanes left, Lanes right, Lanes above, Lanes below) {
 }
 
 /// Volume that a ray and an edge span: 0 where they meet, and linear across the picture to first
-/// order, whatever the camera. Source  Pluecker's side product, as in Shoemake, "Pluecker
-/// Coordinate Tutorial", Ray Tracing News 11(1), 1998
+/// order, whatever the camera.
+/// Source  Pluecker's side product, as in Shoemake, "Pluecker Coordinate Tutorial", Ray Tracing
+///         News 11(1), 1998
 OBSCURA_INLINE Lanes side_product(const FilmRay& ray,
                                   const Vec3<Lanes>& from,
                                   const Vec3<Lanes>& edge) {
@@ -69,7 +70,7 @@ OBSCURA_INLINE Lanes edge_distance_px(const SceneView& scene,
         p[k] = gather3(scene.positions, g.corner[k] * LanesI(3));
     if (scene.motion.positions != nullptr) {
         const CornerVectors moved = moved_corners(
-            scene, scene.motion.positions, g.primitive, hit.time, g.corner, {{p[0], p[1], p[2]}});
+            scene, scene.motion.positions, {g.primitive, g.corner, hit.time}, {{p[0], p[1], p[2]}});
         for (int k = 0; k < 3; ++k)
             p[k] = moved.at[k];
     }
@@ -132,7 +133,7 @@ template <typename Maker>
 void write_all_wires(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const ShadeRows& rows) {
+                     const AovColumns& rows) {
     const Lanes zero(0.0f);
     for (int i = 0; i < count; i += lane_count) {
         const SampleRows& out = rows.samples;
@@ -162,7 +163,7 @@ void write_all_wires(const SceneView& scene,
 void write_wireframe(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const ShadeRows& rows) {
+                     const AovColumns& rows) {
     visit_model(batch.camera, false, [&](auto maker) {
         write_all_wires<decltype(maker)>(scene, batch, count, rows);
     });

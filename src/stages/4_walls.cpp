@@ -29,17 +29,17 @@ OBSCURA_INLINE Vec3<Lanes> texture_random(LanesU path_key, const WallStep& step)
 OBSCURA_INLINE PathLanes as_path(const ShadowLanes& ray) {
     const Lanes zero(0.0f);
     const LanesU none_yet(0U);
-    return {ray.origin,
-            ray.direction,
-            ray.radiance,
-            zero,
-            zero,
-            zero,
-            ray.slot,
-            none_yet,
-            none_yet,
-            ray.path_key,
-            none_yet};
+    return {.origin = ray.origin,
+            .direction = ray.direction,
+            .throughput = ray.radiance,
+            .pdf = zero,
+            .cone_width = zero,
+            .cone_spread = zero,
+            .slot = ray.slot,
+            .key = none_yet,
+            .sample = none_yet,
+            .path_key = ray.path_key,
+            .bodies = none_yet};
 }
 
 /// The rest of the way to where a ray ends: aimed anew, so that starting clear of the wall does not
@@ -58,12 +58,6 @@ OBSCURA_INLINE ShadowLanes from_beyond(const ShadowLanes& ray, const Vec3<Lanes>
     return next;
 }
 
-template <typename T>
-void take_rows(const uint16_t* row, int count, T* column) {
-    for (int i = 0; i < count; ++i)
-        column[i] = column[row[i]];
-}
-
 }  // namespace
 
 int take_waiting(int count, const uint8_t* occluded, const ShadowRows& rows) {
@@ -72,11 +66,8 @@ int take_waiting(int count, const uint8_t* occluded, const ShadowRows& rows) {
     for (int i = 0; i < count; ++i) {
         if (occluded[i] == waits_at_wall) row[waiting++] = static_cast<uint16_t>(i);
     }
-    for (float* column :
-         {rows.ox, rows.oy, rows.oz, rows.dx, rows.dy, rows.dz, rows.tfar, rows.r, rows.g, rows.b})
-        take_rows(row, waiting, column);
-    take_rows(row, waiting, rows.slot);
-    take_rows(row, waiting, rows.path_key);
+    const auto column = [&](auto* words) { take_rows(row, waiting, words, words); };
+    ShadowRows::for_each_column(column, rows);
     return waiting;
 }
 

@@ -7,8 +7,24 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
+namespace {
+
+OBSCURA_INLINE uint32_t left_in_block(uint32_t number) {
+    if (number < first_sum_samples) return first_sum_samples - number;
+    return sum_block_samples - number % sum_block_samples;
+}
+
+OBSCURA_INLINE void end_block(PixelSum& sum) {
+    for (int c = 0; c < 4; ++c) {
+        sum.blocks[c] += static_cast<double>(sum.block[c]);
+        sum.block[c] = 0;
+    }
+}
+
+}  // namespace
+
 void add_shadow_light(int count,
-                      const ShadowRows& rows,
+                      const ShadowView& rows,
                       const uint8_t* occluded,
                       const SampleRows& samples) {
     for (int i = 0; i < count; ++i) {
@@ -38,25 +54,34 @@ uint64_t clear_nonfinite(int count, const SampleRows& samples) {
     return nonfinite;
 }
 
-uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums) {
-    const uint64_t nonfinite = clear_nonfinite(pixels * per_pixel, samples);
+uint64_t accumulate(int pixels,
+                    const SampleRange& range,
+                    const SampleRows& samples,
+                    PixelSum* sums) {
+    const uint64_t nonfinite = clear_nonfinite(pixels * range.count, samples);
     int slot = 0;
     for (int pixel = 0; pixel < pixels; ++pixel) {
-        float* sum = sums + size_t{4} * static_cast<size_t>(pixel);
-        float r = sum[0];
-        float g = sum[1];
-        float b = sum[2];
-        float a = sum[3];
-        for (const int end = slot + per_pixel; slot < end; ++slot) {
-            r += samples.r[slot];
-            g += samples.g[slot];
-            b += samples.b[slot];
-            a += samples.a[slot];
+        PixelSum& sum = sums[pixel];
+        uint32_t number = range.first;
+        for (const int end = slot + range.count; slot < end;) {
+            if (number >= first_sum_samples && number % sum_block_samples == 0) end_block(sum);
+            const int stop = min(end, slot + static_cast<int>(left_in_block(number)));
+            number += static_cast<uint32_t>(stop - slot);
+            float r = sum.block[0];
+            float g = sum.block[1];
+            float b = sum.block[2];
+            float a = sum.block[3];
+            for (; slot < stop; ++slot) {
+                r += samples.r[slot];
+                g += samples.g[slot];
+                b += samples.b[slot];
+                a += samples.a[slot];
+            }
+            sum.block[0] = r;
+            sum.block[1] = g;
+            sum.block[2] = b;
+            sum.block[3] = a;
         }
-        sum[0] = r;
-        sum[1] = g;
-        sum[2] = b;
-        sum[3] = a;
     }
     return nonfinite;
 }

@@ -10,16 +10,20 @@ inline namespace OBSCURA_ISA {
 
 /// Adds the shadow rows that nothing occludes to their slots.
 void add_shadow_light(int count,
-                      const ShadowRows& rows,
+                      const ShadowView& rows,
                       const uint8_t* occluded,
                       const SampleRows& samples);
 
 /// Adds every pixel's samples to its sum, one by one in sample order, so that the sum does not
 /// depend on how a pixel's samples were cut into batches.
 ///
-/// In/Out  samples: pixels * per_pixel slots, padded as stages/doors.h asks; sums: 4 floats (RGBA)
-/// a pixel Out     number of samples that were not finite; each is cleared, all four channels
-uint64_t accumulate(int pixels, int per_pixel, const SampleRows& samples, float* sums);
+/// In      range: which of each pixel's samples these are, the next ones after those in `sums`
+/// In/Out  samples: pixels * range.count slots, padded as stages/doors.h asks; sums: by pixel
+/// Out     number of samples that were not finite; each is cleared, all four channels
+uint64_t accumulate(int pixels,
+                    const SampleRange& range,
+                    const SampleRows& samples,
+                    PixelSum* sums);
 
 /// Clears the samples that are not finite; returns how many.
 uint64_t clear_nonfinite(int count, const SampleRows& samples);

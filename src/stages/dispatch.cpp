@@ -7,13 +7,9 @@
 namespace obscura {
 
 bool has_isa(Isa isa) {
-#if defined(__x86_64__)
     if (isa == Isa::avx2) return cpu_has_avx2();
     if (isa == Isa::avx512) return cpu_has_avx512();
-    return true;
-#else
     return isa == Isa::automatic || isa == Isa::baseline;
-#endif
 }
 
 const StageTable& stage_table_for(Isa isa) {

@@ -1,13 +1,23 @@
 // stages/doors.h - what passes between stages: columns of numbers and read-only tables.
 // SPDX-License-Identifier: Apache-2.0
 //
-//   door         bytes/row  written by        read by
-//   PathRows            68  camera, shade     intersect, scatter, shade
-//   HitRows             24  intersect         scatter, shade
-//   MissRows            36  shade (sort)      shade (miss)
-//   ShadowRows          48  shade             shadow, accumulate
-//   SampleRows          16  camera, shade,    accumulate
-//                           accumulate
+// Which stages may write which columns, as the types of their arguments say
+// (tests/stages/doors_test.cpp compares). Hits come from accel/.
+//
+//   PathRows    68 bytes a row
+//     written:  camera centre_camera open_shutter begin_scatter scatter shade shade_ao
+//     begin_raycast only read:  make_probes shade_raycast quantity
+//   HitRows     24 bytes a row
+//     written:  begin_scatter scatter shade shade_ao begin_raycast
+//     only read:  make_probes shade_raycast quantity cross_walls
+//   MissRows    36 bytes a row
+//     written:  shade shade_ao begin_raycast
+//   ShadowRows  48 bytes a row
+//     written:  make_probes shade shade_ao begin_raycast shade_raycast take_waiting cross_walls
+//     only read:  add_shadows
+//   SampleRows  16 bytes a row
+//     written:  camera shade shade_ao begin_raycast shade_raycast quantity cross_walls add_shadows
+//               accumulate clear_nonfinite
 //
 // A row is one path; a slot is a path's fixed place in its batch. Columns are 64-byte aligned and
 // padded by 16 rows, so that a stage may read and write whole registers past the last row.
@@ -28,88 +38,99 @@ namespace obscura {
 /// ones leave Embree the hierarchy warm for longer; this was the fastest of 512 to 16384.
 inline constexpr int batch_rows = 4096;
 
+// The lists of columns; see accel/column_list.h for what is made from them.
+
+#define OBSCURA_PATH_COLUMNS(VECTOR, NUMBER, WORD, INTEGER)                                      \
+    VECTOR(origin, ox, oy, oz)     /* of the ray, metres */                                      \
+    VECTOR(direction, dx, dy, dz)  /* unit */                                                    \
+    VECTOR(throughput, tr, tg, tb) /* share of the light that the pixel sees */                  \
+    NUMBER(pdf)                    /* of this direction, 1/sr; 0: chosen without one (camera) */ \
+    NUMBER(cone_width)             /* footprint at the origin, metres */                         \
+    NUMBER(cone_spread)            /* growth of the footprint, metres per metre */               \
+    WORD(slot)                                                                                   \
+    WORD(key)      /* of the pixel's random numbers */                                           \
+    WORD(sample)   /* sample number, bits reversed */                                            \
+    WORD(path_key) /* of the path: decides at alpha BLEND, between pixels, within bodies */      \
+    WORD(bodies)   /* what the ray travels in, see stages/3_media.h */
+
+#define OBSCURA_MISS_COLUMNS(VECTOR, NUMBER, WORD, INTEGER) \
+    VECTOR(direction, dx, dy, dz)                           \
+    VECTOR(throughput, tr, tg, tb)                          \
+    NUMBER(pdf)                                             \
+    WORD(slot)                                              \
+    WORD(path_key)
+
+#define OBSCURA_SHADOW_COLUMNS(VECTOR, NUMBER, WORD, INTEGER)           \
+    VECTOR(origin, ox, oy, oz)                                          \
+    VECTOR(direction, dx, dy, dz)                                       \
+    NUMBER(tfar)                                                        \
+    VECTOR(radiance, r, g, b) /* contribution to the slot's radiance */ \
+    WORD(slot)                                                          \
+    WORD(path_key)
+
+#define OBSCURA_SAMPLE_COLUMNS(VECTOR, NUMBER, WORD, INTEGER) \
+    VECTOR(radiance, r, g, b)                                 \
+    NUMBER(a)
+
 /// Paths that still travel, packed.
-struct PathRows {
-    float *ox, *oy, *oz;  ///< ray origin, metres
-    float *dx, *dy, *dz;  ///< unit direction
-    float *tr, *tg, *tb;  ///< throughput
-    float* pdf;           ///< density of this direction, 1/sr; 0: chosen without one (camera)
-    float* cone_width;    ///< footprint at the origin, metres
-    float* cone_spread;   ///< growth of the footprint, metres per metre
-    uint32_t* slot;
-    uint32_t* key;     ///< of the pixel's random numbers
-    uint32_t* sample;  ///< sample number, bits reversed
-    uint32_t*
-        path_key;  ///< of the path: decides at alpha BLEND surfaces, between pixels, within bodies
-    uint32_t* bodies;  ///< what the ray travels in, see stages/3_media.h
-};
+OBSCURA_COLUMNS(PathColumnsOf, OBSCURA_PATH_COLUMNS);
+using PathRows = PathColumnsOf<float>;
+using PathView = PathColumnsOf<const float>;
 
 using HitRows = HitColumns;
 
-/// Paths that left the scene.
-struct MissRows {
-    float *dx, *dy, *dz;
-    float *tr, *tg, *tb;
-    float* pdf;
-    uint32_t* slot;
-    uint32_t* path_key;
-};
+/// Paths that left the scene; columns of the paths that they were.
+OBSCURA_COLUMNS(MissColumnsOf, OBSCURA_MISS_COLUMNS);
+using MissRows = MissColumnsOf<float>;
+using MissView = MissColumnsOf<const float>;
 
 /// Light that arrives if nothing is in the way.
-struct ShadowRows {
-    float *ox, *oy, *oz;
-    float *dx, *dy, *dz;
-    float* tfar;
-    float *r, *g, *b;  ///< contribution to the slot's radiance
-    uint32_t* slot;
-    uint32_t* path_key;
-};
+OBSCURA_COLUMNS(ShadowColumnsOf, OBSCURA_SHADOW_COLUMNS);
+using ShadowRows = ShadowColumnsOf<float>;
+using ShadowView = ShadowColumnsOf<const float>;
 
 /// One radiance a slot.
-struct SampleRows {
-    float *r, *g, *b, *a;
-};
-
-inline constexpr int words_per_path = 17, words_per_hit = 6, words_per_miss = 9,
-                     words_per_shadow = 12, words_per_sample = 4;
-static_assert(sizeof(PathRows) == words_per_path * sizeof(void*));
-static_assert(sizeof(HitRows) == words_per_hit * sizeof(void*));
-static_assert(sizeof(MissRows) == words_per_miss * sizeof(void*));
-static_assert(sizeof(ShadowRows) == words_per_shadow * sizeof(void*));
-static_assert(sizeof(SampleRows) == words_per_sample * sizeof(void*));
-
-inline constexpr int affine_words = 12;
+OBSCURA_COLUMNS(SampleColumnsOf, OBSCURA_SAMPLE_COLUMNS);
+using SampleRows = SampleColumnsOf<float>;
+using SampleView = SampleColumnsOf<const float>;
 
 /// What moves while the shutter is open: see Motion in scene/scene.h.
 struct MotionView {
     int steps = 1;
     const float* positions = nullptr;  ///< null: no vertex moves
     const float* normals = nullptr;
-    const float* instances = nullptr;  ///< rows of affine_words; null: no instance moves
+    const Affinef* instances = nullptr;  ///< null: no instance moves
     int camera_steps = 1;
-    /// Rows of affine_words: what the camera has moved by since the shutter opened; null: it stands
-    const float* camera = nullptr;
+    const Affinef* camera = nullptr;  ///< moved by since the shutter opened; null: it stands
 };
 
 inline bool moves(const MotionView& motion) {
     return motion.steps > 1 || motion.camera_steps > 1;
 }
 
-/// The scene as the stages see it: raw tables, all read by gathers.
+struct Instance;
+struct Material;
+struct MaterialLayers;
+struct Medium;
+struct Primitive;
+struct ShapeRow;
+
+/// The scene as the stages see it: raw tables, all read by gathers, whose members are named by
+/// math/word_of.h.
 struct SceneView {
     const float* positions = nullptr;
     float edge_scale = 1;  ///< see scene/edge_scale.h
     const int32_t* indices = nullptr;
     const float* attributes = nullptr;
-    const float* shapes = nullptr;   ///< ShapeRow as words; null: the scene has no shapes at all
-    const float* spheres = nullptr;  ///< see shape/sphere_block.h; null: none
-    const float* curve_points = nullptr;       ///< x, y, z, radius; null: there are no lines
-    const int32_t* curve_segments = nullptr;   ///< first point of each
-    const int32_t* primitives = nullptr;       ///< Primitive as words
-    const float* instances = nullptr;          ///< Instance as words
-    const float* materials = nullptr;          ///< Material as words
-    const float* layers = nullptr;             ///< MaterialLayers as words
-    const float* media = nullptr;              ///< Medium as words; null: no body has a volume
+    const ShapeRow* shapes = nullptr;         ///< null: the scene has no shapes at all
+    const float* spheres = nullptr;           ///< see shape/sphere_block.h; null: none
+    const float* curve_points = nullptr;      ///< x, y, z, radius; null: there are no lines
+    const int32_t* curve_segments = nullptr;  ///< first point of each
+    const Primitive* primitives = nullptr;
+    const Instance* instances = nullptr;
+    const Material* materials = nullptr;
+    const MaterialLayers* layers = nullptr;
+    const Medium* media = nullptr;             ///< null: no body has a volume
     const int32_t* touching_bodies = nullptr;  ///< by primitive; null: no faces are shared
     bool scatters = false;                     ///< some medium scatters light
     bool occludes = false;    ///< some material has an occlusion texture: stages/3_occlusion.h

@@ -18,24 +18,24 @@ static_assert(lane_count == OBSCURA_LANES, "compiled for another instruction set
 
 extern const StageTable stage_table;
 const StageTable stage_table = {
-    &OBSCURA_TEXT(OBSCURA_ISA)[4],  // without "isa_"
-    lane_count,
-    make_camera_rays,
-    make_centre_rays,
-    open_shutter,
-    begin_scatter,
-    scatter,
-    make_probes,
-    shade,
-    shade_ao,
-    begin_raycast,
-    shade_raycast,
-    write_quantity,
-    take_waiting,
-    cross_walls,
-    add_shadow_light,
-    accumulate,
-    clear_nonfinite,
+    .isa = &OBSCURA_TEXT(OBSCURA_ISA)[4],  // without "isa_"
+    .lanes = lane_count,
+    .camera = make_camera_rays,
+    .centre_camera = make_centre_rays,
+    .open_shutter = open_shutter,
+    .begin_scatter = begin_scatter,
+    .scatter = scatter,
+    .make_probes = make_probes,
+    .shade = shade,
+    .shade_ao = shade_ao,
+    .begin_raycast = begin_raycast,
+    .shade_raycast = shade_raycast,
+    .quantity = write_quantity,
+    .take_waiting = take_waiting,
+    .cross_walls = cross_walls,
+    .add_shadows = add_shadow_light,
+    .accumulate = accumulate,
+    .clear_nonfinite = clear_nonfinite,
 };
 
 }  // namespace OBSCURA_ISA

@@ -27,7 +27,7 @@ struct RaycastNotes {
     Vec3f unshadowed = {0, 0, 0};  ///< emission, the environment, the headlight, splats
     std::vector<NotedLight> lights;
 
-    void add_ray(const PathRows& path, const HitRows& hit) {
+    void add_ray(const PathView& path, const HitView& hit) {
         origin = {path.ox[0], path.oy[0], path.oz[0]};
         direction = {path.dx[0], path.dy[0], path.dz[0]};
         passes = path.tr[0];
@@ -39,15 +39,15 @@ struct RaycastNotes {
 
     /// Once a range of at most one light is shaded, before its shadow ray is asked. What needs no
     /// shadow ray comes with the first range.
-    void add_offer(const RaycastRange& range, int shadows, const ShadeRows& rows) {
-        const SampleRows& samples = rows.samples;
+    void add_offer(const RaycastRange& range, int shadows, const RaycastColumns& rows) {
+        const SampleView samples = rows.samples;
         if (range.first_light == 0) unshadowed = {samples.r[0], samples.g[0], samples.b[0]};
         if (range.lights == 0) return;
         NotedLight light;
         light.number = range.first_light;
         light.asked = shadows > 0;
         if (light.asked) {
-            const ShadowRows& shadow = rows.shadows;
+            const ShadowView shadow = rows.shadows;
             light.start = {shadow.ox[0], shadow.oy[0], shadow.oz[0]};
             light.direction = {shadow.dx[0], shadow.dy[0], shadow.dz[0]};
             light.distance_m = shadow.tfar[0];
@@ -60,9 +60,9 @@ struct RaycastNotes {
     /// Once its shadow ray is answered, if there was one.
     ///
     /// In  occluded: as stage 4 left it; thin walls may let a part through
-    void add_arrival(uint8_t occluded, const ShadeRows& rows) {
+    void add_arrival(uint8_t occluded, const RaycastColumns& rows) {
         if (lights.empty() || !lights.back().asked) return;
-        const SampleRows& samples = rows.samples;
+        const SampleView samples = rows.samples;
         Vec3f& arrived = lights.back().arrived;
         if (occluded == 0) arrived = {rows.shadows.r[0], rows.shadows.g[0], rows.shadows.b[0]};
         if (occluded != waits_at_wall) return;

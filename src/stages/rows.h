@@ -5,6 +5,8 @@
 #include "math/vec.h"
 #include "stages/doors.h"
 
+#include <type_traits>
+
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
@@ -23,29 +25,78 @@ OBSCURA_INLINE Mask rows_in_range(int first, int count) {
     return lane_numbers() < LanesI(count - first);
 }
 
-/// One group of travelling paths in registers.
-struct PathLanes {
-    Vec3<Lanes> origin, direction, throughput;
-    Lanes pdf, cone_width, cone_spread;
-    LanesU slot, key, sample, path_key, bodies;
+#define OBSCURA_LANES_VECTOR(name, x, y, z) Vec3<Lanes> name;
+#define OBSCURA_LANES_NUMBER(name) Lanes name;
+#define OBSCURA_LANES_WORD(name) LanesU name;
+#define OBSCURA_LANES_INTEGER(name) LanesI name;
+/// Defines one group of rows in registers, from the list of its columns.
+#define OBSCURA_LANES_OF(Name, LIST) \
+    struct Name {                    \
+        LIST(OBSCURA_LANES_VECTOR,   \
+             OBSCURA_LANES_NUMBER,   \
+             OBSCURA_LANES_WORD,     \
+             OBSCURA_LANES_INTEGER)  \
+    }
+
+OBSCURA_LANES_OF(PathLanes, OBSCURA_PATH_COLUMNS);
+OBSCURA_LANES_OF(MissLanes, OBSCURA_MISS_COLUMNS);
+OBSCURA_LANES_OF(ShadowLanes, OBSCURA_SHADOW_COLUMNS);
+OBSCURA_LANES_OF(HitColumnLanes, OBSCURA_HIT_COLUMNS);
+
+struct HitLanes : HitColumnLanes {
+    Lanes time = Lanes(0.0f);             ///< 0 when the shutter opens, 1 when it closes
+    const SharedFaces* shared = nullptr;  ///< by slot; null: no path meets any
 };
 
-OBSCURA_INLINE PathLanes load_paths(const PathRows& rows, int i) {
-    return {load3(rows.ox, rows.oy, rows.oz, i),
-            load3(rows.dx, rows.dy, rows.dz, i),
-            load3(rows.tr, rows.tg, rows.tb, i),
-            load(rows.pdf + i),
-            load(rows.cone_width + i),
-            load(rows.cone_spread + i),
-            load(rows.slot + i),
-            load(rows.key + i),
-            load(rows.sample + i),
-            load(rows.path_key + i),
-            load(rows.bodies + i)};
+/// Reads each field of a group from its columns.
+struct GroupLoader {
+    int first;
+
+    OBSCURA_INLINE void operator()(Vec3<Lanes>& v,
+                                   const float* x,
+                                   const float* y,
+                                   const float* z) const {
+        v = load3(x, y, z, first);
+    }
+    template <typename L, typename Word>
+    OBSCURA_INLINE void operator()(L& lanes, const Word* column) const {
+        lanes = load(column + first);
+    }
+};
+
+OBSCURA_INLINE PathLanes load_paths(const PathView& rows, int i) {
+    PathLanes p;
+    PathView::for_each_field(GroupLoader{i}, p, rows);
+    return p;
 }
 
-OBSCURA_INLINE Vec3<Lanes> pack(const Packer& packer, const Vec3<Lanes>& v) {
-    return {packer(v.x), packer(v.y), packer(v.z)};
+OBSCURA_INLINE ShadowLanes load_shadows(const ShadowView& rows, int i) {
+    ShadowLanes s;
+    ShadowView::for_each_field(GroupLoader{i}, s, rows);
+    return s;
+}
+
+OBSCURA_INLINE HitLanes load_hits(const HitView& rows, int i) {
+    HitLanes h;
+    HitView::for_each_field(GroupLoader{i}, h, rows);
+    return h;
+}
+
+/// Hits of one group. Lanes outside the mask, which must have one, repeat its first, so that
+/// gathers stay in range.
+OBSCURA_INLINE HitLanes hits_or_first(const HitView& rows, int i, Mask valid) {
+    const int first = i + __builtin_ctz(mask_bits(valid));
+    HitLanes h;
+    const auto read = [&](auto& lanes, const auto* column) __attribute__((always_inline)) {
+        using L = std::remove_reference_t<decltype(lanes)>;
+        lanes = select(valid, load(column + i), L(column[first]));
+    };
+    HitView::for_each_field(read, h, rows);
+    return h;
+}
+
+OBSCURA_INLINE Lanes pack(const Packer& packer, Lanes v) {
+    return packer(v);
 }
 
 OBSCURA_INLINE LanesI pack(const Packer& packer, LanesI v) {
@@ -56,87 +107,54 @@ OBSCURA_INLINE LanesU pack(const Packer& packer, LanesU v) {
     return as_uint(pack(packer, as_int(v)));
 }
 
-/// Appends the lanes of `mask` at row `count`; returns the new count.
-OBSCURA_INLINE int append_paths(const PathRows& rows, int at, Mask mask, const PathLanes& p) {
-    const Packer packer(mask);
-    store3(rows.ox, rows.oy, rows.oz, at, pack(packer, p.origin));
-    store3(rows.dx, rows.dy, rows.dz, at, pack(packer, p.direction));
-    store3(rows.tr, rows.tg, rows.tb, at, pack(packer, p.throughput));
-    store(rows.pdf + at, packer(p.pdf));
-    store(rows.cone_width + at, packer(p.cone_width));
-    store(rows.cone_spread + at, packer(p.cone_spread));
-    store(rows.slot + at, pack(packer, p.slot));
-    store(rows.key + at, pack(packer, p.key));
-    store(rows.sample + at, pack(packer, p.sample));
-    store(rows.path_key + at, pack(packer, p.path_key));
-    store(rows.bodies + at, pack(packer, p.bodies));
-    return at + count(mask);
-}
+/// Writes the lanes that a packer keeps, together, from a row on.
+struct GroupPacker {
+    const Packer& packer;
+    int at;
 
-struct HitLanes {
-    Lanes t, u, v;
-    LanesI instance, primitive, triangle;
-    Lanes time = Lanes(0.0f);             ///< 0 when the shutter opens, 1 when it closes
-    const SharedFaces* shared = nullptr;  ///< by slot; null: no path meets any
+    OBSCURA_INLINE void operator()(const Vec3<Lanes>& v, float* x, float* y, float* z) const {
+        store3(x, y, z, at, {packer(v.x), packer(v.y), packer(v.z)});
+    }
+    template <typename L, typename Word>
+    OBSCURA_INLINE void operator()(const L& lanes, Word* column) const {
+        store(column + at, pack(packer, lanes));
+    }
 };
 
-OBSCURA_INLINE HitLanes load_hits(const HitRows& rows, int i) {
-    return {load(rows.t + i),
-            load(rows.u + i),
-            load(rows.v + i),
-            load(rows.instance + i),
-            load(rows.primitive + i),
-            load(rows.triangle + i)};
-}
-
-/// Hits of one group. Lanes outside the mask, which must have one, repeat its first, so that
-/// gathers stay in range.
-OBSCURA_INLINE HitLanes hits_or_first(const HitRows& rows, int i, Mask valid) {
-    const HitLanes hit = load_hits(rows, i);
-    const int first = i + __builtin_ctz(mask_bits(valid));
-    return {select(valid, hit.t, Lanes(rows.t[first])),
-            select(valid, hit.u, Lanes(rows.u[first])),
-            select(valid, hit.v, Lanes(rows.v[first])),
-            select(valid, hit.instance, LanesI(rows.instance[first])),
-            select(valid, hit.primitive, LanesI(rows.primitive[first])),
-            select(valid, hit.triangle, LanesI(rows.triangle[first]))};
+/// Appends the lanes of `mask` at row `at`; returns the new count.
+OBSCURA_INLINE int append_paths(const PathRows& rows, int at, Mask mask, const PathLanes& p) {
+    const Packer packer(mask);
+    PathRows::for_each_field(GroupPacker{packer, at}, p, rows);
+    return at + count(mask);
 }
 
 OBSCURA_INLINE void append_hits(const HitRows& rows, int at, Mask mask, const HitLanes& h) {
     const Packer packer(mask);
-    store(rows.t + at, packer(h.t));
-    store(rows.u + at, packer(h.u));
-    store(rows.v + at, packer(h.v));
-    store(rows.instance + at, pack(packer, h.instance));
-    store(rows.primitive + at, pack(packer, h.primitive));
-    store(rows.triangle + at, pack(packer, h.triangle));
+    HitRows::for_each_field(GroupPacker{packer, at}, h, rows);
 }
 
-struct ShadowLanes {
-    Vec3<Lanes> origin, direction;
-    Lanes tfar;
-    Vec3<Lanes> radiance;
-    LanesU slot, path_key;
-};
-
-OBSCURA_INLINE ShadowLanes load_shadows(const ShadowRows& rows, int i) {
-    return {load3(rows.ox, rows.oy, rows.oz, i),
-            load3(rows.dx, rows.dy, rows.dz, i),
-            load(rows.tfar + i),
-            load3(rows.r, rows.g, rows.b, i),
-            load(rows.slot + i),
-            load(rows.path_key + i)};
+/// The paths of `mask` in the group that starts at row i of `paths` have left the scene.
+OBSCURA_INLINE int append_misses(
+    const MissRows& rows, int at, Mask mask, const PathView& paths, int i) {
+    MissLanes m;
+    MissRows::for_each_field(GroupLoader{i}, m, paths);
+    const Packer packer(mask);
+    MissRows::for_each_field(GroupPacker{packer, at}, m, rows);
+    return at + count(mask);
 }
 
 OBSCURA_INLINE int append_shadows(const ShadowRows& rows, int at, Mask mask, const ShadowLanes& s) {
     const Packer packer(mask);
-    store3(rows.ox, rows.oy, rows.oz, at, pack(packer, s.origin));
-    store3(rows.dx, rows.dy, rows.dz, at, pack(packer, s.direction));
-    store(rows.tfar + at, packer(s.tfar));
-    store3(rows.r, rows.g, rows.b, at, pack(packer, s.radiance));
-    store(rows.slot + at, pack(packer, s.slot));
-    store(rows.path_key + at, pack(packer, s.path_key));
+    ShadowRows::for_each_field(GroupPacker{packer, at}, s, rows);
     return at + count(mask);
+}
+
+/// Takes the rows with these numbers out of a column. A column at a time stays in the nearest
+/// cache. In place: where the numbers ascend.
+template <typename Word>
+void take_rows(const uint16_t* row, int count, const Word* from, Word* to) {
+    for (int i = 0; i < count; ++i)
+        to[i] = from[row[i]];
 }
 
 /// What to add to one column of slots.

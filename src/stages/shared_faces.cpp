@@ -109,16 +109,16 @@ namespace {
 /// One ray of paths or probes, alone.
 template <typename Rows>
 RayColumns ray_of(const Rows& rows, size_t row, const float* tfar, const float* slot_time) {
-    return {rows.ox + row,
-            rows.oy + row,
-            rows.oz + row,
-            rows.dx + row,
-            rows.dy + row,
-            rows.dz + row,
-            tfar,
-            rows.path_key + row,
-            1,
-            slot_time != nullptr ? slot_time + rows.slot[row] : nullptr};
+    return {.ox = rows.ox + row,
+            .oy = rows.oy + row,
+            .oz = rows.oz + row,
+            .dx = rows.dx + row,
+            .dy = rows.dy + row,
+            .dz = rows.dz + row,
+            .tfar = tfar,
+            .key = rows.path_key + row,
+            .count = 1,
+            .time = slot_time != nullptr ? slot_time + rows.slot[row] : nullptr};
 }
 
 /// All faces of bodies along one ray of a slot's path.
@@ -157,10 +157,11 @@ void move_hit(const HitRows& h, size_t row, Crossing face, const std::vector<Cro
 int meet_company(const CompanyQuery& query,
                  int probes,
                  const ProbeRows& rows,
+                 const HitRows& hits,
                  SharedFaces* shared) {
     int met = 0;
-    const ShadowRows& p = rows.probes;
-    const HitRows& h = rows.hits;
+    const ShadowView p = rows.probes;
+    const HitRows& h = hits;
     std::vector<Crossing> faces;
     for (size_t i = 0; i < static_cast<size_t>(probes); ++i) {
         const size_t row = rows.row[i] & ~seen_from_front;

@@ -44,8 +44,12 @@ struct CompanyQuery {
 /// Looks along probes for faces in the same place as the hits. Where there are, the face that
 /// counts takes the place of the hit, at the place where the path's own ray meets it.
 ///
-/// In/Out  rows.hits; shared: by slot; written where a hit has company.
+/// In/Out  hits: those of `rows`; shared: by slot; written where a hit has company.
 ///         Returns how many hits have.
-int meet_company(const CompanyQuery& query, int probes, const ProbeRows& rows, SharedFaces* shared);
+int meet_company(const CompanyQuery& query,
+                 int probes,
+                 const ProbeRows& rows,
+                 const HitRows& hits,
+                 SharedFaces* shared);
 
 }  // namespace obscura

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "stages/doors.h"
+#include "stages/pixel_sum.h"
 
 namespace obscura {
 
@@ -45,6 +46,24 @@ struct ShadeRows {
     const SharedFaces* shared = nullptr;  ///< where SceneView::touching_bodies, by slot
 };
 
+/// The columns that ray casting reads and writes, once hits and misses are parted.
+struct RaycastColumns {
+    PathView paths;
+    HitView hits;
+    ShadowRows shadows;           ///< out
+    SampleRows samples;           ///< in and out
+    const float* time = nullptr;  ///< as in ShadeRows
+    const SharedFaces* shared = nullptr;
+};
+
+/// The columns from which an AOV is written: row i is pixel i.
+struct AovColumns {
+    PathView paths;
+    HitView hits;
+    SampleRows samples;           ///< out
+    const float* time = nullptr;  ///< by pixel; null: nothing moves
+};
+
 /// Smooth thin walls that a shadow ray passes at most, and a path after its last bounce: behind
 /// more of them there is less light than should be.
 inline constexpr int most_walls = 32;
@@ -54,8 +73,8 @@ inline constexpr uint8_t waits_at_wall = 2;
 
 /// Shadow rays on their way through thin walls.
 struct WallRows {
-    ShadowRows shadows;           ///< in and out, packed in place
-    HitRows hits;                 ///< in
+    ShadowRows shadows;  ///< in and out, packed in place
+    HitView hits;
     SampleRows samples;           ///< in and out
     const float* time = nullptr;  ///< by slot; null: nothing moves
 };
@@ -67,20 +86,29 @@ struct WallStep {
     bool random = true;  ///< texels are drawn; else filtered
 };
 
-/// Paths on their way through bodies that scatter light.
+/// Paths that begin their way through bodies that scatter light.
+struct ScatterStart {
+    PathView paths;       ///< all paths of a bounce
+    HitView hits;         ///< what they hit
+    PathRows walkers;     ///< out: those of them inside such bodies, packed
+    HitRows walker_hits;  ///< out: what these hit
+    uint32_t* row;        ///< out: of a walker, in `paths`
+};
+
+/// Paths on that way.
 struct ScatterRows {
-    PathRows paths;       ///< in and out: all paths of a bounce
-    HitRows hits;         ///< in and out: what they hit
-    PathRows walkers;     ///< those of them inside such bodies, packed
-    HitRows walker_hits;  ///< what these hit
-    uint32_t* row;        ///< of a walker, in `paths`
+    PathRows paths;       ///< out, by row: walkers that are done
+    HitRows hits;         ///< out: what they hit
+    PathRows walkers;     ///< in and out, packed in place
+    HitView walker_hits;  ///< what these hit
+    uint32_t* row;        ///< in and out: of a walker, in `paths`
 };
 
 /// Paths that may have met faces of several bodies at once, and the rays that look for them: along
 /// the normal through the hit, from its viewer's side.
 struct ProbeRows {
-    PathRows paths;               ///< in
-    HitRows hits;                 ///< in: what they hit
+    PathView paths;
+    HitView hits;                 ///< what they hit
     const float* time = nullptr;  ///< by slot; null: nothing moves
     const SharedFaces* shared =
         nullptr;  ///< by slot: only those that say so are looked at; or null
@@ -128,7 +156,7 @@ struct StageTable {
         const SceneView&, bool through_centres, int count, const PathRows&, float* time);
 
     /// Stage 2, inside bodies that scatter light: which paths are, then one flight of each.
-    int (*begin_scatter)(const SceneView&, int count, const ScatterRows&);
+    int (*begin_scatter)(const SceneView&, int count, const ScatterStart&);
     int (*scatter)(const SceneView&, const Flight&, int count, const ScatterRows&);
 
     /// Stage 2, where bodies touch: rays that look for faces in the same place. Returns how many.
@@ -144,20 +172,21 @@ struct StageTable {
     /// Stage 3 for --integrator raycast: the number of hits, which come to the front; then their
     /// shadow rays, range by range.
     int (*begin_raycast)(const SceneView&, const BatchSettings&, int count, const ShadeRows&);
-    int (*shade_raycast)(const SceneView&, const RaycastRange&, const ShadeRows&);
+    int (*shade_raycast)(const SceneView&, const RaycastRange&, const RaycastColumns&);
 
     /// Stage 3 for quantities: every sample is written, without light; 0 where nothing was hit.
-    void (*quantity)(const SceneView&, const BatchSettings&, Quantity, int count, const ShadeRows&);
+    void (*quantity)(
+        const SceneView&, const BatchSettings&, Quantity, int count, const AovColumns&);
 
     /// Stage 4, where there are thin walls: the rays that wait there, then one step of each.
     int (*take_waiting)(int count, const uint8_t* occluded, const ShadowRows&);
     int (*cross_walls)(const SceneView&, const WallStep&, int count, const WallRows&);
 
     /// Stage 5a: unoccluded shadow rows are added to their samples.
-    void (*add_shadows)(int count, const ShadowRows&, const uint8_t* occluded, const SampleRows&);
+    void (*add_shadows)(int count, const ShadowView&, const uint8_t* occluded, const SampleRows&);
 
-    /// Stage 5b: adds each pixel's samples to its sum, in sample order. sums: RGBA per pixel.
-    uint64_t (*accumulate)(int pixels, int samples, const SampleRows&, float* sums);
+    /// Stage 5b: adds each pixel's samples to its sum, in sample order.
+    uint64_t (*accumulate)(int pixels, const SampleRange&, const SampleRows&, PixelSum* sums);
 
     /// Stage 5 for quantities, whose samples are pixels: clears those that are not finite, and says
     /// how many they were.

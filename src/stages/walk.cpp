@@ -1,4 +1,4 @@
-// stages/walk.cpp - the corridor: the only place that calls stages.
+// stages/walk.cpp - the wavefront loop: the only place that calls stages.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/walk.h"
 
@@ -14,12 +14,9 @@ namespace obscura {
 
 namespace {
 
-RayColumns rays_of(const PathRows& p, int count) {
-    return {p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, nullptr, p.path_key, count};
-}
-
-RayColumns rays_of(const ShadowRows& s, int count) {
-    return {s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.path_key, count};
+/// The time of every slot, where something moves.
+const float* slot_times(const WalkInput& in, const Workspace& work) {
+    return moves(in.scene.motion) ? work.slot_time.data() : nullptr;
 }
 
 /// The times of rays, where something moves.
@@ -85,7 +82,7 @@ void intersect(
     }
     // Rays of quantities have no slot: row i is pixel i.
     if (in.kind == WalkKind::quantity || in.kind == WalkKind::wireframe) {
-        rays.time = moves(in.scene.motion) ? work.slot_time.data() : nullptr;
+        rays.time = slot_times(in, work);
     } else {
         rays.time = times_of(in, work.paths[0].slot, count, work);
     }
@@ -97,13 +94,21 @@ void intersect(
 void scatter_in_bodies(
     const WalkInput& in, int count, int bounce, Workspace& work, WalkCounters& c) {
     constexpr int most_flights = 4096;
-    const ScatterRows rows{
-        work.paths[0], work.hits, work.paths[1], work.walker_hits, work.walker_row.data()};
-    SeeThrough see_through{false, false, 2U * static_cast<uint32_t>(bounce)};
+    const ScatterStart start{.paths = work.paths[0],
+                             .hits = work.hits,
+                             .walkers = work.paths[1],
+                             .walker_hits = work.walker_hits,
+                             .row = work.walker_row.data()};
+    const ScatterRows rows{.paths = work.paths[0],
+                           .hits = work.hits,
+                           .walkers = work.paths[1],
+                           .walker_hits = work.walker_hits,
+                           .row = work.walker_row.data()};
+    SeeThrough see_through{.segment = 2U * static_cast<uint32_t>(bounce)};
     int walkers = 0;
     {
         const SumOfTime time(c.seconds.shade);
-        walkers = in.stages->begin_scatter(in.scene, count, rows);
+        walkers = in.stages->begin_scatter(in.scene, count, start);
     }
     for (int number = 0; walkers > 0; ++number) {
         {
@@ -115,24 +120,30 @@ void scatter_in_bodies(
         RayColumns rays = rays_of(rows.walkers, walkers);
         rays.time = times_of(in, rows.walkers.slot, walkers, work);
         see_through.cutaway = cut_away(rows.walkers.slot, work);
-        intersect_rays(in, rays, rows.walker_hits, see_through, c);
+        intersect_rays(in, rays, work.walker_hits, see_through, c);
     }
 }
 
 /// Stage 2, where bodies touch: their faces may lie in the same place. The second look is from the
 /// face that counts, so that nothing depends on which of them was met.
 void cross_shared_faces(const WalkInput& in, int count, SeeThrough see_through, Workspace& work) {
-    const float* time = moves(in.scene.motion) ? work.slot_time.data() : nullptr;
+    const float* time = slot_times(in, work);
     see_through.passed_backs = nullptr;
     work.shared_faces.assign(padded_rows, {});
     SharedFaces* const found = work.shared_faces.data();
     for (const SharedFaces* only :
          {static_cast<const SharedFaces*>(nullptr), static_cast<const SharedFaces*>(found)}) {
-        const ProbeRows rows{
-            work.paths[0], work.hits, time, only, work.shadows, work.walker_row.data()};
+        const ProbeRows rows{.paths = work.paths[0],
+                             .hits = work.hits,
+                             .time = time,
+                             .shared = only,
+                             .probes = work.shadows,
+                             .row = work.walker_row.data()};
         const int probes = in.stages->make_probes(in.scene, count, rows);
-        const CompanyQuery query{*in.accel, in.scene.touching_bodies, see_through};
-        if (meet_company(query, probes, rows, found) == 0) return;
+        const CompanyQuery query{.accel = *in.accel,
+                                 .touching_bodies = in.scene.touching_bodies,
+                                 .see_through = see_through};
+        if (meet_company(query, probes, rows, work.hits, found) == 0) return;
     }
 }
 
@@ -140,29 +151,31 @@ void cross_shared_faces(const WalkInput& in, int count, SeeThrough see_through, 
 void cross_walls(
     const WalkInput& in, int count, uint32_t segment, Workspace& work, WalkCounters& c) {
     const bool raycast = in.kind == WalkKind::raycast;
-    const float* time = moves(in.scene.motion) ? work.slot_time.data() : nullptr;
-    const WallRows rows{work.shadows, work.walker_hits, work.samples, time};
+    const float* time = slot_times(in, work);
+    const WallRows rows{
+        .shadows = work.shadows, .hits = work.walker_hits, .samples = work.samples, .time = time};
     int waiting = in.stages->take_waiting(count, work.occluded.data(), work.shadows);
     for (uint32_t number = 0; waiting > 0 && number <= most_walls; ++number) {
         RayColumns rays = rays_of(work.shadows, waiting);
         if (raycast) rays.key = nullptr;
         rays.time = times_of(in, work.shadows.slot, waiting, work);
-        const SeeThrough see_through{
-            false, raycast, segment, nullptr, cut_away(work.shadows.slot, work)};
+        const SeeThrough see_through{.fixed_alpha = raycast,
+                                     .segment = segment,
+                                     .cutaway = cut_away(work.shadows.slot, work)};
         c.shadow_rays += static_cast<uint64_t>(waiting);
         {
             const SumOfTime timing(c.seconds.shadow);
             c.refused_rays += static_cast<uint64_t>(
-                in.accel->intersect(rays, rows.hits, Coherence::incoherent, see_through));
+                in.accel->intersect(rays, work.walker_hits, Coherence::incoherent, see_through));
         }
         if (in.recorder != nullptr) in.recorder->add_shadow_hits(rays, rows.hits, see_through);
         const SumOfTime timing(c.seconds.shade);
-        const WallStep step{segment, number, !raycast};
+        const WallStep step{.segment = segment, .number = number, .random = !raycast};
         waiting = in.stages->cross_walls(in.scene, step, waiting, rows);
     }
 }
 
-/// Those of the rays that reached their end by way of what may be thin walls wait there.
+/// Marks the shadow rays that reached their light but met what may be thin walls on the way.
 void keep_waiting(int count, Workspace& work) {
     for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
         if (work.walls[i] != 0 && work.occluded[i] == 0) work.occluded[i] = waits_at_wall;
@@ -178,8 +191,9 @@ void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, 
     rays.time = times_of(in, work.shadows.slot, count, work);
     c.shadow_rays += static_cast<uint64_t>(count);
     if (passes_walls) work.walls.assign(padded_rows, 0);
-    const ShadowQuery query{
-        segment, passes_walls ? work.walls.data() : nullptr, cut_away(work.shadows.slot, work)};
+    const ShadowQuery query{.segment = segment,
+                            .walls = passes_walls ? work.walls.data() : nullptr,
+                            .cutaway = cut_away(work.shadows.slot, work)};
     {
         const SumOfTime time(c.seconds.shadow);
         c.refused_rays += static_cast<uint64_t>(
@@ -198,16 +212,25 @@ void trace_shadows(const WalkInput& in, int count, int bounce, Workspace& work, 
 }
 
 ShadeRows shade_rows(const WalkInput& in, Workspace& work) {
-    return {work.paths[0],
-            work.hits,
-            work.misses,
-            work.paths[1],
-            work.shadows,
-            work.samples,
-            moves(in.scene.motion) ? work.slot_time.data() : nullptr,
-            in.scene.thin_walls ? work.passed.data() : nullptr,
-            in.scene.occludes ? work.occlusion.data() : nullptr,
-            work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
+    return {.paths = work.paths[0],
+            .hits = work.hits,
+            .misses = work.misses,
+            .next = work.paths[1],
+            .shadows = work.shadows,
+            .samples = work.samples,
+            .time = slot_times(in, work),
+            .passed = in.scene.thin_walls ? work.passed.data() : nullptr,
+            .occlusion = in.scene.occludes ? work.occlusion.data() : nullptr,
+            .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
+}
+
+RaycastColumns raycast_columns(const WalkInput& in, Workspace& work) {
+    return {.paths = work.paths[0],
+            .hits = work.hits,
+            .shadows = work.shadows,
+            .samples = work.samples,
+            .time = slot_times(in, work),
+            .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
 }
 
 void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
@@ -216,7 +239,8 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
     const int segments = in.batch.max_bounces + 2 + (in.scene.thin_walls ? most_walls : 0);
     work.clear_slots(in.scene);
     for (int bounce = 0; count > 0 && bounce < segments; ++bounce) {
-        SeeThrough see_through{bounce == 0, false, 2U * static_cast<uint32_t>(bounce)};
+        SeeThrough see_through{.culls_back_faces = bounce == 0,
+                               .segment = 2U * static_cast<uint32_t>(bounce)};
         if (bounce == 0) see_through.passed_backs = &work.passed_backs;
         if (bounce > 0) see_through.cutaway = cut_away(work.paths[0].slot, work);
         intersect(in, count, see_through, work, c);
@@ -236,12 +260,13 @@ void walk_paths(const WalkInput& in, int count, Workspace& work, WalkCounters& c
 }
 
 void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
-    intersect(in, count, {true, false, 0, &work.passed_backs}, work, c);
+    const SeeThrough see_through{.culls_back_faces = true, .passed_backs = &work.passed_backs};
+    intersect(in, count, see_through, work, c);
     note_passed_backs(in, work);
     int shadows = 0;
     {
         const SumOfTime time(c.seconds.shade);
-        shadows = in.stages->shade_ao(in.scene, in.batch, count, shade_rows(in, work));
+        shadows = spawn_ambient_rays(in, count, work);
     }
     if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
 }
@@ -250,7 +275,9 @@ void walk_ao(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
 /// come in the same order however they are cut.
 void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters& c) {
     const int most_lights = in.notes != nullptr ? 1 : batch_rows / 16;
-    intersect(in, count, {true, true, 0, &work.passed_backs}, work, c);
+    const SeeThrough see_through{
+        .culls_back_faces = true, .fixed_alpha = true, .passed_backs = &work.passed_backs};
+    intersect(in, count, see_through, work, c);
     note_passed_backs(in, work);
     if (in.accel->has_splats()) pass_splats(in, count, true, work, c);
     int hits = 0;
@@ -259,6 +286,7 @@ void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters&
         const SumOfTime time(c.seconds.shade);
         hits = in.stages->begin_raycast(in.scene, in.batch, count, shade_rows(in, work));
     }
+    const RaycastColumns columns = raycast_columns(in, work);
     const int lights = in.scene.lights.punctual_count + in.scene.raycast.centre_count;
     RaycastRange range;
     for (range.first_light = 0; range.first_light == 0 || range.first_light < lights;
@@ -270,18 +298,18 @@ void walk_raycast(const WalkInput& in, int count, Workspace& work, WalkCounters&
             int shadows = 0;
             {
                 const SumOfTime time(c.seconds.shade);
-                shadows = in.stages->shade_raycast(in.scene, range, shade_rows(in, work));
+                shadows = in.stages->shade_raycast(in.scene, range, columns);
             }
-            if (in.notes != nullptr) in.notes->add_offer(range, shadows, shade_rows(in, work));
+            if (in.notes != nullptr) in.notes->add_offer(range, shadows, columns);
             if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
-            if (in.notes != nullptr) in.notes->add_arrival(work.occluded[0], shade_rows(in, work));
+            if (in.notes != nullptr) in.notes->add_arrival(work.occluded[0], columns);
         }
     }
 }
 
 /// One quantity a ray of the grid, added up; see wireframe_side.
 void walk_wireframe(
-    const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& c) {
+    const WalkInput& in, int pixels, Workspace& work, PixelSum* sums, WalkCounters& c) {
     WalkInput one = in;
     for (int i = 0; i < in.batch.samples; ++i) {
         const int ray = static_cast<int>(in.batch.first_sample) + i;
@@ -292,7 +320,7 @@ void walk_wireframe(
         one.batch.film_offset_px[1] = offset(ray / wireframe_side);
         walk_quantity(one, pixels, work, c);
         const SumOfTime time(c.seconds.accumulate);
-        in.stages->accumulate(pixels, 1, work.samples, sums);
+        in.stages->accumulate(pixels, {static_cast<uint32_t>(ray), 1}, work.samples, sums);
     }
 }
 
@@ -311,7 +339,12 @@ void count_heat(const WalkInput& in, int pixels, Workspace& work, WalkCounters& 
 
 }  // namespace
 
-void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters) {
+int spawn_ambient_rays(const WalkInput& in, int count, Workspace& work) {
+    return in.stages->shade_ao(in.scene, in.batch, count, shade_rows(in, work));
+}
+
+void walk(
+    const WalkInput& in, int pixels, Workspace& work, PixelSum* sums, WalkCounters& counters) {
     if (in.kind == WalkKind::wireframe) return walk_wireframe(in, pixels, work, sums, counters);
     const int count = pixels * in.batch.samples;
     {
@@ -340,8 +373,8 @@ void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCou
             break;
     }
     const SumOfTime time(counters.seconds.accumulate);
-    counters.nonfinite_samples +=
-        in.stages->accumulate(pixels, in.batch.samples, work.samples, sums);
+    counters.nonfinite_samples += in.stages->accumulate(
+        pixels, {in.batch.first_sample, in.batch.samples}, work.samples, sums);
 }
 
 void walk_quantity(const WalkInput& in, int pixels, Workspace& work, WalkCounters& counters) {
@@ -354,9 +387,16 @@ void walk_quantity(const WalkInput& in, int pixels, Workspace& work, WalkCounter
     }
     counters.paths += static_cast<uint64_t>(pixels);
     if (in.quantity == Quantity::heat) return count_heat(in, pixels, work, counters);
-    intersect(in, pixels, {true, true, 0}, work, counters);
+    intersect(in, pixels, {.culls_back_faces = true, .fixed_alpha = true}, work, counters);
     const SumOfTime time(counters.seconds.shade);
-    in.stages->quantity(in.scene, in.batch, in.quantity, pixels, shade_rows(in, work));
+    in.stages->quantity(in.scene,
+                        in.batch,
+                        in.quantity,
+                        pixels,
+                        {.paths = work.paths[0],
+                         .hits = work.hits,
+                         .samples = work.samples,
+                         .time = slot_times(in, work)});
     counters.nonfinite_samples += in.stages->clear_nonfinite(pixels, work.samples);
 }
 

@@ -70,6 +70,31 @@ private:
     std::vector<std::byte> memory_;
 };
 
+/// The rays of paths; their end and time are for the caller to set.
+inline RayColumns rays_of(const PathView& p, int count) {
+    return {.ox = p.ox,
+            .oy = p.oy,
+            .oz = p.oz,
+            .dx = p.dx,
+            .dy = p.dy,
+            .dz = p.dz,
+            .tfar = nullptr,
+            .key = p.path_key,
+            .count = count};
+}
+
+inline RayColumns rays_of(const ShadowView& s, int count) {
+    return {.ox = s.ox,
+            .oy = s.oy,
+            .oz = s.oz,
+            .dx = s.dx,
+            .dy = s.dy,
+            .dz = s.dz,
+            .tfar = s.tfar,
+            .key = s.path_key,
+            .count = count};
+}
+
 /// Everything a walk reads.
 struct WalkInput {
     const StageTable* stages;
@@ -84,8 +109,14 @@ struct WalkInput {
 };
 
 /// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_rows) and adds them
-/// to sums (RGBA per pixel). For every kind but quantity.
-void walk(const WalkInput& in, int pixels, Workspace& work, float* sums, WalkCounters& counters);
+/// to the pixels' sums. For every kind but quantity.
+void walk(const WalkInput& in, int pixels, Workspace& work, PixelSum* sums, WalkCounters& counters);
+
+/// Starts one ray at every hit, as ambient occlusion does, and leaves it at that.
+///
+/// In      work.paths[0], work.hits: `count` rows; they are overwritten
+/// Out     work.shadows. Returns how many.
+int spawn_ambient_rays(const WalkInput& in, int count, Workspace& work);
 
 /// Rows of a batch of quantities: they stay in the nearest cache.
 inline constexpr int quantity_rows = 1024;

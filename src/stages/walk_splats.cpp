@@ -47,8 +47,9 @@ SplatColumns splat_columns_of(Workspace& work) {
 void pass_splats(const WalkInput& in, int count, bool camera, Workspace& work, WalkCounters& c) {
     const SumOfTime time(camera ? c.seconds.intersect_camera : c.seconds.intersect_bounce);
     const PathRows& p = work.paths[0];
-    const RayColumns rays{
-        p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, path_ends(in, count, camera, work), nullptr, count};
+    RayColumns rays = rays_of(p, count);
+    rays.tfar = path_ends(in, count, camera, work);
+    rays.key = nullptr;
     const bool parallel = camera && in.batch.camera.model == CameraModel::orthographic;
     const SplatColumns found = splat_columns_of(work);
     in.accel->blend_splats(rays, parallel, found);

@@ -16,44 +16,37 @@ public:
     explicit Carver(std::byte* memory) : next_(memory) {}
 
     template <typename T>
-    void operator()(T*& column) {
+    void operator()(T*& column) const {
         column = reinterpret_cast<T*>(next_);
         next_ += (padded_rows * sizeof(T) + alignment - 1) / alignment * alignment;
     }
-    template <typename... T>
-    void all(T*&... columns) {
-        ((*this)(columns), ...);
+    template <template <typename> typename Columns>
+    void all(Columns<float>& columns) {
+        Columns<float>::for_each_column(*this, columns);
     }
 
 private:
-    std::byte* next_;
+    mutable std::byte* next_;
 };
-
-void carve_paths(Carver& carve, PathRows& p) {
-    carve.all(p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, p.tr, p.tg, p.tb);
-    carve.all(p.pdf, p.cone_width, p.cone_spread, p.slot, p.key, p.sample, p.path_key, p.bodies);
-}
 
 }  // namespace
 
 Workspace::Workspace() {
-    constexpr size_t words = 2 * words_per_path + 2 * words_per_hit + words_per_miss +
-                             words_per_shadow + words_per_sample;
+    constexpr size_t words = 2 * words_in_row<PathRows> + 2 * words_in_row<HitRows> +
+                             words_in_row<MissRows> + words_in_row<ShadowRows> +
+                             words_in_row<SampleRows>;
     memory_.resize(words * (padded_rows * 4 + alignment) + alignment);
     void* start = memory_.data();
     size_t space = memory_.size();
     Carver carve(
         static_cast<std::byte*>(std::align(alignment, memory_.size() - alignment, start, space)));
     for (PathRows& p : paths)
-        carve_paths(carve, p);
-    carve.all(hits.t, hits.u, hits.v, hits.instance, hits.primitive, hits.triangle);
-    carve.all(walker_hits.t, walker_hits.u, walker_hits.v);
-    carve.all(walker_hits.instance, walker_hits.primitive, walker_hits.triangle);
-    carve.all(misses.dx, misses.dy, misses.dz, misses.tr, misses.tg, misses.tb);
-    carve.all(misses.pdf, misses.slot, misses.path_key);
-    carve.all(shadows.ox, shadows.oy, shadows.oz, shadows.dx, shadows.dy, shadows.dz);
-    carve.all(shadows.tfar, shadows.r, shadows.g, shadows.b, shadows.slot, shadows.path_key);
-    carve.all(samples.r, samples.g, samples.b, samples.a);
+        carve.all(p);
+    carve.all(hits);
+    carve.all(walker_hits);
+    carve.all(misses);
+    carve.all(shadows);
+    carve.all(samples);
     walker_row.resize(padded_rows);
     occluded.resize(padded_rows);
     camera_length_m.resize(padded_rows);

@@ -10,9 +10,10 @@ namespace obscura {
 /// materials that use one have such a row (Material::layers); the defaults say "as the core does".
 /// Read word by word by the shading lanes: every member is 32 bits wide, there is no padding.
 ///
-/// To add a lobe: append its factors here and its slots at the end, read them in
-/// gltf/material_extensions.cpp, name the slots in gltf/materials.h, turn both into LayeredParams
-/// in stages/3_layers.h, and evaluate them in surface/layered_bsdf.h.
+/// To add a lobe: append its factors here and its slots at the end, read them by rows of
+/// gltf/parse/material_factors.cpp, fill them in gltf/parse/finish_material.cpp, name the slots in
+/// gltf/materials/materials.h, turn both into LayeredParams in stages/3_layers.h, and evaluate them
+/// in surface/layered_bsdf.h.
 struct MaterialLayers {
     float ior = 1.5f;  ///< KHR_materials_ior; 0: always reflects
     float specular = 1;

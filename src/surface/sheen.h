@@ -26,7 +26,8 @@ OBSCURA_INLINE F charlie_distribution(const F& cosine, const F& alpha) {
     return (F(2.0f) + inverse) * power(sine2, inverse * F(0.5f)) * F(0.5f / pi_f);
 }
 
-/// Masking function, fitted. Source  as charlie_distribution, table 1
+/// Masking function, fitted.
+/// Source  as charlie_distribution, table 1
 template <typename F>
 OBSCURA_INLINE F charlie_lambda(const F& cosine, const F& alpha) {
     const F t = square(F(1.0f) - alpha);

@@ -8,17 +8,7 @@
 #include "surface/srgb.h"
 #include "surface/texture_row.h"
 
-#include <cstddef>
-
 namespace obscura {
-
-inline constexpr int texture_row_words = static_cast<int>(sizeof(TextureRow) / 4);
-
-// Words of a TextureRow.
-inline constexpr int sampler_word = 3, low_plane_word = 4, first_level_word = 5;
-static_assert(offsetof(TextureRow, sampler) == sampler_word * 4);
-static_assert(offsetof(TextureRow, low_plane) == low_plane_word * 4);
-static_assert(offsetof(TextureRow, level_offset) == first_level_word * 4);
 
 template <typename F>
 struct Rgba {
@@ -31,15 +21,19 @@ inline namespace OBSCURA_ISA {
 /// One texture's row, read for every lane.
 template <typename F>
 struct TextureInfo {
-    TableRow<F> row;
+    TableRow<F, TextureRow> row;
     IntOf<F> width, height, levels;
     IntOf<F> sampler;
 };
 
 template <typename F>
 OBSCURA_INLINE TextureInfo<F> texture_info(const TextureView& view, const IntOf<F>& texture) {
-    const TableRow<F> row(view.rows, texture, texture_row_words);
-    return {row, row.integer(0), row.integer(1), row.integer(2), row.integer(sampler_word)};
+    const TableRow<F, TextureRow> row(view.rows, texture);
+    return {.row = row,
+            .width = row.template integer<&TextureRow::width>(),
+            .height = row.template integer<&TextureRow::height>(),
+            .levels = row.template integer<&TextureRow::levels>(),
+            .sampler = row.template integer<&TextureRow::sampler>()};
 }
 
 /// log2 of the side, in texels of level 0, of a footprint given as an area in UV space.
@@ -133,8 +127,8 @@ OBSCURA_INLINE Rgba<F> decode_wide_texel(const UintOf<F>& high,
 
 /// Where a texture's low bytes lie, counted from its texels.
 template <typename F>
-OBSCURA_INLINE IntOf<F> low_plane_of(const TextureView& view, const TableRow<F>& row) {
-    return view.wide ? row.integer(low_plane_word) : IntOf<F>(0);
+OBSCURA_INLINE IntOf<F> low_plane_of(const TextureView& view, const TableRow<F, TextureRow>& row) {
+    return view.wide ? row.template integer<&TextureRow::low_plane>() : IntOf<F>(0);
 }
 
 /// Reads a texel by its number.
@@ -158,7 +152,7 @@ struct MipLevel {
 
 template <typename F>
 OBSCURA_INLINE MipLevel<F> mip_level(const TextureInfo<F>& info, const IntOf<F>& level) {
-    const IntOf<F> offset = info.row.varying_integer(IntOf<F>(level + IntOf<F>(first_level_word)));
+    const IntOf<F> offset = info.row.template varying_integer<&TextureRow::level_offset>(level);
     // Sides halve, rounding down: exact in float for sides up to 65536.
     const F scale = power_of_two<F>(IntOf<F>(IntOf<F>(127) - level));
     return {offset,

@@ -29,8 +29,8 @@ struct TextureRow {
 /// All textures of a scene, as raw pointers for gathers.
 struct TextureView {
     const uint32_t* texels = nullptr;
-    const int32_t* rows = nullptr;  ///< TextureRow as words
-    bool wide = false;              ///< some have a low plane
+    const TextureRow* rows = nullptr;
+    bool wide = false;  ///< some have a low plane
 };
 
 inline constexpr uint32_t sampler_mag_nearest = 1U << 4;

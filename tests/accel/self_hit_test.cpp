@@ -18,9 +18,9 @@ SceneView view_of(const Scene& scene) {
     view.positions = scene.positions.data();
     view.indices = reinterpret_cast<const int32_t*>(scene.indices.data());
     view.attributes = scene.attributes.data();
-    view.primitives = reinterpret_cast<const int32_t*>(scene.primitives.data());
-    view.instances = reinterpret_cast<const float*>(scene.instances.data());
-    view.materials = reinterpret_cast<const float*>(scene.materials.data());
+    view.primitives = scene.primitives.data();
+    view.instances = scene.instances.data();
+    view.materials = scene.materials.data();
     return view;
 }
 

@@ -1,10 +1,10 @@
 // tests/app/reports_test.cpp - numbers of the reports; whole documents are in tests/cli.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/info_report.h"
-#include "app/statistics.h"
 
 #include <gtest/gtest.h>
 
+#include "session/statistics.h"
 #include <gmock/gmock.h>
 
 namespace obscura {
@@ -36,12 +36,12 @@ TEST(Statistics, RatesComeFromTheRenderTimeAlone) {
     statistics.counters = {10, 10, 20, 30, 1, 2, {}};
     EXPECT_EQ(total_rays(statistics.counters), 60U);
     const std::string json = statistics_json(request, statistics);
-    EXPECT_THAT(json, HasSubstr("\"rays_per_second\": 30,"));
-    EXPECT_THAT(json, HasSubstr("\"paths_per_second\": 5,"));
+    EXPECT_THAT(json, HasSubstr("\"rays_per_second\": 30.0,"));
+    EXPECT_THAT(json, HasSubstr("\"paths_per_second\": 5.0,"));
     EXPECT_THAT(json, HasSubstr("\"refused_rays\": 1,"));
     EXPECT_THAT(json, HasSubstr("\"nonfinite_samples\": 2\n"));
     statistics.render_s = 0;
-    EXPECT_THAT(statistics_json(request, statistics), HasSubstr("\"rays_per_second\": 0,"));
+    EXPECT_THAT(statistics_json(request, statistics), HasSubstr("\"rays_per_second\": 0.0,"));
 }
 
 TEST(Statistics, QuantitiesTakeOneSample) {

@@ -3,6 +3,7 @@
 #include "cli/cli.h"
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <tuple>
 
 namespace obscura {
 namespace {
@@ -139,14 +140,42 @@ TEST_F(Outputs, ACropHasTheSamePixels) {
     const auto whole = read_picture(folder_ / "whole.exr");
     const auto part = read_picture(folder_ / "part.exr");
     ASSERT_TRUE(whole && part);
-    ASSERT_EQ(whole->pixels.size(), part->pixels.size());
-    for (int y = 0; y < 16; ++y) {
-        for (int x = 0; x < 24; ++x) {
-            const bool inside = x >= 5 && x < 14 && y >= 3 && y < 10;
-            const size_t at = static_cast<size_t>(y * 24 + x) * 4;
-            for (size_t c = at; c < at + 4; ++c) {
-                EXPECT_EQ(part->pixels[c], inside ? whole->pixels[c] : 0) << x << ',' << y;
-            }
+    EXPECT_EQ(part->spec.full_width, 24);
+    EXPECT_EQ(part->spec.full_height, 16);
+    ASSERT_EQ(std::tie(part->spec.x, part->spec.y, part->width, part->height),
+              std::tuple(5, 3, 9, 7))
+        << "the data window";
+    for (int y = 0; y < 7; ++y) {
+        for (int x = 0; x < 9; ++x) {
+            const size_t at = static_cast<size_t>(y * 9 + x) * 4;
+            const size_t there = static_cast<size_t>((y + 3) * 24 + x + 5) * 4;
+            for (size_t c = 0; c < 4; ++c)
+                EXPECT_EQ(part->pixels[at + c], whole->pixels[there + c]) << x << ',' << y;
+        }
+    }
+}
+
+/// PNG has no windows: the image is whole, and black where nothing was rendered.
+TEST_F(Outputs, ACropInAPngLiesInTheWholeImage) {
+    for (const std::string integrator : {"path", "heat"}) {
+        const std::vector<std::string> how = {"--integrator", integrator, "--view", "Raw"};
+        const auto shot = [&](std::vector<std::string> more) {
+            more.insert(more.end(), how.begin(), how.end());
+            expect_result(render("box.gltf", more), 0, "OK");
+        };
+        shot({"-o", "whole.png"});
+        shot({"-o", "part.png", "--crop", "5,3,9,7"});
+        const auto whole = read_picture(folder_ / "whole.png");
+        const auto part = read_picture(folder_ / "part.png");
+        ASSERT_TRUE(whole && part);
+        ASSERT_EQ(part->pixels.size(), whole->pixels.size());
+        const size_t channels = part->channels.size();
+        EXPECT_EQ(part->pixels[0], 0);
+        EXPECT_EQ(part->pixels[(10 * 24 + 14) * channels], 0);
+        if (integrator == "heat") continue;  // whose hottest pixel is another
+        for (size_t c = 0; c < channels; ++c) {
+            const size_t at = (6 * 24 + 9) * channels + c;
+            EXPECT_EQ(part->pixels[at], whole->pixels[at]);
         }
     }
 }

@@ -138,7 +138,7 @@ TEST(FormulaCheck, RaysAlongRulingsFindPhantomsInAKernel) {
     const RaySet rays(truth, few_rays(9216));
     const RayBatch batch = batches_of(rays)[0];
     AnswerList truths;
-    compare_kernel(truth, batch, truth_kernel(truth), {}, &truths, nullptr);
+    compare_kernel(truth, batch, truth_kernel(truth), {}, {.answers = &truths});
     truths.is_truth = true;
     const Kernel kernel{"phantoms", [&](RayBlock& block, std::vector<Answer>& answers) {
                             truth_kernel(truth).ask(block, answers);
@@ -152,8 +152,7 @@ TEST(FormulaCheck, RaysAlongRulingsFindPhantomsInAKernel) {
                                 }
                             }
                         }};
-    const PairFigures figures =
-        compare_kernel(truth, batch, kernel, {&truths}, nullptr, nullptr)[0];
+    const PairFigures figures = compare_kernel(truth, batch, kernel, {&truths}, {})[0];
     const Tally& special = figures.groups[static_cast<size_t>(RayGroup::special)];
     EXPECT_GT(special.of(Finding::false_hit), 10U);
 }

@@ -60,21 +60,23 @@ protected:
         auto built = ReferenceKernels::build(scene_, {});
         ASSERT_TRUE(built);
         kernels_ = std::make_shared<const ReferenceKernels>(std::move(*built));
-        compare_kernel(truth_, batch_, truth_kernel(truth_), {}, &truths_, nullptr);
+        compare_kernel(truth_, batch_, truth_kernel(truth_), {}, {.answers = &truths_});
         truths_.is_truth = true;
     }
 
     /// What is said about Embree's answers, spoilt.
     PairFigures figures(bool occlusion, uint64_t every, const Spoil& spoil) {
         const Kernel kernel = make_kernel(kernels_, {"robust 16", 16, occlusion});
-        return compare_kernel(
-            truth_, batch_, spoilt(kernel, every, spoil), {&truths_}, nullptr, nullptr)[0];
+        return compare_kernel(truth_, batch_, spoilt(kernel, every, spoil), {&truths_}, {})[0];
     }
 
     static std::vector<std::string> faults(const PairFigures& pair) {
         CheckedScene checked;
         checked.pairs = {pair};
-        return faults_of(checked);
+        checked.faults = faults_of(checked);
+        const Result<void> within = check_budget({checked});
+        EXPECT_EQ(within ? "" : within.error().id, checked.faults.empty() ? "" : "E-CROSSCHECK");
+        return checked.faults;
     }
 
     Scene scene_ = mixed_scene();
@@ -182,7 +184,7 @@ TEST(InjectedOcclusion, IsSeenInAClosedRoom) {
     const RaySet rays(truth, options);
     const RayBatch batch = batches_of(rays)[0];
     AnswerList truths;
-    compare_kernel(truth, batch, truth_kernel(truth), {}, &truths, nullptr);
+    compare_kernel(truth, batch, truth_kernel(truth), {}, {.answers = &truths});
     truths.is_truth = true;
     const Kernel dark{"dark",
                       [](RayBlock& block, std::vector<Answer>& answers) {
@@ -191,7 +193,7 @@ TEST(InjectedOcclusion, IsSeenInAClosedRoom) {
                               answer.any = true;
                       },
                       true};
-    const PairFigures pair = compare_kernel(truth, batch, dark, {&truths}, nullptr, nullptr)[0];
+    const PairFigures pair = compare_kernel(truth, batch, dark, {&truths}, {})[0];
     const Tally& camera = pair.groups[static_cast<size_t>(RayGroup::camera)];
     EXPECT_GT(camera.of(Finding::false_hit), camera.rays / 5);
     EXPECT_LT(camera.of(Finding::false_hit), camera.rays / 3);

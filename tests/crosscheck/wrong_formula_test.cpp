@@ -19,7 +19,7 @@ CheckedScene check_spoilt(const Scene& scene, const Spoil& spoil) {
     const TrueScene truth(scene);
     const RaySet rays(truth, few_rays(ray_count));
     AnswerList truths;
-    compare_kernel(truth, batches_of(rays)[0], truth_kernel(truth), {}, &truths, nullptr);
+    compare_kernel(truth, batches_of(rays)[0], truth_kernel(truth), {}, {.answers = &truths});
     truths.is_truth = true;
     const Kernel spoilt{"spoilt", [&](RayBlock& block, std::vector<Answer>& answers) {
                             truth_kernel(truth).ask(block, answers);
@@ -27,7 +27,7 @@ CheckedScene check_spoilt(const Scene& scene, const Spoil& spoil) {
                                 spoil(answer);
                         }};
     CheckedScene checked;
-    checked.pairs = compare_kernel(truth, batches_of(rays)[0], spoilt, {&truths}, nullptr, nullptr);
+    checked.pairs = compare_kernel(truth, batches_of(rays)[0], spoilt, {&truths}, {});
     checked.faults = faults_of(checked);
     return checked;
 }
@@ -64,11 +64,10 @@ TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
     const TrueScene wrong(larger);
     const RaySet rays(truth, few_rays(ray_count / 4));
     AnswerList truths;
-    compare_kernel(truth, batches_of(rays)[0], truth_kernel(truth), {}, &truths, nullptr);
+    compare_kernel(truth, batches_of(rays)[0], truth_kernel(truth), {}, {.answers = &truths});
     truths.is_truth = true;
     CheckedScene checked;
-    checked.pairs = compare_kernel(
-        truth, batches_of(rays)[0], truth_kernel(wrong), {&truths}, nullptr, nullptr);
+    checked.pairs = compare_kernel(truth, batches_of(rays)[0], truth_kernel(wrong), {&truths}, {});
     EXPECT_GT(checked.pairs.at(0).total().of(Finding::depth), 0U);
     EXPECT_FALSE(faults_of(checked).empty());
 }
@@ -109,8 +108,8 @@ TEST(RayBatches, TogetherSayWhatOneDoes) {
                        }};
     const auto figures = [&](const RayBatch& batch) {
         AnswerList truths;
-        compare_kernel(truth, batch, truth_kernel(truth), {}, &truths, nullptr);
-        return compare_kernel(truth, batch, blind, {&truths}, nullptr, nullptr)[0];
+        compare_kernel(truth, batch, truth_kernel(truth), {}, {.answers = &truths});
+        return compare_kernel(truth, batch, blind, {&truths}, {})[0];
     };
     const PairFigures whole = figures(batches_of(rays)[0]);
     PairFigures parts = figures({rays, 0, 5});
@@ -130,14 +129,14 @@ TEST(WrongFormula, SaysTheSameOfASecondKernelWithTheSameAnswers) {
     const RaySet rays(truth, few_rays(ray_count));
     const RayBatch batch = batches_of(rays)[0];
     AnswerList truths;
-    compare_kernel(truth, batch, truth_kernel(truth), {}, &truths, nullptr);
+    compare_kernel(truth, batch, truth_kernel(truth), {}, {.answers = &truths});
     const auto off_by = [&](double factor) {
         const Kernel kernel{"off", [&truth, factor](RayBlock& block, std::vector<Answer>& answers) {
                                 truth_kernel(truth).ask(block, answers);
                                 for (Answer& answer : answers)
                                     answer.t *= factor;
                             }};
-        return compare_kernel(truth, batch, kernel, {&truths}, nullptr, nullptr)[0];
+        return compare_kernel(truth, batch, kernel, {&truths}, {})[0];
     };
     const PairFigures first = off_by(1.00001);
     const PairFigures right = off_by(1);

@@ -1,6 +1,6 @@
 // tests/gltf/accessors_test.cpp - every component type, shape and layout of accessors.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/accessors.h"
+#include "gltf/decode/accessors.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // tests/gltf/buffers_test.cpp - where buffers come from, and arithmetic that cannot overflow.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/buffers.h"
+#include "gltf/decode/buffers.h"
 
 #include "gltf/gltf_files.h"
 

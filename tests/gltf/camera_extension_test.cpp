@@ -1,6 +1,8 @@
 // tests/gltf/camera_extension_test.cpp - OBSCURA_camera: what is read, and what the schema says.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/camera_extension.h"
+#include "gltf/parse/camera_extension.h"
+
+#include "gltf/values.h"
 
 #include <gtest/gtest.h>
 
@@ -63,7 +65,7 @@ json schema() {
 bool reads(const json& extension) {
     JsonFault fault;
     fault.file = "test";
-    read_camera_extension(JsonReader(extension, "", fault));
+    read_camera_extension(ValueReader(testing_gltf::value_of(extension), "", fault));
     return !fault.error;
 }
 
@@ -118,7 +120,8 @@ TEST(CameraExtension, ModelsAreMeantByWhatIsThere) {
     const auto model = [](const char* text) {
         JsonFault fault;
         const json extension = json::parse(text);
-        return read_camera_extension(JsonReader(extension, "", fault)).model;
+        return read_camera_extension(ValueReader(testing_gltf::value_of(extension), "", fault))
+            .model;
     };
     EXPECT_EQ(model("{}"), std::nullopt);
     EXPECT_EQ(model(R"({"lens": {"fstop": 2}})"), CameraModel::thin_lens);

@@ -1,6 +1,6 @@
 // tests/gltf/deform_test.cpp - morph targets and skins against vertices worked out by hand.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/deform.h"
+#include "gltf/geometry/deform.h"
 
 #include "gltf/animated_files.h"
 

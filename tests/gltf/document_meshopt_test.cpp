@@ -1,6 +1,5 @@
 // tests/gltf/document_meshopt_test.cpp - whole assets whose views are compressed, good and bad.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/document_parts.h"
 #include "gltf/gltf_files.h"
 #include "gltf/meshopt_encode.h"
 

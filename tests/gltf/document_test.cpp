@@ -1,6 +1,6 @@
 // tests/gltf/document_test.cpp - a table of broken assets: what each is refused with (B, C, E, G).
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/document.h"
+#include "gltf/parse/document.h"
 
 #include "gltf/gltf_files.h"
 

@@ -1,6 +1,6 @@
 // tests/gltf/draco_mesh_test.cpp - Draco-compressed primitives become what was compressed.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/draco_mesh.h"
+#include "gltf/decode/draco_mesh.h"
 
 #include "gltf/gltf_files.h"
 

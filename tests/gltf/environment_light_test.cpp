@@ -1,6 +1,6 @@
 // tests/gltf/environment_light_test.cpp - EXT_lights_image_based from a file into the world.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/environment_light.h"
+#include "gltf/materials/environment_light.h"
 
 #include "gltf/animated_files.h"
 #include "gltf/pictures.h"

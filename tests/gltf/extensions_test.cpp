@@ -1,6 +1,6 @@
 // tests/gltf/extensions_test.cpp - what is said about extensions that are not understood.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/extensions.h"
+#include "gltf/parse/extensions.h"
 
 #include "gltf/gltf_files.h"
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/memory_limit.h"
 #include <cmath>
 #include <functional>
 
@@ -67,6 +68,17 @@ const std::vector<Fault> mesh_faults = {
      "#/meshes/0/primitives/0",
      0,
      {0, 0, 1}},
+    {"C11 no vertices",
+     [](AssetBuilder& b) {
+         primitive_of(b)["indices"] =
+             b.add_accessor("SCALAR", 5123, std::vector<uint16_t>{0, 1, 2});
+         b.tree["accessors"].back()["count"] = 0;
+     },
+     65,
+     "E-ACC-COUNT",
+     "#/accessors/",
+     0,
+     {0, 1, 0}},
     {"C12 no number",
      [](AssetBuilder& b) { set_first_float(b, 0, NAN); },
      65,
@@ -187,6 +199,33 @@ void expect_fault(const Fault& fault) {
     EXPECT_EQ(lenient.lost.textures, fault.lost.textures);
     EXPECT_EQ(lenient.lost.primitives, fault.lost.primitives);
     EXPECT_EQ(lenient.lost.triangles, fault.lost.triangles);
+}
+
+/// Strictly the accessor is the fault; leniently the primitive is one, E-MESH-EMPTY, and left out.
+TEST(Faults, PrimitivesWithoutVerticesAreLeftOut) {
+    AssetBuilder builder = textured_builder();
+    primitive_of(builder)["indices"] =
+        builder.add_accessor("SCALAR", 5123, std::vector<uint16_t>{0, 1, 2});
+    builder.tree["accessors"].back()["count"] = 0;
+    const LenientlyLoaded lenient = load_leniently(builder.finished());
+    ASSERT_TRUE(lenient.scene) << lenient.text();
+    EXPECT_TRUE(lenient.warns("#/meshes/0/primitives/0: the primitive has no vertices"))
+        << lenient.warnings;
+}
+
+TEST(Faults, NoMemoryIsAnErrorOfItsOwn) {
+    AssetBuilder builder;
+    builder.add_accessor("VEC3", 5126, std::vector<float>(30000));
+    builder.add_mesh({{"attributes", {{"POSITION", 0}}}});
+    builder.add_root({{"mesh", 0}});
+    const TempFolder folder;
+    std::ofstream(folder.path() / "scene.gltf") << builder.finished().dump();
+    Log log(Verbosity::quiet);
+    const test::MemoryLimit limit(50000);
+    const Result<Scene> scene = load_gltf(folder.path() / "scene.gltf", {}, log);
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().id, "E-MEMORY") << scene.error().message;
+    EXPECT_EQ(scene.error().code, ExitCode::out_of_memory);
 }
 
 TEST(Faults, OfMeshes) {

@@ -1,6 +1,6 @@
 // tests/gltf/glb_test.cpp - the binary container, whole, broken and cut off (faults A).
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/glb.h"
+#include "gltf/parse/glb.h"
 
 #include "gltf/gltf_files.h"
 

@@ -1,6 +1,6 @@
 // tests/gltf/instancing_test.cpp - EXT_mesh_gpu_instancing places a mesh once for each row.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/instancing.h"
+#include "gltf/geometry/instancing.h"
 
 #include "gltf/gltf_files.h"
 

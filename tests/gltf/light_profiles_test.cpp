@@ -1,6 +1,6 @@
 // tests/gltf/light_profiles_test.cpp - EXT_lights_ies from a file into the world.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/light_profiles.h"
+#include "gltf/materials/light_profiles.h"
 
 #include "gltf/gltf_files.h"
 #include "light/punctual_sample.h"

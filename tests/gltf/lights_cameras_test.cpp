@@ -1,6 +1,6 @@
 // tests/gltf/lights_cameras_test.cpp - lights and cameras in the world.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/lights_cameras.h"
+#include "gltf/materials/lights_cameras.h"
 
 #include "gltf/gltf_files.h"
 

@@ -1,6 +1,6 @@
 // tests/gltf/materials_test.cpp - factors, flags, texture slots and the rows they become.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/materials.h"
+#include "gltf/materials/materials.h"
 
 #include "gltf/gltf_files.h"
 #include "gltf/pictures.h"
@@ -143,8 +143,9 @@ TEST(Materials, UvSetsBeyondSevenAre65OrIgnored) {
             const json tree = textured_triangle(base_texture(info));
             const Loaded strict = load_tree(tree);
             EXPECT_EQ(strict.id(), "E-MAT-TEXCOORD");
-            EXPECT_NE(strict.text().find("texCoord is " + std::to_string(set)), std::string::npos)
-                << strict.text();
+            EXPECT_THAT(strict.text(),
+                        testing::AnyOf(testing::HasSubstr("texCoord is " + std::to_string(set)),
+                                       testing::HasSubstr("texCoord is 2147483647 or more")));
             EXPECT_NE(strict.text().find("largest that is read is 7"), std::string::npos);
             LoadOptions options;
             options.lenient = true;

@@ -1,9 +1,9 @@
 // tests/gltf/mesh_part_test.cpp - primitives of every mode and attribute as triangle lists.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/mesh_part.h"
+#include "gltf/geometry/mesh_part.h"
 
+#include "gltf/geometry/primitive_modes.h"
 #include "gltf/gltf_files.h"
-#include "gltf/primitive_modes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // tests/gltf/mesh_shading_test.cpp - normals and tangents: given, broken, missing.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/mesh_part.h"
+#include "gltf/geometry/mesh_shading.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,8 @@
 // tests/gltf/meshes_test.cpp - meshes in the world: baked, mirrored, instanced.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/meshes.h"
+#include "gltf/geometry/meshes.h"
 
+#include "gltf/geometry/mesh_append.h"
 #include "gltf/gltf_files.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // tests/gltf/meshopt_attributes_test.cpp - version 1 of the attribute codec, in all its modes.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/meshopt_attributes.h"
+#include "gltf/decode/meshopt_attributes.h"
 
 #include "gltf/gltf_files.h"
 

@@ -1,6 +1,6 @@
 // tests/gltf/meshopt_test.cpp - compressed buffer views become what was compressed, or an error.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/meshopt.h"
+#include "gltf/decode/meshopt.h"
 
 #include "gltf/gltf_files.h"
 #include "gltf/meshopt_encode.h"

@@ -1,6 +1,6 @@
 // tests/gltf/node_graph_test.cpp - deep and wide trees, transforms, and what makes one singular.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/node_graph.h"
+#include "gltf/parse/node_graph.h"
 
 #include "gltf/gltf_files.h"
 

@@ -1,6 +1,6 @@
 // tests/gltf/particles_test.cpp - the order of spheres in blocks, and that it is kept over poses.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/particles.h"
+#include "gltf/geometry/particles.h"
 
 #include "shape/sphere_cluster.h"
 

@@ -1,6 +1,6 @@
 // tests/gltf/shapes_test.cpp - analytic shapes in glTF: what loads, and what is refused.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/shapes.h"
+#include "gltf/geometry/shapes.h"
 
 #include "gltf/gltf_files.h"
 
@@ -142,6 +142,22 @@ TEST(Shapes, ParticlesFillBlocks) {
     EXPECT_NEAR(loaded.scene->bounds.high.x, 21, 1e-3);
     builder.tree["extensions"]["OBSCURA_shape"]["shapes"][0]["spheres"]["positions"] = 1;
     EXPECT_EQ(load_tree(builder.finished()).id(), "E-SHAPE-ACCESSOR");
+}
+
+TEST(Shapes, ParticlesMustFitTogetherAndBeCountable) {
+    AssetBuilder builder = shape_builder({{"type", "spheres"}});
+    json& spheres = builder.tree["extensions"]["OBSCURA_shape"]["shapes"][0]["spheres"];
+    const auto positions = builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 0, 1, 0, 0});
+    spheres = {{"positions", positions},
+               {"radii", builder.add_accessor("SCALAR", 5126, std::vector<float>{1})}};
+    EXPECT_EQ(load_tree(builder.finished()).id(), "E-SHAPE-SPHERES");
+    json tree = builder.finished();
+    for (json& accessor : tree["accessors"]) {  // zeros without data
+        accessor["count"] = (1U << 29) + 1;
+        accessor.erase("bufferView");
+    }
+    EXPECT_EQ(load_tree(tree).id(), "E-LIMIT-SPHERES");
+    EXPECT_EQ(load_tree(tree).code(), 77);
 }
 
 struct BadShape {

@@ -1,6 +1,6 @@
 // tests/gltf/specular_glossiness_test.cpp - what becomes of specular-glossiness materials.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/specular_glossiness.h"
+#include "gltf/parse/specular_glossiness.h"
 
 #include "gltf/gltf_files.h"
 #include "gltf/pictures.h"

@@ -1,6 +1,6 @@
 // tests/gltf/splats_test.cpp - Gaussian splats from files: attributes, places, and what is wrong.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/splats.h"
+#include "gltf/geometry/splats.h"
 
 #include "gltf/gltf_files.h"
 

@@ -1,10 +1,10 @@
 // tests/gltf/strokes_test.cpp - points and lines of every mode, where they lie and what colour.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/strokes.h"
+#include "gltf/geometry/strokes.h"
 
+#include "gltf/geometry/primitive_modes.h"
 #include "gltf/gltf_files.h"
 #include "gltf/pictures.h"
-#include "gltf/primitive_modes.h"
 
 #include <gtest/gtest.h>
 

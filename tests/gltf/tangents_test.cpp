@@ -1,6 +1,6 @@
 // tests/gltf/tangents_test.cpp - MikkTSpace tangents on shapes whose answer is known.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/tangents.h"
+#include "gltf/geometry/tangents.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // tests/gltf/textures_test.cpp - images in the arena: shared, twice, missing, broken, too large.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/textures.h"
+#include "gltf/materials/textures.h"
 
 #include "gltf/gltf_files.h"
 #include "gltf/pictures.h"

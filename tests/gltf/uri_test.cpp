@@ -1,6 +1,6 @@
 // tests/gltf/uri_test.cpp - URIs: data, files inside the asset's folder, and nothing else.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/uri.h"
+#include "gltf/parse/uri.h"
 
 #include "gltf/gltf_files.h"
 

@@ -1,6 +1,6 @@
 // tests/gltf/variants_test.cpp - KHR_materials_variants: the chosen look and no other.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/variants.h"
+#include "gltf/parse/variants.h"
 
 #include "gltf/gltf_files.h"
 

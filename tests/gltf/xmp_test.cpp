@@ -1,6 +1,6 @@
 // tests/gltf/xmp_test.cpp - the packet that the asset names, and no other.
 // SPDX-License-Identifier: Apache-2.0
-#include "gltf/xmp.h"
+#include "gltf/parse/xmp.h"
 
 #include "gltf/gltf_files.h"
 

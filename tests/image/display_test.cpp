@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/display.h"
 
+#include "base/setting_names.h"
 #include "image/pbr_neutral.h"
 #include "image/test_pictures.h"
 
@@ -182,11 +183,11 @@ TEST_F(Display, ManyPixelsAndManyThreadsGiveTheSameAsOne) {
 TEST_F(Display, UnknownNamesAre78AndListWhatThereIs) {
     const Error display = error_of(DisplayOptions{{}, "Projector", {}, 0});
     EXPECT_EQ(display.id, "E-OCIO-DISPLAY");
-    EXPECT_EQ(display.where, "--display Projector");
+    EXPECT_EQ(display.where, setting("display") + " Projector");
     EXPECT_NE(display.message.find("'sRGB'"), std::string::npos) << display.message;
     const Error view = error_of(DisplayOptions{{}, {}, "Filmic", 0});
     EXPECT_EQ(view.id, "E-OCIO-VIEW");
-    EXPECT_EQ(view.where, "--view Filmic");
+    EXPECT_EQ(view.where, setting("view") + " Filmic");
     for (const char* name :
          {"'ACES 1.0 SDR'", "'Un-tone-mapped'", "'Khronos PBR Neutral'", "'Raw'"}) {
         EXPECT_NE(view.message.find(name), std::string::npos) << view.message;
@@ -201,7 +202,7 @@ TEST_F(Display, UnreadableConfigsAre78) {
                                     (folder_ / "config.ocio").string()}) {
         const Error by_option = error_of(DisplayOptions{file, {}, {}, 0});
         EXPECT_EQ(by_option.id, "E-OCIO-FILE");
-        EXPECT_EQ(by_option.where, "--ocio " + file);
+        EXPECT_EQ(by_option.where, setting("ocio") + " " + file);
         EXPECT_FALSE(by_option.message.empty());
         ::setenv("OCIO", file.c_str(), 1);
         const Error by_variable = error_of(DisplayOptions{});

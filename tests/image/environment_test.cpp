@@ -11,6 +11,7 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <gtest/gtest.h>
 
+#include "support/temp_folder.h"
 #include <cmath>
 #include <limits>
 #include <sys/stat.h>
@@ -92,6 +93,22 @@ TEST_F(Environment, ExrTiled) {
     EXPECT_EQ(
         read(write_exr({"R", "G", "B"}, ramp(64, 32, 3), OIIO::TypeDesc::HALF, 64, 16)).pixels,
         ramp(64, 32, 3));
+}
+
+/// OpenEXR would make room for them before it has read anything.
+TEST_F(Environment, ExrTilesBeyondAllSizesAre67) {
+    const std::filesystem::path file =
+        write_exr({"R", "G", "B"}, ramp(64, 32, 3), OIIO::TypeDesc::HALF, 64, 16);
+    std::string bytes = read_whole_file(file);
+    const std::string name("tiles\0tiledesc\0", 15);
+    const size_t value = bytes.find(name) + name.size() + 4;
+    ASSERT_LT(value, bytes.size());
+    bytes[value + 2] = 0x10;  // a width of 16 becomes one of a million
+    std::ofstream(file, std::ios::binary) << bytes;
+    const Error error = error_of(file);
+    EXPECT_EQ(error.code, ExitCode::bad_resource);
+    EXPECT_EQ(error.id, "E-ENV-CORRUPT");
+    EXPECT_NE(error.message.find("65536"), std::string::npos) << error.message;
 }
 
 TEST_F(Environment, ExrAlphaAndOtherChannelsAreIgnored) {
@@ -233,6 +250,16 @@ TEST_F(Environment, OtherFormatsAre67AndNamed) {
         EXPECT_EQ(error.id, "E-ENV-FORMAT");
         EXPECT_NE(error.message.find("OpenEXR"), std::string::npos);
     }
+}
+
+TEST_F(Environment, WhatIsNotReadOfAFormatIs69) {
+    ByteVector lossless;  // a JPEG's header by another method
+    append(lossless, {0xFF, 0xD8, 0xFF, 0xC3, 0, 11, 8, 0, 8, 0, 8, 1, 1, 0x11, 0});
+    lossless.resize(200);
+    write_bytes(folder_ / "lossless.jpg", lossless);
+    const Error error = error_of(folder_ / "lossless.jpg");
+    EXPECT_EQ(error.id, "E-ENV-FEATURE");
+    EXPECT_EQ(error.code, ExitCode::unsupported);
 }
 
 TEST_F(Environment, OtherAspectsAre65) {

@@ -11,12 +11,13 @@
 
 namespace obscura::layout {
 
-inline constexpr size_t max_file_lines = 400;
+inline constexpr size_t max_file_lines = 500;
 inline constexpr size_t max_function_lines = 60;
 inline constexpr size_t max_columns = 100;
+inline constexpr size_t max_parameters = 5;
 
 /// The rooms in the order of the corridor: each may include itself and those before it.
-inline constexpr std::array<std::string_view, 16> rooms{"base",
+inline constexpr std::array<std::string_view, 17> rooms{"base",
                                                         "math",
                                                         "shape",
                                                         "camera",
@@ -28,6 +29,7 @@ inline constexpr std::array<std::string_view, 16> rooms{"base",
                                                         "accel",
                                                         "stages",
                                                         "render",
+                                                        "session",
                                                         "crosscheck",
                                                         "explain",
                                                         "bench",
@@ -40,25 +42,49 @@ struct Owner {
 };
 
 /// To add a library: one line here, one in third_party/README.md, one in third_party/packages.txt.
-inline constexpr std::array<Owner, 19> owners{{{"tbb/", "base"},
-                                               {"oneapi/", "base"},
-                                               {"tl/", "base"},
-                                               {"xsimd", "math"},
-                                               {"immintrin.h", "base math"},
-                                               {"arm_neon.h", "base math"},
-                                               {"OpenImageIO/", "image"},
-                                               {"OpenEXR/", "image"},
-                                               {"Imath/", "image"},
-                                               {"OpenColorIO/", "image"},
-                                               {"webp/", "image"},
-                                               {"zstd", "image"},
-                                               {"nlohmann/", "gltf"},
-                                               {"draco/", "gltf"},
-                                               {"meshoptimizer", "gltf"},
-                                               {"embree3/", "accel"},
-                                               {"embree4/", "accel"},
-                                               {"CLI/", "app"},
-                                               {"fmt/", "image crosscheck explain bench app"}}};
+inline constexpr std::array<Owner, 21> owners{
+    {{"tbb/", "base"},
+     {"oneapi/", "base"},
+     {"tl/", "base"},
+     {"xsimd", "math"},
+     {"immintrin.h", "base math"},
+     {"arm_neon.h", "base math"},
+     {"OpenImageIO/", "image"},
+     {"OpenEXR/", "image"},
+     {"Imath/", "image"},
+     {"OpenColorIO/", "image"},
+     {"webp/", "image"},
+     {"zstd", "image"},
+     {"nlohmann/", "base gltf"},
+     {"tiny_gltf.h", "gltf"},
+     {"draco/", "gltf"},
+     {"meshoptimizer", "gltf"},
+     {"embree3/", "accel"},
+     {"embree4/", "accel"},
+     {"CLI/", "app"},
+     {"obscura/", "session"},
+     {"fmt/", "image session crosscheck explain bench app"}}};
+
+/// Headers that other rooms may include, of rooms so large that they have an inside.
+struct PublicHeaders {
+    std::string_view room;
+    std::string_view headers;  ///< separated by spaces; relative to the room
+};
+
+inline constexpr std::array<PublicHeaders, 4> public_headers{
+    {{"gltf", "load.h report.h camera_json.h asset_files.h"},
+     {"crosscheck",
+      "budget.h check_scene.h report_image.h report_json.h report_table.h truth.h box_tree.h "
+      "shape_side.h"},
+     {"explain", "explain_pixel.h report_json.h report_svg.h report_text.h"},
+     {"bench",
+      "asset_files.h machine.h measure_load.h measure_view.h report.h report_json.h "
+      "report_svg.h report_table.h compare.h"}}};
+
+/// What is known to break a rule and waits to be mended: "file: what". To be emptied, not filled.
+inline constexpr std::array<std::string_view, 2> not_yet_mended{
+    "gltf/parse/model.cpp: `bool keep_image`",  // tinygltf calls it so
+    "surface/texture_row.h: `constexpr uint32_t pack_sampler`"};
 
 /// What the operating system and the C library bring along: everybody's.
 inline constexpr std::array<std::string_view, 15> system_headers{"dirent.h",
@@ -97,13 +123,22 @@ inline std::string problem(std::string_view file,
     return join({file, ":", std::to_string(line), ": ", join(text)});
 }
 
+inline std::optional<std::string> check_public(const Include& include, std::string_view room) {
+    for (const PublicHeaders& inside : public_headers) {
+        if (inside.room == room || !include.path.starts_with(join({inside.room, "/"}))) continue;
+        if (has_word(inside.headers, include.path.substr(inside.room.size() + 1))) continue;
+        return join({"\"", include.path, "\" is inside its room, which offers ", inside.headers});
+    }
+    return std::nullopt;
+}
+
 inline std::optional<std::string> check_quoted(const Include& include, std::string_view room) {
     const std::string other = include.path.substr(0, include.path.find('/'));
     const std::optional<size_t> theirs = room_number(other);
     if (!theirs || other == include.path) {
         return join({"\"", include.path, "\" does not begin with a room: write \"room/file.h\""});
     }
-    if (*theirs <= room_number(room).value_or(0)) return std::nullopt;
+    if (*theirs <= room_number(room).value_or(0)) return check_public(include, room);
     return join({room, " may not include ", other, ": that room is further down the corridor"});
 }
 
@@ -165,7 +200,39 @@ inline Problems check_head(std::string_view file, std::string_view text) {
     return problems;
 }
 
-/// Files of at most 400 lines, functions of at most 60.
+/// What a reader counts as columns: bytes that begin a character of UTF-8.
+inline size_t columns(std::string_view line) {
+    return static_cast<size_t>(std::count_if(line.begin(), line.end(), [](char c) {
+        return (static_cast<unsigned>(c) & 0xC0U) != 0x80;
+    }));
+}
+
+/// Lines of at most 100 columns.
+inline Problems check_columns(std::string_view file, std::string_view text) {
+    Problems problems;
+    const std::vector<std::string> lines = split_lines(text);
+    for (size_t i = 0; i < lines.size(); ++i) {
+        if (columns(lines[i]) <= max_columns) continue;
+        problems.push_back(
+            problem(file, i + 1, {"the line has ", std::to_string(columns(lines[i])), " columns"}));
+    }
+    return problems;
+}
+
+/// Functions that take at most 5 parameters; more become a struct.
+inline Problems check_parameters(std::string_view file, std::string_view text) {
+    Problems problems;
+    for (const Function& function : find_functions(text).functions) {
+        if (function.parameters <= max_parameters) continue;
+        problems.push_back(problem(
+            file,
+            function.first_line,
+            {"`", function.name, "` has ", std::to_string(function.parameters), " parameters"}));
+    }
+    return problems;
+}
+
+/// Files of at most 500 lines, functions of at most 60.
 inline Problems check_sizes(std::string_view file, std::string_view text) {
     Problems problems;
     const size_t lines = split_lines(text).size();

@@ -103,10 +103,42 @@ TEST(LayoutHead, PathPurposeLicenceAndPragma) {
     EXPECT_EQ(check_head("base/a.h", "").size(), 3U);
 }
 
-TEST(LayoutSizes, FourHundredLinesAreTheLimit) {
-    EXPECT_THAT(check_sizes("a.cpp", std::string(400, '\n')), IsEmpty());
-    EXPECT_THAT(check_sizes("a.cpp", std::string(401, '\n')),
-                ElementsAre(HasSubstr("the file has 401 lines")));
+TEST(LayoutIncludes, TheInsideOfALargeRoomIsItsOwn) {
+    EXPECT_THAT(check_includes("gltf/load.cpp", "#include \"gltf/pose.h\"\n"), IsEmpty());
+    EXPECT_THAT(check_includes("bench/a.cpp", "#include \"gltf/load.h\"\n"), IsEmpty());
+    EXPECT_THAT(check_includes("bench/a.cpp", "#include \"gltf/pose.h\"\n"),
+                ElementsAre(HasSubstr("bench/a.cpp:1: \"gltf/pose.h\" is inside its room")));
+}
+
+TEST(LayoutSizes, FiveHundredLinesAreTheLimit) {
+    EXPECT_THAT(check_sizes("a.cpp", std::string(500, '\n')), IsEmpty());
+    EXPECT_THAT(check_sizes("a.cpp", std::string(501, '\n')),
+                ElementsAre(HasSubstr("the file has 501 lines")));
+}
+
+TEST(LayoutSizes, ALineHasAHundredColumns) {
+    EXPECT_THAT(check_columns("a.cpp", std::string(100, 'x') + "\n"), IsEmpty());
+    EXPECT_THAT(check_columns("a.cpp", "\xC3\xA9" + std::string(99, 'x') + "\n"), IsEmpty());
+    EXPECT_THAT(check_columns("a.cpp", "\n" + std::string(101, 'x') + "\n"),
+                ElementsAre(HasSubstr("a.cpp:2: the line has 101 columns")));
+}
+
+TEST(LayoutSizes, FiveParametersAreTheLimit) {
+    for (const std::string head : {"void f()",
+                                   "void f(int a, int b, int c, int d, int e)",
+                                   "S::S(int a) : a_(a), b_(1), c_(2), d_(3), e_(4), g_(5)",
+                                   "void f(std::map<int, std::pair<int, int>> a, int (&b)[6])",
+                                   "void f(A a = {1, 2, 3, 4, 5, 6}, B b = g(1, 2, 3, 4, 5))"}) {
+        EXPECT_THAT(check_parameters("a.cpp", head + " { }\n"), IsEmpty()) << head;
+    }
+    for (const std::string head :
+         {"void f(int a, int b, int c, int d, int e, int g)",
+          "bool operator()(int a, int b, int c, int d, int e, int g)",
+          "template <class A, class B> void f(A a, B b, A c, B d, A e, B g)"}) {
+        EXPECT_THAT(check_parameters("a.cpp", head + " { }\n"),
+                    ElementsAre(HasSubstr("has 6 parameters")))
+            << head;
+    }
 }
 
 TEST(LayoutSizes, SixtyLinesAreTheLimitOfAFunction) {

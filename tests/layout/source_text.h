@@ -144,6 +144,7 @@ struct Function {
     std::string name;
     size_t first_line = 0;
     size_t last_line = 0;
+    size_t parameters = 0;
     size_t lines() const { return last_line - first_line + 1; }
 };
 
@@ -202,6 +203,7 @@ private:
         }
         Function function;
         function.name = head.substr(0, head.find('('));
+        function.parameters = parameter_count(head);
         function.first_line = line_of(first_code());
         skip_braces(list);
         function.last_line = line_of(at_ - 1);
@@ -270,6 +272,27 @@ private:
             if (head.starts_with(word) || head.starts_with(join({" ", word}))) return true;
         }
         return false;
+    }
+
+    /// Commas of the first parenthesised list (of a call operator: the second) that are not inside
+    /// other brackets, and one more.
+    static size_t parameter_count(const std::string& head) {
+        size_t at = head.find('(');
+        if (head.substr(0, at).ends_with("operator") && head.compare(at, 2, "()") == 0)
+            at = head.find('(', at + 1);
+        int depth = 0;
+        bool any = false;
+        size_t commas = 0;
+        for (; at < head.size(); ++at) {
+            const char c = head[at];
+            any = any || (depth > 0 && c != ')' && !is_space(c));
+            commas += c == ',' && depth == 1 ? 1 : 0;
+            const bool arrow = c == '>' && at > 0 && head[at - 1] == '-';
+            if (std::string_view("([{<").find(c) != std::string_view::npos) ++depth;
+            if (std::string_view(")]}>").find(c) != std::string_view::npos && !arrow) --depth;
+            if (depth == 0) break;
+        }
+        return any ? commas + 1 : 0;
     }
 
     /// Moves behind the brace that closes the one at `at_`.

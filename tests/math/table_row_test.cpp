@@ -1,50 +1,104 @@
-// tests/math/table_row_test.cpp - a shared row and rows of each lane's own read the same words.
+// tests/math/table_row_test.cpp - a shared row and rows of each lane's own read the same members.
 // SPDX-License-Identifier: Apache-2.0
 #include "math/table_row.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 namespace obscura {
 namespace {
 
-constexpr int words = 5;
+/// Where a record within a record lies.
+struct Place {
+    int32_t row = 0;
+    float at[3] = {0, 0, 0};
+};
 
-std::vector<int32_t> table_of(int rows) {
-    std::vector<int32_t> table;
-    for (int i = 0; i < rows * words; ++i)
-        table.push_back(float_bits(100.0F + static_cast<float>(i)));
+struct Record {
+    float size = 0;
+    int32_t kind = 0;
+    Place place;
+    float grid[2][2] = {{0, 0}, {0, 0}};
+    uint32_t flags = 0;
+};
+constexpr int words = static_cast<int>(sizeof(Record) / 4);
+
+/// The same members in another order.
+struct Reordered {
+    uint32_t flags = 0;
+    float grid[2][2] = {{0, 0}, {0, 0}};
+    Place place;
+    float size = 0;
+    int32_t kind = 0;
+};
+
+static_assert(word_of<&Record::size> * 4 == offsetof(Record, size));
+static_assert(word_of<&Record::kind> * 4 == offsetof(Record, kind));
+static_assert(word_of<&Record::place> * 4 == offsetof(Record, place));
+static_assert(word_of<&Record::place, &Place::at> * 4 ==
+              offsetof(Record, place) + offsetof(Place, at));
+static_assert(word_of<&Record::grid> * 4 == offsetof(Record, grid));
+static_assert(word_of<&Record::flags> * 4 == offsetof(Record, flags));
+static_assert(word_of<&Reordered::flags> == 0 && word_of<&Reordered::kind> == words - 1);
+
+/// Another number in every member of every row.
+template <typename R>
+std::vector<R> table_of(int rows) {
+    std::vector<R> table(static_cast<size_t>(rows));
+    for (int i = 0; i < rows; ++i) {
+        R& r = table[static_cast<size_t>(i)];
+        const int32_t start = 100 * i;
+        const auto number = [&](int k) { return static_cast<float>(start + k) + 0.5F; };
+        r.size = number(1);
+        r.kind = start + 2;
+        r.place = {start + 3, {number(4), number(5), number(6)}};
+        r.grid[0][0] = number(7);
+        r.grid[0][1] = number(8);
+        r.grid[1][0] = number(9);
+        r.grid[1][1] = number(10);
+        r.flags = static_cast<uint32_t>(start) + 11;
+    }
     return table;
 }
 
-/// Reads all words of the given rows, one row a lane, and compares with the table.
+/// Reads all members of the given rows, one row a lane, and compares with the table.
+template <typename R>
 void expect_rows(const int32_t (&rows)[16], bool shared) {
-    const std::vector<int32_t> table = table_of(20);
-    const TableRow<Lanes> row(table.data(), load(rows), words);
+    const std::vector<R> table = table_of<R>(20);
+    const TableRow<Lanes, R> row(table.data(), load(rows));
     EXPECT_EQ(row.shared(), shared);
-    for (int word = 0; word < words; ++word) {
-        float numbers[16];
-        int32_t integers[16];
-        int32_t varying[16];
-        store(numbers, row.number(word));
-        store(integers, row.integer(word));
-        store(varying, row.varying_integer(LanesI(word)));
-        for (int lane = 0; lane < lane_count; ++lane) {
-            const int32_t expected = table[static_cast<size_t>(rows[lane] * words + word)];
-            EXPECT_EQ(integers[lane], expected);
-            EXPECT_EQ(varying[lane], expected);
-            EXPECT_EQ(numbers[lane], bits_float(expected));
-        }
+    const auto expect = [&](const auto& lanes, const auto& value_of) {
+        std::remove_cvref_t<decltype(value_of(table[0]))> read[16];
+        store(read, lanes);
+        for (int lane = 0; lane < lane_count; ++lane)
+            EXPECT_EQ(read[lane], value_of(table[static_cast<size_t>(rows[lane])]));
+    };
+    expect(row.template number<&R::size>(), [](const R& r) { return r.size; });
+    expect(row.template integer<&R::kind>(), [](const R& r) { return r.kind; });
+    expect(row.template integer<&R::flags>(),
+           [](const R& r) { return static_cast<int32_t>(r.flags); });
+    expect(row.template integer<&R::place, &Place::row>(), [](const R& r) { return r.place.row; });
+    for (int k = 0; k < 3; ++k) {
+        expect(row.template number<&R::place, &Place::at>(k),
+               [&](const R& r) { return r.place.at[k]; });
     }
+    const Four<Lanes> grid = row.template four_numbers<&R::grid>();
+    expect(grid.x, [](const R& r) { return r.grid[0][0]; });
+    expect(grid.y, [](const R& r) { return r.grid[0][1]; });
+    expect(grid.w, [](const R& r) { return r.grid[1][1]; });
+    const Vec3<Lanes> vector = row.template vector<&R::grid>();
+    expect(vector.z, [](const R& r) { return r.grid[1][0]; });
 }
 
 TEST(TableRow, LanesThatShareARow) {
     int32_t rows[16];
     for (const int32_t row : {0, 7, 19}) {
         std::fill_n(rows, 16, row);
-        expect_rows(rows, true);
+        expect_rows<Record>(rows, true);
+        expect_rows<Reordered>(rows, true);
     }
 }
 
@@ -53,17 +107,38 @@ TEST(TableRow, OneLaneThatDiffersIsEnough) {
         int32_t rows[16];
         std::fill_n(rows, 16, 3);
         rows[lane] = 11;
-        expect_rows(rows, false);
+        expect_rows<Record>(rows, false);
+        expect_rows<Reordered>(rows, false);
     }
 }
 
 TEST(TableRow, OneWordOfASharedRowAndScalars) {
-    const std::vector<int32_t> table = table_of(4);
-    const TableRow<Lanes> lanes(table.data(), LanesI(2), words);
-    EXPECT_EQ(lanes.one_integer(3), table[13]);
-    const TableRow<double> scalar(table.data(), 2, words);
+    const std::vector<Record> table = table_of<Record>(4);
+    const TableRow<Lanes, Record> lanes(table.data(), LanesI(2));
+    EXPECT_EQ((lanes.one_integer<&Record::kind>()), 202);
+    const TableRow<double, Record> scalar(table.data(), 2);
     EXPECT_TRUE(scalar.shared());
-    EXPECT_EQ(scalar.number(4), 114.0);
+    EXPECT_EQ((scalar.number<&Record::place, &Place::at>(0)), 204.5);
+}
+
+struct Levels {
+    float first = 0;
+    int32_t offset[4] = {0, 0, 0, 0};
+};
+
+TEST(TableRow, AnotherElementForEveryLane) {
+    const std::vector<Levels> table = {{0, {1, 2, 3, 4}}, {0, {5, 6, 7, 8}}};
+    int32_t row[16];
+    int32_t element[16];
+    for (int lane = 0; lane < 16; ++lane) {
+        row[lane] = lane % 2;
+        element[lane] = lane / 2 % 4;
+    }
+    const TableRow<Lanes, Levels> levels(table.data(), load(row));
+    int32_t read[16];
+    store(read, levels.varying_integer<&Levels::offset>(load(element)));
+    for (int lane = 0; lane < lane_count; ++lane)
+        EXPECT_EQ(read[lane], 1 + row[lane] * 4 + element[lane]);
 }
 
 }  // namespace

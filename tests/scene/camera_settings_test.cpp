@@ -1,8 +1,10 @@
 // tests/scene/camera_settings_test.cpp - settings of a file under those of the command line.
 // SPDX-License-Identifier: Apache-2.0
-#include "scene/camera_settings.h"
+#include "scene/camera_setting_table.h"
 
 #include <gtest/gtest.h>
+
+#include <set>
 
 namespace obscura {
 namespace {
@@ -42,6 +44,39 @@ TEST(CameraSettings, TextsSayWhatIsThere) {
     ASSERT_EQ(texts.size(), 2U);
     EXPECT_EQ(texts[0].second, "0.5,0,0,0,-1");
     EXPECT_EQ(texts[1].second, "equisolid");
+}
+
+TEST(CameraSettingTable, EverySettingHasOneRow) {
+    std::set<std::string> reports;
+    std::set<std::string> keys;
+    CameraSettings all;
+    size_t bytes = sizeof(all.model);
+    for_each_camera_setting([&](const auto& row) {
+        auto& member = all.*row.member;
+        EXPECT_FALSE(member.has_value()) << row.info.name << ": another row has that member";
+        member.emplace();
+        bytes += sizeof(member);
+        const std::string place =
+            std::string(row.info.section) + "/" + (row.info.key ? row.info.key : row.info.name);
+        EXPECT_TRUE(keys.insert(place).second) << place;
+        const std::string report = row.info.report;
+        EXPECT_TRUE(report.empty() || reports.insert(report).second) << report;
+        EXPECT_LE(row.info.range.low, row.info.range.high) << row.info.name;
+    });
+    EXPECT_LE(sizeof(CameraSettings) - bytes, 4 * sizeof(int)) << "a member has no row";
+}
+
+TEST(CameraSettingTable, ModelsRefuseWhatTheyDoNotHave) {
+    CameraSettings settings;
+    settings.near_m = 1;
+    settings.shift = {{0.5, 0}};
+    EXPECT_EQ(setting_without(settings, CameraModel::fisheye), nullptr);
+    ASSERT_NE(setting_without(settings, CameraModel::orthographic), nullptr);
+    EXPECT_STREQ(setting_without(settings, CameraModel::orthographic)->name, "shift");
+    settings.fstop = 2;
+    EXPECT_STREQ(setting_without(settings, CameraModel::pinhole)->name, "fstop");
+    settings.shutter_s = 0.01;
+    EXPECT_EQ(setting_without(settings, CameraModel::pinhole), nullptr) << "that is an exposure";
 }
 
 }  // namespace

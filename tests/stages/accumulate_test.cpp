@@ -50,6 +50,14 @@ private:
     std::vector<float> padded_[4];
 };
 
+/// The channels of all pixels' sums.
+std::vector<float> sums_of(const std::vector<PixelSum>& sums) {
+    std::vector<float> out;
+    for (const PixelSum& sum : sums)
+        out.insert(out.end(), std::begin(sum.block), std::end(sum.block));
+    return out;
+}
+
 class Accumulate : public testing::TestWithParam<Isa> {
 protected:
     const StageTable& stages() const { return stage_table_for(GetParam()); }
@@ -68,10 +76,10 @@ TEST_P(Accumulate, WhatIsNotFiniteIsCountedAndAddsNothing) {
             samples.add(1, 2, 3, 1);
             samples.add(rgb[0], rgb[1], rgb[2], 1);
             samples.add(4, 5, 6, 0.5f);
-            std::vector<float> sums = {10, 20, 30, 40};
-            EXPECT_EQ(stages().accumulate(1, 3, samples.rows(), sums.data()), 1U)
+            std::vector<PixelSum> sums = {{.block = {10, 20, 30, 40}}};
+            EXPECT_EQ(stages().accumulate(1, {0, 3}, samples.rows(), sums.data()), 1U)
                 << bad << " in channel " << channel;
-            EXPECT_EQ(sums, (std::vector<float>{15, 27, 39, 41.5f}))
+            EXPECT_EQ(sums_of(sums), (std::vector<float>{15, 27, 39, 41.5f}))
                 << bad << " in channel " << channel;
         }
     }
@@ -81,9 +89,9 @@ TEST_P(Accumulate, ChannelsThatAreHugeTogetherCountToo) {
     Samples samples;
     samples.add(0.4e30f, 0.4e30f, 0.4e30f, 1);
     samples.add(0.3e30f, 0.3e30f, 0.3e30f, 1);
-    std::vector<float> sums(8, 0.0f);
-    EXPECT_EQ(stages().accumulate(2, 1, samples.rows(), sums.data()), 1U);
-    EXPECT_EQ(sums, (std::vector<float>{0, 0, 0, 0, 0.3e30f, 0.3e30f, 0.3e30f, 1}));
+    std::vector<PixelSum> sums(2);
+    EXPECT_EQ(stages().accumulate(2, {0, 1}, samples.rows(), sums.data()), 1U);
+    EXPECT_EQ(sums_of(sums), (std::vector<float>{0, 0, 0, 0, 0.3e30f, 0.3e30f, 0.3e30f, 1}));
 }
 
 TEST_P(Accumulate, EveryBadSampleOfEveryPixelCounts) {
@@ -94,15 +102,15 @@ TEST_P(Accumulate, EveryBadSampleOfEveryPixelCounts) {
         const bool bad = i % per_pixel < i / per_pixel;  // pixel p has min(p, 5) of them
         samples.add(1, bad ? nan : 2.0f, 4, 1);
     }
-    std::vector<float> sums(4 * pixels, 0.0f);
-    EXPECT_EQ(stages().accumulate(pixels, per_pixel, samples.rows(), sums.data()), 20U);
+    std::vector<PixelSum> sums(pixels);
+    EXPECT_EQ(stages().accumulate(pixels, {0, per_pixel}, samples.rows(), sums.data()), 20U);
     for (int pixel = 0; pixel < pixels; ++pixel) {
         const auto good = static_cast<float>(std::max(per_pixel - pixel, 0));
-        const auto at = static_cast<size_t>(4 * pixel);
-        EXPECT_EQ(sums[at], good);
-        EXPECT_EQ(sums[at + 1], 2 * good);
-        EXPECT_EQ(sums[at + 2], 4 * good);
-        EXPECT_EQ(sums[at + 3], good);
+        const float(&sum)[4] = sums[static_cast<size_t>(pixel)].block;
+        EXPECT_EQ(sum[0], good);
+        EXPECT_EQ(sum[1], 2 * good);
+        EXPECT_EQ(sum[2], 4 * good);
+        EXPECT_EQ(sum[3], good);
     }
 }
 
@@ -118,24 +126,84 @@ TEST_P(Accumulate, SumsDoNotDependOnTheBatches) {
         const float green = i % 17 == 3 ? infinity : scale * random.next_float();
         samples.add(red, green, scale * random.next_float(), random.next_float());
     }
-    std::vector<float> whole(4 * pixels, 0.0f);
-    const uint64_t bad = stages().accumulate(pixels, per_pixel, samples.rows(), whole.data());
+    std::vector<PixelSum> whole(pixels);
+    const SampleRange all{0, per_pixel};
+    const uint64_t bad = stages().accumulate(pixels, all, samples.rows(), whole.data());
     EXPECT_EQ(bad, 4U);
     for (const std::vector<size_t>& cuts : {std::vector<size_t>{1, 11},
                                             std::vector<size_t>{5, 7},
                                             std::vector<size_t>{4, 4, 4},
                                             std::vector<size_t>(12, 1)}) {
-        std::vector<float> sums(4 * pixels, 0.0f);
+        std::vector<PixelSum> sums(pixels);
         uint64_t bad_in_parts = 0;
         size_t first = 0;
         for (const size_t count : cuts) {
             Samples part = samples.part(pixels, first, count);
-            bad_in_parts += stages().accumulate(
-                static_cast<int>(pixels), static_cast<int>(count), part.rows(), sums.data());
+            const SampleRange range{static_cast<uint32_t>(first), static_cast<int>(count)};
+            bad_in_parts += stages().accumulate(pixels, range, part.rows(), sums.data());
             first += count;
         }
-        EXPECT_EQ(sums, whole) << cuts.size() << " batches, the first of " << cuts[0];
+        EXPECT_EQ(sums_of(sums), sums_of(whole)) << cuts.size() << " batches";
         EXPECT_EQ(bad_in_parts, bad);
+    }
+}
+
+/// Adds samples [0, count) of one pixel, all alike, in batches of a size.
+PixelSum sum_of_constant(const StageTable& stages, float value, uint32_t count, uint32_t batch) {
+    Samples samples;
+    for (uint32_t i = 0; i < batch; ++i)
+        samples.add(value, 0.5f * value, value, 1);
+    const SampleRows rows = samples.rows();
+    PixelSum sum;
+    for (uint32_t first = 0; first < count; first += batch) {
+        const uint32_t taken = std::min(batch, count - first);
+        stages.accumulate(1, {first, static_cast<int>(taken)}, rows, &sum);
+    }
+    return sum;
+}
+
+TEST_P(Accumulate, AConstantIsRightAfterAMillionSamples) {
+    for (const float value : {0.01f, 0.1f, 1.0f / 3, 0.7f, 0.9999999f, 1234.567f}) {
+        for (const int samples : {1 << 16, 1 << 20, (1 << 20) - 777}) {
+            const PixelSum sum =
+                sum_of_constant(stages(), value, static_cast<uint32_t>(samples), 4096);
+            EXPECT_NEAR(sum.mean(0, samples) / value, 1.0, 1e-6) << value << " " << samples;
+            EXPECT_EQ(sum.mean(3, samples), 1.0f);
+        }
+    }
+}
+
+TEST_P(Accumulate, LongSumsDoNotDependOnTheBatches) {
+    Pcg32 random(5);
+    constexpr uint32_t count = 4096;
+    std::vector<float> values;
+    for (uint32_t i = 0; i < count; ++i)
+        values.push_back(std::exp2(between(random, -20, 20)));
+    const auto mean_in = [&](uint32_t batch) {
+        PixelSum sum;
+        for (uint32_t first = 0; first < count; first += batch) {
+            const uint32_t taken = std::min(batch, count - first);
+            Samples samples;
+            for (uint32_t i = 0; i < taken; ++i)
+                samples.add(values[first + i], 0, 0, 1);
+            const SampleRange range{first, static_cast<int>(taken)};
+            stages().accumulate(1, range, samples.rows(), &sum);
+        }
+        return sum.mean(0, count);
+    };
+    const float whole = mean_in(count);
+    for (const uint32_t batch : {1U, 7U, 16U, 32U, 33U, 1000U, 1024U, 1025U})
+        EXPECT_EQ(mean_in(batch), whole) << "batches of " << batch;
+}
+
+/// The first samples are one sum in float, as a loop would add them.
+TEST_P(Accumulate, FewSamplesAreAddedOneByOne) {
+    for (const int samples : {1, 64, 1000, 1024}) {
+        const PixelSum sum = sum_of_constant(stages(), 0.7f, static_cast<uint32_t>(samples), 64);
+        float expected = 0;
+        for (int i = 0; i < samples; ++i)
+            expected += 0.7f;
+        EXPECT_EQ(sum.mean(0, samples), expected * (1.0f / static_cast<float>(samples)));
     }
 }
 

@@ -37,7 +37,7 @@ ShapeLight flat_lamp(ShapeLightKind kind) {
 
 template <typename F>
 ShapeLightRow<F> row_of_light(const ShapeLight& light) {
-    return read_shape_light(TableRow<F>(&light, 0, words_per_row<ShapeLight>));
+    return read_shape_light(TableRow<F, ShapeLight>(&light, 0));
 }
 
 /// Where a direction meets a light, by the formulas for rays; nothing where it does not.

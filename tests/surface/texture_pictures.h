@@ -57,9 +57,7 @@ public:
         return static_cast<int32_t>(rows_.size()) - 1;
     }
 
-    TextureView view() const {
-        return {texels_.data(), reinterpret_cast<const int32_t*>(rows_.data()), has_wide_};
-    }
+    TextureView view() const { return {texels_.data(), rows_.data(), has_wide_}; }
     const TextureRow& row(int32_t texture) const { return rows_[static_cast<size_t>(texture)]; }
 
     /// The decoded texel (x, y) of a level, by the wrap modes of OpenGL: any whole numbers.

@@ -108,7 +108,7 @@ TEST(Texture, NoCoordinateReadsOutsideOfTheTexture) {
         row.height = height;
         row.sampler = linear_sampler(wrap_u, wrap_v);
         row.level_offset[0] = 1;
-        const TextureView view{texels.data(), reinterpret_cast<const int32_t*>(&row)};
+        const TextureView view{texels.data(), &row};
         for (const float u : strange) {
             for (const float v : strange) {
                 for (const float footprint : {0.0F, nan, infinity, 1e-3F}) {
@@ -321,7 +321,7 @@ void expect_texel(const HugeArena& arena, const TextureRow& row, size_t x, size_
         static_cast<size_t>(row.level_offset[0]) + y * static_cast<size_t>(row.width) + x;
     ASSERT_LT(at, HugeArena::texel_count);
     arena.texels()[at] = 0xFF804020U;
-    const TextureView view{arena.texels(), reinterpret_cast<const int32_t*>(&row)};
+    const TextureView view{arena.texels(), &row};
     const Vec2f uv{(static_cast<float>(x) + 0.5F) / static_cast<float>(row.width),
                    (static_cast<float>(y) + 0.5F) / static_cast<float>(row.height)};
     const Rgba8 expected{32 / 255.0, 64 / 255.0, 128 / 255.0, 1.0};

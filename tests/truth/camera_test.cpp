@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/lens_equation.h"
 #include "camera/project.h"
+#include "render/film_rows.h"
 
 #include <gtest/gtest.h>
 
@@ -50,10 +51,10 @@ struct Spot {
 Spot measure(const Film& film, int first, int last) {
     Spot spot;
     double squares = 0;
-    for (int y = 0; y < film.height; ++y) {
-        for (int x = first; x < last; ++x) {
-            const double v =
-                static_cast<double>(film.pixels[4 * static_cast<size_t>(y * film.width + x)]);
+    const ImagePart part = film.part_of.value_or(ImagePart{});
+    for (int y = part.y; y < part.y + film.height; ++y) {
+        for (int x = std::max(first, part.x); x < std::min(last, part.x + film.width); ++x) {
+            const double v = static_cast<double>(film.pixels[4 * pixel_index(film, x, y)]);
             spot.sum += v;
             spot.x += v * (x + 0.5);
             spot.y += v * (y + 0.5);

@@ -1,5 +1,6 @@
 // tests/truth/strokes_test.cpp - points and lines in pictures: sizes, colours, quantities.
 // SPDX-License-Identifier: Apache-2.0
+#include "render/film_rows.h"
 #include "render/stroke_sizes.h"
 #include "stages/dispatch.h"
 
@@ -46,8 +47,7 @@ Film draw(Scene scene, const Camera& camera, const RenderOptions& options) {
 }
 
 double alpha_at(const Film& film, int x, int y) {
-    const size_t pixel = static_cast<size_t>(y) * side + static_cast<size_t>(x);
-    return static_cast<double>(film.pixels[pixel * film.channels.size() + 3]);
+    return static_cast<double>(film.pixels[pixel_index(film, x, y) * film.channels.size() + 3]);
 }
 
 /// Pixels that are covered in a column or row of the picture.

@@ -1,0 +1,39 @@
+# Headers of libraries that many files include, parsed once (OBSCURA_PCH).
+# SPDX-License-Identifier: Apache-2.0
+# None of the project's own headers is among them, so a change recompiles what it did before. Files
+# still include all that they use: the preset clang builds without precompiled headers and shows
+# what is missing.
+option(OBSCURA_PCH "Precompile the headers of libraries" ON)
+
+set(obscura_std_headers
+  <algorithm> <array> <atomic> <charconv> <cmath> <cstdint> <cstdio> <cstdlib> <cstring> <filesystem>
+  <functional> <limits> <map> <memory> <mutex> <numeric> <optional> <set> <span> <string>
+  <string_view> <system_error> <tuple> <unordered_map> <utility> <vector>)
+
+# obscura_header_set(NAME libraries... HEADERS headers...): what targets of the set NAME share.
+function(obscura_header_set name)
+  cmake_parse_arguments(set "" "" "HEADERS" ${ARGN})
+  if(NOT OBSCURA_PCH)
+    return()
+  endif()
+  set(empty ${CMAKE_BINARY_DIR}/generated/precompiled/${name}.cpp)
+  if(NOT EXISTS ${empty})
+    file(WRITE ${empty} "")
+  endif()
+  add_library(obscura_headers_${name} OBJECT EXCLUDE_FROM_ALL ${empty})
+  target_link_libraries(obscura_headers_${name} PRIVATE obscura_options ${set_UNPARSED_ARGUMENTS})
+  target_precompile_headers(obscura_headers_${name} PRIVATE ${set_HEADERS})
+endfunction()
+
+# obscura_precompiled(TARGET NAME): this target's files begin with the headers of the set NAME.
+function(obscura_precompiled target name)
+  if(OBSCURA_PCH)
+    target_precompile_headers(${target} REUSE_FROM obscura_headers_${name})
+    # A precompiled header is no system header to GCC 12, which then warns of endless copies in
+    # "text" + std::string (PR 105651).
+    if(CMAKE_CXX_COMPILER_ID STREQUAL GNU AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+      target_compile_options(${target} PRIVATE
+        -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
+    endif()
+  endif()
+endfunction()

@@ -1,0 +1,45 @@
+// include/obscura/image.h - a rendered image: float pixels with named channels.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "obscura/view.h"
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+OBSCURA_BEGIN_API
+
+struct ImageStatistics {
+    double render_seconds = 0;
+    std::uint64_t paths = 0;
+    std::uint64_t rays = 0;
+    std::uint64_t nonfinite_samples = 0;  ///< they count as zero
+};
+
+/// Scene-linear Rec.709 in nit (docs/conventions.md), alpha premultiplied.
+struct Image {
+    int width = 0, height = 0;          ///< of the whole image
+    Rect part;                          ///< which part of it the pixels are; without a crop all
+    std::vector<std::string> channels;  ///< "R" "G" "B" "A", or what the integrator computes
+    /// part.width x part.height pixels, row after row from the top, channels interleaved.
+    std::vector<float> pixels;
+    /// What the EXR's header says besides: "camera", "cameraParameters", "isa", ...
+    std::vector<std::pair<std::string, std::string>> attributes;
+    ImageStatistics statistics;
+
+    struct Source;
+    std::shared_ptr<const Source> source;  ///< what Session::write() needs to know
+};
+
+/// How an image becomes a file.
+struct WriteOptions {
+    bool float32 = false;     ///< EXR: 32 bits a channel in place of 16; data always has 32
+    double exposure_ev = 0;   ///< PNG and JPEG, as all below: values are multiplied by 2^EV
+    std::string ocio_config;  ///< a file; empty: $OCIO, else the built-in config
+    std::string display;      ///< empty: the config's default
+    std::string view;         ///< empty: the display's default
+};
+
+OBSCURA_END_API

@@ -1,0 +1,100 @@
+// include/obscura/view.h - what is looked at, through which camera, and how light is computed.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "obscura/api.h"
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+OBSCURA_BEGIN_API
+
+using Vector3 = std::array<double, 3>;
+
+enum class CameraModel { pinhole, orthographic, thin_lens, fisheye, environment };
+
+/// Part of an image in pixels, from its top left corner.
+struct Rect {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+/// A camera, an image size and a time. What is not set is as the file says; a file without camera
+/// is framed as a whole.
+///
+/// Which camera: `world_from_camera`, else any of `eye`, `target` and `up`, else `camera`, else the
+/// file's first one, else a view of all. docs/cameras.md explains the models and lenses.
+struct View {
+    int width = 1280;
+    int height = 720;
+    std::optional<Rect> crop;  ///< renders, and holds in memory, this part only
+
+    std::string camera;  ///< one of the file: its name, else its index
+    std::optional<Vector3> eye, target, up;
+    /// A rigid placing, element 4 r + c of a matrix for column vectors; the camera looks along -Z.
+    std::optional<std::array<double, 16>> world_from_camera;
+    std::optional<CameraModel> camera_model;
+    std::optional<double> fov_deg;  ///< vertical angle; of a fisheye the whole one
+
+    std::optional<double> near_m, far_m;                   ///< clip what is nearer or further away
+    std::optional<std::array<double, 2>> magnification_m;  ///< half width and height; orthographic
+    std::optional<double> focal_length_m;
+    std::optional<std::array<double, 2>> sensor_m;  ///< width and height
+    std::optional<std::array<double, 2>> shift;     ///< in images: right, up
+
+    std::optional<double> fstop, lens_radius_m;  ///< give a thin lens its opening
+    std::optional<double> focus_distance_m;
+    std::optional<std::array<int, 2>> focus_on_px;  ///< focuses on what this pixel shows
+    std::optional<int> blades;
+    std::optional<double> blade_rotation_deg, anamorphic;
+    std::string fisheye;  ///< "equidistant", "equisolid", "stereographic", "orthographic", "opencv"
+    std::string projection;  ///< of all directions: "latlong", "cylindrical", "cubemap"
+
+    /// Seconds of the animation; none: the asset as it is stored.
+    std::optional<double> time_s;
+    /// Blurs what moves: when the shutter opens and closes, in seconds from `time_s`.
+    std::optional<std::array<double, 2>> shutter_s;
+};
+
+enum class Background { environment, transparent, color };
+
+/// The light around the asset, and the size of points and lines.
+struct Look {
+    std::string environment;  ///< a file, .exr .hdr .png .jpg; empty: the asset's own light
+    double environment_intensity = 1;
+    double environment_rotation_deg = 0;  ///< about +Y, counter-clockwise seen from above
+    Background background = Background::environment;
+    std::array<float, 3> background_color = {0, 0, 0};  ///< linear Rec.709
+    double point_size_px = 3, line_width_px = 2;        ///< of POINTS and LINES
+};
+
+enum class Integrator {
+    path,     ///< light transport
+    direct,   ///< without light between surfaces
+    raycast,  ///< hard shadows, no noise
+    ao,       ///< ambient occlusion
+    normal,   ///< N.X N.Y N.Z; from here on one ray through each pixel's centre
+    facing,
+    depth,  ///< Z: along the view axis
+    distance,
+    uv,  ///< UV.U UV.V
+    albedo,
+    id,  ///< id.node id.material id.triangle
+    wireframe,
+    heat  ///< traversal steps
+};
+
+enum class PixelFilter { box, gaussian, blackman_harris };
+
+/// What is computed and how well.
+struct Sampling {
+    Integrator integrator = Integrator::path;
+    int samples_per_pixel = 64;
+    int max_bounces = 8;
+    std::uint64_t seed = 0;
+    PixelFilter filter = PixelFilter::box;
+    std::optional<double> ao_distance_m;  ///< none: a fifth of the asset's diagonal
+    double wire_width_px = 1;
+};
+
+OBSCURA_END_API

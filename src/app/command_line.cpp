@@ -1,0 +1,196 @@
+// app/command_line.cpp - from the words of the command line to the texts of options; CLI11.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/command_line.h"
+
+#include "app/config_file.h"
+#include "app/numbers.h"
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <algorithm>
+#include <memory>
+
+namespace obscura {
+
+namespace {
+
+constexpr size_t names_width = 28;
+constexpr size_t help_width = 62;
+
+tl::unexpected<Error> usage(const std::string& where, const std::string& message) {
+    return fail(ExitCode::usage, "E-USAGE", where, message);
+}
+
+/// Breaks a text between words into lines.
+std::string wrapped(const std::string& text) {
+    std::string out;
+    size_t line = 0;
+    for (size_t begin = 0; begin < text.size();) {
+        const size_t end = std::min(text.find(' ', begin), text.size());
+        const size_t length = end - begin;
+        if (line > 0) out += line + 1 + length > help_width ? '\n' : ' ';
+        line = line > 0 && line + 1 + length <= help_width ? line + 1 + length : length;
+        out += text.substr(begin, length);
+        begin = end + 1;
+    }
+    return out;
+}
+
+void declare(CLI::App& command, const BoundOption& option) {
+    const OptionInfo& info = option.info;
+    std::string help = full_help(option);
+    if (!option.fallback.empty()) help += " [" + option.fallback + "]";
+    help = wrapped(help);
+    CLI::Option* declared = nullptr;
+    if (auto* const* text = std::get_if<OptionText*>(&option.target)) {
+        const auto store = [target = *text](const std::string& given) { *target = given; };
+        declared = command.add_option_function<std::string>(info.name, store, help);
+    } else if (auto* const* flag = std::get_if<bool*>(&option.target)) {
+        declared = command.add_flag(info.name, **flag, help);
+    } else if (auto* const* list = std::get_if<std::vector<std::string>*>(&option.target)) {
+        declared = command.add_option(info.name, **list, help);
+        if (info.name[0] == '-') declared->allow_extra_args(false);
+    } else {
+        declared = command.add_option(info.name, *std::get<std::string*>(option.target), help);
+        declared->required();
+    }
+    if (!std::holds_alternative<bool*>(option.target)) declared->type_name(info.argument);
+    if (*option.heading) declared->group(option.heading);
+}
+
+/// Steps that turn one word into the other.
+size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<size_t> row(b.size() + 1);
+    for (size_t j = 0; j <= b.size(); ++j)
+        row[j] = j;
+    for (size_t i = 1; i <= a.size(); ++i) {
+        size_t diagonal = row[0];
+        row[0] = i;
+        for (size_t j = 1; j <= b.size(); ++j) {
+            const size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            diagonal = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
+        }
+    }
+    return row[b.size()];
+}
+
+/// The option that has too few or too many values, "" for any other complaint. The parser's text
+/// begins with its name.
+std::string option_of(const CLI::ParseError& error) {
+    const std::string text = error.what();
+    const bool counts = error.get_name() == "ArgumentMismatch";
+    return counts ? text.substr(0, text.find_first_of(": ")) : "";
+}
+
+/// Words a parser's complaint about the command line.
+tl::unexpected<Error> worded(const CLI::App& app,
+                             const Program& program,
+                             const CLI::ParseError& error) {
+    const std::vector<CLI::App*> chosen = app.get_subcommands();
+    if (chosen.empty()) {
+        const std::vector<std::string> extras = app.remaining();
+        const std::string got =
+            extras.empty() ? "no command was given" : in_quotes(extras.front()) + " is no command";
+        return usage("command-line",
+                     got +
+                         "; expected `obscura render SCENE`, `obscura info SCENE`, "
+                         "`obscura bench`, `obscura crosscheck` or `obscura explain-pixel "
+                         "SCENE X,Y`, see `obscura --help`");
+    }
+    const std::string name = chosen.front()->get_name();
+    const std::string hint = "; `obscura " + name + " --help` lists what is accepted";
+    const std::vector<std::string> extras = chosen.front()->remaining();
+    if (extras.empty()) {
+        const std::string option = option_of(error);
+        if (option.empty()) return usage("command-line", error.what() + hint);
+        return usage(option, "expected the option once, with one value" + hint);
+    }
+    const std::string& first = extras.front();
+    if (first.size() > 1 && first[0] == '-') {
+        const auto is_chosen = [&](const Command& command) { return command.name == name; };
+        const auto command =
+            std::find_if(program.commands.begin(), program.commands.end(), is_chosen);
+        const std::string near = nearest_option(*command, first.substr(0, first.find('=')));
+        return usage(first,
+                     "there is no such option" +
+                         (near.empty() ? near : " (did you mean " + near + "?)") + hint);
+    }
+    return usage("command-line", in_quotes(first) + " is one argument too many" + hint);
+}
+
+/// A file's items as CLI11 reads INI and TOML. Comments are taken out before: it would find them in
+/// the middle of names, too.
+Result<void> read_config(const Command& command, const Program& program) {
+    const auto config =
+        std::find_if(command.options.begin(), command.options.end(), [](const BoundOption& option) {
+            return std::string(option.info.name) == "--config";
+        });
+    if (config == command.options.end() || !is_given(*config)) return {};
+    const std::string file = given_texts(config->target).front();
+    const Result<std::string> text = read_config_text(file);
+    if (!text) return fail(text.error());
+    std::vector<ConfigItem> items;
+    try {
+        std::istringstream stream(*text);
+        for (const CLI::ConfigItem& item : CLI::ConfigBase().comment('\0')->from_config(stream)) {
+            if (item.name != "++" && item.name != "--") {
+                items.push_back({item.parents, item.name, item.inputs});
+            }
+        }
+    } catch (const CLI::Error& error) {
+        return usage(file, std::string("it is neither INI nor TOML: ") + error.what());
+    }
+    return apply_config(file, items, command, program);
+}
+
+}  // namespace
+
+std::string nearest_option(const Command& command, const std::string& typed) {
+    std::string best;
+    size_t best_distance = 3;
+    for (const BoundOption& option : command.options) {
+        const std::string name = long_name(option.info);
+        const size_t distance = edit_distance(typed, name);
+        if (name[0] != '-' || distance >= best_distance) continue;
+        best_distance = distance;
+        best = name;
+    }
+    return best;
+}
+
+Result<CommandLine> parse_command_line(const Program& program, int argc, const char* const* argv) {
+    CLI::App app(program.summary, program.name);
+    app.set_version_flag("--version", program.version, "Print versions and exit");
+    app.set_help_flag("-h,--help", "Print this help and exit");
+    app.require_subcommand(1);
+    app.footer(program.notes);
+    std::vector<CLI::App*> declared;
+    for (const Command& command : program.commands) {
+        CLI::App* sub = app.add_subcommand(command.name, command.summary);
+        if (command.hidden) sub->group("");
+        for (const BoundOption& option : command.options)
+            declare(*sub, option);
+        sub->footer(command.notes);
+        sub->get_formatter()->column_width(names_width);
+        declared.push_back(sub);
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+        return CommandLine{nullptr, app.help()};
+    } catch (const CLI::CallForVersion&) {
+        return CommandLine{nullptr, program.version + "\n"};
+    } catch (const CLI::ParseError& error) {
+        return worded(app, program, error);
+    }
+    const auto parsed = std::find_if(
+        declared.begin(), declared.end(), [](const CLI::App* sub) { return sub->parsed(); });
+    const Command& command =
+        program.commands[static_cast<size_t>(std::distance(declared.begin(), parsed))];
+    if (auto read = read_config(command, program); !read) return fail(read.error());
+    return CommandLine{&command, ""};
+}
+
+}  // namespace obscura

@@ -1,0 +1,19 @@
+// base/text.h - small pieces of messages and names.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace obscura {
+
+/// True when the text consists of decimal digits only: an index rather than a name.
+bool is_index(std::string_view text);
+
+/// The text between single quotes, for messages.
+std::string in_quotes(std::string_view text);
+
+/// A number in its shortest form, for messages.
+std::string shortest(double number);
+
+}  // namespace obscura

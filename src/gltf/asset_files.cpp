@@ -1,0 +1,48 @@
+// gltf/asset_files.cpp - the files that one glTF asset consists of.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/asset_files.h"
+
+#include "gltf/parse/asset_file.h"
+#include "gltf/parse/uri.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_file(const fs::path& folder,
+              const std::optional<std::string>& uri,
+              std::vector<fs::path>& files) {
+    if (!uri || is_data_uri(*uri)) return;
+    const Result<fs::path> relative = relative_path_from_uri(*uri, "");
+    if (!relative) return;
+    fs::path file = folder / *relative;
+    if (std::find(files.begin(), files.end(), file) == files.end()) {
+        files.push_back(std::move(file));
+    }
+}
+
+}  // namespace
+
+std::vector<fs::path> files_of_asset(const fs::path& file) {
+    std::vector<fs::path> files = {file};
+    Log silent(Verbosity::quiet);
+    Problems problems(true);  // whoever loads the asset tells them
+    const Result<OpenedAsset> asset = open_asset(file, problems, silent, false);
+    if (!asset) return files;
+    const Document& document = asset->document;
+    const fs::path folder = file.parent_path();
+    for (const GltfBuffer& buffer : document.buffers)
+        add_file(folder, buffer.uri, files);
+    for (const GltfImage& image : document.images)
+        add_file(folder, image.uri, files);
+    for (const GltfLightProfile& profile : document.profiles)
+        add_file(folder, profile.uri, files);
+    return files;
+}
+
+}  // namespace obscura

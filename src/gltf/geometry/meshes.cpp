@@ -1,0 +1,348 @@
+// gltf/geometry/meshes.cpp - the scene's meshes become arrays, baked or instanced.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/geometry/meshes.h"
+
+#include "gltf/geometry/block_reader.h"
+#include "gltf/geometry/skins.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+constexpr double farthest_position = 1e18;
+
+class MeshBuilder {
+public:
+    MeshBuilder(const MeshSources& sources,
+                MaterialTable& materials,
+                Problems& problems,
+                Scene& scene,
+                Log& log)
+        : sources_(sources),
+          problems_(problems),
+          scene_(scene),
+          log_(log),
+          reader_(block_sources_, materials, problems, scene, log) {}
+
+    Result<void> build();
+
+private:
+    const Document& document() const { return sources_.document; }
+    const PlacedNode& placed(int index) const {
+        return sources_.placed[static_cast<size_t>(index)];
+    }
+
+    const std::vector<Affined>& world_from_node() {
+        if (world_from_node_.empty()) world_from_node_ = world_transforms(document());
+        return world_from_node_;
+    }
+
+    void find_uses();
+    void drop_uses(int skin, const Error& error);
+    size_t take_stored(const std::vector<MeshBlock>& blocks);
+    void reserve(const std::vector<MeshBlock>& blocks, size_t first);
+    Result<std::vector<GeometryBlock>> read(const std::vector<MeshBlock>& blocks);
+    void add_world(const std::vector<MeshBlock>& blocks, const std::vector<GeometryBlock>& parts);
+    void add_mesh(const MeshBlock& block, const GeometryBlock& part);
+    void add_instance(const MeshBlock& block, const GeometryBlock& part, const PlacedNode& place);
+    bool place_of(const MeshBlock& block, const PlacedNode& place, Affined& out);
+    bool grow_bounds(const MeshBlock& block, const GeometryBlock& part, const Affined& world);
+    void store(const std::vector<MeshBlock>& blocks, std::vector<GeometryBlock>& parts);
+    void warn();
+
+    const MeshSources& sources_;
+    Problems& problems_;
+    Scene& scene_;
+    Log& log_;
+    std::vector<MeshUse> uses_;                ///< in the order they are met
+    std::vector<std::vector<Affined>> skins_;  ///< matrices; empty: no mesh that is drawn has it
+    std::vector<Affined> world_from_node_;     ///< of all nodes, where anything asks for it
+    std::vector<Affined> no_movers_;
+    BlockSources block_sources_{
+        sources_, skins_, sources_.store != nullptr ? sources_.store->mover_from_node : no_movers_};
+    BlockReader reader_;
+    NameList flat_nodes_, shrunk_nodes_;
+};
+
+void grow(Bounds& bounds, const Vec3d& p) {
+    const Vec3f v{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+    bounds.low = {
+        std::min(bounds.low.x, v.x), std::min(bounds.low.y, v.y), std::min(bounds.low.z, v.z)};
+    bounds.high = max3(bounds.high, v);
+}
+
+void MeshBuilder::drop_uses(int skin, const Error& error) {
+    size_t lost = 0;
+    std::erase_if(uses_, [&](const MeshUse& use) {
+        const bool drops = use.skin == skin;
+        if (drops) lost += document().meshes[static_cast<size_t>(use.mesh)].primitives.size();
+        return drops;
+    });
+    problems_.add(error, {Loss::primitive, "meshes with the skin are not drawn", lost});
+}
+
+void MeshBuilder::find_uses() {
+    MeshUses found = find_mesh_uses(document(), sources_.placed);
+    uses_ = std::move(found.uses);
+    for (const std::string& name : found.flat_nodes)
+        flat_nodes_.add(name);
+    for (const std::string& name : found.shrunk_nodes)
+        shrunk_nodes_.add(name);
+    skins_.resize(document().skins.size());
+    if (sources_.store != nullptr && sources_.store->mover_from_node.empty()) {
+        sources_.store->mover_from_node = mover_transforms(document());
+    }
+    for (size_t i = 0; i < skins_.size(); ++i) {
+        const int skin = static_cast<int>(i);
+        const auto has_it = [&](const MeshUse& use) { return use.skin == skin; };
+        if (std::none_of(uses_.begin(), uses_.end(), has_it)) continue;
+        Result<std::vector<Affined>> matrices =
+            skin_matrices(document(), sources_.buffers, world_from_node(), skin);
+        if (matrices) skins_[i] = std::move(*matrices);
+        if (!matrices) drop_uses(skin, matrices.error());
+    }
+}
+
+/// Takes over the arrays of an earlier pose as far as their blocks are wanted again; returns how
+/// many blocks that are.
+size_t MeshBuilder::take_stored(const std::vector<MeshBlock>& blocks) {
+    GeometryStore* store = sources_.store;
+    if (store == nullptr) return 0;
+    size_t count = 0;
+    while (!store->positions.empty() && count < store->blocks.size() && count < blocks.size() &&
+           reader_.is_same(store->blocks[count], blocks[count])) {
+        ++count;
+    }
+    store->blocks.resize(count);
+    if (count == 0) return 0;
+    const StillSizes& still = store->still();
+    scene_.positions = std::move(store->positions);
+    scene_.indices = std::move(store->indices);
+    scene_.attributes = std::move(store->attributes);
+    scene_.positions.resize(still.positions);
+    scene_.indices.resize(still.indices);
+    scene_.attributes.resize(still.attributes);
+    return count;
+}
+
+/// Room for what blocks will add, as far as the accessors' counts tell.
+void MeshBuilder::reserve(const std::vector<MeshBlock>& blocks, size_t first) {
+    size_t vertices = 0;
+    size_t corners = 0;
+    size_t floats = 0;
+    for (size_t i = first; i < blocks.size(); ++i) {
+        for (const PartJob& job : blocks[i].jobs) {
+            const GltfMesh& mesh = document().meshes[static_cast<size_t>(job.name.mesh)];
+            const GltfPrimitive& primitive =
+                mesh.primitives[static_cast<size_t>(job.name.primitive)];
+            if (primitive.position < 0) continue;
+            const size_t triangles = primitive_triangles(document(), primitive);
+            const size_t count = std::min(
+                document().accessors[static_cast<size_t>(primitive.position)].count, triangles * 3);
+            const MaterialNeeds needs = material_needs(document(), primitive.material);
+            const int width = 2 * __builtin_popcount(needs.uv_sets) + (needs.tangents ? 4 : 0) +
+                              (primitive.normal >= 0 ? 3 : 0) + (primitive.color >= 0 ? 4 : 0);
+            vertices += count;
+            corners += triangles * 3;
+            floats += count * static_cast<size_t>(width);
+        }
+    }
+    constexpr size_t most = 1U << 31;
+    scene_.positions.reserve(std::min(most, scene_.positions.size() + vertices * 3 + 4));
+    scene_.indices.reserve(std::min(most, scene_.indices.size() + corners + 1));
+    scene_.attributes.reserve(std::min(most, scene_.attributes.size() + floats + 4));
+}
+
+Result<std::vector<GeometryBlock>> MeshBuilder::read(const std::vector<MeshBlock>& blocks) {
+    std::vector<GeometryBlock> parts;
+    const size_t kept = take_stored(blocks);
+    reserve(blocks, kept);
+    for (size_t i = 0; i < blocks.size(); ++i) {
+        if (i < kept) {
+            parts.push_back(std::move(sources_.store->blocks[i]));
+            reader_.use_again(parts.back());
+            continue;
+        }
+        Result<GeometryBlock> part = reader_.read(blocks[i]);
+        if (!part) return fail(std::move(part.error()));
+        parts.push_back(std::move(*part));
+    }
+    return parts;
+}
+
+/// What lies in the world comes first.
+void MeshBuilder::add_world(const std::vector<MeshBlock>& blocks,
+                            const std::vector<GeometryBlock>& parts) {
+    for (size_t i = 0; i < blocks.size(); ++i) {
+        if (blocks[i].space != BlockSpace::world) continue;
+        const std::vector<Primitive>& rows = parts[i].primitives;
+        scene_.primitives.insert(scene_.primitives.end(), rows.begin(), rows.end());
+        scene_.info.triangles_in_world += parts[i].triangles;
+        scene_.bounds.low = -max3(-scene_.bounds.low, -parts[i].box.low);
+        scene_.bounds.high = max3(scene_.bounds.high, parts[i].box.high);
+        if (!blocks[i].keeps) continue;
+        scene_.still_primitive_count = static_cast<int32_t>(rows.size());
+        scene_.still_stamp = parts[i].stamp;
+    }
+    scene_.world_primitive_count = static_cast<int32_t>(scene_.primitives.size());
+}
+
+/// Where the block's space lies; false: it is not seen now.
+bool MeshBuilder::place_of(const MeshBlock& block, const PlacedNode& place, Affined& out) {
+    if (!place.visible) return false;
+    if (block.space == BlockSpace::mesh) {
+        out = place.world_from_node;
+    } else {
+        out = world_from_node()[static_cast<size_t>(place.mover)];
+    }
+    if (place.mover >= 0 && is_singular(out)) {
+        const int node = block.space == BlockSpace::mesh ? place.node : place.mover;
+        shrunk_nodes_.add(node_label(document(), node));
+        return false;
+    }
+    if (block.space != BlockSpace::anchored_mover) return true;
+    const Affined& anchor = (*sources_.anchors)[static_cast<size_t>(place.mover)];
+    if (is_singular(anchor)) return false;
+    const bool is_there = std::equal(&anchor.m[0][0], &anchor.m[0][0] + 12, &out.m[0][0]);
+    out = is_there ? Affined{} : compose(out, inverse(anchor));
+    return true;
+}
+
+/// Makes the scene's bounds hold an instance; false: it reaches too far. What is placed once counts
+/// vertex by vertex, as if it lay in the world.
+bool MeshBuilder::grow_bounds(const MeshBlock& block,
+                              const GeometryBlock& part,
+                              const Affined& world) {
+    Bounds all = scene_.bounds;
+    bool in_range = true;
+    const auto add = [&](const Vec3d& p) {
+        const Vec3d moved = transform_point(world, p);
+        in_range = in_range && max_component(abs(moved)) <= farthest_position;
+        grow(all, moved);
+    };
+    if (block.space == BlockSpace::mover) {
+        const size_t end = part.end.indices;
+        for (size_t i = end - 3 * part.triangles; i < end; ++i) {
+            const float* p = &scene_.positions[3 * static_cast<size_t>(scene_.indices[i])];
+            add({p[0], p[1], p[2]});
+        }
+    } else {
+        const Bounds& box = part.box;
+        for (int corner = 0; corner < 8; ++corner) {
+            add({(corner & 1) != 0 ? box.high.x : box.low.x,
+                 (corner & 2) != 0 ? box.high.y : box.low.y,
+                 (corner & 4) != 0 ? box.high.z : box.low.z});
+        }
+    }
+    if (in_range) scene_.bounds = all;
+    return in_range;
+}
+
+void MeshBuilder::add_instance(const MeshBlock& block,
+                               const GeometryBlock& part,
+                               const PlacedNode& place) {
+    Affined world;
+    if (!place_of(block, place, world)) return;
+    const bool own_mesh = block.space == BlockSpace::mesh;
+    Instance instance;
+    instance.world_from_object = affine_cast<float>(world);
+    instance.object_from_world = affine_cast<float>(inverse(world));
+    instance.mesh = static_cast<int32_t>(scene_.meshes.size()) - 1;
+    instance.node = own_mesh ? place.node : -1;
+    instance.mirrored = determinant(world) < 0 ? 1 : 0;
+    bool in_range = true;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 4; ++c) {
+            in_range = in_range && std::isfinite(instance.world_from_object.m[r][c]) &&
+                       std::isfinite(instance.object_from_world.m[r][c]);
+        }
+    }
+    if (!in_range || !grow_bounds(block, part, world)) {
+        const int node = own_mesh ? place.node : place.mover;
+        problems_.add({ExitCode::bad_data,
+                       "E-NODE-RANGE",
+                       document().at("nodes", static_cast<size_t>(node)),
+                       "the node moves vertices of its mesh beyond 1e18, or its scale is beyond "
+                       "what single precision can invert"},
+                      {Loss::primitive, "the mesh is not drawn there", part.primitives.size()});
+        return;
+    }
+    scene_.instances.push_back(instance);
+    scene_.info.triangles_in_world += part.triangles;
+}
+
+void MeshBuilder::add_mesh(const MeshBlock& block, const GeometryBlock& part) {
+    if (part.primitives.empty()) return;
+    scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()),
+                             static_cast<int32_t>(part.primitives.size()),
+                             part.stamp});
+    scene_.primitives.insert(
+        scene_.primitives.end(), part.primitives.begin(), part.primitives.end());
+    for (const int index : block.placed)
+        add_instance(block, part, placed(index));
+}
+
+void MeshBuilder::store(const std::vector<MeshBlock>& blocks, std::vector<GeometryBlock>& parts) {
+    if (sources_.store == nullptr) return;
+    size_t kept = 0;
+    while (kept < blocks.size() && blocks[kept].keeps)
+        ++kept;
+    parts.resize(kept);
+    sources_.store->blocks = std::move(parts);
+}
+
+void MeshBuilder::warn() {
+    for (const auto& [issue, list] : reader_.issues()) {
+        log_.warn(document().file,
+                  std::string(mesh_issue_text(issue)) + "; meshes: " + list.text());
+    }
+    if (!flat_nodes_.empty()) {
+        log_.warn(
+            document().file,
+            "nodes whose scale is zero along one axis, or whose matrix is singular, are drawn "
+            "flat: " +
+                flat_nodes_.text());
+    }
+    if (!shrunk_nodes_.empty()) {
+        log_.warn(document().file,
+                  "nodes whose scale is zero, or leaves no more than a line, are not drawn: " +
+                      shrunk_nodes_.text());
+    }
+}
+
+Result<void> MeshBuilder::build() {
+    if (sources_.store != nullptr) sources_.store->sphere_orders.begin_pose();
+    find_uses();
+    const MeshPlan plan = plan_meshes(document(),
+                                      uses_,
+                                      sources_.placed,
+                                      block_sources_.mover_from_node,
+                                      {sources_.store != nullptr, sources_.anchors != nullptr});
+    for (const std::string& name : plan.shrunk_nodes)
+        shrunk_nodes_.add(name);
+    Result<std::vector<GeometryBlock>> parts = read(plan.blocks);
+    if (!parts) return fail(std::move(parts.error()));
+    add_world(plan.blocks, *parts);
+    for (size_t i = 0; i < plan.blocks.size(); ++i) {
+        if (plan.blocks[i].space != BlockSpace::world) add_mesh(plan.blocks[i], (*parts)[i]);
+    }
+    store(plan.blocks, *parts);
+    pad_tables(scene_);
+    warn();
+    return {};
+}
+
+}  // namespace
+
+Result<void> add_meshes(const MeshSources& sources,
+                        MaterialTable& materials,
+                        Problems& problems,
+                        Scene& scene,
+                        Log& log) {
+    return MeshBuilder(sources, materials, problems, scene, log).build();
+}
+
+}  // namespace obscura

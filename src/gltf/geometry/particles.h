@@ -1,0 +1,65 @@
+// gltf/geometry/particles.h - accessors of positions and radii become blocks of spheres.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/decode/accessors.h"
+#include "scene/scene.h"
+
+namespace obscura {
+
+/// Orders of spheres from one pose for the next: positions that come again need no sorting.
+class SphereOrders {
+public:
+    /// What is not asked for between two calls is forgotten.
+    void begin_pose();
+
+    /// The order in which neighbours among the spheres share blocks.
+    ///
+    /// In   positions: 3 numbers a sphere
+    const std::vector<uint32_t>& order_of(const std::vector<float>& positions);
+
+private:
+    struct Entry {
+        std::vector<float> positions;
+        std::vector<uint32_t> order;
+    };
+    std::vector<Entry> known_, asked_;
+};
+
+struct ParticleSources {
+    const Document& document;
+    const BufferStore& buffers;
+    SphereOrders* orders = nullptr;  ///< of an animated asset; null: there is one pose alone
+};
+
+/// Spheres as a primitive counts them; `first` is the first of a block.
+struct ParticleRange {
+    int32_t first = 0;
+    int32_t count = 0;
+    std::vector<uint32_t> order = {};  ///< which one of the input each row holds
+};
+
+inline constexpr size_t most_spheres = size_t{1} << 29;  ///< their words have 31-bit numbers
+
+/// Appends spheres to Scene::spheres in an order in which blocks are small boxes.
+///
+/// In      positions: 3 numbers a sphere; radii: one for all, or one a sphere
+/// In/Out  orders: see ParticleSources
+ParticleRange append_spheres(const std::vector<float>& positions,
+                             const std::vector<float>& radii,
+                             Scene& scene,
+                             SphereOrders* orders = nullptr);
+
+/// Appends a "spheres" shape.
+///
+/// In      shape_index: for messages
+/// Errors  as add_shapes
+Result<ParticleRange> append_particles(const ParticleSources& sources,
+                                       const GltfShape& shape,
+                                       int shape_index,
+                                       Scene& scene);
+
+/// The box around a primitive of shapes or particles, in its own space.
+ShapeBox primitive_box(const Scene& scene, const Primitive& primitive);
+
+}  // namespace obscura

@@ -1,0 +1,263 @@
+// gltf/geometry/shapes.cpp - the scene's analytic shapes become primitives and instances.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/geometry/shapes.h"
+
+#include "gltf/geometry/particles.h"
+#include "gltf/parse/list_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+
+namespace obscura {
+
+namespace {
+
+constexpr double farthest_position = 1e18;
+
+/// A uniform scale and a move; nothing when the map turns, mirrors or stretches.
+std::optional<double> uniform_scale(const Affined& map) {
+    const double s = map.m[0][0];
+    double off = 0;
+    for (int r = 0; r < 3; ++r) {
+        for (int c = 0; c < 3; ++c)
+            off = std::max(off, std::abs(map.m[r][c] - (r == c ? s : 0)));
+    }
+    if (!(s > 0) || off > 1e-9 * s) return std::nullopt;
+    return s;
+}
+
+class ShapeBuilder {
+public:
+    ShapeBuilder(const MeshSources& sources,
+                 MaterialTable& materials,
+                 Problems& problems,
+                 Scene& scene,
+                 Log& log)
+        : sources_(sources), materials_(materials), problems_(problems), scene_(scene), log_(log) {}
+
+    void build();
+
+private:
+    const Document& document() const { return sources_.document; }
+    const GltfShape& shape(int index) const {
+        return document().shapes[static_cast<size_t>(index)];
+    }
+    const GltfNode& node(const PlacedNode& place) const {
+        return document().nodes[static_cast<size_t>(place.node)];
+    }
+    int32_t choose_material(int material, bool double_sided);
+    Result<Primitive> make_primitive(const PlacedNode& place, const Affined* baked);
+    Result<void> add_particles(const PlacedNode& place, Primitive& primitive);
+    Result<Primitive> make_world_primitive(const PlacedNode& place);
+    void add_to_world(const std::vector<const PlacedNode*>& places);
+    Result<int32_t> instanced_mesh(const PlacedNode& place);
+    Result<void> add_instance(const PlacedNode& place);
+    Result<void> grow_bounds(const PlacedNode& place, const ShapeBox& box);
+    void count(const GltfShape& shape, int32_t rows);
+    void report(const Error& error) {
+        problems_.add(error, {Loss::primitive, "the shape is not drawn"});
+    }
+
+    const MeshSources& sources_;
+    MaterialTable& materials_;
+    Problems& problems_;
+    Scene& scene_;
+    Log& log_;
+    std::map<int32_t, int32_t> double_sided_;           ///< material rows made double-sided
+    std::map<std::pair<int, int>, int32_t> instanced_;  ///< mesh of (shape, material)
+    std::map<int32_t, ShapeBox> mesh_boxes_;            ///< by mesh row
+};
+
+int32_t ShapeBuilder::choose_material(int material, bool double_sided) {
+    const MaterialChoice choice = material_row(materials_, material, 1U);
+    if (choice.is_new) {
+        log_.warn(document().at("materials", static_cast<size_t>(material)),
+                  lost_slots_text(materials_, choice) + "; on shapes the factors alone count");
+    }
+    const int32_t row = choice.row;
+    const auto index = static_cast<size_t>(row);
+    if (!double_sided || (materials_.rows[index].flags & material_double_sided) != 0) return row;
+    const auto [entry, is_new] =
+        double_sided_.try_emplace(row, static_cast<int32_t>(materials_.rows.size()));
+    if (is_new) {
+        Material copy = materials_.rows[index];
+        copy.flags |= material_double_sided;
+        const int added = add_copy(materials_, row, copy, materials_.layers[index]);
+        materials_.used[static_cast<size_t>(added)] = 1;
+    }
+    return entry->second;
+}
+
+void ShapeBuilder::count(const GltfShape& counted, int32_t rows) {
+    std::vector<NamedCount>& list = scene_.info.shapes;
+    const auto found = std::find_if(
+        list.begin(), list.end(), [&](const NamedCount& c) { return c.name == counted.type; });
+    if (found == list.end()) {
+        list.push_back({counted.type, static_cast<size_t>(rows)});
+    } else {
+        found->count += static_cast<size_t>(rows);
+    }
+}
+
+Result<void> ShapeBuilder::add_particles(const PlacedNode& place, Primitive& primitive) {
+    const GltfShape& particles = shape(node(place).shape);
+    GeometryStore* store = sources_.store;
+    SphereOrders* orders = store != nullptr ? &store->sphere_orders : nullptr;
+    const Result<ParticleRange> range = append_particles(
+        {document(), sources_.buffers, orders}, particles, node(place).shape, scene_);
+    if (!range) return fail(range.error());
+    primitive.geometry = static_cast<int32_t>(GeometryKind::spheres);
+    primitive.first_triangle = range->first;
+    primitive.triangle_count = range->count;
+    return {};
+}
+
+/// The primitive of a node's shape; moved to the world where `baked`.
+Result<Primitive> ShapeBuilder::make_primitive(const PlacedNode& place, const Affined* baked) {
+    const GltfShape& own = shape(node(place).shape);
+    Primitive out;
+    out.material = choose_material(node(place).shape_material, own.double_sided);
+    out.tangent_base = 0;
+    out.uv_base[0] = 0;
+    out.geometry = static_cast<int32_t>(GeometryKind::shapes);
+    if (own.positions >= 0) {
+        const Result<void> added = add_particles(place, out);
+        if (!added) return fail(added.error());
+        return out;
+    }
+    out.first_triangle = static_cast<int32_t>(scene_.shapes.size());
+    out.triangle_count = 1;
+    ShapeRow row = own.row;
+    if (baked != nullptr) {
+        const auto& m = baked->m;
+        row = scaled_and_moved(row, m[0][0], {m[0][3], m[1][3], m[2][3]});
+    }
+    scene_.shapes.push_back(row);
+    return out;
+}
+
+Result<void> ShapeBuilder::grow_bounds(const PlacedNode& place, const ShapeBox& box) {
+    bool in_range = true;
+    Bounds all = scene_.bounds;
+    const auto cut = [](float v) { return std::isfinite(v) ? v : std::copysign(0.5f, v); };
+    for (int corner = 0; corner < 8; ++corner) {
+        const Vec3d p{cut((corner & 1) != 0 ? box.high.x : box.low.x),
+                      cut((corner & 2) != 0 ? box.high.y : box.low.y),
+                      cut((corner & 4) != 0 ? box.high.z : box.low.z)};
+        const Vec3d moved = transform_point(place.world_from_node, p);
+        in_range = in_range && max_component(abs(moved)) <= farthest_position;
+        const Vec3f v{
+            static_cast<float>(moved.x), static_cast<float>(moved.y), static_cast<float>(moved.z)};
+        all.low = {std::min(all.low.x, v.x), std::min(all.low.y, v.y), std::min(all.low.z, v.z)};
+        all.high = max3(all.high, v);
+    }
+    if (in_range) {
+        scene_.bounds = all;
+        return {};
+    }
+    return fail(ExitCode::bad_data,
+                "E-NODE-RANGE",
+                document().at("nodes", static_cast<size_t>(place.node)),
+                "the node moves its shape beyond 1e18");
+}
+
+Result<Primitive> ShapeBuilder::make_world_primitive(const PlacedNode& place) {
+    const GltfShape& own = shape(node(place).shape);
+    const Result<void> grown = grow_bounds(place, shape_bounds(own.row));
+    if (!grown) return fail(grown.error());
+    Result<Primitive> primitive = make_primitive(place, &place.world_from_node);
+    if (!primitive) return primitive;
+    primitive->node = place.node;
+    count(own, 1);
+    return primitive;
+}
+
+/// Primitives in world space come before those of meshes.
+void ShapeBuilder::add_to_world(const std::vector<const PlacedNode*>& places) {
+    std::vector<Primitive> world;
+    for (const PlacedNode* place : places) {
+        const Result<Primitive> primitive = make_world_primitive(*place);
+        if (primitive) world.push_back(*primitive);
+        if (!primitive) report(primitive.error());
+    }
+    const auto added = static_cast<int32_t>(world.size());
+    scene_.primitives.insert(
+        scene_.primitives.begin() + scene_.world_primitive_count, world.begin(), world.end());
+    scene_.world_primitive_count += added;
+    for (Mesh& mesh : scene_.meshes)
+        mesh.first_primitive += added;
+}
+
+/// The mesh of a node's shape, made where it is the first such node.
+Result<int32_t> ShapeBuilder::instanced_mesh(const PlacedNode& place) {
+    const std::pair<int, int> key{node(place).shape, node(place).shape_material};
+    const auto known = instanced_.find(key);
+    if (known != instanced_.end()) return known->second;
+    const Result<Primitive> primitive = make_primitive(place, nullptr);
+    if (!primitive) return fail(primitive.error());
+    const auto row = static_cast<int32_t>(scene_.meshes.size());
+    scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()), 1});
+    scene_.primitives.push_back(*primitive);
+    mesh_boxes_[row] = primitive_box(scene_, *primitive);
+    instanced_[key] = row;
+    return row;
+}
+
+Result<void> ShapeBuilder::add_instance(const PlacedNode& place) {
+    const Result<int32_t> row = instanced_mesh(place);
+    if (!row) return fail(row.error());
+    const Result<void> grown = grow_bounds(place, mesh_boxes_[*row]);
+    if (!grown) return grown;
+    const Mesh& mesh = scene_.meshes[static_cast<size_t>(*row)];
+    Instance instance;
+    instance.world_from_object = affine_cast<float>(place.world_from_node);
+    instance.object_from_world = affine_cast<float>(inverse(place.world_from_node));
+    instance.mesh = *row;
+    instance.node = place.node;
+    instance.mirrored = determinant(place.world_from_node) < 0 ? 1 : 0;
+    scene_.instances.push_back(instance);
+    count(shape(node(place).shape),
+          scene_.primitives[static_cast<size_t>(mesh.first_primitive)].triangle_count);
+    return {};
+}
+
+void ShapeBuilder::build() {
+    std::vector<const PlacedNode*> world;
+    std::vector<const PlacedNode*> moved;
+    std::vector<std::string> flat;
+    for (const PlacedNode& place : sources_.placed) {
+        const int index = node(place).shape;
+        if (index < 0 || !place.visible) continue;
+        if (is_singular(place.world_from_node)) {
+            flat.push_back(document().at("nodes", static_cast<size_t>(place.node)));
+            continue;
+        }
+        const bool single = shape(index).positions < 0;
+        const bool stays = single && place.mover < 0 && uniform_scale(place.world_from_node);
+        (stays ? world : moved).push_back(&place);
+    }
+    if (!flat.empty()) {
+        log_.warn(document().file,
+                  "shapes whose node's scale is zero or whose matrix is singular are not drawn: " +
+                      list_text(flat));
+    }
+    add_to_world(world);
+    for (const PlacedNode* place : moved) {
+        const Result<void> added = add_instance(*place);
+        if (!added) report(added.error());
+    }
+}
+
+}  // namespace
+
+void add_shapes(const MeshSources& sources,
+                MaterialTable& materials,
+                Problems& problems,
+                Scene& scene,
+                Log& log) {
+    ShapeBuilder(sources, materials, problems, scene, log).build();
+}
+
+}  // namespace obscura

@@ -1,0 +1,20 @@
+// gltf/geometry/skins.h - the matrices by which joints move the vertices that hang on them.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/decode/accessors.h"
+
+#include <vector>
+
+namespace obscura {
+
+/// For each joint of a skin: the world from the pose that the mesh was bound in.
+///
+/// In      world_from_node: of all nodes, for joints need not be in the drawn scene
+/// Errors  65 E-SKIN-MATRICES an inverse bind matrix is not finite; those of read_floats
+Result<std::vector<Affined>> skin_matrices(const Document& document,
+                                           const BufferStore& buffers,
+                                           const std::vector<Affined>& world_from_node,
+                                           int skin);
+
+}  // namespace obscura

@@ -1,0 +1,380 @@
+// gltf/materials/textures.cpp - images of materials become texels in the arena.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/materials/textures.h"
+
+#include "base/parallel.h"
+#include "gltf/decode/encoded_image.h"
+#include "gltf/parse/specular_glossiness.h"
+#include "gltf/parse/uri.h"
+#include "image/decode.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+constexpr size_t most_texels = (1U << 31) - 1;
+constexpr uint32_t magenta = 0xFFFF00FF;  // RGBA8: no surface looks like it by chance
+
+class TextureBuilder {
+public:
+    TextureBuilder(const TextureSources& sources,
+                   MaterialTable& materials,
+                   Problems& problems,
+                   Scene& scene,
+                   Log& log)
+        : sources_(sources), materials_(materials), problems_(problems), scene_(scene), log_(log) {}
+
+    Result<void> build();
+
+private:
+    const Document& document() const { return sources_.document; }
+    ImageSources image_sources() const {
+        return {sources_.document, sources_.buffers, sources_.folder, sources_.measure_only};
+    }
+    const GltfTexture& texture(int index) const {
+        return document().textures[static_cast<size_t>(index)];
+    }
+    /// The image in the file, also of one that the loader has made from it.
+    size_t original(size_t image) const {
+        const int of = document().images[image].glossiness_of;
+        return of < 0 ? image : static_cast<size_t>(of);
+    }
+    std::string place(size_t image) const { return document().at("images", original(image)); }
+
+    void find_uses();
+    bool take_stored();
+    Result<void> decode_afresh();
+    Result<ImageRgba8> probe(size_t image) const;
+    void probe_all();
+    void break_image(size_t image, const Error& error);
+    void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
+    void warn_wrong_encoding(size_t image, ImageEncoding encoding) const;
+    Result<void> lay_out();
+    int row_for(const TextureSlot& slot, bool srgb);
+    void resolve_slots();
+    Result<void> decode(size_t image);
+    void fill_broken(size_t image);
+    void decode_all();
+
+    const TextureSources& sources_;
+    MaterialTable& materials_;
+    Problems& problems_;
+    Scene& scene_;
+    Log& log_;
+    std::vector<ImageState> images_;
+    std::map<std::pair<int, uint32_t>, int> rows_;  ///< (image, packed sampler) -> arena row
+};
+
+Wrap wrap_of(int mode) {
+    return mode == 33071 ? Wrap::clamp : mode == 33648 ? Wrap::mirror : Wrap::repeat;
+}
+
+uint32_t packed_sampler(const GltfSampler& sampler, bool srgb) {
+    const int min = sampler.min_filter;
+    const bool min_nearest = min == 9728 || min == 9984 || min == 9986;
+    const MipMode mip = min < 9984   ? MipMode::none
+                        : min < 9986 ? MipMode::nearest
+                                     : MipMode::linear;
+    return pack_sampler(wrap_of(sampler.wrap_s),
+                        wrap_of(sampler.wrap_t),
+                        sampler.mag_filter == 9728,
+                        min_nearest,
+                        mip,
+                        srgb);
+}
+
+/// Who uses which image: drawn materials decide what is decoded, all materials what is told.
+void TextureBuilder::find_uses() {
+    images_.resize(document().images.size());
+    scene_.info.images.resize(document().images.size());
+    for (size_t i = 0; i < document().images.size(); ++i) {
+        scene_.info.images[i].name = document().images[i].name;
+        images_[i].glossiness = document().images[i].glossiness;
+    }
+    for (size_t row = 0; row < materials_.rows.size(); ++row) {
+        for (size_t i = 0; i < slot_count; ++i) {
+            const TextureSlot& slot = *slot_of(i, materials_.rows[row], materials_.layers[row]);
+            if (slot.texture < 0) continue;
+            const size_t image = static_cast<size_t>(texture(slot.texture).image);
+            const bool color = slot_rows[i].color;
+            ImageInfo& info = scene_.info.images[image];
+            (color ? info.used_as_color : info.used_as_data) = true;
+            if (materials_.used[row] != 0) images_[image].uses[color ? 1 : 0].used = true;
+        }
+    }
+}
+
+/// The format that a file's name promises; "" where it promises none.
+std::string format_of_name(const GltfImage& image) {
+    if (!image.uri || is_data_uri(*image.uri)) return {};
+    std::string ending = std::filesystem::path(*image.uri).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
+    if (ending == ".jpg") return "jpeg";
+    for (const char* format : {"png", "jpeg", "webp", "ktx2"}) {
+        if (ending == std::string(".") + format) return format;
+    }
+    return {};
+}
+
+void TextureBuilder::warn_wrong_mime(size_t image,
+                                     const std::string& mime,
+                                     const std::string& format) const {
+    if (!mime.empty() && mime != "image/" + format) {
+        log_.warn(
+            place(image),
+            "the media type is \"" + mime + "\" but the data are " + format + "; the data count");
+    }
+    const GltfImage& from = document().images[image];
+    const std::string promised = format_of_name(from);
+    if (!promised.empty() && promised != format) {
+        log_.warn(place(image),
+                  "the file \"" + *from.uri + "\" is named as " + promised + " but the data are " +
+                      format + "; the data count");
+    }
+}
+
+void TextureBuilder::warn_wrong_encoding(size_t image, ImageEncoding encoding) const {
+    const std::array<ImageUse, 2>& uses = images_[image].uses;
+    if (encoding == ImageEncoding::srgb && uses[0].used) {
+        log_.warn(place(image),
+                  "the image says that it is sRGB, but a material reads it as data; it is read as "
+                  "data");
+    }
+    if (encoding == ImageEncoding::linear && uses[1].used) {
+        log_.warn(place(image),
+                  "the image says that it is linear, but a material reads it as colour, which is "
+                  "sRGB in glTF; it is read as sRGB");
+    }
+}
+
+Result<ImageRgba8> TextureBuilder::probe(size_t image) const {
+    Result<EncodedImage> encoded = load_encoded(image_sources(), image);
+    if (!encoded) return fail(std::move(encoded.error()));
+    Result<ImageRgba8> header = probe_image(encoded->bytes, place(image));
+    if (header) warn_wrong_mime(image, encoded->mime, header->format);
+    return header;
+}
+
+void TextureBuilder::break_image(size_t image, const Error& error) {
+    images_[image].broken = true;
+    problems_.add(error,
+                  {Loss::texture, "magenta stands for its colours, and for its data the factor"});
+}
+
+/// Measures every image, so that the arena can be laid out before anything is decoded.
+void TextureBuilder::probe_all() {
+    std::vector<std::optional<Result<ImageRgba8>>> headers(images_.size());
+    parallel_for(images_.size(), [&](size_t i) { headers[i] = probe(i); });
+    for (size_t i = 0; i < images_.size(); ++i) {
+        Result<ImageRgba8>& header = *headers[i];
+        if (!header) {
+            if (images_[i].used()) {
+                images_[i].width = images_[i].height = 1;
+                break_image(i, header.error());
+                continue;
+            }
+            log_.warn(header.error().where,
+                      header.error().message + "; no drawn material uses the image");
+            continue;
+        }
+        warn_wrong_encoding(i, header->encoding);
+        images_[i].width = header->width;
+        images_[i].height = header->height;
+        images_[i].wide = header->bits == 16;
+        ImageInfo& info = scene_.info.images[i];
+        info.format = header->format;
+        info.width = header->width;
+        info.height = header->height;
+        info.bits = header->bits;
+    }
+}
+
+/// Words of the arena that one use of an image takes.
+size_t arena_texels(const ImageState& image) {
+    return (image.wide ? 2U : 1U) * mip_chain_texels(image.width, image.height);
+}
+
+Result<void> TextureBuilder::lay_out() {
+    size_t total = 0;
+    for (size_t i = 0; i < images_.size(); ++i) {
+        for (ImageUse& use : images_[i].uses) {
+            if (!use.used) continue;
+            use.base = total;
+            total += arena_texels(images_[i]);
+            if (total <= most_texels) continue;
+            return fail(ExitCode::refused,
+                        "E-LIMIT-TEXELS",
+                        place(i),
+                        "the images used have more than 2^31 - 1 texels with their mip chains; "
+                        "make them smaller");
+        }
+    }
+    if (!sources_.measure_only) scene_.textures.texels.resize(total);
+    return {};
+}
+
+int TextureBuilder::row_for(const TextureSlot& slot, bool srgb) {
+    const GltfTexture& from = texture(slot.texture);
+    const GltfSampler sampler =
+        from.sampler < 0 ? GltfSampler{} : document().samplers[static_cast<size_t>(from.sampler)];
+    const uint32_t packed = packed_sampler(sampler, srgb);
+    std::vector<TextureRow>& rows = scene_.textures.rows;
+    const auto [entry, is_new] =
+        rows_.try_emplace({from.image, packed}, static_cast<int>(rows.size()));
+    if (!is_new) return entry->second;
+
+    const ImageState& image = images_[static_cast<size_t>(from.image)];
+    TextureRow row;
+    row.width = image.width;
+    row.height = image.height;
+    row.levels = mip_level_count(image.width, image.height);
+    row.sampler = packed;
+    if (image.wide) {
+        row.low_plane = static_cast<int32_t>(mip_chain_texels(image.width, image.height));
+    }
+    size_t offset = image.uses[srgb ? 1 : 0].base;
+    for (int level = 0; level < row.levels; ++level) {
+        row.level_offset[level] = static_cast<int32_t>(offset);
+        offset += static_cast<size_t>(std::max(1, image.width >> level)) *
+                  static_cast<size_t>(std::max(1, image.height >> level));
+    }
+    rows.push_back(row);
+    return entry->second;
+}
+
+void TextureBuilder::resolve_slots() {
+    for (size_t row = 0; row < materials_.rows.size(); ++row) {
+        for (size_t i = 0; i < slot_count; ++i) {
+            TextureSlot& slot = *slot_of(i, materials_.rows[row], materials_.layers[row]);
+            if (materials_.used[row] == 0) slot = TextureSlot{};
+            if (slot.texture < 0) continue;
+            const auto image = static_cast<size_t>(texture(slot.texture).image);
+            if (images_[image].broken && !slot_rows[i].color) {
+                slot = TextureSlot{};
+            } else {
+                slot.texture = row_for(slot, slot_rows[i].color);
+            }
+        }
+    }
+}
+
+Result<void> TextureBuilder::decode(size_t image) {
+    const ImageState& state = images_[image];
+    if (!state.used() || state.broken) return {};
+    const std::string where = place(image);
+    Result<EncodedImage> encoded = load_encoded(image_sources(), image);
+    if (!encoded) return fail(std::move(encoded.error()));
+    Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_, Extent::stored);
+    if (!decoded) return fail(std::move(decoded.error()));
+    encoded->owned = Bytes();
+    // Levels that the file stores are taken as they are; the others are made from its last one.
+    const int width = std::max(state.width >> (decoded->levels - 1), 1);
+    const int height = std::max(state.height >> (decoded->levels - 1), 1);
+    const size_t last_level =
+        mip_chain_texels(state.width, state.height) - mip_chain_texels(width, height);
+    const size_t texels = last_level + static_cast<size_t>(width) * static_cast<size_t>(height);
+    if (decoded->width != state.width || decoded->height != state.height ||
+        decoded->texels.size() != texels || decoded->low_bytes.empty() == state.wide) {
+        return fail(ExitCode::bad_resource,
+                    "E-IMG-CHANGED",
+                    where,
+                    "the image's size is not what its header said a moment ago");
+    }
+    const GltfImage& source = document().images[image];
+    if (source.glossiness_of >= 0) {
+        roughness_from_glossiness(decoded->texels, decoded->low_bytes, source.glossiness);
+    }
+    for (size_t srgb = 0; srgb < 2; ++srgb) {
+        if (!state.uses[srgb].used) continue;
+        uint32_t* base = scene_.textures.texels.data() + state.uses[srgb].base;
+        std::copy(decoded->texels.begin(), decoded->texels.end(), base);
+        if (!state.wide) {
+            build_mip_chain(base + last_level, width, height, srgb == 1);
+            continue;
+        }
+        uint32_t* low = base + mip_chain_texels(width, height);
+        std::copy(decoded->low_bytes.begin(), decoded->low_bytes.end(), low);
+        build_wide_mip_chain(base, low, width, height, srgb == 1);
+    }
+    return {};
+}
+
+void TextureBuilder::fill_broken(size_t image) {
+    const ImageState& state = images_[image];
+    const ImageUse& color = state.uses[1];
+    if (!color.used) return;
+    const size_t texels = arena_texels(state);
+    std::fill_n(scene_.textures.texels.data() + color.base, texels, magenta);
+}
+
+void TextureBuilder::decode_all() {
+    std::vector<Result<void>> done(images_.size());
+    parallel_for(images_.size(), [&](size_t i) { done[i] = decode(i); });
+    for (size_t i = 0; i < images_.size(); ++i) {
+        if (!done[i]) break_image(i, done[i].error());
+        if (images_[i].broken) fill_broken(i);
+    }
+}
+
+/// What an earlier scene has left is taken over, if it has all that this one needs; what that one
+/// needed is decoded again beside the rest, else two scenes could take turns in decoding.
+bool TextureBuilder::take_stored() {
+    TextureStore& store = sources_.store;
+    if (store.images.empty() || store.images.size() != images_.size()) return false;
+    bool has_all = !store.texels.empty() || sources_.measure_only;
+    for (size_t i = 0; i < images_.size(); ++i) {
+        has_all = has_all && images_[i].glossiness == store.images[i].glossiness;
+        for (size_t srgb = 0; srgb < 2; ++srgb) {
+            ImageUse& use = images_[i].uses[srgb];
+            has_all = has_all && (!use.used || store.images[i].uses[srgb].used);
+            use.used = use.used || store.images[i].uses[srgb].used;
+        }
+    }
+    if (!has_all) return false;
+    images_ = store.images;
+    for (size_t i = 0; i < images_.size(); ++i) {
+        const bool told = original(i) != i && images_[original(i)].broken;
+        if (images_[i].broken && !told) problems_.count(Loss::texture, 1);
+    }
+    scene_.info.images = store.infos;
+    scene_.textures.texels = std::move(store.texels);
+    store.texels = {};
+    resolve_slots();
+    return true;
+}
+
+Result<void> TextureBuilder::decode_afresh() {
+    sources_.store.texels = {};
+    probe_all();
+    Result<void> done = lay_out();
+    if (!done) return done;
+    if (!sources_.measure_only) decode_all();
+    resolve_slots();
+    sources_.store.images = images_;
+    sources_.store.infos = scene_.info.images;
+    return {};
+}
+
+Result<void> TextureBuilder::build() {
+    find_uses();
+    return take_stored() ? Result<void>{} : decode_afresh();
+}
+
+}  // namespace
+
+Result<void> add_textures(const TextureSources& sources,
+                          MaterialTable& materials,
+                          Problems& problems,
+                          Scene& scene,
+                          Log& log) {
+    return TextureBuilder(sources, materials, problems, scene, log).build();
+}
+
+}  // namespace obscura

@@ -1,0 +1,62 @@
+// gltf/parse/asset_file.cpp - opens a .gltf or .glb file and reads its JSON.
+// SPDX-License-Identifier: Apache-2.0
+#include "gltf/parse/asset_file.h"
+
+#include "base/json/json_text.h"
+#include "gltf/parse/glb.h"
+
+namespace obscura {
+
+namespace {
+
+constexpr uint64_t largest_asset_file = UINT32_MAX;  // what a GLB header can count
+
+Result<Bytes> read_asset_file(const std::filesystem::path& file) {
+    FileBytes read = read_file_bytes(file, {largest_asset_file, UINT64_MAX});
+    if (read.fault == FileFault::none) return std::move(read.bytes);
+    if (read.fault == FileFault::too_large) {
+        return fail(ExitCode::bad_data, "E-GLB-SIZE", file.string(), "the file has " + read.reason);
+    }
+    return fail(ExitCode::missing_scene,
+                "E-SCENE-MISSING",
+                file.string(),
+                "the scene cannot be read: " + read.reason + "; accepted are .gltf and .glb files");
+}
+
+}  // namespace
+
+Result<OpenedAsset> open_asset(const std::filesystem::path& path,
+                               Problems& problems,
+                               Log& log,
+                               bool occlusion) {
+    const std::string where = path.string();
+    Result<Bytes> bytes = read_asset_file(path);
+    if (!bytes) return fail(std::move(bytes.error()));
+    OpenedAsset asset;
+    asset.file = std::move(*bytes);
+    const std::span<const std::byte> all = asset.file;
+    const std::string_view foreign = guess_foreign_format(all);
+    if (all.empty() || !foreign.empty()) {
+        const std::string what = all.empty() ? "is empty" : "looks like " + std::string(foreign);
+        return fail(ExitCode::bad_data,
+                    "E-GLB-FORMAT",
+                    where,
+                    "the file " + what + "; accepted are glTF 2.0 as JSON text or GLB");
+    }
+    std::string_view text(reinterpret_cast<const char*>(all.data()), all.size());
+    if (is_glb(all)) {
+        const Result<GlbParts> parts = split_glb(all, where, log);
+        if (!parts) return fail(parts.error());
+        text = parts->json;
+        asset.glb_binary = parts->binary;
+    }
+    Result<nlohmann::json> tree = parse_json_text(text, where, log);
+    if (!tree) return fail(std::move(tree.error()));
+    if (!is_glb(all)) asset.file = Bytes();
+    Result<Document> document = read_document(std::move(*tree), where, problems, log, occlusion);
+    if (!document) return fail(std::move(document.error()));
+    asset.document = std::move(*document);
+    return asset;
+}
+
+}  // namespace obscura

@@ -1,0 +1,24 @@
+// gltf/parse/variants.h - KHR_materials_variants: a material for each look.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/parse/document_reading.h"
+
+#include <string>
+
+namespace obscura {
+
+/// Reads the names; before the meshes, whose mappings count on them.
+void read_variants(DocumentReading& reading);
+
+/// Reads which materials a primitive has in which variants.
+void read_variant_materials(const DocumentReading& reading,
+                            const ModelElement& object,
+                            GltfPrimitive& out);
+
+/// Gives every primitive the material that it has in this variant; one without keeps its own.
+///
+/// Errors  64 E-VARIANT-UNKNOWN, listing the names
+Result<void> choose_variant(const std::string& name, Document& document);
+
+}  // namespace obscura

@@ -1,0 +1,131 @@
+// session/asset_renderer.cpp - an asset that is read once and of which images are made.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/asset_renderer.h"
+
+#include "base/stopwatch.h"
+#include "render/enclosed_lights.h"
+#include "render/integrators.h"
+#include "scene/scene_memory.h"
+
+#include "session/focus.h"
+
+namespace obscura {
+
+Result<AssetRenderer> AssetRenderer::open(const std::filesystem::path& file,
+                                          const LoadOptions& options,
+                                          bool has_time,
+                                          Log& log) {
+    const Stopwatch loading;
+    Result<PosedAsset> asset = PosedAsset::open(file, options, has_time, log);
+    if (!asset) return fail(asset.error());
+    AssetRenderer out(std::move(*asset));
+    out.statistics_.load_s = loading.seconds();
+    return out;
+}
+
+Result<void> AssetRenderer::pose(const PoseTimes& times, Log& log) {
+    const Stopwatch loading;
+    if (scene_) asset_->take_back(std::move(*scene_));
+    if (is_prepared_) asset_->take_back(prepared_->take_scene());
+    scene_.reset();
+    is_prepared_ = false;
+    Result<Scene> scene = times.shutter ? asset_->scene_between(*times.shutter, times.is_last, log)
+                                        : asset_->scene_at(times.time_s, times.is_last, log);
+    if (!scene) return fail(scene.error());
+    degraded_ = asset_->degraded();
+    add_degraded(degraded_, statistics_.degraded);
+    if (times.is_last) asset_.reset();
+    statistics_.load_s += loading.seconds();
+    statistics_.parse_s += scene->info.parse_seconds;
+    statistics_.decode_s += scene->info.decode_seconds;
+    statistics_.geometry_bytes = geometry_bytes(*scene);
+    statistics_.texture_bytes = texture_bytes(*scene);
+    scene_ = std::move(*scene);
+    return {};
+}
+
+void AssetRenderer::start_anew() {
+    if (is_prepared_) asset_->take_back(prepared_->take_scene());
+    is_prepared_ = false;
+    prepared_.reset();
+}
+
+const Scene& AssetRenderer::scene() const {
+    return scene_ ? *scene_ : prepared_->scene();
+}
+
+Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
+                                            const LightingOptions& lighting,
+                                            Log& log) {
+    Result<ChosenCamera> camera = choose_unfocused_camera(*scene_, request, log);
+    if (!camera) return camera;
+    if (has_strokes(*scene_)) size_strokes(request.strokes, camera->camera, *scene_);
+    Scene scene = std::move(*scene_);
+    scene_.reset();
+    if (prepared_) {
+        const Result<void> updated = prepared_->update(std::move(scene), lighting, log);
+        if (!updated) {
+            prepared_.reset();
+            return fail(updated.error());
+        }
+    } else {
+        Result<PreparedScene> created =
+            PreparedScene::create(std::move(scene), lighting, request.isa, log);
+        if (!created) return fail(created.error());
+        prepared_ = std::move(*created);
+    }
+    is_prepared_ = true;
+    if (!is_quantity(request.options.integrator)) {
+        const auto& eye = camera->camera.world_from_camera.m;
+        warn_of_enclosed_lights(*prepared_, {eye[0][3], eye[1][3], eye[2][3]}, log);
+    }
+    statistics_.build_s += prepared_->build_seconds().all;
+    statistics_.bvh_bytes = prepared_->bvh_bytes();
+    statistics_.isa = prepared_->isa_name();
+    statistics_.embree = prepared_->embree_version();
+    if (auto focused = focus(*prepared_, request, log, *camera); !focused) {
+        return fail(focused.error());
+    }
+    return camera;
+}
+
+Result<ChosenCamera> AssetRenderer::look_again(const RenderRequest& request, Log& log) const {
+    Result<ChosenCamera> camera = choose_unfocused_camera(prepared_->scene(), request, log);
+    if (!camera) return camera;
+    if (auto focused = focus(*prepared_, request, log, *camera); !focused) {
+        return fail(focused.error());
+    }
+    return camera;
+}
+
+Result<FinishedPicture> AssetRenderer::render(const RenderRequest& request,
+                                              const ChosenCamera& camera,
+                                              const RenderHooks& hooks,
+                                              const Log& log) {
+    RenderOptions options = request.options;
+    options.moving_camera = camera.moving;
+    options.film_memory = &film_memory_;
+    const std::atomic<bool> never = false;
+    Result<RenderResult> result = obscura::render(*prepared_,
+                                                  camera.camera,
+                                                  options,
+                                                  hooks.progress,
+                                                  hooks.stop != nullptr ? *hooks.stop : never);
+    if (!result) return fail(result.error());
+    statistics_.render_s += result->render_seconds;
+    add_counters(result->counters, statistics_.counters);
+    statistics_.film_bytes = result->film.pixels.size() * sizeof(float);
+
+    FinishedPicture finished;
+    finished.metadata = make_metadata(request, *prepared_, camera, result->render_seconds, log);
+    if (request.load.lenient) {
+        finished.metadata.extra.emplace_back("degraded", degraded_text(degraded_));
+    }
+    Film& film = result->film;
+    finished.counters = result->counters;
+    finished.picture = {
+        film.width, film.height, std::move(film.channels), std::move(film.pixels), film.part_of};
+    return finished;
+}
+
+}  // namespace obscura

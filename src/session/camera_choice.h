@@ -1,0 +1,79 @@
+// session/camera_choice.h - which camera takes a picture: asked for, of the file, or framed.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "base/log.h"
+#include "camera/aperture_table.h"
+#include "camera/camera.h"
+#include "scene/scene.h"
+
+#include "session/camera_build.h"
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// What is asked of the camera; what was not asked for is empty.
+struct CameraRequest {
+    std::string choice = {};  ///< an exact name, else an index
+    std::optional<CameraModel> model = {};
+    std::optional<Vec3d> eye_m = {};
+    std::optional<Vec3d> target_m = {};
+    std::optional<Vec3d> up = {};
+    std::optional<double> yfov_rad = {};
+    CameraSettings settings = {};  ///< all else; its model is `model`
+    /// Pixel from the top left; the caller finds the distance (session/focus.h).
+    std::optional<std::array<int, 2>> focus_on_px = {};
+    /// What the automatic framing shows in place of the whole scene: in a sequence the first
+    /// frame's bounds, so that the view stands still while things move.
+    std::optional<Bounds> framed = {};
+    /// Takes the place of the file's cameras.
+    std::optional<SceneCamera> loaded = {};
+};
+
+struct ChosenCamera {
+    Camera camera;
+    CameraBasis basis;  ///< of which it was made, with `settings`
+    PictureSize size;
+    std::vector<Affined> moving;  ///< RenderOptions::moving_camera
+    double znear_m = 0.01;        ///< for the NDC matrix; what is clipped is in `camera`
+    double zfar_m = 1000;
+    CameraSettings settings;      ///< those of the file and of the options together
+    std::optional<double> ev100;  ///< the exposure that was asked for
+    std::shared_ptr<const ApertureTable> aperture;  ///< what camera.thin_lens looks at
+    std::string description;                        ///< "camera 'Front' of the file"
+};
+
+/// Chooses the camera:
+///  0. `loaded`, whatever the file has;
+///  1. any of eye, target, up: placed by hand; what is not given is taken from the automatic
+///     framing (the vertical angle too);
+///  2. `choice`: by exact name, else by index;
+///  3. the file's first camera;
+///  4. the automatic framing (session/framing.h).
+/// `yfov_rad` replaces the vertical angle of whichever camera that is; of a fisheye, its whole
+/// angle. The settings replace what the file's OBSCURA_camera says, one by one. An orthographic
+/// camera that comes from an angle shows what a pinhole with that angle shows at the target's
+/// distance.
+///
+/// A file's camera never has its view cropped or stretched (glTF 2.0, section 3.10.3): a picture
+/// wider than the camera's aspect ratio shows more at the sides, a narrower one more above and
+/// below. Without aspectRatio, yfov is kept. The node's scale is ignored.
+///
+/// Errors  64 E-CAM-UNKNOWN, E-CAM-AMBIGUOUS (the message lists the names), 64 E-CAM-VIEW eye and
+///         target are the same or up is parallel to the view, E-USAGE-CONFLICT the camera's model
+///         does not have what an option says, those of session/camera_build.h;
+///         65 E-CAM-SINGULAR a node flattens its camera, 65 E-CAM-RANGE it does not fit 32-bit
+///         floats; 67 E-IMG-* and E-APERTURE-* the picture of an aperture
+Result<ChosenCamera> choose_camera(
+    const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log);
+
+/// Makes the picture sharp at another distance along the view axis; all else stays.
+///
+/// Errors  64 E-CAM-LENS, 65 E-CAM-RANGE
+Result<void> refocus(ChosenCamera& chosen, double distance_m, const std::string& file);
+
+}  // namespace obscura

@@ -1,0 +1,38 @@
+// session/frames.h - the frames of a sequence: their numbers, times and file names.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace obscura {
+
+/// Frame n is at n / fps seconds.
+struct FrameRange {
+    int first = 0;
+    int last = 0;  ///< inclusive
+    double fps = 24;
+
+    int count() const { return last - first + 1; }
+    double time_s(int frame) const { return frame / fps; }
+};
+
+/// While the shutter is open, in frames from the picture's own time.
+struct ShutterFractions {
+    double open = 0;
+    double close = 0;
+};
+
+/// The name of one frame's file: the only run of # in the file's name becomes the number, with
+/// zeros in front up to as many digits as there are #. Nothing: there is no such run, or several.
+std::optional<std::filesystem::path> frame_file(const std::filesystem::path& pattern, int frame);
+
+/// One picture of a command: where it goes and when it is.
+struct MovieFrame {
+    std::optional<int> number;  ///< of a sequence
+    double time_s = 0;
+    std::vector<std::filesystem::path> outputs;
+};
+
+}  // namespace obscura

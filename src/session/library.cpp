@@ -1,0 +1,319 @@
+// session/library.cpp - the library's Session: opens assets, renders images, writes files.
+// SPDX-License-Identifier: Apache-2.0
+#include "base/parallel.h"
+#include "render/film_rows.h"
+#include "render/integrators.h"
+
+#include "session/focus.h"
+#include "session/library_asset.h"
+#include "session/library_request.h"
+#include "session/lighting.h"
+#include "session/outputs.h"
+#include <cmath>
+#include <mutex>
+#include <obscura/obscura.h>
+
+namespace obscura {
+
+v0::Error library_error(const Error& error) {
+    const auto plain = [](const std::string& text) {
+        return spell_settings(text, SettingNames::plain);
+    };
+    v0::Error out;
+    out.id = error.id;
+    out.place = plain(error.where);
+    out.text = plain(error.message);
+    out.code = static_cast<int>(error.code);
+    for (const Error& other : error.also)
+        out.also.push_back(library_error(other));
+    return out;
+}
+
+LogSink library_sink(const v0::MessageSink& sink) {
+    if (!sink) return {};
+    return [sink](const LogMessage& message) {
+        sink({message.is_warning, std::string(message.where), std::string(message.text)});
+    };
+}
+
+namespace {
+
+/// Runs a call; what it throws becomes an error.
+template <typename T, typename Body>
+v0::Result<T> guarded(const Body& body) {
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return library_error({ExitCode::out_of_memory, "E-MEM", "", "out of memory"});
+    } catch (const std::exception& error) {
+        return library_error({ExitCode::internal, "E-INTERNAL", "", error.what()});
+    }
+}
+
+v0::AssetInfo info_of(const Scene& scene) {
+    const AssetInfo& from = scene.info;
+    v0::AssetInfo out;
+    out.file = from.file_name;
+    out.generator = from.generator;
+    out.copyright = from.copyright;
+    out.scenes = from.scenes;
+    out.scene = from.scene;
+    out.variants = from.variants;
+    out.triangles = from.triangles_in_world;
+    for (const AnimationInfo& animation : from.animations)
+        out.animations.push_back({animation.name, animation.end_s});
+    for (const SceneCamera& camera : scene.cameras) {
+        v0::CameraInfo& added = out.cameras.emplace_back();
+        added.name = camera.name;
+        added.orthographic = camera.type == SceneCameraType::orthographic;
+        if (!added.orthographic) added.fov_deg = camera.yfov_rad * 180 / pi_d;
+        for (size_t i = 0; i < 12; ++i)
+            added.world_from_camera[i] = camera.world_from_camera.m[i / 4][i % 4];
+    }
+    out.is_empty = scene.bounds.empty();
+    if (out.is_empty) return out;
+    const Vec3f& low = scene.bounds.low;
+    const Vec3f& high = scene.bounds.high;
+    out.low = {low.x, low.y, low.z};
+    out.high = {high.x, high.y, high.z};
+    return out;
+}
+
+/// Reads the file for what is asked of it now. What it was read for changes what is made of it, so
+/// that another purpose reads it again.
+Result<void> read(v0::Asset::Impl& asset, const ReadFor& wanted, Log& log) {
+    if (asset.renderer && asset.read_for == wanted) return {};
+    asset.read_for = wanted;
+    asset.load.keeps_uv = asset.read_for.uv;
+    asset.renderer.reset();
+    asset.is_posed = false;
+    asset.prepared_for.reset();
+    Result<AssetRenderer> renderer =
+        AssetRenderer::open(asset.file, asset.load, asset.read_for.times, log);
+    if (!renderer) return fail(renderer.error());
+    asset.renderer = std::move(*renderer);
+    return {};
+}
+
+PoseTimes times_of(const v0::View& view) {
+    PoseTimes times;
+    times.time_s = view.time_s.value_or(0);
+    if (view.shutter_s) {
+        times.shutter =
+            ShutterTimes{times.time_s + (*view.shutter_s)[0], times.time_s + (*view.shutter_s)[1]};
+    }
+    return times;
+}
+
+/// Brings the asset to the pose and light of an image, as far as it is not there yet, and chooses
+/// the camera.
+Result<ChosenCamera> prepare(v0::Asset::Impl& asset,
+                             const v0::View& view,
+                             const RenderRequest& request,
+                             Log& log) {
+    const bool times = view.time_s || view.shutter_s;
+    const bool uv = request.options.integrator == Integrator::uv;
+    if (auto done = read(asset, {times, uv}, log); !done) return fail(done.error());
+    AssetRenderer& renderer = *asset.renderer;
+    const PreparedFor wanted{view.time_s,
+                             view.shutter_s,
+                             request.environment.value_or("").string(),
+                             request.environment_intensity,
+                             request.environment_rotation_deg,
+                             request.isa};
+    // Points and lines are as thick as one camera sees them.
+    const bool same = asset.prepared_for == wanted;
+    if (same && !has_strokes(renderer.scene())) return renderer.look_again(request, log);
+    asset.prepared_for.reset();
+    if (!same) {
+        Result<LightingOptions> lighting = load_lighting(request, log);
+        if (!lighting) return fail(lighting.error());
+        asset.lighting = std::move(*lighting);
+        renderer.start_anew();
+    }
+    if (!asset.is_posed || times) {
+        if (auto posed = renderer.pose(times_of(view), log); !posed) return fail(posed.error());
+    }
+    asset.is_posed = false;
+    Result<ChosenCamera> camera = renderer.prepare(request, asset.lighting, log);
+    if (camera) asset.prepared_for = wanted;
+    return camera;
+}
+
+/// The callbacks of a control, called by one thread at a time.
+ProgressFunction watched_by(const v0::Control& control, std::mutex& mutex) {
+    if (!control.progress && !control.tile) return {};
+    return [&](const FinishedTile& tile) {
+        const std::lock_guard lock(mutex);
+        if (control.tile) {
+            const Film& film = *tile.film;
+            const PixelRect& area = tile.area;
+            control.tile(
+                {{area.x, area.y, area.width, area.height},
+                 film.channels,
+                 film.pixels.data() + pixel_index(film, area.x, area.y) * film.channels.size(),
+                 static_cast<size_t>(film.width) * film.channels.size()});
+        }
+        if (control.progress) control.progress(tile.done);
+    };
+}
+
+}  // namespace
+
+namespace v0 {
+
+struct Image::Source {
+    PictureMetadata metadata;
+    obscura::Integrator integrator;
+    std::optional<double> ev100;
+};
+
+namespace {
+
+Image image_of(const FinishedPicture& finished,
+               const RenderRequest& request,
+               const ChosenCamera& camera) {
+    const Picture& picture = finished.picture;
+    Image out;
+    out.width = request.options.width;
+    out.height = request.options.height;
+    const ImagePart part = picture.part_of.value_or(ImagePart{});
+    out.part = {part.x, part.y, picture.width, picture.height};
+    out.channels = picture.channels;
+    out.pixels.assign(picture.pixels.begin(), picture.pixels.end());
+    out.attributes = finished.metadata.extra;
+    out.source = std::make_shared<const Image::Source>(
+        Image::Source{finished.metadata, request.options.integrator, camera.ev100});
+    return out;
+}
+
+obscura::Result<Image> render_image(Asset::Impl& asset,
+                                    const View& view,
+                                    const RenderRequest& asked,
+                                    const Control& control) {
+    const auto cancelled = [&] { return control.cancel != nullptr && *control.cancel; };
+    const auto stopped = [] {
+        return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
+    };
+    if (cancelled()) return stopped();
+    const ThreadArena threads(asked.threads);
+    Log& log = asset.has_images ? asset.later.begin() : asset.log;
+    asset.has_images = true;
+    RenderRequest request = asked;
+    request.load = asset.load;
+    const obscura::Result<ChosenCamera> camera = prepare(asset, view, request, log);
+    if (!camera) {
+        if (asset.renderer && !asset.renderer->has_scene()) asset.renderer.reset();
+        return fail(camera.error());
+    }
+    if (cancelled()) return stopped();
+    std::mutex mutex;
+    const RenderHooks hooks{watched_by(control, mutex), control.cancel};
+    auto finished = asset.renderer->render(request, *camera, hooks, asset.log);
+    if (!finished) return fail(finished.error());
+    Image image = image_of(*finished, request, *camera);
+    asset.renderer->recycle(std::move(finished->picture));
+    ImageStatistics& statistics = image.statistics;
+    statistics.render_seconds = finished->metadata.render_seconds;
+    statistics.paths = finished->counters.paths;
+    statistics.rays = total_rays(finished->counters);
+    statistics.nonfinite_samples = finished->counters.nonfinite_samples;
+    return image;
+}
+
+obscura::Result<void> write_image(const Image& image,
+                                  const std::string& file,
+                                  const WriteOptions& options,
+                                  Log& log) {
+    if (!image.source) {
+        return fail(ExitCode::usage, "E-USAGE-CONFLICT", file, "the image was not rendered");
+    }
+    RenderRequest request;
+    request.outputs = {file};
+    request.options.integrator = image.source->integrator;
+    request.exr_depth = options.float32 ? ExrDepth::float32 : ExrDepth::half;
+    request.display = {options.ocio_config, options.display, options.view, options.exposure_ev};
+    obscura::Result<std::optional<DisplayTransform>> display = make_display(request, log);
+    if (!display) return fail(display.error());
+    ChosenCamera camera;
+    camera.ev100 = image.source->ev100;
+    if (auto done = expose_display(camera, request, *display, log); !done) return done;
+    FinishedPicture finished;
+    finished.metadata = image.source->metadata;
+    finished.metadata.extra = image.attributes;
+    Picture& picture = finished.picture;
+    picture.width = image.part.width;
+    picture.height = image.part.height;
+    picture.channels = image.channels;
+    picture.pixels.assign(image.pixels.begin(), image.pixels.end());
+    if (image.part.width != image.width || image.part.height != image.height) {
+        picture.part_of = ImagePart{image.width, image.height, image.part.x, image.part.y};
+    }
+    const std::atomic<bool> never = false;
+    return write_outputs(request, finished, *display, never);
+}
+
+}  // namespace
+
+struct Session::Impl {
+    MessageSink sink;
+};
+
+Session::Session(MessageSink sink) : impl_(new Impl{std::move(sink)}) {}
+Session::~Session() = default;
+Session::Session(Session&&) noexcept = default;
+Session& Session::operator=(Session&&) noexcept = default;
+
+Asset::Asset(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+const AssetInfo& Asset::info() const {
+    return impl_->info;
+}
+
+Result<Asset> Session::open(const std::string& file, const AssetOptions& options) {
+    return guarded<Asset>([&]() -> Result<Asset> {
+        const ThreadArena threads(options.threads);
+        auto asset = std::make_shared<Asset::Impl>(impl_->sink);
+        asset->file = file;
+        asset->load = load_options_of(options);
+        if (auto done = read(*asset, {}, asset->log); !done) return library_error(done.error());
+        auto posed = asset->renderer->pose({}, asset->log);
+        if (!posed) return library_error(posed.error());
+        asset->is_posed = true;
+        asset->info = info_of(asset->renderer->scene());
+        return Asset(std::move(asset));
+    });
+}
+
+Result<Image> Session::render(const Asset& asset,
+                              const View& view,
+                              const Look& look,
+                              const Sampling& sampling,
+                              const Control& control) {
+    return guarded<Image>([&]() -> Result<Image> {
+        const auto request = request_of(view, look, sampling, control);
+        if (!request) return library_error(request.error());
+        auto image = render_image(*asset.impl_, view, *request, control);
+        if (!image) return library_error(image.error());
+        return std::move(*image);
+    });
+}
+
+Result<void> Session::write(const Image& image,
+                            const std::string& file,
+                            const WriteOptions& options) {
+    return guarded<void>([&]() -> Result<void> {
+        Log log(Verbosity::normal, library_sink(impl_->sink));
+        const auto written = write_image(image, file, options, log);
+        if (!written) return library_error(written.error());
+        return {};
+    });
+}
+
+const char* version() noexcept {
+    return OBSCURA_VERSION;
+}
+
+}  // namespace v0
+
+}  // namespace obscura

@@ -1,0 +1,258 @@
+// session/library_request.cpp - what a caller of the library asks for, checked as options are.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/library_request.h"
+
+#include "base/setting_names.h"
+#include "base/text.h"
+#include "camera/names.h"
+
+#include "session/framing.h"
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+constexpr double degree = pi_d / 180;
+
+/// The library's lists have the order of ours.
+static_assert(static_cast<int>(v0::Integrator::heat) == static_cast<int>(Integrator::heat) &&
+              static_cast<int>(v0::Integrator::depth) == static_cast<int>(Integrator::depth) &&
+              static_cast<int>(v0::CameraModel::fisheye) == 3 &&
+              static_cast<int>(v0::PixelFilter::blackman_harris) ==
+                  static_cast<int>(PixelFilter::blackman_harris) &&
+              static_cast<int>(v0::Background::color) == static_cast<int>(BackgroundKind::color));
+constexpr std::array<CameraModel, 5> camera_models = {CameraModel::pinhole,
+                                                      CameraModel::orthographic,
+                                                      CameraModel::thin_lens,
+                                                      CameraModel::fisheye,
+                                                      CameraModel::environment};
+constexpr std::array<Named<Isa>, 4> isa_names = {{{"auto", Isa::automatic},
+                                                  {"baseline", Isa::baseline},
+                                                  {"avx2", Isa::avx2},
+                                                  {"avx512", Isa::avx512}}};
+
+/// Keeps the first fault.
+class Checks {
+public:
+    void real(const char* field, double value, double low, double high) {
+        if (value >= low && value <= high) return;
+        refuse("E-USAGE-RANGE",
+               field,
+               shortest(value) + " is out of range; expected from " + shortest(low) + " to " +
+                   shortest(high));
+    }
+    void real(const char* field, const std::optional<double>& value, double low, double high) {
+        if (value) real(field, *value, low, high);
+    }
+    template <typename List>
+    void reals(const char* field, const List& values, double low, double high) {
+        if (!values) return;
+        for (const double value : *values)
+            real(field, value, low, high);
+    }
+    template <typename T, size_t N, typename Target>
+    void name(const char* field,
+              const std::string& text,
+              const std::array<Named<T>, N>& names,
+              Target& target) {
+        std::string list;
+        for (const Named<T>& known : names) {
+            if (text == known.name) {
+                target = known.value;
+                return;
+            }
+            list += (list.empty() ? "" : ", ") + std::string(known.name);
+        }
+        refuse(
+            "E-USAGE-CHOICE", field, in_quotes(text) + " is no choice; expected one of: " + list);
+    }
+    void conflict(bool condition, const char* field, const std::string& message) {
+        if (condition) refuse("E-USAGE-CONFLICT", field, message);
+    }
+    const std::optional<Error>& error() const { return error_; }
+
+private:
+    void refuse(const char* id, const char* field, const std::string& message) {
+        if (!error_) error_ = Error{ExitCode::usage, id, setting(field), message};
+    }
+    std::optional<Error> error_;
+};
+
+std::optional<Vec3d> point_of(const std::optional<v0::Vector3>& point) {
+    if (!point) return std::nullopt;
+    return Vec3d{(*point)[0], (*point)[1], (*point)[2]};
+}
+
+void read_image(const v0::View& view, RenderOptions& out, Checks& checks) {
+    checks.real("width", view.width, 1, 65536);
+    checks.real("height", view.height, 1, 65536);
+    checks.real("width", double{1} * view.width * view.height, 1, 1 << 29);
+    out.width = view.width;
+    out.height = view.height;
+    if (!view.crop) return;
+    checks.real("crop", view.crop->x, 0, 65536);
+    checks.real("crop", view.crop->y, 0, 65536);
+    checks.real("crop", view.crop->width, 1, 65536);
+    checks.real("crop", view.crop->height, 1, 65536);
+    out.crop = PixelRect{view.crop->x, view.crop->y, view.crop->width, view.crop->height};
+}
+
+void read_lens(const v0::View& view, CameraSettings& s, Checks& checks) {
+    constexpr double longest_m = 1e12;
+    checks.real("near", view.near_m, 0, longest_m);
+    checks.real("far", view.far_m, 1e-9, longest_m);
+    checks.reals("mag", view.magnification_m, 1e-9, longest_m);
+    checks.real("focal-length", view.focal_length_m, 1e-5, 100);
+    checks.reals("sensor", view.sensor_m, 1e-5, 100);
+    checks.reals("shift", view.shift, -100, 100);
+    checks.real("fstop", view.fstop, 0.01, 1e6);
+    checks.real("lens-radius", view.lens_radius_m, 0, 1e9);
+    checks.real("focus-distance", view.focus_distance_m, 1e-9, longest_m);
+    if (view.blades) checks.real("blades", *view.blades, 3, 64);
+    checks.real("blade-rotation", view.blade_rotation_deg, -36000, 36000);
+    checks.real("anamorphic", view.anamorphic, 0.01, 100);
+    checks.conflict(view.fstop && view.lens_radius_m,
+                    "lens-radius",
+                    "it cannot go together with " + setting("fstop") + "; give one or the other");
+    checks.conflict(
+        view.focus_on_px && view.focus_distance_m,
+        "focus-on",
+        "it cannot go together with " + setting("focus-distance") + "; give one or the other");
+    s.near_m = view.near_m;
+    s.far_m = view.far_m;
+    s.magnification_m = view.magnification_m;
+    s.focal_length_m = view.focal_length_m;
+    s.sensor_m = view.sensor_m;
+    s.shift = view.shift;
+    s.fstop = view.fstop;
+    s.lens_radius_m = view.lens_radius_m;
+    s.focus_distance_m = view.focus_distance_m;
+    s.blades = view.blades;
+    if (view.blade_rotation_deg) s.blade_rotation_rad = *view.blade_rotation_deg * degree;
+    s.anamorphic = view.anamorphic;
+    if (!view.fisheye.empty()) checks.name("fisheye", view.fisheye, fisheye_law_names, s.fisheye);
+    if (!view.projection.empty()) {
+        checks.name("projection", view.projection, environment_projection_names, s.environment);
+    }
+    // Only a lens can be focused.
+    if (view.focus_on_px && !implied_model(s)) s.model = CameraModel::thin_lens;
+}
+
+/// A camera of the caller's own in place of the file's.
+SceneCamera placed_camera(const std::array<double, 16>& m, const v0::View& view) {
+    SceneCamera camera;
+    camera.name = "world_from_camera";
+    for (size_t row = 0; row < 3; ++row) {
+        for (size_t column = 0; column < 4; ++column)
+            camera.world_from_camera.m[row][column] = m[4 * row + column];
+    }
+    camera.yfov_rad = view.fov_deg ? *view.fov_deg * degree : default_yfov_rad;
+    return camera;
+}
+
+void read_camera(const v0::View& view, CameraRequest& out, Checks& checks) {
+    for (const auto* point : {&view.eye, &view.target, &view.up})
+        checks.reals("eye, target, up", *point, -1e18, 1e18);
+    checks.reals("world-from-camera", view.world_from_camera, -1e18, 1e18);
+    const bool by_hand = view.eye || view.target || view.up;
+    checks.conflict(!view.camera.empty() && by_hand,
+                    "camera",
+                    "it cannot go together with " + setting("eye") + ", " + setting("target") +
+                        " or " + setting("up") + "; give one or the other");
+    checks.conflict(view.world_from_camera && (by_hand || !view.camera.empty()),
+                    "world-from-camera",
+                    "it places the camera; it cannot go together with " + setting("camera") + ", " +
+                        setting("eye") + ", " + setting("target") + " or " + setting("up"));
+    out.choice = view.camera;
+    out.eye_m = point_of(view.eye);
+    out.target_m = point_of(view.target);
+    out.up = point_of(view.up);
+    if (view.camera_model) out.model = camera_models[static_cast<size_t>(*view.camera_model)];
+    read_lens(view, out.settings, checks);
+    const bool fisheye =
+        out.model.value_or(implied_model(out.settings).value_or(CameraModel::pinhole)) ==
+        CameraModel::fisheye;
+    checks.real("fov", view.fov_deg, 0.01, fisheye ? 360 : 179);
+    if (view.fov_deg) out.yfov_rad = *view.fov_deg * degree;
+    if (view.world_from_camera) out.loaded = placed_camera(*view.world_from_camera, view);
+    if (view.focus_on_px) {
+        checks.reals("focus-on", view.focus_on_px, 0, 65535);
+        out.focus_on_px = view.focus_on_px;
+    }
+}
+
+void read_look(const v0::Look& look, RenderRequest& out, Checks& checks) {
+    checks.real("environment-intensity", look.environment_intensity, 0, 1e9);
+    checks.real("environment-rotation", look.environment_rotation_deg, -36000, 36000);
+    checks.real("point-size", look.point_size_px, 0.01, 1000);
+    checks.real("line-width", look.line_width_px, 0.01, 1000);
+    for (const float channel : look.background_color)
+        checks.real("background-color", static_cast<double>(channel), 0, 1e9);
+    if (!look.environment.empty()) out.environment = look.environment;
+    out.environment_intensity = look.environment_intensity;
+    out.environment_rotation_deg = look.environment_rotation_deg;
+    out.strokes.points = {look.point_size_px, LengthUnit::pixels};
+    out.strokes.lines = {look.line_width_px, LengthUnit::pixels};
+    out.options.background = static_cast<BackgroundKind>(look.background);
+    std::copy(
+        look.background_color.begin(), look.background_color.end(), out.options.background_color);
+}
+
+void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& checks) {
+    checks.real("samples-per-pixel", sampling.samples_per_pixel, 1, 1 << 20);
+    checks.real("max-bounces", sampling.max_bounces, 0, 1000);
+    checks.real("ao-distance", sampling.ao_distance_m, 1e-9, 1e12);
+    checks.real("wire-width", sampling.wire_width_px, 0.01, 1000);
+    out.integrator = static_cast<Integrator>(sampling.integrator);
+    out.samples_per_pixel = sampling.samples_per_pixel;
+    out.max_bounces = sampling.max_bounces;
+    out.seed = sampling.seed;
+    out.filter = static_cast<PixelFilter>(sampling.filter);
+    out.ao_distance_m = sampling.ao_distance_m.value_or(0);
+    out.wire_width_px = sampling.wire_width_px;
+}
+
+}  // namespace
+
+LoadOptions load_options_of(const v0::AssetOptions& options) {
+    LoadOptions out;
+    const char* const end = options.scene.data() + options.scene.size();
+    const bool is_number = is_index(options.scene) &&
+                           std::from_chars(options.scene.data(), end, out.scene).ec == std::errc();
+    if (!is_number) out.scene_name = options.scene;
+    out.variant = options.variant;
+    out.animation = options.animation;
+    out.occlusion = options.ambient_occlusion;
+    out.lenient = options.lenient;
+    return out;
+}
+
+Result<RenderRequest> request_of(const v0::View& view,
+                                 const v0::Look& look,
+                                 const v0::Sampling& sampling,
+                                 const v0::Control& control) {
+    RenderRequest out;
+    Checks checks;
+    read_image(view, out.options, checks);
+    read_camera(view, out.camera, checks);
+    read_look(look, out, checks);
+    read_sampling(sampling, out.options, checks);
+    checks.real("threads", control.threads, 0, 1024);
+    checks.real("tile-size", control.tile_size, 1, 256);
+    checks.name("isa", control.isa, isa_names, out.isa);
+    checks.real("time", view.time_s, -1e6, 1e6);
+    checks.reals("shutter", view.shutter_s, -1e6, 1e6);
+    checks.conflict(view.shutter_s && !((*view.shutter_s)[0] < (*view.shutter_s)[1]),
+                    "shutter",
+                    "it closes before it opens");
+    out.threads = control.threads;
+    out.options.tile_size = control.tile_size;
+    if (checks.error()) return fail(*checks.error());
+    if (const Result<void> fits = check_crop(out.options); !fits) return fail(fits.error());
+    return out;
+}
+
+}  // namespace obscura

@@ -1,0 +1,57 @@
+// session/outputs.h - the files that a rendering leaves: checked before, described, written after.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "render/render.h"
+
+#include "session/render_request.h"
+#include <atomic>
+#include <optional>
+
+namespace obscura {
+
+/// Finds out what can be known before the costly work starts: every output and the statistics file
+/// can be created, and every extension is known.
+///
+/// Errors  64 E-OUT-FORMAT; 73 E-OUT-CREATE
+Result<void> check_outputs(const RenderRequest& request);
+
+/// The display transform, where a PNG or JPEG of colours needs one.
+///
+/// Errors  78 E-OCIO-*
+Result<std::optional<DisplayTransform>> make_display(const RenderRequest& request, Log& log);
+
+/// Brightens or darkens the display by the camera's photographic exposure, if it has one.
+///
+/// Errors  78 E-OCIO-*
+Result<void> expose_display(const ChosenCamera& chosen,
+                            const RenderRequest& request,
+                            std::optional<DisplayTransform>& display,
+                            Log& log);
+
+/// What the pictures say about themselves.
+PictureMetadata make_metadata(const RenderRequest& request,
+                              const PreparedScene& prepared,
+                              const ChosenCamera& chosen,
+                              double render_seconds,
+                              const Log& log);
+
+/// The EXR attribute `degraded`: "textures=2 primitives=0 triangles=17".
+std::string degraded_text(const Degraded& degraded);
+
+/// What write_outputs puts into every file.
+struct FinishedPicture {
+    Picture picture;
+    PictureMetadata metadata;
+    RenderCounters counters;
+};
+
+/// Writes every output, each whole or not at all; stops between two when a signal came.
+///
+/// Errors  73, 74 of write_picture; 75 E-STOPPED
+Result<void> write_outputs(const RenderRequest& request,
+                           const FinishedPicture& finished,
+                           const std::optional<DisplayTransform>& display,
+                           const std::atomic<bool>& stop);
+
+}  // namespace obscura

@@ -1,0 +1,25 @@
+// session/preview.h - readable 8-bit pictures of quantities that are not colours.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "image/write.h"
+#include "render/render.h"
+
+namespace obscura {
+
+/// True for pictures that a display transform would spoil: all but path, direct and raycast.
+bool needs_preview(Integrator integrator);
+
+/// Code values in [0, 1], three channels, for PNG and JPEG:
+///  normal  0.5 n + 0.5; where nothing is, black
+///  depth, distance  nearest white to farthest dark grey; where nothing is, black
+///  uv      the fraction of u as red, of v as green
+///  id      a colour drawn from all numbers of the pixel; where nothing is, black
+///  heat    black, red, yellow to white for what one pixel in a hundred exceeds
+///  albedo, ao, facing, wireframe  encoded by the sRGB curve, without tone mapping; grey but for
+///          albedo
+///
+/// In      picture: what the integrator delivered, with or without a channel "A"
+Picture preview_picture(const Picture& picture, Integrator integrator);
+
+}  // namespace obscura

@@ -1,0 +1,50 @@
+// session/render_request.h - everything that an image or a sequence is asked for, checked.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/log.h"
+#include "gltf/load.h"
+#include "image/display.h"
+#include "image/write.h"
+#include "render/render.h"
+#include "render/stroke_sizes.h"
+
+#include "session/camera_choice.h"
+#include "session/frames.h"
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+namespace obscura {
+
+struct RenderRequest {
+    std::filesystem::path scene;
+    std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
+    LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
+    std::optional<FrameRange> frames;         ///< then the outputs are patterns; see frame_file
+    std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
+    double fps = 24;
+    CameraRequest camera;
+    std::optional<std::filesystem::path> camera_json;
+    StrokeSizes strokes;         ///< --point-size, --line-width
+    bool size_is_given = false;  ///< else --camera-json may have one
+    RenderOptions options;
+    std::optional<std::filesystem::path> environment;
+    double environment_intensity = 1;
+    double environment_rotation_deg = 0;
+    int threads = 0;  ///< 0: every core
+    Isa isa = Isa::automatic;
+    DisplayOptions display;
+    ExrDepth exr_depth = ExrDepth::half;
+    std::optional<std::filesystem::path> statistics;
+    Verbosity verbosity = Verbosity::normal;
+    bool check = false;  ///< --check: nothing is built, rendered or written
+};
+
+/// The pictures that a request asks for: one, or one for each frame.
+std::vector<MovieFrame> frames_of(const RenderRequest& request);
+
+/// 64 E-USAGE-CONFLICT when the part to render reaches beyond the picture.
+Result<void> check_crop(const RenderOptions& options);
+
+}  // namespace obscura

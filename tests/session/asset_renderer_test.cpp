@@ -1,0 +1,67 @@
+// tests/session/asset_renderer_test.cpp - from a file to an image: the camera is chosen once.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/asset_renderer.h"
+
+#include <gtest/gtest.h>
+
+namespace obscura {
+namespace {
+
+const std::filesystem::path cornell = OBSCURA_SOURCE_DIR "/assets/cornell/cornell.gltf";
+
+RenderRequest small_request() {
+    RenderRequest request;
+    request.options.width = 32;
+    request.options.height = 24;
+    request.options.samples_per_pixel = 1;
+    return request;
+}
+
+TEST(AssetRenderer, TheCameraIsChosenOnceThoughItIsFocused) {
+    int chosen = 0;
+    int focused = 0;
+    const LogSink count = [&](const LogMessage& message) {
+        chosen += message.text.starts_with("camera: ") ? 1 : 0;
+        focused += message.text.starts_with("focus: ") ? 1 : 0;
+    };
+    Log log(Verbosity::verbose, count);
+    Result<AssetRenderer> renderer = AssetRenderer::open(cornell, {}, false, log);
+    ASSERT_TRUE(renderer);
+    ASSERT_TRUE(renderer->pose({}, log));
+    RenderRequest request = small_request();
+    request.camera.settings.fstop = 2;
+    request.camera.settings.focal_length_m = 0.05;
+    request.camera.settings.sensor_m = {0.036, 0.024};
+    request.camera.settings.model = CameraModel::thin_lens;
+    request.camera.focus_on_px = {16, 12};
+    const Result<ChosenCamera> camera = renderer->prepare(request, {}, log);
+    ASSERT_TRUE(camera) << camera.error().message;
+    EXPECT_EQ(chosen, 1);
+    EXPECT_EQ(focused, 1);
+
+    // What is sharp is as far away as the pixel shows.
+    RenderRequest depth = request;
+    depth.options.integrator = Integrator::depth;
+    const Result<FinishedPicture> picture = renderer->render(depth, *camera, {}, log);
+    ASSERT_TRUE(picture);
+    const float seen = picture->picture.pixels[12 * 32 + 16];
+    EXPECT_NEAR(1 / camera->camera.thin_lens.inverse_focus, seen, 1e-4F * seen);
+}
+
+TEST(AssetRenderer, ACameraThatThereIsNotLeavesThePose) {
+    Log log;
+    Result<AssetRenderer> renderer = AssetRenderer::open(cornell, {}, false, log);
+    ASSERT_TRUE(renderer);
+    ASSERT_TRUE(renderer->pose({}, log));
+    RenderRequest request = small_request();
+    request.camera.choice = "none";
+    const Result<ChosenCamera> camera = renderer->prepare(request, {}, log);
+    ASSERT_FALSE(camera);
+    EXPECT_EQ(camera.error().id, "E-CAM-UNKNOWN");
+    EXPECT_EQ(camera.error().where, setting("camera"));
+    EXPECT_TRUE(renderer->has_scene());
+    EXPECT_TRUE(renderer->prepare(small_request(), {}, log));
+}
+
+}  // namespace
+}  // namespace obscura

@@ -1,0 +1,284 @@
+// tests/session/library_test.cpp - the library as a program that embeds it sees it.
+// SPDX-License-Identifier: Apache-2.0
+#include <OpenEXR/ImfThreading.h>
+#include <OpenImageIO/imageio.h>
+#include <gtest/gtest.h>
+#include <tbb/global_control.h>
+
+#include "support/small_scenes.h"
+#include "support/temp_folder.h"
+#include <atomic>
+#include <cstring>
+#include <gmock/gmock.h>
+#include <obscura/obscura.h>
+#include <thread>
+
+namespace obscura {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string assets = OBSCURA_SOURCE_DIR "/assets/";
+
+View small_view() {
+    View view;
+    view.width = 40;
+    view.height = 24;
+    return view;
+}
+
+Sampling few_samples() {
+    Sampling sampling;
+    sampling.samples_per_pixel = 3;
+    return sampling;
+}
+
+/// The image, or a failed test.
+Image image_of(const Result<Image>& result) {
+    EXPECT_TRUE(result) << result.error().text;
+    return result ? *result : Image{};
+}
+
+Image fresh_image(const std::string& file, const View& view, const Look& look = {}) {
+    Session session;
+    const Result<Asset> asset = session.open(file);
+    EXPECT_TRUE(asset) << asset.error().text;
+    return image_of(session.render(*asset, view, look, few_samples()));
+}
+
+TEST(Library, AnAssetTellsWhatItHolds) {
+    Session session;
+    const Result<Asset> asset = session.open(assets + "cameras/cameras.gltf");
+    ASSERT_TRUE(asset) << asset.error().text;
+    const AssetInfo& info = asset->info();
+    EXPECT_EQ(info.file, "cameras.gltf");
+    EXPECT_GT(info.cameras.size(), 1U);
+    EXPECT_EQ(info.cameras[0].world_from_camera[15], 1);
+    EXPECT_FALSE(info.is_empty);
+    EXPECT_LT(info.low[0], info.high[0]);
+    EXPECT_GT(info.triangles, 0U);
+    const Result<Asset> moving = session.open(assets + "motion/motion.glb");
+    ASSERT_TRUE(moving);
+    ASSERT_FALSE(moving->info().animations.empty());
+    EXPECT_GT(moving->info().animations[0].end_s, 0);
+}
+
+TEST(Library, ErrorsNameFieldsAndNoOptions) {
+    Session session;
+    const Result<Asset> missing = session.open("no/such.glb");
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().id, "E-SCENE-MISSING");
+    EXPECT_EQ(missing.error().code, 66);
+    AssetOptions options;
+    options.variant = "Pink";
+    const Result<Asset> pink = session.open(assets + "cornell/cornell.gltf", options);
+    ASSERT_FALSE(pink);
+    EXPECT_EQ(pink.error().place, "variant");
+
+    const Result<Asset> asset = session.open(assets + "cornell/cornell.gltf");
+    ASSERT_TRUE(asset);
+    const auto error_of = [&](void (*change)(View&)) {
+        View view = small_view();
+        change(view);
+        const Result<Image> image = session.render(*asset, view);
+        EXPECT_FALSE(image);
+        const Error error = image ? Error{} : image.error();
+        EXPECT_THAT(error.place + error.text, Not(HasSubstr("--")));
+        EXPECT_EQ(error.code, 64);
+        return error.place + " " + error.id;
+    };
+    EXPECT_EQ(error_of([](View& v) { v.camera = "none"; }), "camera E-CAM-UNKNOWN");
+    EXPECT_EQ(error_of([](View& v) { v.width = 0; }), "width E-USAGE-RANGE");
+    EXPECT_EQ(error_of([](View& v) { v.focal_length_m = 0.05; }), "focal_length E-CAM-LENS");
+    EXPECT_EQ(error_of([](View& v) { v.camera_model = CameraModel::thin_lens; }),
+              "camera_model E-CAM-LENS");
+    EXPECT_EQ(error_of([](View& v) { v.eye = v.target = Vector3{1, 1, 1}; }), "eye E-CAM-VIEW");
+    EXPECT_EQ(error_of([](View& v) { v.focus_on_px = {{1, 1}}; }), "camera_model E-CAM-LENS");
+    EXPECT_EQ(error_of([](View& v) { v.crop = Rect{30, 0, 11, 1}; }), "crop E-USAGE-CONFLICT");
+    EXPECT_EQ(error_of([](View& v) {
+                  v.camera_model = CameraModel::fisheye;
+                  v.fstop = 2;
+              }),
+              "fstop E-USAGE-CONFLICT");
+    EXPECT_TRUE(session.render(*asset, small_view(), {}, few_samples())) << "it can go on";
+}
+
+TEST(Library, TilesCoverTheImageWithItsPixels) {
+    Session session;
+    const Result<Asset> asset = session.open(assets + "cornell/cornell.gltf");
+    ASSERT_TRUE(asset);
+    View view = small_view();
+    view.crop = Rect{3, 2, 33, 21};
+    std::vector<float> pixels(size_t{33 * 21 * 4}, -1);
+    double share = 0;
+    Control control;
+    control.threads = 2;
+    control.tile_size = 8;
+    control.progress = [&](double done) { share = std::max(share, done); };
+    control.tile = [&](const Tile& tile) {
+        ASSERT_EQ(tile.channels.size(), 4U);
+        for (int y = 0; y < tile.area.height; ++y) {
+            const size_t to = static_cast<size_t>((tile.area.y - 2 + y) * 33 + tile.area.x - 3) * 4;
+            std::memcpy(&pixels[to],
+                        tile.pixels + static_cast<size_t>(y) * tile.row_floats,
+                        static_cast<size_t>(tile.area.width) * 4 * sizeof(float));
+        }
+    };
+    const Image image = image_of(session.render(*asset, view, {}, few_samples(), control));
+    EXPECT_EQ(image.pixels, pixels);
+    EXPECT_EQ(share, 1);
+    EXPECT_EQ(image.part.x, 3);
+    EXPECT_EQ(image.width, 40);
+    const Image whole = fresh_image(assets + "cornell/cornell.gltf", small_view());
+    EXPECT_EQ(image.pixels[0], whole.pixels[size_t{(2 * 40 + 3) * 4}]);
+}
+
+TEST(Library, ACancelledImageIsAnErrorAndTheAssetGoesOn) {
+    const std::string file = assets + "cornell/cornell.gltf";
+    Session session;
+    const Result<Asset> asset = session.open(file);
+    ASSERT_TRUE(asset);
+    std::atomic<bool> cancel = false;
+    Control control;
+    control.cancel = &cancel;
+    control.tile_size = 4;
+    control.tile = [&](const Tile&) { cancel = true; };
+    const Result<Image> stopped = session.render(*asset, small_view(), {}, few_samples(), control);
+    ASSERT_FALSE(stopped);
+    EXPECT_EQ(stopped.error().id, "E-STOPPED");
+    EXPECT_EQ(image_of(session.render(*asset, small_view(), {}, few_samples())).pixels,
+              fresh_image(file, small_view()).pixels);
+}
+
+/// Whatever was rendered of an asset before, an image is the one that a fresh asset gives.
+TEST(Library, ImagesDoNotDependOnEarlierOnes) {
+    const std::string file = assets + "motion/motion.glb";
+    View still = small_view();
+    View later = still;
+    later.time_s = 0.75;
+    View blurred = later;
+    blurred.shutter_s = {{0, 0.1}};
+    View aside = later;
+    aside.eye = Vector3{3, 2, 4};
+    Look sky;
+    sky.environment = assets + "environments/sky.hdr";
+    Look turned = sky;
+    turned.environment_rotation_deg = 70;
+    Session session;
+    const Result<Asset> asset = session.open(file);
+    ASSERT_TRUE(asset);
+    const std::vector<std::pair<View, Look>> turns = {{still, {}},
+                                                      {later, {}},
+                                                      {aside, {}},
+                                                      {later, sky},
+                                                      {later, turned},
+                                                      {blurred, turned},
+                                                      {still, {}},
+                                                      {later, {}}};
+    std::vector<std::vector<float>> seen;
+    for (const auto& [view, look] : turns) {
+        const Image image = image_of(session.render(*asset, view, look, few_samples()));
+        EXPECT_EQ(image.pixels, fresh_image(file, view, look).pixels) << seen.size();
+        seen.push_back(image.pixels);
+    }
+    EXPECT_NE(seen[0], seen[1]) << "it moves";
+    EXPECT_NE(seen[3], seen[4]) << "the light turns";
+}
+
+TEST(Library, TextureCoordinatesAndDepthComeFromTheSameAsset) {
+    Session session;
+    const Result<Asset> asset = session.open(assets + "cornell/cornell.gltf");
+    ASSERT_TRUE(asset);
+    Sampling sampling;
+    sampling.integrator = Integrator::depth;
+    const Image depth = image_of(session.render(*asset, small_view(), {}, sampling));
+    EXPECT_EQ(depth.channels, std::vector<std::string>{"Z"});
+    EXPECT_GT(depth.pixels[40 * 12 + 20], 0);
+    sampling.integrator = Integrator::uv;
+    const Image uv = image_of(session.render(*asset, small_view(), {}, sampling));
+    EXPECT_EQ(uv.channels.size(), 2U);
+}
+
+TEST(Library, TwoSessionsWorkSideBySide) {
+    const std::string files[] = {assets + "cornell/cornell.gltf", assets + "motion/motion.glb"};
+    View views[] = {small_view(), small_view()};
+    views[1].width = 33;
+    const Image alone[] = {fresh_image(files[0], views[0]), fresh_image(files[1], views[1])};
+    std::atomic<int> same = 0;
+    std::vector<std::thread> threads;
+    for (size_t i = 0; i < 2; ++i) {
+        threads.emplace_back([&, i] {
+            Control control;
+            control.threads = i == 0 ? 1 : 3;
+            for (int round = 0; round < 3; ++round) {
+                Session session;
+                const Result<Asset> asset = session.open(files[i]);
+                if (!asset) return;
+                const Result<Image> image =
+                    session.render(*asset, views[i], {}, few_samples(), control);
+                if (image && image->pixels == alone[i].pixels) ++same;
+            }
+        });
+    }
+    for (std::thread& thread : threads)
+        thread.join();
+    EXPECT_EQ(same, 6);
+}
+
+/// What belongs to the process stays as it was, and nothing is printed.
+TEST(Library, TheProcessIsLeftAlone) {
+    const TempFolder folder;
+    const auto settings = [] {
+        return std::tuple(
+            Imf::globalThreadCount(),
+            OIIO::get_int_attribute("threads"),
+            OIIO::get_string_attribute("plugin_searchpath"),
+            tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+    };
+    ::setenv("OIIO_LIBRARY_PATH", "/nowhere", 1);
+    const auto before = settings();
+    testing::internal::CaptureStdout();
+    testing::internal::CaptureStderr();
+    int messages = 0;
+    Session session([&](const Message&) { ++messages; });
+    const Result<Asset> asset =
+        session.open(folder.write("box.gltf", gltf_text(box_scene())).string());
+    ASSERT_TRUE(asset);
+    View view = small_view();
+    view.width = 1024;
+    view.height = 512;  // large enough for several threads to write it
+    Sampling one;
+    one.samples_per_pixel = 1;
+    one.integrator = Integrator::direct;
+    Look look;
+    look.environment = assets + "environments/sky.hdr";
+    const Image image = image_of(session.render(*asset, view, look, one));
+    for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+        const Result<void> written = session.write(image, (folder / name).string());
+        EXPECT_TRUE(written) << written.error().text;
+    }
+    EXPECT_FALSE(session.write(image, (folder / "a.bmp").string()));
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+    EXPECT_EQ(settings(), before);
+    EXPECT_STREQ(std::getenv("OIIO_LIBRARY_PATH"), "/nowhere");
+    ::unsetenv("OIIO_LIBRARY_PATH");
+}
+
+TEST(Library, WarningsGoToTheSink) {
+    std::vector<std::string> told;
+    Session session([&](const Message& message) { told.push_back(message.text); });
+    const TempFolder folder;
+    const Result<Asset> asset =
+        session.open(folder.write("t.gltf", gltf_text(triangle_scene())).string());
+    ASSERT_TRUE(asset);
+    for (int i = 0; i < 2; ++i)
+        image_of(session.render(*asset, small_view(), {}, few_samples()));
+    ASSERT_EQ(told.size(), 1U) << "the studio is spoken of once";
+    EXPECT_THAT(told[0], HasSubstr("built-in studio"));
+    EXPECT_THAT(told[0], Not(HasSubstr("--")));
+}
+
+}  // namespace
+}  // namespace obscura
