@@ -83,6 +83,15 @@ Accel::Impl::~Impl() {
     if (device != nullptr) rtcReleaseDevice(device);
 }
 
+Result<void> require_curves(const Scene& scene, bool has_curves) {
+    if (has_curves || scene.curve_segments.empty()) return {};
+    return fail(ExitCode::unsupported,
+                "E-EMBREE-CURVES",
+                "Embree",
+                "the scene has lines and this Embree was built without curves; one built with "
+                "EMBREE_GEOMETRY_CURVE is needed");
+}
+
 void commit_scene(RTCScene scene) {
     run_in_arena([&] { rtcJoinCommitScene(scene); });
 }
@@ -98,15 +107,9 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     if (impl->device == nullptr) {
         return fail(ExitCode::internal, "E-EMBREE", "rtcNewDevice", "no Embree device: " + config);
     }
-    const bool lines = !scene.curve_segments.empty();
-    if (lines &&
-        !rtcGetDeviceProperty(impl->device, RTC_DEVICE_PROPERTY_CURVE_GEOMETRY_SUPPORTED)) {
-        return fail(ExitCode::unsupported,
-                    "E-EMBREE-CURVES",
-                    "Embree",
-                    "the scene has lines and this Embree was built without curves; one built with "
-                    "EMBREE_GEOMETRY_CURVE is needed");
-    }
+    const auto property =
+        rtcGetDeviceProperty(impl->device, RTC_DEVICE_PROPERTY_CURVE_GEOMETRY_SUPPORTED);
+    if (auto done = require_curves(scene, property != 0); !done) return fail(done.error());
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
     impl->functions = accel_functions_for(kernels.isa);
     rtcSetDeviceMemoryMonitorFunction(impl->device, note_memory, &impl->memory);

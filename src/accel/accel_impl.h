@@ -52,6 +52,11 @@ struct SharedArrays {
     size_t primitives = 0;  ///< rows of the tables that geometries point to
 };
 
+/// Lines are curves to Embree, which it may have been built without.
+///
+/// Errors  69 E-EMBREE-CURVES
+Result<void> require_curves(const Scene& scene, bool has_curves);
+
 /// Builds a scene's hierarchy on the threads that loops run on, not on all that Embree sees.
 void commit_scene(RTCScene scene);
 

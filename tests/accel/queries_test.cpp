@@ -1,6 +1,7 @@
 // tests/accel/queries_test.cpp - unsafe rays, packets of every size, ids, and hidden back faces.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel.h"
+#include "accel/accel_impl.h"
 #include "accel/accel_scenes.h"
 #include "math/sampler.h"
 
@@ -30,6 +31,17 @@ BuiltScene one_square(Isa isa = Isa::automatic) {
     SceneBuilder builder;
     add_square(builder, 0, builder.material({}));
     return build(builder.take(), embree_isa_for(isa));
+}
+
+TEST(Accel, LinesNeedAnEmbreeWithCurves) {
+    Scene scene;
+    EXPECT_TRUE(require_curves(scene, false));
+    scene.curve_segments = {0};
+    EXPECT_TRUE(require_curves(scene, true));
+    const Result<void> without = require_curves(scene, false);
+    ASSERT_FALSE(without);
+    EXPECT_EQ(without.error().id, "E-EMBREE-CURVES");
+    EXPECT_EQ(without.error().code, ExitCode::unsupported);
 }
 
 /// Origins and directions that Embree must not see.

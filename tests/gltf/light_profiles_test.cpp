@@ -104,6 +104,26 @@ TEST(LightProfiles, FromABufferViewAndAFile) {
     EXPECT_NEAR(candela(*loaded.scene, {0, 0, -1}), 100, 1e-9);
 }
 
+TEST(LightProfiles, TooManyNumbersAreRefused) {
+    Document document;
+    document.profiles.resize(2);
+    for (GltfLightProfile& profile : document.profiles)
+        profile.uri = "data:application/x-ies-lm-63;base64," + base64(type_c);
+    document.nodes.resize(2);
+    document.nodes[0].ies.profile = 0;
+    document.nodes[1].ies.profile = 1;
+    const Result<std::vector<LightProfile>> all = load_light_profiles(document, {}, "");
+    ASSERT_TRUE(all) << all.error().text;
+    const size_t numbers = 2 * (all->at(0).candela.size() + all->at(0).polar_deg.size());
+    EXPECT_TRUE(load_light_profiles(document, {}, "", numbers));
+    const Result<std::vector<LightProfile>> fewer =
+        load_light_profiles(document, {}, "", numbers - 1);
+    ASSERT_FALSE(fewer);
+    EXPECT_EQ(fewer.error().id, "E-LIMIT-PROFILES");
+    EXPECT_EQ(fewer.error().code, ExitCode::refused);
+    EXPECT_THAT(fewer.error().where, HasSubstr("/extensions/EXT_lights_ies/lights/1"));
+}
+
 TEST(LightProfiles, FaultsHaveAPlace) {
     const auto fault = [](const json& light, const json& node = json::object()) {
         const Loaded loaded = load_tree(profile_asset(light, node));

@@ -40,6 +40,16 @@ std::vector<tinygltf::Node> nodes_of(json& tree) {
     return out;
 }
 
+/// A tree that was not checked: tinygltf's own refusal is a fault of ours.
+TEST(Preflight, WhatTinygltfRefusesIsAnInternalError) {
+    json tree = json::parse(R"({"meshes": [5]})");
+    const Result<tinygltf::Model> model = read_model(tree, "f");
+    ASSERT_FALSE(model);
+    EXPECT_EQ(model.error().id, "E-INTERNAL");
+    EXPECT_EQ(model.error().code, ExitCode::internal);
+    EXPECT_EQ(model.error().where, "f");
+}
+
 TEST(Preflight, DataAndPathsAreSetAside) {
     Checked checked(R"({"buffers": [{"byteLength": 9000000000, "uri": "../../etc/passwd"}],
                         "images": [{"uri": "/etc/passwd", "mimeType": "image/png"}]})");

@@ -254,6 +254,24 @@ TEST(Textures, NamesAndMediaTypesThatLieWarn) {
         << typed.warnings;
 }
 
+/// The warning about the name comes after the headers were read and before the texels are: then
+/// somebody saves the image in another size.
+TEST(Textures, ImagesThatChangeWhileLoadingAreErrors) {
+    json tree = one_texture();
+    tree["images"][0] = {{"uri", "a.jpg"}};
+    const TempFolder folder;
+    folder.write("a.jpg", png_bytes(2, 2));
+    Log log(Verbosity::normal, [&](const LogMessage& message) {
+        if (message.text.find("named as jpeg") != std::string_view::npos)
+            folder.write("a.jpg", png_bytes(4, 2));
+    });
+    const Result<Scene> scene = load_gltf(folder.write("s.gltf", tree.dump()), {}, log);
+    ASSERT_FALSE(scene);
+    EXPECT_EQ(scene.error().id, "E-IMG-CHANGED");
+    EXPECT_EQ(scene.error().code, ExitCode::bad_resource);
+    EXPECT_NE(scene.error().where.find("#/images/0"), std::string::npos) << scene.error().where;
+}
+
 TEST(Textures, UnusedBadImagesOnlyWarn) {
     json tree = one_texture();
     tree["images"] = {{{"uri", png_uri(1, 1)}}, {{"uri", "absent.png"}}};

@@ -10,7 +10,9 @@
 #include <atomic>
 #include <cstring>
 #include <gmock/gmock.h>
+#include <new>
 #include <obscura/obscura.h>
+#include <stdexcept>
 #include <thread>
 
 namespace obscura {
@@ -147,6 +149,27 @@ TEST(Library, ACancelledImageIsAnErrorAndTheAssetGoesOn) {
     const Result<Image> stopped = session.render(*asset, small_view(), {}, few_samples(), control);
     ASSERT_FALSE(stopped);
     EXPECT_EQ(stopped.error().id, "E-STOPPED");
+    EXPECT_EQ(image_of(session.render(*asset, small_view(), {}, few_samples())).pixels,
+              fresh_image(file, small_view()).pixels);
+}
+
+TEST(Library, ExceptionsOfCallbacksAreErrorsAndTheAssetGoesOn) {
+    const std::string file = assets + "cornell/cornell.gltf";
+    Session session;
+    const Result<Asset> asset = session.open(file);
+    ASSERT_TRUE(asset);
+    Control control;
+    control.tile_size = 4;
+    control.tile = [](const Tile&) { throw std::bad_alloc(); };
+    const Result<Image> full = session.render(*asset, small_view(), {}, few_samples(), control);
+    ASSERT_FALSE(full);
+    EXPECT_EQ(full.error().id, "E-MEM");
+    EXPECT_EQ(full.error().code, 33);
+    control.tile = [](const Tile&) { throw std::runtime_error("the window is gone"); };
+    const Result<Image> thrown = session.render(*asset, small_view(), {}, few_samples(), control);
+    ASSERT_FALSE(thrown);
+    EXPECT_EQ(thrown.error().id, "E-INTERNAL");
+    EXPECT_EQ(thrown.error().text, "the window is gone");
     EXPECT_EQ(image_of(session.render(*asset, small_view(), {}, few_samples())).pixels,
               fresh_image(file, small_view()).pixels);
 }

@@ -5,6 +5,7 @@
 #include "gltf/parse/uri.h"
 #include "image/ies_file.h"
 
+#include <string>
 #include <utility>
 
 namespace obscura {
@@ -12,7 +13,6 @@ namespace obscura {
 namespace {
 
 constexpr uint64_t largest_profile_file = 1U << 24;  // thousands of times a measured lamp's
-constexpr size_t most_profile_numbers = size_t{1} << 28;
 
 Result<LightProfile> load_profile(const Document& document,
                                   const BufferStore& buffers,
@@ -31,7 +31,8 @@ Result<LightProfile> load_profile(const Document& document,
 
 Result<std::vector<LightProfile>> load_light_profiles(const Document& document,
                                                       const BufferStore& buffers,
-                                                      const std::filesystem::path& folder) {
+                                                      const std::filesystem::path& folder,
+                                                      size_t max_numbers) {
     std::vector<LightProfile> out(document.profiles.size());
     std::vector<char> used(out.size(), 0);
     for (const GltfNode& node : document.nodes) {
@@ -45,11 +46,12 @@ Result<std::vector<LightProfile>> load_light_profiles(const Document& document,
             load_profile(document, buffers, document.profiles[i], {folder, where});
         if (!profile) return fail(std::move(profile.error()));
         numbers += profile->candela.size() + profile->polar_deg.size();
-        if (numbers > most_profile_numbers) {
+        if (numbers > max_numbers) {
             return fail(ExitCode::refused,
                         "E-LIMIT-PROFILES",
                         where,
-                        "the light profiles have more than 2^28 numbers together");
+                        "the light profiles have more than " + std::to_string(max_numbers) +
+                            " numbers together");
         }
         out[i] = std::move(*profile);
     }
