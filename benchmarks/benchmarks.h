@@ -8,17 +8,17 @@
 #include "benchmarks/kernel_data.h"
 #include <string>
 
-namespace obscura::bench {
+namespace obscura::benchmarks {
 
 inline constexpr Isa all_isas[] = {Isa::baseline, Isa::avx2, Isa::avx512};
 
 /// As --isa spells it.
 const char* isa_name(Isa isa);
 
-/// Registers a row that only says that this CPU cannot run them.
+/// Registers an entry that only says that this CPU cannot run them.
 void register_missing_isa(const std::string& group, Isa isa);
 
-/// "kernel/NAME/ISA/WIDTH": every kernel, one row at a time and a register of rows at a time.
+/// "kernel/NAME/ISA/WIDTH": every kernel, one entry at a time and a register of entries at a time.
 ///
 /// In      data: lives until all benchmarks have run
 void register_kernels(const KernelData& data);
@@ -32,4 +32,4 @@ void register_stages(const PreparedScene& scene, const Camera& camera, Isa isa);
 /// Embree's own sphere points, with bytes per sphere.
 void register_particles();
 
-}  // namespace obscura::bench
+}  // namespace obscura::benchmarks

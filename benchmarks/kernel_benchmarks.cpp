@@ -6,18 +6,18 @@
 
 namespace obscura {
 
-// As stages/dispatch.h declares the stage tables: this file is compiled as baseline.
+// Declared as in stages/dispatch.h: this file is compiled as baseline.
 inline namespace isa_baseline {
-extern const bench::KernelTable kernel_table;
+extern const benchmarks::KernelTable kernel_table;
 }
 namespace isa_avx2 {
-extern const bench::KernelTable kernel_table;
+extern const benchmarks::KernelTable kernel_table;
 }
 namespace isa_avx512 {
-extern const bench::KernelTable kernel_table;
+extern const benchmarks::KernelTable kernel_table;
 }
 
-namespace bench {
+namespace benchmarks {
 
 namespace {
 
@@ -36,7 +36,7 @@ void register_kernel(const std::string& name, KernelFunction function, const Ker
             function(data);
             benchmark::ClobberMemory();
         }
-        state.SetItemsProcessed(state.iterations() * kernel_rows);
+        state.SetItemsProcessed(state.iterations() * kernel_size);
     });
 }
 
@@ -58,5 +58,5 @@ void register_kernels(const KernelData& data) {
     }
 }
 
-}  // namespace bench
+}  // namespace benchmarks
 }  // namespace obscura

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace obscura::bench {
+namespace obscura::benchmarks {
 
 namespace {
 
@@ -21,10 +21,10 @@ float KernelColumns::next() {
 }
 
 template <typename Function>
-const float* KernelColumns::column(const Function& value_of_row) {
-    std::vector<float>& values = floats_.emplace_back(kernel_rows);
+const float* KernelColumns::column(const Function& value_of) {
+    std::vector<float>& values = floats_.emplace_back(kernel_size);
     for (size_t i = 0; i < values.size(); ++i)
-        values[i] = value_of_row(i);
+        values[i] = value_of(i);
     return values.data();
 }
 
@@ -32,7 +32,7 @@ void KernelColumns::make_directions() {
     std::vector<Vec3f> wo;
     std::vector<Vec3f> wi;
     std::vector<Vec3f> world;
-    for (int i = 0; i < kernel_rows; ++i) {
+    for (int i = 0; i < kernel_size; ++i) {
         wo.push_back(cosine_hemisphere(Vec2f{next(), next()}));
         wi.push_back(cosine_hemisphere(Vec2f{next(), next()}));
         const float z = 2.0f * next() - 1.0f;
@@ -55,7 +55,7 @@ void KernelColumns::make_materials() {
     data_.red = column(uniform);
     data_.green = column(uniform);
     data_.blue = column(uniform);
-    // Half of the rows are dielectric or metal without any mixture, as most surfaces are.
+    // Half of the entries are dielectric or metal without any mixture, as most surfaces are.
     data_.metallic = column([&](size_t i) { return i % 2 == 0 ? next() : std::round(next()); });
     data_.alpha = column([&](size_t) {
         const float roughness = next();
@@ -80,21 +80,21 @@ void KernelColumns::make_materials() {
 }
 
 void KernelColumns::make_look_ups(const Scene& scene) {
-    const std::vector<TextureRow>& rows = scene.textures.rows;
-    for (size_t i = 0; i < kernel_rows; ++i)
-        texture_.push_back(static_cast<int32_t>(i * 7 % rows.size()));
+    const std::vector<TextureRecord>& records = scene.textures.records;
+    for (size_t i = 0; i < kernel_size; ++i)
+        texture_.push_back(static_cast<int32_t>(i * 7 % records.size()));
     data_.texture = texture_.data();
     data_.texture_u = column([&](size_t) { return 4.0f * next() - 2.0f; });
     data_.texture_v = column([&](size_t) { return 4.0f * next() - 2.0f; });
     // From a texel magnified twice to one pixel over eight texels.
     data_.footprint = column([&](size_t i) {
-        const TextureRow& row = rows[static_cast<size_t>(texture_[i])];
+        const TextureRecord& record = records[static_cast<size_t>(texture_[i])];
         const float side = std::exp2(4.0f * next() - 1.0f);
-        return side * side / static_cast<float>(row.width) / static_cast<float>(row.height);
+        return side * side / static_cast<float>(record.width) / static_cast<float>(record.height);
     });
-    data_.textures = {scene.textures.texels.data(), rows.data()};
+    data_.textures = {scene.textures.texels.data(), records.data()};
     for (std::vector<uint32_t>& words : bits_) {
-        for (int i = 0; i < kernel_rows; ++i)
+        for (int i = 0; i < kernel_size; ++i)
             words.push_back(hash_word(++state_));
     }
     data_.bits0 = bits_[0].data();
@@ -105,8 +105,8 @@ KernelColumns::KernelColumns(const Scene& scene, const EnvironmentTable& environ
     make_directions();
     make_materials();
     make_look_ups(scene);
-    data_.out0 = floats_.emplace_back(kernel_rows).data();
-    data_.out1 = floats_.emplace_back(kernel_rows).data();
+    data_.out0 = floats_.emplace_back(kernel_size).data();
+    data_.out1 = floats_.emplace_back(kernel_size).data();
     data_.environment = environment.view();
     std::vector<double> powers;
     for (size_t i = 0; i < choices; ++i)
@@ -116,4 +116,4 @@ KernelColumns::KernelColumns(const Scene& scene, const EnvironmentTable& environ
     data_.choice_count = static_cast<int32_t>(choices);
 }
 
-}  // namespace obscura::bench
+}  // namespace obscura::benchmarks

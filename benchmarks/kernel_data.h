@@ -1,4 +1,4 @@
-// benchmarks/kernel_data.h - owns the columns of random but repeatable numbers that kernels read.
+// benchmarks/kernel_data.h - the kernels' input: columns of random but repeatable numbers.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <deque>
 #include <vector>
 
-namespace obscura::bench {
+namespace obscura::benchmarks {
 
 /// The same numbers in every run. Materials and directions are what a varied scene shows; texture
 /// coordinates are independent of each other, so look-ups are as incoherent as after a bounce.
@@ -25,7 +25,7 @@ public:
 
 private:
     template <typename Function>
-    const float* column(const Function& value_of_row);
+    const float* column(const Function& value_of);
     void make_directions();
     void make_materials();
     void make_look_ups(const Scene& scene);
@@ -40,4 +40,4 @@ private:
     float next();  ///< uniform in [0, 1)
 };
 
-}  // namespace obscura::bench
+}  // namespace obscura::benchmarks

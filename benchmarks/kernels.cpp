@@ -15,9 +15,9 @@ static_assert(lane_count == OBSCURA_LANES, "compiled for another instruction set
 
 namespace {
 
-using bench::KernelData;
+using benchmarks::KernelData;
 
-/// The rows that start at p: one, or a register full of them.
+/// The entries that start at p: one, or a register full of them.
 template <typename F, typename T>
 OBSCURA_INLINE auto read(const T* p) {
     if constexpr (std::is_same_v<F, float>) {
@@ -46,11 +46,11 @@ OBSCURA_INLINE F sum3(const Vec3<F>& v) {
     return v.x + v.y + v.z;
 }
 
-/// Calls body(i) for the first row of every group of F. Bodies store sums of what they compute:
-/// nothing can be left out, and one or two stores are little beside the kernel.
+/// Calls body(i) for the first entry of every group of F. Bodies store sums of what they compute,
+/// so that nothing is optimised away; one or two stores cost little beside the kernel.
 template <typename F, typename Body>
-OBSCURA_INLINE void for_rows(const Body& body) {
-    for (int i = 0; i < bench::kernel_rows; i += LaneTypes<F>::size) {
+OBSCURA_INLINE void for_groups(const Body& body) {
+    for (int i = 0; i < benchmarks::kernel_size; i += LaneTypes<F>::size) {
         body(i);
     }
 }
@@ -70,7 +70,7 @@ OBSCURA_INLINE LobeWeights<F> weights(const KernelData& d, int i) {
 
 template <typename F>
 void bsdf_weights(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const LobeWeights<F> lobes = lobe_weights(material<F>(d, i), read<F>(d.wo_z + i));
         write(d.out0 + i, lobes.diffuse);
         write(d.out1 + i,
@@ -80,7 +80,7 @@ void bsdf_weights(const KernelData& d) {
 
 template <typename F>
 void bsdf_evaluate(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const Vec3<F> wo = read3<F>(d.wo_x, d.wo_y, d.wo_z, i);
         const Vec3<F> wi = read3<F>(d.wi_x, d.wi_y, d.wi_z, i);
         const BsdfValue<F> at = evaluate_bsdf(material<F>(d, i), weights<F>(d, i), wo, wi);
@@ -91,7 +91,7 @@ void bsdf_evaluate(const KernelData& d) {
 
 template <typename F>
 void bsdf_sample(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const Vec3<F> wo = read3<F>(d.wo_x, d.wo_y, d.wo_z, i);
         const Vec2<F> u{read<F>(d.u0 + i), read<F>(d.u1 + i)};
         const BsdfSample<F> sample = sample_bsdf(material<F>(d, i), weights<F>(d, i), wo, u);
@@ -102,7 +102,7 @@ void bsdf_sample(const KernelData& d) {
 
 template <typename F>
 void ggx_sample_normal(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const Vec3<F> wo = read3<F>(d.wo_x, d.wo_y, d.wo_z, i);
         const Vec2<F> u{read<F>(d.u0 + i), read<F>(d.u1 + i)};
         const F alpha = read<F>(d.alpha + i);
@@ -112,7 +112,7 @@ void ggx_sample_normal(const KernelData& d) {
 
 template <typename F>
 void texture_stochastic(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const Rgba<F> texel =
             sample_texture_stochastic<F>(d.textures,
                                          read<F>(d.texture + i),
@@ -125,7 +125,7 @@ void texture_stochastic(const KernelData& d) {
 
 template <typename F>
 void texture_bilinear(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const Rgba<F> texel =
             sample_texture_bilinear<F>(d.textures,
                                        read<F>(d.texture + i),
@@ -137,7 +137,7 @@ void texture_bilinear(const KernelData& d) {
 
 template <typename F>
 void random_pair(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const Vec2<F> u = unit_pair<F>(sobol_pair(read<F>(d.bits0 + i), read<F>(d.bits1 + i), 7));
         write(d.out0 + i, u.x);
         write(d.out1 + i, u.y);
@@ -146,7 +146,7 @@ void random_pair(const KernelData& d) {
 
 template <typename F>
 void environment_sample(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const Vec2<UintOf<F>> random{read<F>(d.bits0 + i), read<F>(d.bits1 + i)};
         const EnvironmentSample<F> sample = sample_environment<F>(d.environment, random);
         write(d.out0 + i, sum3(sample.direction));
@@ -156,7 +156,7 @@ void environment_sample(const KernelData& d) {
 
 template <typename F>
 void environment_look_up(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const EnvironmentTaps<F> taps =
             environment_taps(d.environment, read3<F>(d.world_x, d.world_y, d.world_z, i));
         F sum(0.0f);
@@ -168,7 +168,7 @@ void environment_look_up(const KernelData& d) {
 
 template <typename F>
 void environment_pixel(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const EnvironmentCell<F> cell =
             environment_cell(d.environment, read3<F>(d.world_x, d.world_y, d.world_z, i));
         const IntOf<F> word = choose_environment_pixel(cell, UintOf<F>(read<F>(d.bits0 + i)));
@@ -180,7 +180,7 @@ void environment_pixel(const KernelData& d) {
 
 template <typename F>
 void choice_draw(const KernelData& d) {
-    for_rows<F>([&](int i) {
+    for_groups<F>([&](int i) {
         const IntOf<F> index = sample_cdf<F>(d.choice, d.choice_count, read<F>(d.bits0 + i));
         write(d.out0 + i, from_int<F>(index));
     });
@@ -191,8 +191,8 @@ void choice_draw(const KernelData& d) {
 #define OBSCURA_KERNEL(name) \
     { #name, name < float>, name < Lanes> }
 
-extern const bench::KernelTable kernel_table;
-const bench::KernelTable kernel_table = {
+extern const benchmarks::KernelTable kernel_table;
+const benchmarks::KernelTable kernel_table = {
     &OBSCURA_TEXT(OBSCURA_ISA)[4],  // without "isa_"
     lane_count,
     {OBSCURA_KERNEL(bsdf_weights),

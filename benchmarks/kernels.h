@@ -8,13 +8,13 @@
 
 #include <cstdint>
 
-namespace obscura::bench {
+namespace obscura::benchmarks {
 
-/// Rows in every column. A batch of the renderer has as many, and like it the columns stay within
+/// Entries in every column: as many as a batch of the renderer has, so that the columns stay within
 /// a core's second-level cache.
-inline constexpr int kernel_rows = 1024;
+inline constexpr int kernel_size = 1024;
 
-/// What kernels read and write: columns of kernel_rows numbers, and the tables they gather from.
+/// What kernels read and write: columns of kernel_size numbers, and the tables they gather from.
 /// Only raw pointers, for the reason given in docs/design.md, "Instruction sets".
 struct KernelData {
     const float *wo_x, *wo_y, *wo_z;           ///< unit, above the horizon
@@ -34,13 +34,13 @@ struct KernelData {
     int32_t choice_count;
 };
 
-/// Runs over all rows once.
+/// Runs over all entries once.
 using KernelFunction = void (*)(const KernelData&);
 
 /// To add a kernel: write it in kernels.cpp, list it at that file's end, and count it here.
 struct Kernel {
     const char* name;
-    KernelFunction one;    ///< one row at a time: F = float
+    KernelFunction one;    ///< one entry at a time: F = float
     KernelFunction lanes;  ///< as many at a time as the instruction set has lanes
 };
 inline constexpr int kernel_count = 11;
@@ -51,4 +51,4 @@ struct KernelTable {
     Kernel kernels[kernel_count];
 };
 
-}  // namespace obscura::bench
+}  // namespace obscura::benchmarks

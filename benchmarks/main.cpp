@@ -12,7 +12,7 @@
 #include <deque>
 #include <filesystem>
 
-namespace obscura::bench {
+namespace obscura::benchmarks {
 
 const char* isa_name(Isa isa) {
     return stage_table_for(isa).isa;
@@ -41,10 +41,10 @@ Result<void> load_inputs(const std::filesystem::path& scene_file,
                          const std::filesystem::path& environment_file,
                          Inputs& in) {
     Log log(Verbosity::quiet);
-    auto scene = load_gltf(scene_file, {}, log);
+    auto scene = gltf::load_gltf(scene_file, {}, log);
     if (!scene) return fail(scene.error());
     in.scene = std::move(*scene);
-    if (in.scene.textures.rows.empty()) {
+    if (in.scene.textures.records.empty()) {
         return fail(ExitCode::usage, "E-BENCH-SCENE", scene_file.string(), "it has no textures");
     }
     auto image = read_environment(environment_file, log);
@@ -105,8 +105,8 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace obscura::bench
+}  // namespace obscura::benchmarks
 
 int main(int argc, char** argv) {
-    return obscura::bench::run(argc, argv);
+    return obscura::benchmarks::run(argc, argv);
 }

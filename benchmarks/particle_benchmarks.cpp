@@ -14,7 +14,7 @@
 #include <atomic>
 #include <memory>
 
-namespace obscura::bench {
+namespace obscura::benchmarks {
 
 namespace {
 
@@ -62,7 +62,7 @@ void make_spheres(Particles& out) {
         radii[i] = 0.001f + 0.002f * unit(i, 3);
     }
     Primitive primitive;
-    const ParticleRange range = append_spheres(positions, radii, out.scene);
+    const gltf::ParticleRange range = gltf::append_spheres(positions, radii, out.scene);
     primitive.first_triangle = range.first;
     primitive.triangle_count = range.count;
     primitive.geometry = static_cast<int32_t>(GeometryKind::spheres);
@@ -117,9 +117,10 @@ void make_rays(Particles& out, bool camera) {
                    : Vec3f{2 * unit(i, 4) - 1, 2 * unit(i, 5) - 1, 2 * unit(i, 6) - 1};
         const Vec3f direction = camera ? normalize(Vec3f{0.4f * x, 0.4f * y, -1})
                                        : uniform_sphere(Vec2f{unit(i, 7), unit(i, 8)});
-        const float row[6] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
+        const float numbers[6] = {
+            origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
         for (size_t c = 0; c < 6; ++c)
-            out.columns[c][i] = row[c];
+            out.columns[c][i] = numbers[c];
     }
 }
 
@@ -145,24 +146,25 @@ void ours(benchmark::State& state, bool camera) {
     Particles& p = particles();
     make_rays(p, camera);
     std::vector<float> numbers[3];
-    std::vector<int32_t> rows[3];
+    std::vector<int32_t> indices[3];
     for (int i = 0; i < 3; ++i) {
         numbers[i].resize(ray_count + 16);
-        rows[i].resize(ray_count + 16);
+        indices[i].resize(ray_count + 16);
     }
     const HitColumns hits{numbers[0].data(),
                           numbers[1].data(),
                           numbers[2].data(),
-                          rows[0].data(),
-                          rows[1].data(),
-                          rows[2].data()};
+                          indices[0].data(),
+                          indices[1].data(),
+                          indices[2].data()};
     for (auto _ : state) {
         p.accel->intersect(
             p.rays(), hits, camera ? Coherence::coherent : Coherence::incoherent, {});
         benchmark::ClobberMemory();
     }
-    const auto found = std::count_if(
-        rows[1].begin(), rows[1].begin() + ray_count, [](int32_t row) { return row >= 0; });
+    const auto found = std::count_if(indices[1].begin(),
+                                     indices[1].begin() + ray_count,
+                                     [](int32_t index) { return index >= 0; });
     note(state, found, static_cast<double>(p.accel->memory_bytes() + p.scene.spheres.size() * 4));
 }
 
@@ -212,4 +214,4 @@ void register_particles() {
     }
 }
 
-}  // namespace obscura::bench
+}  // namespace obscura::benchmarks

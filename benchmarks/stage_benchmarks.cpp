@@ -1,4 +1,4 @@
-// benchmarks/stage_benchmarks.cpp - registers every stage of the corridor for one instruction set.
+// benchmarks/stage_benchmarks.cpp - registers every stage of the wavefront pipeline for one ISA.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/prepared_scene.h"
 
@@ -9,23 +9,26 @@
 #include <ctime>
 #include <memory>
 
-namespace obscura::bench {
+namespace obscura::benchmarks {
 
 namespace {
 
 using Columns = std::shared_ptr<StageColumns>;
 
-/// Registers stage(columns), which handles `rows` rows a call and leaves what it reads as it is.
+/// Registers stage(columns), which handles `count` entries a call and does not change its input.
 template <typename Stage>
-void register_stage(const std::string& name, const Columns& columns, int rows, const Stage& stage) {
-    const auto run = [columns, rows, stage](benchmark::State& state) {
+void register_stage(const std::string& name,
+                    const Columns& columns,
+                    int count,
+                    const Stage& stage) {
+    const auto run = [columns, count, stage](benchmark::State& state) {
         columns->restore();  // another benchmark may have shaded them
         for (auto _ : state) {
             stage(*columns);
             benchmark::ClobberMemory();
         }
-        state.SetItemsProcessed(state.iterations() * rows);
-        state.counters["rows"] = rows;
+        state.SetItemsProcessed(state.iterations() * count);
+        state.counters["rows"] = count;
     };
     benchmark::RegisterBenchmark(name.c_str(), run);
 }
@@ -37,18 +40,18 @@ double thread_seconds() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-/// Shading packs its input in place: the columns are put back before each call, untimed.
+/// Shading packs its input in place: before each call the columns are restored, untimed.
 void register_shade(const std::string& name, const Columns& columns) {
     const auto run = [columns](benchmark::State& state) {
         StageColumns& c = *columns;
         for (auto _ : state) {
             c.restore();
             const double start = thread_seconds();
-            c.scene.stages->shade(c.view, c.batch, c.bounce, c.rows(), c.shade_rows());
+            c.scene.stages->shade(c.view, c.batch, c.bounce, c.count(), c.shade_columns());
             state.SetIterationTime(thread_seconds() - start);
         }
-        state.SetItemsProcessed(state.iterations() * c.rows());
-        state.counters["rows"] = c.rows();
+        state.SetItemsProcessed(state.iterations() * c.count());
+        state.counters["rows"] = c.count();
     };
     benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime();
 }
@@ -57,7 +60,7 @@ void register_rays(const std::string& isa, const std::string& kind, const Column
     const Coherence coherence = columns->bounce == 0 ? Coherence::coherent : Coherence::incoherent;
     const auto segment = static_cast<uint32_t>(columns->bounce);
     register_stage(
-        "stage/2_intersect_" + kind + "/" + isa, columns, columns->rows(), [=](StageColumns& c) {
+        "stage/2_intersect_" + kind + "/" + isa, columns, columns->count(), [=](StageColumns& c) {
             c.scene.accel->intersect(
                 c.rays(), c.work.hits, coherence, {segment == 0, false, 2U * segment});
         });
@@ -81,11 +84,11 @@ void register_light(const std::string& isa, const Columns& columns) {
 void register_stages(const PreparedScene& scene, const Camera& camera, Isa isa) {
     const std::string name = isa_name(isa);
     const auto camera_rays = std::make_shared<StageColumns>(scene, camera, 0);
-    const int rows = camera_rays->rows();
-    // The ones that overwrite what the others read have columns of their own.
+    const int count = camera_rays->count();
+    // Stages that overwrite what others read have columns of their own.
     const auto own = std::make_shared<StageColumns>(scene, camera, 0);
-    register_stage("stage/1_camera/" + name, own, rows, [rows](StageColumns& c) {
-        c.scene.stages->camera(c.batch, rows, c.work.paths[0], c.work.samples, nullptr);
+    register_stage("stage/1_camera/" + name, own, count, [count](StageColumns& c) {
+        c.scene.stages->camera(c.batch, count, c.work.paths[0], c.work.samples, nullptr);
     });
     register_rays(name, "camera", camera_rays);
     register_rays(name, "bounce", std::make_shared<StageColumns>(scene, camera, 1));
@@ -93,9 +96,9 @@ void register_stages(const PreparedScene& scene, const Camera& camera, Isa isa) 
     shadow_rays->make_shadow_rays();
     register_light(name, shadow_rays);
     const auto sums = std::make_shared<std::vector<PixelSum>>(own->pixels);
-    register_stage("stage/5_accumulate/" + name, own, rows, [sums](StageColumns& c) {
+    register_stage("stage/5_accumulate/" + name, own, count, [sums](StageColumns& c) {
         c.scene.stages->accumulate(c.pixels, {0, c.batch.samples}, c.work.samples, sums->data());
     });
 }
 
-}  // namespace obscura::bench
+}  // namespace obscura::benchmarks

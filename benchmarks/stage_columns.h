@@ -1,13 +1,13 @@
-// benchmarks/stage_columns.h - columns as they enter each stage, from real paths in a real scene.
+// benchmarks/stage_columns.h - input columns of each stage, from real paths in a real scene.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "render/render.h"
-#include "stages/walk.h"
+#include "stages/wavefront.h"
 
 #include <vector>
 
-namespace obscura::bench {
+namespace obscura::benchmarks {
 
 /// One tile's batch of paths, followed up to a bounce and kept there.
 class StageColumns {
@@ -18,14 +18,14 @@ public:
     StageColumns(const StageColumns&) = delete;
     StageColumns& operator=(const StageColumns&) = delete;
 
-    /// Puts the columns back as they entered the stage: shading packs them in place.
+    /// Restores the input columns of the stage, because shading packs them in place.
     void restore();
 
-    /// Fills the shadow rays and whether something occludes them, by shading once.
+    /// Shades once, to fill the shadow rays and whether they are occluded.
     void make_shadow_rays();
 
-    int rows() const { return rows_; }
-    ShadeRows shade_rows() const;
+    int count() const { return count_; }
+    ShadeColumns shade_columns() const;
     RayColumns rays() const;
     RayColumns shadow_rays() const;
 
@@ -40,7 +40,7 @@ public:
 private:
     std::vector<int32_t> xs_, ys_;
     Workspace saved_;
-    int rows_ = 0;
+    int count_ = 0;
 };
 
-}  // namespace obscura::bench
+}  // namespace obscura::benchmarks

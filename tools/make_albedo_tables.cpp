@@ -14,8 +14,8 @@
 namespace obscura {
 namespace {
 
-constexpr double least_alpha = 1e-5;
-constexpr double least_cosine = 1e-4;
+constexpr double min_alpha = 1e-5;
+constexpr double min_cosine = 1e-4;
 
 /// Lobes are divided by these shares, so an interpolated one that is too low would make light. By
 /// so much they are, but for one in a hundred places; the tables keep clear of it.
@@ -32,11 +32,11 @@ double share(int step, int steps) {
 }
 
 double cosine_at(int step, int steps) {
-    return std::fmax(square(share(step, steps)), least_cosine);
+    return std::fmax(square(share(step, steps)), min_cosine);
 }
 
 double alpha_at(int step, int steps) {
-    return std::fmax(square(share(step, steps)), least_alpha);
+    return std::fmax(square(share(step, steps)), min_alpha);
 }
 
 /// Steps of a mean over visible normals: around the view direction and along it.
@@ -163,7 +163,7 @@ std::vector<double> pair_cells(const std::vector<std::array<double, 2>>& nodes, 
 std::vector<double> specular_table() {
     constexpr Grid grid{32, 256, 0.5};
     const auto nodes = plain_nodes([&](double cosine, double roughness) {
-        const double alpha = std::fmax(roughness * roughness, least_alpha);
+        const double alpha = std::fmax(roughness * roughness, min_alpha);
         return reflected({std::sqrt(1 - cosine * cosine), 0, cosine}, {alpha, alpha}, grid);
     });
     return plain_cells(nodes, 2, [](const SpecularAlbedo<double>& node, int value) {

@@ -32,7 +32,7 @@ public:
 
     uint64_t total() const { return total_; }
 
-    /// An array of plain rows without padding.
+    /// An array of plain records without padding.
     template <typename Array>
     requires requires(const Array& array) { array.data(); }
     void add(const char* name, const Array& array) {
@@ -129,9 +129,9 @@ void add_info(const AssetInfo& info, SceneHash& out) {
                 (extension.required ? 1 : 0) + (extension.supported ? 2 : 0));
         out.add("info.extension.materials", extension.materials);
     }
-    for (const ReportRow& row : info.report) {
-        out.add("info.report", {row.place, row.feature, row.note});
-        out.add("info.report.verdict", static_cast<int>(row.verdict));
+    for (const ReportEntry& entry : info.report) {
+        out.add("info.report", {entry.place, entry.feature, entry.note});
+        out.add("info.report.verdict", static_cast<int>(entry.verdict));
     }
     for (const size_t number : {info.triangles_in_world,
                                 info.points_in_world,
@@ -150,7 +150,7 @@ void add_scene(const Scene& scene, SceneHash& out) {
     out.add("attributes", scene.attributes);
     out.add("primitives", scene.primitives);
     out.add("world_primitive_count", scene.world_primitive_count);
-    out.add("still_primitive_count", scene.still_primitive_count);
+    out.add("still_primitive_count", scene.static_primitive_count);
     for (const Mesh& mesh : scene.meshes) {  // but the stamp, which counts what was loaded before
         out.add("mesh.first_primitive", mesh.first_primitive);
         out.add("mesh.primitive_count", mesh.primitive_count);
@@ -168,7 +168,7 @@ void add_scene(const Scene& scene, SceneHash& out) {
     out.add("material_names", scene.material_names);
     out.add("material_numbers", scene.material_numbers);
     out.add("textures.texels", scene.textures.texels);
-    out.add("textures.rows", scene.textures.rows);
+    out.add("textures.rows", scene.textures.records);
     out.add("lights", scene.lights);
     for (const LightProfile& profile : scene.light_profiles) {
         out.add("profile.polar", profile.polar_deg);
@@ -183,9 +183,11 @@ void add_scene(const Scene& scene, SceneHash& out) {
 }
 
 /// Loads a file in one way and prints a line.
-Result<Scene> hash_one(const std::string& file, const LoadOptions& options, bool lists_arrays) {
+Result<Scene> hash_one(const std::string& file,
+                       const gltf::LoadOptions& options,
+                       bool lists_arrays) {
     Log log(Verbosity::quiet);
-    Result<Scene> scene = load_gltf(file, options, log);
+    Result<Scene> scene = gltf::load_gltf(file, options, log);
     std::printf("%s scene=%d variant=%s time=%s ",
                 file.c_str(),
                 options.scene,
@@ -203,7 +205,7 @@ Result<Scene> hash_one(const std::string& file, const LoadOptions& options, bool
 }
 
 void hash_file(const std::string& file, bool lists_arrays) {
-    LoadOptions options;
+    gltf::LoadOptions options;
     options.lenient = true;
     options.occlusion = true;
     const Result<Scene> stored = hash_one(file, options, lists_arrays);

@@ -1,4 +1,4 @@
-// accel/accel.cpp - builds Embree scenes from a Scene: world-space primitives and instances.
+// accel/accel.cpp - builds and updates Embree's BVHs from a Scene.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/moving_geometry.h"
@@ -46,7 +46,7 @@ void attach_primitives(Accel::Impl& impl, RTCScene target, const Mesh& range, in
     }
 }
 
-/// index: behind the world's primitives
+/// index: of the instance; its geometry id follows those of the world primitives
 void attach_instance(Accel::Impl& impl, RTCScene mesh, const Instance& instance, size_t index) {
     RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_INSTANCE);
     rtcSetGeometryInstancedScene(geometry, mesh);
@@ -75,7 +75,7 @@ tl::unexpected<Error> embree_failure(const EmbreeErrors& errors) {
 }  // namespace
 
 Accel::Impl::~Impl() {
-    release(still);
+    release(static_geometry);
     for (BuiltGeometry& mesh : meshes)
         release(mesh);
     if (top != nullptr) rtcReleaseScene(top);
@@ -125,7 +125,7 @@ std::vector<FilterKinds> filters_of_range(const Accel::Impl& impl, const Mesh& r
     return out;
 }
 
-/// The hierarchy over a range of primitives: `known` where nothing of it has changed, else new.
+/// The BVH over a range of primitives: reuses `known` if nothing has changed.
 BuiltGeometry build_range(Accel::Impl& impl, const Mesh& range, BuiltGeometry& known) {
     BuiltGeometry out{nullptr, range, filters_of_range(impl, range)};
     const bool is_same =
@@ -142,13 +142,14 @@ BuiltGeometry build_range(Accel::Impl& impl, const Mesh& range, BuiltGeometry& k
     return out;
 }
 
-/// Hierarchies of what stands still and of meshes; those of an earlier pose are used again.
+/// Builds the BVHs of static primitives and of meshes; reuses those of an earlier pose.
 void build_parts(Accel::Impl& impl) {
     const Scene& scene = *impl.scene;
-    BuiltGeometry known = std::move(impl.still);
-    impl.still = {};
-    if (scene.still_primitive_count > 0) {
-        impl.still = build_range(impl, {0, scene.still_primitive_count, scene.still_stamp}, known);
+    BuiltGeometry known = std::move(impl.static_geometry);
+    impl.static_geometry = {};
+    if (scene.static_primitive_count > 0) {
+        impl.static_geometry =
+            build_range(impl, {0, scene.static_primitive_count, scene.static_stamp}, known);
     }
     release(known);
     std::vector<BuiltGeometry> known_meshes = std::move(impl.meshes);
@@ -162,26 +163,29 @@ void build_parts(Accel::Impl& impl) {
 
 void build_top(Accel::Impl& impl) {
     const Scene& scene = *impl.scene;
-    const int32_t still = scene.still_primitive_count;
+    const int32_t static_count = scene.static_primitive_count;
     impl.has_instances = !scene.instances.empty();
-    if (still > 0 && still == scene.world_primitive_count && !impl.has_instances) {
-        rtcRetainScene(impl.still.scene);
-        impl.top = impl.still.scene;
+    if (static_count > 0 && static_count == scene.world_primitive_count && !impl.has_instances) {
+        rtcRetainScene(impl.static_geometry.scene);
+        impl.top = impl.static_geometry.scene;
         return;
     }
     impl.top = new_scene(impl);
-    attach_primitives(impl, impl.top, {still, scene.world_primitive_count - still}, still);
+    attach_primitives(
+        impl, impl.top, {static_count, scene.world_primitive_count - static_count}, static_count);
     for (size_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         const RTCScene mesh = impl.meshes[static_cast<size_t>(instance.mesh)].scene;
         attach_instance(impl, mesh, instance, i);
     }
-    if (still > 0) attach_instance(impl, impl.still.scene, Instance{}, scene.instances.size());
-    impl.has_instances = impl.has_instances || still > 0;
+    if (static_count > 0) {
+        attach_instance(impl, impl.static_geometry.scene, Instance{}, scene.instances.size());
+    }
+    impl.has_instances = impl.has_instances || static_count > 0;
     commit_scene(impl.top);
 }
 
-/// Forgets what was built of arrays that have moved since.
+/// Drops BVHs whose arrays have moved in memory since.
 void drop_moved(Accel::Impl& impl) {
     const Scene& scene = *impl.scene;
     const SharedArrays now{scene.positions.data(), scene.indices.data(), scene.primitives.size()};
@@ -192,12 +196,12 @@ void drop_moved(Accel::Impl& impl) {
     if (impl.top != nullptr) rtcReleaseScene(impl.top);
     impl.top = nullptr;
     if (stay) return;
-    release(impl.still);
+    release(impl.static_geometry);
     for (BuiltGeometry& mesh : impl.meshes)
         release(mesh);
 }
 
-/// Hands everything over to Embree and builds; without filters where impl.alpha is empty.
+/// Passes everything to Embree and builds; without filters if impl.alpha is empty.
 Result<void> build_scenes(Accel::Impl& impl) {
     drop_moved(impl);
     impl.reach = scene_reach(*impl.scene);
@@ -206,12 +210,12 @@ Result<void> build_scenes(Accel::Impl& impl) {
     build_parts(impl);
     build_top(impl);
     build_splats(impl);
-    impl.list_endless_planes();
+    impl.list_infinite_planes();
     if (impl.errors.code != RTC_ERROR_NONE) return embree_failure(impl.errors);
     return {};
 }
 
-/// Builds, or builds again, with filters and tables as the scene asks for.
+/// Builds or rebuilds, with the filters and tables that the scene needs.
 Result<void> build_all(Accel::Impl& impl) {
     const Scene& scene = *impl.scene;
     impl.textures = view_of(scene.textures);
@@ -269,12 +273,12 @@ Result<BareBuild> Accel::build_bare(const Scene& scene, const std::string& embre
 
 void Accel::Impl::fill_primitive_tables() {
     single_sided.resize(scene->primitives.size());
-    bodies.resize(scene->primitives.size());
+    media.resize(scene->primitives.size());
     instance_first_primitive.clear();
     for (size_t i = 0; i < single_sided.size(); ++i) {
         const auto material = static_cast<size_t>(scene->primitives[i].material);
         single_sided[i] = (scene->materials[material].flags & material_double_sided) == 0;
-        bodies[i] = medium_of(*scene, scene->primitives[i]);
+        media[i] = medium_of(*scene, scene->primitives[i]);
     }
     for (const Instance& instance : scene->instances) {
         const Mesh& mesh = scene->meshes[static_cast<size_t>(instance.mesh)];

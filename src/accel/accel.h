@@ -1,4 +1,4 @@
-// accel/accel.h - a scene's bounding volume hierarchy and the ray queries that the stages ask.
+// accel/accel.h - a scene's BVH and its ray queries.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,33 +17,33 @@ namespace obscura {
 
 enum class Coherence { coherent, incoherent };
 
-/// How rays treat surfaces that a picture can see through.
+/// How rays treat back faces, alpha and cut-away faces.
 struct SeeThrough {
     bool culls_back_faces = false;  ///< camera rays pass single-sided back faces
-    bool fixed_alpha = false;       ///< alpha BLEND is a cut at one half, not a random choice
-    /// Another number for every segment of a path, so that its alpha decisions are independent.
+    bool fixed_alpha = false;       ///< alpha BLEND becomes a threshold at 0.5, not a random choice
+    /// Different for every segment of a path, so that its alpha decisions are independent.
     uint32_t segment = 0;
-    /// Appended to, with culls_back_faces: the first back that each ray passes, of those that may
-    /// be cut away (meshes that send out no light); null: nobody asks.
+    /// With culls_back_faces, the first back face that each ray passes is appended, if its mesh may
+    /// be cut away (meshes without emission); null: not recorded.
     std::vector<PassedBack>* passed_backs = nullptr;
     const Cutaway* cutaway = nullptr;  ///< null: all faces are there
 };
 
-/// How shadow rays are asked.
+/// Settings of a shadow query.
 struct ShadowQuery {
     uint32_t segment = 0;  ///< as in SeeThrough
-    /// Null, or 0 in every row: what may be a thin wall does not occlude, but makes this 1; see
-    /// scene/thin_walls.h
-    uint8_t* walls = nullptr;
+    /// Null, or 0 for every ray: possible thin walls (scene/thin_walls.h) do not occlude, but set
+    /// this to 1.
+    uint8_t* thin_walls = nullptr;
     const Cutaway* cutaway = nullptr;  ///< null: all faces are there
 };
 
 struct RayRecording;
 struct ReplayResult;
 enum class RayKind : int;
-enum class ReplayWay : int;
+enum class ReplayMode : int;
 
-/// What Embree alone takes for the triangles of a scene.
+/// Cost of Embree alone for the triangles of a scene.
 struct BareBuild {
     double seconds = 0;
     size_t bytes = 0;
@@ -58,20 +58,19 @@ public:
     /// Errors  33 E-MEM; 69 E-EMBREE-CURVES lines, and an Embree without curves; 70 E-EMBREE
     static Result<Accel> build(const Scene& scene, const std::string& embree_isa);
 
-    /// Builds for another pose of the same asset: hierarchies of geometry whose stamp, place in
-    /// the scene's arrays and need of an alpha filter are as before are kept. Embree's other errors
-    /// leave this object unusable.
+    /// Updates to another pose of the same asset. Keeps the BVHs of geometry whose stamp, position
+    /// in the scene's arrays and alpha filter are unchanged. Errors leave this object unusable.
     ///
     /// In      scene: as for build()
     /// Errors  33 E-MEM; 70 E-EMBREE
     Result<void> update(const Scene& scene);
 
-    /// Builds the same triangles and instances as build(), with no filters and no tables, and lets
-    /// them go: a measure for build(). Same errors.
+    /// Builds the triangles and instances of build() without filters and tables, and discards them:
+    /// a baseline for timing build(). Same errors.
     static Result<BareBuild> build_bare(const Scene& scene, const std::string& embree_isa);
 
-    /// Builds the same boxes with each triangle and shape handed to a callback that counts: for
-    /// count_tests, and for nothing else. Same errors as build().
+    /// Builds the same boxes, with a counting callback for each triangle and shape: only for
+    /// count_tests. Same errors as build().
     static Result<Accel> build_counting(const Scene& scene, const std::string& embree_isa);
 
     Accel(Accel&&) noexcept;
@@ -79,8 +78,7 @@ public:
     ~Accel();
 
     /// Nearest hit of every ray. Rays that are not finite, in the world or in an instance's space,
-    /// are refused: a miss, and counted.
-    /// Returns how many were refused. Thread-safe.
+    /// are refused and count as misses. Returns the number of refused rays. Thread-safe.
     int intersect(const RayColumns& rays,
                   const HitColumns& hits,
                   Coherence coherence,
@@ -92,40 +90,40 @@ public:
                  Coherence coherence,
                  const ShadowQuery& query = {}) const;
 
-    /// All faces of bodies in (0, tfar) of one row's ray, in no order and now and then twice;
-    /// appended to `out`. None for rays that are refused. Thread-safe.
+    /// Appends all boundaries of media in (0, tfar) of one ray to `out`, unordered, with occasional
+    /// duplicates. None for refused rays. Thread-safe.
     void list_crossings(const RayColumns& rays,
-                        int row,
+                        int index,
                         const SeeThrough& see_through,
                         std::vector<Crossing>& out) const;
-    /// Which rays are not refused.
+    /// Limits of the rays that are not refused.
     RayReach ray_reach() const;
     /// True when there are Gaussian splats. They are no geometry: no other query here finds them.
     bool has_splats() const;
 
-    /// The light of the splats that each ray passes before its end, in their order, and what they
-    /// leave of light from there. Refused rays pass none. Thread-safe.
+    /// Blends the splats that each ray passes before its end, in order: their light and their
+    /// transmittance. Refused rays pass none. Thread-safe.
     ///
-    /// In   parallel: as all rays of an orthographic camera are
+    /// In   parallel: all rays have one direction, as for an orthographic camera
     void blend_splats(const RayColumns& rays, bool parallel, const SplatColumns& out) const;
 
-    /// What splats leave of light that comes along the rays, but where skips[i] is 1.
+    /// Computes the transmittance of the splats along each ray; 1 where skips[i] is 1.
     void dim_by_splats(const RayColumns& rays, const uint8_t* skips, float* transmittance) const;
 
     /// True when some primitive may be a thin wall.
     bool has_thin_walls() const;
 
-    /// How many primitives each ray is tested against until its nearest hit is known: those whose
-    /// box it meets before that hit, in the order in which Embree comes to them. Depends on the
-    /// scene, the ray and Embree's instruction set only. Single-sided backs and alpha as for
-    /// quantities. Returns how many rays were refused; theirs is 0. Thread-safe.
+    /// Counts the primitives that each ray is tested against until its nearest hit is known: those
+    /// whose box it meets before that hit, in Embree's order of traversal. Depends only on the
+    /// scene, the ray and Embree's instruction set. Treats back faces and alpha as AOVs do. Returns
+    /// the number of refused rays; their count is 0. Thread-safe.
     ///
     /// In      this: from build_counting
     int count_tests(const RayColumns& rays, float* tests) const;
 
-    /// Asks bare Embree for all recorded rays of one kind once more, on all threads: see
+    /// Traces all recorded rays of one kind again with bare Embree, on all threads: see
     /// accel/ray_recording.h.
-    ReplayResult replay(const RayRecording& recording, RayKind kind, ReplayWay way) const;
+    ReplayResult replay(const RayRecording& recording, RayKind kind, ReplayMode mode) const;
 
     size_t memory_bytes() const;  ///< of Embree, by its allocation monitor, and of spheres' boxes
     std::string embree_version() const;

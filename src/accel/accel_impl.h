@@ -1,4 +1,4 @@
-// accel/accel_impl.h - the Embree handles and tables behind Accel.
+// accel/accel_impl.h - the Embree handles and tables of Accel.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -25,31 +25,31 @@ struct EmbreeErrors {
     std::string text;
 };
 
-/// The triangles or pieces of lines of one primitive as user geometry; its user pointer.
+/// User pointer of a primitive whose triangles or curve segments are user geometry.
 struct UserElements {
     const Accel::Impl* impl = nullptr;
     int32_t primitive = 0;
 };
 
-/// What a primitive lets rays pass by.
+/// The filter functions that a primitive needs.
 struct FilterKinds {
     bool alpha = false;
-    bool wall = false;  ///< for shadow rays alone
+    bool thin_wall = false;  ///< possible thin wall; for shadow rays only
     bool operator==(const FilterKinds&) const = default;
 };
 
-/// The hierarchy over primitives that share one space.
+/// The BVH over primitives that share one space.
 struct BuiltGeometry {
     RTCScene scene = nullptr;
     Mesh range;                        ///< its primitives, and their stamp
     std::vector<FilterKinds> filters;  ///< by primitive of the range
 };
 
-/// Where a scene's arrays lie that Embree shares.
+/// Addresses and sizes of the scene's arrays that Embree shares.
 struct SharedArrays {
     const float* positions = nullptr;
     const uint32_t* indices = nullptr;
-    size_t primitives = 0;  ///< rows of the tables that geometries point to
+    size_t primitives = 0;  ///< size of the tables that geometries point to
 };
 
 /// Lines are curves to Embree, which it may have been built without.
@@ -57,7 +57,7 @@ struct SharedArrays {
 /// Errors  69 E-EMBREE-CURVES
 Result<void> require_curves(const Scene& scene, bool has_curves);
 
-/// Builds a scene's hierarchy on the threads that loops run on, not on all that Embree sees.
+/// Builds a scene's BVH on the threads that our loops use, not on all that Embree finds.
 void commit_scene(RTCScene scene);
 
 struct Accel::Impl {
@@ -67,7 +67,7 @@ struct Accel::Impl {
     ~Impl();
 
     void fill_primitive_tables();
-    void list_endless_planes();
+    void list_infinite_planes();
 
     const Scene* scene = nullptr;
     KernelChoice kernels;
@@ -75,42 +75,43 @@ struct Accel::Impl {
     EmbreeErrors errors;
     std::atomic<int64_t> memory = 0;
     RTCDevice device = nullptr;
-    /// Geometry ids: world primitives, then instances, then `still` where it is not all there is.
+    /// Geometry ids: world primitives, then instances, then `static_geometry` unless it is all
+    /// there is.
     RTCScene top = nullptr;
-    BuiltGeometry still;                ///< of Scene::still_primitive_count; empty: has no scene
+    BuiltGeometry static_geometry;      ///< of Scene::static_primitive_count; empty: has no scene
     std::vector<BuiltGeometry> meshes;  ///< as Scene::meshes
     SharedArrays arrays;
     bool has_instances = false;  ///< in `top`
-    RayReach reach;              ///< of the rays that `top` may see
-    RTCScene splats = nullptr;   ///< of all splats, which are not in `top`; null: there are none
+    RayReach reach;              ///< limits of the rays that `top` can take
+    RTCScene splats = nullptr;   ///< all splats, which are not in `top`; null: there are none
     SplatGeometry splat_geometry;
     std::vector<uint8_t> materials_with_holes;
     std::vector<uint8_t> thin_walls;             ///< by material
     bool has_thin_walls = false;                 ///< some primitive's material is one
     std::vector<AlphaGeometry> alpha;            ///< by primitive; empty: no filters
-    std::vector<ShapeGeometry> shapes;           ///< by primitive; filled where it is one of shapes
+    std::vector<ShapeGeometry> shapes;           ///< by primitive; filled for primitives of shapes
     std::vector<UnsetArray<float>> block_boxes;  ///< by primitive; what ShapeGeometry::boxes reads
     std::vector<UserElements> user_elements;     ///< by primitive; empty: Embree's own kinds
     AccelFunctions functions;
-    std::vector<EndlessPlane> endless_planes;
+    std::vector<InfinitePlane> infinite_planes;
     std::vector<uint8_t> single_sided;              ///< by primitive
-    std::vector<int32_t> bodies;                    ///< by primitive, see medium_of
+    std::vector<int32_t> media;                     ///< by primitive, see medium_of
     std::vector<int32_t> instance_first_primitive;  ///< by instance
 };
 
-/// In   impl.alpha: empty where nothing has filters
+/// In   impl.alpha: empty if nothing has filters
 FilterKinds filters_of(const Accel::Impl& impl, const Primitive& primitive);
 
-/// A primitive as Embree's geometry; null for a plane without end.
-RTCGeometry make_geometry(Accel::Impl& impl, int32_t row);
+/// The Embree geometry of a primitive; null for an infinite plane.
+RTCGeometry make_geometry(Accel::Impl& impl, int32_t index);
 
-/// The hierarchy over the splats of impl.scene, anew.
+/// Rebuilds the BVH over the splats of impl.scene.
 void build_splats(Accel::Impl& impl);
 
 /// Triangles as user geometry whose callback counts: see accel/traversal_cost.cpp.
 RTCGeometry make_counted_triangles(Accel::Impl& impl, int32_t primitive_index);
 
-/// Likewise for lines, as capsules of our own.
+/// Likewise for lines, as our own capsules.
 RTCGeometry make_counted_curves(Accel::Impl& impl, int32_t primitive_index);
 
 /// Counts, then calls the shape's own callback.

@@ -1,4 +1,4 @@
-// accel/alpha_filter.cpp - alpha MASK and BLEND as Embree filter functions.
+// accel/alpha_filter.cpp - alpha MASK, alpha BLEND and thin walls as Embree filter functions.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/alpha_filter.h"
 
@@ -15,9 +15,9 @@ namespace {
 
 using Corners = std::array<uint32_t, 3>;
 
-/// The vertices that a hit lies between; of points one, and of lines two.
-Corners corners_of(const Scene& scene, const Primitive& primitive, unsigned row) {
-    const size_t at = static_cast<size_t>(primitive.first_triangle) + row;
+/// The vertices of a hit element: three of a triangle, two of a line, one of a point.
+Corners corners_of(const Scene& scene, const Primitive& primitive, unsigned index) {
+    const size_t at = static_cast<size_t>(primitive.first_triangle) + index;
     switch (static_cast<GeometryKind>(primitive.geometry)) {
         case GeometryKind::triangles:
             return {scene.indices[3 * at], scene.indices[3 * at + 1], scene.indices[3 * at + 2]};
@@ -42,7 +42,7 @@ float interpolate(const Scene& scene, const Corners& corners, int32_t base, int 
     return (1.0f - uv.x - uv.y) * at(0) + uv.x * at(1) + uv.y * at(2);
 }
 
-/// uv: as in the mesh, before the slot's transform.
+/// uv: of the mesh, before the slot's transform
 float texture_alpha(const AlphaGeometry& geometry, const TextureSlot& slot, Vec2f uv) {
     const float* m = slot.uv_from_mesh;
     const Vec2f at{m[0] * uv.x + m[1] * uv.y + m[2], m[3] * uv.x + m[4] * uv.y + m[5]};
@@ -78,16 +78,16 @@ float material_alpha(const AlphaGeometry& geometry, const Material& material, Ve
 
 float alpha_threshold(const AlphaGeometry& geometry,
                       const QueryContext& context,
-                      const AlphaPlace& place) {
+                      const AlphaCandidate& candidate) {
     const Scene& scene = *geometry.scene;
     const Primitive& primitive = scene.primitives[static_cast<size_t>(geometry.primitive)];
     const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
     if ((material.flags & material_alpha_blend) == 0) return material.alpha_cutoff;
     if (context.fixed_threshold) return 0.5f;
-    uint32_t hash = hash_word(segment_key(context.keys[place.ray], context.segment));
-    hash = hash_word(hash + place.instance * 0x9E3779B9U);
+    uint32_t hash = hash_word(segment_key(context.keys[candidate.ray], context.segment));
+    hash = hash_word(hash + candidate.instance * 0x9E3779B9U);
     hash = hash_word(hash ^ (static_cast<uint32_t>(geometry.primitive) * 0x85EBCA6BU));
-    hash = hash_word(hash + place.triangle * 0xC2B2AE35U);
+    hash = hash_word(hash + candidate.triangle * 0xC2B2AE35U);
     // In (0, 1]: alpha 0 never hits, alpha 1 always does.
     return unit_float<float>(hash) + 1.0f / 16777216.0f;
 }
@@ -109,19 +109,19 @@ std::vector<uint8_t> find_materials_with_holes(const Scene& scene) {
 bool needs_alpha_filter(const Scene& scene,
                         const Primitive& primitive,
                         const std::vector<uint8_t>& materials_with_holes) {
-    const auto row = static_cast<size_t>(primitive.material);
+    const auto index = static_cast<size_t>(primitive.material);
     constexpr uint32_t see_through = material_alpha_mask | material_alpha_blend;
     const bool colored = primitive.color_base != no_attribute;  // their alpha may be anything
-    return materials_with_holes[row] != 0 ||
-           (colored && (scene.materials[row].flags & see_through) != 0);
+    return materials_with_holes[index] != 0 ||
+           (colored && (scene.materials[index].flags & see_through) != 0);
 }
 
 bool is_opaque_there(const AlphaGeometry& geometry,
                      const QueryContext& context,
-                     const AlphaPlace& place,
+                     const AlphaCandidate& candidate,
                      Vec2f barycentric) {
-    return alpha_at(geometry, place.triangle, barycentric) >=
-           alpha_threshold(geometry, context, place);
+    return alpha_at(geometry, candidate.triangle, barycentric) >=
+           alpha_threshold(geometry, context, candidate);
 }
 
 void alpha_filter(const RTCFilterFunctionNArguments* args) {
@@ -131,23 +131,23 @@ void alpha_filter(const RTCFilterFunctionNArguments* args) {
         if (args->valid[i] == 0) continue;
         const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
         const Vec2f barycentric{RTCHitN_u(args->hit, args->N, i), RTCHitN_v(args->hit, args->N, i)};
-        const AlphaPlace place{
+        const AlphaCandidate candidate{
             RTCRayN_id(args->ray, args->N, i), RTCHitN_instID(args->hit, args->N, i, 0), triangle};
-        if (!is_opaque_there(geometry, context, place, barycentric)) args->valid[i] = 0;
+        if (!is_opaque_there(geometry, context, candidate, barycentric)) args->valid[i] = 0;
     }
 }
 
-void wall_filter(const RTCFilterFunctionNArguments* args) {
+void thin_wall_filter(const RTCFilterFunctionNArguments* args) {
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
-        if (passes_wall(context, RTCRayN_id(args->ray, args->N, i))) args->valid[i] = 0;
+        if (passes_thin_wall(context, RTCRayN_id(args->ray, args->N, i))) args->valid[i] = 0;
     }
 }
 
-void open_wall_filter(const RTCFilterFunctionNArguments* args) {
+void open_thin_wall_filter(const RTCFilterFunctionNArguments* args) {
     alpha_filter(args);
-    wall_filter(args);
+    thin_wall_filter(args);
 }
 
 }  // namespace obscura

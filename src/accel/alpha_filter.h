@@ -1,4 +1,4 @@
-// accel/alpha_filter.h - lets rays pass where a texture's alpha says that there is nothing.
+// accel/alpha_filter.h - alpha MASK, alpha BLEND and thin walls as Embree filter functions.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace obscura {
 
-/// What an Embree geometry knows of its primitive; the geometry's user pointer.
+/// User pointer of an Embree geometry with an alpha filter.
 struct AlphaGeometry {
     const Scene* scene = nullptr;
     TextureView textures;
@@ -23,46 +23,45 @@ inline uint32_t segment_key(uint32_t path_key, uint32_t segment) {
     return path_key + segment * 0x27D4EB2FU;
 }
 
-/// 1 for every material whose factor and texture make a ray pass anywhere.
+/// By material: 1 if its alpha may let a ray pass somewhere.
 std::vector<uint8_t> find_materials_with_holes(const Scene& scene);
 
-/// False where every point of the primitive is opaque, so that no filter is needed at all.
+/// False if every point of the primitive is opaque.
 bool needs_alpha_filter(const Scene& scene,
                         const Primitive& primitive,
                         const std::vector<uint8_t>& materials_with_holes);
 
-/// Alpha of a material where its base colour texture is read at `uv` (before the texture
-/// transform).
+/// Alpha of a material with its base colour texture read at `uv` (before the texture transform).
 float material_alpha(const AlphaGeometry& geometry, const Material& material, Vec2f uv);
 
-/// What decides at one place: a ray's number, Embree's instance id, and the triangle, point or
-/// piece of a line.
-struct AlphaPlace {
+/// The inputs of one alpha decision: the ray's index, Embree's instance id, and the triangle, point
+/// or curve segment.
+struct AlphaCandidate {
     unsigned ray, instance, triangle;
 };
 
-/// The alpha from which on a hit counts.
+/// The threshold: a hit counts if its alpha is at least this.
 float alpha_threshold(const AlphaGeometry& geometry,
                       const QueryContext& context,
-                      const AlphaPlace& place);
+                      const AlphaCandidate& place);
 
-/// False where alpha lets a ray pass a triangle, point or piece of a line: barycentric weighs its
+/// False if alpha lets a ray pass a triangle, point or curve segment. barycentric: weights of its
 /// second and third corner.
 bool is_opaque_there(const AlphaGeometry& geometry,
                      const QueryContext& context,
-                     const AlphaPlace& place,
+                     const AlphaCandidate& place,
                      Vec2f barycentric);
 
-/// Embree filter for intersection and occlusion alike. A BLEND hit counts with probability alpha,
-/// decided by a hash of (ray key, instance, geometry, triangle): the same answer however often and
-/// in whatever order Embree asks.
+/// Embree filter for intersection and occlusion. A BLEND hit counts with probability alpha, decided
+/// by a hash of (ray key, instance, geometry, triangle), so that the answer does not depend on how
+/// often and in which order Embree calls it.
 void alpha_filter(const RTCFilterFunctionNArguments* args);
 
-/// Embree filter for the occlusion of what may be a thin wall: QueryContext::passes_walls. It marks
-/// a ray by whatever wall it meets, so that the order in which Embree asks says nothing.
-void wall_filter(const RTCFilterFunctionNArguments* args);
+/// Embree occlusion filter of possible thin walls: see QueryContext::passes_thin_walls. Any thin
+/// wall marks the ray, so that Embree's order of calls does not matter.
+void thin_wall_filter(const RTCFilterFunctionNArguments* args);
 
-/// The same where alpha is asked first.
-void open_wall_filter(const RTCFilterFunctionNArguments* args);
+/// The same for primitives whose alpha is tested first.
+void open_thin_wall_filter(const RTCFilterFunctionNArguments* args);
 
 }  // namespace obscura

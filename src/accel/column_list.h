@@ -1,13 +1,14 @@
-// accel/column_list.h - makes structures of arrays from lists that name each column once.
+// accel/column_list.h - defines structures of arrays from lists that name each column once.
 // SPDX-License-Identifier: Apache-2.0
 //
-// A list is a macro LIST(VECTOR, NUMBER, WORD, INTEGER) with one line a field:
+// A list is a macro LIST(VECTOR, NUMBER, WORD, INTEGER) with one line per field:
 //   VECTOR(origin, ox, oy, oz)  three columns of floats
 //   NUMBER(pdf)                 one column of floats
 //   WORD(slot)                  one column of uint32_t
 //   INTEGER(primitive)          one column of int32_t
-// To add a column: a line in its list. The struct, its memory, loading, appending, sorting and
-// writing back are made from the list (stages/rows.h, stages/workspace.cpp).
+// To add a column: add a line to its list, and correct the bytes in the head of
+// stages/path_state.h. The struct, its memory, loading, appending, sorting and writing back are
+// made from the list (stages/column_lanes.h, stages/workspace.cpp).
 #pragma once
 
 #include <cstdint>
@@ -19,9 +20,9 @@ namespace obscura {
 template <typename Float, typename Word>
 using LikeConst = std::conditional_t<std::is_const_v<Float>, const Word, Word>;
 
-/// 32-bit words in a row of a structure of columns.
+/// 32-bit words per entry of a structure of columns.
 template <typename Columns>
-inline constexpr int words_in_row = static_cast<int>(sizeof(Columns) / sizeof(void*));
+inline constexpr int column_count = static_cast<int>(sizeof(Columns) / sizeof(void*));
 
 }  // namespace obscura
 
@@ -38,9 +39,9 @@ inline constexpr int words_in_row = static_cast<int>(sizeof(Columns) / sizeof(vo
 
 /// Defines Name<float>, columns that may be written, and Name<const float>, a view of them.
 ///
-/// Name::for_each_column(visit, sets...) calls visit(sets.ox...), visit(sets.oy...) and so on: for
-/// one structure that has these columns, or for several side by side. Name::for_each_field(visit,
-/// lanes, columns) calls visit(lanes.origin, columns.ox, columns.oy, columns.oz) and so on.
+/// Name::for_each_column(visit, sets...) calls visit(sets.ox...), visit(sets.oy...) and so on, for
+/// one or several structures with these columns. Name::for_each_field(visit, lanes, columns) calls
+/// visit(lanes.origin, columns.ox, columns.oy, columns.oz) and so on.
 #define OBSCURA_COLUMNS(Name, LIST)                                                             \
     template <typename Float>                                                                   \
     struct Name {                                                                               \

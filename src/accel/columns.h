@@ -1,4 +1,4 @@
-// accel/columns.h - rays and hits as columns of plain numbers.
+// accel/columns.h - rays, hits and other query data as columns (SoA).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,62 +11,62 @@ namespace obscura {
 /// tfar of rays without an end.
 inline constexpr float unlimited = 3.0e38f;
 
-/// Rays as columns, padded to whole blocks of 16 rows.
+/// Rays as columns, padded to a multiple of 16.
 struct RayColumns {
     const float *ox, *oy, *oz;  ///< origin, metres
     const float *dx, *dy, *dz;  ///< unit direction
     const float* tfar;          ///< null: unlimited
-    /// random key for alpha decisions, another for every path; null: alpha BLEND is a cut at one
-    /// half
+    /// Random key for alpha decisions, different for every path; null: alpha BLEND is a threshold
+    /// at 0.5.
     const uint32_t* key;
     int count;
-    const float* time = nullptr;  ///< in [0, 1]; null: 0. What moves does so from 0 to 1
+    const float* time = nullptr;  ///< shutter time in [0, 1]; null: 0
 };
 
-/// What a hit lies on, as rows of the scene's tables.
-struct SceneRows {
+/// The hit surface, as indices of the scene's tables.
+struct SceneRecords {
     int32_t instance = -1;
     int32_t primitive = -1;  ///< -1: nothing
 };
 
-/// A face of a body that a ray goes through.
+/// A crossing of a ray with a medium's boundary.
 struct Crossing {
     float t = 0, u = 0, v = 0;
-    SceneRows surface;
+    SceneRecords surface;
     int32_t triangle = 0;
-    int32_t body = 0;     ///< number of its medium
+    int32_t medium = 0;   ///< its number, see scene/media.h
     bool enters = false;  ///< the ray comes from the front
 };
 
-/// A camera ray that looked through the back of a single-sided surface.
+/// The back face of a single-sided surface that a camera ray passed.
 struct PassedBack {
-    int row = 0;  ///< of the ray
-    float t = 0;  ///< how far away the back is
-    SceneRows surface;
+    int index = 0;  ///< of the ray
+    float t = 0;    ///< distance of the back face
+    SceneRecords surface;
 };
 
-/// Faces that are not there for a path: those of one surface whose backs face the eye.
+/// Faces that a path ignores: those of one surface whose back faces the eye.
 struct CutFaces {
-    SceneRows surface;
+    SceneRecords surface;
     float eye[4] = {0, 0, 0, 1};  ///< homogeneous: w is 0 where the view is parallel
 };
 
-/// What is cut away for rays.
+/// The cut-away faces of a column of rays.
 struct Cutaway {
     const CutFaces* faces = nullptr;  ///< by slot
-    const uint32_t* slot = nullptr;   ///< by row of the rays
+    const uint32_t* slot = nullptr;   ///< by index of the rays
 
-    const CutFaces& of(int row) const { return faces[slot[row]]; }
+    const CutFaces& of(int index) const { return faces[slot[index]]; }
 };
 
-/// Whether anything is cut away for the row's ray.
-inline bool cuts(const Cutaway& cutaway, int row) {
-    return cutaway.of(row).surface.primitive >= 0;
+/// Whether any face is cut away for a ray.
+inline bool cuts(const Cutaway& cutaway, int index) {
+    return cutaway.of(index).surface.primitive >= 0;
 }
 
-/// Distance along the ray, place on the surface; the rows in Scene::instances (-1: a primitive in
-/// world space) and in Scene::primitives (-1: a miss, and the other columns hold nothing of use);
-/// the triangle within the primitive.
+/// Distance along the ray; position on the surface; indices in Scene::instances (-1: a primitive in
+/// world space) and in Scene::primitives (-1: a miss, which leaves the other columns undefined);
+/// triangle within the primitive.
 #define OBSCURA_HIT_COLUMNS(VECTOR, NUMBER, WORD, INTEGER) \
     NUMBER(t)                                              \
     NUMBER(u)                                              \
@@ -80,10 +80,10 @@ OBSCURA_COLUMNS(HitColumnsOf, OBSCURA_HIT_COLUMNS);
 using HitColumns = HitColumnsOf<float>;
 using HitView = HitColumnsOf<const float>;
 
-/// What Gaussian splats do to light along rays, as columns.
+/// Light and transmittance of Gaussian splats along rays, as columns.
 struct SplatColumns {
     float *r, *g, *b;      ///< their own light
-    float* transmittance;  ///< share of the light from behind them that they leave
+    float* transmittance;  ///< for light from behind them
 };
 
 }  // namespace obscura

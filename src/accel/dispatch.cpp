@@ -1,4 +1,4 @@
-// accel/dispatch.cpp - the functions that are compiled once per instruction set.
+// accel/dispatch.cpp - chooses Accel's functions for an instruction set.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/dispatch.h"
 

@@ -1,4 +1,4 @@
-// accel/dispatch.h - the functions that are compiled once per instruction set.
+// accel/dispatch.h - chooses Accel's functions for an instruction set.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// accel/embree.h - one source for Embree 3.13 and 4: the calls whose shape differs.
+// accel/embree.h - adapts Embree 3.13 and Embree 4 to one interface.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,14 +18,14 @@ struct CrossingNotes;
 struct Cutaway;
 struct PassedBack;
 
-/// Scene flag without which Query::set_filter must not be used.
+/// Scene flag that Query::set_filter requires.
 #if OBSCURA_EMBREE == 4
 inline constexpr RTCSceneFlags query_filter_flag = RTC_SCENE_FLAG_FILTER_FUNCTION_IN_ARGUMENTS;
 #else
 inline constexpr RTCSceneFlags query_filter_flag = RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION;
 #endif
 
-/// What travels with a query to the filter functions. The Embree part must come first: filters get
+/// A query's data for filter functions and callbacks. The Embree part must come first: filters get
 /// its address.
 struct QueryContext {
 #if OBSCURA_EMBREE == 4
@@ -33,25 +33,25 @@ struct QueryContext {
 #else
     RTCIntersectContext embree;
 #endif
-    const unsigned* keys = nullptr;  ///< random key of each ray, indexed by the ray's id
-    unsigned segment = 0;            ///< mixed into the key
-    bool fixed_threshold = false;    ///< alpha BLEND counts as MASK at one half
-    bool culls_back_faces = false;   ///< of single-sided analytic shapes
-    bool passes_walls = false;       ///< occlusion goes on behind what may be a thin wall
-    unsigned char* walls = nullptr;  ///< then, by the ray's id: becomes 1 where it does; or null
+    const unsigned* keys = nullptr;       ///< random key of each ray, indexed by the ray's id
+    unsigned segment = 0;                 ///< mixed into the key
+    bool fixed_threshold = false;         ///< alpha BLEND counts as MASK at 0.5
+    bool culls_back_faces = false;        ///< of single-sided analytic shapes
+    bool passes_thin_walls = false;       ///< possible thin walls do not occlude
+    unsigned char* thin_walls = nullptr;  ///< then 1, by the ray's id, where it does; or null
     std::vector<PassedBack>* passed_backs = nullptr;  ///< see SeeThrough
     const Cutaway* cutaway = nullptr;                 ///< likewise
-    CrossingNotes* crossings = nullptr;  ///< nothing is met, all is noted; see accel/crossings.cpp
+    CrossingNotes* crossings = nullptr;  ///< records all, hits nothing; see accel/crossings.cpp
 };
 
-/// Whether a shadow ray goes on behind what may be a thin wall; if so, that is noted.
-OBSCURA_INLINE bool passes_wall(const QueryContext& context, unsigned ray) {
-    if (!context.passes_walls) return false;
-    if (context.walls != nullptr) context.walls[ray] = 1;
+/// Whether a shadow ray passes a possible thin wall; if so, records that.
+OBSCURA_INLINE bool passes_thin_wall(const QueryContext& context, unsigned ray) {
+    if (!context.passes_thin_walls) return false;
+    if (context.thin_walls != nullptr) context.thin_walls[ray] = 1;
     return true;
 }
 
-/// Tells a user geometry's hit through which instance the ray came.
+/// Writes the instance stack of a user geometry's hit.
 inline void copy_instance_stack(const QueryContext& context,
                                 RTCHitN* hits,
                                 unsigned n,
@@ -64,7 +64,7 @@ inline void copy_instance_stack(const QueryContext& context,
     }
 }
 
-/// One set of query settings: the context and whether rays start and go alike.
+/// Settings of a query: the context, and whether the rays are coherent.
 class Query {
 public:
     Query(QueryContext& context, bool coherent) : context_(context) {

@@ -1,4 +1,4 @@
-// accel/make_geometry.cpp - one primitive of a scene becomes a geometry of Embree's.
+// accel/make_geometry.cpp - makes the Embree geometry of a primitive.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/moving_geometry.h"
@@ -12,20 +12,20 @@ namespace obscura {
 namespace {
 
 void set_filters(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
-    const auto row = static_cast<size_t>(primitive_index);
-    const FilterKinds kinds = filters_of(impl, impl.scene->primitives[row]);
+    const auto index = static_cast<size_t>(primitive_index);
+    const FilterKinds kinds = filters_of(impl, impl.scene->primitives[index]);
     if (kinds.alpha) {
-        rtcSetGeometryUserData(geometry, &impl.alpha[row]);
+        rtcSetGeometryUserData(geometry, &impl.alpha[index]);
         rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
         rtcSetGeometryOccludedFilterFunction(geometry, alpha_filter);
     }
-    if (kinds.wall) {
-        rtcSetGeometryOccludedFilterFunction(geometry,
-                                             kinds.alpha ? open_wall_filter : wall_filter);
+    if (kinds.thin_wall) {
+        rtcSetGeometryOccludedFilterFunction(
+            geometry, kinds.alpha ? open_thin_wall_filter : thin_wall_filter);
     }
 }
 
-void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeometry geometry) {
+void set_static_triangles(const Scene& scene, const Primitive& primitive, RTCGeometry geometry) {
     rtcSetSharedGeometryBuffer(geometry,
                                RTC_BUFFER_TYPE_VERTEX,
                                0,
@@ -44,7 +44,7 @@ void set_still_triangles(const Scene& scene, const Primitive& primitive, RTCGeom
                                static_cast<size_t>(primitive.triangle_count));
 }
 
-/// What all of Embree's own geometry ends with.
+/// Sets filters and quality of Embree's built-in geometry, and commits it.
 RTCGeometry commit(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
     rtcSetGeometryMask(geometry, 0xFFFFFFFFU);
@@ -60,12 +60,12 @@ RTCGeometry make_triangles(Accel::Impl& impl, int32_t primitive_index) {
     if (moves(primitive)) {
         set_moving_triangles(scene, primitive, geometry);
     } else {
-        set_still_triangles(scene, primitive, geometry);
+        set_static_triangles(scene, primitive, geometry);
     }
     return commit(impl, primitive_index, geometry);
 }
 
-/// Lines as Embree's own capsules; which of them hang together it sees from their numbers.
+/// Lines as Embree's own capsules; it joins segments whose indices follow each other.
 RTCGeometry make_curves(Accel::Impl& impl, int32_t primitive_index) {
     const Scene& scene = *impl.scene;
     const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
@@ -89,7 +89,7 @@ RTCGeometry make_curves(Accel::Impl& impl, int32_t primitive_index) {
     return commit(impl, primitive_index, geometry);
 }
 
-/// False for a plane without end: no box can hold it, so it is no geometry.
+/// False for an infinite plane: no box can hold it, so it is no Embree geometry.
 bool fill_shape_geometry(Accel::Impl& impl, int32_t primitive_index) {
     const Scene& scene = *impl.scene;
     const Primitive& primitive = scene.primitives[static_cast<size_t>(primitive_index)];
@@ -97,13 +97,13 @@ bool fill_shape_geometry(Accel::Impl& impl, int32_t primitive_index) {
     ShapeGeometry& out = impl.shapes[static_cast<size_t>(primitive_index)];
     const auto first = static_cast<size_t>(primitive.first_triangle);
     const bool spheres = primitive.geometry == static_cast<int32_t>(GeometryKind::spheres);
-    out.rows = spheres ? nullptr : &scene.shapes[first];
+    out.records = spheres ? nullptr : &scene.shapes[first];
     out.spheres = spheres ? &scene.spheres[first * 4] : nullptr;
     out.count = primitive.triangle_count;
     out.single_sided = (material.flags & material_double_sided) == 0;
     const FilterKinds kinds = filters_of(impl, primitive);
     if (kinds.alpha) out.alpha = &impl.alpha[static_cast<size_t>(primitive_index)];
-    out.wall = kinds.wall;
+    out.thin_wall = kinds.thin_wall;
     return spheres || !is_unbounded(scene.shapes[first]);
 }
 
@@ -125,7 +125,7 @@ RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
     const auto primitive = static_cast<size_t>(primitive_index);
     ShapeGeometry& shapes = impl.shapes[primitive];
     auto count = static_cast<size_t>(shapes.count);
-    if (shapes.rows == nullptr) {
+    if (shapes.records == nullptr) {
         count = fill_boxes(shapes, impl.block_boxes[primitive]);
         shapes.boxes = impl.block_boxes[primitive].data();
     }
@@ -151,19 +151,20 @@ FilterKinds filters_of(const Accel::Impl& impl, const Primitive& primitive) {
             impl.thin_walls[static_cast<size_t>(primitive.material)] != 0};
 }
 
-RTCGeometry make_geometry(Accel::Impl& impl, int32_t row) {
-    const int32_t kind = impl.scene->primitives[static_cast<size_t>(row)].geometry;
+RTCGeometry make_geometry(Accel::Impl& impl, int32_t index) {
+    const int32_t kind = impl.scene->primitives[static_cast<size_t>(index)].geometry;
     if (kind == static_cast<int32_t>(GeometryKind::curves)) {
-        return impl.kernels.counts_tests ? make_counted_curves(impl, row) : make_curves(impl, row);
+        return impl.kernels.counts_tests ? make_counted_curves(impl, index)
+                                         : make_curves(impl, index);
     }
-    if (is_mesh(impl.scene->primitives[static_cast<size_t>(row)])) {
-        if (impl.kernels.counts_tests) return make_counted_triangles(impl, row);
-        return impl.kernels.user_triangles ? make_checked_triangles(impl, row)
-                                           : make_triangles(impl, row);
+    if (is_mesh(impl.scene->primitives[static_cast<size_t>(index)])) {
+        if (impl.kernels.counts_tests) return make_counted_triangles(impl, index);
+        return impl.kernels.user_triangles ? make_checked_triangles(impl, index)
+                                           : make_triangles(impl, index);
     }
-    if (!fill_shape_geometry(impl, row)) return nullptr;
-    const bool points = impl.kernels.sphere_points && are_spheres(impl, row);
-    return points ? make_sphere_points(impl, row) : make_shapes(impl, row);
+    if (!fill_shape_geometry(impl, index)) return nullptr;
+    const bool points = impl.kernels.sphere_points && are_spheres(impl, index);
+    return points ? make_sphere_points(impl, index) : make_shapes(impl, index);
 }
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// accel/moving_geometry.cpp - hands Embree what moves while the shutter is open.
+// accel/moving_geometry.cpp - hands moving vertices and transforms to Embree.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/moving_geometry.h"
 
@@ -9,7 +9,7 @@ namespace obscura {
 void set_moving_triangles(const Scene& scene, const Primitive& primitive, RTCGeometry geometry) {
     const auto corners = static_cast<size_t>(primitive.triangle_count) * 3;
     const uint32_t* from = &scene.indices[static_cast<size_t>(primitive.first_triangle) * 3];
-    // A time's vertices are stored without those of other primitives: their numbers begin at 0.
+    // Motion stores each primitive's vertices separately, so that indices begin at 0.
     const uint32_t first = *std::min_element(from, from + corners);
     auto* to = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), corners / 3));

@@ -1,4 +1,4 @@
-// accel/moving_geometry.h - hands Embree what moves while the shutter is open.
+// accel/moving_geometry.h - hands moving vertices and transforms to Embree.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

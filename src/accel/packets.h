@@ -11,18 +11,18 @@ namespace obscura {
 /// Rays in a packet.
 inline constexpr int packet = 16;
 
-/// One for each lane of a packet: -1 where Embree shall look at it, else 0.
+/// Embree's mask of a packet's active lanes: -1 active, else 0.
 struct alignas(64) ValidMask {
     int lane[packet];
 };
 
-/// Compiled once per instruction set: every ray of a rendering comes this way.
+/// Compiled once per instruction set, as every ray of a rendering passes here.
 struct PacketMoves {
-    /// Loads the rows [first, first + 16), whose ids are their numbers; false, with a packet that
-    /// must not be used, when one of them is not safe (accel/safe_ray.h).
+    /// Loads the rays [first, first + 16), whose ids are their indices. False if one of them is not
+    /// safe (accel/safe_ray.h); the packet must not be used then.
     bool (*load)(const RayColumns& rays, int first, const RayReach& reach, RTCRay16& out);
 
-    /// Writes 16 rows of hits, as of a scene without instances.
+    /// Writes 16 hits, for scenes without instances.
     void (*store)(const RTCRayHit16& block,
                   const ValidMask& valid,
                   const HitColumns& hits,

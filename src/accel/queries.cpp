@@ -1,10 +1,10 @@
-// accel/queries.cpp - columns of rays through Embree, in packets of 16.
+// accel/queries.cpp - Accel's ray queries: columns of rays through Embree, in packets of 16.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
-#include "accel/endless_planes.h"
+#include "accel/infinite_planes.h"
 #include "accel/packets.h"
 #include "accel/safe_ray.h"
-#include "accel/scene_rows.h"
+#include "accel/scene_records.h"
 #include "accel/single_sided.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace obscura {
 
 namespace {
 
-/// Marks the rows [first, first + 16) that exist and are safe; counts the refused ones.
+/// Marks the rays of [first, first + 16) that exist and are safe; returns how many are refused.
 int mark_valid(const RayColumns& rays, int first, const RayReach& reach, ValidMask& valid) {
     const int existing = std::min(packet, rays.count - first);
     int safe = 0;
@@ -24,9 +24,8 @@ int mark_valid(const RayColumns& rays, int first, const RayReach& reach, ValidMa
     return existing - safe;
 }
 
-/// Loads the valid rows. Idle lanes repeat one of them, for Embree sees them too: where its packets
-/// are narrower than 16 it takes all 16 rays whatever the mask says. False when no row is valid;
-/// then `out` is left as it was.
+/// Loads the valid rays. Idle lanes repeat one of them: where Embree's packets are narrower than
+/// 16, it reads all 16 rays regardless of the mask. False, with `out` unchanged, if none is valid.
 bool load_part(const RayColumns& rays, int first, const ValidMask& valid, RTCRay16& out) {
     const int* found = std::find(valid.lane, valid.lane + packet, -1);
     if (found == valid.lane + packet) return false;
@@ -36,15 +35,15 @@ bool load_part(const RayColumns& rays, int first, const ValidMask& valid, RTCRay
     return true;
 }
 
-/// Forgets the backs that lie behind what the ray hit: infinite planes are tested after the others,
-/// and may stop a ray before a back that was noted.
+/// Drops recorded back faces that lie behind the hit: infinite planes are tested last and may stop
+/// a ray before a recorded back face.
 void forget_unseen_backs(const HitColumns& hits, std::vector<PassedBack>& backs) {
     std::erase_if(backs, [&](const PassedBack& back) {
-        return hits.primitive[back.row] >= 0 && hits.t[back.row] < back.t;
+        return hits.primitive[back.index] >= 0 && hits.t[back.index] < back.t;
     });
 }
 
-/// What became of loading 16 rows.
+/// The result of loading 16 rays.
 struct Loaded {
     int refused = 0;
     bool any = true;
@@ -61,7 +60,7 @@ Loaded load_packet(
     return {refused, load_part(rays, first, valid, out)};
 }
 
-/// Writes 16 rows: the columns have room for whole packets.
+/// Writes 16 hits: the columns are padded to whole packets.
 void store_packet(const Accel::Impl& impl,
                   const ValidMask& valid,
                   const RTCRayHit16& block,
@@ -71,9 +70,10 @@ void store_packet(const Accel::Impl& impl,
     if (!impl.has_instances) return;
     for (int i = 0; i < packet; ++i) {
         if (hits.primitive[first + i] < 0) continue;
-        const SceneRows rows = scene_rows(impl, block.hit.geomID[i], block.hit.instID[0][i]);
-        hits.primitive[first + i] = rows.primitive;
-        hits.instance[first + i] = rows.instance;
+        const SceneRecords records =
+            scene_records(impl, block.hit.geomID[i], block.hit.instID[0][i]);
+        hits.primitive[first + i] = records.primitive;
+        hits.instance[first + i] = records.instance;
     }
 }
 
@@ -84,8 +84,8 @@ int Accel::intersect(const RayColumns& rays,
                      Coherence coherence,
                      SeeThrough see_through) const {
     QueryContext context;
-    // Packets of 16 for bounces too: Embree goes on ray by ray where they part, and faster than
-    // with calls of one ray each (obscura bench shows both).
+    // Packets of 16 for bounces too: where rays diverge Embree continues ray by ray, still faster
+    // than with calls of one ray each (obscura bench shows both).
     Query query(context, coherence == Coherence::coherent);
     context.keys = rays.key;
     context.fixed_threshold = see_through.fixed_alpha || rays.key == nullptr;
@@ -115,15 +115,15 @@ int Accel::intersect(const RayColumns& rays,
         }
         if (see_through.cutaway != nullptr) {
             const int end = std::min(first + packet, rays.count);
-            for (int row = first; row < end; ++row)
-                pass_cutaway(*impl_, context, row, {rays, hits});
+            for (int index = first; index < end; ++index)
+                pass_cutaway(*impl_, context, index, {rays, hits});
         }
-        if (impl_->endless_planes.empty()) continue;
+        if (impl_->infinite_planes.empty()) continue;
         for (int i = 0; i < packet; ++i) {
-            if (valid.lane[i] != 0) meet_endless_planes(*impl_, context, rays, hits, first + i);
+            if (valid.lane[i] != 0) meet_infinite_planes(*impl_, context, rays, hits, first + i);
         }
     }
-    if (see_through.passed_backs != nullptr && !impl_->endless_planes.empty()) {
+    if (see_through.passed_backs != nullptr && !impl_->infinite_planes.empty()) {
         forget_unseen_backs(hits, *see_through.passed_backs);
     }
     return refused;
@@ -133,15 +133,15 @@ int Accel::occluded(const RayColumns& rays,
                     uint8_t* occluded,
                     Coherence coherence,
                     const ShadowQuery& asked) const {
-    // On instances the coherent kernel of Embree 3.13 for AVX-512 may never come back.
+    // With instances, the coherent AVX-512 kernel of Embree 3.13 may hang.
     const bool coherent = coherence == Coherence::coherent && !impl_->has_instances;
     QueryContext context;
     Query query(context, coherent);
     context.keys = rays.key;
     context.fixed_threshold = rays.key == nullptr;
     context.segment = asked.segment;
-    context.passes_walls = asked.walls != nullptr;
-    context.walls = asked.walls;
+    context.passes_thin_walls = asked.thin_walls != nullptr;
+    context.thin_walls = asked.thin_walls;
     context.cutaway = asked.cutaway;
     int refused = 0;
     ValidMask valid;
@@ -156,14 +156,14 @@ int Accel::occluded(const RayColumns& rays,
             occluded[first + i] = valid.lane[i] == 0 || block.tfar[i] < 0.0f ? 1 : 0;
         }
         for (int i = 0; asked.cutaway != nullptr && i < count; ++i) {
-            const int row = first + i;
-            if (valid.lane[i] == 0 || occluded[row] == 0) continue;
-            occluded[row] = is_hidden_beside_cutaway(*impl_, context, row, rays) ? 1 : 0;
+            const int index = first + i;
+            if (valid.lane[i] == 0 || occluded[index] == 0) continue;
+            occluded[index] = is_hidden_beside_cutaway(*impl_, context, index, rays) ? 1 : 0;
         }
-        if (impl_->endless_planes.empty()) continue;
+        if (impl_->infinite_planes.empty()) continue;
         for (int i = 0; i < count; ++i) {
             if (occluded[first + i] != 0) continue;
-            occluded[first + i] = endless_plane_hides(*impl_, context, rays, first + i) ? 1 : 0;
+            occluded[first + i] = infinite_plane_occludes(*impl_, context, rays, first + i) ? 1 : 0;
         }
     }
     return refused;

@@ -1,4 +1,4 @@
-// accel/ray_recording.cpp - rays as a renderer asked them, kept to ask bare Embree the same.
+// accel/ray_recording.cpp - records the rays of a rendering, to replay them on bare Embree.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/ray_recording.h"
 
@@ -9,20 +9,20 @@ namespace obscura {
 
 namespace {
 
-void append(const RayColumns& rays, int row, uint32_t segment, RecordedRays& out) {
-    out.ox.push_back(rays.ox[row]);
-    out.oy.push_back(rays.oy[row]);
-    out.oz.push_back(rays.oz[row]);
-    out.dx.push_back(rays.dx[row]);
-    out.dy.push_back(rays.dy[row]);
-    out.dz.push_back(rays.dz[row]);
-    if (rays.tfar != nullptr) out.tfar.push_back(rays.tfar[row]);
-    out.key.push_back(rays.key != nullptr ? segment_key(rays.key[row], segment) : 0U);
+void append(const RayColumns& rays, int index, uint32_t segment, RecordedRays& out) {
+    out.ox.push_back(rays.ox[index]);
+    out.oy.push_back(rays.oy[index]);
+    out.oz.push_back(rays.oz[index]);
+    out.dx.push_back(rays.dx[index]);
+    out.dy.push_back(rays.dy[index]);
+    out.dz.push_back(rays.dz[index]);
+    if (rays.tfar != nullptr) out.tfar.push_back(rays.tfar[index]);
+    out.key.push_back(rays.key != nullptr ? segment_key(rays.key[index], segment) : 0U);
 }
 
-void note_answer(bool hit, const Cutaway* cutaway, int row, RecordedRays& out) {
+void note_answer(bool hit, const Cutaway* cutaway, int index, RecordedRays& out) {
     out.hits += hit ? 1 : 0;
-    out.spared += !hit && cutaway != nullptr && cuts(*cutaway, row) ? 1 : 0;
+    out.spared += !hit && cutaway != nullptr && cuts(*cutaway, index) ? 1 : 0;
 }
 
 void append_hits(const RayColumns& rays,
@@ -30,10 +30,10 @@ void append_hits(const RayColumns& rays,
                  const SeeThrough& see_through,
                  const RayReach& reach,
                  RecordedRays& out) {
-    for (int row = 0; row < rays.count; ++row) {
-        if (!is_safe(rays, row, reach)) continue;
-        append(rays, row, see_through.segment, out);
-        note_answer(hits.primitive[row] >= 0, see_through.cutaway, row, out);
+    for (int index = 0; index < rays.count; ++index) {
+        if (!is_safe(rays, index, reach)) continue;
+        append(rays, index, see_through.segment, out);
+        note_answer(hits.primitive[index] >= 0, see_through.cutaway, index, out);
     }
 }
 
@@ -60,11 +60,11 @@ void RayRecorder::add_shadows(const RayColumns& rays,
                               const uint8_t* occluded,
                               const ShadowQuery& query) {
     RecordedRays& out = list(RayKind::shadow);
-    passes_walls_ = query.walls != nullptr;
-    for (int row = 0; row < rays.count; ++row) {
-        if (!is_safe(rays, row, reach_)) continue;
-        append(rays, row, query.segment, out);
-        note_answer(occluded[row] != 0, query.cutaway, row, out);
+    passes_thin_walls_ = query.thin_walls != nullptr;
+    for (int index = 0; index < rays.count; ++index) {
+        if (!is_safe(rays, index, reach_)) continue;
+        append(rays, index, query.segment, out);
+        note_answer(occluded[index] != 0, query.cutaway, index, out);
     }
 }
 

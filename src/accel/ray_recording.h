@@ -1,4 +1,4 @@
-// accel/ray_recording.h - rays as a renderer asked them, kept to ask bare Embree the same.
+// accel/ray_recording.h - records the rays of a rendering, to replay them on bare Embree.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,20 +14,20 @@ namespace obscura {
 enum class RayKind : int { camera, bounce, shadow };
 inline constexpr size_t ray_kinds = 3;
 
-/// Rays of one kind from one thread, in the order in which they were asked.
+/// Rays of one kind from one thread, in the order in which they were traced.
 struct RecordedRays {
     std::vector<float> ox, oy, oz, dx, dy, dz;
     std::vector<float> tfar;    ///< shadow rays only
     std::vector<uint32_t> key;  ///< of the alpha decisions, with the path's segment mixed in
-    uint64_t hits = 0;          ///< what the renderer found: hits, or occluded rays
-    uint64_t spared = 0;        ///< rays that met nothing, but may have met what is cut away
+    uint64_t hits = 0;          ///< of the renderer: hits, or occluded rays
+    uint64_t spared = 0;        ///< rays without a hit that may have passed cut-away faces
 
     size_t count() const { return key.size(); }
-    /// The columns; their count is 0, for there may be more rows than it holds.
+    /// The columns; their count is 0, as there may be more rays than an int holds.
     RayColumns columns() const;
 };
 
-/// What one thread recorded. Refused rays are left out.
+/// Records the rays of one thread, except refused ones.
 class RayRecorder {
 public:
     /// In   reach: Accel::ray_reach
@@ -35,14 +35,14 @@ public:
 
     void add_hits(const RayColumns& rays, const HitView& hits, SeeThrough see_through);
     void add_shadows(const RayColumns& rays, const uint8_t* occluded, const ShadowQuery& query);
-    /// Shadow rays that ask for the nearest hit, for they may go on behind it.
+    /// Adds shadow rays that ask for the nearest hit because they may continue behind it.
     void add_shadow_hits(const RayColumns& rays, const HitView& hits, SeeThrough see_through);
 
-    /// Of shadow rays, those that ask for any hit.
+    /// Recorded rays; of shadow rays, those that ask for any hit.
     const RecordedRays& rays(RayKind kind) const { return rays_[static_cast<size_t>(kind)]; }
     const RecordedRays& shadow_hits() const { return shadow_hits_; }
     bool fixed_alpha() const { return fixed_alpha_; }
-    bool passes_walls() const { return passes_walls_; }  ///< of shadow rays that ask for any hit
+    bool passes_thin_walls() const { return passes_thin_walls_; }  ///< of any-hit shadow rays
 
 private:
     RecordedRays& list(RayKind kind) { return rays_[static_cast<size_t>(kind)]; }
@@ -50,7 +50,7 @@ private:
     RecordedRays shadow_hits_;
     RayReach reach_;
     bool fixed_alpha_ = false;
-    bool passes_walls_ = false;
+    bool passes_thin_walls_ = false;
 };
 
 /// All threads' rays of one rendering.
@@ -58,17 +58,17 @@ struct RayRecording {
     std::vector<std::unique_ptr<RayRecorder>> threads;
 
     uint64_t count(RayKind kind) const;
-    uint64_t hits(RayKind kind) const;    ///< as the renderer found them
+    uint64_t hits(RayKind kind) const;    ///< of the renderer
     uint64_t spared(RayKind kind) const;  ///< see RecordedRays
 };
 
-/// How Embree is asked: one ray a call, or packets of 16 with one flag or the other.
-enum class ReplayWay : int { single, packets, coherent_packets };
+/// How Embree is called: with one ray, or with packets of 16 flagged incoherent or coherent.
+enum class ReplayMode : int { single, packets, coherent_packets };
 
 struct ReplayResult {
     double seconds = 0;
     uint64_t hits = 0;      ///< or occluded rays
-    uint64_t checksum = 0;  ///< of what was hit, so that no query can be left out
+    uint64_t checksum = 0;  ///< of the hits, so that the compiler cannot drop a query
 };
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// accel/reference_geometry.cpp - triangles as user geometry, spheres as Embree's own primitive.
+// accel/reference_geometry.cpp - triangles as user geometry, spheres as Embree's own.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/reference_geometry.h"
 
@@ -32,7 +32,8 @@ void occlude_triangles(const RTCOccludedFunctionNArguments* args) {
 
 bool are_spheres(const Accel::Impl& impl, int32_t primitive) {
     const ShapeGeometry& shapes = impl.shapes[static_cast<size_t>(primitive)];
-    return shapes.rows == nullptr || shapes.rows->kind == static_cast<int32_t>(ShapeKind::sphere);
+    return shapes.records == nullptr ||
+           shapes.records->kind == static_cast<int32_t>(ShapeKind::sphere);
 }
 
 RTCGeometry make_sphere_points(Accel::Impl& impl, int32_t primitive) {
@@ -43,9 +44,9 @@ RTCGeometry make_sphere_points(Accel::Impl& impl, int32_t primitive) {
         geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), count));
     for (size_t i = 0; points != nullptr && i < count; ++i) {
         for (size_t c = 0; c < 4; ++c) {
-            const float* row = shapes.rows != nullptr ? shapes.rows[i].centre : nullptr;
-            points[4 * i + c] = row != nullptr
-                                    ? (c < 3 ? row[c] : shapes.rows[i].size[0])
+            const float* centre = shapes.records != nullptr ? shapes.records[i].centre : nullptr;
+            points[4 * i + c] = centre != nullptr
+                                    ? (c < 3 ? centre[c] : shapes.records[i].size[0])
                                     : shapes.spheres[sphere_word(static_cast<int64_t>(i)) +
                                                      static_cast<int64_t>(c) * sphere_block];
         }

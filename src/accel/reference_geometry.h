@@ -1,4 +1,4 @@
-// accel/reference_geometry.h - triangles as user geometry and spheres as Embree's own primitive.
+// accel/reference_geometry.h - triangles as user geometry, spheres as Embree's own.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@ namespace obscura {
 /// True for particles and for primitives whose shape is a sphere.
 bool are_spheres(const Accel::Impl& impl, int32_t primitive);
 
-/// The spheres of a primitive as RTC_GEOMETRY_TYPE_SPHERE_POINT, numbered as ours.
+/// The spheres of a primitive as RTC_GEOMETRY_TYPE_SPHERE_POINT, in our order.
 RTCGeometry make_sphere_points(Accel::Impl& impl, int32_t primitive);
 
 /// The triangles of a primitive as user geometry that runs intersect_triangle.

@@ -1,11 +1,11 @@
-// accel/reference_kernels.cpp - Embree asked with 1, 4, 8 and 16 rays a call.
+// accel/reference_kernels.cpp - Embree called with 1, 4, 8 and 16 rays, for the cross-check.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/reference_kernels.h"
 
 #include "accel/accel_impl.h"
-#include "accel/endless_planes.h"
+#include "accel/infinite_planes.h"
 #include "accel/safe_ray.h"
-#include "accel/scene_rows.h"
+#include "accel/scene_records.h"
 #include "base/cpu.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ struct alignas(64) Valid {
     bool any = false;
 };
 
-/// What one call is about.
+/// The common arguments of the calls of one query.
 struct Asked {
     const Accel::Impl& impl;
     const RayColumns& rays;
@@ -48,7 +48,7 @@ struct Asked {
     const NormalColumns* normals = nullptr;
 };
 
-/// Loads rows from `first` on. Idle lanes repeat one that is valid: Embree may look at them.
+/// Loads rays from `first` on. Idle lanes repeat a valid one because Embree may read them.
 template <int width>
 Valid<width> load_packet(const Asked& asked, int first, typename Packet<width>::Rays& out) {
     const RayColumns& rays = asked.rays;
@@ -99,12 +99,12 @@ void ask(Query& query, const int* valid, RTCScene scene, RTCRay16& rays) {
     query.occluded16(valid, scene, &rays);
 }
 
-void store(const Asked& asked, const RTCRayHit& one, const HitColumns& hits, int row) {
-    store_hit(asked.impl, one, hits, row);
+void store(const Asked& asked, const RTCRayHit& one, const HitColumns& hits, int index) {
+    store_hit(asked.impl, one, hits, index);
     if (asked.normals == nullptr || one.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
-    asked.normals->x[row] = one.hit.Ng_x;
-    asked.normals->y[row] = one.hit.Ng_y;
-    asked.normals->z[row] = one.hit.Ng_z;
+    asked.normals->x[index] = one.hit.Ng_x;
+    asked.normals->y[index] = one.hit.Ng_y;
+    asked.normals->z[index] = one.hit.Ng_z;
 }
 
 template <int width>
@@ -132,15 +132,15 @@ void intersect_packets(const Asked& asked, const HitColumns& hits) {
 }
 
 void intersect_one_by_one(const Asked& asked, const HitColumns& hits) {
-    for (int row = 0; row < asked.rays.count; ++row) {
+    for (int index = 0; index < asked.rays.count; ++index) {
         RTCRayHit one;
         one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         one.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        if (is_safe(asked.rays, row, asked.impl.reach)) {
-            load_ray(asked.rays, row, one.ray);
+        if (is_safe(asked.rays, index, asked.impl.reach)) {
+            load_ray(asked.rays, index, one.ray);
             asked.query.intersect1(asked.impl.top, &one);
         }
-        store(asked, one, hits, row);
+        store(asked, one, hits, index);
     }
 }
 
@@ -157,13 +157,13 @@ void occlude_packets(const Asked& asked, uint8_t* occluded) {
 }
 
 void occlude_one_by_one(const Asked& asked, uint8_t* occluded) {
-    for (int row = 0; row < asked.rays.count; ++row) {
-        occluded[row] = 0;
-        if (!is_safe(asked.rays, row, asked.impl.reach)) continue;
+    for (int index = 0; index < asked.rays.count; ++index) {
+        occluded[index] = 0;
+        if (!is_safe(asked.rays, index, asked.impl.reach)) continue;
         RTCRay one;
-        load_ray(asked.rays, row, one);
+        load_ray(asked.rays, index, one);
         asked.query.occluded1(asked.impl.top, &one);
-        occluded[row] = one.tfar < 0.0f ? 1 : 0;
+        occluded[index] = one.tfar < 0.0f ? 1 : 0;
     }
 }
 
@@ -198,9 +198,10 @@ void ReferenceKernels::intersect(const RayColumns& rays,
     if (width == 8) intersect_packets<8>(asked, hits);
     if (width == 4) intersect_packets<4>(asked, hits);
     if (width == 1) intersect_one_by_one(asked, hits);
-    if (impl_->endless_planes.empty()) return;
-    for (int row = 0; row < rays.count; ++row) {
-        if (is_safe(rays, row, impl_->reach)) meet_endless_planes(*impl_, context, rays, hits, row);
+    if (impl_->infinite_planes.empty()) return;
+    for (int index = 0; index < rays.count; ++index) {
+        if (is_safe(rays, index, impl_->reach))
+            meet_infinite_planes(*impl_, context, rays, hits, index);
     }
 }
 
@@ -213,10 +214,10 @@ void ReferenceKernels::occluded(const RayColumns& rays, uint8_t* occluded, int w
     if (width == 8) occlude_packets<8>(asked, occluded);
     if (width == 4) occlude_packets<4>(asked, occluded);
     if (width == 1) occlude_one_by_one(asked, occluded);
-    if (impl_->endless_planes.empty()) return;
-    for (int row = 0; row < rays.count; ++row) {
-        if (occluded[row] != 0 || !is_safe(rays, row, impl_->reach)) continue;
-        occluded[row] = endless_plane_hides(*impl_, context, rays, row) ? 1 : 0;
+    if (impl_->infinite_planes.empty()) return;
+    for (int index = 0; index < rays.count; ++index) {
+        if (occluded[index] != 0 || !is_safe(rays, index, impl_->reach)) continue;
+        occluded[index] = infinite_plane_occludes(*impl_, context, rays, index) ? 1 : 0;
     }
 }
 

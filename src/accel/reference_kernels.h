@@ -1,4 +1,4 @@
-// accel/reference_kernels.h - every way in which Embree can be asked, for the cross-check.
+// accel/reference_kernels.h - Embree called with 1, 4, 8 and 16 rays, for the cross-check.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace obscura {
 
-/// How a hierarchy is built.
+/// How a BVH is built.
 struct KernelChoice {
     std::string isa = {};         ///< Embree's name, such as "avx2"; "": the widest
     bool robust = true;           ///< false: Embree's fast traversal
@@ -20,16 +20,15 @@ struct KernelChoice {
     bool counts_tests = false;    ///< user geometry that counts: see Accel::build_counting
 };
 
-/// Embree's instruction sets that this CPU has, narrowest first; none but "" where there is no
-/// choice.
+/// Embree's instruction sets that this CPU has, narrowest first; only "" if there is no choice.
 std::vector<std::string> embree_isas();
 
-/// Ng of each hit as Embree gives it: not normalised, in the space of the instance's mesh.
+/// Embree's Ng of each hit: not normalised, in the space of the instance's mesh.
 struct NormalColumns {
     float *x, *y, *z;
 };
 
-/// One hierarchy, asked one ray a call or in packets.
+/// One BVH, queried with single rays or packets.
 class ReferenceKernels {
 public:
     /// In      scene: outlives this object
@@ -38,13 +37,13 @@ public:
 
     /// Nearest hits, as Accel::intersect. Rays that are not finite miss.
     ///
-    /// In   width: 1, 4, 8 or 16 rays a call; normals: null where nobody asks
+    /// In   width: 1, 4, 8 or 16 rays per call; normals: may be null
     void intersect(const RayColumns& rays,
                    const HitColumns& hits,
                    int width,
                    const NormalColumns* normals = nullptr) const;
 
-    /// occluded[i] = 1 where anything is hit; 0 for rays that are not finite.
+    /// occluded[i] = 1 if anything is hit; 0 for rays that are not finite.
     void occluded(const RayColumns& rays, uint8_t* occluded, int width) const;
 
 private:

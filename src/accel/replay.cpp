@@ -1,4 +1,4 @@
-// accel/replay.cpp - recorded rays through bare Embree: the time below which no renderer can go.
+// accel/replay.cpp - replays recorded rays on bare Embree: the lower bound of a renderer's time.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/packets.h"
@@ -14,13 +14,13 @@ namespace obscura {
 
 namespace {
 
-/// Rays that a thread takes at a time: long enough that handing them out costs nothing.
+/// Rays that a thread takes at a time: enough to make scheduling free.
 constexpr size_t chunk_rays = 4096;
 
-/// Some rows of one thread's recording.
+/// A range of one thread's recording.
 struct Chunk {
     const RecordedRays* rays;
-    bool fixed_alpha, passes_walls, any_hit;
+    bool fixed_alpha, passes_thin_walls, any_hit;
     size_t begin, end;
 };
 
@@ -41,20 +41,20 @@ std::vector<Chunk> cut_chunks(const RayRecording& recording, RayKind kind) {
     const bool shadow = kind == RayKind::shadow;
     for (const auto& thread : recording.threads) {
         const bool fixed = thread->fixed_alpha();
-        cut({&thread->rays(kind), fixed, thread->passes_walls(), shadow, 0, 0});
+        cut({&thread->rays(kind), fixed, thread->passes_thin_walls(), shadow, 0, 0});
         if (shadow) cut({&thread->shadow_hits(), fixed, false, false, 0, 0});
     }
     return chunks;
 }
 
-/// The alpha filters see the ray's key through the context; the recorded keys hold the segment.
+/// Alpha filters read the ray's key from the context; recorded keys already include the segment.
 void give_keys(QueryContext& context, const Chunk& chunk) {
     context.keys = chunk.rays->key.data();
     context.fixed_threshold = chunk.fixed_alpha;
-    context.passes_walls = chunk.passes_walls;
+    context.passes_thin_walls = chunk.passes_thin_walls;
 }
 
-/// Loads rows [first, first + count); the lanes behind them repeat the first.
+/// Loads rays [first, first + count); the remaining lanes repeat the first.
 void load_sixteen(
     const Accel::Impl& impl, const RayColumns& rays, int first, int count, RTCRay16& out) {
     if (count == packet && impl.functions.packets->load(rays, first, impl.reach, out)) return;
@@ -68,9 +68,9 @@ Tally intersect_one_by_one(RTCScene scene, const Chunk& chunk) {
     give_keys(context, chunk);
     const RayColumns rays = chunk.rays->columns();
     Tally tally;
-    for (size_t row = chunk.begin; row < chunk.end; ++row) {
+    for (size_t index = chunk.begin; index < chunk.end; ++index) {
         RTCRayHit ray;
-        load_ray(rays, static_cast<int>(row), ray.ray);
+        load_ray(rays, static_cast<int>(index), ray.ray);
         ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
         query.intersect1(scene, &ray);
@@ -87,9 +87,9 @@ Tally occlude_one_by_one(RTCScene scene, const Chunk& chunk) {
     give_keys(context, chunk);
     const RayColumns rays = chunk.rays->columns();
     Tally tally;
-    for (size_t row = chunk.begin; row < chunk.end; ++row) {
+    for (size_t index = chunk.begin; index < chunk.end; ++index) {
         RTCRay ray;
-        load_ray(rays, static_cast<int>(row), ray);
+        load_ray(rays, static_cast<int>(index), ray);
         query.occluded1(scene, &ray);
         tally.hits += ray.tfar < 0.0f ? 1 : 0;
     }
@@ -150,29 +150,29 @@ Tally occlude_sixteen(const Accel::Impl& impl, const Chunk& chunk, bool coherent
     return tally;
 }
 
-Tally replay_chunk(const Accel::Impl& impl, const Chunk& chunk, ReplayWay way) {
-    if (way == ReplayWay::single) {
+Tally replay_chunk(const Accel::Impl& impl, const Chunk& chunk, ReplayMode mode) {
+    if (mode == ReplayMode::single) {
         return chunk.any_hit ? occlude_one_by_one(impl.top, chunk)
                              : intersect_one_by_one(impl.top, chunk);
     }
-    const bool coherent = way == ReplayWay::coherent_packets;
+    const bool coherent = mode == ReplayMode::coherent_packets;
     return chunk.any_hit ? occlude_sixteen(impl, chunk, coherent)
                          : intersect_sixteen(impl, chunk, coherent);
 }
 
 }  // namespace
 
-ReplayResult Accel::replay(const RayRecording& recording, RayKind kind, ReplayWay way) const {
-    // On instances the coherent kernel of Embree 3.13 for AVX-512 may never come back.
-    if (kind == RayKind::shadow && impl_->has_instances && way == ReplayWay::coherent_packets) {
-        way = ReplayWay::packets;
+ReplayResult Accel::replay(const RayRecording& recording, RayKind kind, ReplayMode mode) const {
+    // With instances, the coherent AVX-512 kernel of Embree 3.13 may hang.
+    if (kind == RayKind::shadow && impl_->has_instances && mode == ReplayMode::coherent_packets) {
+        mode = ReplayMode::packets;
     }
     const std::vector<Chunk> chunks = cut_chunks(recording, kind);
     std::atomic<uint64_t> hits = 0;
     std::atomic<uint64_t> checksum = 0;
     const Stopwatch replaying;
     parallel_for(chunks.size(), [&](size_t i) {
-        const Tally tally = replay_chunk(*impl_, chunks[i], way);
+        const Tally tally = replay_chunk(*impl_, chunks[i], mode);
         hits.fetch_add(tally.hits, std::memory_order_relaxed);
         checksum.fetch_add(tally.checksum, std::memory_order_relaxed);
     });

@@ -38,7 +38,7 @@ struct RayFields {
     }
 };
 
-/// What one call is about.
+/// The arguments of one callback.
 struct Call {
     const ShapeGeometry& geometry;
     const QueryContext& context;
@@ -46,44 +46,45 @@ struct Call {
     const int* valid;
     unsigned primitive;
     bool front_only;
-    bool any;  ///< whichever hit is found first will do
+    bool any;  ///< occlusion: any hit will do
 };
 
 struct Found {
     float t = 0;
-    int32_t row = -1;  ///< -1: nothing
+    int32_t index = -1;  ///< -1: nothing
 };
 
-OBSCURA_INLINE bool counts(const Call& call, int i, int32_t row, int root, const Vec3f& position) {
+OBSCURA_INLINE bool counts(
+    const Call& call, int i, int32_t index, int root, const Vec3f& position) {
     if (call.geometry.alpha == nullptr) return true;
     return is_opaque_there(call.geometry,
                            call.context,
-                           {call.rays.id(i), call.context.embree.instID[0], row, root, position});
+                           {call.rays.id(i), call.context.embree.instID[0], index, root, position});
 }
 
 /// One ray against one shape.
 OBSCURA_INLINE Found find_on_shape(const Call& call, int i) {
-    const ShapeRow& row = call.geometry.rows[call.primitive];
+    const ShapeRecord& record = call.geometry.records[call.primitive];
     const ShapeRay<float> ray = call.rays.ray(i);
     const Span<float> limits = call.rays.limits(i);
-    const Roots<float> roots = intersect_shape<float>(row, ray);
+    const Roots<float> roots = intersect_shape<float>(record, ray);
     for (int k = 0; k < 2; ++k) {
         const float t = roots.t[k];
         if (!roots.hit[k] || !(t > limits.low) || !(t <= limits.high)) continue;
-        if (call.front_only && !is_front<float>(row, ray, t, k)) continue;
+        if (call.front_only && !is_front<float>(record, ray, t, k)) continue;
         const auto primitive = static_cast<int32_t>(call.primitive);
         if (counts(call, i, primitive, k, ray.origin + ray.direction * t)) return {t, primitive};
     }
     return {};
 }
 
-/// What of a block is asked for.
+/// The spheres of a block that are tested.
 struct BlockPart {
-    int32_t first;  ///< row of its first sphere
+    int32_t first;  ///< index of its first sphere
     Span<float> limits;
 };
 
-/// One ray against the spheres of a block one after the other, for alpha may open each of them.
+/// One ray against the spheres of a block, one by one because alpha may reject each hit.
 Found find_in_open_block(const Call& call, int i, const float* block, const BlockPart& part) {
     const ShapeRay<float> ray = call.rays.ray(i);
     const auto& [first, limits] = part;
@@ -116,7 +117,7 @@ OBSCURA_INLINE Found find_in_block(const Call& call,
     return {hit.t, hit.sphere < 0 ? -1 : first + hit.sphere};
 }
 
-/// One ray against a cluster: its blocks one after the other as the ray enters them.
+/// One ray against a cluster: its blocks in the order in which the ray enters them.
 OBSCURA_INLINE Found find_in_cluster(const Call& call, int i) {
     const auto cluster = static_cast<int32_t>(call.primitive);
     const float* boxes = call.geometry.boxes + static_cast<int64_t>(cluster) * cluster_floats;
@@ -128,7 +129,7 @@ OBSCURA_INLINE Found find_in_cluster(const Call& call, int i) {
         if (entries.t[next] > limits.high) break;
         bits &= ~(1U << next);
         const Found found = find_in_block(call, i, cluster * cluster_blocks + next, limits);
-        if (found.row < 0) continue;
+        if (found.index < 0) continue;
         best = found;
         if (call.any) break;
         limits.high = found.t;
@@ -145,12 +146,12 @@ OBSCURA_INLINE Mask active_lanes(const Call& call, int i) {
     return load(active) != LanesI(0);
 }
 
-/// Sixteen, eight or four rays against one opaque shape; hit(i, found) takes what was found.
+/// Sixteen, eight or four rays against one opaque shape; hit(i, found) receives each result.
 template <typename Hit>
 OBSCURA_INLINE void packet_on_shape(const Call& call, const Hit& hit) {
-    const ShapeRow& row = call.geometry.rows[call.primitive];
+    const ShapeRecord& record = call.geometry.records[call.primitive];
     for (int i = 0; i < call.rays.n; i += lane_count) {
-        // Wider than what is left, a load reads the fields behind: they are there up to tfar.
+        // A load past the last ray reads the fields behind, which exist for all fields up to tfar.
         const RayFields& rays = call.rays;
         const ShapeRay<Lanes> ray{{rays.lanes<&RTCRay::org_x>(i),
                                    rays.lanes<&RTCRay::org_y>(i),
@@ -158,10 +159,10 @@ OBSCURA_INLINE void packet_on_shape(const Call& call, const Hit& hit) {
                                   {rays.lanes<&RTCRay::dir_x>(i),
                                    rays.lanes<&RTCRay::dir_y>(i),
                                    rays.lanes<&RTCRay::dir_z>(i)}};
-        Roots<Lanes> roots = intersect_shape<Lanes>(row, ray);
+        Roots<Lanes> roots = intersect_shape<Lanes>(record, ray);
         if (call.front_only) {
-            roots.hit[0] = roots.hit[0] & is_front<Lanes>(row, ray, roots.t[0], 0);
-            roots.hit[1] = roots.hit[1] & is_front<Lanes>(row, ray, roots.t[1], 1);
+            roots.hit[0] = roots.hit[0] & is_front<Lanes>(record, ray, roots.t[0], 0);
+            roots.hit[1] = roots.hit[1] & is_front<Lanes>(record, ray, roots.t[1], 1);
         }
         const NearHit<Lanes> found =
             nearest(roots, rays.lanes<&RTCRay::tnear>(i), rays.lanes<&RTCRay::tfar>(i));
@@ -179,22 +180,22 @@ OBSCURA_INLINE void packet_on_shape(const Call& call, const Hit& hit) {
 /// All rays of a call, whatever their number.
 template <typename Hit>
 OBSCURA_INLINE void find_hits(const Call& call, const Hit& hit) {
-    const bool is_shape = call.geometry.rows != nullptr;
+    const bool is_shape = call.geometry.records != nullptr;
     if (is_shape && call.rays.n > 1 && call.geometry.alpha == nullptr) {
         packet_on_shape(call, hit);
         return;
     }
-    // Where rays have parted, Embree calls with a packet in which one of them is active.
+    // For diverged rays Embree passes a packet with one active ray.
     for (int first = 0; first < call.rays.n; first += lane_count) {
         for (uint32_t bits = mask_bits(active_lanes(call, first)); bits != 0; bits &= bits - 1) {
             const int i = first + __builtin_ctz(bits);
             const Found found = is_shape ? find_on_shape(call, i) : find_in_cluster(call, i);
-            if (found.row >= 0) hit(i, found);
+            if (found.index >= 0) hit(i, found);
         }
     }
 }
 
-/// Notes the roots of one ray with one shape that lie within its limits.
+/// Records the intersections of one ray with one shape within the ray's limits.
 template <typename IsFront>
 void note_roots(const Call& call,
                 int i,
@@ -209,27 +210,27 @@ void note_roots(const Call& call,
         crossing.front = is_front_at(crossing.t, k);
         if (call.front_only && !crossing.front) continue;
         const Vec3f position = ray.origin + ray.direction * crossing.t;
-        if (!counts(call, i, crossing.row, k, position)) continue;
+        if (!counts(call, i, crossing.index, k, position)) continue;
         call.context.crossings->note_shape(*call.context.crossings, crossing);
     }
 }
 
-/// All places where one ray goes through a shape, or the spheres of a cluster.
+/// Records all intersections of one ray with a shape, or with the spheres of a cluster.
 void note_crossings(const Call& call, int i, unsigned geometry) {
     const ShapeRay<float> ray = call.rays.ray(i);
     ShapeCrossing crossing{0.0f, geometry, call.context.embree.instID[0], 0, false};
     const auto primitive = static_cast<int32_t>(call.primitive);
-    if (call.geometry.rows != nullptr) {
-        const ShapeRow& row = call.geometry.rows[call.primitive];
-        crossing.row = primitive;
-        const auto front = [&](float t, int k) { return is_front<float>(row, ray, t, k); };
-        note_roots(call, i, intersect_shape<float>(row, ray), crossing, front);
+    if (call.geometry.records != nullptr) {
+        const ShapeRecord& record = call.geometry.records[call.primitive];
+        crossing.index = primitive;
+        const auto front = [&](float t, int k) { return is_front<float>(record, ray, t, k); };
+        note_roots(call, i, intersect_shape<float>(record, ray), crossing, front);
         return;
     }
     const int32_t first = primitive * cluster_spheres;
     const int32_t end = min(first + cluster_spheres, call.geometry.count);
-    for (crossing.row = first; crossing.row < end; ++crossing.row) {
-        const float* at = call.geometry.spheres + sphere_word(crossing.row);
+    for (crossing.index = first; crossing.index < end; ++crossing.index) {
+        const float* at = call.geometry.spheres + sphere_word(crossing.index);
         const Sphere<float> sphere{{at[0], at[sphere_block], at[2 * sphere_block]},
                                    at[3 * sphere_block]};
         const auto front = [](float, int k) { return k == 0; };
@@ -252,15 +253,15 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
         }
         return;
     }
-    find_hits(call, [&](int row, const Found& found) {
-        const auto i = static_cast<unsigned>(row);
-        rays.tfar()[row] = found.t;
-        RTCHitN_Ng_x(hits, n, i) = -rays.column<&RTCRay::dir_x>()[row];
-        RTCHitN_Ng_y(hits, n, i) = -rays.column<&RTCRay::dir_y>()[row];
-        RTCHitN_Ng_z(hits, n, i) = -rays.column<&RTCRay::dir_z>()[row];
+    find_hits(call, [&](int index, const Found& found) {
+        const auto i = static_cast<unsigned>(index);
+        rays.tfar()[index] = found.t;
+        RTCHitN_Ng_x(hits, n, i) = -rays.column<&RTCRay::dir_x>()[index];
+        RTCHitN_Ng_y(hits, n, i) = -rays.column<&RTCRay::dir_y>()[index];
+        RTCHitN_Ng_z(hits, n, i) = -rays.column<&RTCRay::dir_z>()[index];
         RTCHitN_u(hits, n, i) = 0.0f;
         RTCHitN_v(hits, n, i) = 0.0f;
-        RTCHitN_primID(hits, n, i) = static_cast<unsigned>(found.row);
+        RTCHitN_primID(hits, n, i) = static_cast<unsigned>(found.index);
         RTCHitN_geomID(hits, n, i) = args->geomID;
         copy_instance_stack(context, hits, n, i);
     });
@@ -271,9 +272,9 @@ void occluded(const RTCOccludedFunctionNArguments* args) {
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
     const RayFields rays{reinterpret_cast<float*>(args->ray), static_cast<int>(args->N)};
     const Call call{geometry, context, rays, args->valid, args->primID, false, true};
-    find_hits(call, [&](int row, const Found&) {
-        if (geometry.wall && passes_wall(context, rays.id(row))) return;
-        rays.tfar()[row] = -INFINITY;
+    find_hits(call, [&](int index, const Found&) {
+        if (geometry.thin_wall && passes_thin_wall(context, rays.id(index))) return;
+        rays.tfar()[index] = -INFINITY;
     });
 }
 
@@ -289,8 +290,8 @@ void set_bounds(const ShapeBox& box, RTCBounds& out) {
 void bounds(const RTCBoundsFunctionArguments* args) {
     const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
     const auto primitive = static_cast<int32_t>(args->primID);
-    if (geometry.rows != nullptr) {
-        set_bounds(shape_bounds(geometry.rows[primitive]), *args->bounds_o);
+    if (geometry.records != nullptr) {
+        set_bounds(shape_bounds(geometry.records[primitive]), *args->bounds_o);
         return;
     }
     const float* boxes = geometry.boxes + static_cast<int64_t>(primitive) * cluster_floats;

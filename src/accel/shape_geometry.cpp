@@ -1,4 +1,4 @@
-// accel/shape_geometry.cpp - the parts of shapes' callbacks that are the same for every processor.
+// accel/shape_geometry.cpp - parts of the shape callbacks that are compiled only once.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/shape_geometry.h"
 
@@ -10,11 +10,12 @@ namespace obscura {
 namespace {
 
 Vec2f texture_place(const ShapeGeometry& geometry, const ShapeCandidate& candidate) {
-    if (geometry.rows != nullptr) {
-        const ShapeRow& row = geometry.rows[candidate.row];
-        return surface_of_shape<float>(row.kind, UniformShape<float>(row), candidate.position).uv;
+    if (geometry.records != nullptr) {
+        const ShapeRecord& record = geometry.records[candidate.index];
+        return surface_of_shape<float>(record.kind, UniformShape<float>(record), candidate.position)
+            .uv;
     }
-    const float* at = geometry.spheres + sphere_word(static_cast<int64_t>(candidate.row));
+    const float* at = geometry.spheres + sphere_word(static_cast<int64_t>(candidate.index));
     const Sphere<float> sphere{{at[0], at[sphere_block], at[2 * sphere_block]},
                                at[3 * sphere_block]};
     return surface_of_sphere(sphere, candidate.position - sphere.centre).uv;
@@ -28,27 +29,27 @@ bool is_opaque_there(const ShapeGeometry& geometry,
     const AlphaGeometry& open = *geometry.alpha;
     const Primitive& primitive = open.scene->primitives[static_cast<size_t>(open.primitive)];
     const Material& material = open.scene->materials[static_cast<size_t>(primitive.material)];
-    const auto row = static_cast<unsigned>(candidate.row);
+    const auto index = static_cast<unsigned>(candidate.index);
     if (is_point_or_line(primitive)) {
-        return is_opaque_there(open, context, {candidate.ray, candidate.instance, row}, {0, 0});
+        return is_opaque_there(open, context, {candidate.ray, candidate.instance, index}, {0, 0});
     }
     const float alpha = material_alpha(open, material, texture_place(geometry, candidate));
-    // Two places of one shape are two decisions.
-    const auto place = row * 2U + static_cast<unsigned>(candidate.root);
+    // The two intersections with one shape are two decisions.
+    const auto place = index * 2U + static_cast<unsigned>(candidate.root);
     return alpha >= alpha_threshold(open, context, {candidate.ray, candidate.instance, place});
 }
 
-NearHit<float> intersect_endless(const EndlessPlane& plane,
-                                 const QueryContext& context,
-                                 const ShapeRay<float>& ray,
-                                 unsigned id,
-                                 float tfar) {
+NearHit<float> intersect_infinite_plane(const InfinitePlane& plane,
+                                        const QueryContext& context,
+                                        const ShapeRay<float>& ray,
+                                        unsigned id,
+                                        float tfar) {
     const bool moved = plane.instance >= 0;
     const ShapeRay<float> own =
         moved ? ShapeRay<float>{transform_point(plane.object_from_world, ray.origin),
                                 transform_vector(plane.object_from_world, ray.direction)}
               : ray;
-    const Plane<float> shape = read_plane<float>(UniformShape<float>(plane.row));
+    const Plane<float> shape = read_plane<float>(UniformShape<float>(plane.record));
     NearHit<float> hit = nearest(intersect_plane(shape, own), 0.0f, tfar);
     if (!hit.found) return hit;
     if (plane.geometry.single_sided && context.culls_back_faces) hit.found = own.direction.y < 0.0f;

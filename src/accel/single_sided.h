@@ -1,4 +1,4 @@
-// accel/single_sided.h - backs that camera rays pass, and what is then cut away for other rays.
+// accel/single_sided.h - back faces of single-sided meshes, which camera rays pass.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,32 +12,32 @@ struct TimedDirection {
     float time;
 };
 
-TimedDirection direction_of(const RayColumns& rays, int row);
+TimedDirection direction_of(const RayColumns& rays, int index);
 
-/// True when a face shows its back to whoever looks along a direction.
+/// True when a ray of this direction meets the back of the face.
 ///
 /// In   ng: Embree's, which is in object space; a mirroring instance turns both the winding and
 ///      glTF's rule: only the object-space sign matters
 bool shows_back(const Accel::Impl& impl,
-                const SceneRows& rows,
+                const SceneRecords& records,
                 const Vec3f& ng,
                 const TimedDirection& direction);
 
-/// The same, of a face that camera rays pass.
+/// True when camera rays pass the face: its material is single-sided and they meet its back.
 bool is_hidden_back(const Accel::Impl& impl,
-                    const SceneRows& rows,
+                    const SceneRecords& records,
                     const Vec3f& ng,
                     const TimedDirection& direction);
 
-/// A face where a ray meets it.
+/// A face and the point where a ray hits it.
 struct MetFace {
-    SceneRows rows;
-    Vec3f ng;   ///< as Embree says
+    SceneRecords records;
+    Vec3f ng;   ///< Embree's
     Vec3f met;  ///< world
     float time;
 };
 
-/// Whether the face is one of those that are cut away.
+/// Whether the face is cut away.
 bool is_cut_away(const Accel::Impl& impl, const CutFaces& cut, const MetFace& face);
 
 /// Rays and what they hit.
@@ -46,9 +46,9 @@ struct RaysAndHits {
     const HitColumns& hits;
 };
 
-/// Looks behind the hidden backs among a packet's hits, and notes them in context.passed_backs.
+/// Replaces hits on hidden back faces by the next hits, and records them in context.passed_backs.
 ///
-/// In      hit: as Embree wrote the rows from `first` on
+/// In      hit: Embree's result for the rays from `first` on
 /// In/Out  columns: their hits
 void pass_hidden_backs(const Accel::Impl& impl,
                        const QueryContext& context,
@@ -56,18 +56,18 @@ void pass_hidden_backs(const Accel::Impl& impl,
                        int first,
                        const RaysAndHits& columns);
 
-/// Asks the row's ray again where it met a surface of which context.cutaway takes faces away for
-/// this ray, now without these.
+/// If a ray hit a surface that has faces in context.cutaway for this ray, traces it again without
+/// these.
 void pass_cutaway(const Accel::Impl& impl,
                   const QueryContext& context,
-                  int row,
+                  int index,
                   const RaysAndHits& columns);
 
-/// False when nothing that context.cutaway leaves lies in (0, tfar) of the row's ray, which is
-/// known to meet something; planes without end apart.
+/// For an occluded ray: false if only faces cut away by context.cutaway lie in (0, tfar). Does not
+/// test infinite planes.
 bool is_hidden_beside_cutaway(const Accel::Impl& impl,
                               const QueryContext& context,
-                              int row,
+                              int index,
                               const RayColumns& rays);
 
 }  // namespace obscura

@@ -10,7 +10,7 @@ namespace {
 
 /// Lists the splats of one block that one ray passes between its ends.
 OBSCURA_INLINE void list_block(const float* block,
-                               int32_t first_row,
+                               int32_t first_index,
                                const ShapeRay<float>& ray,
                                const Span<float>& limits,
                                SplatList& list) {
@@ -27,7 +27,7 @@ OBSCURA_INLINE void list_block(const float* block,
         store(alpha, passage.alpha);
         for (; bits != 0; bits &= bits - 1) {
             const int lane = __builtin_ctz(bits);
-            list.layers[list.count++] = {t[lane], alpha[lane], first_row + i + lane};
+            list.layers[list.count++] = {t[lane], alpha[lane], first_index + i + lane};
         }
     }
 }

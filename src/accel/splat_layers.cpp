@@ -1,4 +1,4 @@
-// accel/splat_layers.cpp - the Gaussian splats that a ray passes, blended in their order.
+// accel/splat_layers.cpp - finds the Gaussian splats along a ray and blends them in order.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/splat_layers.h"
 
@@ -23,14 +23,14 @@ struct OwnedList : SplatList {
     }
 };
 
-/// From near to far; of layers at one distance, the same one is first in every list.
+/// Sorts from near to far; ties are broken in the same way in every list.
 void sort_layers(SplatList& list) {
     std::sort(list.layers, list.layers + list.count, [](const SplatLayer& a, const SplatLayer& b) {
-        return a.t != b.t ? a.t < b.t : a.row < b.row;
+        return a.t != b.t ? a.t < b.t : a.index < b.index;
     });
 }
 
-/// Lists what row i of the rays passes, from near to far.
+/// Lists the splats that ray i passes, from near to far.
 void list_layers(const Accel::Impl& impl, const RayColumns& rays, int i, OwnedList& list) {
     list.begin();
     SplatContext context;
@@ -44,13 +44,13 @@ void list_layers(const Accel::Impl& impl, const RayColumns& rays, int i, OwnedLi
     sort_layers(list);
 }
 
-/// Light of splats of one colour space.
+/// Blended light of the splats with one colour space.
 struct BlendedColor {
     Vec3f sum = {0, 0, 0};
     float weight = 0;
 };
 
-/// The mean colour as light, times what of the pixel it covers.
+/// Linear light: the decoded mean colour times its coverage.
 Vec3f light_of(const BlendedColor& color, bool linear) {
     if (linear || color.weight <= 0) return color.sum;
     const Vec3f mean = color.sum * (1.0f / color.weight);
@@ -58,17 +58,17 @@ Vec3f light_of(const BlendedColor& color, bool linear) {
            color.weight;
 }
 
-/// What stays of light from behind all layers.
+/// Transmittance of all layers.
 float transmittance_of(const SplatList& list) {
     float passes = 1;
     for (int i = 0; i < list.count; ++i) {
         passes *= 1.0f - list.layers[i].alpha;
-        if (passes < least_transmittance) return 0;
+        if (passes < min_transmittance) return 0;
     }
     return passes;
 }
 
-/// How a ray looks at splats.
+/// The ray along which splats are seen.
 struct SplatView {
     Vec3f origin, direction;
     bool parallel = false;  ///< all rays have the direction
@@ -79,23 +79,23 @@ struct BlendedLayers {
     float transmittance;
 };
 
-/// Colours are mixed as they are stored, and what is mixed is decoded: so were splats trained.
+/// Blends encoded colours and decodes the result, as splats were trained.
 BlendedLayers blend_layers(const SplatField& field, const SplatList& list, const SplatView& view) {
     BlendedColor colors[2];  // with the sRGB curve, and linear ones
     float passes = 1;
     for (int i = 0; i < list.count && passes > 0; ++i) {
-        const auto row = static_cast<size_t>(list.layers[i].row);
-        const auto group = static_cast<size_t>(field.group_of_block[row / splat_block]);
+        const auto index = static_cast<size_t>(list.layers[i].index);
+        const auto group = static_cast<size_t>(field.group_of_block[index / splat_block]);
         const float* mean =
-            &field.blocks[row / splat_block * splat_block_floats + row % splat_block];
+            &field.blocks[index / splat_block * splat_block_floats + index % splat_block];
         const Vec3f centre{mean[0], mean[splat_block], mean[2 * splat_block]};
         const Vec3f direction = view.parallel ? view.direction : centre - view.origin;
         const float weight = passes * list.layers[i].alpha;
         BlendedColor& color = colors[field.groups[group].linear ? 1 : 0];
-        color.sum = color.sum + splat_color(field, row, direction) * weight;
+        color.sum = color.sum + splat_color(field, index, direction) * weight;
         color.weight += weight;
         passes *= 1.0f - list.layers[i].alpha;
-        if (passes < least_transmittance) passes = 0;
+        if (passes < min_transmittance) passes = 0;
     }
     return {light_of(colors[0], false) + light_of(colors[1], true), passes};
 }
@@ -107,8 +107,8 @@ float make_room(SplatList& list, float end) {
     float passes = 1;
     for (int i = 0; i < list.count; ++i) {
         passes *= 1.0f - list.layers[i].alpha;
-        // Well below the limit: all layers together, however they are rounded, end there too.
-        if (passes >= 0.99f * least_transmittance) continue;
+        // Well below the limit, so that the product over all layers is below it despite rounding.
+        if (passes >= 0.99f * min_transmittance) continue;
         end = std::min(end, list.layers[i].t);
         list.count = i + 1;
         break;

@@ -1,4 +1,4 @@
-// accel/traversal_cost.cpp - how many primitives a ray is tested against, counted by callbacks.
+// accel/traversal_cost.cpp - counts the primitives that a ray is tested against.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/safe_ray.h"
 #include "accel/user_elements.h"
@@ -8,7 +8,7 @@ namespace obscura {
 
 namespace {
 
-/// A query of one ray that counts. The common part must come first.
+/// Context of a query that counts tests. `common` must come first.
 struct CountingContext {
     QueryContext common;
     const ShapeCallbacks* shapes = nullptr;
@@ -20,19 +20,19 @@ CountingContext& counting_context(const Arguments* args) {
     return *reinterpret_cast<CountingContext*>(args->context);
 }
 
-/// True when the ray stops at the hit: neither a hidden back nor a hole.
+/// True when the ray stops at the hit: neither a culled back face nor an alpha cut-out.
 bool counts_as_hit(const UserElements& triangles,
                    const QueryContext& context,
-                   const AlphaPlace& place,
+                   const AlphaCandidate& candidate,
                    bool from_behind,
                    Vec2f barycentric) {
-    const auto row = static_cast<size_t>(triangles.primitive);
+    const auto index = static_cast<size_t>(triangles.primitive);
     const Accel::Impl& impl = *triangles.impl;
-    if (from_behind && impl.single_sided[row] != 0) return false;
-    const Primitive& primitive = impl.scene->primitives[row];
+    if (from_behind && impl.single_sided[index] != 0) return false;
+    const Primitive& primitive = impl.scene->primitives[index];
     if (!needs_alpha_filter(*impl.scene, primitive, impl.materials_with_holes)) return true;
     return is_opaque_there(
-        {impl.scene, impl.textures, triangles.primitive}, context, place, barycentric);
+        {impl.scene, impl.textures, triangles.primitive}, context, candidate, barycentric);
 }
 
 ShapeRay<float> read_ray(RTCRayN* rays, unsigned n, unsigned i) {
@@ -40,7 +40,7 @@ ShapeRay<float> read_ray(RTCRayN* rays, unsigned n, unsigned i) {
             {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)}};
 }
 
-/// Embree's callback; rays come one at a time, for count_tests asks so.
+/// Embree's callback; rays come one at a time because count_tests traces single rays.
 void intersect_counted_triangle(const RTCIntersectFunctionNArguments* args) {
     const unsigned n = args->N;
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
@@ -53,20 +53,20 @@ void intersect_counted_triangle(const RTCIntersectFunctionNArguments* args) {
         const TriangleHit<float> hit = meet(triangle, rays, n, i);
         if (!hit.hit) continue;
         const UserHit found = user_hit(triangle, hit);
-        const AlphaPlace place{
+        const AlphaCandidate candidate{
             RTCRayN_id(rays, n, i), context.common.embree.instID[0], args->primID};
         const bool from_behind = dot(found.ng, read_ray(rays, n, i).direction) > 0.0f;
-        if (!counts_as_hit(triangles, context.common, place, from_behind, found.uv)) continue;
+        if (!counts_as_hit(triangles, context.common, candidate, from_behind, found.uv)) continue;
         write_hit(args, found, i);
     }
 }
 
-/// One piece of a line, in the world.
+/// One curve segment, in world space.
 Segment<float> read_segment(const UserElements& lines, unsigned number) {
     const Scene& scene = *lines.impl->scene;
     const Primitive& primitive = scene.primitives[static_cast<size_t>(lines.primitive)];
-    const size_t row = static_cast<size_t>(primitive.first_triangle) + number;
-    const float* p = &scene.curve_points[4 * static_cast<size_t>(scene.curve_segments[row])];
+    const size_t index = static_cast<size_t>(primitive.first_triangle) + number;
+    const float* p = &scene.curve_points[4 * static_cast<size_t>(scene.curve_segments[index])];
     return {{p[0], p[1], p[2]}, {p[4], p[5], p[6]}, p[3], p[7]};
 }
 
@@ -80,7 +80,7 @@ void segment_bounds(const RTCBoundsFunctionArguments* args) {
     *args->bounds_o = {low.x, low.y, low.z, 0.0f, high.x, high.y, high.z, 0.0f};
 }
 
-/// As intersect_counted_triangle. What is inside a line is seen as well as its outside.
+/// As intersect_counted_triangle. Both sides of a line's surface count.
 void intersect_counted_curve(const RTCIntersectFunctionNArguments* args) {
     const unsigned n = args->N;
     RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, n);
@@ -95,10 +95,10 @@ void intersect_counted_curve(const RTCIntersectFunctionNArguments* args) {
             intersect_segment(frame, ray), RTCRayN_tnear(rays, n, i), RTCRayN_tfar(rays, n, i));
         if (!hit.found) continue;
         const Vec3f own = into_frame(frame, ray.origin + ray.direction * hit.t - frame.centre);
-        const Vec2f along{share_of_way(frame, own.y), 0.0f};
-        const AlphaPlace place{
+        const Vec2f along{fraction_along(frame, own.y), 0.0f};
+        const AlphaCandidate candidate{
             RTCRayN_id(rays, n, i), context.common.embree.instID[0], args->primID};
-        if (!counts_as_hit(lines, context.common, place, false, along)) continue;
+        if (!counts_as_hit(lines, context.common, candidate, false, along)) continue;
         write_hit(args, {hit.t, -ray.direction, along}, i);
     }
 }
@@ -137,7 +137,7 @@ void intersect_counted_shape(const RTCIntersectFunctionNArguments* args) {
     const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
-        context.tests += geometry.rows != nullptr ? 1U : entered_blocks(args, geometry, i);
+        context.tests += geometry.records != nullptr ? 1U : entered_blocks(args, geometry, i);
     }
 }
 
@@ -148,20 +148,20 @@ int Accel::count_tests(const RayColumns& rays, float* tests) const {
     context.common.culls_back_faces = true;
     context.shapes = impl_->functions.shapes;
     int refused = 0;
-    for (int row = 0; row < rays.count; ++row) {
-        tests[row] = 0.0f;
-        if (!is_safe(rays, row, impl_->reach)) {
+    for (int index = 0; index < rays.count; ++index) {
+        tests[index] = 0.0f;
+        if (!is_safe(rays, index, impl_->reach)) {
             ++refused;
             continue;
         }
         RTCRayHit ray;
-        load_ray(rays, row, ray.ray);
+        load_ray(rays, index, ray.ray);
         ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
         ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-        // Planes without end lie beside the hierarchy: every ray is tested against each.
-        context.tests = static_cast<unsigned>(impl_->endless_planes.size());
+        // Infinite planes are not in the BVH: every ray is tested against each.
+        context.tests = static_cast<unsigned>(impl_->infinite_planes.size());
         query.intersect1(impl_->top, &ray);
-        tests[row] = static_cast<float>(context.tests);
+        tests[index] = static_cast<float>(context.tests);
     }
     return refused;
 }

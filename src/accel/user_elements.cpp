@@ -1,4 +1,4 @@
-// accel/user_elements.cpp - a primitive's triangles or lines as user geometry.
+// accel/user_elements.cpp - triangles and lines as Embree user geometry with our own callbacks.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/user_elements.h"
 
@@ -15,13 +15,13 @@ void triangle_bounds(const RTCBoundsFunctionArguments* args) {
 RTCGeometry make_user_elements(Accel::Impl& impl,
                                int32_t primitive,
                                const UserCallbacks& callbacks) {
-    const auto row = static_cast<size_t>(primitive);
+    const auto index = static_cast<size_t>(primitive);
     impl.user_elements.resize(impl.scene->primitives.size());  // once: pointers stay
-    impl.user_elements[row] = {&impl, primitive};
+    impl.user_elements[index] = {&impl, primitive};
     RTCGeometry geometry = rtcNewGeometry(impl.device, RTC_GEOMETRY_TYPE_USER);
     rtcSetGeometryUserPrimitiveCount(
-        geometry, static_cast<unsigned>(impl.scene->primitives[row].triangle_count));
-    rtcSetGeometryUserData(geometry, &impl.user_elements[row]);
+        geometry, static_cast<unsigned>(impl.scene->primitives[index].triangle_count));
+    rtcSetGeometryUserData(geometry, &impl.user_elements[index]);
     rtcSetGeometryBoundsFunction(geometry, callbacks.bounds, nullptr);
     rtcSetGeometryIntersectFunction(geometry, callbacks.intersect);
     rtcSetGeometryOccludedFunction(geometry, callbacks.occluded);

@@ -1,4 +1,4 @@
-// accel/user_elements.h - triangles or lines as user geometry, for callbacks of our own.
+// accel/user_elements.h - triangles and lines as Embree user geometry with our own callbacks.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace obscura {
 
-/// Callbacks for the elements of one primitive; `occluded` may be null where nobody asks.
+/// Callbacks for the elements of one primitive; `occluded` may be null if it is never called.
 struct UserCallbacks {
     RTCBoundsFunction bounds = nullptr;
     RTCIntersectFunctionN intersect = nullptr;
@@ -25,11 +25,11 @@ void triangle_bounds(const RTCBoundsFunctionArguments* args);
 /// Corners in the primitive's own space.
 Triangle<float> read_corners(const UserElements& triangles, unsigned number);
 
-/// Ray i of a packet against a triangle, within the ray's limits. In double precision: what then
-/// differs from the truth is Embree's way through its boxes, not the formula.
+/// Intersects ray i of a packet with a triangle, within the ray's limits. In double precision, so
+/// that errors come from Embree's traversal, not from the formula.
 TriangleHit<float> meet(const Triangle<float>& triangle, RTCRayN* rays, unsigned n, unsigned i);
 
-/// What a callback found.
+/// A callback's hit.
 struct UserHit {
     float t;
     Vec3f ng;

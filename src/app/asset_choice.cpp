@@ -1,4 +1,4 @@
-// app/asset_choice.cpp - which scenes a measuring command looks at.
+// app/asset_choice.cpp - chooses the scenes of a measuring command.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/asset_choice.h"
 
@@ -6,7 +6,7 @@
 
 #include <system_error>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -17,11 +17,11 @@ Result<std::vector<std::string>> scenes_or_assets(const std::vector<std::string>
     std::filesystem::path folder = assets.value_or("");
     if (!assets) {
         const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-        const auto found = find_assets_folder(program.parent_path());
+        const auto found = bench::find_assets_folder(program.parent_path());
         if (!found) return fail(found.error());
         folder = *found;
     }
-    const auto files = find_assets(folder);
+    const auto files = bench::find_assets(folder);
     if (!files) return fail(files.error());
     std::vector<std::string> names;
     for (const std::filesystem::path& file : *files)
@@ -46,4 +46,4 @@ Result<std::vector<RenderRequest>> requests_for(
     return requests;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

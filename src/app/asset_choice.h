@@ -1,8 +1,8 @@
-// app/asset_choice.h - which scenes a measuring command looks at when none is given.
+// app/asset_choice.h - chooses the scenes of a measuring command.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/option_row.h"
+#include "app/option_entry.h"
 #include "app/render_request.h"
 
 #include <functional>
@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
-/// A request for each of the scenes that were given; else for all of a folder, or of `assets`
-/// beside the program or above it.
+/// A request for each scene that was given; else for all in a folder, or in `assets` beside the
+/// program or above it.
 ///
 /// Errors  67 E-BENCH-ASSETS, those of request_for
 Result<std::vector<RenderRequest>> requests_for(
@@ -29,4 +29,4 @@ inline constexpr OptionInfo assets_option = {
     .files = "/",
     .excludes = {"SCENE"}};
 
-}  // namespace obscura
+}  // namespace obscura::app

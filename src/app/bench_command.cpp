@@ -21,7 +21,7 @@
 #include <fmt/format.h>
 #include <span>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -30,17 +30,17 @@ struct SceneBench {
     const BenchRequest& request;
     const RenderRequest& scene;
     Log& log;
-    SceneFigures figures = {};
+    bench::SceneFigures figures = {};
     bool nonfinite = false;
 };
 
-Result<ViewFigures> measure(SceneBench& bench,
-                            const PreparedScene& prepared,
-                            const BenchView& view,
-                            int threads) {
+Result<bench::ViewFigures> measure(SceneBench& bench,
+                                   const PreparedScene& prepared,
+                                   const BenchView& view,
+                                   int threads) {
     const ThreadLimit limit(threads);
     const StopOnSignal stop;
-    ViewTask task;
+    bench::ViewTask task;
     task.scene = &prepared;
     task.camera = view.camera;
     task.options = bench.scene.options;
@@ -50,14 +50,14 @@ Result<ViewFigures> measure(SceneBench& bench,
         bench.figures.memory.peak = std::max(bench.figures.memory.peak, peak_memory_bytes());
     };
     reset_peak_memory();
-    Result<ViewFigures> figures = measure_view(task, stop.flag());
+    Result<bench::ViewFigures> figures = bench::measure_view(task, stop.flag());
     if (!figures) return figures;
     figures->name = view.name;
     figures->description = view.description;
     figures->camera = view.numbers;
     figures->coverage = view.coverage;
     bench.nonfinite = bench.nonfinite || too_many_nonfinite(figures->counters);
-    for (const std::string& doubt : doubts_about(*figures))
+    for (const std::string& doubt : bench::doubts_about(*figures))
         bench.log.warn(bench.figures.name + "/" + view.name, doubt);
     bench.log.info(fmt::format("{}/{}, {}, {} threads: {:.1f} % of bare Embree",
                                bench.figures.name,
@@ -68,16 +68,16 @@ Result<ViewFigures> measure(SceneBench& bench,
     return figures;
 }
 
-/// The main figures of every view, and the rows for each number of threads.
+/// The main figures of every view, and entries for each number of threads.
 Result<void> measure_threads(SceneBench& bench,
                              const PreparedScene& prepared,
                              const std::vector<BenchView>& views) {
     const std::vector<int>& counts = bench.request.threads;
-    std::vector<ViewFigures>& rows = bench.figures.by_threads;
+    std::vector<bench::ViewFigures>& rows = bench.figures.by_threads;
     for (const BenchView& view : views) {
         const size_t first_row = rows.size();
         for (const int threads : counts) {
-            Result<ViewFigures> figures = measure(bench, prepared, view, threads);
+            Result<bench::ViewFigures> figures = measure(bench, prepared, view, threads);
             if (!figures) return fail(figures.error());
             if (threads == counts.front()) bench.figures.views.push_back(*figures);
             if (counts.size() > 1) rows.push_back(std::move(*figures));
@@ -87,7 +87,7 @@ Result<void> measure_threads(SceneBench& bench,
     return {};
 }
 
-/// Rows for each instruction set but the first, whose figures are there already.
+/// Entries for each instruction set but the first, whose figures exist already.
 Result<void> measure_isas(SceneBench& bench,
                           const PreparedScene& prepared,
                           const std::vector<BenchView>& views) {
@@ -102,7 +102,7 @@ Result<void> measure_isas(SceneBench& bench,
             PreparedScene::create(prepared.scene(), *lighting, isas[i], silent);
         if (!other) return fail(other.error());
         for (const BenchView& view : views) {
-            Result<ViewFigures> figures =
+            Result<bench::ViewFigures> figures =
                 measure(bench, *other, view, bench.request.threads.front());
             if (!figures) return fail(figures.error());
             bench.figures.by_isa.push_back(std::move(*figures));
@@ -116,12 +116,12 @@ Result<std::string> measure_scene(SceneBench& bench) {
     bench.log.info("measuring " + bench.figures.file);
     Result<LightingOptions> lighting = load_lighting(bench.scene, bench.log);
     if (!lighting) return fail(lighting.error());
-    const LoadTask task{bench.scene.scene,
-                        bench.scene.load,
-                        std::move(*lighting),
-                        bench.request.isas.front(),
-                        bench.request.repeat};
-    const Result<LoadedScene> loaded = measure_load(task, bench.log);
+    const bench::LoadTask task{bench.scene.scene,
+                               bench.scene.load,
+                               std::move(*lighting),
+                               bench.request.isas.front(),
+                               bench.request.repeat};
+    const Result<bench::LoadedScene> loaded = bench::measure_load(task, bench.log);
     if (!loaded) return fail(loaded.error());
     bench.figures.load = loaded->figures;
     bench.figures.memory = loaded->memory;
@@ -137,28 +137,29 @@ Result<std::string> measure_scene(SceneBench& bench) {
 }
 
 /// The file's name without extension; the whole path where an earlier scene has that name.
-std::string free_name(const std::filesystem::path& file, const std::vector<SceneFigures>& taken) {
+std::string free_name(const std::filesystem::path& file,
+                      const std::vector<bench::SceneFigures>& taken) {
     const std::string name = file.stem().string();
-    const auto is_taken = [&](const SceneFigures& scene) { return scene.name == name; };
+    const auto is_taken = [&](const bench::SceneFigures& scene) { return scene.name == name; };
     return std::any_of(taken.begin(), taken.end(), is_taken) ? file.string() : name;
 }
 
-BenchSettings settings_of(const BenchRequest& request) {
+bench::BenchSettings settings_of(const BenchRequest& request) {
     const RenderRequest& scene = request.scenes.front();
-    BenchSettings out;
+    bench::BenchSettings out;
     out.width = scene.options.width;
     out.height = scene.options.height;
     out.samples_per_pixel = scene.options.samples_per_pixel;
     out.max_bounces = scene.options.max_bounces;
     out.seed = scene.options.seed;
-    out.integrator = row_of(scene.options.integrator).name;
+    out.integrator = entry_of(scene.options.integrator).name;
     out.environment = scene.environment.value_or("").string();
     out.repeat = request.repeat;
     return out;
 }
 
 /// Everything that can fail early does so before the first scene is loaded.
-Result<OldReport> check_files(const BenchRequest& request) {
+Result<bench::OldReport> check_files(const BenchRequest& request) {
     for (const auto* output : {&request.json, &request.plot}) {
         if (!*output) continue;
         if (auto writable = check_file_can_be_written(**output); !writable) {
@@ -168,8 +169,8 @@ Result<OldReport> check_files(const BenchRequest& request) {
     for (const Isa isa : request.isas) {
         if (!has_isa(isa)) return fail(missing_isa());
     }
-    if (!request.compare) return OldReport{};
-    return read_old_report(*request.compare);
+    if (!request.compare) return bench::OldReport{};
+    return bench::read_old_report(*request.compare);
 }
 
 Result<void> write_text(const std::optional<std::filesystem::path>& file, const std::string& text) {
@@ -178,33 +179,33 @@ Result<void> write_text(const std::optional<std::filesystem::path>& file, const 
 }
 
 Result<void> deliver(const BenchRequest& request,
-                     const BenchReport& report,
-                     const OldReport& old,
+                     const bench::BenchReport& report,
+                     const bench::OldReport& old,
                      Log& log) {
-    std::string text = bench_table(report);
-    std::vector<Change> changes;
+    std::string text = bench::bench_table(report);
+    std::vector<bench::Change> changes;
     if (request.compare) {
-        if (old.circumstances != circumstances_of(report)) {
+        if (old.circumstances != bench::circumstances_of(report)) {
             log.warn(request.compare->string(),
                      "measured under other circumstances: " + old.circumstances + "; now " +
-                         circumstances_of(report));
+                         bench::circumstances_of(report));
         }
-        changes = compare(old.figures, comparable_figures(report));
-        text += compare_table(changes);
+        changes = bench::compare(old.figures, bench::comparable_figures(report));
+        text += bench::compare_table(changes);
     }
     if (auto printed = print_output(text); !printed) return printed;
-    if (auto written = write_text(request.json, bench_json(report, changes)); !written) {
+    if (auto written = write_text(request.json, bench::bench_json(report, changes)); !written) {
         return written;
     }
-    return request.plot ? write_text(request.plot, bench_svg(report)) : Result<void>();
+    return request.plot ? write_text(request.plot, bench::bench_svg(report)) : Result<void>();
 }
 
 Result<void> execute(const BenchRequest& request, Log& log) {
-    const Result<OldReport> old = check_files(request);
+    const Result<bench::OldReport> old = check_files(request);
     if (!old) return fail(old.error());
     const ThreadLimit threads(request.threads.front());
-    BenchReport report;
-    report.machine = describe_machine();
+    bench::BenchReport report;
+    report.machine = bench::describe_machine();
     report.settings = settings_of(request);
     bool nonfinite = false;
     SkippedScenes skipped(request.scenes.size(), log);
@@ -242,4 +243,4 @@ int run_bench(const BenchArguments& arguments) {
     return report_failure(done.error(), log);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -4,10 +4,10 @@
 
 #include "app/bench_request.h"
 
-namespace obscura {
+namespace obscura::app {
 
 /// Measures every scene and view, prints the tables and writes what was asked for. Returns the
 /// exit code.
 int run_bench(const BenchArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -7,13 +7,13 @@
 #include "app/option_readers.h"
 #include "app/render_options.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
 using A = BenchArguments;
 using R = BenchRequest;
-using Row = OptionRow<A, R>;
+using Entry = OptionEntry<A, R>;
 
 constexpr const char* notes = R"(
 "Of bare Embree" is the time in which Embree alone answers the rays of a rendering, as a share
@@ -32,12 +32,12 @@ constexpr std::array<Choice<ViewChoice>, 3> views = {
     {{"whole", ViewChoice::whole}, {"close", ViewChoice::close}, {"both", ViewChoice::both}}};
 
 // clang-format off
-constexpr Row scenes[] = {
+constexpr Entry scenes[] = {
     {{.name = "SCENE", .help = "glTF 2.0 files", .fallback = "those in the assets folder",
       .files = "gltf glb"},
      text_at<&A::scenes>}};
 
-constexpr Row measurement[] = {
+constexpr Entry measurement[] = {
     {{.name = "--view", .argument = "NAME",
       .help = "whole: the file's camera or all in view; close: at least 70 % of the frame covered; "
               "both",
@@ -59,7 +59,7 @@ constexpr Row measurement[] = {
      {.read = read_parsed<parse_isas, &R::isas>, .names = choice_names<instruction_sets>}},
     {assets_option, text_at<&A::assets>}};
 
-constexpr Row report[] = {
+constexpr Entry report[] = {
     {{.name = "--json", .argument = "FILE", .help = "Write all figures as JSON", .files = "json"},
      text_at<&A::json>, name_at<&R::json>},
     {{.name = "--compare", .argument = "OLD.json",
@@ -85,8 +85,8 @@ Command bench_command(BenchArguments& arguments) {
     command.options = bind_all(bench_option_groups(), arguments);
     RenderArguments& render = arguments.render;
     add_render_option(command, render, "--size", "Measurement").fallback =
-        size_text(bench_size) + "; " + size_text(bench_quantity_size) +
-        " for quantities, which take one sample a pixel";
+        size_text(bench_size) + "; " + size_text(bench_aov_size) +
+        " for AOVs, which take one sample a pixel";
     add_render_option(command, render, "--quiet", "Report").info.help =
         "Print the tables and errors only";
     add_render_option(command, render, "--verbose", "Report");
@@ -102,4 +102,4 @@ Command bench_command(BenchArguments& arguments) {
     return command;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

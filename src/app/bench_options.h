@@ -5,7 +5,7 @@
 #include "app/bench_request.h"
 #include "app/command.h"
 
-namespace obscura {
+namespace obscura::app {
 
 /// The bench's own options.
 std::span<const OptionGroup<BenchArguments, BenchRequest>> bench_option_groups();
@@ -13,4 +13,4 @@ std::span<const OptionGroup<BenchArguments, BenchRequest>> bench_option_groups()
 /// The subcommand; parsing fills `arguments`, which must outlive it.
 Command bench_command(BenchArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

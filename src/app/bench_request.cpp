@@ -1,4 +1,4 @@
-// app/bench_request.cpp - from the texts of `obscura bench` to a checked request.
+// app/bench_request.cpp - turns the option texts of `obscura bench` into a request.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_request.h"
 
@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <functional>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -49,7 +49,7 @@ Result<void> check_sense(const BenchArguments& arguments, const BenchRequest& re
 Result<RenderRequest> request_for(const BenchArguments& arguments, const std::string& scene) {
     RenderArguments render = arguments.render;
     render.scene_file = scene;
-    render.writes_pictures = false;
+    render.writes_images = false;
     for (const auto* output : {&arguments.json, &arguments.plot}) {
         if (*output) render.outputs.push_back(**output);
     }
@@ -57,8 +57,8 @@ Result<RenderRequest> request_for(const BenchArguments& arguments, const std::st
     Result<RenderRequest> request = make_render_request(render);
     if (!request) return request;
     if (!render.size) {
-        const bool quantity = is_quantity(request->options.integrator);
-        const auto& [width, height] = quantity ? bench_quantity_size : bench_size;
+        const bool aov = is_aov(request->options.integrator);
+        const auto& [width, height] = aov ? bench_aov_size : bench_size;
         request->options.width = width;
         request->options.height = height;
     }
@@ -125,4 +125,4 @@ Result<BenchRequest> make_bench_request(const BenchArguments& arguments) {
     return request;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

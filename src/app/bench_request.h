@@ -1,4 +1,4 @@
-// app/bench_request.h - everything that `obscura bench` was asked for, checked and ready to use.
+// app/bench_request.h - the request of `obscura bench`, checked and ready to use.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
-/// The texts of the options as they stood on the command line. Of `render`, the bench has size,
-/// sampling, camera, light, quiet and verbose; its threads and isa are lists and stand here.
+/// The texts of the options as they stood on the command line. The options of `render` for size,
+/// sampling, camera, light, quiet and verbose apply; threads and isa are lists here.
 struct BenchArguments {
     std::vector<std::string> scenes;
     RenderArguments render;
@@ -24,7 +24,7 @@ struct BenchRequest {
     std::vector<RenderRequest> scenes;  ///< at least one; they differ in the scene alone
     ViewChoice views = ViewChoice::both;
     int repeat = 5;
-    std::vector<int> threads;  ///< at least one; the first is the one for the main figures
+    std::vector<int> threads;  ///< at least one; the first gives the main figures
     std::vector<Isa> isas;     ///< likewise
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> plot;
@@ -32,16 +32,15 @@ struct BenchRequest {
     Verbosity verbosity = Verbosity::normal;
 };
 
-/// What the bench takes without --size and --spp: quantities take one sample a pixel, so they get
-/// more pixels.
+/// Defaults of --size and --spp: AOVs take one sample a pixel, so they get more pixels.
 inline constexpr std::array<int, 2> bench_size = {640, 360};
-inline constexpr std::array<int, 2> bench_quantity_size = {1920, 1080};
+inline constexpr std::array<int, 2> bench_aov_size = {1920, 1080};
 inline constexpr const char* bench_spp = "4";
 
 /// Each thread count once, 0 as the number of cores; the greatest first.
 Result<std::vector<int>> parse_thread_counts(const std::string& text, const std::string& option);
 
-/// Each instruction set once, in the order given; "all" is what this CPU has, widest first.
+/// Each instruction set once, in the order given; "all" means those of this CPU, widest first.
 Result<std::vector<Isa>> parse_isas(const std::string& text, const std::string& option);
 
 /// Reads the texts; looks for assets when no scene is given.
@@ -50,4 +49,4 @@ Result<std::vector<Isa>> parse_isas(const std::string& text, const std::string& 
 ///         67 E-BENCH-ASSETS
 Result<BenchRequest> make_bench_request(const BenchArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

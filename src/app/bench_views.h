@@ -1,4 +1,4 @@
-// app/bench_views.h - the cameras that the bench measures with.
+// app/bench_views.h - chooses the cameras that the bench measures with.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
 enum class ViewChoice { whole, close, both };
 
@@ -17,19 +17,19 @@ struct BenchView {
     std::string name;
     std::string description;
     Camera camera;
-    ViewCamera numbers;
+    bench::ViewCamera numbers;
     double coverage = 0;
 };
 
-/// Share of the frame that a close view's asset covers at least.
+/// Least fraction of a close view's frame that the asset covers.
 inline constexpr double close_coverage = 0.7;
 
-/// Share of a small rendering's pixels in which something is hit.
+/// Fraction of a small rendering's pixels with a hit.
 Result<double> measure_coverage(const PreparedScene& scene, const Camera& camera, double aspect);
 
-/// The views of one scene: "whole" is what `obscura render` would show, always through a pinhole;
-/// "close" the widest part of it that the asset covers by close_coverage, at most half as high
-/// where the whole view covers that already. A camera placed by hand is the only one: "own".
+/// The views of one scene: "whole" is the view of `obscura render`, always through a pinhole;
+/// "close" its widest part that the asset covers by close_coverage, at most half as high where the
+/// whole view covers that already. A camera placed by hand is the only view: "own".
 ///
 /// Errors  those of choose_camera and render
 Result<std::vector<BenchView>> choose_bench_views(const PreparedScene& scene,
@@ -37,4 +37,4 @@ Result<std::vector<BenchView>> choose_bench_views(const PreparedScene& scene,
                                                   ViewChoice choice,
                                                   Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,14 +1,14 @@
-// app/command.h - a subcommand: its name, its options, what it says of itself.
+// app/command.h - a subcommand: its name, its options, its help.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/option_row.h"
+#include "app/option_entry.h"
 
 #include <functional>
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
 struct Command {
     const char* name = "";
@@ -28,4 +28,4 @@ struct Program {
     std::vector<Command> commands = {};
 };
 
-}  // namespace obscura
+}  // namespace obscura::app

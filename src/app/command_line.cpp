@@ -1,4 +1,4 @@
-// app/command_line.cpp - from the words of the command line to the texts of options; CLI11.
+// app/command_line.cpp - parses the command line into option texts; uses CLI11.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/command_line.h"
 
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <memory>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -76,7 +76,7 @@ size_t edit_distance(std::string_view a, std::string_view b) {
     return row[b.size()];
 }
 
-/// The option that has too few or too many values, "" for any other complaint. The parser's text
+/// The option that has too few or too many values; "" for other complaints. The parser's text
 /// begins with its name.
 std::string option_of(const CLI::ParseError& error) {
     const std::string text = error.what();
@@ -84,7 +84,7 @@ std::string option_of(const CLI::ParseError& error) {
     return counts ? text.substr(0, text.find_first_of(": ")) : "";
 }
 
-/// Words a parser's complaint about the command line.
+/// Rewords a parser's complaint about the command line.
 tl::unexpected<Error> worded(const CLI::App& app,
                              const Program& program,
                              const CLI::ParseError& error) {
@@ -120,8 +120,8 @@ tl::unexpected<Error> worded(const CLI::App& app,
     return usage("command-line", in_quotes(first) + " is one argument too many" + hint);
 }
 
-/// A file's items as CLI11 reads INI and TOML. Comments are taken out before: it would find them in
-/// the middle of names, too.
+/// A file's items, read by CLI11 as INI and TOML. Comments are removed before, because CLI11 would
+/// find them inside names, too.
 Result<void> read_config(const Command& command, const Program& program) {
     const auto config =
         std::find_if(command.options.begin(), command.options.end(), [](const BoundOption& option) {
@@ -193,4 +193,4 @@ Result<CommandLine> parse_command_line(const Program& program, int argc, const c
     return CommandLine{&command, ""};
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/command_line.h - from the words of the command line to the texts of options.
+// app/command_line.h - parses the command line into option texts.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,20 +7,20 @@
 
 #include <string>
 
-namespace obscura {
+namespace obscura::app {
 
-/// What came of a command line.
+/// The result of parsing a command line.
 struct CommandLine {
     const Command* command = nullptr;  ///< its options are filled; null: `text` is the answer
     std::string text = {};             ///< help or version
 };
 
-/// Fills the options of the command that was given, those of --config too.
+/// Fills the options of the given command, including those of --config.
 ///
 /// Errors  64 E-USAGE, and those of apply_config
 Result<CommandLine> parse_command_line(const Program& program, int argc, const char* const* argv);
 
-/// The option whose name is nearest to what was typed; "": none is near.
+/// The option whose name is closest to the typed one; "": none is close.
 std::string nearest_option(const Command& command, const std::string& typed);
 
-}  // namespace obscura
+}  // namespace obscura::app

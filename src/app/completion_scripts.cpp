@@ -1,11 +1,11 @@
-// app/completion_scripts.cpp - what shells need to complete commands, options and their values.
+// app/completion_scripts.cpp - completion of commands, options and values for shells.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/completion_scripts.h"
 
 #include <algorithm>
 #include <map>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -58,7 +58,7 @@ std::vector<const Command*> shown(const Program& program) {
     return out;
 }
 
-/// What bash does behind an option.
+/// The completion of an option's value in bash.
 std::string bash_action(const BoundOption& option) {
     if (!option.names.empty())
         return "_obscura_words " + in_shell_quotes(joined(option.names, " "));
@@ -66,7 +66,7 @@ std::string bash_action(const BoundOption& option) {
     return ":";
 }
 
-/// What zsh completes an argument with.
+/// The completion of an argument in zsh.
 std::string zsh_action(const BoundOption& option) {
     const std::string files = option.info.files;
     if (!option.names.empty()) return "(" + joined(option.names, " ") + ")";
@@ -247,4 +247,4 @@ std::string fish_completion(const Program& program) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/completion_scripts.h - what shells need to complete commands, options and their values.
+// app/completion_scripts.h - completion of commands, options and values for shells.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace obscura {
+namespace obscura::app {
 
 /// For share/bash-completion/completions/obscura.
 std::string bash_completion(const Program& program);
@@ -17,4 +17,4 @@ std::string zsh_completion(const Program& program);
 /// For share/fish/vendor_completions.d/obscura.fish.
 std::string fish_completion(const Program& program);
 
-}  // namespace obscura
+}  // namespace obscura::app

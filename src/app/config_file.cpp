@@ -1,4 +1,4 @@
-// app/config_file.cpp - options from the file of --config, under those of the command line.
+// app/config_file.cpp - reads the file of --config, whose options the command line overrides.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/config_file.h"
 
@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -67,7 +67,7 @@ tl::unexpected<Error> no_such_option(const Command& command,
                       (helps ? " (did you mean " + near.substr(2) + "?)" : ""));
 }
 
-/// True when one of both may not be given beside the other.
+/// True when one of the two excludes the other.
 bool exclude(const OptionInfo& a, const OptionInfo& b) {
     const auto names = [](const OptionInfo& info, const OptionInfo& other) {
         return std::any_of(info.excludes.begin(), info.excludes.end(), [&](const char* name) {
@@ -173,4 +173,4 @@ Result<void> apply_config(const std::string& file,
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

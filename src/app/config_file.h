@@ -1,4 +1,4 @@
-// app/config_file.h - options from the file of --config, under those of the command line.
+// app/config_file.h - reads the file of --config, whose options the command line overrides.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
 /// One "key = value" of the file.
 struct ConfigItem {
@@ -26,15 +26,15 @@ BoundOption config_option(OptionText& target);
 /// Errors  66 E-CONFIG-MISSING
 Result<std::string> read_config_text(const std::string& file);
 
-/// Gives each option of the file its text, unless it has one or may not stand beside one that was
+/// Gives each option of the file its text, unless it has one already or excludes one that was
 /// given. Keys are the options' names without dashes; those below [render] are for that command
-/// only, and go before those of the whole file.
+/// only and override those of the whole file.
 ///
-/// Errors  64 E-CONFIG-KEY no option of that name, a second time, or a section of no command;
-///         E-CONFIG-VALUE several values, or for a flag neither true nor false
+/// Errors  64 E-CONFIG-KEY no option of that name, a repeated one, or a section of no command;
+///         E-CONFIG-VALUE several values, or a flag that is neither true nor false
 Result<void> apply_config(const std::string& file,
                           const std::vector<ConfigItem>& items,
                           const Command& command,
                           const Program& program);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -13,7 +13,7 @@
 
 #include <span>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -28,17 +28,17 @@ Result<void> check_files(const CrosscheckRequest& request) {
     return {};
 }
 
-/// A loaded scene and how it is looked at.
+/// A loaded scene and its camera.
 struct Loaded {
     Scene scene;
-    CheckTask task;
+    crosscheck::CheckTask task;
 };
 
 Result<void> load(const RenderRequest& request,
                   const CrosscheckRequest& all,
                   Log& log,
                   Loaded& out) {
-    Result<Scene> scene = load_gltf(request.scene, request.load, log);
+    Result<Scene> scene = gltf::load_gltf(request.scene, request.load, log);
     if (!scene) return fail(scene.error());
     out.scene = std::move(*scene);
     const RenderOptions& options = request.options;
@@ -55,32 +55,32 @@ Result<void> load(const RenderRequest& request,
 }
 
 Result<void> deliver(const CrosscheckRequest& request,
-                     const std::vector<CheckedScene>& scenes,
+                     const std::vector<crosscheck::CheckedScene>& scenes,
                      const Log& log) {
     if (request.json) {
-        const std::string text = crosscheck_json(scenes, log.warnings());
+        const std::string text = crosscheck::crosscheck_json(scenes, log.warnings());
         const auto written = write_file_atomically(*request.json, std::as_bytes(std::span(text)));
         if (!written) return written;
     }
     if (request.image) {
-        PictureMetadata metadata;
+        ImageMetadata metadata;
         metadata.software = "Obscura " OBSCURA_VERSION;
         metadata.asset = request.scenes.front().scene.filename().string();
         metadata.is_color = false;
-        const auto written = write_picture(*request.image,
-                                           screen_picture(scenes.front().screen),
-                                           metadata,
-                                           ExrDepth::float32,
-                                           nullptr);
+        const auto written = write_image_file(*request.image,
+                                              crosscheck::screen_image(scenes.front().screen),
+                                              metadata,
+                                              ExrDepth::float32,
+                                              nullptr);
         if (!written) return written;
     }
-    return check_budget(scenes);
+    return crosscheck::check_budget(scenes);
 }
 
 Result<void> execute(const CrosscheckRequest& request, Log& log) {
     if (auto sound = check_files(request); !sound) return sound;
     const ThreadLimit threads(request.scenes.front().threads);
-    std::vector<CheckedScene> checked;
+    std::vector<crosscheck::CheckedScene> checked;
     SkippedScenes skipped(request.scenes.size(), log);
     for (const RenderRequest& scene : request.scenes) {
         log.info("checking " + scene.scene.string());
@@ -90,13 +90,14 @@ Result<void> execute(const CrosscheckRequest& request, Log& log) {
             return done;
         }
         if (request.ray) {
-            const Result<std::string> lines = replay_ray(loaded.scene, *request.ray, scene.isa);
+            const Result<std::string> lines =
+                crosscheck::replay_ray(loaded.scene, *request.ray, scene.isa);
             if (!lines) return fail(lines.error());
             return print_output(*lines);
         }
-        Result<CheckedScene> one = check_scene(loaded.task, log);
+        Result<crosscheck::CheckedScene> one = crosscheck::check_scene(loaded.task, log);
         if (!one) return fail(one.error());
-        if (auto printed = print_output(check_table(*one)); !printed) return printed;
+        if (auto printed = print_output(crosscheck::check_table(*one)); !printed) return printed;
         checked.push_back(std::move(*one));
     }
     if (auto delivered = deliver(request, checked, log); !delivered) return delivered;
@@ -113,4 +114,4 @@ int run_crosscheck(const CrosscheckArguments& arguments) {
     return done ? report_success("crosscheck", log) : report_failure(done.error(), log);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

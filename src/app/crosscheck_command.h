@@ -4,10 +4,10 @@
 
 #include "app/crosscheck_request.h"
 
-namespace obscura {
+namespace obscura::app {
 
 /// Checks every scene, prints the tables and writes what was asked for. Returns the exit code: 1
 /// when a scene is outside the budget.
 int run_crosscheck(const CrosscheckArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -7,13 +7,13 @@
 #include "app/option_readers.h"
 #include "app/render_options.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
 using A = CrosscheckArguments;
 using R = CrosscheckRequest;
-using Row = OptionRow<A, R>;
+using Entry = OptionEntry<A, R>;
 
 constexpr const char* notes = R"(
 Ends with exit code 0 when everything is within the budget of docs/crosscheck.md, 1 otherwise.
@@ -29,12 +29,12 @@ Examples:
       beside the pictures of Embree's own viewer)";
 
 // clang-format off
-constexpr Row scenes[] = {
+constexpr Entry scenes[] = {
     {{.name = "SCENE", .help = "glTF 2.0 files", .fallback = "those in the assets folder",
       .files = "gltf glb"},
      text_at<&A::scenes>}};
 
-constexpr Row check[] = {
+constexpr Entry check[] = {
     {{.name = "--rays", .argument = "N",
       .help = "Rays that are compared, such as 250k, 10M or 1G; as many are spawned and ten times "
               "as many look for leaks. 48 bytes each are kept",
@@ -47,7 +47,7 @@ constexpr Row check[] = {
      text_at<&A::ray>, parsed_at<parse_ray, &R::ray>},
     {assets_option, text_at<&A::assets>}};
 
-constexpr Row report[] = {
+constexpr Entry report[] = {
     {{.name = "--json", .argument = "FILE", .help = "Write all figures as JSON", .files = "json"},
      text_at<&A::json>, name_at<&R::json>},
     {{.name = "--image", .argument = "FILE.png",
@@ -91,4 +91,4 @@ Command crosscheck_command(CrosscheckArguments& arguments) {
     return command;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -5,7 +5,7 @@
 #include "app/command.h"
 #include "app/crosscheck_request.h"
 
-namespace obscura {
+namespace obscura::app {
 
 /// The command's own options.
 std::span<const OptionGroup<CrosscheckArguments, CrosscheckRequest>> crosscheck_option_groups();
@@ -13,4 +13,4 @@ std::span<const OptionGroup<CrosscheckArguments, CrosscheckRequest>> crosscheck_
 /// The subcommand; parsing fills `arguments`, which must outlive it.
 Command crosscheck_command(CrosscheckArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/crosscheck_request.cpp - from the texts of `obscura crosscheck` to a checked request.
+// app/crosscheck_request.cpp - turns the option texts of `obscura crosscheck` into a request.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/crosscheck_request.h"
 
@@ -6,13 +6,13 @@
 #include "app/crosscheck_options.h"
 #include "app/numbers.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
-constexpr uint64_t most_rays = 1000000000000;
+constexpr uint64_t max_rays = 1000000000000;
 
-/// What shows one scene needs to know which.
+/// Options that show one scene need a single scene.
 Result<void> check_one_scene(const CrosscheckArguments& arguments) {
     if (arguments.scenes.size() == 1) return {};
     for (const auto& [option, text] : {std::pair{"--ray", &arguments.ray},
@@ -27,7 +27,7 @@ Result<void> check_one_scene(const CrosscheckArguments& arguments) {
 Result<RenderRequest> request_for(const CrosscheckArguments& arguments, const std::string& scene) {
     RenderArguments render = arguments.render;
     render.scene_file = scene;
-    render.writes_pictures = false;
+    render.writes_images = false;
     if (!render.size) render.size = crosscheck_size;
     for (const auto* output : {&arguments.json, &arguments.image}) {
         if (*output) render.outputs.push_back(**output);
@@ -37,7 +37,7 @@ Result<RenderRequest> request_for(const CrosscheckArguments& arguments, const st
 
 }  // namespace
 
-Result<TrueRay> parse_ray(const std::string& text, const std::string& option) {
+Result<crosscheck::TrueRay> parse_ray(const std::string& text, const std::string& option) {
     const Result<std::vector<double>> numbers =
         parse_numbers(text,
                       option,
@@ -50,7 +50,7 @@ Result<TrueRay> parse_ray(const std::string& text, const std::string& option) {
                        1e18});
     if (!numbers) return fail(numbers.error());
     const std::vector<double>& n = *numbers;
-    TrueRay ray{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+    crosscheck::TrueRay ray{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
     if (n.size() > 6) ray.end = n[6];
     if (static_cast<float>(length(ray.direction)) > 0.0f) return ray;
     return fail(ExitCode::usage, "E-USAGE-RANGE", option, "the direction must not be 0,0,0");
@@ -80,7 +80,7 @@ Result<uint64_t> parse_count(const std::string& text, const std::string& option)
     }
     const Result<uint64_t> number = parse_unsigned(digits, option);
     if (!number) return number;
-    if (*number >= 1 && *number <= most_rays / factor) return *number * factor;
+    if (*number >= 1 && *number <= max_rays / factor) return *number * factor;
     return fail(ExitCode::usage,
                 "E-USAGE-RANGE",
                 option,
@@ -104,4 +104,4 @@ Result<CrosscheckRequest> make_crosscheck_request(const CrosscheckArguments& arg
     return request;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

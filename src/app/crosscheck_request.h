@@ -1,4 +1,4 @@
-// app/crosscheck_request.h - everything that `obscura crosscheck` was asked for, checked.
+// app/crosscheck_request.h - the request of `obscura crosscheck`, checked.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
 /// The texts of the options as they stood on the command line. Size, seed, threads, isa, camera,
 /// quiet and verbose are those of `render`.
@@ -23,19 +23,19 @@ struct CrosscheckArguments {
 struct CrosscheckRequest {
     std::vector<RenderRequest> scenes;  ///< at least one; they differ in the scene alone
     uint64_t rays = 1000000;
-    std::optional<TrueRay> ray;  ///< only this one
+    std::optional<crosscheck::TrueRay> ray;  ///< only this one
     std::optional<std::filesystem::path> json;
     std::optional<std::filesystem::path> image;
     std::optional<std::filesystem::path> export_embree;
 };
 
-/// What the command takes without --size.
+/// Defaults of --size.
 inline constexpr const char* crosscheck_size = "640x360";
 
 /// "ox,oy,oz,dx,dy,dz" or with an end behind.
 ///
 /// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE
-Result<TrueRay> parse_ray(const std::string& text, const std::string& option);
+Result<crosscheck::TrueRay> parse_ray(const std::string& text, const std::string& option);
 
 /// "250000", "10M": a whole number, or one with k, M or G behind it.
 ///
@@ -47,4 +47,4 @@ Result<uint64_t> parse_count(const std::string& text, const std::string& option)
 /// Errors  those of make_render_request, with the same ids for the own options; 67 E-BENCH-ASSETS
 Result<CrosscheckRequest> make_crosscheck_request(const CrosscheckArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

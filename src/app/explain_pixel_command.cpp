@@ -15,13 +15,13 @@
 #include "session/requested_camera.h"
 #include <span>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
-/// Reads X,Y, once the picture's size is known.
+/// Reads X,Y, once the image's size is known.
 ///
-/// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE it is not in the picture
+/// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE it is not in the image
 Result<PixelPlace> parse_place(const std::string& text, const RenderOptions& options) {
     const Result<std::array<int, 2>> pixel = parse_pixel(text, "PIXEL");
     if (!pixel && pixel.error().id != "E-USAGE-RANGE") return fail(pixel.error());
@@ -54,8 +54,8 @@ Result<ExplainRequest> make_request(const ExplainPixelArguments& arguments, Log&
     const auto table = explain_pixel_option_groups();
     if (auto read = read_options(table, texts, request); !read) return fail(read.error());
     RenderArguments render = arguments.render;
-    render.writes_pictures = false;
-    if (arguments.output) render.outputs = {*arguments.output};  // must not replace what is read
+    render.writes_images = false;
+    if (arguments.output) render.outputs = {*arguments.output};  // must not overwrite inputs
     Result<RenderRequest> made = make_render_request(render);
     if (!made) return fail(made.error());
     request.render = std::move(*made);
@@ -80,11 +80,11 @@ Result<ExplainRequest> make_request(const ExplainPixelArguments& arguments, Log&
 
 Result<PixelReport> explain(const ExplainRequest& request, Log& log) {
     const RenderRequest& render = request.render;
-    Result<Scene> scene = load_gltf(render.scene, render.load, log);
+    Result<Scene> scene = gltf::load_gltf(render.scene, render.load, log);
     if (!scene) return fail(scene.error());
     Result<ChosenCamera> camera = choose_unfocused_camera(*scene, render, log);
     if (!camera) return fail(camera.error());
-    if (has_strokes(*scene)) size_strokes(render.strokes, camera->camera, *scene);
+    if (has_points_lines(*scene)) size_points_lines(render.points_lines, camera->camera, *scene);
     const Result<LightingOptions> lighting = load_lighting(render, log);
     if (!lighting) return fail(lighting.error());
     const Result<PreparedScene> prepared =
@@ -100,7 +100,7 @@ Result<PixelReport> explain(const ExplainRequest& request, Log& log) {
     task.pixel = request.pixel;
     task.file = render.scene.filename().string();
     task.camera_name = camera->description;
-    task.most_objects = request.most_objects;
+    task.max_objects = request.max_objects;
     task.draws = request.output.has_value();
     return explain_pixel(task);
 }
@@ -126,4 +126,4 @@ int run_explain_pixel(const ExplainPixelArguments& arguments) {
     return report_success(request->render.scene.string(), log);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -9,10 +9,10 @@
 #include <optional>
 #include <string>
 
-namespace obscura {
+namespace obscura::app {
 
-/// The texts of the options as they stood on the command line. The scene, the picture's size, the
-/// camera, the light and the rest are those of `render`.
+/// The texts of the options as they stood on the command line. Scene, size, camera, light and the
+/// rest are those of `render`.
 struct ExplainPixelArguments {
     RenderArguments render;
     std::string pixel;  ///< "X,Y"
@@ -20,16 +20,16 @@ struct ExplainPixelArguments {
     bool json = false;
 };
 
-/// Everything that was asked for, checked.
+/// The checked request.
 struct ExplainRequest {
     RenderRequest render;
     PixelPlace pixel;
     std::optional<std::filesystem::path> output;
-    size_t most_objects = 16;
+    size_t max_objects = 16;
     bool json = false;
 };
 
-/// Prints how one pixel comes about, and draws it. Returns the exit code.
+/// Prints how one pixel is computed, and draws it. Returns the exit code.
 int run_explain_pixel(const ExplainPixelArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -5,13 +5,13 @@
 #include "app/option_readers.h"
 #include "app/render_options.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
 using A = ExplainPixelArguments;
 using R = ExplainRequest;
-using Row = OptionRow<A, R>;
+using Entry = OptionEntry<A, R>;
 
 constexpr const char* notes = R"(
 Prints the ray through the pixel's middle, what it meets with all numbers of the formulas, and the
@@ -25,13 +25,13 @@ Examples:
   obscura explain-pixel helmet.glb 640,360 --json | jq .seen)";
 
 // clang-format off
-constexpr Row places[] = {
+constexpr Entry places[] = {
     {{.name = "SCENE", .help = "glTF 2.0 file, .gltf or .glb", .files = "gltf glb"},
      text_at<&A::render, &RenderArguments::scene_file>},
     {{.name = "PIXEL", .help = "X,Y: a pixel, counted from 0 at the top left corner"},
      text_at<&A::pixel>}};
 
-constexpr Row report[] = {
+constexpr Entry report[] = {
     {{.name = "-o,--output", .argument = "FILE.svg",
       .help = "Draw the plane that holds the ray and the normal: cross sections of the objects in "
               "it, a numbered dot at each place that is met, the normal N, the directions L of the "
@@ -43,7 +43,7 @@ constexpr Row report[] = {
     {{.name = "--objects", .argument = "N",
       .help = "Objects near the ray that are listed, those that are met first",
       .range = {1, 100000}},
-     text_at<&A::objects>, number_at<&R::most_objects>}};
+     text_at<&A::objects>, number_at<&R::max_objects>}};
 // clang-format on
 
 constexpr OptionGroup<A, R> groups[] = {{"", places}, {"Report", report}};
@@ -74,4 +74,4 @@ Command explain_pixel_command(ExplainPixelArguments& arguments) {
     return command;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

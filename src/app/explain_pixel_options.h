@@ -5,7 +5,7 @@
 #include "app/command.h"
 #include "app/explain_pixel_command.h"
 
-namespace obscura {
+namespace obscura::app {
 
 /// The command's own options.
 std::span<const OptionGroup<ExplainPixelArguments, ExplainRequest>> explain_pixel_option_groups();
@@ -13,4 +13,4 @@ std::span<const OptionGroup<ExplainPixelArguments, ExplainRequest>> explain_pixe
 /// The subcommand; parsing fills `arguments`, which must outlive it.
 Command explain_pixel_command(ExplainPixelArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

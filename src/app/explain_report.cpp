@@ -1,4 +1,4 @@
-// app/explain_report.cpp - what `obscura info --explain` says: the fate of every part's wishes.
+// app/explain_report.cpp - `obscura info --explain`: the support of every feature in a file.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/explain_report.h"
 
@@ -9,7 +9,7 @@
 #include <array>
 #include <fmt/format.h>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -17,8 +17,8 @@ constexpr std::array verdicts = {Verdict::honoured, Verdict::approximated, Verdi
 
 size_t count_of(const AssetInfo& info, Verdict verdict) {
     size_t out = 0;
-    for (const ReportRow& row : info.report)
-        out += row.verdict == verdict ? 1U : 0U;
+    for (const ReportEntry& entry : info.report)
+        out += entry.verdict == verdict ? 1U : 0U;
     return out;
 }
 
@@ -27,19 +27,21 @@ size_t count_of(const AssetInfo& info, Verdict verdict) {
 std::string explain_table(const AssetInfo& info) {
     std::string text;
     const std::string* place = nullptr;
-    for (const ReportRow& row : info.report) {
-        if (place == nullptr || *place != row.place) text += escape_control(row.place) + "\n";
-        place = &row.place;
+    for (const ReportEntry& entry : info.report) {
+        if (place == nullptr || *place != entry.place) text += escape_control(entry.place) + "\n";
+        place = &entry.place;
         text += fmt::format("  {:<12} {}{}{}\n",
-                            verdict_name(row.verdict),
-                            escape_control(row.feature),
-                            row.note.empty() ? "" : ": ",
-                            row.note);
+                            gltf::verdict_name(entry.verdict),
+                            escape_control(entry.feature),
+                            entry.note.empty() ? "" : ": ",
+                            entry.note);
     }
     std::string counts;
     for (const Verdict verdict : verdicts) {
-        counts += fmt::format(
-            "{}{} {}", counts.empty() ? "" : ", ", count_of(info, verdict), verdict_name(verdict));
+        counts += fmt::format("{}{} {}",
+                              counts.empty() ? "" : ", ",
+                              count_of(info, verdict),
+                              gltf::verdict_name(verdict));
     }
     return text + counts + "\n";
 }
@@ -49,15 +51,15 @@ std::string explain_json(const AssetInfo& info) {
     json["version"] = OBSCURA_VERSION;
     json["file"] = info.file_name;
     for (const Verdict verdict : verdicts)
-        json[verdict_name(verdict)] = count_of(info, verdict);
+        json[gltf::verdict_name(verdict)] = count_of(info, verdict);
     Json& report = json["report"] = Json::array();
-    for (const ReportRow& row : info.report) {
-        report.push_back({{"place", row.place},
-                          {"feature", row.feature},
-                          {"verdict", verdict_name(row.verdict)},
-                          {"note", row.note}});
+    for (const ReportEntry& entry : info.report) {
+        report.push_back({{"place", entry.place},
+                          {"feature", entry.feature},
+                          {"verdict", gltf::verdict_name(entry.verdict)},
+                          {"note", entry.note}});
     }
     return json_document(json);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

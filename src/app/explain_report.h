@@ -1,4 +1,4 @@
-// app/explain_report.h - what `obscura info --explain` says: the fate of every part's wishes.
+// app/explain_report.h - `obscura info --explain`: the support of every feature in a file.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,12 +6,12 @@
 
 #include <string>
 
-namespace obscura {
+namespace obscura::app {
 
-/// For people: a part of the file a paragraph, what it asks for below it. Names are escaped.
+/// For people: a paragraph for each part of the file, with its features. Names are escaped.
 std::string explain_table(const AssetInfo& info);
 
 /// For scripts: one document; docs/cli.md explains the keys.
 std::string explain_json(const AssetInfo& info);
 
-}  // namespace obscura
+}  // namespace obscura::app

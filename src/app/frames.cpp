@@ -4,13 +4,13 @@
 
 #include "app/numbers.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
 constexpr int64_t last_frame = 999999;
 
-constexpr double most_frames_open = 1000;
+constexpr double max_frames_open = 1000;
 
 }  // namespace
 
@@ -22,8 +22,8 @@ Result<ShutterFractions> parse_shutter_interval(const std::string& text) {
     const NumberList list{"OPEN,CLOSE such as 0,0.5, the second greater than the first",
                           2,
                           2,
-                          -most_frames_open,
-                          most_frames_open};
+                          -max_frames_open,
+                          max_frames_open};
     const Result<std::vector<double>> numbers = parse_numbers(text, "--shutter", list);
     if (!numbers) return fail(numbers.error());
     const ShutterFractions out{(*numbers)[0], (*numbers)[1]};
@@ -54,4 +54,4 @@ Result<FrameRange> parse_frames(std::string_view text, std::string_view option) 
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

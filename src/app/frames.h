@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace obscura {
+namespace obscura::app {
 
 /// True for a --shutter of the form OPEN,CLOSE; one of seconds is an exposure time.
 bool is_shutter_interval(std::string_view text);
@@ -24,4 +24,4 @@ Result<ShutterFractions> parse_shutter_interval(const std::string& text);
 ///         first
 Result<FrameRange> parse_frames(std::string_view text, std::string_view option);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -8,7 +8,7 @@
 #include "app/scene_choice.h"
 #include "gltf/load.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -23,15 +23,15 @@ std::string report_text(const InfoArguments& arguments, const Scene& scene, cons
 
 int run_info(const InfoArguments& arguments) {
     TerminalLog log(arguments.quiet ? Verbosity::quiet : Verbosity::normal);
-    Result<LoadOptions> options = choose_scene(arguments.scene, arguments.variant);
+    Result<gltf::LoadOptions> options = choose_scene(arguments.scene, arguments.variant);
     if (!options) return report_failure(options.error(), log);
     options->info_only = true;
     options->lenient = arguments.lenient;
-    const Result<Scene> scene = load_gltf(arguments.scene_file, *options, log);
+    const Result<Scene> scene = gltf::load_gltf(arguments.scene_file, *options, log);
     if (!scene) return report_failure(scene.error(), log);
     const Result<void> printed = print_output(report_text(arguments, *scene, log));
     if (!printed) return report_failure(printed.error(), log);
     return report_success(arguments.scene_file, log);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace obscura {
+namespace obscura::app {
 
 struct InfoArguments {
     std::string scene_file;
@@ -16,7 +16,7 @@ struct InfoArguments {
     bool lenient = false;
 };
 
-/// Prints what is in the file, or what becomes of it, as a table or as JSON. Returns the exit code.
+/// Prints the contents of the file, or their support, as a table or as JSON. Returns the exit code.
 int run_info(const InfoArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/info_json.cpp - what `obscura info --json` says about a scene.
+// app/info_json.cpp - `obscura info --json`: a scene as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/info_report.h"
 #include "base/json/json.h"
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -42,8 +42,8 @@ Json matrix_json(const Affined& matrix) {
     return out;
 }
 
-/// World to normalised device coordinates in the picture that the file's camera names, where there
-/// is such a matrix; for column vectors, row by row.
+/// World to normalised device coordinates in the image that the file's camera names, if there is
+/// such a matrix; for column vectors, row by row.
 void add_ndc(const SceneCamera& source, const Affined& rigid, Json& json) {
     const bool parallel = source.type == SceneCameraType::orthographic;
     const double aspect = parallel ? source.xmag_m / source.ymag_m : source.aspect;
@@ -198,4 +198,4 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     return json_document(json);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -5,12 +5,12 @@
 #include "app/option_readers.h"
 #include "gltf/load.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
 using A = InfoArguments;
-using Row = OptionRow<A, LoadOptions>;
+using Entry = OptionEntry<A, gltf::LoadOptions>;
 
 constexpr const char* notes = R"(
 Reads the whole file and checks it, but decodes no image; see `obscura render --help` for
@@ -24,7 +24,7 @@ Examples:
       what the file asks for, part by part: honoured, approximated (how), ignored (why))";
 
 // clang-format off
-constexpr Row rows[] = {
+constexpr Entry entries[] = {
     {{.name = "SCENE", .help = "glTF 2.0 file, .gltf or .glb", .files = "gltf glb"},
      text_at<&A::scene_file>},
     {{.name = "--json", .help = "Print JSON instead of a table"}, text_at<&A::json>},
@@ -38,19 +38,20 @@ constexpr Row rows[] = {
       .help = "Print what becomes of every extension and feature, part by part"},
      text_at<&A::explain>},
     {{.name = "--lenient", .help = "Make do with faults as `obscura render --lenient` does"},
-     text_at<&A::lenient>, flag_at<&LoadOptions::lenient>},
+     text_at<&A::lenient>, flag_at<&gltf::LoadOptions::lenient>},
     {{.name = "--quiet", .help = "Print no warnings"}, text_at<&A::quiet>}};
 // clang-format on
 
-constexpr OptionGroup<A, LoadOptions> groups[] = {{"", rows}};
+constexpr OptionGroup<A, gltf::LoadOptions> groups[] = {{"", entries}};
 
 }  // namespace
 
 Command info_command(InfoArguments& arguments) {
     Command command{"info", "Print what a scene file holds", notes};
-    command.options = bind_all(std::span<const OptionGroup<A, LoadOptions>>(groups), arguments);
+    command.options =
+        bind_all(std::span<const OptionGroup<A, gltf::LoadOptions>>(groups), arguments);
     command.run = [&arguments] { return run_info(arguments); };
     return command;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -5,9 +5,9 @@
 #include "app/command.h"
 #include "app/info_command.h"
 
-namespace obscura {
+namespace obscura::app {
 
 /// The subcommand; parsing fills `arguments`, which must outlive it.
 Command info_command(InfoArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/info_report.cpp - what `obscura info` says about a scene, as text and as JSON.
+// app/info_report.cpp - `obscura info`: a scene as text and as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/info_report.h"
 
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <numeric>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -188,10 +188,10 @@ const char* camera_model_name(const SceneCamera& camera) {
 
 std::vector<std::string> file_materials(const Scene& scene) {
     std::vector<std::string> names;
-    for (size_t row = 0; row < scene.material_names.size(); ++row) {
-        // Further rows of one material come after the first of each.
-        const bool is_next = scene.material_numbers[row] == static_cast<int32_t>(names.size());
-        if (is_next) names.push_back(scene.material_names[row]);
+    for (size_t index = 0; index < scene.material_names.size(); ++index) {
+        // Reduced copies of a material follow the first of each.
+        const bool is_next = scene.material_numbers[index] == static_cast<int32_t>(names.size());
+        if (is_next) names.push_back(scene.material_names[index]);
     }
     return names;
 }
@@ -252,4 +252,4 @@ std::string info_table(const Scene& scene) {
     return text;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

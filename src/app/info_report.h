@@ -1,4 +1,4 @@
-// app/info_report.h - what `obscura info` says about a scene, as text and as JSON.
+// app/info_report.h - `obscura info`: a scene as text and as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
 /// For people: one heading a line, details below it. Names are escaped.
 std::string info_table(const Scene& scene);
@@ -30,4 +30,4 @@ const char* light_unit_name(const PunctualLight& light);   ///< "candela", "lux"
 const char* camera_type_name(const SceneCamera& camera);   ///< "perspective", "orthographic"
 const char* camera_model_name(const SceneCamera& camera);  ///< as --camera-model has it
 
-}  // namespace obscura
+}  // namespace obscura::app

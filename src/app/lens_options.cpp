@@ -1,4 +1,4 @@
-// app/lens_options.cpp - the options that make a camera more than a pinhole: their table.
+// app/lens_options.cpp - the table of the options for cameras beyond the pinhole.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/lens_options.h"
 
@@ -7,7 +7,7 @@
 #include "app/render_request.h"
 #include "scene/camera_setting_table.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -16,7 +16,7 @@ using C = CameraRequest;
 using L = LensArguments;
 using R = RenderRequest;
 using S = CameraSettings;
-using Row = OptionRow<A, R>;
+using Entry = OptionEntry<A, R>;
 
 constexpr double millimetre = 1e-3;
 constexpr double degree = pi_d / 180;
@@ -25,24 +25,24 @@ constexpr double degree = pi_d / 180;
 template <auto member>
 constexpr auto setting_choices = camera_setting_of<member>().choices;
 
-/// A row whose range, in the unit of the option, and names are those of the table of settings.
+/// An entry with the range and names of the table of settings, in the option's unit.
 template <auto text, auto member, size_t least = 0>
-constexpr Row setting(OptionInfo info) {
+constexpr Entry setting(OptionInfo info) {
     using T = FieldValue<member>;
     const auto& range = camera_setting_of<member>().info.range;
     if (!(info.range.low < info.range.high)) {
         info.range = {range.low / info.scale, range.high / info.scale};
     }
-    Row row{info, text_at<&A::lens, text>};
+    Entry entry{info, text_at<&A::lens, text>};
     if constexpr (std::is_enum_v<T>) {
-        row.reader = choice_at<setting_choices<member>, &R::camera, &C::settings, member>;
+        entry.reader = choice_at<setting_choices<member>, &R::camera, &C::settings, member>;
     } else if constexpr (std::is_arithmetic_v<T>) {
-        row.reader = number_at<&R::camera, &C::settings, member>;
+        entry.reader = number_at<&R::camera, &C::settings, member>;
     } else {
         constexpr size_t all = std::tuple_size_v<T>;
-        row.reader = numbers_at < least == 0 ? all : least, &R::camera, &C::settings, member > ;
+        entry.reader = numbers_at < least == 0 ? all : least, &R::camera, &C::settings, member > ;
     }
-    return row;
+    return entry;
 }
 
 /// "36x24" in millimetres.
@@ -78,7 +78,7 @@ Result<void> read_shutter(const OptionInfo& info, const std::string& text, R& re
 }
 
 // clang-format off
-constexpr Row film[] = {
+constexpr Entry film[] = {
     {{.name = "--camera-json", .argument = "FILE",
       .help = "A camera as computer vision writes it: fx fy cx cy, distortion, world to camera "
               "(docs/cameras.md)",
@@ -107,7 +107,7 @@ constexpr Row film[] = {
     setting<&L::far_m, &S::far_m>({.name = "--far", .argument = "METRES",
         .help = "Show nothing further", .fallback = "all is shown"})};
 
-constexpr Row thin_lens[] = {
+constexpr Entry thin_lens[] = {
     setting<&L::fstop, &S::fstop>({.name = "--fstop", .argument = "N",
         .help = "Focal length over opening; without --focal-length it is that of 35 mm film"}),
     setting<&L::lens_radius, &S::lens_radius_m>({.name = "--lens-radius", .argument = "METRES",
@@ -130,7 +130,7 @@ constexpr Row thin_lens[] = {
       .files = "png jpg jpeg webp ktx2", .excludes = {"--blades"}},
      text_at<&A::lens, &L::aperture>, name_at<&R::camera, &C::settings, &S::aperture_file>}};
 
-constexpr Row fisheye[] = {
+constexpr Entry fisheye[] = {
     setting<&L::fisheye, &S::fisheye>({.name = "--fisheye", .argument = "NAME",
         .help = "How angles become distances from the middle:", .fallback = "equidistant"}),
     setting<&L::fisheye_fit, &S::fisheye_fit>({.name = "--fisheye-fit", .argument = "NAME",
@@ -140,7 +140,7 @@ constexpr Row fisheye[] = {
         .argument = "K1,K2,K3,K4", .help = "Of the opencv fisheye (Kannala-Brandt)",
         .accepted = "K1,K2,K3,K4, each from -1e6 to 1e6", .fallback = "0,0,0,0"})};
 
-constexpr Row around[] = {
+constexpr Entry around[] = {
     setting<&L::environment, &S::environment>({.name = "--environment", .argument = "NAME",
         .help = "How directions lie in the picture:", .fallback = "latlong"}),
     setting<&L::stereo, &S::stereo_m>({.name = "--stereo", .argument = "METRES",
@@ -151,7 +151,7 @@ constexpr Row around[] = {
         .help = "world: +X in the middle, as --env reads maps; view: what is ahead",
         .fallback = "world"})};
 
-constexpr Row exposure[] = {
+constexpr Entry exposure[] = {
     {{.name = "--shutter", .argument = "SECONDS|OPEN,CLOSE",
       .help = "Such as 0.008 or 1/125; needs --fstop. Or OPEN,CLOSE, in frames from the picture's "
               "time, such as 0,0.5: motion blur in every kind of picture"},
@@ -174,4 +174,4 @@ std::span<const OptionGroup<A, R>> lens_option_groups() {
     return groups;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,10 +1,14 @@
-// app/lens_options.h - the options that make a camera more than a pinhole: their texts and table.
+// app/lens_options.h - the options for cameras beyond the pinhole: texts and table.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "app/option_row.h"
+#include "app/option_entry.h"
 
 namespace obscura {
+struct RenderRequest;
+}  // namespace obscura
+
+namespace obscura::app {
 
 /// The texts of these options as they stood on the command line.
 struct LensArguments {
@@ -18,9 +22,8 @@ struct LensArguments {
 };
 
 struct RenderArguments;
-struct RenderRequest;
 
-/// Under headings of their own.
+/// Each group has its own heading.
 std::span<const OptionGroup<RenderArguments, RenderRequest>> lens_option_groups();
 
-}  // namespace obscura
+}  // namespace obscura::app

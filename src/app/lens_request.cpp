@@ -1,10 +1,10 @@
-// app/lens_request.cpp - what the lens options mean together, and for which camera models.
+// app/lens_request.cpp - checks lens options together and against the camera model.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/lens_request.h"
 
 #include "session/model_settings.h"
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -27,7 +27,7 @@ Result<void> complete_lens(const LensArguments& arguments,
     }
     // Only a lens can be focused.
     if (arguments.focus_on && !implied_model(settings)) settings.model = CameraModel::thin_lens;
-    // Without a model in sight the file decides: then choose_camera asks the same.
+    // Without --camera-model the file decides: choose_camera checks later.
     const std::optional<CameraModel> meant = model ? model : implied_model(settings);
     if (!meant) return {};
     if (arguments.focus_on && *meant != CameraModel::thin_lens) {
@@ -38,4 +38,4 @@ Result<void> complete_lens(const LensArguments& arguments,
     return check_model_has(settings, *meant);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/lens_request.h - what the lens options mean together, and for which camera models.
+// app/lens_request.h - checks lens options together and against the camera model.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,15 +6,15 @@
 #include "base/error.h"
 #include "scene/camera_settings.h"
 
-namespace obscura {
+namespace obscura::app {
 
-/// Looks at the settings that were read as a whole, and lets --focus-on mean a lens.
+/// Checks the parsed settings as a whole; --focus-on implies a lens.
 ///
 /// In      model: --camera-model, if it was given
-/// Errors  64 E-USAGE-CONFLICT: options that exclude each other, or that the model which they or
-///         --camera-model mean does not have
+/// Errors  64 E-USAGE-CONFLICT: options that exclude each other, or that the camera model does not
+///         have
 Result<void> complete_lens(const LensArguments& arguments,
                            const std::optional<CameraModel>& model,
                            CameraSettings& settings);
 
-}  // namespace obscura
+}  // namespace obscura::app

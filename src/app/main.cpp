@@ -1,4 +1,4 @@
-// app/main.cpp - starts the program and turns what nobody caught into an exit code.
+// app/main.cpp - starts the program and turns uncaught exceptions into an exit code.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/program.h"
 
@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
     try {
-        return obscura::run_program(argc, argv);
+        return obscura::app::run_program(argc, argv);
     } catch (const std::bad_alloc&) {
         std::fputs(
             "ERROR out of memory; a smaller --size or smaller textures need less\n"

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <system_error>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -208,4 +208,4 @@ Result<std::vector<double>> parse_numbers(std::string_view text,
     return numbers;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
-/// Numbers are read alike in every locale: a point, no grouping, no blanks, nothing behind them.
+/// Numbers are read alike in every locale: a point, no grouping, no blanks, nothing else.
 ///
 /// In      option: the name for messages, such as "--spp"; low, high: inclusive
 /// Errors  64 E-USAGE-NUMBER not a number, 64 E-USAGE-RANGE outside [low, high]; both say what
@@ -53,7 +53,7 @@ Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_vi
 /// "X,Y" of pixels from the top left corner, each at least 0.
 Result<std::array<int, 2>> parse_pixel(std::string_view text, std::string_view option);
 
-/// What a list of numbers may be.
+/// Limits of a list of numbers.
 struct NumberList {
     std::string accepted;  ///< for messages
     size_t least, most;    ///< how many
@@ -65,4 +65,4 @@ Result<std::vector<double>> parse_numbers(std::string_view text,
                                           std::string_view option,
                                           const NumberList& list);
 
-}  // namespace obscura
+}  // namespace obscura::app

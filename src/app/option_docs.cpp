@@ -1,15 +1,15 @@
-// app/option_docs.cpp - the tables of options as a man page and as the tables of docs/cli.md.
+// app/option_docs.cpp - writes the tables of options as a man page and for docs/cli.md.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/option_docs.h"
 
 #include <algorithm>
 #include <cstring>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
-/// True when a command before `command` has the same option with the same words.
+/// True when an earlier command has the same option with the same text.
 bool is_shared(const Program& program, const Command& command, const BoundOption& option) {
     const auto same = [&](const BoundOption& other) {
         return std::strcmp(other.info.name, option.info.name) == 0 &&
@@ -36,7 +36,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
     return text;
 }
 
-/// The names of options that stand elsewhere, as a list; "" when there are none.
+/// The names of options described elsewhere, as a list; "" when there are none.
 std::string shared_names(const Program& program,
                          const Command& command,
                          const std::string& begin,
@@ -173,4 +173,4 @@ Result<std::string> with_markdown_tables(const Program& program, const std::stri
     return out + document.substr(done);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,15 +1,15 @@
-// app/option_readers.h - how rows of option tables find their texts and read them into requests.
+// app/option_readers.h - how entries of option tables find their texts and are parsed.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "app/numbers.h"
-#include "app/option_row.h"
+#include "app/option_entry.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <type_traits>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace option_detail {
 
@@ -59,7 +59,7 @@ template <auto... path>
 using FieldValue = typename option_detail::Value<
     std::remove_cvref_t<decltype(field<path...>(std::declval<RootOf<path...>&>()))>>::Type;
 
-/// Where a row's text is put.
+/// Where the text of an entry's option is kept.
 template <auto... path>
 OptionTarget text_at(RootOf<path...>& arguments) {
     return &field<path...>(arguments);
@@ -94,7 +94,7 @@ std::string show_number(const OptionInfo& info, const RootOf<path...>& request) 
     return value ? shortest(static_cast<double>(*value) / info.scale) : "";
 }
 
-/// A number of the row's range, times its scale; without a range any that is not negative.
+/// A number in the entry's range, times its scale; without a range any that is not negative.
 template <auto... path>
 inline constexpr OptionReader<RootOf<path...>> number_at = {
     .read = read_number<path...>, .show = show_number<path...>, .names = nullptr};
@@ -112,7 +112,7 @@ Result<void> read_numbers(const OptionInfo& info,
     return {};
 }
 
-/// A list that fills an array; those that are not given, beyond `least`, are zero.
+/// A list that fills an array; missing numbers beyond `least` are zero.
 template <size_t least, auto... path>
 inline constexpr OptionReader<RootOf<path...>> numbers_at = {.read = read_numbers<least, path...>};
 
@@ -126,11 +126,11 @@ Result<void> read_parsed(const OptionInfo& info,
     return {};
 }
 
-/// Whatever `parse(text, option)` makes of it.
+/// The result of `parse(text, option)`.
 template <auto parse, auto... path>
 inline constexpr OptionReader<RootOf<path...>> parsed_at = {.read = read_parsed<parse, path...>};
 
-/// The value that a list of {name, value} gives to a text.
+/// The value of a name in a list of {name, value}.
 ///
 /// Errors  64 E-USAGE-CHOICE, with all names
 template <typename List>
@@ -180,7 +180,7 @@ inline constexpr OptionReader<RootOf<path...>> choice_at = {.read = read_choice<
                                                             .show = show_choice<choices, path...>,
                                                             .names = choice_names<choices>};
 
-/// The name of a thing or a file; an empty one is most likely an unset variable of a script.
+/// A name or a file; an empty one is most likely an unset variable of a script.
 ///
 /// Errors  64 E-USAGE-CONFLICT
 Result<std::string> parse_name(const std::string& text, const std::string& option);
@@ -200,4 +200,4 @@ Result<void> read_flag(const OptionInfo& /*info*/,
 template <auto... path>
 inline constexpr OptionReader<RootOf<path...>> flag_at = {.read = read_flag<path...>};
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/outcome.cpp - how a command ends.
+// app/outcome.cpp - ends a command: message, result line, exit code.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/outcome.h"
 
@@ -9,11 +9,11 @@
 #include <cstdio>
 #include <cstring>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
-/// For a terminal, settings called as their options are.
+/// Settings in messages are named as command line options.
 std::string shown(const std::string& text) {
     return escape_control(spell_settings(text, SettingNames::options));
 }
@@ -30,7 +30,7 @@ std::string one_word(const std::string& text) {
     return out.empty() ? "-" : out;
 }
 
-/// "ERROR where: message [E-ID]"; a sum of others has neither place nor id.
+/// "ERROR where: message [E-ID]"; a summary of others has neither position nor id.
 std::string error_line(const Error& error) {
     const std::string where = error.where.empty() ? "" : shown(error.where) + ": ";
     const std::string id = error.id.empty() ? "" : " [" + error.id + "]";
@@ -95,4 +95,4 @@ int report_stop(int signal, const std::string& where, const Log& log) {
     return 128 + signal;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

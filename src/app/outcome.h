@@ -1,4 +1,4 @@
-// app/outcome.h - how a command ends: the message for people, the line for scripts, the exit code.
+// app/outcome.h - ends a command: message for people, result line, exit code.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,10 +7,10 @@
 
 #include <string>
 
-namespace obscura {
+namespace obscura::app {
 
-/// The log of a command: "WARN where: text" and "INFO text" on standard error, where settings are
-/// called as their options are.
+/// The log of a command: "WARN where: text" and "INFO text" on standard error; settings are named
+/// as command line options.
 class TerminalLog : public Log {
 public:
     explicit TerminalLog(Verbosity verbosity = Verbosity::normal);
@@ -20,7 +20,7 @@ public:
 /// blanks and control characters are written as \xNN, an empty one as "-".
 std::string result_line(int code, const std::string& id, const std::string& where, size_t warnings);
 
-/// Writes a command's result to standard output. A closed pipe is the reader's wish.
+/// Writes a command's result to standard output. A closed pipe is no error: its reader has enough.
 ///
 /// Errors  74 E-OUT-WRITE such as a full disk
 Result<void> print_output(const std::string& text);
@@ -32,8 +32,8 @@ int report_failure(const Error& error, const Log& log);
 /// Prints the result line with code 0 unless quiet; returns 0.
 int report_success(const std::string& where, const Log& log);
 
-/// Prints what ended the command and the result line with code 128 + signal, then lets the signal
-/// end the process.
+/// Prints the reason and the result line with code 128 + signal, then lets the signal end the
+/// process.
 int report_stop(int signal, const std::string& where, const Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::app

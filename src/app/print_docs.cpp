@@ -1,4 +1,4 @@
-// app/print_docs.cpp - the hidden subcommand print-docs: what is generated from the tables.
+// app/print_docs.cpp - the hidden subcommand print-docs: texts generated from the tables.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/print_docs.h"
 
@@ -12,7 +12,7 @@
 #include <span>
 #include <sstream>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -77,4 +77,4 @@ Command print_docs_command(PrintDocsArguments& arguments, const Program& program
     return command;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

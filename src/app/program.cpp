@@ -17,7 +17,7 @@
 
 #include <cstdio>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -49,7 +49,7 @@ Program describe(Arguments& arguments) {
     program.notes = notes;
     program.version = "obscura " OBSCURA_VERSION "\nEmbree " OBSCURA_EMBREE_VERSION
                       "\ncompiled by " +
-                      compiler_name();
+                      bench::compiler_name();
     program.commands = {render_command(arguments.render),
                         info_command(arguments.info),
                         bench_command(arguments.bench),
@@ -75,4 +75,4 @@ int run_program(int argc, char** argv) {
     return 0;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace obscura {
+namespace obscura::app {
 
-/// Runs the command line; returns the exit code. Throws only std::bad_alloc and what is a bug.
+/// Runs the command line; returns the exit code. Throws only std::bad_alloc and on bugs.
 int run_program(int argc, char** argv);
 
-}  // namespace obscura
+}  // namespace obscura::app

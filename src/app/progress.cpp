@@ -1,4 +1,4 @@
-// app/progress.cpp - how far the work is: a bar for people, lines for render farms.
+// app/progress.cpp - progress: a bar for people, lines for render farms.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/progress.h"
 
@@ -8,12 +8,12 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
-constexpr double least_gap_s = 1.0;
-constexpr double most_gap_s = 30.0;
+constexpr double min_gap_s = 1.0;
+constexpr double max_gap_s = 30.0;
 constexpr std::chrono::milliseconds bar_period{200};
 constexpr std::chrono::milliseconds line_period{250};
 
@@ -42,28 +42,29 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-std::optional<int> ProgressPacer::due(double now_s, double share) {
-    const int percent = std::clamp(static_cast<int>(100 * share), 0, 99);
+std::optional<int> ProgressPacer::due(double now_s, double fraction) {
+    const int percent = std::clamp(static_cast<int>(100 * fraction), 0, 99);
     if (last_time_s_) {
         const double gap = now_s - *last_time_s_;
         const bool rose = percent > last_percent_;
-        if (gap < (rose ? least_gap_s : most_gap_s)) return std::nullopt;
+        if (gap < (rose ? min_gap_s : max_gap_s)) return std::nullopt;
     }
     last_time_s_ = now_s;
     last_percent_ = std::max(percent, last_percent_);
     return last_percent_;
 }
 
-std::string progress_bar(double share, double elapsed_s, int columns) {
+std::string progress_bar(double fraction, double elapsed_s, int columns) {
     char percent[8];
-    std::snprintf(percent, sizeof percent, "%3d%%", static_cast<int>(100 * share));
-    const std::string left =
-        share > 0.01 ? clock_text(elapsed_s * (1 - share) / share) + " left" : "estimating";
+    std::snprintf(percent, sizeof percent, "%3d%%", static_cast<int>(100 * fraction));
+    const std::string left = fraction > 0.01
+                                 ? clock_text(elapsed_s * (1 - fraction) / fraction) + " left"
+                                 : "estimating";
     const int fixed = 4 + 2 + 2 + static_cast<int>(left.size());
     const int cells = std::min(columns - fixed - 1, 60);
     if (cells < 5)
         return (std::string(percent) + ' ' + left).substr(0, static_cast<size_t>(columns));
-    const auto filled = static_cast<size_t>(std::clamp(share, 0.0, 1.0) * cells);
+    const auto filled = static_cast<size_t>(std::clamp(fraction, 0.0, 1.0) * cells);
     return std::string(percent) + " [" + std::string(filled, '#') +
            std::string(static_cast<size_t>(cells) - filled, '.') + "] " + left;
 }
@@ -84,9 +85,9 @@ void Progress::begin() {
     begin_s_.store(seconds());
 }
 
-void Progress::update(double share) {
+void Progress::update(double fraction) {
     double known = share_.load(std::memory_order_relaxed);
-    while (share > known && !share_.compare_exchange_weak(known, share)) {
+    while (fraction > known && !share_.compare_exchange_weak(known, fraction)) {
     }
 }
 
@@ -109,12 +110,13 @@ double Progress::seconds() const {
 }
 
 void Progress::show_now() {
-    const double share = share_.load(std::memory_order_relaxed);
+    const double fraction = share_.load(std::memory_order_relaxed);
     const double begin_s = begin_s_.load();
     if (style_ == Style::lines) {
-        if (const std::optional<int> percent = pacer_.due(seconds(), share)) print_line(*percent);
-    } else if (begin_s >= 0) {  // before, warnings of loading would mix with the bar
-        const std::string bar = progress_bar(share, seconds() - begin_s, terminal_columns());
+        if (const std::optional<int> percent = pacer_.due(seconds(), fraction))
+            print_line(*percent);
+    } else if (begin_s >= 0) {  // before that, warnings of loading would mix with the bar
+        const std::string bar = progress_bar(fraction, seconds() - begin_s, terminal_columns());
         std::fprintf(stderr, "\r\x1b[K%s", bar.c_str());
         std::fflush(stderr);
     }
@@ -129,4 +131,4 @@ void Progress::stop() {
     if (thread_.joinable()) thread_.join();
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

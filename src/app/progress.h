@@ -1,4 +1,4 @@
-// app/progress.h - how far the work is: a bar for people, lines for render farms.
+// app/progress.h - progress: a bar for people, lines for render farms.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,14 +12,14 @@
 #include <string>
 #include <thread>
 
-namespace obscura {
+namespace obscura::app {
 
 /// Decides when a `Progress:` line is due: at once, then at most once a second when the percentage
 /// has risen, and at least every 30 seconds. Time is any clock in seconds that does not go back.
 class ProgressPacer {
 public:
     /// The percentage to print now, if one is due. 100 is kept for finish().
-    std::optional<int> due(double now_s, double share);
+    std::optional<int> due(double now_s, double fraction);
 
 private:
     std::optional<double> last_time_s_;
@@ -27,7 +27,7 @@ private:
 };
 
 /// One line of at most `columns` characters: percentage, bar and the time left.
-std::string progress_bar(double share, double elapsed_s, int columns);
+std::string progress_bar(double fraction, double elapsed_s, int columns);
 
 /// Shows progress from a thread of its own for as long as it lives: a bar on standard error when
 /// that is a terminal, else `Progress: 42%` lines on standard output; nothing when quiet.
@@ -41,8 +41,8 @@ public:
 
     /// The measured work starts now: the bar appears, and its time left counts from here.
     void begin();
-    /// share: finished part in [0, 1]; from any thread, never goes back.
-    void update(double share);
+    /// fraction: finished part in [0, 1]; from any thread, never goes back.
+    void update(double fraction);
     /// The work is done: shows 100 % and stops.
     void finish();
 
@@ -64,4 +64,4 @@ private:
     std::thread thread_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::app

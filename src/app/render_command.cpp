@@ -21,11 +21,11 @@
 #include <fmt/format.h>
 #include <span>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
-/// One command from the request to the statistics.
+/// Runs one command, from the request to the statistics.
 struct Job {
     Log& log;               ///< the command's; frames may have their own
     RenderRequest request;  ///< its outputs and camera.framed change from frame to frame
@@ -35,7 +35,7 @@ struct Job {
     std::optional<StopOnSignal> stop = {};  ///< until the first image a signal ends the program
 };
 
-/// Which of so many images is rendered.
+/// An image's index and their number.
 struct Turn {
     size_t index;
     size_t count;
@@ -47,8 +47,8 @@ PoseTimes times_of(const RenderRequest& request, const MovieFrame& frame, bool i
     PoseTimes times{frame.time_s, {}, is_last};
     if (request.shutter) {
         const double frame_s = 1 / request.fps;
-        times.shutter = ShutterTimes{frame.time_s + request.shutter->open * frame_s,
-                                     frame.time_s + request.shutter->close * frame_s};
+        times.shutter = gltf::ShutterTimes{frame.time_s + request.shutter->open * frame_s,
+                                           frame.time_s + request.shutter->close * frame_s};
     }
     return times;
 }
@@ -68,16 +68,16 @@ Result<void> render_and_write(
         progress.update((static_cast<double>(turn.index) + tile.done) /
                         static_cast<double>(turn.count));
     };
-    Result<FinishedPicture> finished = job.renderer->render(request, camera, hooks, job.log);
+    Result<FinishedImage> finished = job.renderer->render(request, camera, hooks, job.log);
     if (!finished) return fail(finished.error());
     const Stopwatch writing;
     const Result<void> written = write_outputs(request, *finished, job.display, job.stop->flag());
     job.renderer->statistics().write_s += writing.seconds();
-    job.renderer->recycle(std::move(finished->picture));
+    job.renderer->recycle(std::move(finished->image));
     return written;
 }
 
-/// What a frame has added to the sums.
+/// Times that a frame added to the sums.
 FrameStatistics frame_statistics(const MovieFrame& frame,
                                  const RenderStatistics& before,
                                  const RenderStatistics& after) {
@@ -91,7 +91,7 @@ FrameStatistics frame_statistics(const MovieFrame& frame,
 
 /// Reads the asset and the environment, once for all images.
 Result<void> load(Job& job) {
-    const LoadOptions& options = job.request.load;
+    const gltf::LoadOptions& options = job.request.load;
     const bool has_time = options.time_s || job.request.frames || job.request.shutter;
     const Stopwatch loading;
     Result<AssetRenderer> renderer =
@@ -115,7 +115,7 @@ Result<void> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log)
     return {};
 }
 
-/// Renders one image after the other.
+/// Renders the images in turn.
 Result<void> render_all(Job& job, Progress& progress) {
     const std::vector<MovieFrame> frames = frames_of(job.request);
     if (const Result<void> loaded = load(job); !loaded) return loaded;
@@ -142,7 +142,7 @@ Result<void> render_all(Job& job, Progress& progress) {
     return {};
 }
 
-/// --check: for every image all that comes before the BVH.
+/// --check: for every image, all steps before the BVH.
 Result<void> check_all(Job& job) {
     if (const Result<void> loaded = load(job); !loaded) return loaded;
     const std::vector<MovieFrame> frames = frames_of(job.request);
@@ -233,4 +233,4 @@ int run_render(const RenderArguments& arguments) {
     return report_failure(done.error(), log);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

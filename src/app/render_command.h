@@ -4,9 +4,9 @@
 
 #include "app/render_request.h"
 
-namespace obscura {
+namespace obscura::app {
 
-/// Renders one picture and writes it; prints what there is to say. Returns the exit code.
+/// Renders one image and writes it; prints messages. Returns the exit code.
 int run_render(const RenderArguments& arguments);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/render_options.cpp - the table of the options of `obscura render`, which others share.
+// app/render_options.cpp - the table of the options of `obscura render`, shared with others.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_options.h"
 
@@ -11,17 +11,17 @@
 
 #include <cstring>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
 using A = RenderArguments;
 using C = CameraRequest;
 using D = DisplayOptions;
-using L = LoadOptions;
+using L = gltf::LoadOptions;
 using O = RenderOptions;
 using R = RenderRequest;
-using Row = RenderOptionRow;
+using Entry = RenderOptionEntry;
 
 constexpr const char* notes = R"(
 Examples:
@@ -87,17 +87,19 @@ Result<PixelRect> parse_crop(const std::string& text, const std::string& option)
     return PixelRect{(*r)[0], (*r)[1], (*r)[2], (*r)[3]};
 }
 
-Result<StrokeSize> parse_stroke(const std::string& text, const std::string& option) {
+Result<PointsLinesSize> parse_points_lines_size(const std::string& text,
+                                                const std::string& option) {
     const Result<ParsedLength> length = parse_length(text, option);
     if (!length) return fail(length.error());
-    return StrokeSize{length->value, length->pixels ? LengthUnit::pixels : LengthUnit::metres};
+    return PointsLinesSize{length->value, length->pixels ? LengthUnit::pixels : LengthUnit::metres};
 }
 
 template <auto... path>
-constexpr OptionReader<R> stroke_at = {
-    .read = read_parsed<parse_stroke, path...>, .show = [](const OptionInfo& /*info*/, const R& r) {
-        const StrokeSize& stroke = field<path...>(r);
-        return shortest(stroke.diameter) + (stroke.unit == LengthUnit::pixels ? "px" : "m");
+constexpr OptionReader<R> points_lines_size_at = {
+    .read = read_parsed<parse_points_lines_size, path...>,
+    .show = [](const OptionInfo& /*info*/, const R& r) {
+        const PointsLinesSize& thickness = field<path...>(r);
+        return shortest(thickness.diameter) + (thickness.unit == LengthUnit::pixels ? "px" : "m");
     }};
 
 Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*option*/) {
@@ -105,11 +107,11 @@ Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*o
 }
 
 // clang-format off
-constexpr Row scene_file[] = {
+constexpr Entry scene_file[] = {
     {{.name = "SCENE", .help = "glTF 2.0 file, .gltf or .glb", .files = "gltf glb"},
      text_at<&A::scene_file>}};
 
-constexpr Row picture[] = {
+constexpr Entry image[] = {
     {{.name = "-o,--output", .argument = "FILE",
       .help = "File to write: .exr scene-linear, .png or .jpg for a display. May be given several "
               "times",
@@ -130,11 +132,11 @@ constexpr Row picture[] = {
      text_at<&A::filter>, choice_at<filters, &R::options, &O::filter>},
     {{.name = "--point-size", .argument = "LENGTH",
       .help = "Diameter of glTF's points: metres (0.01 or 0.01m) or pixels (3px)"},
-     text_at<&A::point_size>, stroke_at<&R::strokes, &StrokeSizes::points>},
+     text_at<&A::point_size>, points_lines_size_at<&R::points_lines, &PointsLinesSizes::points>},
     {{.name = "--line-width", .argument = "LENGTH", .help = "Diameter of glTF's lines, likewise"},
-     text_at<&A::line_width>, stroke_at<&R::strokes, &StrokeSizes::lines>}};
+     text_at<&A::line_width>, points_lines_size_at<&R::points_lines, &PointsLinesSizes::lines>}};
 
-constexpr Row time[] = {
+constexpr Entry time[] = {
     {{.name = "--time", .argument = "SECONDS",
       .help = "Show the scene as its animations have it then; before their beginning and after "
               "their end they stand still",
@@ -153,7 +155,7 @@ constexpr Row time[] = {
       .range = {1e-3, 1e5}},
      text_at<&A::fps>, number_at<&R::fps>}};
 
-constexpr Row sampling[] = {
+constexpr Entry sampling[] = {
     {{.name = "--spp", .argument = "N", .help = "Samples per pixel", .range = {1, 1 << 20}},
      text_at<&A::spp>, number_at<&R::options, &O::samples_per_pixel>},
     {{.name = "--depth", .argument = "N", .help = "Most bounces of a path", .range = {0, 1000}},
@@ -162,9 +164,9 @@ constexpr Row sampling[] = {
      text_at<&A::seed>, number_at<&R::options, &O::seed>},
     {{.name = "--integrator", .argument = "NAME",
       .help = "path: full light transport; direct: no indirect light; raycast: one ray a pixel, "
-              "hard shadows, no noise; ao: ambient occlusion; wireframe; or a quantity, one ray "
+              "hard shadows, no noise; ao: ambient occlusion; wireframe; or an AOV, one ray "
               "through each pixel's centre: normal, facing, depth, distance, uv, albedo, id, heat"},
-     text_at<&A::integrator>, choice_at<integrator_rows, &R::options, &O::integrator>},
+     text_at<&A::integrator>, choice_at<integrator_entries, &R::options, &O::integrator>},
     {{.name = "--ao-distance", .argument = "METRES", .help = "How far ao looks",
       .range = {1e-9, 1e12}, .fallback = "a fifth of the scene's diagonal",
       .needs = {"--integrator ao"}},
@@ -173,7 +175,7 @@ constexpr Row sampling[] = {
       .range = {0.01, 1000}, .needs = {"--integrator wireframe"}},
      text_at<&A::wire_width>, number_at<&R::options, &O::wire_width_px>}};
 
-constexpr Row camera[] = {
+constexpr Entry camera[] = {
     {{.name = "--camera", .argument = "NAME|INDEX", .help = "A camera of the file",
       .fallback = "the first; without any, the whole scene is framed from the front, right and "
                   "above",
@@ -197,7 +199,7 @@ constexpr Row camera[] = {
       .fallback = "the camera's, or what the options below mean, or pinhole"},
      text_at<&A::camera_model>, choice_at<camera_model_names, &R::camera, &C::model>}};
 
-constexpr Row light[] = {
+constexpr Entry light[] = {
     {{.name = "--env", .argument = "FILE", .help = "Latitude-longitude environment, .hdr or .exr",
       .fallback = "the file's own, else a neutral studio if the scene has no light",
       .files = "hdr exr"},
@@ -213,7 +215,7 @@ constexpr Row light[] = {
               "environment's light, for assets whose crevices are in the texture alone"},
      text_at<&A::occlusion>, choice_at<occlusions, &R::load, &L::occlusion>}};
 
-constexpr Row display[] = {
+constexpr Entry display[] = {
     {{.name = "--exposure", .argument = "EV", .help = "Brighter by this many stops",
       .range = {-50, 50}},
      text_at<&A::exposure>, number_at<&R::display, &D::exposure_ev>},
@@ -228,7 +230,7 @@ constexpr Row display[] = {
       .fallback = "$OCIO, else built in", .files = "ocio"},
      text_at<&A::ocio>, name_at<&R::display, &D::ocio_file>}};
 
-constexpr Row faults[] = {
+constexpr Entry faults[] = {
     {{.name = "--strict",
       .help = "Refuse what would silently change the picture, such as a texture that cannot be "
               "read; every problem is listed before anything is rendered. This is the default",
@@ -243,7 +245,7 @@ constexpr Row faults[] = {
               "rendering would begin with"},
      text_at<&A::check>, flag_at<&R::check>}};
 
-constexpr Row program[] = {
+constexpr Entry program[] = {
     {{.name = "--scene", .argument = "NAME|INDEX", .help = "Scene of a file that holds several",
       .fallback = "the file's default"},
      text_at<&A::scene>},
@@ -257,7 +259,7 @@ constexpr Row program[] = {
     {{.name = "--isa", .argument = "NAME", .help = "Instruction set:"},
      text_at<&A::isa>, choice_at<instruction_sets, &R::isa>},
     {{.name = "--tile-size", .argument = "N",
-      .help = "Side of a tile in pixels, at least 32 for quantities; does not change the picture",
+      .help = "Side of a tile in pixels, at least 32 for AOVs; does not change the picture",
       .range = {1, 256}},
      text_at<&A::tile_size>, number_at<&R::options, &O::tile_size>},
     {{.name = "--stats", .argument = "FILE.json",
@@ -274,7 +276,7 @@ constexpr Row program[] = {
 const std::vector<RenderOptionGroup>& render_option_groups() {
     static const std::vector<RenderOptionGroup> all = [] {
         std::vector<RenderOptionGroup> groups = {{"", scene_file},
-                                                 {"Picture", picture},
+                                                 {"Picture", image},
                                                  {"Time", time},
                                                  {"Sampling", sampling},
                                                  {"Camera", camera}};
@@ -301,8 +303,8 @@ Command render_command(RenderArguments& arguments) {
 void add_render_group(Command& command, RenderArguments& arguments, const char* heading) {
     for (const RenderOptionGroup& group : render_option_groups()) {
         if (std::strcmp(group.heading, heading) != 0) continue;
-        for (const Row& row : group.rows)
-            command.options.push_back(bind(row, arguments, heading));
+        for (const Entry& entry : group.entries)
+            command.options.push_back(bind(entry, arguments, heading));
     }
 }
 
@@ -316,12 +318,12 @@ BoundOption& add_render_option(Command& command,
                                const char* name,
                                const char* heading) {
     for (const RenderOptionGroup& group : render_option_groups()) {
-        for (const Row& row : group.rows) {
-            if (std::strcmp(row.info.name, name) != 0) continue;
-            command.options.push_back(bind(row, arguments, *heading ? heading : group.heading));
+        for (const Entry& entry : group.entries) {
+            if (std::strcmp(entry.info.name, name) != 0) continue;
+            command.options.push_back(bind(entry, arguments, *heading ? heading : group.heading));
         }
     }
     return command.options.back();
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,20 +1,20 @@
-// app/render_options.h - the table of the options of `obscura render`, which others share.
+// app/render_options.h - the table of the options of `obscura render`, shared with others.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "app/command.h"
 #include "app/render_request.h"
 
-namespace obscura {
+namespace obscura::app {
 
-using RenderOptionRow = OptionRow<RenderArguments, RenderRequest>;
+using RenderOptionEntry = OptionEntry<RenderArguments, RenderRequest>;
 using RenderOptionGroup = OptionGroup<RenderArguments, RenderRequest>;
 
 /// Every option of a rendering, in the order of its help; bench, crosscheck and explain-pixel take
 /// theirs from here.
 const std::vector<RenderOptionGroup>& render_option_groups();
 
-/// The instruction sets that --isa names, and how else it is called.
+/// The instruction sets that --isa accepts, and their aliases.
 template <typename T>
 struct Choice {
     const char* name;
@@ -29,8 +29,8 @@ inline constexpr std::array<Choice<Isa>, 4> instruction_sets = {{{"auto", Isa::a
 Command render_command(RenderArguments& arguments);
 
 /// Adds options of a rendering to another command: a whole group, all groups of lenses, or one
-/// option, by its name as the table has it, under another heading ("": its own). What it gives back
-/// may be changed until the next is added.
+/// option, by its name in the table, under another heading ("": its own). The returned entry may be
+/// changed until the next is added.
 void add_render_group(Command& command, RenderArguments& arguments, const char* heading);
 void add_lens_groups(Command& command, RenderArguments& arguments);
 BoundOption& add_render_option(Command& command,
@@ -38,4 +38,4 @@ BoundOption& add_render_option(Command& command,
                                const char* name,
                                const char* heading);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/render_request.cpp - from the texts of the command line to a checked request.
+// app/render_request.cpp - turns the option texts of `obscura render` into a request.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_request.h"
 
@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -25,7 +25,7 @@ tl::unexpected<Error> conflict(const std::string& where, const std::string& mess
     return usage("E-USAGE-CONFLICT", where, message);
 }
 
-/// --fov: how wide it may be is known when the model is.
+/// --fov: its range depends on the camera model.
 Result<void> read_fov(const OptionText& text, CameraRequest& camera) {
     if (!text) return {};
     const CameraModel model =
@@ -37,7 +37,7 @@ Result<void> read_fov(const OptionText& text, CameraRequest& camera) {
     return {};
 }
 
-/// What options say together about the frames.
+/// Checks the options of frames together.
 Result<void> complete_time(const RenderArguments& arguments, RenderRequest& request) {
     if (arguments.fps && !request.frames && !request.shutter) {
         return conflict(
@@ -57,7 +57,7 @@ Result<void> complete_time(const RenderArguments& arguments, RenderRequest& requ
 
 Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& request) {
     request.outputs.assign(arguments.outputs.begin(), arguments.outputs.end());
-    if (request.outputs.empty() && arguments.writes_pictures && !arguments.check) {
+    if (request.outputs.empty() && arguments.writes_images && !arguments.check) {
         const char* ending = arguments.frames ? ".####.exr" : ".exr";
         request.outputs.push_back(request.scene.stem().concat(ending));
     }
@@ -68,14 +68,14 @@ Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& req
     return conflict("--output", "the name is empty; give one or leave out the option");
 }
 
-/// What rows of the table cannot say: values that depend on others.
+/// Values that depend on several options, which an entry of the table cannot express.
 Result<void> complete(const RenderArguments& arguments, RenderRequest& request) {
     if (auto done = complete_lens(arguments.lens, request.camera.model, request.camera.settings);
         !done) {
         return done;
     }
     if (auto done = read_fov(arguments.fov, request.camera); !done) return done;
-    // Without --size, --camera-json may say how large the picture is; then it is checked later.
+    // Without --size, --camera-json may set the image size; it is checked later.
     const bool size_is_known = request.size_is_given || !request.camera_json;
     if (auto fits = check_crop(request.options); size_is_known && !fits) return fits;
     request.load.keeps_uv = request.options.integrator == Integrator::uv;
@@ -83,7 +83,7 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     return complete_time(arguments, request);
 }
 
-/// No output may replace something that is read, nor another output.
+/// No output may overwrite an input or another output.
 Result<void> check_distinct_files(const RenderRequest& request) {
     std::vector<std::filesystem::path> written;
     for (const MovieFrame& frame : frames_of(request))
@@ -136,7 +136,7 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
         return conflict("SCENE", "the name is empty; expected a glTF file");
     }
     if (auto chosen = choose_outputs(arguments, request); !chosen) return fail(chosen.error());
-    Result<LoadOptions> load = choose_scene(arguments.scene, arguments.variant);
+    Result<gltf::LoadOptions> load = choose_scene(arguments.scene, arguments.variant);
     if (!load) return fail(load.error());
     request.load = std::move(*load);
     RenderArguments texts = arguments;
@@ -148,4 +148,4 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     return request;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/render_request.h - everything that `obscura render` was asked for, checked and ready to use.
+// app/render_request.h - the request of `obscura render`, checked and ready to use.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::app {
 
 /// The texts of the options as they stood on the command line; an empty optional was not given.
 struct RenderArguments {
@@ -25,15 +25,15 @@ struct RenderArguments {
     std::optional<std::string> view, display, ocio, exposure, stats;
     std::optional<std::string> animation, time, frames, fps;
     bool float32 = false;
-    bool writes_pictures = true;  ///< false: no output unless one is named
+    bool writes_images = true;  ///< false: no output unless one is named
     bool quiet = false;
     bool verbose = false;
-    bool strict = false;  ///< what is so without it, too
+    bool strict = false;  ///< the default, too
     bool lenient = false;
     bool check = false;
 };
 
-/// Reads the texts; touches no file but to find out whether two names mean the same one.
+/// Parses the texts; touches files only to find out whether two names mean the same one.
 ///
 /// Errors  64, each with the option and what it accepts: E-USAGE-NUMBER, E-USAGE-RANGE,
 ///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE
@@ -45,4 +45,4 @@ Verbosity verbosity_of(const RenderArguments& arguments);
 /// True when both names lead to one file, through links too, also when it does not exist yet.
 bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -4,11 +4,11 @@
 
 #include "app/numbers.h"
 
-namespace obscura {
+namespace obscura::app {
 
-Result<LoadOptions> choose_scene(const std::optional<std::string>& scene,
-                                 const std::optional<std::string>& variant) {
-    LoadOptions options;
+Result<gltf::LoadOptions> choose_scene(const std::optional<std::string>& scene,
+                                       const std::optional<std::string>& variant) {
+    gltf::LoadOptions options;
     if (variant && variant->empty()) {
         return fail(ExitCode::usage,
                     "E-USAGE-CONFLICT",
@@ -33,4 +33,4 @@ Result<LoadOptions> choose_scene(const std::optional<std::string>& scene,
     return options;
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -8,12 +8,12 @@
 #include <optional>
 #include <string>
 
-namespace obscura {
+namespace obscura::app {
 
-/// Of a scene's text digits alone are an index, anything else a name; absent: the file's default.
+/// Digits alone are a scene's index, any other text its name; absent: the file's default.
 ///
 /// Errors  64 E-USAGE-RANGE an index too large for any file, 64 E-USAGE-CONFLICT an empty name
-Result<LoadOptions> choose_scene(const std::optional<std::string>& scene,
-                                 const std::optional<std::string>& variant);
+Result<gltf::LoadOptions> choose_scene(const std::optional<std::string>& scene,
+                                       const std::optional<std::string>& variant);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -4,7 +4,7 @@
 
 #include <csignal>
 
-namespace obscura {
+namespace obscura::app {
 
 namespace {
 
@@ -72,4 +72,4 @@ void end_by_signal(int signal) {
     raise(signal);
 }
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-namespace obscura {
+namespace obscura::app {
 
 /// Ignores SIGPIPE, so that a closed standard output does not end the program.
 void ignore_broken_pipes();
@@ -28,4 +28,4 @@ int received_stop_signal();
 /// and the farm see the true cause. Comes back only if the signal is blocked.
 void end_by_signal(int signal);
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// app/skipped_scenes.h - commands over many scenes go on after one that cannot be used.
+// app/skipped_scenes.h - lets commands over many scenes skip those that cannot be used.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,17 +7,17 @@
 
 #include <optional>
 
-namespace obscura {
+namespace obscura::app {
 
-/// Remembers why scenes were left out: one bad file does not cost the figures of the others, but
-/// the command still ends with its exit code.
+/// Remembers why scenes were skipped: one bad file does not cost the figures of the others, but its
+/// exit code still ends the command.
 class SkippedScenes {
 public:
-    /// In   scenes: of the whole command
+    /// In   scenes: number of scenes of the whole command
     SkippedScenes(size_t scenes, Log& log) : scenes_(scenes), log_(log) {}
 
-    /// False where the command must end now: a single scene, or a fault that is not the scene's
-    /// own.
+    /// False where the command must end now: there is a single scene, or the fault is not the
+    /// scene's.
     bool skip(const Error& error) {
         const bool of_scene =
             error.code >= ExitCode::bad_data && error.code <= ExitCode::unsupported;
@@ -39,4 +39,4 @@ private:
     std::optional<Error> first_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// base/atomic_file.cpp - output files that appear whole or not at all.
+// base/atomic_file.cpp - writes files atomically: they appear completely or not at all.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/atomic_file.h"
 
@@ -65,7 +65,7 @@ private:
     bool was_pending_ = false;
 };
 
-/// Calls until it is not interrupted by a signal.
+/// Repeats a call until no signal interrupts it.
 template <typename Call>
 auto uninterrupted(const Call& call) {
     auto result = call();
@@ -109,7 +109,7 @@ private:
     fs::path path_;
 };
 
-/// Where a symbolic link leads; the path itself when it is none, or leads nowhere.
+/// The target of a symbolic link; the path itself if it is no link, or a dangling one.
 fs::path follow_link(const fs::path& target) {
     std::error_code error;
     if (!fs::is_symlink(target, error)) return target;
@@ -160,7 +160,7 @@ Result<TemporaryFile> create_temporary(const fs::path& target) {
     }
 }
 
-/// Makes the rename itself durable. A file system that cannot sync folders is no failure.
+/// Makes the rename durable. File systems that cannot sync folders are not an error.
 int sync_folder(const fs::path& target) {
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const int descriptor =

@@ -1,4 +1,4 @@
-// base/atomic_file.h - output files that appear whole or not at all.
+// base/atomic_file.h - writes files atomically: they appear completely or not at all.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,11 +21,11 @@ namespace obscura {
 Result<void> write_file_atomically(const std::filesystem::path& target,
                                    std::span<const std::byte> bytes);
 
-/// Finds out whether write_file_atomically(target, ...) could start, by creating its temporary
-/// file and removing it again. Touches nothing else. Same errors.
+/// Checks that write_file_atomically(target, ...) can start, by creating and removing its temporary
+/// file. Changes nothing else. Same errors.
 Result<void> check_file_can_be_written(const std::filesystem::path& target);
 
-/// Writes all bytes to an open descriptor: goes on after an interruption or a short write, and
+/// Writes all bytes to an open descriptor: continues after interruptions and short writes, and
 /// turns the file size limit's signal (SIGXFSZ) into an error.
 ///
 /// Errors  74 E-OUT-WRITE with the system's reason

@@ -1,4 +1,4 @@
-// base/cpu.cpp - which instruction sets this processor has.
+// base/cpu.cpp - detects the processor's instruction sets.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/cpu.h"
 

@@ -1,4 +1,4 @@
-// base/cpu.h - which instruction sets this processor has.
+// base/cpu.h - detects the processor's instruction sets.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// base/error.h - what went wrong, where, and the exit code it becomes.
+// base/error.h - errors with id, location and exit code, and Result.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace obscura {
 
-/// Process exit codes: sysexits.h, and what render farms retry on.
+/// Process exit codes: those of sysexits.h, and some that render farms retry.
 ///
 /// To add one: append it here, give it a line in docs/cli.md, and a test in tests/cli that raises
 /// it. An id of an error needs a line in docs/errors.md and a test that raises it.
@@ -52,7 +52,7 @@ inline tl::unexpected<Error> fail(ExitCode code,
     return tl::make_unexpected(Error{code, std::move(id), std::move(where), std::move(message)});
 }
 
-/// Hands an error on to the caller's own Result type.
+/// Converts an error to the caller's own Result type.
 inline tl::unexpected<Error> fail(Error error) {
     return tl::make_unexpected(std::move(error));
 }

@@ -1,4 +1,4 @@
-// base/file_bytes.cpp - whole files into memory, and nothing but plain files.
+// base/file_bytes.cpp - reads whole regular files into memory; refuses devices and pipes.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file_bytes.h"
 

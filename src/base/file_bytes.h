@@ -1,4 +1,4 @@
-// base/file_bytes.h - whole files into memory, and nothing but plain files.
+// base/file_bytes.h - reads whole regular files into memory; refuses devices and pipes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,7 +24,7 @@ struct FileBytes {
 
 struct ReadLimits {
     uint64_t largest_file = UINT64_MAX;  ///< larger ones are refused (too_large)
-    uint64_t first_bytes = UINT64_MAX;   ///< at most so many are read
+    uint64_t first_bytes = UINT64_MAX;   ///< only this many are read
 };
 
 /// Reads a regular file. A FIFO, a socket or a device is refused without waiting for it.

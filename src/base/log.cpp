@@ -1,4 +1,4 @@
-// base/log.cpp - warnings and progress notes for people.
+// base/log.cpp - collects warnings and notes, and hands them to a sink.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/log.h"
 

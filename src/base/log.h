@@ -1,4 +1,4 @@
-// base/log.h - warnings and notes, kept for the statistics and handed to whoever shows them.
+// base/log.h - collects warnings and notes, and hands them to a sink.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,14 +14,14 @@ namespace obscura {
 
 enum class Verbosity { quiet, normal, verbose };
 
-/// A message on its way to its readers; escaped, settings' names spelled.
+/// A message for a sink: escaped, with the names of settings spelled.
 struct LogMessage {
     bool is_warning;
     std::string_view where;  ///< of a warning
     std::string_view text;
 };
 
-/// Shows a message; called from any thread, by one at a time.
+/// Shows a message; called from any thread, but never by two at once.
 using LogSink = std::function<void(const LogMessage&)>;
 
 /// Collects messages and hands them to a sink. One object per command or session, handed down by

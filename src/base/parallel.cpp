@@ -1,4 +1,4 @@
-// base/parallel.cpp - loops over all cores, on oneTBB.
+// base/parallel.cpp - parallel loops; the only access to oneTBB.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
 
@@ -18,7 +18,7 @@ namespace obscura {
 
 namespace {
 
-/// The arena of this thread's ThreadArena; null: the one that the thread is in.
+/// The arena of this thread's ThreadArena; null: the thread's current one.
 thread_local tbb::task_arena* own_arena = nullptr;
 
 int threads_of(int threads) {

@@ -1,4 +1,4 @@
-// base/parallel.h - loops over all cores; the only door to the task scheduler.
+// base/parallel.h - parallel loops; the only access to oneTBB.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace obscura {
 
-/// For as long as it lives, loops that its own thread begins run on so many threads, and others as
-/// before: nothing of the process is changed. The latest of a thread counts.
+/// While it exists, loops that its own thread starts run on this many threads. Other threads and
+/// the process are not affected. The latest one of a thread counts.
 class ThreadArena {
 public:
     /// threads: 1 or more; 0 takes every core that the process may use.
@@ -25,8 +25,8 @@ private:
     void* before_;
 };
 
-/// A ThreadArena that also allows the process more threads than it has cores, or fewer. For a
-/// program that owns its process.
+/// A ThreadArena that also sets the process's thread limit, above or below the number of cores.
+/// Only for programs that own their process.
 class ThreadLimit {
 public:
     explicit ThreadLimit(int threads);
@@ -41,7 +41,7 @@ private:
     ThreadArena arena_;
 };
 
-/// Calls `body` where loops of the calling thread run, for a library that has loops of its own.
+/// Calls `body` in the arena of the calling thread, for libraries that have loops of their own.
 void run_in_arena(const std::function<void()>& body);
 
 /// Calls `body(i)` for every i in [0, count), on all threads, in no particular order.
@@ -55,7 +55,7 @@ void parallel_ranges(size_t count, size_t grain, const std::function<void(size_t
 size_t thread_index();
 size_t max_thread_index();
 
-/// Denormal numbers count as zero while this lives (x86: FTZ and DAZ; arm64: FZ).
+/// Flushes denormal numbers to zero while this exists (x86: FTZ and DAZ; arm64: FZ).
 class FlushDenormals {
 public:
     FlushDenormals();

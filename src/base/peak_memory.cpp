@@ -1,4 +1,4 @@
-// base/peak_memory.cpp - the most memory that this process has held.
+// base/peak_memory.cpp - the peak memory of this process.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/peak_memory.h"
 

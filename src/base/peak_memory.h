@@ -1,4 +1,4 @@
-// base/peak_memory.h - the most memory that this process has held.
+// base/peak_memory.h - the peak memory of this process.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,8 +9,8 @@ namespace obscura {
 /// Largest resident memory of this process so far, or since reset_peak_memory().
 size_t peak_memory_bytes();
 
-/// Counts the peak anew from what is resident now. Returns false where the system does not let us
-/// (it needs Linux and a writable /proc).
+/// Resets the peak to the current resident memory. Returns false if the system does not allow it:
+/// it needs Linux and a writable /proc.
 bool reset_peak_memory();
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// base/setting_names.cpp - what a setting is called in a message, for each who may read it.
+// base/setting_names.cpp - spells the names of settings in messages, for API or command line.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/setting_names.h"
 
@@ -8,7 +8,7 @@ namespace obscura {
 
 namespace {
 
-/// Stands before a name: the unit separator, which no sentence has.
+/// Marks a name: the unit separator, which occurs in no sentence.
 constexpr char mark = '\x1f';
 
 bool is_of_name(char c) {

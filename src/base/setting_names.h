@@ -1,4 +1,4 @@
-// base/setting_names.h - what a setting is called in a message, for each who may read it.
+// base/setting_names.h - spells the names of settings in messages, for API or command line.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,17 +7,19 @@
 
 namespace obscura {
 
-/// How a message names what its reader can set.
+/// How a message spells the names of settings.
 enum class SettingNames {
     plain,   ///< "focus_distance": for programs that fill in fields
     options  ///< "--focus-distance": for people at the command line
 };
 
-/// The name of a setting as part of an error's place or text, or of a message in the log; who shows
-/// it spells it. In  name: words joined by hyphens: "focus-distance"
+/// The marked name of a setting, for an error or a log message; spell_settings spells it when the
+/// message is shown.
+///
+/// In      name: words joined by hyphens: "focus-distance"
 std::string setting(std::string_view name);
 
-/// A text with its settings' names spelled out; one without them stays as it is.
+/// A text with the marked names of settings spelled out.
 std::string spell_settings(std::string_view text, SettingNames names);
 
 }  // namespace obscura

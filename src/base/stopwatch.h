@@ -1,4 +1,4 @@
-// base/stopwatch.h - seconds since something began, and where they went.
+// base/stopwatch.h - measures seconds, and adds them to sums.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace obscura {
 
-/// Runs from its making, on a clock that never goes back.
+/// Runs from its construction, on a monotonic clock.
 class Stopwatch {
 public:
     double seconds() const {
@@ -17,7 +17,7 @@ private:
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Adds the seconds of its own life to a sum.
+/// Adds the seconds of its lifetime to a sum.
 class SumOfTime {
 public:
     explicit SumOfTime(double& sum) : sum_(sum) {}

@@ -1,4 +1,4 @@
-// base/stream_store.h - stores past the caches, for what nobody reads soon.
+// base/stream_store.h - non-temporal stores, for large data that are not read soon.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,15 +10,15 @@
 
 namespace obscura {
 
-/// A place that stream_triples may write to.
+/// True if stream_triples may write to this address.
 inline bool can_stream(const float* out) {
     return reinterpret_cast<uintptr_t>(out) % 16 == 0;
 }
 
-/// Writes x[0], y[0], z[0], x[1] and so on to z[3]. An ordinary store reads its line first, and so
-/// moves it twice.
+/// Writes x[0], y[0], z[0], x[1] and so on to z[3], bypassing the caches: an ordinary store would
+/// first read the cache line.
 ///
-/// In   out: can_stream; before other threads read it, this one calls end_streams
+/// In   out: can_stream; call end_streams before other threads read it
 inline void stream_triples(const float* x, const float* y, const float* z, float* out) {
 #if defined(__SSE__)
     const __m128 a = _mm_loadu_ps(x);
@@ -42,7 +42,7 @@ inline void stream_triples(const float* x, const float* y, const float* z, float
 #endif
 }
 
-/// What this thread has streamed comes before what it tells others from now on.
+/// Store fence: makes this thread's streamed data visible before its later stores.
 inline void end_streams() {
 #if defined(__SSE__)
     _mm_sfence();

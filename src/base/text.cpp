@@ -1,4 +1,4 @@
-// base/text.cpp - small pieces of messages and names.
+// base/text.cpp - text helpers for messages and names.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/text.h"
 

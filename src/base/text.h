@@ -1,4 +1,4 @@
-// base/text.h - small pieces of messages and names.
+// base/text.h - text helpers for messages and names.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// base/unset_array.cpp - memory in large pages.
+// base/unset_array.cpp - allocates memory in large pages.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/unset_array.h"
 
@@ -13,7 +13,7 @@ void* allocate_large_pages(size_t bytes) {
     const size_t whole = (bytes + page - 1) / page * page;
     void* memory = std::aligned_alloc(page, whole);
     if (memory == nullptr) throw std::bad_alloc();
-    madvise(memory, whole, MADV_HUGEPAGE);  // a hint: where it is refused, small pages do
+    madvise(memory, whole, MADV_HUGEPAGE);  // a hint: if refused, small pages will do
     return memory;
 }
 

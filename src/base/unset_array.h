@@ -1,4 +1,4 @@
-// base/unset_array.h - vectors for large arrays: in large pages, and not cleared.
+// base/unset_array.h - vectors for large arrays: in large pages, optionally uninitialised.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,13 +9,13 @@
 
 namespace obscura {
 
-/// Memory that is aligned to a large page and, where the system has them, consists of such: 2 MiB
-/// are then brought in by one page fault in place of 512. Errors: throws std::bad_alloc
+/// Memory aligned to a large page and, where the system has them, in large pages: one page fault
+/// then brings in 2 MiB, instead of 512 faults. Throws std::bad_alloc.
 void* allocate_large_pages(size_t bytes);
 void free_large_pages(void* memory);
 
-/// std::allocator, but from two large pages on in such: what is read in no order then stays within
-/// reach of the processor's table of pages.
+/// std::allocator, but with large pages for two large pages or more: random reads then cause fewer
+/// TLB misses.
 template <typename T>
 struct LargePageAllocator : std::allocator<T> {
     static constexpr size_t smallest_large = 4U << 20U;  // two large pages; less would waste one
@@ -40,7 +40,7 @@ struct LargePageAllocator : std::allocator<T> {
 template <typename T>
 using LargeArray = std::vector<T, LargePageAllocator<T>>;
 
-/// The same, but what is made without a value is left as it is.
+/// The same, but elements without a value are left uninitialised.
 template <typename T>
 struct UnsetAllocator : LargePageAllocator<T> {
     template <typename U, typename... Arguments>
@@ -53,8 +53,8 @@ struct UnsetAllocator : LargePageAllocator<T> {
     }
 };
 
-/// A vector whose resize leaves numbers unset: the threads that write them first bring in their
-/// memory, all at once, where one thread would clear it before the others may begin.
+/// A vector whose resize leaves numbers uninitialised. The threads that write them first then fault
+/// in the memory in parallel, instead of waiting for one thread to clear it.
 template <typename T>
 using UnsetArray = std::vector<T, UnsetAllocator<T>>;
 

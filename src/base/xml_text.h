@@ -1,4 +1,4 @@
-// base/xml_text.h - text as XML takes it: for drawings in SVG.
+// base/xml_text.h - escapes text for XML (SVG drawings).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace obscura {
 
-/// For elements and for attributes in double quotes: &, <, > and " become entities, control
-/// characters blanks.
+/// Escapes text for elements and for attributes in double quotes: &, <, > and " become entities,
+/// control characters become blanks.
 std::string escape_xml(std::string_view text);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// bench/asset_files.cpp - the assets in a folder, and the bytes of their files.
+// bench/asset_files.cpp - finds the assets in a folder and reads their files' bytes.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/asset_files.h"
 
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <system_error>
 
-namespace obscura {
+namespace obscura::bench {
 
 namespace {
 
@@ -59,4 +59,4 @@ Result<fs::path> find_assets_folder(const fs::path& start) {
     return no_assets(start, "no folder 'assets' with scenes lies here or above");
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

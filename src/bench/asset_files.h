@@ -1,4 +1,4 @@
-// bench/asset_files.h - the assets in a folder, and the bytes of their files.
+// bench/asset_files.h - finds the assets in a folder and reads their files' bytes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <vector>
 
-namespace obscura {
+namespace obscura::bench {
 
-/// Sum of the sizes of files read one after the other, nothing done with their bytes.
+/// Reads files one after the other and returns the sum of their sizes.
 size_t read_all(const std::vector<std::filesystem::path>& files);
 
 /// Every .gltf and .glb below a folder, by path.
@@ -22,4 +22,4 @@ Result<std::vector<std::filesystem::path>> find_assets(const std::filesystem::pa
 /// Errors  67 E-BENCH-ASSETS
 Result<std::filesystem::path> find_assets_folder(const std::filesystem::path& start);
 
-}  // namespace obscura
+}  // namespace obscura::bench

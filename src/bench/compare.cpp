@@ -1,4 +1,4 @@
-// bench/compare.cpp - what changed since an earlier bench, and what of that is chance.
+// bench/compare.cpp - compares two benches and tells changes from chance.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/compare.h"
 
@@ -10,11 +10,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace obscura {
+namespace obscura::bench {
 
 namespace {
 
-constexpr double least_change = 0.02;
+constexpr double min_change = 0.02;
 
 void add_view(const std::string& prefix, const ViewFigures& view, std::vector<Figure>& out) {
     out.push_back({prefix + "of_bare", view.of_bare});
@@ -136,7 +136,7 @@ std::string_view verdict(const Change& change) {
         return rose ? "larger" : "smaller";
     }
     const bool counts = ranges_apart(change.before, change.after) &&
-                        std::fabs(relative_change(change)) > least_change;
+                        std::fabs(relative_change(change)) > min_change;
     if (!counts) return "within noise";
     return rose == more_is_better(change) ? "faster" : "slower";
 }
@@ -162,4 +162,4 @@ std::string compare_table(const std::vector<Change>& changes) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

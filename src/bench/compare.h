@@ -1,4 +1,4 @@
-// bench/compare.h - what changed since an earlier bench, and what of that is chance.
+// bench/compare.h - compares two benches and tells changes from chance.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-namespace obscura {
+namespace obscura::bench {
 
-/// One measured number under a name that stays the same from run to run. The name ends with what
-/// the number is: "_s" seconds, "_bytes" bytes, "of_bare" a share of bare Embree's speed.
+/// One measured number under a name that is the same in every run. Its suffix is its unit: "_s"
+/// seconds, "_bytes" bytes, "of_bare" a fraction of bare Embree's speed.
 struct Figure {
     std::string name;
     Spread value;
@@ -28,7 +28,7 @@ struct OldReport {
     std::string circumstances;
 };
 
-/// The text by which two reports tell whether they were measured alike.
+/// Settings and machine as text: equal for reports measured alike.
 std::string circumstances_of(const BenchReport& report);
 
 /// Errors  67 E-BENCH-OLD the file is missing or is no such report
@@ -53,4 +53,4 @@ std::string_view verdict(const Change& change);
 /// The comparison as a table for people.
 std::string compare_table(const std::vector<Change>& changes);
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,4 +1,4 @@
-// bench/machine.cpp - what a measurement ran on.
+// bench/machine.cpp - the machine, compiler and libraries of a measurement.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/machine.h"
 
@@ -6,7 +6,7 @@
 #include <sched.h>
 #include <thread>
 
-namespace obscura {
+namespace obscura::bench {
 
 namespace {
 
@@ -50,4 +50,4 @@ Machine describe_machine() {
     return machine;
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

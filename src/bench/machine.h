@@ -1,10 +1,10 @@
-// bench/machine.h - what a measurement ran on.
+// bench/machine.h - the machine, compiler and libraries of a measurement.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "bench/report.h"
 
-namespace obscura {
+namespace obscura::bench {
 
 /// "GCC 12.2.0" or "clang 14.0.6".
 std::string compiler_name();
@@ -12,4 +12,4 @@ std::string compiler_name();
 /// The CPU's own name where the system tells it; all but `embree`.
 Machine describe_machine();
 
-}  // namespace obscura
+}  // namespace obscura::bench

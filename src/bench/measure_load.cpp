@@ -11,20 +11,20 @@
 #include <algorithm>
 #include <optional>
 
-namespace obscura {
+namespace obscura::bench {
 
 namespace {
 
-constexpr double most_seconds = 20;
+constexpr double max_seconds = 20;
 
-/// What is measured, one value a repetition.
+/// The measured times, one value a repetition.
 struct Series {
     std::vector<double> load, parse, decode, prepare, bvh, read, bare_bvh, of_bare;
 };
 
 Result<PreparedScene> load_once(const LoadTask& task, Log& log, Series& series) {
     const Stopwatch loading;
-    Result<Scene> scene = load_gltf(task.file, task.load, log);
+    Result<Scene> scene = gltf::load_gltf(task.file, task.load, log);
     if (!scene) return fail(scene.error());
     series.load.push_back(loading.seconds());
     series.parse.push_back(scene->info.parse_seconds);
@@ -36,7 +36,7 @@ Result<PreparedScene> load_once(const LoadTask& task, Log& log, Series& series) 
     return prepared;
 }
 
-/// The bytes and the bare build; returns the bytes that the latter takes.
+/// Reads the bytes and builds bare Embree; returns the memory of that build.
 Result<size_t> bare_once(const PreparedScene& prepared,
                          const std::vector<std::filesystem::path>& files,
                          Isa isa,
@@ -80,14 +80,14 @@ MemoryFigures memory_of(const PreparedScene& prepared, size_t bare_bvh) {
 }  // namespace
 
 Result<LoadedScene> measure_load(const LoadTask& task, Log& log) {
-    const std::vector<std::filesystem::path> files = files_of_asset(task.file);
+    const std::vector<std::filesystem::path> files = gltf::files_of_asset(task.file);
     const Stopwatch all;
     Log silent(Verbosity::quiet);
     Series series;
     std::optional<PreparedScene> kept;
     size_t bare_bytes = 0;
     size_t peak = 0;
-    for (int i = 0; i < task.repeat && (i == 0 || all.seconds() < most_seconds); ++i) {
+    for (int i = 0; i < task.repeat && (i == 0 || all.seconds() < max_seconds); ++i) {
         kept.reset();  // two at a time would double the peak of memory
         reset_peak_memory();
         Result<PreparedScene> prepared = load_once(task, i == 0 ? log : silent, series);
@@ -107,4 +107,4 @@ Result<LoadedScene> measure_load(const LoadTask& task, Log& log) {
     return LoadedScene{std::move(*kept), figures, memory};
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -10,11 +10,11 @@
 
 #include <filesystem>
 
-namespace obscura {
+namespace obscura::bench {
 
 struct LoadTask {
     std::filesystem::path file;
-    LoadOptions load;
+    gltf::LoadOptions load;
     LightingOptions lighting;
     Isa isa = Isa::automatic;
     int repeat = 5;
@@ -26,10 +26,10 @@ struct LoadedScene {
     MemoryFigures memory;  ///< without film; peak is that of loading
 };
 
-/// Loads and prepares up to `repeat` times, each time beside the bytes and the bare build; stops
-/// repeating when that has taken 20 seconds.
+/// Loads and prepares up to `repeat` times, each time beside reading the bytes and the bare build;
+/// stops repeating after 20 seconds.
 ///
 /// Errors  those of load_gltf and PreparedScene::create
 Result<LoadedScene> measure_load(const LoadTask& task, Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,26 +1,26 @@
-// bench/measure_view.cpp - one view rendered and replayed on bare Embree, several times over.
+// bench/measure_view.cpp - renders one view and replays its rays on bare Embree, repeatedly.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/measure_view.h"
 
 #include <algorithm>
 #include <span>
 
-namespace obscura {
+namespace obscura::bench {
 
 namespace {
 
-/// How often each way of each kind was replayed and how long it took.
-struct WayTimes {
-    ReplayWay way;
+/// Replays of one kind of rays in one way: their times, and the hits of each.
+struct ModeTimes {
+    ReplayMode mode;
     std::vector<double> seconds;
     uint64_t hits = 0;
 };
 
 /// Coherent packets for rays that a camera or a lamp sends; bounces go everywhere.
-std::vector<WayTimes> ways_of(RayKind kind) {
-    std::vector<WayTimes> ways = {{ReplayWay::single, {}}, {ReplayWay::packets, {}}};
-    if (kind != RayKind::bounce) ways.push_back({ReplayWay::coherent_packets, {}});
-    return ways;
+std::vector<ModeTimes> modes_of(RayKind kind) {
+    std::vector<ModeTimes> modes = {{ReplayMode::single, {}}, {ReplayMode::packets, {}}};
+    if (kind != RayKind::bounce) modes.push_back({ReplayMode::coherent_packets, {}});
+    return modes;
 }
 
 /// All replays of one view.
@@ -29,27 +29,27 @@ public:
     Replays(const Accel& accel, const RayRecording& recording)
         : accel_(accel), recording_(recording) {
         for (size_t k = 0; k < ray_kinds; ++k)
-            ways_[k] = ways_of(static_cast<RayKind>(k));
+            modes_[k] = modes_of(static_cast<RayKind>(k));
     }
 
     void run_once() {
         for (size_t k = 0; k < ray_kinds; ++k) {
             if (recording_.count(static_cast<RayKind>(k)) == 0) continue;
-            for (WayTimes& way : ways_[k]) {
+            for (ModeTimes& mode : modes_[k]) {
                 const ReplayResult result =
-                    accel_.replay(recording_, static_cast<RayKind>(k), way.way);
-                way.seconds.push_back(result.seconds);
-                way.hits = result.hits;
+                    accel_.replay(recording_, static_cast<RayKind>(k), mode.mode);
+                mode.seconds.push_back(result.seconds);
+                mode.hits = result.hits;
             }
         }
     }
 
-    /// The way with the least median; null when there were no such rays.
-    const WayTimes* best(RayKind kind) const {
-        const std::vector<WayTimes>& ways = ways_[static_cast<size_t>(kind)];
-        const auto median = [](const WayTimes& w) { return spread_of(w.seconds).median; };
-        const auto least =
-            std::min_element(ways.begin(), ways.end(), [&](const WayTimes& a, const WayTimes& b) {
+    /// The way with the least median; null without such rays.
+    const ModeTimes* best(RayKind kind) const {
+        const std::vector<ModeTimes>& modes = modes_[static_cast<size_t>(kind)];
+        const auto median = [](const ModeTimes& w) { return spread_of(w.seconds).median; };
+        const auto least = std::min_element(
+            modes.begin(), modes.end(), [&](const ModeTimes& a, const ModeTimes& b) {
                 return median(a) < median(b);
             });
         return least->seconds.empty() ? nullptr : &*least;
@@ -59,8 +59,8 @@ public:
     double seconds_of_run(size_t i) const {
         double sum = 0;
         for (size_t k = 0; k < ray_kinds; ++k) {
-            const WayTimes* way = best(static_cast<RayKind>(k));
-            if (way != nullptr) sum += way->seconds[i];
+            const ModeTimes* mode = best(static_cast<RayKind>(k));
+            if (mode != nullptr) sum += mode->seconds[i];
         }
         return sum;
     }
@@ -68,7 +68,7 @@ public:
 private:
     const Accel& accel_;
     const RayRecording& recording_;
-    std::array<std::vector<WayTimes>, ray_kinds> ways_;
+    std::array<std::vector<ModeTimes>, ray_kinds> modes_;
 };
 
 void fill_kinds(const RayRecording& recording,
@@ -84,15 +84,15 @@ void fill_kinds(const RayRecording& recording,
         figures.hits = recording.hits(kind);
         figures.spared = recording.spared(kind);
         figures.render_s = stage_s[k] / std::max(out.threads, 1);
-        const WayTimes* way = replays.best(kind);
-        if (way == nullptr) continue;
-        figures.way = way->way;
-        figures.bare_s = spread_of(way->seconds);
-        figures.bare_hits = way->hits;
+        const ModeTimes* mode = replays.best(kind);
+        if (mode == nullptr) continue;
+        figures.mode = mode->mode;
+        figures.bare_s = spread_of(mode->seconds);
+        figures.bare_hits = mode->hits;
     }
 }
 
-/// Renderings behind each other.
+/// Renderings one after the other.
 struct Renders {
     std::vector<double> seconds;
     std::array<std::vector<double>, 5> stage_s;
@@ -145,7 +145,7 @@ Result<ViewFigures> measure_view(const ViewTask& task, const std::atomic<bool>& 
     out.isa = task.scene->isa_name();
     out.threads = task.threads;
     out.film_bytes = first->film.pixels.size() * sizeof(float);
-    out.recording_changed_picture = !same_bits(first->film.pixels, recorded->film.pixels);
+    out.recording_changed_image = !same_bits(first->film.pixels, recorded->film.pixels);
     std::vector<double> replay_s;
     std::vector<double> of_bare;
     for (size_t i = 0; i < renders.seconds.size(); ++i) {
@@ -164,12 +164,12 @@ Result<ViewFigures> measure_view(const ViewTask& task, const std::atomic<bool>& 
 
 std::vector<std::string> doubts_about(const ViewFigures& view) {
     std::vector<std::string> doubts;
-    if (view.recording_changed_picture) doubts.push_back("recording the rays changed the picture");
+    if (view.recording_changed_image) doubts.push_back("recording the rays changed the picture");
     for (size_t k = 0; k < ray_kinds; ++k) {
         const KindFigures& kind = view.kinds[k];
         if (kind.rays == 0) continue;
         // Edges that two triangles share may go either way in packets. Rays that the renderer lets
-        // through a face hit it here, so more hits are as they should be.
+        // pass a face hit it here, so more hits are expected.
         const uint64_t tolerance = 2 + kind.rays / 10000;
         const bool lost = kind.bare_hits + tolerance < kind.hits;
         const bool too_many = static_cast<RayKind>(k) == RayKind::shadow &&
@@ -183,4 +183,4 @@ std::vector<std::string> doubts_about(const ViewFigures& view) {
     return doubts;
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,4 +1,4 @@
-// bench/measure_view.h - one view rendered and replayed on bare Embree, several times over.
+// bench/measure_view.h - renders one view and replays its rays on bare Embree, repeatedly.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <atomic>
 #include <functional>
 
-namespace obscura {
+namespace obscura::bench {
 
 /// What is to be measured.
 struct ViewTask {
@@ -18,19 +18,19 @@ struct ViewTask {
     RenderOptions options;
     int repeat = 5;
     int threads = 0;  ///< as limited by the caller
-    /// Called once, behind the first rendering and before anything is recorded.
+    /// Called once, after the first rendering and before anything is recorded.
     std::function<void()> after_first = {};
 };
 
-/// Renders once to warm up and once to record the rays; then, `repeat` times, renders and asks bare
-/// Embree for the same rays, each kind in every way that suits it. Name, camera and coverage of
-/// the result are left to the caller.
+/// Renders once to warm up and once to record the rays; then, `repeat` times, renders and traces
+/// the same rays on bare Embree, each kind in every way that suits it. The caller fills in name,
+/// camera and coverage.
 ///
 /// Errors  75 E-STOPPED; 33 E-MEM
 Result<ViewFigures> measure_view(const ViewTask& task, const std::atomic<bool>& stop);
 
-/// What is wrong with a measurement, as sentences: hits that differ between render and replay, a
-/// picture that recording has changed. Empty: nothing.
+/// Faults of a measurement, as sentences: hits that differ between rendering and replay, an image
+/// that recording has changed. Empty: none.
 std::vector<std::string> doubts_about(const ViewFigures& view);
 
-}  // namespace obscura
+}  // namespace obscura::bench

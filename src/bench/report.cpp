@@ -1,10 +1,10 @@
-// bench/report.cpp - what follows from the figures of a bench.
+// bench/report.cpp - figures derived from those of a bench.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/report.h"
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::bench {
 
 std::array<const char*, 5> stage_names() {
     std::array<const char*, 5> names = {};
@@ -14,19 +14,19 @@ std::array<const char*, 5> stage_names() {
     return names;
 }
 
-const char* way_name(ReplayWay way) {
-    switch (way) {
-        case ReplayWay::single:
+const char* replay_mode_name(ReplayMode mode) {
+    switch (mode) {
+        case ReplayMode::single:
             return "single";
-        case ReplayWay::packets:
+        case ReplayMode::packets:
             return "packets of 16";
-        case ReplayWay::coherent_packets:
+        case ReplayMode::coherent_packets:
             return "coherent packets of 16";
     }
     return "unknown";
 }
 
-std::array<double, 5> stage_shares(const ViewFigures& view) {
+std::array<double, 5> stage_fractions(const ViewFigures& view) {
     double sum = 0;
     for (const Spread& stage : view.stage_s)
         sum += stage.median;
@@ -78,4 +78,4 @@ const ViewFigures* baseline_row(const SceneFigures& scene, const ViewFigures& ro
     return nullptr;
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,4 +1,4 @@
-// bench/report.h - everything that the bench measures, as plain data.
+// bench/report.h - all figures of a bench, as plain data.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::bench {
 
 struct Machine {
     std::string cpu;
@@ -33,7 +33,7 @@ struct BenchSettings {
     int repeat = 0;
 };
 
-/// A view in the terms that every renderer understands.
+/// A view in terms that any renderer understands.
 struct ViewCamera {
     Vec3d eye_m = {0, 0, 0};
     Vec3d target_m = {0, 0, -1};
@@ -41,7 +41,7 @@ struct ViewCamera {
     double yfov_deg = 0;  ///< vertical
 };
 
-/// Reading the file and preparing it, against its bytes and bare Embree.
+/// Times of reading and preparing the file, beside its bytes and bare Embree.
 struct LoadFigures {
     Spread load_s;  ///< from the file to a scene, with parse_s and decode_s
     Spread parse_s;
@@ -70,15 +70,15 @@ struct MemoryFigures {
     size_t bare() const { return bare_bvh + bare_vertices + bare_texels; }
 };
 
-/// The rays of one kind, as the renderer asked them and as bare Embree did.
+/// The rays of one kind, traced by the renderer and by bare Embree.
 struct KindFigures {
     uint64_t rays = 0;
-    uint64_t hits = 0;                  ///< or occluded rays, in the rendering
-    uint64_t bare_hits = 0;             ///< likewise, in the replay
-    uint64_t spared = 0;                ///< rays that only the replay may find occluded
-    ReplayWay way = ReplayWay::single;  ///< the fastest
-    Spread bare_s;                      ///< asked that way
-    double render_s = 0;                ///< wall-clock share of the stage that asks them
+    uint64_t hits = 0;                     ///< or occluded rays, in the rendering
+    uint64_t bare_hits = 0;                ///< likewise, in the replay
+    uint64_t spared = 0;                   ///< rays that only the replay may find occluded
+    ReplayMode mode = ReplayMode::single;  ///< the fastest
+    Spread bare_s;                         ///< asked in that mode
+    double render_s = 0;                   ///< wall-clock time of the stage that traces them
 };
 
 /// One scene seen by one camera, on some threads and with some instruction set.
@@ -86,7 +86,7 @@ struct ViewFigures {
     std::string name;         ///< "whole", "close", "own"
     std::string description;  ///< of the camera
     ViewCamera camera;
-    double coverage = 0;  ///< share of the frame that the asset covers
+    double coverage = 0;  ///< fraction of the frame that the asset covers
     std::string isa;
     int threads = 0;
     Spread render_s;
@@ -96,7 +96,7 @@ struct ViewFigures {
     RenderCounters counters;        ///< of one rendering
     std::array<KindFigures, ray_kinds> kinds;
     size_t film_bytes = 0;
-    bool recording_changed_picture = false;
+    bool recording_changed_image = false;
 };
 
 struct SceneFigures {
@@ -122,31 +122,31 @@ inline constexpr std::array<const char*, ray_kinds> ray_kind_names = {"camera", 
 std::array<const char*, 5> stage_names();
 
 /// "single", "packets of 16", "coherent packets of 16".
-const char* way_name(ReplayWay way);
+const char* replay_mode_name(ReplayMode mode);
 
-/// Share of each stage in the time of all; zero when nothing took time.
-std::array<double, 5> stage_shares(const ViewFigures& view);
+/// Fraction of the total time in each stage; zero when no time was spent.
+std::array<double, 5> stage_fractions(const ViewFigures& view);
 
-/// Share of the threads' time that the median rendering spent outside all stages: tiles, waiting.
+/// Fraction of the threads' time outside all stages in the median rendering: tiles, waiting.
 double outside_stages(const ViewFigures& view);
 
 /// Count per second of the median rendering.
 double per_second(const ViewFigures& view, uint64_t count);
 
-/// How many times faster `row` renders than `base`, and how much of that its threads promise.
+/// Speed-up of `row` over `base`, and that divided by the ratio of their thread counts.
 double speedup_over(const ViewFigures& base, const ViewFigures& row);
 double parallel_efficiency(const ViewFigures& base, const ViewFigures& row);
 
 /// How many times faster the shading stage of `row` is.
 double shading_speedup(const ViewFigures& base, const ViewFigures& row);
 
-/// Of the rows of by_threads, the one of the same view with the fewest threads.
+/// The entry of by_threads with the same view and the fewest threads.
 const ViewFigures& fewest_threads(const SceneFigures& scene, const ViewFigures& row);
 
-/// Of the rows of by_isa, the same view's with "baseline"; null when that was not measured.
+/// The entry of by_isa with the same view and "baseline"; null when that was not measured.
 const ViewFigures* baseline_row(const SceneFigures& scene, const ViewFigures& row);
 
 /// The figures as a table for people.
 std::string bench_table(const BenchReport& report);
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,10 +1,10 @@
-// bench/report_json.cpp - the figures of a bench for programs.
+// bench/report_json.cpp - the figures of a bench as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/report_json.h"
 
 #include "base/json/json.h"
 
-namespace obscura {
+namespace obscura::bench {
 
 namespace {
 
@@ -16,12 +16,12 @@ Json point_json(const Vec3d& p) {
     return Json::array({p.x, p.y, p.z});
 }
 
-double share(double part, double whole) {
+double ratio(double part, double whole) {
     return whole > 0 ? part / whole : 0;
 }
 
-double share(size_t part, size_t whole) {
-    return share(static_cast<double>(part), static_cast<double>(whole));
+double ratio(size_t part, size_t whole) {
+    return ratio(static_cast<double>(part), static_cast<double>(whole));
 }
 
 void add_head(const BenchReport& report, Json& json) {
@@ -50,7 +50,7 @@ Json load_json(const LoadFigures& l) {
             {"decode_s", spread_json(l.decode_s)},
             {"prepare_s", spread_json(l.prepare_s)},
             {"bvh_s", spread_json(l.bvh_s)},
-            {"triangles_per_second", share(static_cast<double>(l.triangles), l.bvh_s.median)},
+            {"triangles_per_second", ratio(static_cast<double>(l.triangles), l.bvh_s.median)},
             {"bare_read_s", spread_json(l.read_s)},
             {"bare_bvh_s", spread_json(l.bare_bvh_s)},
             {"of_bare", spread_json(l.of_bare)}};
@@ -64,18 +64,18 @@ Json memory_json(const MemoryFigures& m, size_t triangles) {
             {"scene", m.scene()},
             {"peak", m.peak},
             {"bytes_per_triangle",
-             {{"bvh", share(m.bvh, triangles)},
-              {"geometry", share(m.geometry, triangles)},
-              {"scene", share(m.scene(), triangles)}}},
+             {{"bvh", ratio(m.bvh, triangles)},
+              {"geometry", ratio(m.geometry, triangles)},
+              {"scene", ratio(m.scene(), triangles)}}},
             {"bare_bvh", m.bare_bvh},
             {"bare_vertices", m.bare_vertices},
             {"bare_texels", m.bare_texels},
             {"bare", m.bare()},
-            {"scene_over_bare", share(m.scene(), m.bare())}};
+            {"scene_over_bare", ratio(m.scene(), m.bare())}};
 }
 
 Json stages_json(const ViewFigures& view) {
-    const auto shares = stage_shares(view);
+    const auto shares = stage_fractions(view);
     Json out = Json::object();
     for (size_t i = 0; i < shares.size(); ++i) {
         out[stage_names()[i]] = {{"share", shares[i]}, {"thread_s", spread_json(view.stage_s[i])}};
@@ -90,12 +90,12 @@ Json kinds_json(const ViewFigures& view) {
         const auto count = static_cast<double>(kind.rays);
         out[ray_kind_names[k]] = {{"count", kind.rays},
                                   {"hits", kind.hits},
-                                  {"rays_per_second", share(count, kind.render_s)},
+                                  {"rays_per_second", ratio(count, kind.render_s)},
                                   {"bare_hits", kind.bare_hits},
-                                  {"bare_way", way_name(kind.way)},
-                                  {"bare_rays_per_second", share(count, kind.bare_s.median)},
+                                  {"bare_way", replay_mode_name(kind.mode)},
+                                  {"bare_rays_per_second", ratio(count, kind.bare_s.median)},
                                   {"bare_s", spread_json(kind.bare_s)},
-                                  {"of_bare", share(kind.bare_s.median, kind.render_s)}};
+                                  {"of_bare", ratio(kind.bare_s.median, kind.render_s)}};
     }
     return out;
 }
@@ -194,4 +194,4 @@ std::string bench_json(const BenchReport& report, const std::vector<Change>& cha
     return json_document(json);
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

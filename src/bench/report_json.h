@@ -1,4 +1,4 @@
-// bench/report_json.h - the figures of a bench for programs.
+// bench/report_json.h - the figures of a bench as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::bench {
 
 /// One JSON object; docs/cli.md explains the keys. `changes` may be empty.
 std::string bench_json(const BenchReport& report, const std::vector<Change>& changes);
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,4 +1,4 @@
-// bench/report_svg.cpp - scaling and instruction sets as a chart.
+// bench/report_svg.cpp - a chart of scaling by threads and instruction sets.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/report_svg.h"
 
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <set>
 
-namespace obscura {
+namespace obscura::bench {
 
 namespace {
 
@@ -105,7 +105,7 @@ void draw_legend(Drawing& draw, const Plot& plot, const std::vector<std::string>
     }
 }
 
-/// Rows of one scene and view.
+/// The entries of one scene and view.
 struct Series {
     std::string name;
     std::vector<const ViewFigures*> rows;
@@ -228,4 +228,4 @@ std::string bench_svg(const BenchReport& report) {
         draw.elements());
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,4 +1,4 @@
-// bench/report_svg.h - scaling and instruction sets as a chart.
+// bench/report_svg.h - a chart of scaling by threads and instruction sets.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,10 +6,10 @@
 
 #include <string>
 
-namespace obscura {
+namespace obscura::bench {
 
-/// An SVG picture with one panel for the rows by threads (speed-up, with the ideal line) and one
-/// for those by instruction set (speed-up over the slowest); a panel without rows is left out.
+/// An SVG chart with one panel for the entries by threads (speed-up, with the ideal line) and one
+/// for those by instruction set (speed-up over the slowest); an empty panel is left out.
 std::string bench_svg(const BenchReport& report);
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-namespace obscura {
+namespace obscura::bench {
 
 namespace {
 
@@ -90,7 +90,7 @@ void add_kinds(const ViewFigures& view, std::string& out) {
                            rate(kind.render_s),
                            rate(kind.bare_s.median),
                            kind.render_s > 0 ? 100 * kind.bare_s.median / kind.render_s : 0,
-                           way_name(kind.way));
+                           replay_mode_name(kind.mode));
     }
 }
 
@@ -113,7 +113,7 @@ void add_view(const ViewFigures& view, std::string& out) {
                        per_second(view, c.paths) * 1e-6,
                        per_second(view, rays) * 1e-6);
     out += "    stages          ";
-    const auto shares = stage_shares(view);
+    const auto shares = stage_fractions(view);
     for (size_t i = 0; i < shares.size(); ++i)
         out += fmt::format(" {} {:.1f} %", stage_names()[i], 100 * shares[i]);
     out += fmt::format("; outside {:.1f} %\n", 100 * outside_stages(view));
@@ -170,4 +170,4 @@ std::string bench_table(const BenchReport& report) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,10 +1,10 @@
-// bench/spread.cpp - a figure that was measured several times.
+// bench/spread.cpp - median and range of repeated measurements.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/spread.h"
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::bench {
 
 Spread spread_of(std::vector<double> values) {
     if (values.empty()) return {};
@@ -15,4 +15,4 @@ Spread spread_of(std::vector<double> values) {
     return {median, values.front(), values.back()};
 }
 
-}  // namespace obscura
+}  // namespace obscura::bench

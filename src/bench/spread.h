@@ -1,22 +1,22 @@
-// bench/spread.h - a figure that was measured several times.
+// bench/spread.h - median and range of repeated measurements.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <vector>
 
-namespace obscura {
+namespace obscura::bench {
 
-/// Middle, least and greatest of several measurements.
+/// Median, least and greatest of several measurements.
 struct Spread {
     double median = 0;
     double low = 0;
     double high = 0;
 
-    /// Width of the range as a share of the median; 0 when that is 0.
+    /// Width of the range relative to the median; 0 when that is 0.
     double relative() const { return median != 0 ? (high - low) / median : 0; }
 };
 
 /// All zero for no values. Of an even number of values the median is the mean of the middle two.
 Spread spread_of(std::vector<double> values);
 
-}  // namespace obscura
+}  // namespace obscura::bench

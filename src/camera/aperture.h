@@ -1,4 +1,4 @@
-// camera/aperture.h - points on a lens: a disk, a polygon, or the bright parts of a picture.
+// camera/aperture.h - samples points on a lens: a disk, a polygon, or in proportion to an image.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,26 +7,26 @@
 
 namespace obscura {
 
-/// Pixels of a square picture along each side; larger pictures are averaged down to it.
+/// Side of the square aperture image in pixels; larger images are averaged down to it.
 inline constexpr int aperture_size = 128;
 
-/// A picture's brightness as running sums, each from above 0 to exactly 1.
+/// Running sums of an image's brightness, each ending at exactly 1.
 struct ApertureView {
-    const float* rows = nullptr;     ///< aperture_size sums; null: there is no picture
+    const float* rows = nullptr;     ///< aperture_size sums; null: there is no image
     const float* columns = nullptr;  ///< aperture_size sums for each row
 };
 
 struct Aperture {
     float radius_m = 0;        ///< of the disk, or of the circle through the polygon's corners
     int blades = 0;            ///< 3 or more: a regular polygon; else a disk
-    float rotation_turns = 0;  ///< of the polygon or picture, counter-clockwise seen from behind
+    float rotation_turns = 0;  ///< of the polygon or image, counter-clockwise seen from behind
     float squeeze = 1;         ///< width / height of the opening; anamorphic X is 1 / X
-    ApertureView picture;
+    ApertureView image;
 };
 
 inline namespace OBSCURA_ISA {
 
-/// The fraction of a turn, in [0, 1).
+/// The fractional part of a rotation in turns, in [0, 1).
 template <typename F>
 OBSCURA_INLINE F wrapped_turn(const F& t) {
     return t - floor(t);
@@ -46,14 +46,14 @@ OBSCURA_INLINE Vec2<F> polygon_point(int blades, const Vec2<F>& u) {
     const F n = F(static_cast<float>(blades));
     const F scaled = u.x * n;
     const F sector = min(floor(scaled), n - F(1.0f));
-    const F along = sqrt(scaled - sector);  // from the middle: triangles grow with its square
+    const F along = sqrt(scaled - sector);  // from the centre: areas grow with its square
     const F first = F(0.25f) + sector / n;
     const SinCos<F> a = sin_cos_turn(wrapped_turn(first));
     const SinCos<F> b = sin_cos_turn(wrapped_turn(first + F(1.0f) / n));
     return {along * lerp(a.cos, b.cos, u.y), along * lerp(a.sin, b.sin, u.y)};
 }
 
-/// A cell found in running sums, and the place in it.
+/// A cell found in running sums, and the position in it.
 template <typename F>
 struct SumCell {
     IntOf<F> index;
@@ -75,12 +75,11 @@ OBSCURA_INLINE SumCell<F> find_in_sums(const float* sums, const IntOf<F>& base, 
     return {index, clamp((u - low) / max(high - low, F(1e-30f)), F(0.0f), F(1.0f))};
 }
 
-/// A point of the picture that fills [-1,1]^2, as often as it is bright.
+/// A point of the image, which fills [-1,1]^2, with a density in proportion to its brightness.
 template <typename F>
-OBSCURA_INLINE Vec2<F> picture_point(const ApertureView& picture, const Vec2<F>& u) {
-    const SumCell<F> row = find_in_sums(picture.rows, IntOf<F>(0), u.y);
-    const SumCell<F> column =
-        find_in_sums(picture.columns, row.index * IntOf<F>(aperture_size), u.x);
+OBSCURA_INLINE Vec2<F> image_point(const ApertureView& image, const Vec2<F>& u) {
+    const SumCell<F> row = find_in_sums(image.rows, IntOf<F>(0), u.y);
+    const SumCell<F> column = find_in_sums(image.columns, row.index * IntOf<F>(aperture_size), u.x);
     const F scale = F(2.0f / aperture_size);
     return {(from_int<F>(column.index) + column.fraction) * scale - F(1.0f),
             F(1.0f) - (from_int<F>(row.index) + row.fraction) * scale};
@@ -89,14 +88,14 @@ OBSCURA_INLINE Vec2<F> picture_point(const ApertureView& picture, const Vec2<F>&
 /// A point on the lens, metres, x to the right, y up.
 ///
 /// In      u: uniform in [0,1)^2
-/// Out     uniform on the disk or polygon; as often as the picture is bright
+/// Out     uniform on the disk or polygon; for an image, in proportion to its brightness
 /// Source  Shirley and Chiu, "A Low Distortion Map Between Disk and Square", 1997, on why any
 ///         area-preserving map will do
 template <typename F>
 OBSCURA_INLINE Vec2<F> lens_point(const Aperture& aperture, const Vec2<F>& u) {
     Vec2<F> p;
-    if (aperture.picture.rows != nullptr) {
-        p = picture_point(aperture.picture, u);
+    if (aperture.image.rows != nullptr) {
+        p = image_point(aperture.image, u);
     } else if (aperture.blades >= 3) {
         p = polygon_point(aperture.blades, u);
     } else {

@@ -1,4 +1,4 @@
-// camera/aperture_table.cpp - a picture of an opening becomes running sums to draw points from.
+// camera/aperture_table.cpp - running sums of an aperture image, for sampling.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/aperture_table.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t side = aperture_size;
 
-/// Mean brightness of the part of the picture that one cell covers.
+/// Mean brightness of the part of the image that one cell covers.
 double cell_mean(const std::vector<float>& brightness, int width, int height, int x, int y) {
     const auto span = [](int i, int size) {
         const int first = i * size / aperture_size;
@@ -40,7 +40,7 @@ void write_sums(const double* values, float* sums) {
         running += values[i];
         sums[i] = total > 0 ? static_cast<float>(running / total) : 1.0f;
     }
-    // From the last bright cell on, whatever rounding says.
+    // Exactly 1 from the last bright cell on, despite rounding.
     for (size_t i = side; i-- > 0;) {
         sums[i] = 1.0f;
         if (values[i] > 0) break;

@@ -1,4 +1,4 @@
-// camera/aperture_table.h - a picture of an opening becomes running sums to draw points from.
+// camera/aperture_table.h - running sums of an aperture image, for sampling.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace obscura {
 
-/// Owns what an ApertureView sees.
+/// Owns the arrays of an ApertureView.
 struct ApertureTable {
     std::vector<float> rows;
     std::vector<float> columns;

@@ -1,4 +1,4 @@
-// camera/camera.h - the closed list of camera models, as one plain record that a stage can read.
+// camera/camera.h - the closed list of camera models, in one plain record that stages read.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,26 +14,29 @@ namespace obscura {
 /// To add a model: write camera/<model>.h with its parameters, `generate_ray`, its inverse and the
 /// source of the formula; append a name here and in camera/names.h, a member to Camera, a case
 /// to local_ray and visit_model below, to project in camera/project.h, to camera_matrices in
-/// camera/matrices.cpp and to make_camera in session/camera_build.cpp; a test against the closed
-/// form in tests/camera and a section in docs/cameras.md.
+/// camera/matrices.cpp and to make_camera in session/camera_build.cpp. The compiler names the other
+/// switches: render/points_lines_sizes.cpp, session/camera_parameters.cpp,
+/// explain/camera_working.cpp. Its settings go into scene/camera_settings.h; its public name into
+/// include/obscura/view.h and session/library_request.cpp. Then a test against the closed form in
+/// tests/camera and a section in docs/cameras.md.
 enum class CameraModel : int { pinhole = 0, orthographic, thin_lens, fisheye, environment };
 
-/// A camera in the world. `pinhole` holds the film of thin lenses too; else only the member that
-/// `model` names is used.
+/// A camera in the world. Only the member that `model` names is used, except that thin lenses also
+/// use `pinhole`, for the film.
 struct Camera {
     CameraModel model = CameraModel::pinhole;
     Affinef world_from_camera;  ///< rigid: rotation and translation; looks down -Z, +Y up
     float near_m = 0;           ///< nothing nearer is seen; 0: everything is
     float far_m = 0;            ///< nothing further is seen; 0: everything is
     PinholeCamera pinhole;
-    Distortion distortion;  ///< of a pinhole's or thin lens' picture
+    Distortion distortion;  ///< of a pinhole's or thin lens' image
     OrthographicCamera orthographic;
     ThinLens thin_lens;
     FisheyeCamera fisheye;
     EnvironmentCamera environment;
 };
 
-/// True where near and far are distances from the eye; else they are planes across the view.
+/// True when near and far are distances from the eye; else they are planes across the view.
 OBSCURA_INLINE bool measures_from_eye(const Camera& camera) {
     return camera.model == CameraModel::fisheye || camera.model == CameraModel::environment;
 }
@@ -44,14 +47,14 @@ OBSCURA_INLINE bool is_distorted(const Camera& camera) {
     return flat && camera.distortion.radius_limit > 0.0f;
 }
 
-/// True when some rays end before infinity, or some film points show nothing.
+/// True when some rays end before infinity, or some film points lie outside the camera's image.
 OBSCURA_INLINE bool limits_rays(const Camera& camera) {
     return camera.far_m > 0.0f || camera.model == CameraModel::fisheye || is_distorted(camera);
 }
 
 inline namespace OBSCURA_ISA {
 
-/// How a film point becomes a ray: a model, or a pinhole with something in front of its film.
+/// Selects the code that makes rays: a camera model, with or without distortion.
 template <CameraModel model_value, bool distorted_value = false>
 struct RayMaker {
     static constexpr CameraModel model = model_value;
@@ -59,8 +62,8 @@ struct RayMaker {
     static constexpr bool has_lens = model == CameraModel::thin_lens;
 };
 
-/// Calls use(RayMaker) once, for a loop over many film points to be compiled for each. A lens of
-/// radius 0 is a pinhole, to the last bit; so is any lens through whose middle all rays go.
+/// Calls use(RayMaker) once, so that a loop over film points is compiled for each model. A lens of
+/// radius 0 equals a pinhole bit by bit, as does any lens if all rays pass its centre.
 template <typename Use>
 OBSCURA_INLINE void visit_model(const Camera& camera, bool whole_lens, Use use) {
     const bool distorted = is_distorted(camera);
@@ -89,7 +92,7 @@ OBSCURA_INLINE CameraRay<F> flat_ray(const Camera& camera, const FilmPoint<F>& p
     MaskOf<F> valid = always<F>();
     if constexpr (Maker::distorted) {
         const Undistorted<F> inner = undistort(camera.distortion, Vec2<F>{plane.x, -plane.y});
-        plane = {inner.place.x, -inner.place.y};
+        plane = {inner.position.x, -inner.position.y};
         valid = inner.valid;
     }
     CameraRay<F> ray;
@@ -149,7 +152,7 @@ OBSCURA_INLINE WorldRay<F> world_ray(const Camera& camera, const FilmPoint<F>& p
     return out;
 }
 
-/// How far a ray may go from where it begins: 0 where the model shows nothing.
+/// Maximum length of a ray from its origin: 0 outside the camera's image.
 template <typename F>
 OBSCURA_INLINE F length_of(const Camera& camera, const WorldRay<F>& made) {
     const F longest = F(1e38f);
@@ -158,7 +161,7 @@ OBSCURA_INLINE F length_of(const Camera& camera, const WorldRay<F>& made) {
     return select(made.ray.valid, depth, F(0.0f));
 }
 
-/// A single ray, for tests and cold code: through point.lens, or the middle of the lens.
+/// A single ray, for tests and cold code: through point.lens, or the centre of the lens.
 template <typename F>
 OBSCURA_INLINE CameraRay<F> generate_ray(const Camera& camera,
                                          const FilmPoint<F>& point,

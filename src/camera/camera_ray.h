@@ -1,4 +1,4 @@
-// camera/camera_ray.h - what every camera model takes and gives: a place on the film, and a ray.
+// camera/camera_ray.h - input and output of every camera model: a film point and a ray.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,11 +6,11 @@
 
 namespace obscura {
 
-/// Where a sample lies. Film coordinates run over [0,1]^2, (0,0) is the picture's top left corner.
+/// Position of a sample. Film coordinates run over [0,1]^2, (0,0) is the image's top left corner.
 template <typename F>
 struct FilmPoint {
-    Vec2<F> film;          ///< the sample; a filter may push it over the picture's edge
-    Vec2<F> pixel_centre;  ///< of the pixel that it belongs to: decides on a face or an eye
+    Vec2<F> film;          ///< the sample; a filter may push it over the image's edge
+    Vec2<F> pixel_centre;  ///< of its pixel: decides on the cube face and the eye
     Vec2<F> lens;          ///< uniform in [0,1)^2; ignored by cameras without a lens
 };
 
@@ -22,12 +22,12 @@ struct CameraRay {
     Vec3<F> direction;  ///< unit, finite for invalid rays too
     F cone_width;       ///< metres at the origin
     F cone_spread;      ///< metres of width per metre of distance
-    MaskOf<F> valid;    ///< false: the model shows nothing here
+    MaskOf<F> valid;    ///< false: outside the camera's image
 };
 
 inline namespace OBSCURA_ISA {
 
-/// For models that fill the picture.
+/// The `valid` of models that fill the image.
 template <typename F>
 OBSCURA_INLINE MaskOf<F> always() {
     return MaskOf<F>(true);

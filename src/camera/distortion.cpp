@@ -1,4 +1,4 @@
-// camera/distortion.cpp - how far from its middle a distorted picture can be undone.
+// camera/distortion.cpp - the largest radius at which lens distortion can be inverted.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/distortion.h"
 
@@ -15,9 +15,9 @@ double largest_radius(double k1, double k2, double k3, double far_away) {
     constexpr int steps = 4096;
     double before = 0;
     for (int i = 1; i <= steps; ++i) {
-        // Small steps near the middle, where pictures are.
-        const double share = static_cast<double>(i) / steps;
-        const double r = far_away * share * share * share;
+        // Small steps near the centre, where images are.
+        const double fraction = static_cast<double>(i) / steps;
+        const double r = far_away * fraction * fraction * fraction;
         if (slope(r) <= 0) {
             double low = before;
             double high = r;

@@ -1,4 +1,4 @@
-// camera/distortion.h - lens distortion of a perspective picture as OpenCV writes it, both ways.
+// camera/distortion.h - lens distortion of perspective images by OpenCV's model, and its inverse.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,17 +13,17 @@ struct Distortion {
     float radius_limit = 0;  ///< 0: there is no distortion at all
 };
 
-/// The radius at which the radial polynomial stops growing, where the picture would fold over;
-/// `far_away` where it never does.
+/// The radius at which the radial polynomial stops growing and the image would fold over;
+/// `far_away` if it grows for ever.
 double largest_radius(double k1, double k2, double k3, double far_away);
 
 inline namespace OBSCURA_ISA {
 
-/// A point and the derivatives of its distorted place.
+/// A distorted point and its derivatives by the undistorted one.
 template <typename F>
 struct Distorted {
-    Vec2<F> place;
-    F xx, xy, yx, yy;  ///< xy: d place.x / d y
+    Vec2<F> position;
+    F xx, xy, yx, yy;  ///< xy: d position.x / d y
 };
 
 /// x'' = x (1 + k1 r^2 + k2 r^4 + k3 r^6) + 2 p1 x y + p2 (r^2 + 2 x^2), y'' likewise.
@@ -40,8 +40,8 @@ OBSCURA_INLINE Distorted<F> distort(const Distortion& d, const Vec2<F>& p) {
     const F two = F(2.0f);
     const F xy = p.x * p.y;
     Distorted<F> out;
-    out.place = {p.x * radial + two * p1 * xy + p2 * (r2 + two * p.x * p.x),
-                 p.y * radial + p1 * (r2 + two * p.y * p.y) + two * p2 * xy};
+    out.position = {p.x * radial + two * p1 * xy + p2 * (r2 + two * p.x * p.x),
+                    p.y * radial + p1 * (r2 + two * p.y * p.y) + two * p2 * xy};
     out.xx = radial + two * p.x * p.x * slope + two * p1 * p.y + F(6.0f) * p2 * p.x;
     out.yy = radial + two * p.y * p.y * slope + F(6.0f) * p1 * p.y + two * p2 * p.x;
     out.xy = two * xy * slope + two * p1 * p.x + two * p2 * p.y;
@@ -51,12 +51,12 @@ OBSCURA_INLINE Distorted<F> distort(const Distortion& d, const Vec2<F>& p) {
 
 template <typename F>
 struct Undistorted {
-    Vec2<F> place;
-    MaskOf<F> valid;  ///< false: no point within the radius limit is seen here
+    Vec2<F> position;
+    MaskOf<F> valid;  ///< false: no point within the radius limit maps here
 };
 
-/// Undoes `distort` by Newton's method. A lane stays as it is once it has arrived, so that its
-/// bits do not depend on its neighbours.
+/// Inverts `distort` by Newton's method. A lane stops once it has converged, so that its bits do
+/// not depend on its neighbours.
 template <typename F>
 OBSCURA_INLINE Undistorted<F> undistort(const Distortion& d, const Vec2<F>& wanted) {
     const F limit = F(d.radius_limit);
@@ -67,10 +67,10 @@ OBSCURA_INLINE Undistorted<F> undistort(const Distortion& d, const Vec2<F>& want
     };
     Vec2<F> p = within(wanted);
     MaskOf<F> arrived(false);
-    constexpr int most_steps = 40;  // beside the limit each step only halves the distance
-    for (int i = 0; i < most_steps; ++i) {
+    constexpr int max_steps = 40;  // near the limit each step only halves the distance
+    for (int i = 0; i < max_steps; ++i) {
         const Distorted<F> at = distort(d, p);
-        const Vec2<F> error = at.place - wanted;
+        const Vec2<F> error = at.position - wanted;
         const F determinant = at.xx * at.yy - at.xy * at.yx;
         const F safe = select(abs(determinant) > F(1e-6f), determinant, F(1e-6f));
         const Vec2<F> step{(at.yy * error.x - at.xy * error.y) / safe,
@@ -82,7 +82,7 @@ OBSCURA_INLINE Undistorted<F> undistort(const Distortion& d, const Vec2<F>& want
         if (all(arrived)) break;
     }
     const Distorted<F> at = distort(d, p);
-    const F residual = abs(at.place.x - wanted.x) + abs(at.place.y - wanted.y);
+    const F residual = abs(at.position.x - wanted.x) + abs(at.position.y - wanted.y);
     const F determinant = at.xx * at.yy - at.xy * at.yx;
     const MaskOf<F> valid = (residual <= F(1e-5f) * scale) & (determinant > F(0.0f));
     return {p, valid};

@@ -1,4 +1,4 @@
-// camera/environment.h - pictures of all directions, for one eye or two.
+// camera/environment.h - panoramic cameras: latitude-longitude, cylinder, cube map; mono or stereo.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,11 +7,13 @@
 
 namespace obscura {
 
-/// To add one: append it here, give it a function and a case in generate_ray below, a name in
-/// camera/names.h, a line in docs/cameras.md and its closed form in tests/camera.
+/// To add one: append it here, give it a function and a case in generate_ray below, its inverse in
+/// camera/project.cpp, a name in camera/names.h, its sizes in session/camera_build.cpp, its terms
+/// in explain/camera_working.cpp, its closed form in tests/camera, and a line in docs/cameras.md
+/// and in the schema of docs/extensions/OBSCURA_camera.
 enum class EnvironmentProjection : int { latlong, cylindrical, cubemap };
 
-/// The middle of a latitude-longitude or cylindrical picture looks down -Z, +X is right of it.
+/// The centre of a latitude-longitude or cylindrical image looks down -Z, +X is right of it.
 struct EnvironmentCamera {
     EnvironmentProjection projection = EnvironmentProjection::latlong;
     float half_height = 1;   ///< cylinder: tangent of half its vertical angle
@@ -23,7 +25,7 @@ struct EnvironmentCamera {
 
 inline namespace OBSCURA_ISA {
 
-/// Sine and cosine of t turns to the last bit or two: pictures of all directions are large.
+/// Sine and cosine of t turns to the last bit or two, because panoramas are large.
 ///
 /// In      t: in [-1, 2]
 template <typename F>
@@ -37,7 +39,7 @@ OBSCURA_INLINE SinCos<F> precise_turn(const F& t) {
     }
 }
 
-/// Which eye a pixel is for, and its place in that eye's picture: the left eye has the upper half.
+/// The eye of a pixel, and its position in that eye's image: the left eye has the upper half.
 template <typename F>
 struct EyeView {
     Vec2<F> film;
@@ -53,7 +55,7 @@ OBSCURA_INLINE EyeView<F> eye_view(const EnvironmentCamera& camera, const FilmPo
     return {{point.film.x, F(2.0f) * point.film.y - top}, select(right, eyes, -eyes)};
 }
 
-/// Turned to the right by `turn`: where the eye stands, and with it the direction.
+/// Position of the eye for a view direction rotated to the right by `turn`.
 ///
 /// Source  Ishiguro, Yamamoto, Tsuji, "Omni-Directional Stereo", PAMI 14(2), 1992
 template <typename F>
@@ -73,7 +75,7 @@ OBSCURA_INLINE CameraRay<F> latlong_ray(const EnvironmentCamera& camera,
     return {eye_origin(azimuth, eye.offset_m), normalize(direction), F(0.0f), spread, always<F>()};
 }
 
-/// The picture is on a cylinder around +Y.
+/// The image is on a cylinder around +Y.
 template <typename F>
 OBSCURA_INLINE CameraRay<F> cylindrical_ray(const EnvironmentCamera& camera,
                                             const FilmPoint<F>& point) {
@@ -95,8 +97,8 @@ OBSCURA_INLINE F of_face(const F& face, const float (&values)[6]) {
     return out;
 }
 
-/// Six square pictures of 90 degrees, row by row: right, left, up, down, back, front (+X, -X, +Y,
-/// -Y, +Z, -Z), each as one sees it from the middle. The upper edge of `up` continues `back`.
+/// Six square images of 90 degrees, row by row: right, left, up, down, back, front (+X, -X, +Y, -Y,
+/// +Z, -Z), each as seen from the centre. The upper edge of `up` continues `back`.
 template <typename F>
 OBSCURA_INLINE CameraRay<F> cubemap_ray(const EnvironmentCamera& camera,
                                         const FilmPoint<F>& point) {
@@ -117,7 +119,7 @@ OBSCURA_INLINE CameraRay<F> cubemap_ray(const EnvironmentCamera& camera,
     return {splat3(F(0.0f)), normalize(direction), F(0.0f), F(camera.pixel_height), always<F>()};
 }
 
-/// In camera space. Unlike the other models this one sees behind itself.
+/// The ray in camera space. Unlike with most models, it may point backwards.
 template <typename F>
 OBSCURA_INLINE CameraRay<F> generate_ray(const EnvironmentCamera& camera,
                                          const FilmPoint<F>& point) {

@@ -1,4 +1,4 @@
-// camera/exposure.h - how bright a photograph with given settings would be.
+// camera/exposure.h - exposure value and exposure scale of photographic settings.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,8 +14,8 @@ inline double exposure_value(double fstop, double shutter_s, double iso) {
     return std::log2(fstop * fstop / shutter_s * 100.0 / iso);
 }
 
-/// What luminances in nits are multiplied by: 1 is then what just saturates the film, 1.2 * 2^EV100
-/// nits, with a lens that loses 35 % and the saturation-based speed of ISO 12232:2006.
+/// Factor on luminances in nits that maps the saturation luminance, 1.2 * 2^EV100 nits, to 1: for a
+/// lens that loses 35 % and the saturation-based speed of ISO 12232:2006.
 ///
 /// Source  Lagarde and de Rousiers, "Moving Frostbite to PBR", SIGGRAPH course, 2014, section 5.1
 inline double exposure_scale(double ev100) {

@@ -1,4 +1,4 @@
-// camera/fisheye.cpp - how far from the axis each fisheye law can show.
+// camera/fisheye.cpp - the largest angle of each fisheye law.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/fisheye.h"
 
@@ -6,7 +6,7 @@ namespace obscura {
 
 double largest_fisheye_angle(FisheyeLaw law, const double k[4]) {
     if (law == FisheyeLaw::orthographic) return 0.5 * pi_d;
-    // 2 tan(theta / 2) is infinite at pi: a field of view of 359 degrees is the last whole one.
+    // 2 tan(theta / 2) is infinite at pi: the field of view is limited to 359 degrees.
     if (law == FisheyeLaw::stereographic) return 179.5 / 180.0 * pi_d;
     if (law != FisheyeLaw::opencv) return pi_d;
     const auto slope = [&](double theta) {

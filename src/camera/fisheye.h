@@ -1,4 +1,4 @@
-// camera/fisheye.h - wide round pictures: the angle from the axis decides the radius on the film.
+// camera/fisheye.h - fisheye cameras: the angle from the axis determines the radius on the film.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,8 +9,10 @@ namespace obscura {
 
 /// Radius r on a film at distance 1 of a ray at angle theta from the axis.
 ///
-/// To add one: append it here, give it a case in fisheye_radius and in fisheye_angle below, a name
-/// in camera/names.h, a line in docs/cameras.md and its closed form in tests/camera.
+/// To add one: append it here, give it a case in fisheye_radius and in fisheye_angle below, its
+/// largest angle in camera/fisheye.cpp, a name in camera/names.h, its formula in
+/// explain/camera_working.cpp, its closed form in tests/camera, and a line in docs/cameras.md and
+/// in the schema of docs/extensions/OBSCURA_camera.
 enum class FisheyeLaw : int {
     equidistant,    ///< r = theta
     equisolid,      ///< r = 2 sin(theta / 2)
@@ -21,17 +23,17 @@ enum class FisheyeLaw : int {
 
 struct FisheyeCamera {
     FisheyeLaw law = FisheyeLaw::equidistant;
-    float half_width = 1;  ///< radius at the middle of the right edge
+    float half_width = 1;  ///< radius at the centre of the right edge
     float half_height = 1;
     float shift_x = 0;  ///< of the film, as a radius; positive: sees more right
     float shift_y = 0;  ///< positive: sees more above
     float k[4] = {0, 0, 0, 0};
     float largest_angle = 1.5707963f;   ///< half the field of view, radians; in (0, pi]
     float largest_radius = 1.5707963f;  ///< that of largest_angle
-    float pixel_spread = 0.001f;        ///< 2 * half_height / picture height in pixels
+    float pixel_spread = 0.001f;        ///< 2 * half_height / image height in pixels
 };
 
-/// The largest angle up to which the law grows (and pi at most): where a picture must end.
+/// The largest angle up to which the radius grows (at most pi): the edge of the image circle.
 double largest_fisheye_angle(FisheyeLaw law, const double k[4]);
 
 inline namespace OBSCURA_ISA {
@@ -76,7 +78,7 @@ OBSCURA_INLINE F fisheye_radius(const FisheyeCamera& camera, const F& theta) {
     return theta;
 }
 
-/// A ray's angle from the axis, as its camera needs it.
+/// A ray's angle from the axis, with the values that the ray is made from.
 template <typename F>
 struct FisheyeAngle {
     F sin_over_radius;
@@ -91,16 +93,16 @@ OBSCURA_INLINE FisheyeAngle<F> angle_from_theta(const F& theta, const F& radius,
     return {select(apart, turned.sin / select(apart, radius, F(1.0f)), F(1.0f)), turned.cos, slope};
 }
 
-/// Inverts the four-coefficient model by Newton's method inside a bracket. A lane stays as it is
-/// once it has arrived, so that its bits do not depend on its neighbours.
+/// Inverts the four-coefficient model by Newton's method inside a bracket. A lane stops once it has
+/// converged, so that its bits do not depend on its neighbours.
 template <typename F>
 OBSCURA_INLINE F opencv_angle(const FisheyeCamera& camera, const F& radius) {
     F low = F(0.0f);
     F high = F(camera.largest_angle);
     F theta = min(radius, high);
     MaskOf<F> arrived(false);
-    constexpr int most_steps = 60;
-    for (int i = 0; i < most_steps; ++i) {
+    constexpr int max_steps = 60;
+    for (int i = 0; i < max_steps; ++i) {
         const OpenCvRadius<F> at = opencv_radius(camera, theta);
         const auto beyond = at.radius > radius;
         high = select(beyond, theta, high);
@@ -147,7 +149,7 @@ OBSCURA_INLINE FisheyeAngle<F> fisheye_angle(const FisheyeCamera& camera, const 
     return angle_from_theta(radius, radius, one);
 }
 
-/// Nothing is seen outside the circle of largest_radius; rays there are invalid.
+/// Rays outside the image circle (largest_radius) are invalid.
 template <typename F>
 OBSCURA_INLINE CameraRay<F> generate_ray(const FisheyeCamera& camera, const FilmPoint<F>& point) {
     const F x = (F(2.0f) * point.film.x - F(1.0f)) * F(camera.half_width) + F(camera.shift_x);
@@ -165,7 +167,7 @@ OBSCURA_INLINE CameraRay<F> generate_ray(const FisheyeCamera& camera, const Film
             valid};
 }
 
-/// The film point that a place in camera space is seen at; for places within the field of view.
+/// Projects a position in camera space, within the field of view, to the film.
 template <typename F>
 OBSCURA_INLINE Vec2<F> film_from_fisheye(const FisheyeCamera& camera, const Vec3<F>& p) {
     const F across = sqrt(p.x * p.x + p.y * p.y);

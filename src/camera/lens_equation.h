@@ -1,4 +1,4 @@
-// camera/lens_equation.h - where a thin lens makes points sharp, and how large the others become.
+// camera/lens_equation.h - image distance and circle of confusion of a thin lens.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,8 +13,8 @@ inline double image_distance(double focal_m, double distance_m) {
     return 1.0 / (1.0 / focal_m - 1.0 / distance_m);
 }
 
-/// Diameter on the film of the patch that a point at distance_m becomes when the film lies where
-/// focus_m is sharp: c = A / z' * |z'_focus - z'|.
+/// Diameter on the film of the image of a point at distance_m when the lens is focused at focus_m:
+/// c = A / z' * |z'_focus - z'|.
 ///
 /// Units   metres; diameter_m is the lens opening's
 /// Source  Potmesil and Chakravarty, "Synthetic Image Generation with a Lens and Aperture Camera

@@ -1,4 +1,4 @@
-// camera/matrices.cpp - the world-to-camera and world-to-NDC matrices that pictures carry.
+// camera/matrices.cpp - the world-to-camera and world-to-NDC matrices for image metadata.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/matrices.h"
 

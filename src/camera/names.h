@@ -33,7 +33,7 @@ inline constexpr std::array<Named<EnvironmentProjection>, 3> environment_project
      {"cylindrical", EnvironmentProjection::cylindrical},
      {"cubemap", EnvironmentProjection::cubemap}}};
 
-/// The name of a value; every value has one.
+/// The name of a value; every value must have one.
 template <typename T, size_t N>
 constexpr const char* name_of(const std::array<Named<T>, N>& names, T value) {
     for (const Named<T>& entry : names) {

@@ -9,7 +9,7 @@ namespace obscura {
 struct OrthographicCamera {
     float half_width_m = 1;        ///< glTF xmag
     float half_height_m = 1;       ///< glTF ymag
-    float pixel_width_m = 0.001f;  ///< 2 * half_height_m / picture height in pixels
+    float pixel_width_m = 0.001f;  ///< 2 * half_height_m / image height in pixels
 };
 
 inline namespace OBSCURA_ISA {

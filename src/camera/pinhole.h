@@ -9,7 +9,7 @@ namespace obscura {
 struct PinholeCamera {
     float tan_half_yfov = 0.41421356f;  ///< > 0
     float aspect = 1;                   ///< width / height of the film, > 0
-    float pixel_spread = 0.001f;        ///< 2 * tan_half_yfov / picture height in pixels
+    float pixel_spread = 0.001f;        ///< 2 * tan_half_yfov / image height in pixels
     float shift_x = 0;                  ///< of the film, at distance 1; positive: sees more right
     float shift_y = 0;                  ///< positive: sees more above
 };

@@ -1,4 +1,4 @@
-// camera/project.cpp - where on the film a place in the world is seen: the inverse of generate_ray.
+// camera/project.cpp - projects a world position to the film: the inverse of generate_ray.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/project.h"
 
@@ -16,9 +16,9 @@ Film project_flat(const Camera& camera, const Vec3d& p) {
     if (is_distorted(camera)) {
         const double limit = static_cast<double>(camera.distortion.radius_limit);
         if (std::hypot(plane.x, plane.y) > limit) return std::nullopt;
-        const Vec2<double> place =
-            distort(camera.distortion, Vec2<double>{plane.x, -plane.y}).place;
-        plane = {place.x, -place.y};
+        const Vec2<double> position =
+            distort(camera.distortion, Vec2<double>{plane.x, -plane.y}).position;
+        plane = {position.x, -position.y};
     }
     return film_from_plane(camera.pinhole, plane);
 }
@@ -34,12 +34,12 @@ Film project_fisheye(const FisheyeCamera& camera, const Vec3d& p) {
     return film_from_fisheye(camera, p);
 }
 
-/// The turn to the right at which a place is straight ahead of the left eye or the only one.
+/// The rotation to the right, in turns, at which a position is straight ahead of the left eye.
 double azimuth_turn(const EnvironmentCamera& camera, const Vec3d& p) {
     const double turn = std::atan2(p.x, -p.z) / (2 * pi_d);
     const double ratio =
         static_cast<double>(camera.half_eyes_m) / std::max(std::hypot(p.x, p.z), 1e-300);
-    // The line of sight touches the circle on which the eye stands.
+    // The line of sight is tangent to the circle on which the eye moves.
     const double shifted = turn + std::asin(std::min(ratio, 1.0)) / (2 * pi_d) + 0.5;
     return shifted - std::floor(shifted);
 }
@@ -61,7 +61,7 @@ Film project_cube(const EnvironmentCamera& camera, const Vec3d& p) {
     const int axis = size.x == largest ? 0 : size.y == largest ? 1 : 2;
     const double along = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
     const int face = 2 * axis + (along < 0 ? 1 : 0);
-    // What is right and up on each face; see cubemap_ray.
+    // The coordinates to the right and up on each face; see cubemap_ray.
     const double a[6] = {p.z, -p.z, p.x, p.x, -p.x, p.x};
     const double b[6] = {p.y, p.y, p.z, -p.z, p.y, p.y};
     const int column = face % camera.cube_columns;
@@ -73,9 +73,9 @@ Film project_cube(const EnvironmentCamera& camera, const Vec3d& p) {
 
 }  // namespace
 
-std::optional<Vec2<double>> project(const Camera& camera, const Vec3d& place_world) {
+std::optional<Vec2<double>> project(const Camera& camera, const Vec3d& position_world) {
     const Affined camera_from_world = inverse(affine_cast<double>(camera.world_from_camera));
-    const Vec3d p = transform_point(camera_from_world, place_world);
+    const Vec3d p = transform_point(camera_from_world, position_world);
     switch (camera.model) {
         case CameraModel::pinhole:
         case CameraModel::thin_lens:

@@ -15,8 +15,9 @@ struct ThinLens {
 
 inline namespace OBSCURA_ISA {
 
-/// The ray from a point of the lens to where the film point is sharp. It leaves the lens at z = 0
-/// and meets the chief ray on the plane z = -focus. With radius 0 it is the pinhole's ray.
+/// The ray from a point of the lens to the film point's position on the plane of focus. It leaves
+/// the lens at z = 0 and meets the chief ray on the plane z = -focus. With radius 0 it is the
+/// pinhole's ray.
 ///
 /// In      plane: of the chief ray, at z = -1
 /// Source  Cook, Porter, Carpenter, "Distributed Ray Tracing", SIGGRAPH 1984

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -19,7 +19,7 @@ Vec3d smaller(const Vec3d& a, const Vec3d& b) {
     return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)};
 }
 
-/// 1 / d; a huge number for 0, so that 0 times it is no NaN.
+/// 1 / d; a huge number for 0, so that its product with 0 is no NaN.
 double safe_inverse(double d) {
     return std::abs(d) < 1e-200 ? std::copysign(1e200, d) : 1 / d;
 }
@@ -91,4 +91,4 @@ void BoxTree::split(size_t node, int32_t begin, int32_t end) {
     split(child + 1, middle, end);
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/box_tree.h - a tree of boxes in double that collects what a ray may hit.
+// crosscheck/box_tree.h - a box hierarchy in double precision that collects possible hits.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,12 +8,12 @@
 #include <cstdint>
 #include <vector>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 /// A ray in double. The direction need not have length 1.
 struct TrueRay {
     Vec3d origin, direction;
-    double end = INFINITY;  ///< the last t that counts
+    double end = INFINITY;  ///< largest t that counts
 };
 
 struct TrueBox {
@@ -22,16 +22,16 @@ struct TrueBox {
 
     void add(const Vec3d& p);
     void add(const TrueBox& other);
-    /// Room for what rounds in double, a billion times more than is needed near the box.
+    /// Room for rounding in double, a billion times more than is needed near the box.
     TrueBox with_room() const;
 };
 
-/// A ray as boxes want it; with room, one that meets every box that it passes as closely as that.
+/// A ray prepared for box tests; with `room`, boxes that it passes as closely as that are met, too.
 class BoxRay {
 public:
     explicit BoxRay(const TrueRay& ray, double room = 0);
 
-    /// True when some of [0, limit] may lie in the box; true too where rounding leaves a doubt.
+    /// True when a part of [0, limit] may lie in the box, and wherever rounding leaves a doubt.
     bool meets(const TrueBox& box, double limit) const {
         const Vec3d a = (box.low - from_low_) * inverse_;
         const Vec3d b = (box.high - from_high_) * inverse_;
@@ -43,13 +43,13 @@ public:
     bool goes_backwards(int axis) const { return backwards_[axis]; }
 
 private:
-    Vec3d from_low_, from_high_;  ///< the origin, as far moved as the boxes would be grown
+    Vec3d from_low_, from_high_;  ///< the origin, moved by `room`
     Vec3d inverse_;
     bool backwards_[3];
 };
 
-/// Nothing here knows of Embree, and no box is smaller than what it holds: whoever is not visited
-/// is not hit. Split at the middle item, so that the tree is as deep as the logarithm of its size.
+/// Independent of Embree. Boxes are never smaller than their items, so an item that is not visited
+/// is not hit. Nodes split at the median item: the depth is the logarithm of the size.
 class BoxTree {
 public:
     explicit BoxTree(const std::vector<TrueBox>& boxes);
@@ -74,7 +74,7 @@ public:
                 continue;
             }
             const bool backwards = boxed.goes_backwards(node.axis);
-            stack[size++] = backwards ? node.first : node.first + 1;  // the far one waits
+            stack[size++] = backwards ? node.first : node.first + 1;  // the far child waits
             stack[size++] = backwards ? node.first + 1 : node.first;
         }
     }
@@ -98,4 +98,4 @@ private:
     std::vector<Leaf> leaves_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/budget.cpp - how much may differ before a cross-check fails.
+// crosscheck/budget.cpp - how many differences a cross-check accepts.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/budget.h"
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -32,7 +32,7 @@ void check_pair(const PairFigures& pair, std::vector<std::string>& faults) {
                         pair.expected,
                         unaimed.mismatches(),
                         unaimed.rays,
-                        mismatch_share));
+                        mismatch_fraction));
     }
 }
 
@@ -56,7 +56,7 @@ void check_viewer(const ViewerReport& viewer, std::vector<std::string>& faults) 
 
 uint64_t mismatches_allowed(uint64_t rays) {
     // The Poisson distribution's upper tail: sums terms until less than a thousandth is left.
-    const double mean = mismatch_share * static_cast<double>(rays);
+    const double mean = mismatch_fraction * static_cast<double>(rays);
     if (mean > 400) return static_cast<uint64_t>(mean + 3.1 * std::sqrt(mean));
     double term = std::exp(-mean);
     double below = term;
@@ -123,4 +123,4 @@ Result<void> check_budget(const std::vector<CheckedScene>& scenes) {
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

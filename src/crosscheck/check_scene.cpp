@@ -1,4 +1,4 @@
-// crosscheck/check_scene.cpp - all checks of one scene.
+// crosscheck/check_scene.cpp - runs all checks of one scene.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/check_scene.h"
 
@@ -10,17 +10,17 @@
 #include <atomic>
 #include <fmt/format.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
-constexpr size_t most_parts = 32;
-/// Triangles and shapes that the search without boxes may look at.
-constexpr uint64_t most_exhaustive_looks = 400000000;
+constexpr size_t max_components = 32;
+/// Limit on the triangles and shapes of the search without boxes.
+constexpr uint64_t max_exhaustive_items = 400000000;
 
 TruthCheck check_truth(const TrueScene& truth, const RaySet& rays) {
     const uint64_t items = std::max<uint64_t>(truth.item_count(), 1);
-    const uint64_t wanted = std::clamp<uint64_t>(most_exhaustive_looks / items, 16, 4096);
+    const uint64_t wanted = std::clamp<uint64_t>(max_exhaustive_items / items, 16, 4096);
     const auto chunks = static_cast<size_t>(std::min<uint64_t>(wanted, rays.chunks()));
     std::atomic<uint64_t> wrong = 0;
     std::atomic<uint64_t> checked = 0;
@@ -38,7 +38,7 @@ TruthCheck check_truth(const TrueScene& truth, const RaySet& rays) {
     return {checked.load(), wrong.load()};
 }
 
-/// The comparing of one batch: what every kernel is held against.
+/// State of comparing one batch: the references of every kernel.
 struct Comparing {
     const TrueScene& truth;
     const RayBatch& batch;
@@ -47,7 +47,7 @@ struct Comparing {
     Log& log;
     AnswerList truths = {};
     AnswerList base = {};  ///< of the first kernel
-    size_t compared = 0;   ///< pairs so far: the same ones in every batch
+    size_t compared = 0;   ///< pairs so far; equal in every batch
 
     void run(const Kernel& planned, Standard standard) {
         const Kernel kernel = task.stand_in ? task.stand_in(planned) : planned;
@@ -130,8 +130,8 @@ Result<CheckedScene> check_scene(const CheckTask& task, Log& log) {
     if (!twins) return fail(twins.error());
     out.twins = std::move(*twins);
     log.detail(out.name + ": shapes compared with meshes");
-    const ClosedParts parts = find_closed_parts(scene, most_parts);
-    auto leaks = count_leaks(parts, 10 * rays.count(), task.rays.seed);
+    const ClosedComponents closed = find_closed_components(scene, max_components);
+    auto leaks = count_leaks(closed, 10 * rays.count(), task.rays.seed);
     if (!leaks) return fail(leaks.error());
     out.leaks = std::move(*leaks);
     log.detail(out.name + ": leaks counted");
@@ -182,4 +182,4 @@ Result<std::string> replay_ray(const Scene& scene, const TrueRay& ray, Isa isa) 
     return text;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/check_scene.h - everything that a cross-check finds out about one scene.
+// crosscheck/check_scene.h - the results of all checks of one scene.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,9 +15,9 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
-/// The tree of the truth against a search through everything.
+/// The truth's hierarchy, compared with an exhaustive search.
 struct TruthCheck {
     uint64_t rays = 0;
     uint64_t wrong = 0;
@@ -35,9 +35,9 @@ struct CheckedScene {
     TwinReport twins;
     LeakReport leaks;
     SpawnedReport spawned;
-    std::optional<ViewerReport> viewer;  ///< where it was asked for
+    std::optional<ViewerReport> viewer;  ///< if it was asked for
     ScreenVerdicts screen;
-    std::vector<std::string> faults;  ///< what is outside of the budget; empty: nothing
+    std::vector<std::string> faults;  ///< figures outside the budget; empty: none
 };
 
 struct CheckTask {
@@ -46,8 +46,8 @@ struct CheckTask {
     std::string file;
     RaySetOptions rays;
     Isa isa = Isa::automatic;                                 ///< of the renderer's own queries
-    std::optional<std::filesystem::path> export_embree = {};  ///< folder for Embree's programs
-    /// What is asked in a kernel's place: tests spoil answers here. Empty: the kernels themselves.
+    std::optional<std::filesystem::path> export_embree = {};  ///< folder for Embree's viewer
+    /// Replaces kernels, so that tests can spoil answers. Empty: the kernels themselves.
     std::function<Kernel(const Kernel&)> stand_in = {};
 };
 
@@ -62,4 +62,4 @@ Result<CheckedScene> check_scene(const CheckTask& task, Log& log);
 /// Errors  those of Accel::build
 Result<std::string> replay_ray(const Scene& scene, const TrueRay& ray, Isa isa);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,8 +1,8 @@
-// crosscheck/compare.cpp - two answers about one ray.
+// crosscheck/compare.cpp - compares two answers about one ray.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/compare.h"
 
-#include "crosscheck/piece_test.h"
+#include "crosscheck/segment_rounding.h"
 #include "crosscheck/side_test.h"
 #include "math/warp.h"
 
@@ -10,19 +10,19 @@
 #include <array>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
-/// What one comparison is about.
+/// Inputs of one comparison.
 struct Question {
     const TrueScene& scene;
     const TrueRay& ray;
     double unit_m;  ///< one ulp
 };
 
-/// Distance of two hits along the surface's normal, in ulp; where the surface turns, along the
-/// steeper normal.
+/// Distance of two hits along the surface's normal, in ulp; on a curved surface, along the steeper
+/// of its two normals.
 double depth_gap(const Question& q, const Answer& a, const Answer& b) {
     const double along = std::abs(a.t - b.t) * length(q.ray.direction);
     if (along <= q.unit_m) return along / q.unit_m;
@@ -35,14 +35,14 @@ double depth_gap(const Question& q, const Answer& a, const Answer& b) {
     return along * std::max(cosine(a.t), cosine(b.t)) / q.unit_m;
 }
 
-/// True when `hit`, the truth about a ray that is so many ulp away, is what the answer says.
+/// True when the answer agrees with `hit`, the truth about a ray that is so many ulp away.
 bool says_the_same(const Question& q, const Answer& answer, const TrueHit& hit, double ulps) {
     if (!answer.found() || !hit.found()) return answer.found() == hit.found();
     return answer.any || depth_gap(q, answer_of(hit), answer) <= depth_ulps + ulps;
 }
 
-/// Calls look(ray) for rays so many ulp away from q.ray: beside it, ahead and behind, and turned so
-/// that they are on one side where they begin and on the other where they hit, at t.
+/// Calls look(ray) for rays so many ulp away from q.ray: beside it, ahead and behind, and tilted
+/// ones that start on one side and reach t on the other.
 template <typename Look>
 void look_around(const Question& q, double ulps, const std::array<double, 2>& t, const Look& look) {
     constexpr int turns = 16;
@@ -67,8 +67,7 @@ void look_around(const Question& q, double ulps, const std::array<double, 2>& t,
     }
 }
 
-/// How far away rays are found that have the answers, up to `most` ulp; infinite where there are
-/// none.
+/// Distance of rays that have the answers, up to `most` ulp; infinite where there are none.
 double explanation(const Question& q, const Answer& expected, const Answer& got, double most) {
     const TrueHit own = q.scene.nearest(q.ray);
     bool expected_seen = says_the_same(q, expected, own, 0);
@@ -85,7 +84,7 @@ double explanation(const Question& q, const Answer& expected, const Answer& got,
     return INFINITY;
 }
 
-/// Where the ray passes the item's middle: a turned ray must have its sides there.
+/// Where the ray passes the item's centre: tilted rays cross over there.
 double passing(const Question& q, const Item& item) {
     const double squared = dot(q.ray.direction, q.ray.direction);
     return dot(q.scene.middle(item) - q.ray.origin, q.ray.direction) / squared;
@@ -106,8 +105,8 @@ bool is_at_its_edge(const Question& q, const Answer& answer) {
     return hit && missed;
 }
 
-/// True when the item lies within 4 ulp of the place where the answer says that it is hit: seen
-/// along its own normal, through that place or one beside it.
+/// True when the item lies within 4 ulp of the position where the answer places the hit: along its
+/// own normal, through that position or one beside it.
 bool is_near_its_item(const Question& q, const Answer& answer) {
     const Vec3d place = q.ray.origin + q.ray.direction * answer.t;
     const Vec3d normal = q.scene.normal(answer.item, place);
@@ -130,7 +129,7 @@ bool is_near_its_item(const Question& q, const Answer& answer) {
     return found;
 }
 
-/// True when rays at most 4 ulp away meet the answer's item at its depth, whatever hides it.
+/// True when a ray at most 4 ulp away meets the answer's item at its depth, occluded or not.
 bool is_met_nearby(const Question& q, const Answer& answer) {
     const auto meets = [&](const TrueRay& ray, double ulps) {
         for (const double t : q.scene.meetings(ray, answer.item)) {
@@ -147,8 +146,8 @@ bool is_met_nearby(const Question& q, const Answer& answer) {
     return met;
 }
 
-/// True when rounding alone decides on which side of two or three edges of a triangle the ray
-/// passes, the edges being lines without end, and it lies outside of no other.
+/// True when rounding alone decides on which side of two or three edges' infinite lines the ray
+/// passes a triangle, and it is outside of no other edge.
 bool is_edge_on(const Question& q, const Item& item) {
     if (!q.scene.is_triangle(item)) return false;
     const SideTest test = side_test(q.scene, q.ray, item, edge_ulps * q.unit_m);
@@ -163,7 +162,7 @@ bool is_edge_on(const Question& q, const Item& item) {
     return within && undecided >= 2;
 }
 
-/// Half the length of an item, seen from its middle.
+/// Half the extent of an item around its centre.
 double half_length(const Question& q, const Item& item) {
     const Vec3d middle = q.scene.middle(item);
     if (q.scene.is_triangle(item)) {
@@ -177,10 +176,10 @@ double half_length(const Question& q, const Item& item) {
     return length(transform_vector(absolute(q.scene.world_from_object(item)), half));
 }
 
-/// True when rays around hit this item somewhere on the way past it, and others do not, or when the
-/// way runs along its surface. Its middle may be a hole.
+/// True when nearby rays hit this item somewhere along the ray's passage and others do not, or when
+/// the passage runs along its surface. The item's centre may be a hole.
 bool is_at_an_edge_of(const Question& q, const Item& item) {
-    constexpr int places = 4;  // before and behind the middle
+    constexpr int places = 4;  // before and behind the centre
     const double middle = passing(q, item);
     const double half = half_length(q, item) / length(q.ray.direction);
     for (int k = -places; k <= places; ++k) {
@@ -190,58 +189,58 @@ bool is_at_an_edge_of(const Question& q, const Item& item) {
     return false;
 }
 
-/// Occlusion does not say what it met: the best excuse of all that lies beside the ray.
-Finding excuse_occlusion(const Question& q) {
-    Finding best = Finding::false_hit;
+/// Occlusion does not say what was hit: the best explanation by any item beside the ray.
+Verdict excuse_occlusion(const Question& q) {
+    Verdict best = Verdict::false_hit;
     q.scene.near_items(q.ray, beside_ulps * q.unit_m, [&](const Item& item) {
-        if (best == Finding::agree) return;
+        if (best == Verdict::agree) return;
         const double t = passing(q, item);
         const double rounding = q.scene.rounding_m(q.ray, item, std::max(t, 0.0));
         const Question there{q.scene, q.ray, std::max(q.unit_m, rounding)};
         if (is_at_an_edge_of(there, item)) {
-            best = Finding::agree;
+            best = Verdict::agree;
         } else if (is_edge_on(there, item)) {
-            best = Finding::edge_on;
+            best = Verdict::edge_on;
         }
     });
     return best;
 }
 
-/// True where Embree may take a hit on a piece of a line for its neighbour's: where cone and ball
-/// touch, of this piece or of a next one on whose surface the hit lies too.
+/// True where Embree may take a hit on one segment for its neighbour's: where cone and end cap
+/// touch, of this segment or of a neighbour on whose surface the hit lies, too.
 bool is_at_seam(const Question& q, const Answer& answer) {
-    if (!q.scene.is_piece(answer.item)) return false;
+    if (!q.scene.is_segment(answer.item)) return false;
     const Vec3d place = q.ray.origin + q.ray.direction * answer.t;
     const auto touches = [&](const Item& item) {
-        return PieceTest(q.scene.piece(item), q.ray).is_at_seam(answer.t);
+        return SegmentRounding(q.scene.segment(item), q.ray).is_at_seam(answer.t);
     };
     const auto touches_next = [&](int32_t step) {
-        const std::optional<Item> next = q.scene.next_piece(answer.item, step);
+        const std::optional<Item> next = q.scene.next_segment(answer.item, step);
         if (!next) return false;
-        const double height = q.scene.side_of_piece(*next, place);
+        const double height = q.scene.side_of_segment(*next, place);
         return std::abs(height) <= edge_ulps * q.unit_m && touches(*next);
     };
     return touches(answer.item) || touches_next(-1) || touches_next(1);
 }
 
-/// True when rounding alone decides whether the piece of a line that a hit belongs to is met. The
-/// ball between two pieces belongs to the first: Embree's test of the second leaves it out.
+/// True when rounding alone decides whether a hit's line segment is met. The end cap between two
+/// segments belongs to the first: Embree's test of the second leaves it out.
 bool is_along(const Question& q, const Answer& passed) {
-    if (!q.scene.is_piece(passed.item)) return false;
-    const PieceTest own(q.scene.piece(passed.item), q.ray);
-    const std::optional<Item> previous = q.scene.next_piece(passed.item, -1);
-    if (!previous || !own.is_on_first_ball(passed.t)) return own.is_chance();
-    return PieceTest(q.scene.piece(*previous), q.ray).is_chance();
+    if (!q.scene.is_segment(passed.item)) return false;
+    const SegmentRounding own(q.scene.segment(passed.item), q.ray);
+    const std::optional<Item> previous = q.scene.next_segment(passed.item, -1);
+    if (!previous || !own.is_on_first_cap(passed.t)) return own.is_chance();
+    return SegmentRounding(q.scene.segment(*previous), q.ray).is_chance();
 }
 
-/// agree: what the answer says is there is there within 4 ulp, and all that it has passed by is at
-/// its edge or a seam; edge_on: but for triangles seen edge-on and pieces of lines seen along their
+/// agree: the answer's item is there within 4 ulp, and all items that it passed are at their edge
+/// or a seam; edge_on: the same, except for triangles seen edge-on and segments seen along their
 /// axis; false_hit: neither.
-Finding excuse(const Question& q, const Answer& answer) {
-    Finding worst = Finding::agree;
+Verdict excuse(const Question& q, const Answer& answer) {
+    Verdict worst = Verdict::agree;
     const auto judge = [&](bool good, bool edge_on) {
         if (good) return;
-        worst = std::max(worst, edge_on ? Finding::edge_on : Finding::false_hit);
+        worst = std::max(worst, edge_on ? Verdict::edge_on : Verdict::false_hit);
     };
     if (answer.any) return excuse_occlusion(q);
     if (answer.found()) {
@@ -258,12 +257,12 @@ Finding excuse(const Question& q, const Answer& answer) {
     return worst;
 }
 
-/// What another item at the same depth is: there too, or beyond what the ray decides; or a wrong
-/// name.
-Finding judge_other_item(const Question& q, const Answer& got) {
+/// Verdict on another item at the same depth: equal_depth when it is there within rounding, too;
+/// else the name is wrong.
+Verdict judge_other_item(const Question& q, const Answer& got) {
     const bool good = is_met_nearby(q, got) || is_at_its_edge(q, got) || is_at_seam(q, got) ||
                       is_edge_on(q, got.item) || is_along(q, got);
-    return good ? Finding::equal_depth : Finding::item;
+    return good ? Verdict::equal_depth : Verdict::item;
 }
 
 bool is_named_wrong(const TrueScene& scene, const Answer& answer) {
@@ -284,7 +283,7 @@ Comparison compare(const TrueScene& scene,
     if (!expected.found() && !got.found()) return {};
     if (expected.found() && got.found() && (expected.any || got.any)) return {};
     if (is_named_wrong(scene, expected) || is_named_wrong(scene, got)) {
-        return {Finding::item, INFINITY};
+        return {Verdict::item, INFINITY};
     }
     const bool same = expected.item == got.item;
     if (same && expected.found() == got.found() && expected.t == got.t) return {};
@@ -293,17 +292,17 @@ Comparison compare(const TrueScene& scene,
     const Question question{scene, ray, unit};
     const bool both = expected.found() && got.found();
     if (both && depth_gap(question, expected, got) <= depth_ulps) {
-        return {same ? Finding::agree : judge_other_item(question, got), 0};
+        return {same ? Verdict::agree : judge_other_item(question, got), 0};
     }
     double ulps = explanation(question, expected, got, edge_ulps);
-    if (ulps <= edge_ulps) return {Finding::edge, ulps};
-    const Finding excused = std::max(excuse(question, expected), excuse(question, got));
-    if (excused == Finding::agree) return {Finding::crack, edge_ulps};
-    if (excused == Finding::edge_on) return {Finding::edge_on, edge_ulps};
+    if (ulps <= edge_ulps) return {Verdict::edge, ulps};
+    const Verdict excused = std::max(excuse(question, expected), excuse(question, got));
+    if (excused == Verdict::agree) return {Verdict::crack, edge_ulps};
+    if (excused == Verdict::edge_on) return {Verdict::edge_on, edge_ulps};
     ulps = explanation(question, expected, got, 64 * edge_ulps);
-    if (both && same) return {Finding::depth, depth_gap(question, expected, got)};
+    if (both && same) return {Verdict::depth, depth_gap(question, expected, got)};
     const bool behind = !got.found() || (both && got.t > expected.t);
-    return {behind ? Finding::missed : Finding::false_hit, ulps};
+    return {behind ? Verdict::missed : Verdict::false_hit, ulps};
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,25 +1,25 @@
-// crosscheck/compare.h - whether two answers about one ray agree, and how they differ.
+// crosscheck/compare.h - compares two answers about one ray and classifies differences.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "crosscheck/truth.h"
 
-namespace obscura {
+namespace obscura::crosscheck {
 
-/// Where on a triangle, and how it lies, as Embree says it.
+/// A position on a triangle, and the triangle's normal, as Embree returns them.
 struct SaidPlace {
     double u = 0, v = 0;  ///< weights of the second and of the third corner
-    Vec3d ng;             ///< in the triangle's own space, as long as two of its areas
+    Vec3d ng;             ///< in the triangle's own space; its length is twice the area
     bool has_uv = false;
     bool has_ng = false;
 };
 
-/// What somebody says about a ray.
+/// One answer about a ray.
 struct Answer {
     double t = INFINITY;
     Item item;
-    bool any = false;      ///< occlusion: something is hit, and nobody says what
-    SaidPlace place = {};  ///< judged by itself: see place_check.h
+    bool any = false;      ///< occlusion: something is hit, it is not said what
+    SaidPlace place = {};  ///< judged separately: see place_check.h
 
     bool found() const { return any || item.primitive >= 0; }
     bool operator==(const Answer& other) const {
@@ -32,7 +32,7 @@ inline Answer answer_of(const TrueHit& hit) {
 }
 
 /// From best to worst; `agree` to `edge_on` are within 4 ulp of an edge.
-enum class Finding : int {
+enum class Verdict : int {
     agree,
     equal_depth,  ///< another item that is there too, within 4 ulp: neighbours on a common edge
                   ///< that the ray passes, surfaces in one place
@@ -40,29 +40,29 @@ enum class Finding : int {
     crack,        ///< within 4 ulp of an edge too, but no such ray has both answers: a ray that
                   ///< went between two neighbours
     edge_on,      ///< beside a triangle, but rounding decides on which side of two or three edges:
-                  ///< seen edge-on, or past a sharp corner; through a piece of a line, but rounding
+                  ///< seen edge-on, or past a sharp corner; through a curve segment, but rounding
                   ///< decides whether the ray meets its cone: seen along its axis
-    place,        ///< the item is there, but u, v or Ng are of another place or triangle
-    item,         ///< something is there, but not the item that is named
+    place,        ///< the item is there, but u, v or Ng belong to another position or triangle
+    item,         ///< something is there, but not the named item
     depth,        ///< the same item at another depth
-    missed,       ///< not hit, or only behind the expected hit
-    false_hit,    ///< hit where nothing is, or in front of the expected hit
+    missed,       ///< no hit, or only behind the expected one
+    false_hit,    ///< a hit where nothing is, or in front of the expected one
 };
-inline constexpr size_t verdicts = 10;
+inline constexpr size_t verdict_count = 10;
 
-/// How far from a ray the boxes of items may be whose edges can explain an occlusion.
+/// Largest distance from a ray to boxes of items whose edges can explain an occlusion.
 inline constexpr double beside_ulps = 16;
 
 struct Comparison {
-    Finding verdict = Finding::agree;
-    /// Of a difference: how far the ray must be moved to explain it; infinite: no explanation.
+    Verdict verdict = Verdict::agree;
+    /// How far the ray must be moved to explain a difference; infinite: no explanation.
     double ulps = 0;
 };
 
 /// Compares `got` with `expected`.
 ///
-/// Where depths agree and items do not, the item of `got` must be met by the ray itself or by one
-/// at most edge_ulps away, at that depth.
+/// When depths agree and items differ, the item of `got` must be met at that depth by the ray
+/// itself or by one at most edge_ulps away.
 ///
 /// The ulp is that of the largest number on the ray's way to the hit (TrueScene::rounding_m).
 /// Depths agree when the two points are at most depth_ulps apart along the surface's normal. Any
@@ -70,9 +70,9 @@ struct Comparison {
 /// away from this one, where it begins and where it hits. It counts as `crack` when no such ray has
 /// the answer, but all that was passed by has an edge within edge_ulps, and what was hit is there
 /// within edge_ulps or has an edge there; of occlusion, which says not what was hit, something must
-/// have an edge within edge_ulps. A place where the cone and the ball of a line's piece touch
-/// counts as such an edge where rounding does not tell them apart (PieceTest). It counts as
-/// `edge_on` when the ray passes the edges' endless lines so closely that the signs on which
+/// have an edge within edge_ulps. A place where the cone and the end cap of a curve segment touch
+/// counts as such an edge where rounding does not tell them apart (SegmentRounding). It counts as
+/// `edge_on` when the ray passes the edges' infinite lines so closely that the signs on which
 /// Embree's test (triangle_intersector_pluecker.h) is built are rounding alone: edge_ulps of the
 /// edges' ends and the worst case of seven roundings.
 Comparison compare(const TrueScene& scene,
@@ -80,4 +80,4 @@ Comparison compare(const TrueScene& scene,
                    const Answer& expected,
                    const Answer& got);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/crossings.cpp - where a line crosses a shape, by signs alone.
+// crosscheck/crossings.cpp - where a line crosses a shape, found by signs alone.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/crossings.h"
 
@@ -7,17 +7,17 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
 constexpr double rounding = 0x1.0p-53;
 
-/// A quadric's coefficients are numbers of single precision: (z - 0.3)^2 is not a square in them.
-/// Where its left side is least, four roundings' worth of it are none.
-constexpr double touch_share = 0x1.0p-22;
+/// A quadric's coefficients are single precision: (z - 0.3)^2 is not a square in them. Near the
+/// minimum of its left side, values within four roundings count as zero.
+constexpr double touch_fraction = 0x1.0p-22;
 
-/// A line seen from its place nearest to a centre.
+/// A line whose origin is its closest point to a centre.
 struct NearLine {
     Vec3d origin, direction;  ///< the origin relative to the centre
     double start;             ///< t of the origin on the line itself
@@ -37,21 +37,21 @@ struct NearLine {
     }
 };
 
-/// A place on a line, and the side there.
+/// A parameter on a line, and the side there.
 struct Sample {
     double t, side;
 };
 
-/// Where the side becomes or stops to be above 0 between two places: by secants, kept away from the
-/// ends, and by halves where these do not help.
+/// Where the side changes its sign to or from above 0 between two parameters: by secants, kept away
+/// from the ends, and by bisection where these do not help.
 template <typename Side>
 double change_of_sign(const Side& side, Sample a, Sample b) {
     const double least = 2 * rounding * (std::abs(a.t) + std::abs(b.t));
     bool halve = false;
     for (int i = 0; i < 200 && std::abs(b.t - a.t) > least; ++i) {
         const double width = b.t - a.t;
-        const double share = halve ? 0.5 : std::clamp(a.side / (a.side - b.side), 0.01, 0.99);
-        const double t = a.t + width * share;
+        const double fraction = halve ? 0.5 : std::clamp(a.side / (a.side - b.side), 0.01, 0.99);
+        const double t = a.t + width * fraction;
         if (t == a.t || t == b.t) break;
         const Sample next{t, side(t)};
         ((next.side <= 0) == (a.side <= 0) ? a : b) = next;
@@ -60,16 +60,16 @@ double change_of_sign(const Side& side, Sample a, Sample b) {
     return 0.5 * (a.t + b.t);
 }
 
-/// No convex function through these three places, the middle one the lowest, is lower than this.
+/// Lower bound of any convex function through these three points, the middle one the lowest.
 double lower_bound(const Sample& a, const Sample& m, const Sample& b) {
     const double left = m.side + (b.side - m.side) / (b.t - m.t) * (a.t - m.t);
     const double right = m.side + (a.side - m.side) / (a.t - m.t) * (b.t - m.t);
     return std::min(left, right);
 }
 
-/// Both crossings of a solid of which the side is convex along the line.
+/// Both crossings of a solid whose side function is convex along the line.
 ///
-/// In   reach_m: no place so far from the line's origin is inside
+/// In   reach_m: the solid lies within this distance of the line's origin
 template <typename Side>
 Crossings cross_convex(const NearLine& line, double reach_m, const Side& side) {
     const auto along = [&](double t) { return side(line.at(t)); };
@@ -107,21 +107,20 @@ double side_of_box(const Vec3d& half, const Vec3d& p) {
     return std::max({std::abs(p.x) - half.x, std::abs(p.y) - half.y, std::abs(p.z) - half.z});
 }
 
-/// By products alone, as far as the question is whether: the place where the line is level is
-/// (x, z) / -d.y.
-Crossings cross_flat(const ShapeRow& row, const TrueRay& line) {
-    const Vec3d o = line.origin - centre_of(row);
+/// By products alone as long as only existence is asked: the line meets the level at (x, z) / -d.y.
+Crossings cross_flat(const ShapeRecord& record, const TrueRay& line) {
+    const Vec3d o = line.origin - centre_of(record);
     const Vec3d& d = line.direction;
     const double steep = std::abs(d.y);
     if (!(steep > 0)) return {};
     const double x = std::abs(o.x * d.y - o.y * d.x);
     const double z = std::abs(o.z * d.y - o.y * d.z);
-    const Vec3d size = size_of(row);
+    const Vec3d size = size_of(record);
     const auto within = [&](double place, double half) {
         return half >= static_cast<double>(unbounded) || place <= half * steep;
     };
     const double squared = x * x + z * z;
-    const bool met = row.kind == static_cast<int32_t>(ShapeKind::plane)
+    const bool met = record.kind == static_cast<int32_t>(ShapeKind::plane)
                          ? within(x, size.x) && within(z, size.y)
                          : squared <= size.x * size.x * steep * steep &&
                                squared >= size.y * size.y * steep * steep;
@@ -136,32 +135,32 @@ public:
     static constexpr double slack = 8 * rounding;
 
     /// In   reach: no t is larger than this
-    QuadricLine(const ShapeRow& row, const NearLine& line, double reach)
-        : row_(row),
+    QuadricLine(const ShapeRecord& record, const NearLine& line, double reach)
+        : record_(record),
           line_(line),
           moved_((abs(line.origin) + abs(line.direction) * reach) * slack) {}
 
-    double side(double t) const { return side_of_shape(row_, line_.at(t)); }
+    double side(double t) const { return side_of_shape(record_, line_.at(t)); }
 
-    /// With no side where rounding has moved the place, or is all that is left of the sum.
+    /// Side 0 where rounding has moved the position, or is all that is left of the sum.
     ///
-    /// In   share: of its terms, that the sum may be rounding
-    Sample sample(double t, double share = slack) const {
-        const double rest =
-            share * terms_of_quadric(row_, line_.at(t)) + terms_of_quadric(row_, moved_, 6);
+    /// In   fraction: fraction of the terms' sizes that may be rounding
+    Sample sample(double t, double fraction = slack) const {
+        const double rest = fraction * terms_of_quadric(record_, line_.at(t)) +
+                            terms_of_quadric(record_, moved_, 6);
         const double value = side(t);
         return {t, std::abs(value) <= rest ? 0 : value};
     }
 
-    /// The place between two others where the side is least or greatest: three places say where.
-    /// Nothing where there is none.
+    /// The extremum of the side between two parameters, from three samples. Nothing where there is
+    /// none.
     double turn(double low, double high) const {
         const double bend = side(low) - 2 * side(0.5 * (low + high)) + side(high);
         return 0.5 * (low + high) - 0.25 * (high - low) * (side(high) - side(low)) / bend;
     }
 
 private:
-    const ShapeRow& row_;
+    const ShapeRecord& record_;
     const NearLine& line_;
     Vec3d moved_;  ///< by rounding, at most
 };
@@ -171,15 +170,15 @@ void add_change(const QuadricLine& quadric, const Sample& a, const Sample& b, Cr
     found.add(change_of_sign([&](double t) { return quadric.side(t); }, a, b));
 }
 
-Crossings cross_quadric(const ShapeRow& row, const NearLine& near) {
-    const Vec3d half = size_of(row);
+Crossings cross_quadric(const ShapeRecord& record, const NearLine& near) {
+    const Vec3d half = size_of(record);
     NearLine own = near;
     own.start = 0;
     const Crossings inside =
         cross_convex(own, reach_of(half), [&](const Vec3d& p) { return side_of_box(half, p); });
     if (inside.count == 0) return {};
     const double reach = std::max(std::abs(inside.t[0]), std::abs(inside.t[1]));
-    const QuadricLine quadric(row, near, reach);
+    const QuadricLine quadric(record, near, reach);
     const Sample first = quadric.sample(inside.t[0]);
     const Sample last = quadric.sample(inside.t[1]);
     const double turn = quadric.turn(first.t, last.t);
@@ -188,7 +187,7 @@ Crossings cross_quadric(const ShapeRow& row, const NearLine& near) {
         add_change(quadric, first, last, found);
         return near.on_line(found);
     }
-    const Sample middle = quadric.sample(turn, touch_share);
+    const Sample middle = quadric.sample(turn, touch_fraction);
     if (middle.side == 0) {
         if (first.side == 0 && last.side == 0) return {};  // it lies in the surface
         found.add(turn);
@@ -202,14 +201,14 @@ Crossings cross_quadric(const ShapeRow& row, const NearLine& near) {
 
 }  // namespace
 
-Crossings cross_shape(const ShapeRow& row, const TrueRay& line) {
-    if (is_flat(row)) return cross_flat(row, line);
-    const NearLine near(line, centre_of(row));
-    const Vec3d size = size_of(row);
-    ShapeRow own = row;
+Crossings cross_shape(const ShapeRecord& record, const TrueRay& line) {
+    if (is_flat(record)) return cross_flat(record, line);
+    const NearLine near(line, centre_of(record));
+    const Vec3d size = size_of(record);
+    ShapeRecord own = record;
     std::fill(std::begin(own.centre), std::end(own.centre), 0.0F);
     const auto side = [&](const Vec3d& p) { return side_of_shape(own, p); };
-    switch (static_cast<ShapeKind>(row.kind)) {
+    switch (static_cast<ShapeKind>(record.kind)) {
         case ShapeKind::sphere:
             if (length(near.origin) > 1.001 * size.x) return {};
             return cross_convex(
@@ -219,8 +218,8 @@ Crossings cross_shape(const ShapeRow& row, const TrueRay& line) {
         case ShapeKind::frustum:
             return cross_convex(near, reach_of({size.x, std::max(size.y, size.z), 0}), side);
         case ShapeKind::capsule:
-            return cross_hull({{row.centre[0], row.centre[1] - size.x, row.centre[2]},
-                               {row.centre[0], row.centre[1] + size.x, row.centre[2]}},
+            return cross_hull({{record.centre[0], record.centre[1] - size.x, record.centre[2]},
+                               {record.centre[0], record.centre[1] + size.x, record.centre[2]}},
                               {size.y, size.z},
                               line);
         default:
@@ -256,4 +255,4 @@ Crossings cross_triangle(const Triangle<double>& triangle, const TrueRay& line) 
     return found;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -11,12 +11,12 @@
 #include <span>
 #include <system_error>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
-void add_primitive(const Scene& scene, int32_t row, const Affined& world, Scene& out) {
-    const Primitive& primitive = scene.primitives[static_cast<size_t>(row)];
+void add_primitive(const Scene& scene, int32_t index, const Affined& world, Scene& out) {
+    const Primitive& primitive = scene.primitives[static_cast<size_t>(index)];
     if (!is_mesh(primitive)) return;
     Primitive flat;
     flat.first_triangle = static_cast<int32_t>(out.indices.size() / 3);
@@ -63,7 +63,7 @@ std::string wavefront_text(const Scene& flat) {
     std::string text;
     for (size_t p = 0; p < flat.primitives.size(); ++p) {
         const Primitive& primitive = flat.primitives[p];
-        // Another material begins another geometry; vertices are numbered from 1.
+        // Each material begins a new geometry; vertices are numbered from 1.
         fmt::format_to(std::back_inserter(text), "usemtl m{}\n", p);
         const auto begin = static_cast<size_t>(primitive.first_triangle) * 3;
         const size_t end = begin + static_cast<size_t>(primitive.triangle_count) * 3;
@@ -126,4 +126,4 @@ Result<ViewerReport> export_for_embree(const Scene& scene,
     return compare_with_viewer({flat, camera, size_px, mesh, *options});
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

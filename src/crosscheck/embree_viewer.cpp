@@ -1,4 +1,4 @@
-// crosscheck/embree_viewer.cpp - Embree's own viewer, run without a window and compared with us.
+// crosscheck/embree_viewer.cpp - runs Embree's own viewer without a window and compares images.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/embree_viewer.h"
 
@@ -15,7 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 /// Steps of 255 by which a shaded colour may be off: the viewer's and our cosines round.
 constexpr int color_slack = 2;
-/// The viewer makes its rays with other operations than we do: theirs are so many ulp beside ours.
+/// The viewer computes its rays with other operations than we do: theirs are so many ulp off ours.
 constexpr double ray_ulps = 8;
 
 /// Runs a program with its output thrown away; true when it ended with 0.
@@ -47,7 +47,7 @@ bool run_quietly(const std::vector<std::string>& words) {
 
 using Color = std::array<int, 3>;
 
-/// One of the viewer's pictures at the centres of our pixels, rows from the top; empty: unreadable.
+/// One of the viewer's images at the centres of our pixels, rows from the top; empty: unreadable.
 std::vector<Color> read_centres(const fs::path& file, std::array<int, 2> size_px) {
     std::ifstream in(file, std::ios::binary);
     std::string magic;
@@ -88,8 +88,8 @@ Color scaled(const Color& color, double factor) {
     return out;
 }
 
-/// The viewer's pictures.
-struct Pictures {
+/// The viewer's images.
+struct Images {
     std::vector<Color> occlusion, geometry, primitive, normal;
 };
 
@@ -102,32 +102,32 @@ struct PixelDifference {
 PixelDifference compare_pixel(const TrueScene& truth,
                               const TrueRay& ray,
                               const Answer& own,
-                              const Pictures& pictures,
+                              const Images& images,
                               size_t pixel) {
     PixelDifference out;
     const Color black{0, 0, 0};
-    out.occlusion = (pictures.occlusion[pixel] != black) != own.found();
+    out.occlusion = (images.occlusion[pixel] != black) != own.found();
     if (!own.found()) {
-        out.geometry = pictures.geometry[pixel] != black;
-        out.primitive = pictures.primitive[pixel] != black;
+        out.geometry = images.geometry[pixel] != black;
+        out.primitive = images.primitive[pixel] != black;
         return out;
     }
     const auto geometry = static_cast<unsigned>(own.item.primitive);
-    const auto primitive = static_cast<unsigned>(own.item.row);
-    out.geometry = pictures.geometry[pixel] != viewer_color(geometry);
+    const auto primitive = static_cast<unsigned>(own.item.element);
+    out.geometry = images.geometry[pixel] != viewer_color(geometry);
     const Vec3d normal = truth.normal(own.item, {});
     const double cosine = std::abs(dot(normal, normalize(ray.direction)));
-    // Both numbers in one colour, darker where the surface is seen at a slant.
+    // The colour combines both numbers and darkens with the angle of view.
     out.primitive = !is_near(
-        pictures.primitive[pixel], scaled(viewer_color(geometry ^ primitive), cosine), color_slack);
+        images.primitive[pixel], scaled(viewer_color(geometry ^ primitive), cosine), color_slack);
     const Color facing{static_cast<int>(std::lround(255 * std::abs(normal.x))),
                        static_cast<int>(std::lround(255 * std::abs(normal.y))),
                        static_cast<int>(std::lround(255 * std::abs(normal.z)))};
-    out.normal = !is_near(pictures.normal[pixel], facing, color_slack);
+    out.normal = !is_near(images.normal[pixel], facing, color_slack);
     return out;
 }
 
-/// True when the ray meets more than one thing where it is hit: either is right.
+/// True when the ray meets several items at its hit: either answer is right.
 bool is_shared_place(const TrueScene& truth, const TrueRay& ray, const Answer& own) {
     if (!own.found()) return false;
     const double room = ray_ulps * truth.rounding_m(ray, own.item, own.t) / length(ray.direction);
@@ -156,9 +156,9 @@ bool is_tie(const TrueScene& truth, const TrueRay& ray, const Answer& own) {
     return other;
 }
 
-/// Renders all four pictures; false where the viewer does not.
-bool draw(const fs::path& viewer, const ViewerTask& task, Pictures& out) {
-    const auto picture = [&](const char* shader) {
+/// Renders all four images; false when the viewer fails.
+bool draw(const fs::path& viewer, const ViewerTask& task, Images& out) {
+    const auto image = [&](const char* shader) {
         const fs::path file = task.mesh.parent_path() / (std::string(shader) + ".ppm");
         std::vector<std::string> words = {viewer.string(), "-i", task.mesh.string()};
         words.insert(words.end(), task.camera_options.begin(), task.camera_options.end());
@@ -173,7 +173,7 @@ bool draw(const fs::path& viewer, const ViewerTask& task, Pictures& out) {
         if (!run_quietly(words)) return std::vector<Color>{};
         return read_centres(file, task.size_px);
     };
-    out = {picture("occlusion"), picture("geomID"), picture("primID"), picture("Ng")};
+    out = {image("occlusion"), image("geomID"), image("primID"), image("Ng")};
     return !out.occlusion.empty() && !out.geometry.empty() && !out.primitive.empty() &&
            !out.normal.empty();
 }
@@ -194,8 +194,8 @@ std::optional<fs::path> find_embree_viewer() {
 Result<ViewerReport> compare_with_viewer(const ViewerTask& task) {
     const std::optional<fs::path> viewer = find_embree_viewer();
     if (!viewer) return ViewerReport{"Embree's viewer is not installed (package embree-tools)"};
-    Pictures pictures;
-    if (!draw(*viewer, task, pictures)) return ViewerReport{"Embree's viewer made no pictures"};
+    Images images;
+    if (!draw(*viewer, task, images)) return ViewerReport{"Embree's viewer made no pictures"};
     KernelChoice choice;
     choice.robust = false;  // as the viewer builds its scenes
     auto built = ReferenceKernels::build(task.flat, choice);
@@ -219,7 +219,7 @@ Result<ViewerReport> compare_with_viewer(const ViewerTask& task) {
     report.pixels = answers.size();
     for (size_t i = 0; i < answers.size(); ++i) {
         const TrueRay ray = rays.true_ray(static_cast<int>(i));
-        const PixelDifference found = compare_pixel(truth, ray, answers[i], pictures, i);
+        const PixelDifference found = compare_pixel(truth, ray, answers[i], images, i);
         if (!found.any()) continue;
         if (is_shared_place(truth, ray, answers[i]) || is_tie(truth, ray, answers[i])) {
             ++report.ties;
@@ -233,4 +233,4 @@ Result<ViewerReport> compare_with_viewer(const ViewerTask& task) {
     return report;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

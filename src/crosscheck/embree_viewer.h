@@ -1,24 +1,24 @@
-// crosscheck/embree_viewer.h - Embree's own viewer, run without a window and compared with us.
+// crosscheck/embree_viewer.h - runs Embree's own viewer without a window and compares images.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "crosscheck/embree_export.h"
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 struct ViewerTask {
     const Scene& flat;
     const Camera& camera;
     std::array<int, 2> size_px;
-    std::filesystem::path mesh;  ///< absolute; pictures are written beside it
+    std::filesystem::path mesh;  ///< absolute path; images are written beside it
     std::vector<std::string> camera_options;
 };
 
-/// The viewer of Embree's tutorials on $PATH, known by another tutorial beside it: its name alone
-/// could be anybody's.
+/// The tutorials' viewer on $PATH, recognised by another tutorial beside it: other programs may
+/// have its name.
 std::optional<std::filesystem::path> find_embree_viewer();
 
 /// Errors  those of Accel::build
 Result<ViewerReport> compare_with_viewer(const ViewerTask& task);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/formula_check.cpp - formulas in double against what a point's own place says.
+// crosscheck/formula_check.cpp - tests intersection formulas in double by signs at points.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/formula_check.h"
 
@@ -11,100 +11,103 @@
 #include <atomic>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
 constexpr size_t block_size = 1024;
 
-/// Of a shape's or a triangle's size: nearer to a boundary than that, rounding decides.
-constexpr double least_room = 1e-9;
-/// Likewise of a quadric's terms, which have coefficients of single precision.
-constexpr double least_of_terms = 1e-6;
+/// Relative to a shape's size: nearer to a boundary, rounding decides.
+constexpr double min_room = 1e-9;
+/// The same for a quadric's terms, whose coefficients are single precision.
+constexpr double min_room_of_terms = 1e-6;
 
 /// Of a segment.
 struct Ends {
     Vec3d a, b;
 };
 
-/// How far inside of the rim the place is where a segment crosses the level of a flat shape.
-double room_on_flat(const ShapeRow& row, const Vec3d& p) {
-    const Vec3d from = p - centre_of(row);
-    const Vec3d size = size_of(row);
-    if (static_cast<ShapeKind>(row.kind) == ShapeKind::plane) {
+/// How far inside of the rim p lies, where a segment crosses the level of a flat shape.
+double room_on_flat(const ShapeRecord& record, const Vec3d& p) {
+    const Vec3d from = p - centre_of(record);
+    const Vec3d size = size_of(record);
+    if (static_cast<ShapeKind>(record.kind) == ShapeKind::plane) {
         return std::min(size.x - std::abs(from.x), size.y - std::abs(from.z));
     }
     const double around = std::hypot(from.x, from.z);
     return std::min(size.x - around, size.y > 0 ? around - size.y : around + size.x);
 }
 
-/// Two places on a special line; those of a quadric in its box, for beyond that it is cut off.
-Ends on_special_line(const ShapeRow& row, RandomStream& random) {
-    const TrueRay line = special_line(row, random);
-    const ShapeBox box = shape_bounds(row);
+/// Two points on a special line; for a quadric inside its box, which cuts it off.
+Ends on_special_line(const ShapeRecord& record, RandomStream& random) {
+    const TrueRay line = special_line(record, random);
+    const ShapeBox box = shape_bounds(record);
     const Vec3f whole = box.high - box.low;
     const double size = std::min(static_cast<double>(max_component(whole)), 4.0 * 1e18);
     const double reach = size < 1e18 ? size : 2;
     const auto in_box = [&](const Vec3d& p) {
-        const Vec3d room = size_of(row) * 0.999 - abs(p - centre_of(row));
+        const Vec3d room = size_of(record) * 0.999 - abs(p - centre_of(record));
         return std::min({room.x, room.y, room.z}) > 0;
     };
     const auto somewhere = [&] {
         for (int i = 0; i < 32; ++i) {
             const Vec3d p = line.origin + line.direction * (random.between(-1, 1) * reach);
-            if (!is_quadric(row) || in_box(p)) return p;
+            if (!is_quadric(record) || in_box(p)) return p;
         }
-        return place_near(row, 0.999, random);
+        return place_near(record, 0.999, random);
     };
     const Vec3d a = somewhere();
     return {a, somewhere()};
 }
 
-/// Two places near a shape; of a flat one, above and below.
-Ends anywhere(const ShapeRow& row, RandomStream& random) {
-    const double wider = is_quadric(row) ? 0.999 : 1.3;
-    Ends out{place_near(row, wider, random), place_near(row, wider, random)};
-    if (is_flat(row)) {
+/// Two points near a shape; for a flat one, above and below.
+Ends anywhere(const ShapeRecord& record, RandomStream& random) {
+    const double wider = is_quadric(record) ? 0.999 : 1.3;
+    Ends out{place_near(record, wider, random), place_near(record, wider, random)};
+    if (is_flat(record)) {
         out.a.y += random.between(0.1, 1);
         out.b.y -= random.between(0.1, 1);
     }
     return out;
 }
 
-/// What the sides of its ends say about a segment.
+/// Compares the sides of a segment's ends.
 enum class Parity { even, odd, unknown };
 
-Parity parity_of(const ShapeRow& row, const Ends& segment) {
-    const double side_a = side_of_shape(row, segment.a);
-    const double side_b = side_of_shape(row, segment.b);
-    const Vec3d far = max3(abs(segment.a - centre_of(row)), abs(segment.b - centre_of(row)));
-    const double scale = is_quadric(row) ? terms_of_quadric(row, far) : max_component(far);
-    const double room = (is_quadric(row) ? least_of_terms : least_room) * scale;
+Parity parity_of(const ShapeRecord& record, const Ends& segment) {
+    const double side_a = side_of_shape(record, segment.a);
+    const double side_b = side_of_shape(record, segment.b);
+    const Vec3d far = max3(abs(segment.a - centre_of(record)), abs(segment.b - centre_of(record)));
+    const double scale = is_quadric(record) ? terms_of_quadric(record, far) : max_component(far);
+    const double room = (is_quadric(record) ? min_room_of_terms : min_room) * scale;
     if (std::min(std::abs(side_a), std::abs(side_b)) <= room) return Parity::unknown;
     if ((side_a < 0) == (side_b < 0)) return Parity::even;
-    if (!is_flat(row)) return Parity::odd;
-    const double share = side_a / (side_a - side_b);
-    const double inside = room_on_flat(row, segment.a + (segment.b - segment.a) * share);
+    if (!is_flat(record)) return Parity::odd;
+    const double fraction = side_a / (side_a - side_b);
+    const double inside = room_on_flat(record, segment.a + (segment.b - segment.a) * fraction);
     if (std::abs(inside) <= room) return Parity::unknown;
     return inside > 0 ? Parity::odd : Parity::even;
 }
 
-bool is_right(const ShapeRow& row, const Ends& segment, Parity parity, const LineMeeting& way) {
-    const Crossings met = way.shape(row, {segment.a, segment.b - segment.a});
+bool is_right(const ShapeRecord& record,
+              const Ends& segment,
+              Parity parity,
+              const LineMeeting& way) {
+    const Crossings met = way.shape(record, {segment.a, segment.b - segment.a});
     const auto within =
         std::count_if(met.t, met.t + met.count, [](double t) { return t > 0 && t < 1; });
     return (within % 2 == 1) == (parity == Parity::odd);
 }
 
-/// A segment through a place in a triangle's plane, u and v of the way along its edges.
-struct TrianglePlace {
+/// A segment through a point in a triangle's plane; u and v are coordinates along its edges.
+struct TrianglePoint {
     double u, v;
     TrueRay line;
 
     double room() const { return std::min({u, v, 1 - u - v}); }
 };
 
-bool is_right(const Triangle<double>& t, const TrianglePlace& place, const LineMeeting& way) {
+bool is_right(const Triangle<double>& t, const TrianglePoint& place, const LineMeeting& way) {
     if (std::abs(place.room()) < 1e-6) return true;
     const Crossings met = way.triangle(t, place.line);
     if ((met.count > 0) != (place.room() > 0)) return false;
@@ -119,14 +122,14 @@ bool is_on_triangle(const Triangle<double>& t, const TrueRay& line, const LineMe
     const double size = std::max(length(t.b - t.a), length(t.c - t.a));
     if (std::abs(dot(normalize(normal), line.direction)) < 1e-9) return true;  // in the plane
     const Vec3d p = line.origin + line.direction * met.t[0];
-    const auto share = [&](const Vec3d& a, const Vec3d& b) {
+    const auto fraction = [&](const Vec3d& a, const Vec3d& b) {
         return dot(cross(a - p, b - p), normal) / dot(normal, normal);
     };
-    const double least = std::min({share(t.a, t.b), share(t.b, t.c), share(t.c, t.a)});
+    const double least = std::min({fraction(t.a, t.b), fraction(t.b, t.c), fraction(t.c, t.a)});
     return least > -1e-6 && std::abs(dot(p - t.a, normalize(normal))) < 1e-6 * size;
 }
 
-/// Which of some ways of meeting lines are wrong about one segment.
+/// Which of two formulas are wrong about one segment.
 struct Wrong {
     bool formulas = false, truth = false;
 };
@@ -148,12 +151,12 @@ public:
     }
 
 private:
-    Wrong check(const ShapeRow& row, RandomStream& random, bool special) const {
-        const Ends segment = special ? on_special_line(row, random) : anywhere(row, random);
-        const Parity parity = parity_of(row, segment);
+    Wrong check(const ShapeRecord& record, RandomStream& random, bool special) const {
+        const Ends segment = special ? on_special_line(record, random) : anywhere(record, random);
+        const Parity parity = parity_of(record, segment);
         if (parity == Parity::unknown) return {};
         return wrong_of(formulas_, truth_, [&](const LineMeeting& way) {
-            return is_right(row, segment, parity, way);
+            return is_right(record, segment, parity, way);
         });
     }
 
@@ -172,7 +175,7 @@ private:
         const double v = random.between(-0.5, 1.5);
         const Vec3d middle = t.a + (t.b - t.a) * u + (t.c - t.a) * v;
         const Vec3d off = (normalize(normal) + random.direction() * 0.7) * size;
-        const TrianglePlace place{u, v, {middle + off, off * -2.0}};
+        const TrianglePoint place{u, v, {middle + off, off * -2.0}};
         return wrong_of(
             formulas_, truth_, [&](const LineMeeting& way) { return is_right(t, place, way); });
     }
@@ -185,11 +188,11 @@ private:
 }  // namespace
 
 LineMeeting formulas_in_double() {
-    return {[](const ShapeRow& row, const TrueRay& line) {
+    return {[](const ShapeRecord& record, const TrueRay& line) {
                 const Roots<double> roots =
-                    intersect_shape<double>(row, ShapeRay<double>{line.origin, line.direction});
+                    intersect_shape<double>(record, ShapeRay<double>{line.origin, line.direction});
                 Crossings out;
-                for (int k = 0; k < (is_flat(row) ? 1 : 2); ++k) {
+                for (int k = 0; k < (is_flat(record) ? 1 : 2); ++k) {
                     if (roots.hit[k]) out.add(roots.t[k]);
                 }
                 return out;
@@ -226,4 +229,4 @@ FormulaCheck check_formulas(const TrueScene& scene,
     return {segments, wrong.load(), wrong_truth.load()};
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/formula_check.h - formulas in double against what a point's own place says.
+// crosscheck/formula_check.h - tests intersection formulas in double by signs at points.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,18 +7,18 @@
 #include <cstdint>
 #include <functional>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
-/// Somebody's way of meeting lines.
+/// A set of intersection formulas.
 struct LineMeeting {
-    std::function<Crossings(const ShapeRow&, const TrueRay&)> shape;
+    std::function<Crossings(const ShapeRecord&, const TrueRay&)> shape;
     std::function<Crossings(const Triangle<double>&, const TrueRay&)> triangle;
 };
 
 /// src/shape's formulas with F = double: those that the renderer has in single precision.
 LineMeeting formulas_in_double();
 
-/// Those of crossings.h: the truth.
+/// The formulas of crossings.h: the truth.
 LineMeeting true_crossings();
 
 struct FormulaCheck {
@@ -30,12 +30,12 @@ struct FormulaCheck {
 };
 
 /// Takes two points near random items, every second time on a line along an axis, a ruling, an edge
-/// or a surface (special_lines.h): a segment between them must meet a shape an odd number of times
-/// when its ends lie on different sides (shape_side.h) and an even number when not, and a triangle
-/// when and where it goes through a place inside of it.
+/// or a surface (special_lines.h). A segment between them must meet a shape an odd number of times
+/// when its ends lie on different sides (shape_side.h), else an even number, and a triangle exactly
+/// when and where it passes through a point inside of it.
 FormulaCheck check_formulas(const TrueScene& scene,
                             uint64_t segments,
                             uint64_t seed,
                             const LineMeeting& formulas = formulas_in_double());
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

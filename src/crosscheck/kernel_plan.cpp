@@ -1,10 +1,10 @@
-// crosscheck/kernel_plan.cpp - the list of kernels that a scene is checked with.
+// crosscheck/kernel_plan.cpp - lists the kernels that a scene is checked with.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/kernel_plan.h"
 
 #include "scene/split_curves.h"
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -20,8 +20,8 @@ struct NormalBlock {
         return {number[0].data(), number[1].data(), number[2].data()};
     }
     Vec3d at(int i) const {
-        const auto row = static_cast<size_t>(i);
-        return {number[0][row], number[1][row], number[2][row]};
+        const auto index = static_cast<size_t>(i);
+        return {number[0][index], number[1][index], number[2][index]};
     }
 };
 
@@ -84,17 +84,17 @@ KernelGroup group_of(const std::string& family, const KernelChoice& choice, Stan
 ShapeCounts count_shapes(const Scene& scene) {
     ShapeCounts out;
     for (const Primitive& primitive : scene.primitives) {
-        const auto rows = static_cast<size_t>(primitive.triangle_count);
+        const auto count = static_cast<size_t>(primitive.triangle_count);
         if (is_mesh(primitive)) {
-            out.triangles += rows;
+            out.triangles += count;
             continue;
         }
-        out.shapes += rows;
+        out.shapes += count;
         if (primitive.geometry == static_cast<int32_t>(GeometryKind::curves)) continue;
         const bool shape = primitive.geometry == static_cast<int32_t>(GeometryKind::shapes);
         const auto first = static_cast<size_t>(primitive.first_triangle);
         const auto sphere = static_cast<int32_t>(ShapeKind::sphere);
-        if (!shape || scene.shapes[first].kind == sphere) out.spheres += rows;
+        if (!shape || scene.shapes[first].kind == sphere) out.spheres += count;
     }
     return out;
 }
@@ -167,4 +167,4 @@ Scene opaque_copy(const Scene& scene) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/kernel_plan.h - the list of kernels that a scene is checked with.
+// crosscheck/kernel_plan.h - lists the kernels that a scene is checked with.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,29 +7,29 @@
 
 #include <memory>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
-/// One way to ask a hierarchy.
+/// One way to query a hierarchy.
 struct PlannedKernel {
     std::string name;  ///< "robust 16", "fast 1", "avx2 16", "robust 8 occluded"
     int width = 16;
     bool occlusion = false;
 };
 
-/// What is asked of one hierarchy. Embree's fast traversal may leak: nothing is expected of it.
-/// Triangles as user geometry know no neighbours, and spheres as points are not ours to answer for:
-/// they may differ at edges.
+/// The queries of one hierarchy. Embree's fast traversal may leak, so it has no standard to meet.
+/// User geometry triangles know no neighbours, and Embree's sphere points are not our code: both
+/// may differ at edges.
 struct KernelGroup {
     KernelChoice choice;
     std::vector<PlannedKernel> kernels;
     Standard standard = Standard::full;
 };
 
-/// Every hierarchy and width that says something about this scene. The first kernel of the first
-/// group is the one that others are compared with.
+/// Every hierarchy and packet width that applies to this scene. Others are compared with the first
+/// kernel of the first group.
 std::vector<KernelGroup> plan_kernels(const Scene& scene);
 
-/// Shapes, and of these spheres, that a scene has; instances do not count.
+/// Number of shapes in a scene, and how many of them are spheres; instances do not count.
 struct ShapeCounts {
     size_t triangles = 0, shapes = 0, spheres = 0;
 };
@@ -41,7 +41,7 @@ Kernel make_kernel(const std::shared_ptr<const ReferenceKernels>& kernels,
 /// The renderer's own queries.
 std::vector<Kernel> production_kernels(const std::shared_ptr<const Accel>& accel);
 
-/// A copy without cut-outs and with two sides everywhere: what the truth looks at.
+/// A copy without cut-outs and with double-sided materials, as the truth sees it.
 Scene opaque_copy(const Scene& scene);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/kernels.cpp - asking kernels and comparing what they say.
+// crosscheck/kernels.cpp - queries kernels and compares their answers.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/kernels.h"
 
@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <mutex>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
-/// True where a is to be shown before b.
+/// True when a is shown before b.
 bool is_worse(const Difference& a, const Difference& b) {
     if (a.comparison.verdict != b.comparison.verdict) {
         return a.comparison.verdict > b.comparison.verdict;
@@ -21,7 +21,7 @@ bool is_worse(const Difference& a, const Difference& b) {
     return a.number < b.number;
 }
 
-void note_on_screen(ScreenVerdicts& screen, ScreenPlace at, Finding verdict, bool hit) {
+void note_on_screen(ScreenVerdicts& screen, ScreenPlace at, Verdict verdict, bool hit) {
     const size_t pixel =
         static_cast<size_t>(at.y) * static_cast<size_t>(screen.width) + static_cast<size_t>(at.x);
     screen.worst[pixel] = std::max(screen.worst[pixel], static_cast<int8_t>(verdict));
@@ -39,58 +39,58 @@ struct ChunkPair {
     RayGroup group;
     uint64_t first;
 
-    /// Of a ray that ends before what is expected, nothing is.
-    Answer expected_of(int row) const {
-        return expected[row].t > rays.true_ray(row).end ? Answer{} : expected[row];
+    /// A ray that ends before the expected hit has none.
+    Answer expected_of(int index) const {
+        return expected[index].t > rays.true_ray(index).end ? Answer{} : expected[index];
     }
 
-    Comparison compare_row(int row) const {
-        const Answer& answer = got[static_cast<size_t>(row)];
-        const TrueRay ray = rays.true_ray(row);
-        Comparison found = compare_answers(row, ray, answer);
-        // Its place is the answer's own affair: once is enough.
-        if (reference.is_truth && found.verdict < Finding::place &&
+    Comparison compare_ray(int index) const {
+        const Answer& answer = got[static_cast<size_t>(index)];
+        const TrueRay ray = rays.true_ray(index);
+        Comparison found = compare_answers(index, ray, answer);
+        // u, v and Ng are judged by the answer alone: once is enough.
+        if (reference.is_truth && found.verdict < Verdict::place &&
             !is_right_place(scene, ray, answer)) {
-            found = {Finding::place, INFINITY};
+            found = {Verdict::place, INFINITY};
         }
         return found;
     }
 
 private:
-    Comparison compare_answers(int row, const TrueRay& ray, const Answer& answer) const {
+    Comparison compare_answers(int index, const TrueRay& ray, const Answer& answer) const {
         const bool ends = std::isfinite(ray.end);
-        if (const Comparison* found = known.find(row, ends, answer)) return *found;
-        const Answer wanted = expected_of(row);
+        if (const Comparison* found = known.find(index, ends, answer)) return *found;
+        const Answer wanted = expected_of(index);
         const Comparison found = compare(scene, ray, wanted, answer);
-        const bool same = found.verdict == Finding::agree || wanted.item == answer.item;
-        if (found.verdict > Finding::equal_depth || !same) known.add(row, ends, answer, found);
+        const bool same = found.verdict == Verdict::agree || wanted.item == answer.item;
+        if (found.verdict > Verdict::equal_depth || !same) known.add(index, ends, answer, found);
         return found;
     }
 };
 
-/// Ends for the rays of a question about occlusion: see compare_kernel.
+/// Ends of the occlusion rays: see compare_kernel.
 void set_ends(const Answer* truth, RayBlock& rays) {
     for (int i = 1; i < rays.count(); i += 2) {
         if (!truth[i].found()) continue;
         RandomStream random(static_cast<uint64_t>(i));
-        const double share = i % 4 == 1 ? random.between(0.1, 0.95) : 1.01;
-        rays.set_end(i, share * truth[i].t);
+        const double fraction = i % 4 == 1 ? random.between(0.1, 0.95) : 1.01;
+        rays.set_end(i, fraction * truth[i].t);
     }
 }
 
-/// Adds a chunk to a pair's figures; noted(row, verdict) sees every ray.
+/// Adds a chunk to a pair's figures; noted(index, verdict) sees every ray.
 template <typename Noted>
 void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& noted) {
     Tally& tally = figures.groups[static_cast<size_t>(chunk.group)];
     for (int i = 0; i < chunk.rays.count(); ++i) {
         const Answer& got = chunk.got[static_cast<size_t>(i)];
-        const Comparison found = chunk.compare_row(i);
+        const Comparison found = chunk.compare_ray(i);
         ++tally.rays;
         tally.hits += got.found() ? 1 : 0;
         ++tally.counts[static_cast<size_t>(found.verdict)];
         noted(i, found.verdict);
-        if (found.verdict <= Finding::equal_depth) continue;
-        if (found.verdict == Finding::edge) {
+        if (found.verdict <= Verdict::equal_depth) continue;
+        if (found.verdict == Verdict::edge) {
             tally.widest_edge = std::max(tally.widest_edge, found.ulps);
         }
         figures.worst.push_back({chunk.group,
@@ -105,32 +105,32 @@ void compare_chunk(const ChunkPair& chunk, PairFigures& figures, const Noted& no
 
 }  // namespace
 
-const Comparison* KnownDifferences::find(int row, bool ends, const Answer& got) const {
-    const auto [begin, end] = by_row_.equal_range(row);
+const Comparison* KnownDifferences::find(int index, bool ends, const Answer& got) const {
+    const auto [begin, end] = by_ray_.equal_range(index);
     const auto known = std::find_if(begin, end, [&](const auto& entry) {
         return entry.second.ends == ends && entry.second.got == got;
     });
     return known == end ? nullptr : &known->second.comparison;
 }
 
-void KnownDifferences::add(int row, bool ends, const Answer& got, const Comparison& comparison) {
-    by_row_.emplace(row, Known{ends, got, comparison});
+void KnownDifferences::add(int index, bool ends, const Answer& got, const Comparison& comparison) {
+    by_ray_.emplace(index, Known{ends, got, comparison});
 }
 
 void keep_worst(std::vector<Difference>& worst) {
     std::sort(worst.begin(), worst.end(), is_worse);
-    if (worst.size() > most_worst) worst.resize(most_worst);
+    if (worst.size() > max_worst) worst.resize(max_worst);
 }
 
 uint64_t Tally::unexplained() const {
-    return of(Finding::place) + of(Finding::item) + of(Finding::depth) + of(Finding::missed) +
-           of(Finding::false_hit);
+    return of(Verdict::place) + of(Verdict::item) + of(Verdict::depth) + of(Verdict::missed) +
+           of(Verdict::false_hit);
 }
 
 void Tally::add(const Tally& other) {
     rays += other.rays;
     hits += other.hits;
-    for (size_t i = 0; i < verdicts; ++i)
+    for (size_t i = 0; i < verdict_count; ++i)
         counts[i] += other.counts[i];
     widest_edge = std::max(widest_edge, other.widest_edge);
 }
@@ -189,7 +189,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
         const RayGroup group = RaySet::group(chunk);
         for (size_t r = 0; r < references.size(); ++r) {
             PairFigures mine;
-            std::vector<Finding> seen(answers.size());
+            std::vector<Verdict> seen(answers.size());
             compare_chunk(
                 {scene,
                  block,
@@ -200,7 +200,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                  group,
                  batch.first_ray() + first},
                 mine,
-                [&](int row, Finding verdict) { seen[static_cast<size_t>(row)] = verdict; });
+                [&](int index, Verdict verdict) { seen[static_cast<size_t>(index)] = verdict; });
             const std::lock_guard lock(merging);
             all[r].add(mine);
             if (record.screen == nullptr || group != RayGroup::camera || !references[r]->is_truth) {
@@ -224,4 +224,4 @@ Kernel truth_kernel(const TrueScene& scene) {
             }};
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

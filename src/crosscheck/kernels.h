@@ -1,4 +1,4 @@
-// crosscheck/kernels.h - whoever answers rays, and how their answers are compared.
+// crosscheck/kernels.h - queries kernels and compares their answers.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,24 +12,24 @@
 #include <unordered_map>
 #include <vector>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
-/// One that answers rays. `ask` is called from many threads and fills one answer a ray.
+/// Answers rays. `ask` is called from many threads and fills one answer a ray.
 struct Kernel {
     std::string name;
     std::function<void(RayBlock& rays, std::vector<Answer>& answers)> ask;
-    bool occlusion = false;  ///< its answers name no item
+    bool occlusion = false;  ///< answers do not name the item
 };
 
-/// Differences of other kernels' answers from one list's, by the ray's number in its chunk: many
-/// kernels give the same wrong answer, and it takes long to find out how wrong it is.
+/// Differences from one list's answers, by the ray's index in its chunk. Many kernels give the same
+/// wrong answer, and judging it takes long.
 class KnownDifferences {
 public:
     /// Null where this answer has not been compared.
     ///
     /// In   ends: the ray was asked with an end, as occlusion is
-    const Comparison* find(int row, bool ends, const Answer& got) const;
-    void add(int row, bool ends, const Answer& got, const Comparison& comparison);
+    const Comparison* find(int index, bool ends, const Answer& got) const;
+    void add(int index, bool ends, const Answer& got, const Comparison& comparison);
 
 private:
     struct Known {
@@ -37,7 +37,7 @@ private:
         Answer got;
         Comparison comparison;
     };
-    std::unordered_multimap<int, Known> by_row_;
+    std::unordered_multimap<int, Known> by_ray_;
 };
 
 /// All answers of one kernel to one batch, in the order of the rays.
@@ -51,15 +51,15 @@ struct AnswerList {
 struct Tally {
     uint64_t rays = 0;
     uint64_t hits = 0;  ///< of the kernel that is compared
-    std::array<uint64_t, verdicts> counts = {};
+    std::array<uint64_t, verdict_count> counts = {};
     double widest_edge = 0;  ///< ulp, of those counted as edge
 
-    uint64_t of(Finding verdict) const { return counts[static_cast<size_t>(verdict)]; }
-    /// Differences that 4 ulp do not explain.
+    uint64_t of(Verdict verdict) const { return counts[static_cast<size_t>(verdict)]; }
+    /// Differences beyond 4 ulp.
     uint64_t unexplained() const;
     /// All but those that agree or are at equal depth.
     uint64_t mismatches() const {
-        return unexplained() + of(Finding::edge) + of(Finding::crack) + of(Finding::edge_on);
+        return unexplained() + of(Verdict::edge) + of(Verdict::crack) + of(Verdict::edge_on);
     }
     void add(const Tally& other);
 };
@@ -73,31 +73,31 @@ struct Difference {
     Comparison comparison;
 };
 
-/// What a kernel is held to.
+/// The standard that a kernel must meet.
 enum class Standard : int {
-    full,   ///< no difference that 4 ulp do not explain, and hardly any other
-    edges,  ///< no difference that 4 ulp do not explain
+    full,   ///< no difference beyond 4 ulp, and hardly any other
+    edges,  ///< no difference beyond 4 ulp
     none,   ///< only published
 };
 
-/// A kernel against another or against the truth.
+/// A kernel compared with another or with the truth.
 struct PairFigures {
     std::string got, expected;
     bool against_truth = false;
     Standard standard = Standard::full;
     std::array<Tally, ray_groups> groups;
-    std::vector<Difference> worst;  ///< at most most_worst, worst first; not those at equal depth
+    std::vector<Difference> worst;  ///< at most max_worst, worst first; not those at equal depth
 
     Tally total() const;
-    /// Of camera rays and of those aimed at nothing.
+    /// Of camera rays and of the other unaimed ones.
     Tally unaimed() const;
     /// Figures of the same two about other rays.
     void add(const PairFigures& other);
 };
 
-inline constexpr size_t most_worst = 8;
+inline constexpr size_t max_worst = 8;
 
-/// Puts the worst first and leaves out what comes after most_worst of them.
+/// Sorts the worst first and drops all beyond max_worst.
 void keep_worst(std::vector<Difference>& worst);
 
 /// The worst verdict of every pixel whose camera ray was compared with the truth; -1: none was.
@@ -111,12 +111,12 @@ struct ScreenVerdicts {
 /// What compare_kernel writes beside its figures, where it is not null.
 struct KernelRecord {
     AnswerList* answers = nullptr;     ///< the kernel's answers
-    ScreenVerdicts* screen = nullptr;  ///< worse verdicts of this pair
+    ScreenVerdicts* screen = nullptr;  ///< gets worse ones of this pair
 };
 
-/// Asks a kernel all rays of a batch and compares it with others that have been asked. The same
-/// figures for any number of threads. Occlusion is asked of every fourth ray up to a place before
-/// its true hit, where nothing may hide it, and of every fourth up to a place just behind it.
+/// Sends all rays of a batch to a kernel and compares it with others. The figures do not depend on
+/// the number of threads. Occlusion is tested on every fourth ray up to a point before its true
+/// hit, where nothing may block it, and on every fourth up to a point just behind it.
 ///
 /// In      references: answers to the same batch, always with the same scene; may be empty
 std::vector<PairFigures> compare_kernel(const TrueScene& scene,
@@ -128,4 +128,4 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
 /// The truth as a kernel.
 Kernel truth_kernel(const TrueScene& scene);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

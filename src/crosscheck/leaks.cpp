@@ -1,4 +1,4 @@
-// crosscheck/leaks.cpp - rays from inside of closed parts that find no wall.
+// crosscheck/leaks.cpp - shoots rays from inside closed meshes and shapes and counts leaks.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/leaks.h"
 
@@ -10,26 +10,26 @@
 #include <functional>
 #include <mutex>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
 constexpr size_t points_wanted = 1024;
-/// A point inside is at least so many ulp away from the walls along the ray that found it.
+/// A point inside is at least so many ulp from the surface along the ray that found it.
 constexpr double clearance_ulps = 64;
 
-std::vector<double> sorted_hits(const TrueScene& part, const TrueRay& ray) {
+std::vector<double> sorted_hits(const TrueScene& component, const TrueRay& ray) {
     std::vector<double> hits;
-    part.all_hits(ray, [&](double t, const Item&) { hits.push_back(t); });
+    component.all_hits(ray, [&](double t, const Item&) { hits.push_back(t); });
     std::sort(hits.begin(), hits.end());
     return hits;
 }
 
 using AskHits = std::function<void(const RayColumns&, const HitColumns&)>;
 
-/// One part, what is inside of it, and how many rays it gets.
+/// One component, what is inside of it, and how many rays it gets.
 struct Room {
-    const TrueScene& part;
+    const TrueScene& component;
     const std::vector<Vec3d>& points;
     uint64_t rays;
     LeakAim aim;
@@ -45,8 +45,8 @@ void fill_rays(const Room& room, uint64_t first, uint64_t count, RayBlock& out) 
             out.add(origin, random.direction());
             continue;
         }
-        const Item item = room.part.item(random.below(room.part.item_count()));
-        const Triangle<double> t = room.part.triangle(item);
+        const Item item = room.component.item(random.below(room.component.item_count()));
+        const Triangle<double> t = room.component.triangle(item);
         const double along = room.aim == LeakAim::vertices ? 0 : random.unit();
         const Vec3d corner[3] = {t.a, t.b, t.c};
         const size_t k = random.below(3);
@@ -94,7 +94,7 @@ struct LeakKernel {
     AskHits ask;
 };
 
-/// The production path and Embree asked otherwise, on one part.
+/// The production path and Embree asked otherwise, on one component.
 Result<std::vector<LeakKernel>> kernels_of(const Scene& scene) {
     auto production = Accel::build(scene, "");
     if (!production) return fail(production.error());
@@ -119,11 +119,11 @@ Result<std::vector<LeakKernel>> kernels_of(const Scene& scene) {
          }}};
 }
 
-Result<void> shoot_part(const Scene& scene,
-                        const TrueScene& part,
-                        const std::vector<Vec3d>& points,
-                        const std::array<uint64_t, 2>& rays_and_seed,
-                        LeakReport& report) {
+Result<void> shoot_component(const Scene& scene,
+                             const TrueScene& component,
+                             const std::vector<Vec3d>& points,
+                             const std::array<uint64_t, 2>& rays_and_seed,
+                             LeakReport& report) {
     auto kernels = kernels_of(scene);
     if (!kernels) return fail(kernels.error());
     if (report.kernels.empty()) {
@@ -133,9 +133,9 @@ Result<void> shoot_part(const Scene& scene,
     const bool mesh = is_mesh(scene.primitives.front());
     for (size_t k = 0; k < kernels->size(); ++k) {
         for (size_t aim = 0; aim < (mesh ? leak_aims : 1); ++aim) {
-            // Fast traversal only shows what robust scenes are for.
+            // Fast traversal only shows what robust scenes prevent.
             const uint64_t share = aim == 0 && (*kernels)[k].in_budget ? 1 : 10;
-            const Room room{part,
+            const Room room{component,
                             points,
                             (rays_and_seed[0] + share - 1) / share,
                             static_cast<LeakAim>(aim),
@@ -148,9 +148,9 @@ Result<void> shoot_part(const Scene& scene,
 
 }  // namespace
 
-std::vector<Vec3d> points_inside(const TrueScene& part, size_t most, uint64_t seed) {
+std::vector<Vec3d> points_inside(const TrueScene& component, size_t most, uint64_t seed) {
     std::vector<Vec3d> points;
-    const TrueBox box = part.bounds();
+    const TrueBox box = component.bounds();
     const Vec3d half = (box.high - box.low) * 0.5;
     const Vec3d centre = box.low + half;
     for (uint64_t tries = 0; tries < 8 * most && points.size() < most; ++tries) {
@@ -160,43 +160,43 @@ std::vector<Vec3d> points_inside(const TrueScene& part, size_t most, uint64_t se
             half * Vec3d{random.between(-1, 1), random.between(-1, 1), random.between(-1, 1)};
         const Vec3d origin = centre + random.direction() * (2 * length(half));
         const TrueRay ray{origin, normalize(target - origin)};
-        const std::vector<double> hits = sorted_hits(part, ray);
+        const std::vector<double> hits = sorted_hits(component, ray);
         if (hits.empty() || hits.size() % 2 != 0) continue;
         const size_t k = 2 * random.below(hits.size() / 2);
         const double middle = 0.5 * (hits[k] + hits[k + 1]);
-        const double room = part.rounding_m(ray, part.item(0), middle) * clearance_ulps;
+        const double room = component.rounding_m(ray, component.item(0), middle) * clearance_ulps;
         if (hits[k + 1] - hits[k] < 2 * room) continue;
-        RayBlock rounded;  // rays begin at numbers of single precision
+        RayBlock rounded;  // rays start at single precision positions
         rounded.add(origin + ray.direction * middle, random.direction());
-        if (sorted_hits(part, rounded.true_ray(0)).size() % 2 == 1) {
+        if (sorted_hits(component, rounded.true_ray(0)).size() % 2 == 1) {
             points.push_back(rounded.true_ray(0).origin);
         }
     }
     return points;
 }
 
-Result<LeakReport> count_leaks(const ClosedParts& parts, uint64_t rays, uint64_t seed) {
+Result<LeakReport> count_leaks(const ClosedComponents& closed, uint64_t rays, uint64_t seed) {
     LeakReport report;
-    report.parts_found = parts.found;
+    report.components_found = closed.found;
     std::vector<size_t> used;
     std::vector<std::unique_ptr<TrueScene>> truths;
     std::vector<std::vector<Vec3d>> points;
-    for (size_t i = 0; i < parts.parts.size(); ++i) {
-        auto truth = std::make_unique<TrueScene>(parts.parts[i].scene);
+    for (size_t i = 0; i < closed.components.size(); ++i) {
+        auto truth = std::make_unique<TrueScene>(closed.components[i].scene);
         std::vector<Vec3d> inside = points_inside(*truth, points_wanted, seed + i);
         if (inside.empty()) continue;
         used.push_back(i);
         truths.push_back(std::move(truth));
         points.push_back(std::move(inside));
     }
-    report.parts_used = used.size();
+    report.components_used = used.size();
     for (size_t u = 0; u < used.size(); ++u) {
         const uint64_t share = (rays + used.size() - 1) / used.size();
-        const auto done = shoot_part(
-            parts.parts[used[u]].scene, *truths[u], points[u], {share, seed + u}, report);
+        const auto done = shoot_component(
+            closed.components[used[u]].scene, *truths[u], points[u], {share, seed + u}, report);
         if (!done) return fail(done.error());
     }
     return report;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,9 +1,9 @@
-// crosscheck/leaks.h - rays from inside of closed parts that find no wall.
+// crosscheck/leaks.h - shoots rays from inside closed meshes and shapes and counts leaks.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "base/error.h"
-#include "crosscheck/closed_parts.h"
+#include "crosscheck/closed_components.h"
 #include "crosscheck/truth.h"
 
 #include <array>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 enum class LeakAim : int { anywhere, edges, vertices };
 inline constexpr size_t leak_aims = 3;
@@ -22,29 +22,29 @@ struct LeakCount {
     uint64_t leaks = 0;
 };
 
-/// What one kernel let through.
+/// Leaks of one kernel.
 struct LeakFigures {
     std::string kernel;
     bool in_budget = true;  ///< false: fast traversal, only published
     std::array<LeakCount, leak_aims> by_aim;
-    std::optional<TrueRay> first;  ///< a ray that leaked, at random or at an edge before others
+    std::optional<TrueRay> first;  ///< a ray that leaked, unaimed ones before those at edges
 };
 
 struct LeakReport {
-    size_t parts_found = 0;
-    size_t parts_used = 0;  ///< large enough for points inside
+    size_t components_found = 0;
+    size_t components_used = 0;  ///< large enough for points inside
     std::vector<LeakFigures> kernels;
 };
 
-/// Shoots from points inside of each part, alone in its scene: whatever hits nothing has leaked.
-/// Inside is where a ray in double precision crosses the part an odd number of times.
+/// Shoots from points inside of each component, alone in its scene: whatever hits nothing has
+/// leaked. Inside is where a ray in double precision crosses the component an odd number of times.
 ///
-/// In      rays: for all parts together, to anywhere; a tenth as many each are aimed at edges and
-///         vertices
+/// In      rays: for all components together, to anywhere; a tenth as many each are aimed at
+///         edges and vertices
 /// Errors  those of Accel::build
-Result<LeakReport> count_leaks(const ClosedParts& parts, uint64_t rays, uint64_t seed);
+Result<LeakReport> count_leaks(const ClosedComponents& closed, uint64_t rays, uint64_t seed);
 
-/// Up to `most` points inside of a closed part.
-std::vector<Vec3d> points_inside(const TrueScene& part, size_t most, uint64_t seed);
+/// Up to `most` points inside of a closed component.
+std::vector<Vec3d> points_inside(const TrueScene& component, size_t most, uint64_t seed);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/place_check.cpp - u, v and Ng against the triangle.
+// crosscheck/place_check.cpp - checks u, v and Ng against the triangle.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/place_check.h"
 
@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
-/// Of a sum of shares, besides what the sides are off by.
+/// Rounding of the sum of weights, besides the error of the sides.
 constexpr double share_ulps = 4;
 
 bool is_right_weight(const SideTest& test,
@@ -41,10 +41,10 @@ bool is_right_place(const TrueScene& scene, const TrueRay& ray, const Answer& an
     const double unit = scene.rounding_m(ray, answer.item, answer.t);
     const SideTest test = side_test(scene, ray, answer.item, edge_ulps * unit);
     const std::array<double, 3> rounding{test.rounding(0), test.rounding(1), test.rounding(2)};
-    // The weight of a corner is the share of the edge that it does not lie on.
+    // The weight of a corner belongs to the opposite edge.
     return is_right_weight(test, rounding, 2, answer.place.u) &&
            is_right_weight(test, rounding, 0, answer.place.v) &&
            (!answer.place.has_ng || is_right_normal(test, answer.place.ng));
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

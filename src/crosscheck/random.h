@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 /// Source  Steele, Lea, Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014
 class RandomStream {
@@ -39,4 +39,4 @@ private:
     uint64_t state_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -24,9 +24,9 @@ constexpr std::array group_pattern = {RayGroup::camera,
 constexpr size_t batch_chunks = 4096;
 
 /// Of the largest half edge of the scene's box.
-constexpr double least_half = 1e-3;
+constexpr double min_half = 1e-3;
 
-/// Steps through all pixels of a picture of any size up to its own: scattered, each once.
+/// Steps through all pixels of an image of any size up to its own: scattered, each once.
 constexpr uint64_t pixel_step = 2654435761;  ///< prime
 
 Vec3d tangent_to(const Vec3d& normal, RandomStream& random) {
@@ -49,9 +49,9 @@ void RayBlock::set_end(int i, double end) {
 }
 
 void RayBlock::add(const Vec3d& origin, const Vec3d& direction) {
-    const double row[6] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
+    const double numbers[6] = {origin.x, origin.y, origin.z, direction.x, direction.y, direction.z};
     for (size_t c = 0; c < 6; ++c)
-        ray_[c].push_back(static_cast<float>(row[c]));
+        ray_[c].push_back(static_cast<float>(numbers[c]));
     key_.push_back(static_cast<uint32_t>(key_.size()));
 }
 
@@ -69,9 +69,9 @@ RayColumns RayBlock::columns() {
         padded_[c] = ray_[c];
         padded_[c].resize(padded, ray_[c].empty() ? 0.0f : ray_[c].back());
     }
-    const int rows = count();
+    const int filled = count();
     key_.resize(padded);
-    key_.resize(static_cast<size_t>(rows));  // the memory behind stays
+    key_.resize(static_cast<size_t>(filled));  // the memory behind it is kept
     return {padded_[0].data(),
             padded_[1].data(),
             padded_[2].data(),
@@ -80,15 +80,15 @@ RayColumns RayBlock::columns() {
             padded_[5].data(),
             end_.empty() ? nullptr : end_.data(),
             key_.data(),
-            rows};
+            filled};
 }
 
 HitColumns HitBlock::columns(int count) {
-    const auto rows = static_cast<size_t>(count + 15) / 16 * 16;
+    const auto padded = static_cast<size_t>(count + 15) / 16 * 16;
     for (auto& column : number_)
-        column.resize(rows);
+        column.resize(padded);
     for (auto& column : index_)
-        column.resize(rows);
+        column.resize(padded);
     return {number_[0].data(),
             number_[1].data(),
             number_[2].data(),
@@ -98,9 +98,9 @@ HitColumns HitBlock::columns(int count) {
 }
 
 Item HitBlock::item(int i) const {
-    const auto row = static_cast<size_t>(i);
-    if (index_[1][row] < 0) return {};
-    return {index_[0][row], index_[1][row], index_[2][row]};
+    const auto index = static_cast<size_t>(i);
+    if (index_[1][index] < 0) return {};
+    return {index_[0][index], index_[1][index], index_[2][index]};
 }
 
 RaySet::RaySet(const TrueScene& scene, const RaySetOptions& options)
@@ -110,7 +110,7 @@ RaySet::RaySet(const TrueScene& scene, const RaySetOptions& options)
     centre_ = empty ? Vec3d{0, 0, 0} : (box.low + box.high) * 0.5;
     half_ = empty ? Vec3d{1, 1, 1} : (box.high - box.low) * 0.5;
     // In a flat scene all rays inside would run along its surface.
-    half_ = max3(half_, splat3(least_half * max_component(half_)));
+    half_ = max3(half_, splat3(min_half * max_component(half_)));
     radius_ = std::max(length(half_), 1e-30);
 }
 
@@ -129,9 +129,9 @@ RayGroup RaySet::group(size_t chunk) {
     return group_pattern[chunk % group_pattern.size()];
 }
 
-ScreenPlace RaySet::place(size_t chunk, int row) const {
+ScreenPlace RaySet::place(size_t chunk, int index) const {
     const uint64_t before = chunk / group_pattern.size() * 2 + (chunk % group_pattern.size() > 0);
-    const uint64_t number = before * chunk_rays + static_cast<uint64_t>(row);
+    const uint64_t number = before * chunk_rays + static_cast<uint64_t>(index);
     const auto width = static_cast<uint64_t>(options_.width);
     const uint64_t pixels = width * static_cast<uint64_t>(options_.height);
     const uint64_t pixel = number % pixels * (pixel_step % pixels) % pixels;
@@ -141,8 +141,8 @@ ScreenPlace RaySet::place(size_t chunk, int row) const {
 void RaySet::fill(size_t chunk, RayBlock& out) const {
     out.clear();
     const uint64_t first = chunk * chunk_rays;
-    const int rows = static_cast<int>(std::min(chunk_rays, options_.rays - first));
-    for (int i = 0; i < rows; ++i) {
+    const int filled = static_cast<int>(std::min(chunk_rays, options_.rays - first));
+    for (int i = 0; i < filled; ++i) {
         if (group(chunk) == RayGroup::camera) {
             add_camera_ray(chunk, i, out);
         } else {
@@ -152,11 +152,11 @@ void RaySet::fill(size_t chunk, RayBlock& out) const {
     }
 }
 
-void RaySet::add_camera_ray(size_t chunk, int row, RayBlock& out) const {
-    const ScreenPlace at = place(chunk, row);
+void RaySet::add_camera_ray(size_t chunk, int index, RayBlock& out) const {
+    const ScreenPlace at = place(chunk, index);
     const uint64_t pixels =
         static_cast<uint64_t>(options_.width) * static_cast<uint64_t>(options_.height);
-    RandomStream random(chunk * chunk_rays + static_cast<uint64_t>(row));
+    RandomStream random(chunk * chunk_rays + static_cast<uint64_t>(index));
     const bool centre = chunk / group_pattern.size() * 2 * chunk_rays < pixels;
     const double dx = centre ? 0.5 : random.unit();
     const double dy = centre ? 0.5 : random.unit();
@@ -183,8 +183,8 @@ TrueRay RaySet::special_ray(const Item& item, RandomStream& random) const {
         const Affined world = scene_.world_from_object(item);
         line = {transform_point(world, line.origin), transform_vector(world, line.direction)};
     }
-    // Along a line Embree misses whole pieces of it (PieceTest): nothing new would be found.
-    if (scene_.is_piece(item)) line.direction = random.direction();
+    // Along its axis Embree misses whole segments (SegmentRounding): that would show nothing new.
+    if (scene_.is_segment(item)) line.direction = random.direction();
     const double size = length(line.direction);
     line.direction = size > 0 ? line.direction * (1 / size) : random.direction();
     line.origin = line.origin - line.direction * (radius_ * random.between(0.1, 2));
@@ -216,19 +216,19 @@ RaySet::SurfaceSample RaySet::sample_triangle(const Item& item,
 }
 
 RaySet::SurfaceSample RaySet::sample_shape(const Item& item, RandomStream& random) const {
-    const ShapeRow row = scene_.shape(item);
+    const ShapeRecord record = scene_.shape(item);
     const auto side = [&](float middle, float low, float high) {
         const auto m = static_cast<double>(middle);
-        const bool endless = !(std::abs(low) < 1e18f && std::abs(high) < 1e18f);
-        return endless ? m + random.between(-1, 1) * radius_
-                       : random.between(static_cast<double>(low), static_cast<double>(high));
+        const bool infinite = !(std::abs(low) < 1e18f && std::abs(high) < 1e18f);
+        return infinite ? m + random.between(-1, 1) * radius_
+                        : random.between(static_cast<double>(low), static_cast<double>(high));
     };
-    const ShapeBox box = shape_bounds(row);
-    const Vec3d near{side(row.centre[0], box.low.x, box.high.x),
-                     side(row.centre[1], box.low.y, box.high.y),
-                     side(row.centre[2], box.low.z, box.high.z)};
+    const ShapeBox box = shape_bounds(record);
+    const Vec3d near{side(record.centre[0], box.low.x, box.high.x),
+                     side(record.centre[1], box.low.y, box.high.y),
+                     side(record.centre[2], box.low.z, box.high.z)};
     const SurfacePoint<double> point =
-        surface_of_shape<double>(row.kind, UniformShape<double>(row), near);
+        surface_of_shape<double>(record.kind, UniformShape<double>(record), near);
     return {transform_point(scene_.world_from_object(item), point.position),
             normalize(transform_normal(scene_.object_from_world(item), point.normal)),
             false};
@@ -266,7 +266,7 @@ void RaySet::add_ray(RayGroup group, RandomStream& random, RayBlock& out) const 
         out.add(origin, normalize(at.position - origin));
         return;
     }
-    // Along the surface, or nearly: shapes have their silhouettes for edges.
+    // Along the surface, or nearly: for shapes, silhouettes are the edges.
     const double lift = std::pow(10.0, random.between(-6, -1));
     const bool grazing = group == RayGroup::grazing;
     const Vec3d direction =
@@ -274,4 +274,4 @@ void RaySet::add_ray(RayGroup group, RandomStream& random, RayBlock& out) const 
     out.add(at.position - direction * (radius_ * random.between(0.1, 2)), direction);
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

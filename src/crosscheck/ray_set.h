@@ -12,26 +12,26 @@
 #include <cstdint>
 #include <vector>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
-/// How a ray was chosen. To add one: append it, give it a name in ray_group_names and a case in
-/// RaySet::make_ray; shares are in group_pattern.
+/// How a ray was chosen. To add one: append it, raise ray_groups, give it a name in ray_group_names
+/// and a case in RaySet::make_ray; group_pattern sets its frequency.
 enum class RayGroup : int { camera, inside, outside, edge, vertex, grazing, far_origin, special };
 inline constexpr size_t ray_groups = 8;
 inline constexpr std::array<const char*, ray_groups> ray_group_names{
     "camera", "inside", "outside", "edge", "vertex", "grazing", "far", "special"};
 
-/// Groups whose rays are aimed at no particular place: shares of them mean something.
+/// Groups of unaimed rays, whose fractions mean something.
 inline constexpr bool is_unaimed(RayGroup group) {
     return group == RayGroup::camera || group == RayGroup::inside || group == RayGroup::outside;
 }
 
-/// Some rays in single precision, as Embree is asked.
+/// Rays in single precision, as Embree gets them.
 class RayBlock {
 public:
     void clear();
     void add(const Vec3d& origin, const Vec3d& direction);
-    /// Rays have no ends before.
+    /// Rays have no ends by default.
     void set_end(int i, double end);
     int count() const { return static_cast<int>(key_.size()); }
     Vec3f origin(int i) const { return {at(0, i), at(1, i), at(2, i)}; }
@@ -66,18 +66,18 @@ inline constexpr uint64_t chunk_rays = 1024;
 
 struct RaySetOptions {
     Camera camera;
-    int width = 640;  ///< picture of the camera's rays
+    int width = 640;  ///< image of the camera's rays
     int height = 360;
     uint64_t rays = 1000000;
     uint64_t seed = 0;
 };
 
-/// Where on the screen a camera ray goes.
+/// Position of a camera ray on the screen.
 struct ScreenPlace {
     int x = 0, y = 0;
 };
 
-/// Rays by chunks of chunk_rays, all of one group; a chunk's rays depend on its number alone.
+/// Rays in chunks of chunk_rays, all of one group; a chunk's rays depend on its number alone.
 class RaySet {
 public:
     /// In   scene: outlives this object
@@ -87,16 +87,16 @@ public:
     size_t chunks() const;
     static RayGroup group(size_t chunk);
     void fill(size_t chunk, RayBlock& out) const;
-    /// Of a ray of the group `camera`. Once all pixels had their centre, other points of them
+    /// For rays of the group `camera`. Once every pixel had its centre, other points in pixels
     /// follow.
-    ScreenPlace place(size_t chunk, int row) const;
+    ScreenPlace place(size_t chunk, int index) const;
 
 private:
     struct SurfaceSample {
         Vec3d position, normal;
         bool is_corner = false;
     };
-    void add_camera_ray(size_t chunk, int row, RayBlock& out) const;
+    void add_camera_ray(size_t chunk, int index, RayBlock& out) const;
     void add_ray(RayGroup group, RandomStream& random, RayBlock& out) const;
     SurfaceSample sample_triangle(const Item& item, RayGroup group, RandomStream& random) const;
     SurfaceSample sample_shape(const Item& item, RandomStream& random) const;
@@ -119,7 +119,7 @@ struct RayBatch {
     uint64_t count() const { return std::min(rays.count() - first_ray(), chunks * chunk_rays); }
 };
 
-/// The whole set in parts, so that memory for answers does not grow with the rays.
+/// The whole set in batches, so that memory for answers does not grow with the rays.
 std::vector<RayBatch> batches_of(const RaySet& rays);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

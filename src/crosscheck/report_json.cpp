@@ -1,4 +1,4 @@
-// crosscheck/report_json.cpp - what a cross-check found, for programs.
+// crosscheck/report_json.cpp - the results of a cross-check as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/report_json.h"
 
@@ -6,27 +6,27 @@
 #include "crosscheck/budget.h"
 #include "crosscheck/report_table.h"
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
-constexpr std::array<const char*, verdicts> verdict_keys{"agree",
-                                                         "equal_depth",
-                                                         "edge",
-                                                         "crack",
-                                                         "edge_on",
-                                                         "place",
-                                                         "item",
-                                                         "depth",
-                                                         "missed",
-                                                         "false_hit"};
+constexpr std::array<const char*, verdict_count> verdict_keys{"agree",
+                                                              "equal_depth",
+                                                              "edge",
+                                                              "crack",
+                                                              "edge_on",
+                                                              "place",
+                                                              "item",
+                                                              "depth",
+                                                              "missed",
+                                                              "false_hit"};
 
 constexpr std::array<const char*, 3> standard_names{"full", "edges", "none"};
 
 void add_tally(const Tally& tally, Json& out) {
     out["rays"] = tally.rays;
     out["hits"] = tally.hits;
-    for (size_t v = 0; v < verdicts; ++v)
+    for (size_t v = 0; v < verdict_count; ++v)
         out[verdict_keys[v]] = tally.counts[v];
     out["widest_edge_ulp"] = tally.widest_edge;
 }
@@ -38,7 +38,7 @@ Json answer_json(const Answer& answer) {
         out["t"] = answer.t;
         out["instance"] = answer.item.instance;
         out["primitive"] = answer.item.primitive;
-        out["row"] = answer.item.row;
+        out["row"] = answer.item.element;
     }
     return out;
 }
@@ -74,17 +74,17 @@ Json twins_json(const TwinReport& twins) {
 }
 
 Json leaks_json(const LeakReport& leaks) {
-    Json out = {{"closed_parts", leaks.parts_found}, {"parts_used", leaks.parts_used}};
+    Json out = {{"closed_parts", leaks.components_found}, {"parts_used", leaks.components_used}};
     Json& kernels = out["kernels"] = Json::array();
     for (const LeakFigures& kernel : leaks.kernels) {
-        Json& row = kernels.emplace_back();
-        row["kernel"] = kernel.kernel;
-        row["in_budget"] = kernel.in_budget;
+        Json& entry = kernels.emplace_back();
+        entry["kernel"] = kernel.kernel;
+        entry["in_budget"] = kernel.in_budget;
         for (size_t aim = 0; aim < leak_aims; ++aim) {
-            row[leak_aim_names[aim]] = {{"rays", kernel.by_aim[aim].rays},
-                                        {"leaks", kernel.by_aim[aim].leaks}};
+            entry[leak_aim_names[aim]] = {{"rays", kernel.by_aim[aim].rays},
+                                          {"leaks", kernel.by_aim[aim].leaks}};
         }
-        if (kernel.first) row["first"] = replay_option(*kernel.first);
+        if (kernel.first) entry["first"] = replay_option(*kernel.first);
     }
     return out;
 }
@@ -140,12 +140,12 @@ std::string crosscheck_json(const std::vector<CheckedScene>& scenes,
     Json out;
     out["version"] = OBSCURA_VERSION;
     out["budget"] = {
-        {"mismatch_share", mismatch_share}, {"edge_ulp", edge_ulps}, {"depth_ulp", depth_ulps}};
-    Json& rows = out["scenes"] = Json::array();
+        {"mismatch_share", mismatch_fraction}, {"edge_ulp", edge_ulps}, {"depth_ulp", depth_ulps}};
+    Json& entries = out["scenes"] = Json::array();
     for (const CheckedScene& scene : scenes)
-        rows.push_back(scene_json(scene));
+        entries.push_back(scene_json(scene));
     out["warnings"] = warnings;
     return json_document(out);
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

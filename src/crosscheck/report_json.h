@@ -1,4 +1,4 @@
-// crosscheck/report_json.h - what a cross-check found, for programs.
+// crosscheck/report_json.h - the results of a cross-check as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 /// One JSON object; docs/cli.md explains the keys.
 std::string crosscheck_json(const std::vector<CheckedScene>& scenes,
                             const std::vector<std::string>& warnings);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/report_table.cpp - what a cross-check found, as tables for people.
+// crosscheck/report_table.cpp - the results of a cross-check as tables for people.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/report_table.h"
 
@@ -6,11 +6,11 @@
 #include <cmath>
 #include <fmt/format.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
-constexpr std::array<const char*, verdicts> names{
+constexpr std::array<const char*, verdict_count> verdict_names{
     "agree", "eq.depth", "edge", "crack", "edge-on", "place", "item", "depth", "missed", "false"};
 
 void add_row(const std::string& got,
@@ -25,14 +25,14 @@ void add_row(const std::string& got,
 
 void add_head(const char* first, const char* second, std::string& out) {
     out += fmt::format("  {:<20} {:<18} {:>10} {:>10}", first, second, "rays", "hits");
-    for (const char* name : names)
+    for (const char* name : verdict_names)
         out += fmt::format(" {:>9}", name);
     out += "     ulp\n";
 }
 
 void add_worst(const PairFigures& pair, std::string& out) {
     for (const Difference& d : pair.worst) {
-        if (d.comparison.verdict < Finding::place) continue;
+        if (d.comparison.verdict < Verdict::place) continue;
         out += fmt::format("    {} ray {} ({}): {}, expected {}; {}\n      {}\n",
                            pair.got,
                            d.number,
@@ -56,8 +56,9 @@ void add_twins(const TwinReport& twins, std::string& out) {
 }
 
 void add_leaks(const LeakReport& leaks, std::string& out) {
-    out += fmt::format(
-        "  closed parts: {} found, {} with room inside\n", leaks.parts_found, leaks.parts_used);
+    out += fmt::format("  closed parts: {} found, {} with room inside\n",
+                       leaks.components_found,
+                       leaks.components_used);
     for (const LeakFigures& kernel : leaks.kernels) {
         out += fmt::format("    {:<12}", kernel.kernel);
         for (size_t aim = 0; aim < leak_aims; ++aim) {
@@ -90,8 +91,8 @@ void add_spawned(const SpawnedReport& spawned, std::string& out) {
 
 }  // namespace
 
-const char* verdict_name(Finding verdict) {
-    return names[static_cast<size_t>(verdict)];
+const char* verdict_name(Verdict verdict) {
+    return verdict_names[static_cast<size_t>(verdict)];
 }
 
 std::string describe(const Answer& answer) {
@@ -101,12 +102,12 @@ std::string describe(const Answer& answer) {
                        answer.t,
                        answer.item.instance,
                        answer.item.primitive,
-                       answer.item.row);
+                       answer.item.element);
 }
 
 std::string describe(const Comparison& comparison) {
     const char* name = verdict_name(comparison.verdict);
-    if (comparison.verdict <= Finding::equal_depth) return name;
+    if (comparison.verdict <= Verdict::equal_depth) return name;
     if (std::isinf(comparison.ulps)) return fmt::format("{}, no ray nearby explains it", name);
     return fmt::format("{}, {:.3g} ulp", name, comparison.ulps);
 }
@@ -171,4 +172,4 @@ std::string check_table(const CheckedScene& scene) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

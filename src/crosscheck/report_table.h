@@ -1,4 +1,4 @@
-// crosscheck/report_table.h - what a cross-check found, as tables for people.
+// crosscheck/report_table.h - the results of a cross-check as tables for people.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,7 +6,7 @@
 
 #include <string>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 std::string check_table(const CheckedScene& scene);
 
@@ -19,6 +19,6 @@ std::string describe(const Comparison& comparison);
 /// The option that traces this one ray again.
 std::string replay_option(const TrueRay& ray);
 
-const char* verdict_name(Finding verdict);
+const char* verdict_name(Verdict verdict);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,8 +1,8 @@
-// crosscheck/side_test.cpp - what rounding may make of the sides on which a ray passes edges.
+// crosscheck/side_test.cpp - the sides on which a ray passes edges, with rounding bounds.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/side_test.h"
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -35,4 +35,4 @@ SideTest side_test(const TrueScene& scene, const TrueRay& ray, const Item& item,
             transform_vector(absolute(object), splat3(room_m))};
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

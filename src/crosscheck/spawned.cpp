@@ -1,4 +1,4 @@
-// crosscheck/spawned.cpp - rays that shading starts at hits.
+// crosscheck/spawned.cpp - checks rays that shading starts: self-hits, and leaks at walls.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/spawned.h"
 
@@ -6,34 +6,34 @@
 #include "crosscheck/compare.h"
 #include "crosscheck/shape_side.h"
 #include "render/prepared_scene.h"
-#include "stages/walk.h"
+#include "stages/wavefront.h"
 
 #include <algorithm>
 #include <functional>
 #include <mutex>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
 constexpr double wall_gap = 1e-4;  ///< of the scene's size
 constexpr int wall_scenes = 8;
-/// Of the same rays with other spawned directions, until as many are spawned as there are rays.
-constexpr uint64_t most_passes = 8;
+/// Passes over the rays, with other spawned directions each, until enough are spawned.
+constexpr uint64_t max_passes = 8;
 
 /// Traces a block of rays and lets the stage start one ray at every hit.
 class Spawner {
 public:
     explicit Spawner(const PreparedScene& scene) : scene_(scene) {
-        walk_.stages = scene.impl().stages;
-        walk_.accel = &scene.accel();
-        walk_.scene = scene.impl().view();
-        walk_.batch.ao_distance = 3e38f;
+        wavefront_.stages = scene.impl().stages;
+        wavefront_.accel = &scene.accel();
+        wavefront_.scene = scene.impl().view();
+        wavefront_.batch.ao_distance = 3e38f;
     }
 
-    /// starts[slot] is where the spawned row with that slot started. Returns the rows.
+    /// starts[slot] is where the spawned ray with that sample index started. Returns their number.
     int spawn(RayBlock& rays, uint32_t key, Workspace& work, std::vector<Answer>& starts) const {
-        const PathRows& p = work.paths[0];
+        const PathColumns& p = work.paths[0];
         for (int i = 0; i < rays.count(); ++i) {
             const Vec3f o = rays.origin(i);
             const Vec3f d = rays.direction(i);
@@ -53,21 +53,21 @@ public:
         scene_.accel().intersect(rays_of(p, rays.count()), work.hits, Coherence::incoherent, {});
         starts.clear();
         for (int i = 0; i < rays.count(); ++i) {
-            const HitRows& h = work.hits;
+            const HitColumns& h = work.hits;
             starts.push_back(
                 {static_cast<double>(h.t[i]), {h.instance[i], h.primitive[i], h.triangle[i]}});
         }
-        return spawn_ambient_rays(walk_, rays.count(), work);
+        return spawn_ambient_rays(wavefront_, rays.count(), work);
     }
 
     const PreparedScene& scene() const { return scene_; }
 
 private:
     const PreparedScene& scene_;
-    WalkInput walk_{};
+    WavefrontInput wavefront_{};
 };
 
-/// A Workspace a thread, made when it is first wanted.
+/// A Workspace for each thread, made at first use.
 class Workspaces {
 public:
     Workspace& mine() {
@@ -83,7 +83,7 @@ private:
 
 RayBlock shadows_as_rays(const Workspace& work, int count) {
     RayBlock out;
-    const ShadowRows& s = work.shadows;
+    const ShadowColumns& s = work.shadows;
     for (int i = 0; i < count; ++i) {
         out.add({s.ox[i], s.oy[i], s.oz[i]}, {s.dx[i], s.dy[i], s.dz[i]});
     }
@@ -96,25 +96,25 @@ struct ShapeMeeting {
     double t;
 };
 
-/// True where the ray meets the shape's front: which side that is of the root nearest to t.
+/// True where the ray meets the shape's front, by the root closest to t.
 bool meets_front(const TrueScene& truth, const Item& item, const ShapeMeeting& meeting) {
     const Affined object = truth.object_from_world(item);
-    const ShapeRow row = truth.shape(item);
+    const ShapeRecord record = truth.shape(item);
     const ShapeRay<double> own{transform_point(object, meeting.ray.origin),
                                transform_vector(object, meeting.ray.direction)};
-    const Roots<double> roots = intersect_shape<double>(row, own);
+    const Roots<double> roots = intersect_shape<double>(record, own);
     const auto distance = [&](int k) {
         return roots.hit[k] ? std::abs(roots.t[k] - meeting.t) : INFINITY;
     };
     const int k = distance(1) < distance(0) ? 1 : 0;
-    return is_front<double>(row, own, roots.t[k], k);
+    return is_front<double>(record, own, roots.t[k], k);
 }
 
-/// Below this cosine rounding decides which side of a shape a ray has met.
-constexpr double least_cosine = 1e-3;
+/// Below this cosine, rounding decides on which side a ray meets a shape.
+constexpr double min_cosine = 1e-3;
 
-/// True when a spawned ray may hit the item again that it started on: the side that it meets must
-/// be the one that it left, which is never so for what is flat.
+/// True when a spawned ray may hit its own item again: the side that it meets must be the one that
+/// it left, which is never so for flat items.
 bool is_true_return(const TrueScene& truth,
                     const Item& item,
                     const ShapeMeeting& before,
@@ -122,9 +122,9 @@ bool is_true_return(const TrueScene& truth,
     if (truth.is_triangle(item)) return false;
     const double cosine =
         dot(truth.normal(item, after.ray.origin), normalize(before.ray.direction));
-    if (std::abs(cosine) < least_cosine) return !is_flat(truth.shape(item));
-    // Which side was left: as the ray met it, or as the normal is where the spawned ray starts.
-    // From far away, and at the edges of boxes, only one of them is right.
+    if (std::abs(cosine) < min_cosine) return !is_flat(truth.shape(item));
+    // The side that was left: as the ray met it, or as the normal is where the spawned ray starts.
+    // Far away, and at the edges of boxes, only one of them is right.
     const bool meets = meets_front(truth, item, after);
     return meets == meets_front(truth, item, before) || meets == (cosine < 0);
 }
@@ -150,7 +150,7 @@ struct SpawnedSum {
     }
 };
 
-/// Self-hits of one pass over the rays; aimed: of which half of them.
+/// Self-hits of one pass over the rays, of the aimed or of the unaimed half.
 SpawnedSum self_hits(
     const Spawner& spawner, const TrueScene& truth, const RaySet& rays, uint64_t pass, bool aimed) {
     Workspaces workspaces;
@@ -235,16 +235,16 @@ Scene wall_scene(const Wall& wall, bool instanced) {
     scene.primitives.push_back(primitive);
     scene.world_primitive_count = instanced ? 0 : 1;
     if (instanced) {
-        Affined place;
+        Affined transform;
         const Vec3d column[4] = {
             wall.along * wall.size, wall.across * wall.size, wall.normal * wall.size, wall.centre};
         for (int c = 0; c < 4; ++c) {
-            place.m[0][c] = column[c].x;
-            place.m[1][c] = column[c].y;
-            place.m[2][c] = column[c].z;
+            transform.m[0][c] = column[c].x;
+            transform.m[1][c] = column[c].y;
+            transform.m[2][c] = column[c].z;
         }
         Instance instance;
-        instance.world_from_object = affine_cast<float>(place);
+        instance.world_from_object = affine_cast<float>(transform);
         instance.object_from_world =
             affine_cast<float>(inverse(affine_cast<double>(instance.world_from_object)));
         scene.meshes.push_back({0, 1});
@@ -300,7 +300,7 @@ Result<SpawnedReport> check_spawned(const PreparedScene& scene,
     SpawnedReport report;
     const Spawner spawner(scene);
     SpawnedSum own;
-    for (uint64_t pass = 0; pass < most_passes && own.rays < rays.count(); ++pass)
+    for (uint64_t pass = 0; pass < max_passes && own.rays < rays.count(); ++pass)
         own.add(self_hits(spawner, truth, rays, pass, false));
     const SpawnedSum aimed = self_hits(spawner, truth, rays, 0, true);
     report.rays = own.rays;
@@ -326,4 +326,4 @@ Result<SpawnedReport> check_spawned(const PreparedScene& scene,
     return report;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

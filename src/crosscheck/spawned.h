@@ -1,4 +1,4 @@
-// crosscheck/spawned.h - rays that shading starts: they must leave their surface, and see walls.
+// crosscheck/spawned.h - checks rays that shading starts: self-hits, and leaks at walls.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,12 +7,12 @@
 
 #include <optional>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
-/// Rays as the stage for ambient occlusion starts them at the hits of other rays.
+/// Figures of rays that the stage for ambient occlusion starts at the hits of other rays.
 struct SpawnedReport {
     uint64_t rays = 0;       ///< at hits of rays aimed at nothing
-    uint64_t self_hits = 0;  ///< met the very triangle or shape that they started on
+    uint64_t self_hits = 0;  ///< hits on the very triangle or shape where they started
     uint64_t aimed_rays =
         0;  ///< likewise, at hits of rays aimed at edges, along surfaces, from afar
     uint64_t aimed_self_hits = 0;
@@ -22,7 +22,7 @@ struct SpawnedReport {
     std::optional<TrueRay> first_wall_leak;
 };
 
-/// As many spawned rays as `rays` has where enough of those hit; as many again below walls.
+/// Spawns as many rays as `rays` has, if enough of those hit, and as many again below walls.
 ///
 /// In      scene: without cut-outs; truth: of the same scene; isa: for the walls
 /// Errors  those of PreparedScene::create
@@ -31,4 +31,4 @@ Result<SpawnedReport> check_spawned(const PreparedScene& scene,
                                     const RaySet& rays,
                                     Isa isa);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -30,21 +30,21 @@ Vec3d on_ring(double radius, double height, double turn) {
 }
 
 /// From rim to rim, or along the cone that touches both balls.
-Vec3d ruling_of_revolution(const ShapeRow& row, RandomStream& random) {
-    const Vec3d size = size_of(row);
+Vec3d ruling_of_revolution(const ShapeRecord& record, RandomStream& random) {
+    const Vec3d size = size_of(record);
     const double turn = 2 * pi_d * random.unit();
     const double height = 2 * size.x;
     const double wider = size.z - size.y;
-    if (row.kind == static_cast<int32_t>(ShapeKind::frustum)) {
+    if (record.kind == static_cast<int32_t>(ShapeKind::frustum)) {
         return normalize(on_ring(wider, height, turn));
     }
     const double sine = wider / height;
     return on_ring(sine, std::sqrt(std::max(1 - sine * sine, 0.0)), turn);
 }
 
-/// Along which the quadratic terms are 0, or along which all terms are, if there are such ways.
-Vec3d ruling_of_quadric(const ShapeRow& row, RandomStream& random) {
-    const auto k = [&](int i) { return static_cast<double>(row.k[i]); };
+/// Directions in which the quadratic terms vanish, or all terms do, if there are any.
+Vec3d ruling_of_quadric(const ShapeRecord& record, RandomStream& random) {
+    const auto k = [&](int i) { return static_cast<double>(record.k[i]); };
     const Vec3d rows[3] = {{2 * k(0), k(3), k(4)}, {k(3), 2 * k(1), k(5)}, {k(4), k(5), 2 * k(2)}};
     const auto bent = [&](const Vec3d& v) {
         return Vec3d{dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)};
@@ -63,34 +63,33 @@ Vec3d ruling_of_quadric(const ShapeRow& row, RandomStream& random) {
     return dot(flat, flat) > 0 ? normalize(flat) : across(rows[first], random);
 }
 
-Vec3d ruling(const ShapeRow& row, RandomStream& random) {
-    if (is_quadric(row)) return ruling_of_quadric(row, random);
-    const auto kind = static_cast<ShapeKind>(row.kind);
+Vec3d ruling(const ShapeRecord& record, RandomStream& random) {
+    if (is_quadric(record)) return ruling_of_quadric(record, random);
+    const auto kind = static_cast<ShapeKind>(record.kind);
     if (kind == ShapeKind::frustum || kind == ShapeKind::capsule) {
-        return ruling_of_revolution(row, random);
+        return ruling_of_revolution(record, random);
     }
-    if (is_flat(row)) return across({0, 1, 0}, random);
+    if (is_flat(record)) return across({0, 1, 0}, random);
     return axis(random);
 }
 
 /// Where random lines meet the shape.
-Vec3d place_on(const ShapeRow& row, RandomStream& random) {
+Vec3d place_on(const ShapeRecord& record, RandomStream& random) {
     for (int i = 0; i < 4; ++i) {
-        const TrueRay line{place_near(row, 1, random), random.direction()};
-        const Crossings met = cross_shape(row, line);
+        const TrueRay line{place_near(record, 1, random), random.direction()};
+        const Crossings met = cross_shape(record, line);
         if (met.count > 0) return line.origin + line.direction * met.t[0];
     }
-    return centre_of(row);
+    return centre_of(record);
 }
 
-/// Relative to the centre: on the rims of what has them, at corners and on edges of boxes, at the
-/// points of cones.
-Vec3d place_at_edge(const ShapeRow& row, RandomStream& random) {
-    const Vec3d size = size_of(row);
+/// Positions relative to the centre: on rims, at corners and on edges of boxes, at apexes of cones.
+Vec3d place_at_edge(const ShapeRecord& record, RandomStream& random) {
+    const Vec3d size = size_of(record);
     const double turn = 2 * pi_d * random.unit();
     const double side = random.unit() < 0.5 ? -1 : 1;
     const auto end = [&](double half) { return random.unit() < 0.5 ? -half : half; };
-    switch (static_cast<ShapeKind>(row.kind)) {
+    switch (static_cast<ShapeKind>(record.kind)) {
         case ShapeKind::frustum:
         case ShapeKind::capsule:
             return on_ring(side < 0 ? size.y : size.z, side * size.x, turn);
@@ -107,29 +106,29 @@ Vec3d place_at_edge(const ShapeRow& row, RandomStream& random) {
 
 }  // namespace
 
-Vec3d place_near(const ShapeRow& row, double wider, RandomStream& random) {
-    const ShapeBox box = shape_bounds(row);
+Vec3d place_near(const ShapeRecord& record, double wider, RandomStream& random) {
+    const ShapeBox box = shape_bounds(record);
     const auto along = [&](float centre, float low, float high) {
         const bool ends = std::abs(low) < 1e18f && std::abs(high) < 1e18f;
         const double half = ends ? 0.5 * (static_cast<double>(high) - static_cast<double>(low)) : 1;
         return static_cast<double>(centre) + random.between(-1, 1) * half * wider;
     };
-    return {along(row.centre[0], box.low.x, box.high.x),
-            along(row.centre[1], box.low.y, box.high.y),
-            along(row.centre[2], box.low.z, box.high.z)};
+    return {along(record.centre[0], box.low.x, box.high.x),
+            along(record.centre[1], box.low.y, box.high.y),
+            along(record.centre[2], box.low.z, box.high.z)};
 }
 
-TrueRay special_line(const ShapeRow& row, RandomStream& random) {
+TrueRay special_line(const ShapeRecord& record, RandomStream& random) {
     const size_t where = random.below(4);
-    const Vec3d place = where == 0   ? centre_of(row)
-                        : where == 1 ? centre_of(row) + place_at_edge(row, random)
-                        : where == 2 ? place_on(row, random)
-                                     : place_near(row, 1.2, random);
+    const Vec3d place = where == 0   ? centre_of(record)
+                        : where == 1 ? centre_of(record) + place_at_edge(record, random)
+                        : where == 2 ? place_on(record, random)
+                                     : place_near(record, 1.2, random);
     const size_t along = random.below(3);
     return {place,
             along == 0   ? axis(random)
-            : along == 1 ? ruling(row, random)
-                         : across(normal_of_shape(row, place), random)};
+            : along == 1 ? ruling(record, random)
+                         : across(normal_of_shape(record, place), random)};
 }
 
 TrueRay special_line(const Triangle<double>& triangle, RandomStream& random) {
@@ -150,4 +149,4 @@ TrueRay special_line(const Triangle<double>& triangle, RandomStream& random) {
     return {corner[first] + edge * u + other * v, size > 0 ? way * (1 / size) : random.direction()};
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

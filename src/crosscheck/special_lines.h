@@ -1,26 +1,26 @@
-// crosscheck/special_lines.h - lines at which formulas divide by nothing, or roots fall together.
+// crosscheck/special_lines.h - lines at which formulas degenerate: zero divisors, equal roots.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "crosscheck/box_tree.h"
 #include "crosscheck/random.h"
-#include "shape/shape_row.h"
+#include "shape/shape_record.h"
 #include "shape/triangle.h"
 
-namespace obscura {
+namespace obscura::crosscheck {
 
-/// Along an axis, a ruling or a surface: through a place near the shape, on it, on a rim or an
-/// edge, or through its centre or its point.
+/// Along an axis, a ruling or a surface: through a point near the shape, on it, on a rim or an
+/// edge, or through its centre or apex.
 ///
-/// Out  in the shape's space; the origin is the place, the direction's length is 1 but for rounding
-TrueRay special_line(const ShapeRow& row, RandomStream& random);
+/// Out  in the shape's space; the origin is that point, the direction is unit within rounding
+TrueRay special_line(const ShapeRecord& record, RandomStream& random);
 
 /// Along an edge, an axis or the plane, or across it: through a corner, an edge, or a place beside
 /// the triangle in its plane.
 TrueRay special_line(const Triangle<double>& triangle, RandomStream& random);
 
-/// A place in the box around a shape, or so many times as far from its centre; of what has no end,
-/// within a metre.
-Vec3d place_near(const ShapeRow& row, double wider, RandomStream& random);
+/// A random point in the box around a shape, or so many times further from its centre; for an
+/// infinite shape within a metre.
+Vec3d place_near(const ShapeRecord& record, double wider, RandomStream& random);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

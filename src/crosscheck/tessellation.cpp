@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -18,7 +18,7 @@ constexpr int turn_steps = 512;  // around the axis
 constexpr int arc_steps = 256;   // along half a circle: as fine
 constexpr int grid_steps = 96;   // along each edge of a quadric's box
 
-/// One place of an outline: how far from the axis, and how high.
+/// A point of an outline: distance from the axis, and height.
 struct OutlinePoint {
     double radius, height;
 };
@@ -34,12 +34,12 @@ void add_arc(Outline& out, double radius, double height, double from, double to)
     }
 }
 
-Outline outline_of(const ShapeRow& row) {
-    const double a = static_cast<double>(row.size[0]);
-    const double b = static_cast<double>(row.size[1]);
-    const double c = static_cast<double>(row.size[2]);
+Outline outline_of(const ShapeRecord& record) {
+    const double a = static_cast<double>(record.size[0]);
+    const double b = static_cast<double>(record.size[1]);
+    const double c = static_cast<double>(record.size[2]);
     Outline out;
-    switch (static_cast<ShapeKind>(row.kind)) {
+    switch (static_cast<ShapeKind>(record.kind)) {
         case ShapeKind::sphere:
             add_arc(out, a, 0, -pi_d / 2, pi_d / 2);
             break;
@@ -47,7 +47,7 @@ Outline outline_of(const ShapeRow& row) {
             out = {{0, -a}, {b, -a}, {c, a}, {0, a}};
             break;
         case ShapeKind::capsule: {
-            // Where the cone that touches both balls leaves them.
+            // Angle at which the cone touches both spheres.
             const double angle = std::asin(std::clamp((b - c) / (2 * a), -1.0, 1.0));
             add_arc(out, b, -a, -pi_d / 2, angle);
             add_arc(out, c, a, angle, pi_d / 2);
@@ -68,16 +68,16 @@ void add_triangle(ShapeMesh& mesh, const Corners& t) {
 }
 
 void revolve(const Outline& outline, ShapeMesh& mesh) {
-    const auto place = [](const OutlinePoint& p, int step) {
+    const auto position = [](const OutlinePoint& p, int step) {
         const double angle = 2 * pi_d * (step % turn_steps) / turn_steps;
         return Vec3d{p.radius * std::cos(angle), p.height, p.radius * std::sin(angle)};
     };
     for (size_t i = 0; i + 1 < outline.size(); ++i) {
         for (int step = 0; step < turn_steps; ++step) {
-            const Vec3d low = place(outline[i], step);
-            const Vec3d high = place(outline[i + 1], step);
-            const Vec3d next_low = place(outline[i], step + 1);
-            const Vec3d next_high = place(outline[i + 1], step + 1);
+            const Vec3d low = position(outline[i], step);
+            const Vec3d high = position(outline[i + 1], step);
+            const Vec3d next_low = position(outline[i], step + 1);
+            const Vec3d next_high = position(outline[i + 1], step + 1);
             add_triangle(mesh, {low, next_low, high});
             add_triangle(mesh, {high, next_low, next_high});
         }
@@ -85,7 +85,7 @@ void revolve(const Outline& outline, ShapeMesh& mesh) {
     double widest = 0;
     for (const OutlinePoint& p : outline)
         widest = std::max(widest, p.radius);
-    // The middle of a chord, along the outline and around the axis.
+    // The midpoint of a chord, along the outline and around the axis.
     mesh.error_m = 2 * widest * (1 - std::cos(pi_d / turn_steps));
 }
 
@@ -108,14 +108,14 @@ void add_faces(const Vec3d& half, ShapeMesh& mesh) {
 
 /// A corner of the grid with the left side of the equation there.
 struct GridPoint {
-    Vec3d place;
+    Vec3d position;
     double value;
 };
 
-/// The places where a quadric's value changes its sign, cell by cell.
+/// Triangles where a quadric's value changes its sign, cell by cell.
 class QuadricMesher {
 public:
-    QuadricMesher(const ShapeRow& row, ShapeMesh& mesh) : row_(row), mesh_(mesh) {}
+    QuadricMesher(const ShapeRecord& record, ShapeMesh& mesh) : record_(record), mesh_(mesh) {}
 
     void run() {
         for (int z = 0; z < grid_steps; ++z) {
@@ -128,15 +128,16 @@ public:
 
 private:
     double value(const Vec3d& p) const {
-        const Vec3d centre{row_.centre[0], row_.centre[1], row_.centre[2]};
-        return side_of_shape(row_, p + centre);
+        const Vec3d centre{record_.centre[0], record_.centre[1], record_.centre[2]};
+        return side_of_shape(record_, p + centre);
     }
 
     GridPoint at(int x, int y, int z) const {
         const auto along = [](int step, float half) {
             return static_cast<double>(half) * (2.0 * step / grid_steps - 1);
         };
-        const Vec3d p{along(x, row_.size[0]), along(y, row_.size[1]), along(z, row_.size[2])};
+        const Vec3d p{
+            along(x, record_.size[0]), along(y, record_.size[1]), along(z, record_.size[2])};
         return {p, value(p)};
     }
 
@@ -165,41 +166,42 @@ private:
         }
         if (cut.size() < 3) return;
         add_triangle(mesh_, {cut[0], cut[1], cut[2]});
-        // Of four, the first and the last are opposite: two and two share an end.
+        // Of four points, the first and the last are opposite: they share no end.
         if (cut.size() == 4) add_triangle(mesh_, {cut[1], cut[2], cut[3]});
     }
 
-    /// By halving; from inside to outside, so that neighbours find the same numbers.
+    /// By bisection from inside to outside, so that neighbours find the same numbers.
     Vec3d root_between(const GridPoint& inside, const GridPoint& outside) const {
         double low = 0;
         double high = 1;
         for (int i = 0; i < 52; ++i) {
             const double middle = 0.5 * (low + high);
             const bool is_inside =
-                value(inside.place + (outside.place - inside.place) * middle) < 0;
+                value(inside.position + (outside.position - inside.position) * middle) < 0;
             (is_inside ? low : high) = middle;
         }
-        return inside.place + (outside.place - inside.place) * high;
+        return inside.position + (outside.position - inside.position) * high;
     }
 
-    const ShapeRow& row_;
+    const ShapeRecord& record_;
     ShapeMesh& mesh_;
 };
 
-/// Distance of a place from a curved surface, to first order.
-double distance_to(const ShapeRow& row, const Vec3d& place, double size) {
+/// First-order distance of a point from a curved surface.
+double distance_to(const ShapeRecord& record, const Vec3d& position, double size) {
     const double step = 1e-6 * size;
     const auto slope = [&](const Vec3d& along) {
         const Vec3d way = along * step;
-        return (side_of_shape(row, place + way) - side_of_shape(row, place - way)) / (2 * step);
+        return (side_of_shape(record, position + way) - side_of_shape(record, position - way)) /
+               (2 * step);
     };
     const Vec3d gradient{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})};
-    const double value = std::abs(side_of_shape(row, place));
+    const double value = std::abs(side_of_shape(record, position));
     return value == 0 ? 0 : value / length(gradient);
 }
 
-double measured_error(const ShapeRow& row, const ShapeMesh& mesh, double size) {
-    const Vec3d centre{row.centre[0], row.centre[1], row.centre[2]};
+double measured_error(const ShapeRecord& record, const ShapeMesh& mesh, double size) {
+    const Vec3d centre{record.centre[0], record.centre[1], record.centre[2]};
     double worst = 0;
     for (const Corners& t : mesh.triangles) {
         const Vec3d middles[4] = {(t[0] + t[1] + t[2]) * (1.0 / 3),
@@ -207,26 +209,27 @@ double measured_error(const ShapeRow& row, const ShapeMesh& mesh, double size) {
                                   (t[1] + t[2]) * 0.5,
                                   (t[2] + t[0]) * 0.5};
         for (const Vec3d& p : middles)
-            worst = std::max(worst, distance_to(row, p + centre, size));
+            worst = std::max(worst, distance_to(record, p + centre, size));
     }
     return worst;
 }
 
-void tessellate_quadric(const ShapeRow& row, ShapeMesh& mesh) {
+void tessellate_quadric(const ShapeRecord& record, ShapeMesh& mesh) {
     constexpr double coarsest = 1e-3;
-    const double size = static_cast<double>(std::max({row.size[0], row.size[1], row.size[2]}));
-    QuadricMesher(row, mesh).run();
-    mesh.error_m = 2 * measured_error(row, mesh, size);
+    const double size =
+        static_cast<double>(std::max({record.size[0], record.size[1], record.size[2]}));
+    QuadricMesher(record, mesh).run();
+    mesh.error_m = 2 * measured_error(record, mesh, size);
     if (!(mesh.error_m <= coarsest * size)) mesh = {};
 }
 
 }  // namespace
 
-ShapeMesh tessellate(const ShapeRow& row) {
+ShapeMesh tessellate(const ShapeRecord& record) {
     ShapeMesh mesh;
-    if (is_unbounded(row)) return mesh;
-    const Vec3d half{row.size[0], row.size[1], row.size[2]};
-    switch (static_cast<ShapeKind>(row.kind)) {
+    if (is_unbounded(record)) return mesh;
+    const Vec3d half{record.size[0], record.size[1], record.size[2]};
+    switch (static_cast<ShapeKind>(record.kind)) {
         case ShapeKind::box:
             add_faces(half, mesh);
             break;
@@ -235,13 +238,13 @@ ShapeMesh tessellate(const ShapeRow& row) {
             break;
         case ShapeKind::quadric:
         case ShapeKind::quadric_from_above:
-            tessellate_quadric(row, mesh);
+            tessellate_quadric(record, mesh);
             break;
         default:
-            revolve(outline_of(row), mesh);
+            revolve(outline_of(record), mesh);
             break;
     }
-    const Vec3d centre{row.centre[0], row.centre[1], row.centre[2]};
+    const Vec3d centre{record.centre[0], record.centre[1], record.centre[2]};
     for (Corners& t : mesh.triangles) {
         for (Vec3d& p : t)
             p = p + centre;
@@ -249,4 +252,4 @@ ShapeMesh tessellate(const ShapeRow& row) {
     return mesh;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,15 +1,15 @@
-// crosscheck/truth.cpp - nearest hits in double precision.
+// crosscheck/truth.cpp - searches nearest hits in double precision.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/truth.h"
 
-#include "crosscheck/piece_test.h"
+#include "crosscheck/segment_rounding.h"
 #include "crosscheck/shape_side.h"
-#include "crosscheck/truth_rows.h"
+#include "crosscheck/truth_records.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
@@ -20,10 +20,10 @@ TrueRay into(const Affined& object_from_world, const TrueRay& ray) {
 }
 
 Item placed(const Item& item, int32_t instance) {
-    return {instance, item.primitive, item.row};
+    return {instance, item.primitive, item.element};
 }
 
-/// Takes what lies on the ray.
+/// Passes on crossings that lie on the ray.
 template <typename Take>
 void take_ahead(const Crossings& found, const TrueRay& ray, const Item& item, const Take& take) {
     for (int k = 0; k < found.count; ++k) {
@@ -53,8 +53,8 @@ TrueScene::TrueScene(const Scene& scene, double slack_m) : scene_(scene), slack_
     std::vector<TrueBox> boxes;
     for (size_t i = 0; i < objects_.size(); ++i) {
         const Group& group = groups_[objects_[i].group];
-        if (!group.endless.empty()) endless_objects_.push_back(i);
-        if (group.items.size() == group.endless.size()) continue;
+        if (!group.infinite.empty()) infinite_objects_.push_back(i);
+        if (group.items.size() == group.infinite.size()) continue;
         const TrueBox own = group.tree->bounds();
         TrueBox box;
         for (int k = 0; k < 8; ++k) {
@@ -74,16 +74,16 @@ TrueScene::Group TrueScene::make_group(int32_t first_primitive, int32_t count) c
     std::vector<TrueBox> boxes;
     for (int32_t p = first_primitive; p < first_primitive + count; ++p) {
         const Primitive& primitive = scene_.primitives[static_cast<size_t>(p)];
-        for (int32_t row = 0; row < primitive.triangle_count; ++row) {
-            const Item item{-1, p, row};
+        for (int32_t element = 0; element < primitive.triangle_count; ++element) {
+            const Item item{-1, p, element};
             group.items.push_back(item);
-            if (is_endless(item)) group.endless.push_back(item);
+            if (is_infinite(item)) group.infinite.push_back(item);
         }
     }
     std::stable_partition(group.items.begin(), group.items.end(), [&](const Item& item) {
-        return !is_endless(item);
+        return !is_infinite(item);
     });
-    for (size_t i = 0; i + group.endless.size() < group.items.size(); ++i)
+    for (size_t i = 0; i + group.infinite.size() < group.items.size(); ++i)
         boxes.push_back(box_of(group.items[i]));
     for (const Item& item : group.items)
         group.corners.push_back(is_triangle(item) ? corners_of(scene_, item) : Triangle<float>{});
@@ -94,9 +94,9 @@ TrueScene::Group TrueScene::make_group(int32_t first_primitive, int32_t count) c
 void TrueScene::add_object(size_t group, int32_t instance) {
     Object object{group, instance, {}, {}};
     if (instance >= 0) {
-        // The inverse in double of the very matrix that Embree is given in single precision.
-        const Instance& row = scene_.instances[static_cast<size_t>(instance)];
-        object.world_from_object = affine_cast<double>(row.world_from_object);
+        // The inverse in double of the single precision matrix that Embree gets.
+        const Instance& record = scene_.instances[static_cast<size_t>(instance)];
+        object.world_from_object = affine_cast<double>(record.world_from_object);
         object.object_from_world = inverse(object.world_from_object);
     }
     objects_.push_back(object);
@@ -107,31 +107,31 @@ bool TrueScene::is_triangle(const Item& item) const {
     return is_mesh(scene_.primitives[static_cast<size_t>(item.primitive)]);
 }
 
-bool TrueScene::is_endless(const Item& item) const {
+bool TrueScene::is_infinite(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
     if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) return false;
-    const int32_t row = primitive.first_triangle + item.row;
-    return is_unbounded(scene_.shapes[static_cast<size_t>(row)]);
+    const int32_t index = primitive.first_triangle + item.element;
+    return is_unbounded(scene_.shapes[static_cast<size_t>(index)]);
 }
 
-ShapeRow TrueScene::shape(const Item& item) const {
+ShapeRecord TrueScene::shape(const Item& item) const {
     const Primitive& primitive = scene_.primitives[static_cast<size_t>(item.primitive)];
-    const int32_t number = primitive.first_triangle + item.row;
-    const auto row = static_cast<size_t>(number);
+    const int32_t number = primitive.first_triangle + item.element;
+    const auto index = static_cast<size_t>(number);
     if (primitive.geometry == static_cast<int32_t>(GeometryKind::shapes)) {
-        return scene_.shapes[row];
+        return scene_.shapes[index];
     }
-    if (is_piece(item)) {
+    if (is_segment(item)) {
         const Capsule<double> own = curve_frame(item).capsule;
-        ShapeRow capsule;
+        ShapeRecord capsule;
         capsule.kind = static_cast<int32_t>(ShapeKind::capsule);
         capsule.size[0] = static_cast<float>(own.half_height);
         capsule.size[1] = static_cast<float>(own.bottom);
         capsule.size[2] = static_cast<float>(own.top);
         return capsule;
     }
-    ShapeRow sphere;
-    const float* at = &scene_.spheres[sphere_word(row)];
+    ShapeRecord sphere;
+    const float* at = &scene_.spheres[sphere_word(index)];
     for (int c = 0; c < 3; ++c)
         sphere.centre[c] = at[c * sphere_block];
     sphere.size[0] = at[3 * sphere_block];
@@ -150,7 +150,7 @@ TrueBox TrueScene::box_of(const Item& item) const {
             box.add(p);
         return box;
     }
-    if (is_piece(item)) {
+    if (is_segment(item)) {
         const SegmentFrame<double> frame = curve_frame(item);
         for (const double end : {-1.0, 1.0}) {
             const Vec3d middle =
@@ -169,7 +169,7 @@ TrueBox TrueScene::box_of(const Item& item) const {
 
 Crossings TrueScene::crossings(const Item& item, const TrueRay& ray) const {
     if (is_triangle(item)) return cross_triangle(own_triangle(item), ray);
-    if (is_piece(item)) return cross_piece(item, ray);
+    if (is_segment(item)) return cross_segment(item, ray);
     return cross_shape(shape(item), ray);
 }
 
@@ -191,10 +191,10 @@ void TrueScene::visit_hits(const TrueRay& ray, const double& limit, const Take& 
                 crossings(group, k, own), ray, placed(group.items[k], object.instance), take);
         });
     });
-    for (const size_t i : endless_objects_) {
+    for (const size_t i : infinite_objects_) {
         const Object& object = objects_[i];
         const TrueRay own = into(object.object_from_world, ray);
-        for (const Item& item : groups_[object.group].endless)
+        for (const Item& item : groups_[object.group].infinite)
             take_ahead(crossings(item, own), ray, placed(item, object.instance), take);
     }
 }
@@ -261,12 +261,12 @@ const TrueScene::Object& TrueScene::object_of(const Item& item) const {
 }
 
 Affined TrueScene::world_from_object(const Item& item) const {
-    if (is_piece(item)) return world_from(curve_frame(item));
+    if (is_segment(item)) return world_from(curve_frame(item));
     return object_of(item).world_from_object;
 }
 
 Affined TrueScene::object_from_world(const Item& item) const {
-    if (is_piece(item)) return inverse(world_from(curve_frame(item)));
+    if (is_segment(item)) return inverse(world_from(curve_frame(item)));
     return object_of(item).object_from_world;
 }
 
@@ -277,8 +277,8 @@ bool TrueScene::has(const Item& item) const {
     const size_t group = objects_[number].group;
     const Mesh& mesh = group == 0 ? world : scene_.meshes[group - 1];
     const int64_t within = int64_t{item.primitive} - mesh.first_primitive;
-    return within >= 0 && within < mesh.primitive_count && item.row >= 0 &&
-           item.row < scene_.primitives[static_cast<size_t>(item.primitive)].triangle_count;
+    return within >= 0 && within < mesh.primitive_count && item.element >= 0 &&
+           item.element < scene_.primitives[static_cast<size_t>(item.primitive)].triangle_count;
 }
 
 Item TrueScene::item(size_t number) const {
@@ -301,7 +301,7 @@ Triangle<double> TrueScene::triangle(const Item& item) const {
 
 double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) const {
     Vec3d size = abs(ray.origin) + abs(ray.direction) * t;
-    if (item.primitive >= 0 && !is_endless(item)) {
+    if (item.primitive >= 0 && !is_infinite(item)) {
         const TrueBox box = box_of(item);
         const Affined world = absolute(object_of(item).world_from_object);
         const Vec3d corners = transform_point(world, max3(abs(box.low), abs(box.high)));
@@ -311,16 +311,16 @@ double TrueScene::rounding_m(const TrueRay& ray, const Item& item, double t) con
         const Affined world = absolute(object_of(item).world_from_object);
         const Affined object = absolute(object_of(item).object_from_world);
         const Vec3d moved{world.m[0][3], world.m[1][3], world.m[2][3]};
-        // Embree rounds the origin less the translation, then what the inverse makes of it.
+        // Embree rounds the origin minus the translation, then its product with the inverse.
         const Vec3d own = transform_vector(object, size + moved);
         size = max3(size, transform_vector(world, own) + moved);
     }
     double rounding = max_component(size) * ulp_of_one;
-    if (item.primitive >= 0 && is_piece(item)) {
-        // As many of these as answers may differ by are as far as Embree may be off.
-        rounding = std::max(rounding, PieceTest(piece(item), ray).surface_m(t) / edge_ulps);
+    if (item.primitive >= 0 && is_segment(item)) {
+        // edge_ulps times the result covers Embree's error.
+        rounding = std::max(rounding, SegmentRounding(segment(item), ray).surface_m(t) / edge_ulps);
     }
-    // Two that are compared by way of this scene, as with slack they are, may each be as far off.
+    // With slack, two answers are compared by way of this scene: each may be as far off.
     return slack_m_ > 0 ? std::max(slack_m_, 2 * rounding) : rounding;
 }
 
@@ -329,11 +329,11 @@ Vec3d TrueScene::middle(const Item& item) const {
     if (is_triangle(item)) {
         const TrueBox box = box_of(item);
         own = (box.low + box.high) * 0.5;
-    } else if (is_piece(item)) {
+    } else if (is_segment(item)) {
         own = curve_frame(item).centre;
     } else {
-        const ShapeRow row = shape(item);
-        own = {row.centre[0], row.centre[1], row.centre[2]};
+        const ShapeRecord record = shape(item);
+        own = {record.centre[0], record.centre[1], record.centre[2]};
     }
     return transform_point(object_of(item).world_from_object, own);
 }
@@ -348,4 +348,4 @@ Vec3d TrueScene::normal(const Item& item, const Vec3d& place) const {
         transform_normal(object, normal_of_shape(shape(item), transform_point(object, place))));
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

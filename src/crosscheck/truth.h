@@ -1,4 +1,4 @@
-// crosscheck/truth.h - the nearest hit of a ray in double precision, with no help from Embree.
+// crosscheck/truth.h - the nearest hit of a ray in double precision, without Embree.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,22 +11,22 @@
 #include <optional>
 #include <vector>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 inline constexpr double ulp_of_one = 1.0 / 8388608.0;  ///< spacing of floats above 1
 
-/// How far from an edge answers may differ, and how far hits may lie from the surface; in units of
+/// How far from an edge answers may differ, and how far hits may lie from the surface; units of
 /// TrueScene::rounding_m.
 inline constexpr double edge_ulps = 4;
 inline constexpr double depth_ulps = 4;
-/// Absolute values: how far what goes through the matrix may reach.
+/// Absolute values: bounds what passes through the matrix.
 Affined absolute(const Affined& a);
 
-/// A triangle or shape in the world, as HitColumns name it.
+/// A triangle or shape of the scene, identified as in HitColumns.
 struct Item {
     int32_t instance = -1;
     int32_t primitive = -1;  ///< -1: none
-    int32_t row = -1;        ///< triangle or shape within the primitive
+    int32_t element = -1;    ///< triangle or shape within the primitive
 
     bool operator==(const Item&) const = default;
 };
@@ -42,8 +42,8 @@ struct TrueHit {
 /// matrices) are taken as exact. Alpha is not looked at, every surface has two sides.
 class TrueScene {
 public:
-    /// In   scene: outlives this object; slack_m: how far what is compared with it may lie from it,
-    ///      more than by rounding
+    /// In   scene: outlives this object; slack_m: distance from it, beyond rounding, at which the
+    ///      other side of a comparison may lie
     explicit TrueScene(const Scene& scene, double slack_m = 0);
 
     /// The nearest hit with t > 0, up to the ray's end.
@@ -55,13 +55,13 @@ public:
     /// Calls take(t, item) for every place where the ray meets something, in no order.
     void all_hits(const TrueRay& ray, const std::function<void(double, Item)>& take) const;
 
-    /// Calls take(item) for everything with an end whose box the ray passes at most room_m away,
-    /// and more, in no order.
+    /// Calls take(item) for every finite item whose box the ray passes within room_m, and possibly
+    /// for more, in no order.
     void near_items(const TrueRay& ray,
                     double room_m,
                     const std::function<void(const Item&)>& take) const;
 
-    /// Where the ray meets this item, whatever else lies in front of it: no, one or two numbers.
+    /// Hits of the ray's line with this item, hidden or not: none, one or two.
     std::vector<double> meetings(const TrueRay& ray, const Item& item) const;
 
     /// How far rounding in single precision moves the point at t: one unit in the last place of the
@@ -69,10 +69,10 @@ public:
     /// slack, twice that and at least the slack. Metres.
     double rounding_m(const TrueRay& ray, const Item& item, double t) const;
 
-    /// Of the item's box, in the world; of a plane without end any place on it.
+    /// Centre of the item's box in the world; of an infinite plane any point on it.
     Vec3d middle(const Item& item) const;
 
-    /// Unit normal of the item near a place, in the world.
+    /// Unit normal of the item near a point, in the world.
     Vec3d normal(const Item& item, const Vec3d& place) const;
 
     /// Whether there is such an item.
@@ -85,20 +85,20 @@ public:
     /// Corners of a mesh's item, in the world.
     Triangle<double> triangle(const Item& item) const;
     bool is_triangle(const Item& item) const;
-    /// The shape of another item, in its own space; of lines that is the capsule's.
-    ShapeRow shape(const Item& item) const;
+    /// The shape of an item that is no triangle, in its own space; of a line segment the capsule.
+    ShapeRecord shape(const Item& item) const;
     Affined world_from_object(const Item& item) const;
     Affined object_from_world(const Item& item) const;
-    bool is_endless(const Item& item) const;
-    /// A piece of a line; the numbers are Embree's, even where one ball holds the other.
-    bool is_piece(const Item& item) const;
-    Segment<double> piece(const Item& item) const;
-    /// Metres from a piece's surface, negative inside.
-    double side_of_piece(const Item& item, const Vec3d& place) const;
-    /// The piece before (-1) or after (1) on the same line.
-    std::optional<Item> next_piece(const Item& item, int32_t step) const;
+    bool is_infinite(const Item& item) const;
+    /// A line segment with Embree's numbers, even where one sphere holds the other.
+    bool is_segment(const Item& item) const;
+    Segment<double> segment(const Item& item) const;
+    /// Metres from a segment's surface, negative inside.
+    double side_of_segment(const Item& item, const Vec3d& place) const;
+    /// The previous (-1) or next (1) segment of the same line.
+    std::optional<Item> next_segment(const Item& item, int32_t step) const;
 
-    /// Box of all that has an end.
+    /// Box of all finite items.
     TrueBox bounds() const { return objects_tree_->bounds(); }
     const Scene& scene() const { return scene_; }
 
@@ -107,7 +107,7 @@ private:
     struct Group {
         std::vector<Item> items;               ///< instance -1
         std::vector<Triangle<float>> corners;  ///< of each item that is a triangle
-        std::vector<Item> endless;
+        std::vector<Item> infinite;
         std::optional<BoxTree> tree;
     };
     struct Object {
@@ -120,14 +120,13 @@ private:
     void add_object(size_t group, int32_t instance);
     const Object& object_of(const Item& item) const;
     Triangle<double> own_triangle(const Item& item) const;
-    /// Number of the first of the two points of a line's piece.
+    /// Index of the first of a line segment's two points.
     int64_t curve_point(const Item& item) const;
     SegmentFrame<double> curve_frame(const Item& item) const;
-    /// Of a line's piece, without what lies inside the pieces before and after it: a line is one
-    /// body.
-    Crossings cross_piece(const Item& item, const TrueRay& ray) const;
+    /// Crossings of a line segment, without those inside its neighbours: a line is one solid.
+    Crossings cross_segment(const Item& item, const TrueRay& ray) const;
     TrueBox box_of(const Item& item) const;
-    /// Of one item in its own space, wherever the ray begins and ends.
+    /// Crossings of one item in its own space, wherever the ray begins and ends.
     Crossings crossings(const Item& item, const TrueRay& ray) const;
     /// Item k of a group; its corners lie beside it.
     Crossings crossings(const Group& group, size_t k, const TrueRay& ray) const;
@@ -140,8 +139,8 @@ private:
     std::vector<Object> objects_;    ///< instance i is objects_[i + 1]
     std::vector<size_t> item_ends_;  ///< by object
     std::optional<BoxTree> objects_tree_;
-    std::vector<size_t> boxed_objects_;  ///< those in the tree
-    std::vector<size_t> endless_objects_;
+    std::vector<size_t> boxed_objects_;  ///< those in the hierarchy
+    std::vector<size_t> infinite_objects_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// crosscheck/twins.cpp - analytic shapes beside fine meshes of the same form.
+// crosscheck/twins.cpp - compares analytic shapes with fine meshes of the same form.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/twins.h"
 
@@ -7,32 +7,32 @@
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 namespace {
 
-bool is_same(const ShapeRow& a, const ShapeRow& b) {
+bool is_same(const ShapeRecord& a, const ShapeRecord& b) {
     return std::equal(std::begin(a.size), std::end(a.size), std::begin(b.size)) &&
            std::equal(std::begin(a.centre), std::end(a.centre), std::begin(b.centre)) &&
            std::equal(std::begin(a.k), std::end(a.k), std::begin(b.k)) && a.kind == b.kind;
 }
 
-/// The rows of all analytic shapes, equal ones once. Particles are spheres as the others are.
-std::vector<ShapeRow> distinct_shapes(const Scene& scene) {
-    std::vector<ShapeRow> out;
+/// The records of all analytic shapes, equal ones once. Particles count as spheres.
+std::vector<ShapeRecord> distinct_shapes(const Scene& scene) {
+    std::vector<ShapeRecord> out;
     for (const Primitive& primitive : scene.primitives) {
         if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) continue;
         for (int32_t i = 0; i < primitive.triangle_count; ++i) {
             const int32_t number = primitive.first_triangle + i;
-            const ShapeRow& row = scene.shapes[static_cast<size_t>(number)];
-            const auto same = [&](const ShapeRow& other) { return is_same(row, other); };
-            if (std::none_of(out.begin(), out.end(), same)) out.push_back(row);
+            const ShapeRecord& record = scene.shapes[static_cast<size_t>(number)];
+            const auto same = [&](const ShapeRecord& other) { return is_same(record, other); };
+            if (std::none_of(out.begin(), out.end(), same)) out.push_back(record);
         }
     }
     return out;
 }
 
-/// One primitive in the world, with a material that has two sides.
+/// One primitive in the world, with a double-sided material.
 Scene scene_around(const Primitive& primitive, const Bounds& bounds) {
     Scene scene;
     Material material;
@@ -46,13 +46,13 @@ Scene scene_around(const Primitive& primitive, const Bounds& bounds) {
     return scene;
 }
 
-Scene scene_of_shape(const ShapeRow& row) {
+Scene scene_of_shape(const ShapeRecord& record) {
     Primitive primitive;
     primitive.geometry = static_cast<int32_t>(GeometryKind::shapes);
     primitive.triangle_count = 1;
-    const ShapeBox box = shape_bounds(row);
+    const ShapeBox box = shape_bounds(record);
     Scene scene = scene_around(primitive, {box.low, box.high});
-    scene.shapes.push_back(row);
+    scene.shapes.push_back(record);
     pad_tables(scene);
     return scene;
 }
@@ -86,8 +86,8 @@ Kernel shape_kernel(const Accel& accel) {
             }};
 }
 
-/// The nearest hits of its mesh, as the shape whatever triangle was hit. In double: seen from afar
-/// the triangles are as small as what Embree rounds, and it would find holes at their corners.
+/// The nearest hits of its mesh, attributed to the shape. In double: seen from afar the triangles
+/// are as small as Embree's rounding, which would leave holes at their corners.
 Kernel mesh_kernel(const TrueScene& mesh) {
     return {"tessellated twins", [&mesh](RayBlock& rays, std::vector<Answer>& answers) {
                 answers.assign(static_cast<size_t>(rays.count()), {});
@@ -108,11 +108,11 @@ void add_figures(PairFigures&& one, TwinReport& report) {
 
 }  // namespace
 
-Result<PairFigures> compare_with_mesh(const ShapeRow& row,
+Result<PairFigures> compare_with_mesh(const ShapeRecord& record,
                                       const ShapeMesh& mesh,
                                       uint64_t rays,
                                       const std::string& embree_isa) {
-    const Scene shape = scene_of_shape(row);
+    const Scene shape = scene_of_shape(record);
     const Scene twin = scene_of_mesh(mesh, shape.bounds);
     const auto shape_accel = Accel::build(shape, embree_isa);
     if (!shape_accel) return fail(shape_accel.error());
@@ -136,8 +136,8 @@ Result<PairFigures> compare_with_mesh(const ShapeRow& row,
 }
 
 Result<TwinReport> check_twins(const Scene& scene, uint64_t rays, const std::string& embree_isa) {
-    const std::vector<ShapeRow> shapes = distinct_shapes(scene);
-    const size_t count = std::min(shapes.size(), most_twins);
+    const std::vector<ShapeRecord> shapes = distinct_shapes(scene);
+    const size_t count = std::min(shapes.size(), max_twins);
     TwinReport report;
     report.skipped = shapes.size() - count;
     for (size_t i = 0; i < count; ++i) {
@@ -156,4 +156,4 @@ Result<TwinReport> check_twins(const Scene& scene, uint64_t rays, const std::str
     return report;
 }
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

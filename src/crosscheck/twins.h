@@ -1,4 +1,4 @@
-// crosscheck/twins.h - analytic shapes beside fine meshes of the same form.
+// crosscheck/twins.h - compares analytic shapes with fine meshes of the same form.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,24 +8,24 @@
 
 #include <optional>
 
-namespace obscura {
+namespace obscura::crosscheck {
 
 struct TwinReport {
-    size_t shapes = 0;   ///< that were compared, each in its own space
-    size_t skipped = 0;  ///< that have no twin (see tessellate), or came after most_twins others
+    size_t shapes = 0;   ///< compared shapes, each in its own space
+    size_t skipped = 0;  ///< that have no twin (see tessellate), or came after max_twins others
     size_t triangles = 0;
-    /// Of all together; the ulp is a quarter of how far mesh and shape may be apart. Empty: no
-    /// shape was compared.
+    /// All shapes together; the ulp is a quarter of the largest distance between mesh and shape.
+    /// Empty: no shape was compared.
     std::optional<PairFigures> figures;
 };
 
-inline constexpr size_t most_twins = 32;
+inline constexpr size_t max_twins = 32;
 
-/// What Embree finds on a mesh against what our user geometry finds on a shape.
+/// Compares Embree's hits on a mesh with those of our user geometry on the shape.
 ///
 /// In      rays: how many; embree_isa: of the renderer's queries, "": widest
 /// Errors  those of Accel::build
-Result<PairFigures> compare_with_mesh(const ShapeRow& row,
+Result<PairFigures> compare_with_mesh(const ShapeRecord& record,
                                       const ShapeMesh& mesh,
                                       uint64_t rays,
                                       const std::string& embree_isa);
@@ -36,4 +36,4 @@ Result<PairFigures> compare_with_mesh(const ShapeRow& row,
 /// Errors  those of Accel::build
 Result<TwinReport> check_twins(const Scene& scene, uint64_t rays, const std::string& embree_isa);
 
-}  // namespace obscura
+}  // namespace obscura::crosscheck

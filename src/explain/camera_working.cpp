@@ -33,27 +33,27 @@ Vec2<double> distorted(const Distortion& d, double x, double y) {
             y * radial + d.p1 * (r2 + 2 * y * y) + 2 * d.p2 * x * y};
 }
 
-/// The place that is seen at `wanted`: a secant through three near points, again and again.
+/// The point that is seen at `wanted`: a secant through three close points, iterated.
 ///
 /// Out  false where there is none within the radius that the model can undo
-bool undo_distortion(const Distortion& d, const Vec2<double>& wanted, Vec2<double>& place) {
+bool undo_distortion(const Distortion& d, const Vec2<double>& wanted, Vec2<double>& position) {
     const double limit = d.radius_limit;
     const auto pull_in = [&](Vec2<double> p) {
         return p * std::min(1.0, limit / std::max(std::hypot(p.x, p.y), 1e-300));
     };
-    place = pull_in(wanted);
+    position = pull_in(wanted);
     constexpr double step = 1e-7;
     for (int i = 0; i < 60; ++i) {
-        const Vec2<double> at = distorted(d, place.x, place.y);
-        const Vec2<double> right = (distorted(d, place.x + step, place.y) - at) * (1 / step);
-        const Vec2<double> down = (distorted(d, place.x, place.y + step) - at) * (1 / step);
+        const Vec2<double> at = distorted(d, position.x, position.y);
+        const Vec2<double> right = (distorted(d, position.x + step, position.y) - at) * (1 / step);
+        const Vec2<double> down = (distorted(d, position.x, position.y + step) - at) * (1 / step);
         const Vec2<double> off = wanted - at;
         const double det = right.x * down.y - down.x * right.y;
         if (!(std::abs(det) > 1e-9)) return false;
-        place = pull_in(place + Vec2<double>{(down.y * off.x - down.x * off.y) / det,
-                                             (right.x * off.y - right.y * off.x) / det});
+        position = pull_in(position + Vec2<double>{(down.y * off.x - down.x * off.y) / det,
+                                                   (right.x * off.y - right.y * off.x) / det});
     }
-    const Vec2<double> at = distorted(d, place.x, place.y);
+    const Vec2<double> at = distorted(d, position.x, position.y);
     return std::hypot(at.x - wanted.x, at.y - wanted.y) < 1e-6 * (1 + std::hypot(at.x, at.y));
 }
 
@@ -70,9 +70,9 @@ OwnRay through_plane(const Camera& camera, const Film& film, CameraWorking& out)
     out.terms.emplace_back(
         "x = (2 s - 1) tan(fov_x / 2), y = (1 - 2 t) tan(fov_y / 2)", at.x, at.y);
     if (is_distorted(camera)) {
-        Vec2<double> place{0, 0};
-        out.sees = undo_distortion(camera.distortion, {at.x, -at.y}, place);
-        at = {place.x, -place.y};
+        Vec2<double> position{0, 0};
+        out.sees = undo_distortion(camera.distortion, {at.x, -at.y}, position);
+        at = {position.x, -position.y};
         out.terms.emplace_back("x, y without the lens' distortion", at.x, at.y);
     }
     const double focus = camera.thin_lens.inverse_focus > 0.0f
@@ -163,7 +163,7 @@ OwnRay through_fisheye(const FisheyeCamera& camera, const Film& film, CameraWork
 }
 
 OwnRay from_cube(const EnvironmentCamera& camera, const Film& film, CameraWorking& out) {
-    // Ahead, right and up of the faces +X, -X, +Y, -Y, +Z, -Z: the table in docs/cameras.md.
+    // Forward, right and up of the faces +X, -X, +Y, -Y, +Z, -Z: the table in docs/cameras.md.
     constexpr Vec3d faces[6][3] = {{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
                                    {{-1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
                                    {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},

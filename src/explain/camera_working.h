@@ -1,4 +1,4 @@
-// explain/camera_working.h - how a camera's formula turns a pixel into a ray, step by step.
+// explain/camera_working.h - works out step by step how a camera turns a pixel into a ray.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -17,14 +17,13 @@ struct PixelPlace {
 struct CameraWorking {
     std::string model;  ///< as --camera-model writes it, and the kind of fisheye or projection
     std::vector<Term> terms;
-    bool sees = true;            ///< false: the model shows nothing at this pixel
-    TrueRay ray = {};            ///< in the world, its direction of length 1
-    double length_m = INFINITY;  ///< how far it may go, from its origin
+    bool sees = true;              ///< false: the model shows nothing at this pixel
+    crosscheck::TrueRay ray = {};  ///< in the world, its direction of length 1
+    double length_m = INFINITY;    ///< longest distance from its origin
 };
 
-/// Works out the ray through a pixel's middle and the middle of the lens, in double precision and
-/// from the definitions in docs/cameras.md: nothing but the camera's numbers is shared with
-/// src/camera.
+/// Works out the ray through the centres of a pixel and of the lens, in double precision and from
+/// the definitions in docs/cameras.md; only the camera's numbers are shared with src/camera.
 CameraWorking work_out_camera(const Camera& camera, const PixelPlace& pixel);
 
 }  // namespace obscura

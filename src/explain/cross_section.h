@@ -1,4 +1,4 @@
-// explain/cross_section.h - the plane that holds a ray and a normal, and what it cuts.
+// explain/cross_section.h - cuts the scene by the plane that holds a ray and a normal.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace obscura {
 
-/// A place in the plane, metres: x along the ray from its origin, y across it.
+/// A position in the plane, metres: x along the ray from its origin, y across it.
 struct PlanePoint {
     double x = 0, y = 0;
 };
@@ -15,9 +15,9 @@ struct PlaneSegment {
     PlanePoint from, to;
 };
 
-/// What is cut of one object.
+/// The section of one object.
 struct Outline {
-    Item item;
+    crosscheck::Item item;
     std::vector<PlaneSegment> segments;
 };
 
@@ -34,10 +34,12 @@ struct CrossSection {
     }
 };
 
-/// Cuts the objects around the report's ray by the plane of incidence: that of the ray and the
-/// normal where it ends, or one upright where there is none.
+/// Cuts the objects around the report's ray by the plane of incidence, which holds the ray and the
+/// normal where it ends; without a hit, by an upright plane.
 ///
 /// In      aspect: width / height of the part that is shown
-CrossSection cut_scene(const TrueScene& scene, const PixelReport& report, double aspect);
+CrossSection cut_scene(const crosscheck::TrueScene& scene,
+                       const PixelReport& report,
+                       double aspect);
 
 }  // namespace obscura

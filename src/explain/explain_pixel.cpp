@@ -1,10 +1,10 @@
-// explain/explain_pixel.cpp - finds out all that there is to tell about one pixel of a picture.
+// explain/explain_pixel.cpp - collects everything that the report of one pixel tells.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/explain_pixel.h"
 
 #include "render/prepared_scene.h"
 
-#include "explain/light_shares.h"
+#include "explain/light_contributions.h"
 #include "explain/names.h"
 #include "explain/objects.h"
 #include "explain/report_svg.h"
@@ -48,7 +48,7 @@ std::string describe_surface(const Scene& scene, const Material& material) {
     return text;
 }
 
-/// Asks the renderer what shading starts from.
+/// Asks the renderer for the inputs of shading.
 Result<void> look_closer(const PixelTask& task, SeenPoint& seen) {
     const Result<std::vector<float>> normal = render_pixel(task, Integrator::normal, nullptr);
     if (!normal) return fail(normal.error());
@@ -62,7 +62,7 @@ Result<void> look_closer(const PixelTask& task, SeenPoint& seen) {
     return {};
 }
 
-/// The candidate that the renderer shaded.
+/// The object that the renderer shaded.
 std::optional<size_t> number_of_seen(const PixelReport& report) {
     for (size_t i = 0; i < report.objects.size(); ++i) {
         if (report.objects[i].fate == Fate::seen) return i;
@@ -70,15 +70,17 @@ std::optional<size_t> number_of_seen(const PixelReport& report) {
     return {};
 }
 
-Result<void> look_at_seen(const PixelTask& task, const TrueScene& scene, PixelReport& report) {
+Result<void> look_at_seen(const PixelTask& task,
+                          const crosscheck::TrueScene& scene,
+                          PixelReport& report) {
     const std::optional<size_t> number = number_of_seen(report);
     if (!number || report.renderer.primitive < 0) return {};
     const Candidate& object = report.objects[*number];
-    const TrueRay& ray = report.working.ray;
+    const crosscheck::TrueRay& ray = report.working.ray;
     SeenPoint seen;
     seen.object = *number;
-    seen.place = ray.origin + ray.direction * object.t;
-    seen.face = scene.normal(object.item, seen.place);
+    seen.position = ray.origin + ray.direction * object.t;
+    seen.face = scene.normal(object.item, seen.position);
     if (dot(seen.face, ray.direction) > 0) seen.face = seen.face * -1.0;
     seen.material = name_of_material(scene.scene(), object.item);
     seen.surface = describe_surface(scene.scene(), material_of(scene.scene(), object.item));
@@ -100,14 +102,14 @@ Result<PixelReport> explain_pixel(const PixelTask& task) {
     if (!rgba) return fail(rgba.error());
     std::copy_n(rgba->begin(), 4, report.rgba.begin());
     if (!report.working.sees && !task.draws) return report;
-    const TrueScene scene(task.scene->scene());
-    if (report.working.sees) list_objects(scene, task.most_objects, report);
+    const crosscheck::TrueScene scene(task.scene->scene());
+    if (report.working.sees) list_objects(scene, task.max_objects, report);
     const RaycastNotes& r = report.renderer;
     if (r.primitive >= 0) {
         report.renderer_item = name_of_item(scene, {r.instance, r.primitive, r.triangle});
     }
     if (auto looked = look_at_seen(task, scene, report); !looked) return fail(looked.error());
-    report.lights = share_out_light(task.scene->impl(), scene, report);
+    report.lights = find_light_contributions(task.scene->impl(), scene, report);
     if (task.draws) report.drawing = pixel_svg(scene, report);
     return report;
 }

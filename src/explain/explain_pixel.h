@@ -1,4 +1,4 @@
-// explain/explain_pixel.h - finds out all that there is to tell about one pixel of a picture.
+// explain/explain_pixel.h - collects everything that the report of one pixel tells.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,19 +8,19 @@
 
 namespace obscura {
 
-/// What is explained.
+/// The scene, camera and pixel to explain.
 struct PixelTask {
     const PreparedScene* scene = nullptr;
     Camera camera;
-    RenderOptions options;  ///< picture size and background; the integrator is raycast
+    RenderOptions options;  ///< image size and background; the integrator is raycast
     PixelPlace pixel;
     std::string file, camera_name;
-    size_t most_objects = 16;  ///< that are listed
-    bool draws = false;        ///< makes the report's drawing, too
+    size_t max_objects = 16;  ///< that are listed
+    bool draws = false;       ///< makes the report's drawing, too
 };
 
-/// Renders the pixel with --integrator raycast and the quantities of what it sees, and works the
-/// same out in double precision: the camera's ray, every object near it, the light.
+/// Renders the pixel with --integrator raycast and the AOVs of its hit, and works the same out in
+/// double precision: the camera's ray, every object near it, the light.
 ///
 /// Errors  those of render
 Result<PixelReport> explain_pixel(const PixelTask& task);

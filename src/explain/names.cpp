@@ -1,4 +1,4 @@
-// explain/names.cpp - what objects and materials are called in a report.
+// explain/names.cpp - names of objects and materials in a report.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/names.h"
 
@@ -10,23 +10,23 @@ namespace obscura {
 
 namespace {
 
-const Primitive& primitive_of(const Scene& scene, const Item& item) {
+const Primitive& primitive_of(const Scene& scene, const crosscheck::Item& item) {
     return scene.primitives[static_cast<size_t>(item.primitive)];
 }
 
-std::string kind_of(const TrueScene& scene, const Item& item) {
-    if (scene.is_triangle(item)) return fmt::format("triangle {}", item.row);
-    if (scene.is_piece(item)) return fmt::format("piece {} of a line", item.row);
+std::string kind_of(const crosscheck::TrueScene& scene, const crosscheck::Item& item) {
+    if (scene.is_triangle(item)) return fmt::format("triangle {}", item.element);
+    if (scene.is_segment(item)) return fmt::format("piece {} of a line", item.element);
     const auto kind = static_cast<GeometryKind>(primitive_of(scene.scene(), item).geometry);
-    if (kind == GeometryKind::spheres) return fmt::format("particle {}", item.row);
-    const ShapeRow row = scene.shape(item);
-    switch (static_cast<ShapeKind>(row.kind)) {
+    if (kind == GeometryKind::spheres) return fmt::format("particle {}", item.element);
+    const ShapeRecord record = scene.shape(item);
+    switch (static_cast<ShapeKind>(record.kind)) {
         case ShapeKind::sphere:
             return "sphere";
         case ShapeKind::box:
             return "box";
         case ShapeKind::frustum:
-            return row.size[1] == row.size[2] ? "cylinder" : "cone";
+            return record.size[1] == record.size[2] ? "cylinder" : "cone";
         case ShapeKind::capsule:
             return "capsule";
         case ShapeKind::plane:
@@ -40,14 +40,14 @@ std::string kind_of(const TrueScene& scene, const Item& item) {
     return "quadric";
 }
 
-int32_t node_of(const Scene& scene, const Item& item) {
+int32_t node_of(const Scene& scene, const crosscheck::Item& item) {
     if (item.instance < 0) return primitive_of(scene, item).node;
     return scene.instances[static_cast<size_t>(item.instance)].node;
 }
 
 }  // namespace
 
-std::string name_of_item(const TrueScene& scene, const Item& item) {
+std::string name_of_item(const crosscheck::TrueScene& scene, const crosscheck::Item& item) {
     const int32_t node = node_of(scene.scene(), item);
     std::string text = kind_of(scene, item);
     if (node < 0) return text;
@@ -58,14 +58,14 @@ std::string name_of_item(const TrueScene& scene, const Item& item) {
     return text + " '" + escape_control(names[number]) + "'";
 }
 
-const Material& material_of(const Scene& scene, const Item& item) {
+const Material& material_of(const Scene& scene, const crosscheck::Item& item) {
     return scene.materials[static_cast<size_t>(primitive_of(scene, item).material)];
 }
 
-std::string name_of_material(const Scene& scene, const Item& item) {
-    const auto row = static_cast<size_t>(primitive_of(scene, item).material);
-    const bool named = row < scene.material_names.size() && !scene.material_names[row].empty();
-    return named ? escape_control(scene.material_names[row]) : "default material";
+std::string name_of_material(const Scene& scene, const crosscheck::Item& item) {
+    const auto index = static_cast<size_t>(primitive_of(scene, item).material);
+    const bool named = index < scene.material_names.size() && !scene.material_names[index].empty();
+    return named ? escape_control(scene.material_names[index]) : "default material";
 }
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// explain/objects.cpp - the objects near a ray, each worked out, those that it meets first.
+// explain/objects.cpp - lists the objects near a ray, those that it meets first.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/objects.h"
 
@@ -11,21 +11,23 @@ namespace obscura {
 
 namespace {
 
-/// Boxes that are met and not hit are worked out up to this number, to list the nearest of them.
-constexpr size_t most_misses = 20000;
+/// Limit on missed boxes that are worked out, to list the nearest of them.
+constexpr size_t max_misses = 20000;
 
-auto key_of(const Item& item) {
-    return std::array<int32_t, 3>{item.instance, item.primitive, item.row};
+auto key_of(const crosscheck::Item& item) {
+    return std::array<int32_t, 3>{item.instance, item.primitive, item.element};
 }
 
-/// Items near the ray, those that it meets first, each once.
-std::vector<Item> near_ray(const TrueScene& scene, const TrueRay& ray, size_t most) {
-    std::vector<Item> items;
+/// Items near the ray, each once; those that it meets come first.
+std::vector<crosscheck::Item> near_ray(const crosscheck::TrueScene& scene,
+                                       const crosscheck::TrueRay& ray,
+                                       size_t most) {
+    std::vector<crosscheck::Item> items;
     std::set<std::array<int32_t, 3>> known;
-    const auto add = [&](const Item& item) {
+    const auto add = [&](const crosscheck::Item& item) {
         if (known.insert(key_of(item)).second) items.push_back(item);
     };
-    scene.all_hits(ray, [&](double, const Item& item) { add(item); });
+    scene.all_hits(ray, [&](double, const crosscheck::Item& item) { add(item); });
     if (scene.item_count() <= most) {
         for (size_t i = 0; i < scene.item_count(); ++i)
             add(scene.item(i));
@@ -34,11 +36,15 @@ std::vector<Item> near_ray(const TrueScene& scene, const TrueRay& ray, size_t mo
     const size_t hits = items.size();
     scene.near_items(ray, 0, add);
     const auto end = items.begin() + static_cast<long>(hits);
-    std::sort(end, items.end(), [](const Item& a, const Item& b) { return key_of(a) < key_of(b); });
+    std::sort(end, items.end(), [](const crosscheck::Item& a, const crosscheck::Item& b) {
+        return key_of(a) < key_of(b);
+    });
     return items;
 }
 
-Candidate work_out(const TrueScene& scene, const TrueRay& ray, const Item& item) {
+Candidate work_out(const crosscheck::TrueScene& scene,
+                   const crosscheck::TrueRay& ray,
+                   const crosscheck::Item& item) {
     Candidate out;
     out.item = item;
     if (scene.is_triangle(item)) {
@@ -46,11 +52,12 @@ Candidate work_out(const TrueScene& scene, const TrueRay& ray, const Item& item)
         return out;
     }
     const Affined own = scene.object_from_world(item);
-    TrueRay moved{transform_point(own, ray.origin), transform_vector(own, ray.direction)};
+    crosscheck::TrueRay moved{transform_point(own, ray.origin),
+                              transform_vector(own, ray.direction)};
     out.working = work_out_shape(scene.shape(item), moved);
-    if (item.instance >= 0 || scene.is_piece(item)) out.moved = moved;
-    if (!scene.is_piece(item)) return out;
-    // What lies inside the pieces before and after it is not there.
+    if (item.instance >= 0 || scene.is_segment(item)) out.moved = moved;
+    if (!scene.is_segment(item)) return out;
+    // What lies inside the neighbouring segments does not exist.
     const std::vector<double> open = scene.meetings(ray, item);
     std::erase_if(out.working.t, [&](double t) {
         return t > 0 && std::none_of(open.begin(), open.end(), [&](double other) {
@@ -63,17 +70,17 @@ Candidate work_out(const TrueScene& scene, const TrueRay& ray, const Item& item)
     return out;
 }
 
-/// Finds where the ray meets the object, past what camera rays go through.
-void meet(const TrueScene& scene, const PixelReport& report, Candidate& object) {
-    const TrueRay& ray = report.working.ray;
+/// Finds where the ray meets the object, behind surfaces that camera rays pass.
+void meet(const crosscheck::TrueScene& scene, const PixelReport& report, Candidate& object) {
+    const crosscheck::TrueRay& ray = report.working.ray;
     const bool single =
         (material_of(scene.scene(), object.item).flags & material_double_sided) == 0;
     bool ahead = false;
     for (const double t : object.working.t) {
         if (!(t > 0)) continue;
         ahead = true;
-        const Vec3d place = ray.origin + ray.direction * t;
-        if (single && dot(scene.normal(object.item, place), ray.direction) > 0) {
+        const Vec3d position = ray.origin + ray.direction * t;
+        if (single && dot(scene.normal(object.item, position), ray.direction) > 0) {
             object.note = "its back, and its material has one side";
             object.fate = Fate::passed;
             if (!std::isfinite(object.t)) object.t = t;
@@ -87,12 +94,12 @@ void meet(const TrueScene& scene, const PixelReport& report, Candidate& object) 
     if (!ahead && !object.working.t.empty()) object.fate = Fate::before;
 }
 
-bool is_renderers(const PixelReport& report, const Item& item) {
+bool is_renderers(const PixelReport& report, const crosscheck::Item& item) {
     const RaycastNotes& r = report.renderer;
-    return item == Item{r.instance, r.primitive, r.triangle};
+    return item == crosscheck::Item{r.instance, r.primitive, r.triangle};
 }
 
-/// What lies behind something is hidden, even where rays would go through it.
+/// Objects behind a hit are hidden, even where rays would pass them.
 void hide_behind(double t, PixelReport& report) {
     for (Candidate& object : report.objects) {
         if (object.fate != Fate::passed || object.t <= t) continue;
@@ -101,9 +108,9 @@ void hide_behind(double t, PixelReport& report) {
     }
 }
 
-/// Of those that the ray may see, sorted, the first; cut-outs are passed where the renderer passed
+/// The first of those that the ray may see, sorted; cut-outs are passed where the renderer passed
 /// them.
-void choose_seen(const TrueScene& scene, PixelReport& report) {
+void choose_seen(const crosscheck::TrueScene& scene, PixelReport& report) {
     if (report.renderer.primitive < 0 && report.renderer.passes == 0.0f) return;  // behind splats
     const double limit =
         report.renderer.primitive >= 0 ? static_cast<double>(report.renderer.t) : INFINITY;
@@ -125,8 +132,8 @@ void choose_seen(const TrueScene& scene, PixelReport& report) {
     report.disagrees = report.renderer.primitive >= 0;
 }
 
-/// What is told from here on is told of what the renderer saw, be it at an edge by rounding alone.
-void follow_renderer(const TrueScene& scene, PixelReport& report) {
+/// The report follows the renderer's hit, even where an edge is decided by rounding alone.
+void follow_renderer(const crosscheck::TrueScene& scene, PixelReport& report) {
     if (!report.disagrees) return;
     for (Candidate& object : report.objects) {
         if (object.fate != Fate::seen) continue;
@@ -135,7 +142,7 @@ void follow_renderer(const TrueScene& scene, PixelReport& report) {
     }
     const RaycastNotes& r = report.renderer;
     if (r.primitive < 0) return;
-    const Item item{r.instance, r.primitive, r.triangle};
+    const crosscheck::Item item{r.instance, r.primitive, r.triangle};
     const auto is_item = [&](const Candidate& object) { return object.item == item; };
     auto found = std::find_if(report.objects.begin(), report.objects.end(), is_item);
     if (found == report.objects.end()) {
@@ -146,7 +153,7 @@ void follow_renderer(const TrueScene& scene, PixelReport& report) {
     found->note = "seen by the renderer alone: rounding decides at an edge";
 }
 
-/// Those that are met before the others, by distance; of triangles that are missed the nearest.
+/// Met objects first, by distance; of missed triangles the nearest.
 bool comes_first(const Candidate& a, const Candidate& b) {
     const bool met_a = std::isfinite(a.t);
     const bool met_b = std::isfinite(b.t);
@@ -178,13 +185,13 @@ const char* fate_name(Fate fate) {
     return "missed";
 }
 
-void list_objects(const TrueScene& scene, size_t most, PixelReport& report) {
-    const std::vector<Item> items = near_ray(scene, report.working.ray, most);
+void list_objects(const crosscheck::TrueScene& scene, size_t most, PixelReport& report) {
+    const std::vector<crosscheck::Item> items = near_ray(scene, report.working.ray, most);
     size_t misses = 0;
-    for (const Item& item : items) {
+    for (const crosscheck::Item& item : items) {
         Candidate object = work_out(scene, report.working.ray, item);
         meet(scene, report, object);
-        if (std::isfinite(object.t) || ++misses <= most_misses) {
+        if (std::isfinite(object.t) || ++misses <= max_misses) {
             report.objects.push_back(std::move(object));
         }
     }

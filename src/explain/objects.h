@@ -1,4 +1,4 @@
-// explain/objects.h - the objects near a ray, each worked out, in the order in which it meets them.
+// explain/objects.h - lists the objects near a ray, those that it meets first.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,11 +6,11 @@
 
 namespace obscura {
 
-/// Fills the report's objects, and how many are not among them.
+/// Fills the report's objects, and counts those that are not listed.
 ///
-/// In      report: its ray and the renderer's hit; most: objects that are listed, those that are
-///         met before the others. A scene that has no more is listed whole
+/// In      report: its ray and the renderer's hit; most: limit on listed objects, met ones first. A
+///         scene that has no more is listed whole
 /// Out     report.objects, more_near, elsewhere, disagrees
-void list_objects(const TrueScene& scene, size_t most, PixelReport& report);
+void list_objects(const crosscheck::TrueScene& scene, size_t most, PixelReport& report);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// explain/pixel_report.h - all that is told about one pixel, before it becomes text or a drawing.
+// explain/pixel_report.h - data about one pixel, before it becomes text or a drawing.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace obscura {
 
-/// What becomes of an object that is looked at.
+/// How the ray treats an object.
 enum class Fate {
-    seen,    ///< the nearest
-    hidden,  ///< behind what is seen
+    seen,    ///< the nearest hit
+    hidden,  ///< behind the nearest hit
     passed,  ///< nearer, but camera rays go through it: the back of a single-sided face, alpha
-    beyond,  ///< further away than the ray goes
+    beyond,  ///< further away than the ray's end
     before,  ///< the line meets it behind the ray's origin only
     missed
 };
@@ -28,19 +28,20 @@ const char* fate_name(Fate fate);
 
 /// An object near the ray.
 struct Candidate {
-    Item item;
-    std::string name;              ///< "sphere of node 2 'Ball'"
-    std::optional<TrueRay> moved;  ///< the ray in the object's own space, where that is another
+    crosscheck::Item item;
+    std::string name;  ///< "sphere of node 2 'Ball'"
+    /// The ray in the object's space, if that is another.
+    std::optional<crosscheck::TrueRay> moved;
     Working working;
     double t = INFINITY;  ///< where the ray meets it; infinite: nowhere
     Fate fate = Fate::missed;
     std::string note;  ///< why it was passed
 };
 
-/// What the ray sees, where, and of what it is made.
+/// The hit: object, position, material.
 struct SeenPoint {
     size_t object = 0;  ///< number of the candidate
-    Vec3d place = {0, 0, 0};
+    Vec3d position = {0, 0, 0};
     Vec3d face = {0, 0, 0};    ///< unit normal of the geometry, on the viewer's side
     Vec3d normal = {0, 0, 0};  ///< unit normal of shading, likewise; the renderer's
     std::array<float, 2> uv = {0, 0};
@@ -49,8 +50,8 @@ struct SeenPoint {
     std::string surface;           ///< "metallic 0, roughness 0.5", layers, textures
 };
 
-/// One light's share.
-struct LightShare {
+/// One light's contribution.
+struct LightContribution {
     std::string name;
     std::vector<Term> terms;  ///< its numbers in the formula
     std::string formula;      ///< of E
@@ -76,7 +77,7 @@ struct PixelReport {
     std::string renderer_item;
     /// In double precision another object is nearest: rounding decides at an edge.
     bool disagrees = false;
-    std::vector<LightShare> lights;
+    std::vector<LightContribution> lights;
     std::array<float, 4> rgba = {0, 0, 0, 0};  ///< the pixel of --integrator raycast
     std::string drawing;                       ///< SVG, where it was asked for
 };

@@ -1,4 +1,4 @@
-// explain/report_json.cpp - one pixel for scripts.
+// explain/report_json.cpp - the report of one pixel as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json/json.h"
 
@@ -36,10 +36,10 @@ void add_camera(const PixelReport& report, Json& json) {
                    {"length", report.working.length_m}};
 }
 
-void add_item(const Item& item, Json& json) {
+void add_item(const crosscheck::Item& item, Json& json) {
     json["instance"] = item.instance;
     json["primitive"] = item.primitive;
-    json["row"] = item.row;
+    json["row"] = item.element;
 }
 
 void add_objects(const PixelReport& report, Json& json) {
@@ -76,7 +76,7 @@ Json renderer_json(const PixelReport& report) {
 
 Json seen_json(const SeenPoint& seen) {
     return {{"object", seen.object},
-            {"place", vector_json(seen.place)},
+            {"place", vector_json(seen.position)},
             {"surface_normal", vector_json(seen.face)},
             {"normal", vector_json(seen.normal)},
             {"uv", Json::array({static_cast<double>(seen.uv[0]), static_cast<double>(seen.uv[1])})},
@@ -86,7 +86,7 @@ Json seen_json(const SeenPoint& seen) {
 
 void add_light(const PixelReport& report, Json& json) {
     Json& lights = json["lights"] = Json::array();
-    for (const LightShare& light : report.lights) {
+    for (const LightContribution& light : report.lights) {
         lights.push_back({{"name", light.name},
                           {"terms", terms_json(light.terms)},
                           {"direction", vector_json(light.direction)},

@@ -1,4 +1,4 @@
-// explain/report_svg.cpp - one pixel as a drawing: the plane of the ray and the normal.
+// explain/report_svg.cpp - draws one pixel's report: the plane of the ray and the normal.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/report_svg.h"
 
@@ -13,7 +13,7 @@ namespace obscura {
 
 namespace {
 
-constexpr double picture_width = 960, plot_height = 460, margin = 20, line_height = 18;
+constexpr double image_width = 960, plot_height = 460, margin = 20, line_height = 18;
 constexpr size_t widest_line = 118;  ///< characters of the legend
 constexpr const char* ground = "#fdfcf8";
 constexpr const char* ink = "#222222";
@@ -24,7 +24,7 @@ constexpr const char* normal_color = "#1e7d34";
 constexpr const char* light_color = "#b36b00";
 constexpr const char* shadow_color = "#666666";
 
-/// A place in the drawing, pixels.
+/// A position in the drawing, pixels.
 struct Spot {
     double x, y;
 };
@@ -32,7 +32,7 @@ struct Spot {
 class Drawing {
 public:
     explicit Drawing(const CrossSection& plane)
-        : plane_(plane), scale_(picture_width / (plane.x_high - plane.x_low)) {}
+        : plane_(plane), scale_(image_width / (plane.x_high - plane.x_low)) {}
 
     Spot spot(const PlanePoint& p) const {
         return {(p.x - plane_.x_low) * scale_, 0.5 * plot_height - p.y * scale_};
@@ -100,7 +100,7 @@ private:
     std::string out_;
 };
 
-const Candidate* listed(const PixelReport& report, const Item& item) {
+const Candidate* listed(const PixelReport& report, const crosscheck::Item& item) {
     for (const Candidate& object : report.objects) {
         if (object.item == item) return &object;
     }
@@ -123,14 +123,14 @@ void draw_objects(const PixelReport& report, Drawing& draw) {
     }
 }
 
-/// Names the shapes, and meshes of few faces, each at its highest place.
+/// Names shapes, and meshes of few faces, each at its highest point.
 void draw_names(const PixelReport& report, Drawing& draw) {
-    constexpr size_t most_names = 12;
+    constexpr size_t max_names = 12;
     std::vector<std::string> known;
     for (const Outline& outline : draw.plane().outlines) {
         const Candidate* object = listed(report, outline.item);
         const size_t quote = object == nullptr ? std::string::npos : object->name.find('\'');
-        if (quote == std::string::npos || known.size() == most_names) continue;
+        if (quote == std::string::npos || known.size() == max_names) continue;
         const std::string name = object->name.substr(quote + 1, object->name.size() - quote - 2);
         if (std::find(known.begin(), known.end(), name) != known.end()) continue;
         known.push_back(name);
@@ -141,7 +141,7 @@ void draw_names(const PixelReport& report, Drawing& draw) {
                 if (at.y < top.y) top = at;
             }
         }
-        const bool right = top.x > 0.85 * picture_width;
+        const bool right = top.x > 0.85 * image_width;
         draw.text({top.x + (right ? -8 : 6), std::max(top.y - 6, 16.0)},
                   object->fate == Fate::seen ? seen_color : shadow_color,
                   name,
@@ -154,7 +154,7 @@ void draw_ray(const PixelReport& report, Drawing& draw) {
     const bool eye = plane.x_low < 0;
     const Spot start = draw.spot(PlanePoint{std::max(plane.x_low, 0.0), 0});
     const Spot end = draw.spot(PlanePoint{plane.x_high, 0});
-    const Spot stop = report.seen ? draw.spot(report.seen->place) : end;
+    const Spot stop = report.seen ? draw.spot(report.seen->position) : end;
     const std::string style = fmt::format("stroke=\"{}\" stroke-width=\"2.5\"", ray_color);
     draw.line(start, stop, style);
     if (report.seen) draw.line(stop, end, style + " stroke-dasharray=\"3 6\" opacity=\"0.6\"");
@@ -168,7 +168,7 @@ void draw_ray(const PixelReport& report, Drawing& draw) {
     draw.text({end.x - 10, end.y + 22}, ray_color, "R_d", " text-anchor=\"end\"");
 }
 
-/// A numbered dot at each place that is met, the number of the object in the legend.
+/// A numbered dot at each hit: the object's number in the legend.
 void draw_hits(const PixelReport& report, Drawing& draw) {
     double last_x = -INFINITY;
     double lift = 0;
@@ -198,7 +198,7 @@ struct Arrow {
     const char* more = "";  ///< further attributes of the line
 };
 
-/// A direction that leaves the plane is as much shorter.
+/// A direction that leaves the plane is drawn foreshortened.
 void draw_direction(const Spot& from, const Arrow& arrow, Drawing& draw) {
     constexpr double arrow_length = 105;
     const CrossSection& plane = draw.plane();
@@ -213,10 +213,10 @@ void draw_direction(const Spot& from, const Arrow& arrow, Drawing& draw) {
 
 void draw_directions(const PixelReport& report, Drawing& draw) {
     if (!report.seen) return;
-    const Spot at = draw.spot(report.seen->place);
-    constexpr size_t most_lights = 6;
-    for (size_t i = 0; i < std::min(report.lights.size(), most_lights); ++i) {
-        const LightShare& light = report.lights[i];
+    const Spot at = draw.spot(report.seen->position);
+    constexpr size_t max_lights = 6;
+    for (size_t i = 0; i < std::min(report.lights.size(), max_lights); ++i) {
+        const LightContribution& light = report.lights[i];
         const bool lit = light.noted.asked && light.blocked_by.empty();
         draw_direction(at,
                        {.direction = light.direction,
@@ -252,9 +252,9 @@ std::vector<std::string> words_of(const std::vector<Term>& terms) {
 }
 
 void list_lights(const PixelReport& report, std::vector<std::string>& lines) {
-    constexpr size_t most_lights = 6;
-    for (size_t i = 0; i < std::min(report.lights.size(), most_lights); ++i) {
-        const LightShare& light = report.lights[i];
+    constexpr size_t max_lights = 6;
+    for (size_t i = 0; i < std::min(report.lights.size(), max_lights); ++i) {
+        const LightContribution& light = report.lights[i];
         std::vector<std::string> words = {fmt::format("L{}  {}", light.noted.number, light.name)};
         words.push_back(fmt::format("N . L = {:.5g}", light.cosine));
         words.push_back(light.formula + " = " + format_value(light.irradiance, 5));
@@ -280,7 +280,7 @@ std::vector<std::string> legend(const PixelReport& report) {
         lines.emplace_back("The camera shows nothing here: there is no ray.");
         return lines;
     }
-    const TrueRay& ray = report.working.ray;
+    const crosscheck::TrueRay& ray = report.working.ray;
     add_wrapped(words_of({{"R_o", ray.origin}, {"R_d", ray.direction}}), "", lines);
     for (size_t i = 0; i < report.objects.size(); ++i) {
         const Candidate& object = report.objects[i];
@@ -290,7 +290,7 @@ std::vector<std::string> legend(const PixelReport& report) {
         if (object.fate == Fate::seen) add_wrapped(words_of(object.working.terms), "     ", lines);
     }
     if (report.seen) {
-        add_wrapped(words_of({{"P", report.seen->place},
+        add_wrapped(words_of({{"P", report.seen->position},
                               {"N", report.seen->normal},
                               {"N . V", -dot(report.seen->normal, ray.direction)}}),
                     "",
@@ -304,9 +304,9 @@ std::vector<std::string> legend(const PixelReport& report) {
 
 }  // namespace
 
-std::string pixel_svg(const TrueScene& scene, const PixelReport& report) {
+std::string pixel_svg(const crosscheck::TrueScene& scene, const PixelReport& report) {
     CrossSection plane;
-    if (report.working.sees) plane = cut_scene(scene, report, picture_width / plot_height);
+    if (report.working.sees) plane = cut_scene(scene, report, image_width / plot_height);
     Drawing draw(plane);
     if (report.working.sees) {
         draw_objects(report, draw);
@@ -323,7 +323,7 @@ std::string pixel_svg(const TrueScene& scene, const PixelReport& report) {
                   lines[i],
                   " xml:space=\"preserve\"");
     }
-    const double width = picture_width + 2 * margin;
+    const double width = image_width + 2 * margin;
     const double height =
         plot_height + 2 * margin + 20 + line_height * static_cast<double>(lines.size());
     return fmt::format(
@@ -339,7 +339,7 @@ std::string pixel_svg(const TrueScene& scene, const PixelReport& report) {
         height,
         escape_xml(lines.front()),
         ground,
-        picture_width,
+        image_width,
         plot_height,
         margin,
         plot,

@@ -1,4 +1,4 @@
-// explain/report_svg.h - one pixel as a drawing: the plane of the ray and the normal.
+// explain/report_svg.h - draws one pixel's report: the plane of the ray and the normal.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,6 +9,6 @@ namespace obscura {
 /// An SVG document with its own light ground, so that it can be read on any page: cross sections of
 /// the objects, the ray with a numbered dot at each place that it meets, the normal, the directions
 /// of the lights as far as they lie in the plane, and a legend with the numbers.
-std::string pixel_svg(const TrueScene& scene, const PixelReport& report);
+std::string pixel_svg(const crosscheck::TrueScene& scene, const PixelReport& report);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// explain/report_text.cpp - one pixel for people: every step with its numbers.
+// explain/report_text.cpp - the report of one pixel as text: every step with its numbers.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/explain_pixel.h"
 #include <algorithm>
@@ -102,7 +102,7 @@ std::string seen_text(const PixelReport& report) {
     const Candidate& object = report.objects[seen.object];
     const Vec3d to_eye = report.working.ray.direction * -1.0;
     std::string out = "\nseen: " + object.name + "\n" + renderer_text(report);
-    out += "  P = R(t) = " + format_value(seen.place) + "\n";
+    out += "  P = R(t) = " + format_value(seen.position) + "\n";
     out += "  normal of the surface = " + format_value(seen.face) + "\n";
     out += "  N, for shading = " + format_value(seen.normal, 7) +
            "   N . V = " + format_number(dot(seen.normal, to_eye), 7) + "\n";
@@ -114,7 +114,7 @@ std::string seen_text(const PixelReport& report) {
     return out;
 }
 
-std::string light_text(const LightShare& light) {
+std::string light_text(const LightContribution& light) {
     std::string out = "  " + light.name + "\n";
     std::vector<Term> terms = light.terms;
     terms.insert(terms.begin(), {"L", light.direction});
@@ -141,7 +141,7 @@ std::string sum_text(const PixelReport& report) {
         out += "  emission, surroundings, headlight and splats, without shadows: " +
                value_of(report.renderer.unshadowed) + "\n";
     }
-    for (const LightShare& light : report.lights)
+    for (const LightContribution& light : report.lights)
         out += light_text(light);
     return out + fmt::format("  pixel, the sum = ({:.9g}, {:.9g}, {:.9g}), alpha {:g}\n",
                              report.rgba[0],

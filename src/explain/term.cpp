@@ -1,4 +1,4 @@
-// explain/term.cpp - numbers and vectors as people read them.
+// explain/term.cpp - formats numbers and vectors for people.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/term.h"
 

@@ -20,7 +20,7 @@ struct Term {
 
 /// So many digits at most, none of them zeros at the end; never "-0".
 std::string format_number(double number, int digits = 9);
-/// "(x, y, z)", or the number alone. A component that is nothing but the rounding of the others in
+/// "(x, y, z)", or the number alone. A component that is only rounding error of the others in
 /// double precision is shown as 0.
 std::string format_value(const std::vector<double>& value, int digits = 9);
 std::string format_value(const Vec3d& v, int digits = 9);

@@ -1,4 +1,4 @@
-// explain/workings.cpp - plane, sphere, triangle, quadric and the shapes that are made of them.
+// explain/workings.cpp - worked-out formulas of plane, sphere, triangle, quadric and more.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/workings.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* quadratic_text = "a t^2 + 2 b t + c = 0";
 
-/// The ray from the middle of a shape.
+/// The ray relative to a shape's centre.
 struct CentredRay {
     Vec3d f;  ///< R_o - centre
     Vec3d d;
@@ -24,7 +24,7 @@ struct Equation {
     double a, b, c;
 
     double discriminant() const { return b * b - a * c; }
-    /// Both roots without cancellation; one where a is 0; none where nothing depends on t.
+    /// Both roots without cancellation; one where a is 0; none where a and b are 0.
     std::vector<double> roots() const {
         const double d = discriminant();
         if (a == 0 && b == 0) return {};
@@ -46,11 +46,11 @@ void add_equation(const Equation& e, const std::string& of, Working& out) {
 }
 
 /// |f + t d|^2 = r^2
-Equation ball_equation(const CentredRay& ray, double radius) {
+Equation sphere_equation(const CentredRay& ray, double radius) {
     return {dot(ray.d, ray.d), dot(ray.d, ray.f), dot(ray.f, ray.f) - radius * radius};
 }
 
-/// x^2 + z^2 = (middle + slope y)^2
+/// x^2 + z^2 = (centre + slope y)^2
 Equation cone_equation(const CentredRay& ray, double middle, double slope) {
     const Vec3d& f = ray.f;
     const Vec3d& d = ray.d;
@@ -61,7 +61,7 @@ Equation cone_equation(const CentredRay& ray, double middle, double slope) {
             f.x * f.x + f.z * f.z - radius * radius};
 }
 
-/// Keeps the roots that lie on the part which is there.
+/// Keeps the roots that lie on the existing part of the surface.
 void keep(const std::vector<double>& roots,
           const std::function<bool(double)>& is_there,
           Working& out) {
@@ -84,7 +84,7 @@ Working work_out_sphere(const CentredRay& ray, double radius) {
     Working out{std::string("|R(t) - c|^2 = r^2: ") + quadratic_text, {}, {}, {}};
     out.terms.emplace_back("r", radius);
     out.terms.emplace_back("R_o - c", ray.f);
-    const Equation e = ball_equation(ray, radius);
+    const Equation e = sphere_equation(ray, radius);
     add_equation(e, "", out);
     out.t = e.roots();
     finish(why_no_root(e), out);
@@ -195,7 +195,7 @@ Working work_out_capsule(const CentredRay& ray, double half, double bottom, doub
         {}};
     const double sine = (bottom - top) / (2 * half);
     const double cosine = std::sqrt(1 - sine * sine);
-    const double low = bottom * sine - half;  // heights of the circles in which they touch
+    const double low = bottom * sine - half;  // heights of the circles where cone and spheres touch
     const double high = top * sine + half;
     const Equation side = cone_equation(ray, 0.5 * (bottom + top) / cosine, -sine / cosine);
     add_equation(side, " cone", out);
@@ -203,8 +203,8 @@ Working work_out_capsule(const CentredRay& ray, double half, double bottom, doub
         side.roots(), [&](double t) { return ray.at(t).y >= low && ray.at(t).y <= high; }, out);
     const CentredRay from_low{ray.f + Vec3d{0, half, 0}, ray.d};
     const CentredRay from_high{ray.f - Vec3d{0, half, 0}, ray.d};
-    const Equation lower = ball_equation(from_low, bottom);
-    const Equation upper = ball_equation(from_high, top);
+    const Equation lower = sphere_equation(from_low, bottom);
+    const Equation upper = sphere_equation(from_high, top);
     add_equation(lower, " lower", out);
     add_equation(upper, " upper", out);
     keep(
@@ -215,10 +215,10 @@ Working work_out_capsule(const CentredRay& ray, double half, double bottom, doub
     return out;
 }
 
-Working work_out_quadric(const CentredRay& ray, const ShapeRow& row, const Vec3d& half) {
+Working work_out_quadric(const CentredRay& ray, const ShapeRecord& record, const Vec3d& half) {
     Working out{std::string("x^T Q x = 0: ") + quadratic_text + ", inside a box", {}, {}, {}};
     double k[10];
-    std::copy_n(row.k, 10, k);
+    std::copy_n(record.k, 10, k);
     const Vec3d& f = ray.f;
     const Vec3d& d = ray.d;
     // x^T Q y for the part of second order; the whole of it is symmetric in x and y.
@@ -233,7 +233,7 @@ Working work_out_quadric(const CentredRay& ray, const ShapeRow& row, const Vec3d
     add_equation(e, "", out);
     const auto inside = [&](double t) {
         const Vec3d p = ray.at(t);
-        // As much room as rounding needs: a root may lie on the box.
+        // Tolerance for rounding: a root may lie on the box.
         const double room = 1e-12 * (length(f) + length(d) * std::abs(t));
         return std::abs(p.x) <= half.x + room && std::abs(p.y) <= half.y + room &&
                std::abs(p.z) <= half.z + room;
@@ -246,7 +246,7 @@ Working work_out_quadric(const CentredRay& ray, const ShapeRow& row, const Vec3d
 
 }  // namespace
 
-Working work_out_triangle(const Triangle<double>& triangle, const TrueRay& ray) {
+Working work_out_triangle(const Triangle<double>& triangle, const crosscheck::TrueRay& ray) {
     Working out{
         "R(t) = a + u e1 + v e2: u = (s . p) / det, v = (R_d . q) / det, "
         "t = (e2 . q) / det",
@@ -288,11 +288,11 @@ Working work_out_triangle(const Triangle<double>& triangle, const TrueRay& ray) 
     return out;
 }
 
-Working work_out_shape(const ShapeRow& row, const TrueRay& ray) {
-    const Vec3d centre{row.centre[0], row.centre[1], row.centre[2]};
+Working work_out_shape(const ShapeRecord& record, const crosscheck::TrueRay& ray) {
+    const Vec3d centre{record.centre[0], record.centre[1], record.centre[2]};
     const CentredRay own{ray.origin - centre, ray.direction};
-    const Vec3d size{row.size[0], row.size[1], row.size[2]};
-    switch (static_cast<ShapeKind>(row.kind)) {
+    const Vec3d size{record.size[0], record.size[1], record.size[2]};
+    switch (static_cast<ShapeKind>(record.kind)) {
         case ShapeKind::sphere:
             return work_out_sphere(own, size.x);
         case ShapeKind::box:
@@ -309,7 +309,7 @@ Working work_out_shape(const ShapeRow& row, const TrueRay& ray) {
         case ShapeKind::quadric_from_above:
             break;
     }
-    return work_out_quadric(own, row, size);
+    return work_out_quadric(own, record, size);
 }
 
 }  // namespace obscura

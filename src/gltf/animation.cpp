@@ -1,4 +1,4 @@
-// gltf/animation.cpp - keyframes and their values at a time.
+// gltf/animation.cpp - reads keyframes and interpolates between them.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/animation.h"
 
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -15,7 +15,7 @@ namespace {
 struct KeySpan {
     size_t before = 0;
     size_t after = 0;
-    double share = 0;
+    double fraction = 0;
     double seconds = 0;  ///< between the two
 };
 
@@ -32,12 +32,12 @@ KeySpan find_span(const std::vector<float>& times, double time_s) {
 }
 
 /// Values in one key: of CUBICSPLINE tangent, value, tangent.
-size_t parts_of(const Keyframes& keys) {
+size_t values_per_key(const Keyframes& keys) {
     return keys.kind.interpolation == Interpolation::cubic_spline ? 3 : 1;
 }
 
-std::span<const float> value_of(const Keyframes& keys, size_t key, size_t part) {
-    const size_t at = (key * parts_of(keys) + part) * keys.kind.width;
+std::span<const float> value_of(const Keyframes& keys, size_t key, size_t element) {
+    const size_t at = (key * values_per_key(keys) + element) * keys.kind.width;
     return std::span(keys.values).subspan(at, keys.kind.width);
 }
 
@@ -51,7 +51,7 @@ std::array<double, 4> quaternion_of(std::span<const float> value) {
 double cubic(const std::array<double, 2>& values,
              const std::array<double, 2>& tangents,
              const KeySpan& at) {
-    const double t = at.share;
+    const double t = at.fraction;
     const double t2 = t * t;
     const double t3 = t2 * t;
     return (2 * t3 - 3 * t2 + 1) * values[0] + at.seconds * (t3 - 2 * t2 + t) * tangents[0] +
@@ -108,7 +108,7 @@ Result<std::vector<float>> read_times(const Document& document,
 
 std::array<double, 4> slerp(const std::array<double, 4>& a,
                             const std::array<double, 4>& b,
-                            double share) {
+                            double fraction) {
     double dot = 0;
     for (size_t i = 0; i < 4; ++i)
         dot += a[i] * b[i];
@@ -121,10 +121,10 @@ std::array<double, 4> slerp(const std::array<double, 4>& a,
     }
     // Kahan: exact for small angles too, where the arc cosine is not.
     const double angle = 2 * std::atan2(std::sqrt(apart), std::sqrt(together));
-    constexpr double straight = 1e-6;  // the chord is the arc to the last bit
+    constexpr double straight = 1e-6;  // chord and arc agree to the last bit
     const bool curved = angle > straight;
-    const double from = curved ? std::sin((1 - share) * angle) / std::sin(angle) : 1 - share;
-    const double to = curved ? std::sin(share * angle) / std::sin(angle) : share;
+    const double from = curved ? std::sin((1 - fraction) * angle) / std::sin(angle) : 1 - fraction;
+    const double to = curved ? std::sin(fraction * angle) / std::sin(angle) : fraction;
     std::array<double, 4> out = {};
     for (size_t i = 0; i < 4; ++i)
         out[i] = from * a[i] + to * sign * b[i];
@@ -139,12 +139,12 @@ std::vector<double> sample(const Keyframes& keys, double time_s) {
     const std::span<const float> from = value_of(keys, at.before, 0);
     const std::span<const float> to = value_of(keys, steps ? at.before : at.after, 0);
     if (keys.kind.quaternion) {
-        const auto turned = slerp(quaternion_of(from), quaternion_of(to), at.share);
+        const auto turned = slerp(quaternion_of(from), quaternion_of(to), at.fraction);
         return {turned.begin(), turned.end()};
     }
     std::vector<double> out(from.size());
     for (size_t i = 0; i < out.size(); ++i)
-        out[i] = (1 - at.share) * double{from[i]} + at.share * double{to[i]};
+        out[i] = (1 - at.fraction) * double{from[i]} + at.fraction * double{to[i]};
     return out;
 }
 
@@ -164,7 +164,7 @@ Result<Keyframes> read_keyframes(const Document& document,
     if (!std::all_of(out.values.begin(), out.values.end(), is_finite)) {
         return bad_keys(document, sampler.output, "E-ANIM-VALUE", "a value is not finite");
     }
-    const size_t middle = parts_of(out) / 2;  // tangents may be 0
+    const size_t middle = values_per_key(out) / 2;  // tangents may be 0
     for (size_t key = 0; key < out.times.size() && kind.quaternion; ++key) {
         const std::span<const float> value = value_of(out, key, middle);
         std::array<double, 4> unit = {value[0], value[1], value[2], value[3]};
@@ -189,4 +189,4 @@ Result<double> animation_end(const Document& document,
     return end;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/animation.h - keyframes and their values at a time.
+// gltf/animation.h - keyframes of animations, read and interpolated.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// How values lie between keyframes.
+/// How values between two keyframes are interpolated.
 struct KeyframeKind {
     Interpolation interpolation = Interpolation::linear;
     size_t width = 1;         ///< numbers in a value
@@ -24,7 +24,7 @@ struct Keyframes {
     std::vector<float> values;
 };
 
-/// The value at a time, in double; before the first and after the last key it is theirs.
+/// Interpolates in double; before the first and after the last key that key's value holds.
 ///
 /// Out     kind.width numbers; a quaternion is unit
 /// Source  glTF 2.0, appendix C: step, linear, spherical linear (the short way), cubic spline
@@ -35,7 +35,7 @@ std::vector<double> sample(const Keyframes& keys, double time_s);
 /// Source  Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985
 std::array<double, 4> slerp(const std::array<double, 4>& a,
                             const std::array<double, 4>& b,
-                            double share);
+                            double fraction);
 
 /// Reads a sampler's times and values.
 ///
@@ -46,11 +46,11 @@ Result<Keyframes> read_keyframes(const Document& document,
                                  const GltfAnimationSampler& sampler,
                                  const KeyframeKind& kind);
 
-/// When the last key of an animation comes, in seconds; 0: it has none.
+/// Time of an animation's last key in seconds; 0 when it has none.
 ///
-/// Errors  as read_keyframes, of the times
+/// Errors  those of read_keyframes about times
 Result<double> animation_end(const Document& document,
                              const BufferStore& buffers,
                              const GltfAnimation& animation);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/asset_files.cpp - the files that one glTF asset consists of.
+// gltf/asset_files.cpp - lists the files that one glTF asset consists of.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/asset_files.h"
 
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -31,7 +31,7 @@ void add_file(const fs::path& folder,
 std::vector<fs::path> files_of_asset(const fs::path& file) {
     std::vector<fs::path> files = {file};
     Log silent(Verbosity::quiet);
-    Problems problems(true);  // whoever loads the asset tells them
+    Problems problems(true);  // reported when the asset is loaded
     const Result<OpenedAsset> asset = open_asset(file, problems, silent, false);
     if (!asset) return files;
     const Document& document = asset->document;
@@ -45,4 +45,4 @@ std::vector<fs::path> files_of_asset(const fs::path& file) {
     return files;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

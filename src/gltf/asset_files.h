@@ -1,14 +1,14 @@
-// gltf/asset_files.h - the files that one glTF asset consists of.
+// gltf/asset_files.h - lists the files that one glTF asset consists of.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// The file itself and every buffer, image and light profile that it names, each once. What cannot
-/// be read or understood is left out: loading is what complains.
+/// The file itself and every buffer, image and light profile that it names, each once. Files that
+/// cannot be read or understood are left out: loading reports them.
 std::vector<std::filesystem::path> files_of_asset(const std::filesystem::path& file);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/camera_json.cpp - a camera as computer vision writes it, from a JSON file of its own.
+// gltf/camera_json.cpp - reads a computer vision camera (intrinsics, extrinsics) from JSON.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/camera_json.h"
 
@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -80,8 +80,8 @@ Intrinsics read_intrinsics(const JsonReader& reader, const json& tree) {
         }
         *side = static_cast<double>(pixels);
     }
-    constexpr double most_pixels = 536870912;
-    if (out.width_px * out.height_px > most_pixels) {
+    constexpr double max_pixels = 536870912;
+    if (out.width_px * out.height_px > max_pixels) {
         reader.fault("height", value_id, "expected at most 536870912 pixels in all");
     }
     std::vector<double> k(9);
@@ -99,7 +99,7 @@ Intrinsics read_intrinsics(const JsonReader& reader, const json& tree) {
         out.cx_px = reader.number("cx", out.width_px / 2);
         out.cy_px = reader.number("cy", out.height_px / 2);
     }
-    // Where the middle of the first pixel is: 0.5 counts from the picture's corner.
+    // Position of the first pixel's centre: 0.5 when counted from the image's corner.
     const double centre = reader.number("pixel_center", 0.5);
     if (centre != 0 && centre != 0.5) {
         reader.fault("pixel_center", value_id, "expected 0.5 or 0: the first pixel's coordinates");
@@ -239,4 +239,4 @@ Result<SceneCamera> load_camera_json(const std::filesystem::path& file, Log& log
     return camera;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -17,7 +17,7 @@
 #include "gltf/parse/variants.h"
 #include "gltf/pose.h"
 #include "scene/motion.h"
-#include "scene/stroke_radii.h"
+#include "scene/points_lines_radii.h"
 
 #include <algorithm>
 #include <chrono>
@@ -28,7 +28,7 @@
 #include <span>
 #include <stdexcept>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -119,7 +119,7 @@ void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
     }
 }
 
-/// Where the last keyframe of each animation is.
+/// Time of each animation's last keyframe.
 Result<std::vector<AnimationInfo>> animation_infos(const Document& document,
                                                    const BufferStore& buffers) {
     std::vector<AnimationInfo> out;
@@ -131,7 +131,7 @@ Result<std::vector<AnimationInfo>> animation_infos(const Document& document,
     return out;
 }
 
-/// Turns what the standard library throws into errors.
+/// Turns exceptions of the standard library into errors.
 template <typename Work>
 auto guarded(const std::string& file, const Work& work) -> decltype(work()) {
     try {
@@ -265,7 +265,7 @@ Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene
     Document& document = asset.document;
     if (last) release_geometry(document, buffers);
     leave_out_nodes(document, out, log);
-    if (!out.bounds.empty()) set_default_stroke_radii(out);
+    if (!out.bounds.empty()) set_default_points_lines_radii(out);
     const auto decode_start = std::chrono::steady_clock::now();
     const std::filesystem::path folder = file.parent_path();
     const TextureSources sources{document, buffers, folder, textures, options.info_only};
@@ -307,12 +307,12 @@ Result<Scene> PosedAsset::Impl::scene_between(const ShutterTimes& shutter, bool 
     if (!opened) return fail(opened.error());
     if (!animator.empty()) anchors = world_transforms(asset.document);
     for (int step = 1; step < steps && !animator.empty(); ++step) {
-        const double share = static_cast<double>(step) / (steps - 1);
-        const double time_s = shutter.open_s + (shutter.close_s - shutter.open_s) * share;
+        const double fraction = static_cast<double>(step) / (steps - 1);
+        const double time_s = shutter.open_s + (shutter.close_s - shutter.open_s) * fraction;
         Result<Scene> pose = pose_at(time_s, materials, quiet);
         if (!pose) return pose;
         parse_seconds += pose->info.parse_seconds;
-        later.push_back(take_pose(*pose, geometry.still()));
+        later.push_back(take_pose(*pose, geometry.static_sizes()));
         geometry.take_back(*pose);
     }
     Result<Scene> out = pose_at(shutter.open_s, materials, log);
@@ -371,4 +371,4 @@ Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& op
     return asset->scene_at(options.time_s.value_or(0), true, log);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

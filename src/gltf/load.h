@@ -12,7 +12,7 @@
 #include <optional>
 #include <string>
 
-namespace obscura {
+namespace obscura::gltf {
 
 struct LoadOptions {
     int scene = -1;  ///< number of the scene in the file; -1: scene_name, else the file's own
@@ -22,30 +22,28 @@ struct LoadOptions {
     /// time is given.
     std::optional<std::string> animation = {};
     std::optional<double> time_s = {};  ///< of load_gltf; nothing: as stored, or 0 with `animation`
-    /// Meshes keep TEXCOORD_0 where no texture looks it up, too: for pictures of it.
+    /// Meshes keep TEXCOORD_0 even if no texture reads it: for the AOV `uv`.
     bool keeps_uv = false;
     bool occlusion = false;  ///< --occlusion ambient: materials keep their occlusion textures
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
-    /// What would change the picture is made do with and warned of, not refused: see
-    /// gltf/problems.h.
+    /// Problems that would change the image become warnings, not errors: see gltf/problems.h.
     bool lenient = false;
 };
 
 /// Reads, checks and converts one asset with everything that it refers to.
 ///
-/// Material 0 is the default material, for primitives without one; glTF material m is row m + 1
+/// Material 0 is the default material, for primitives without one; glTF material m is record m + 1
 /// (behind them come copies without textures whose UV set a primitive lacks). Materials that the
 /// chosen scene does not use keep their factors and lose their textures.
 ///
-/// All that is wrong with meshes and images comes together: the first with the others in
-/// Error::also, in the order of gltf/problems.h: accessors, meshes as the scene shows them, images.
+/// All problems of meshes and images come together: the first one with the others in Error::also,
+/// in the order of gltf/problems.h: accessors, meshes as the scene shows them, images.
 ///
-/// Errors  64 E-SCENE-UNKNOWN, E-VARIANT-UNKNOWN, E-ANIM-UNKNOWN, E-ANIM-AMBIGUOUS; 65 E-GLB-*,
-/// E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*, E-MESH-*, E-NODE-*,
-///         E-MESHOPT-*, E-DRACO-*, E-SKIN-*, E-ANIM-*, E-LIGHT-*, E-IES-*, E-ENV-FACES;
-///         66 E-SCENE-MISSING; 67 E-RES-MISSING, E-RES-SHORT, E-IMG-*; 69 E-VERSION,
-///         E-EXT-REQUIRED, E-MESHOPT-VERSION, E-DRACO-VERSION; 77 E-URI-REFUSED, E-LIMIT-*; 33
-///         E-MEMORY
+/// Errors  64 E-SCENE-UNKNOWN, E-VARIANT-UNKNOWN, E-ANIM-UNKNOWN, E-ANIM-AMBIGUOUS;
+///         65 E-GLB-*, E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*, E-MESH-*, E-NODE-*, E-MESHOPT-*,
+///         E-DRACO-*, E-SKIN-*, E-ANIM-*, E-LIGHT-*, E-IES-*, E-ENV-FACES; 66 E-SCENE-MISSING;
+///         67 E-RES-MISSING, E-RES-SHORT, E-IMG-*; 69 E-VERSION, E-EXT-REQUIRED,
+///         E-MESHOPT-VERSION, E-DRACO-VERSION; 77 E-URI-REFUSED, E-LIMIT-*; 33 E-MEMORY
 Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& options, Log& log);
 
 /// While a shutter is open.
@@ -60,8 +58,7 @@ class PosedAsset {
 public:
     /// Reads and checks the file and everything that it refers to but the images.
     ///
-    /// In      options: as for load_gltf, but for time_s; has_time: scenes at times will be asked
-    ///         for
+    /// In      options: as for load_gltf, without time_s; has_time: it will be posed at times
     /// Errors  those of load_gltf
     static Result<PosedAsset> open(const std::filesystem::path& file,
                                    const LoadOptions& options,
@@ -71,14 +68,14 @@ public:
     PosedAsset& operator=(PosedAsset&&) noexcept;
     ~PosedAsset();
 
-    /// The scene as the chosen animations have it at a time; equal times give equal scenes.
+    /// Poses the scene by the chosen animations at a time; equal times give equal scenes.
     ///
     /// In      last: no further scene will be asked for; memory is given back sooner
     /// Errors  those of load_gltf
     Result<Scene> scene_at(double time_s, bool last, Log& log);
 
-    /// The scene with what moves while a shutter is open (scene/motion.h). When something appears
-    /// or vanishes meanwhile, a warning says that the scene stands still as at the opening.
+    /// The scene with its motion while the shutter is open (scene/motion.h). When something appears
+    /// or vanishes meanwhile, a warning says that nothing moves: the scene is that at shutter open.
     ///
     /// Errors  those of load_gltf
     Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
@@ -86,8 +83,8 @@ public:
     /// What the latest scene lacks; nothing unless LoadOptions::lenient.
     const Degraded& degraded() const;
 
-    /// Takes what the next scene will have too out of a scene that is no longer needed: decoded
-    /// images, and the geometry that no time changes.
+    /// Takes back what the next scene reuses from a scene that is no longer needed: decoded images
+    /// and static geometry.
     void take_back(Scene&& scene);
 
 private:
@@ -96,4 +93,4 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::gltf

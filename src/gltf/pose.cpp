@@ -1,4 +1,4 @@
-// gltf/pose.cpp - writes the values of animations at a time into a document.
+// gltf/pose.cpp - poses a document: writes animated values at a time into it.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/pose.h"
 
@@ -12,7 +12,7 @@
 #include <charconv>
 #include <numeric>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -73,11 +73,11 @@ Result<void> finish_quaternion(const AnimatedProperty& property, Document& docum
 
 /// What a camera has where one of its numbers is animated.
 CameraGiven given_numbers(const AnimatedProperty& property, const GltfCamera& stored) {
-    GltfCamera camera = stored;  // rows point into cameras that may be changed
+    GltfCamera camera = stored;  // entries point into cameras that may be changed
     CameraGiven given{.aspect = camera.aspect != 0, .zfar = camera.zfar_m != 0};
     if (property.path != ChannelPath::camera) return given;
-    const auto rows = camera.orthographic ? orthographic_rows : perspective_rows;
-    const double* number = rows[static_cast<size_t>(property.row)].numbers(camera).data();
+    const auto entries = camera.orthographic ? orthographic_entries : perspective_entries;
+    const double* number = entries[static_cast<size_t>(property.entry)].numbers(camera).data();
     given.aspect = given.aspect || number == &camera.aspect;
     given.zfar = given.zfar || number == &camera.zfar_m;
     return given;
@@ -241,4 +241,4 @@ Result<std::vector<int>> choose_animations(const Document& document,
     return refuse("E-ANIM-UNKNOWN", "the asset has no animation \"" + *choice + "\"");
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,16 +1,16 @@
-// gltf/pose.h - writes the values of animations at a time into a document.
+// gltf/pose.h - poses a document: writes animated values at a time into it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "gltf/animation.h"
-#include "gltf/parse/light_camera_rows.h"
+#include "gltf/parse/light_camera_entries.h"
 
 #include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Which animations are played and what they change.
 class Animator {
@@ -31,9 +31,7 @@ public:
     /// Writes every animated value at a time into the document. All of them are written whatever
     /// the time is: a document may be posed again and again, in any order.
     ///
-    /// Errors  65 E-CAM-*, E-NODE-ROTATION, E-LIGHT-ROTATION of cameras and quaternions that
-    /// animated
-    ///         values break
+    /// Errors  65 E-CAM-*, E-NODE-ROTATION, E-LIGHT-ROTATION animated values are not valid ones
     Result<void> pose(Document& document, double time_s) const;
 
 private:
@@ -42,8 +40,8 @@ private:
         Keyframes keys;
     };
 
-    /// A quaternion of which single numbers are animated: how the file has it. It is set back
-    /// before every pose, for a pose brings all four numbers to length 1.
+    /// The file's value of a quaternion with single animated numbers. It is restored before every
+    /// pose, because posing normalises all four numbers.
     struct Quaternion {
         AnimatedProperty property;
         std::array<double, 4> stored;
@@ -71,4 +69,4 @@ Result<std::vector<int>> choose_animations(const Document& document,
                                            const std::optional<std::string>& choice,
                                            bool has_time);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,15 +1,15 @@
-// gltf/problems.cpp - what would change the picture: collected, then refused or made do with.
+// gltf/problems.cpp - collects an asset's faults, then refuses it or warns.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/problems.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-constexpr size_t most_listed = 100;
+constexpr size_t max_listed = 100;
 
 bool stops_lenient_loading(const Error& error) {
     const bool about_data = error.code == ExitCode::bad_data ||
@@ -46,12 +46,12 @@ Result<void> Problems::refuse() const {
     size_t found = 0;
     for (const Problem& problem : list_) {
         if (lenient_ && !problem.final) continue;
-        if (++found <= most_listed) errors.push_back(problem.error);
+        if (++found <= max_listed) errors.push_back(problem.error);
     }
     if (errors.empty()) return {};
-    if (found > most_listed) {
+    if (found > max_listed) {
         const std::string text =
-            std::to_string(found - most_listed) + " more problems are not listed";
+            std::to_string(found - max_listed) + " more problems are not listed";
         errors.push_back({errors.front().code, {}, {}, text});
     }
     return fail(joined(std::move(errors)));
@@ -60,13 +60,13 @@ Result<void> Problems::refuse() const {
 void Problems::warn(Log& log) const {
     size_t found = 0;
     for (const Problem& problem : list_) {
-        if (problem.final || ++found > most_listed) continue;
+        if (problem.final || ++found > max_listed) continue;
         log.warn(problem.error.where, problem.error.message + "; " + problem.remedy);
     }
-    if (found > most_listed) {
+    if (found > max_listed) {
         const Error& first = list_.front().error;
         log.warn(first.where.substr(0, first.where.find('#')),
-                 std::to_string(found - most_listed) + " more problems are not listed");
+                 std::to_string(found - max_listed) + " more problems are not listed");
     }
 }
 
@@ -80,4 +80,4 @@ Result<Degraded> Problems::settle(const Error* end, Log& log) {
     return lost;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/problems.h - what would change the picture: collected, then refused or made do with.
+// gltf/problems.h - collects an asset's faults, then refuses it or warns.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// What a scene that was loaded leniently lacks of what its file asks for.
+/// Counts of what a leniently loaded scene lacks.
 struct Degraded {
     size_t textures = 0;    ///< images that could not be read
     size_t primitives = 0;  ///< of meshes, and shapes, that are not drawn at all
     size_t triangles = 0;   ///< left out of primitives that are drawn; points and lines too
 };
 
-/// What the scene loses where loading goes on all the same.
+/// What a scene loses when loading continues.
 enum class Loss { nothing, texture, primitive, triangle };
 
 struct Remedy {
@@ -41,12 +41,12 @@ public:
 
     /// Adds a problem. The same one found again, in another use of a mesh, is not counted again.
     void add(const Error& error, const Remedy& remedy);
-    /// Counts what an earlier scene of the asset has told.
+    /// Counts the losses that an earlier scene of the asset reported.
     void count(Loss loss, size_t count);
 
     /// Ends the collection and begins a new one. Of more than 100 problems the others are counted.
     ///
-    /// In      end: what has ended loading; nullptr: it came to its end
+    /// In      end: the error that ended loading; nullptr: it completed
     /// Out     strict: the first problem with all others in Error::also, `end` last.
     ///         Lenient: a warning for each, and what is lost; the first that stops lenient loading
     Result<Degraded> settle(const Error* end, Log& log);
@@ -68,4 +68,4 @@ private:
     Degraded lost_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::gltf

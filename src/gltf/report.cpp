@@ -1,35 +1,35 @@
-// gltf/report.cpp - part by part, what a file asks for and what becomes of it.
+// gltf/report.cpp - reports which features each part of a file uses, and their support.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/report.h"
 
 #include <algorithm>
 #include <array>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
 using nlohmann::json;
 
-/// The top-level arrays and what one of their parts is called.
-struct PartKind {
+/// A top-level array, and what one of its elements is called.
+struct TopLevelArray {
     const char* array;
     const char* name;
 };
 
-constexpr std::array part_kinds = {PartKind{"scenes", "scene"},
-                                   PartKind{"nodes", "node"},
-                                   PartKind{"cameras", "camera"},
-                                   PartKind{"meshes", "mesh"},
-                                   PartKind{"materials", "material"},
-                                   PartKind{"textures", "texture"},
-                                   PartKind{"images", "image"},
-                                   PartKind{"samplers", "sampler"},
-                                   PartKind{"skins", "skin"},
-                                   PartKind{"animations", "animation"},
-                                   PartKind{"accessors", "accessor"},
-                                   PartKind{"bufferViews", "buffer view"},
-                                   PartKind{"buffers", "buffer"}};
+constexpr std::array top_level_arrays = {TopLevelArray{"scenes", "scene"},
+                                         TopLevelArray{"nodes", "node"},
+                                         TopLevelArray{"cameras", "camera"},
+                                         TopLevelArray{"meshes", "mesh"},
+                                         TopLevelArray{"materials", "material"},
+                                         TopLevelArray{"textures", "texture"},
+                                         TopLevelArray{"images", "image"},
+                                         TopLevelArray{"samplers", "sampler"},
+                                         TopLevelArray{"skins", "skin"},
+                                         TopLevelArray{"animations", "animation"},
+                                         TopLevelArray{"accessors", "accessor"},
+                                         TopLevelArray{"bufferViews", "buffer view"},
+                                         TopLevelArray{"buffers", "buffer"}};
 
 const json* member(const json& object, const char* key) {
     if (!object.is_object()) return nullptr;
@@ -74,77 +74,79 @@ bool has_attribute(const json& mesh, const char* name) {
 constexpr Verdict honoured = Verdict::honoured;
 constexpr Verdict ignored = Verdict::ignored;
 
-constexpr std::array feature_rows = {
-    FeatureRow{"nodes", "skin", honoured, "", [](const json& node) { return has(node, "skin"); }},
-    FeatureRow{"cameras", "camera", honoured, "", [](const json&) { return true; }},
-    FeatureRow{"meshes",
-               "points",
-               honoured,
-               "as spheres, --point-size across; lit where they have normals",
-               [](const json& mesh) { return has_mode(mesh, 0, 0); }},
-    FeatureRow{"meshes",
-               "lines",
-               honoured,
-               "as round curves, --line-width across; lit where they have normals",
-               [](const json& mesh) { return has_mode(mesh, 1, 3); }},
-    FeatureRow{"meshes",
-               "morph targets",
-               honoured,
-               "",
-               [](const json& mesh) {
-                   return any_primitive(mesh, [](const json& p) { return has(p, "targets"); });
-               }},
-    FeatureRow{"meshes",
-               "COLOR_0",
-               honoured,
-               "it multiplies the base colour",
-               [](const json& mesh) { return has_attribute(mesh, "COLOR_0"); }},
-    FeatureRow{"materials",
-               "baseColorTexture",
-               honoured,
-               "",
-               [](const json& m) { return metallic_roughness_has(m, "baseColorTexture"); }},
-    FeatureRow{"materials",
-               "metallicRoughnessTexture",
-               honoured,
-               "",
-               [](const json& m) { return metallic_roughness_has(m, "metallicRoughnessTexture"); }},
-    FeatureRow{"materials",
-               "normalTexture",
-               honoured,
-               "",
-               [](const json& m) { return has(m, "normalTexture"); }},
-    FeatureRow{"materials",
-               "emissiveTexture",
-               honoured,
-               "",
-               [](const json& m) { return has(m, "emissiveTexture"); }},
-    FeatureRow{"materials",
-               "occlusionTexture",
-               ignored,
-               "what it guesses is traced: light that nearby geometry blocks; --occlusion ambient "
-               "applies it",
-               [](const json& m) { return has(m, "occlusionTexture"); }},
-    FeatureRow{"materials",
-               "alphaMode MASK",
-               honoured,
-               "",
-               [](const json& m) { return text_is(m, "alphaMode", "MASK"); }},
-    FeatureRow{"materials",
-               "alphaMode BLEND",
-               honoured,
-               "coverage: a ray meets the surface with the probability of its alpha",
-               [](const json& m) { return text_is(m, "alphaMode", "BLEND"); }},
-    FeatureRow{"animations",
-               "animation",
-               honoured,
-               "played by --time and --frames, chosen by --animation",
-               [](const json&) { return true; }},
-    FeatureRow{"accessors",
-               "sparse",
-               honoured,
-               "",
-               [](const json& accessor) { return has(accessor, "sparse"); }},
+constexpr std::array feature_entries = {
+    FeatureEntry{"nodes", "skin", honoured, "", [](const json& node) { return has(node, "skin"); }},
+    FeatureEntry{"cameras", "camera", honoured, "", [](const json&) { return true; }},
+    FeatureEntry{"meshes",
+                 "points",
+                 honoured,
+                 "as spheres, --point-size across; lit where they have normals",
+                 [](const json& mesh) { return has_mode(mesh, 0, 0); }},
+    FeatureEntry{"meshes",
+                 "lines",
+                 honoured,
+                 "as round curves, --line-width across; lit where they have normals",
+                 [](const json& mesh) { return has_mode(mesh, 1, 3); }},
+    FeatureEntry{"meshes",
+                 "morph targets",
+                 honoured,
+                 "",
+                 [](const json& mesh) {
+                     return any_primitive(mesh, [](const json& p) { return has(p, "targets"); });
+                 }},
+    FeatureEntry{"meshes",
+                 "COLOR_0",
+                 honoured,
+                 "it multiplies the base colour",
+                 [](const json& mesh) { return has_attribute(mesh, "COLOR_0"); }},
+    FeatureEntry{"materials",
+                 "baseColorTexture",
+                 honoured,
+                 "",
+                 [](const json& m) { return metallic_roughness_has(m, "baseColorTexture"); }},
+    FeatureEntry{
+        "materials",
+        "metallicRoughnessTexture",
+        honoured,
+        "",
+        [](const json& m) { return metallic_roughness_has(m, "metallicRoughnessTexture"); }},
+    FeatureEntry{"materials",
+                 "normalTexture",
+                 honoured,
+                 "",
+                 [](const json& m) { return has(m, "normalTexture"); }},
+    FeatureEntry{"materials",
+                 "emissiveTexture",
+                 honoured,
+                 "",
+                 [](const json& m) { return has(m, "emissiveTexture"); }},
+    FeatureEntry{
+        "materials",
+        "occlusionTexture",
+        ignored,
+        "what it guesses is traced: light that nearby geometry blocks; --occlusion ambient "
+        "applies it",
+        [](const json& m) { return has(m, "occlusionTexture"); }},
+    FeatureEntry{"materials",
+                 "alphaMode MASK",
+                 honoured,
+                 "",
+                 [](const json& m) { return text_is(m, "alphaMode", "MASK"); }},
+    FeatureEntry{"materials",
+                 "alphaMode BLEND",
+                 honoured,
+                 "coverage: a ray meets the surface with the probability of its alpha",
+                 [](const json& m) { return text_is(m, "alphaMode", "BLEND"); }},
+    FeatureEntry{"animations",
+                 "animation",
+                 honoured,
+                 "played by --time and --frames, chosen by --animation",
+                 [](const json&) { return true; }},
+    FeatureEntry{"accessors",
+                 "sparse",
+                 honoured,
+                 "",
+                 [](const json& accessor) { return has(accessor, "sparse"); }},
 };
 
 /// "material 3 Glass".
@@ -157,23 +159,24 @@ std::string place_name(const json& part, const char* kind, size_t index) {
     return out;
 }
 
-ReportRow extension_report(const std::string& place, const std::string& name) {
-    const ExtensionRow* row = find_extension(name);
-    if (row == nullptr) return {place, name, Verdict::ignored, "it is not known"};
-    const bool works = row->supported;
+ReportEntry extension_report(const std::string& place, const std::string& name) {
+    const ExtensionEntry* entry = find_extension(name);
+    if (entry == nullptr) return {place, name, Verdict::ignored, "it is not known"};
+    const bool works = entry->supported;
     return {place,
             name,
-            works ? row->verdict : Verdict::ignored,
-            std::string(works ? row->note : row->without)};
+            works ? entry->verdict : Verdict::ignored,
+            std::string(works ? entry->note : entry->without)};
 }
 
-void report_array(const json& parts, const PartKind& kind, std::vector<ReportRow>& out) {
+void report_array(const json& parts, const TopLevelArray& kind, std::vector<ReportEntry>& out) {
     for (size_t index = 0; index < parts.size(); ++index) {
         const json& part = parts[index];
         const auto place = [&] { return place_name(part, kind.name, index); };
-        for (const FeatureRow& row : feature_rows) {
-            if (row.array != kind.array || !row.is_used(part)) continue;
-            out.push_back({place(), std::string(row.name), row.verdict, std::string(row.note)});
+        for (const FeatureEntry& entry : feature_entries) {
+            if (entry.array != kind.array || !entry.is_used(part)) continue;
+            out.push_back(
+                {place(), std::string(entry.name), entry.verdict, std::string(entry.note)});
         }
         for (const std::string& name : extension_names(part))
             out.push_back(extension_report(place(), name));
@@ -182,8 +185,8 @@ void report_array(const json& parts, const PartKind& kind, std::vector<ReportRow
 
 }  // namespace
 
-std::span<const FeatureRow> feature_table() {
-    return feature_rows;
+std::span<const FeatureEntry> feature_table() {
+    return feature_entries;
 }
 
 std::string_view verdict_name(Verdict verdict) {
@@ -198,9 +201,9 @@ std::string_view verdict_name(Verdict verdict) {
     return {};
 }
 
-std::vector<ReportRow> make_report(const json& tree) {
-    std::vector<ReportRow> parts;
-    for (const PartKind& kind : part_kinds) {
+std::vector<ReportEntry> make_report(const json& tree) {
+    std::vector<ReportEntry> parts;
+    for (const TopLevelArray& kind : top_level_arrays) {
         const json* array = member(tree, kind.array);
         if (array != nullptr && array->is_array()) report_array(*array, kind, parts);
     }
@@ -210,7 +213,7 @@ std::vector<ReportRow> make_report(const json& tree) {
         const json* names = member(tree, list);
         if (names == nullptr) continue;
         for (const json& name : *names) {
-            const auto is_it = [&](const ReportRow& row) { return name == row.feature; };
+            const auto is_it = [&](const ReportEntry& entry) { return name == entry.feature; };
             if (std::none_of(parts.begin(), parts.end(), is_it)) {
                 whole.push_back(name.get<std::string>());
             }
@@ -225,11 +228,11 @@ std::vector<ReportRow> make_report(const json& tree) {
     }
     std::sort(whole.begin(), whole.end());
     whole.erase(std::unique(whole.begin(), whole.end()), whole.end());
-    std::vector<ReportRow> out;
+    std::vector<ReportEntry> out;
     for (const std::string& name : whole)
         out.push_back(extension_report("asset", name));
     out.insert(out.end(), parts.begin(), parts.end());
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

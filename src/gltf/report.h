@@ -1,4 +1,4 @@
-// gltf/report.h - part by part, what a file asks for and what becomes of it.
+// gltf/report.h - reports which features each part of a file uses, and their support.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,12 +8,12 @@
 #include <span>
 #include <string_view>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Something of glTF itself that a part of a file may ask for.
 ///
-/// To add one: a row in report.cpp, whose function says when a part asks for it.
-struct FeatureRow {
+/// To add one: an entry in report.cpp, whose function says when a part asks for it.
+struct FeatureEntry {
     std::string_view array;  ///< of the file: "materials"
     std::string_view name;
     Verdict verdict;
@@ -21,12 +21,12 @@ struct FeatureRow {
     bool (*is_used)(const nlohmann::json& part);
 };
 
-std::span<const FeatureRow> feature_table();
+std::span<const FeatureEntry> feature_table();
 
 std::string_view verdict_name(Verdict verdict);  ///< "honoured", "approximated", "ignored"
 
 /// Every extension and feature of every part, from extension_table and feature_table. Parts that
 /// ask for nothing are left out.
-std::vector<ReportRow> make_report(const nlohmann::json& tree);
+std::vector<ReportEntry> make_report(const nlohmann::json& tree);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// image/basis_lz.h - BasisLZ: codebooks of ETC1S colours and selectors, and pictures that use them.
+// image/basis_lz.h - BasisLZ decoding: codebooks of ETC1S colours and selectors, and slices.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,19 +13,19 @@
 
 namespace obscura {
 
-/// What all slices of a file share.
+/// Codebooks that all slices of a file share.
 struct BasisLzCodebooks {
     std::vector<Etc1sEndpoint> endpoints;
     std::vector<Etc1sSelectors> selectors;
 };
 
-/// The codes of a slice's symbols.
+/// The Huffman codes of a slice's symbols.
 struct BasisLzCodes {
-    HuffmanTable endpoint_prediction;  ///< where four blocks' endpoints come from
+    HuffmanTable endpoint_prediction;  ///< how the endpoints of four blocks are predicted
     HuffmanTable endpoint_delta;
     HuffmanTable selector;
     HuffmanTable selector_run;
-    uint32_t history_size = 0;  ///< selectors that are remembered
+    uint32_t history_size = 0;  ///< size of the selector history
 };
 
 /// A block as two numbers, below the lengths of the codebooks.
@@ -34,8 +34,7 @@ struct BasisLzBlock {
     uint16_t selector = 0;
 };
 
-// All of these give nullopt for data that are cut off or contradict themselves, and never read
-// past the end.
+// All of these return nullopt for truncated or contradictory data, and never read past the end.
 //
 // Source  KTX 2.0, appendix "BasisLZ/ETC1S Bitstream Specification"
 
@@ -47,7 +46,7 @@ std::optional<std::vector<Etc1sSelectors>> read_selectors(std::span<const std::b
 
 std::optional<BasisLzCodes> read_slice_codes(std::span<const std::byte> bytes);
 
-/// The blocks of one picture, row by row.
+/// The blocks of one image, row by row.
 std::optional<std::vector<BasisLzBlock>> read_slice(std::span<const std::byte> bytes,
                                                     const BasisLzCodebooks& books,
                                                     const BasisLzCodes& codes,

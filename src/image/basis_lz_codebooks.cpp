@@ -1,4 +1,4 @@
-// image/basis_lz_codebooks.cpp - reads the codebooks and codes that the slices of a file share.
+// image/basis_lz_codebooks.cpp - reads the codebooks and Huffman codes that all slices share.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/basis_lz.h"
 
@@ -11,12 +11,12 @@ namespace {
 
 constexpr int history_size_bits = 13;
 
-/// Differences of colours have different codes, by how bright the colour before was.
+/// The code of a colour difference depends on the brightness of the previous colour.
 size_t delta_code_for(uint8_t before) {
     return before < 10 ? 0 : before < 22 ? 1 : 2;
 }
 
-/// `before` plus a stored difference, as a number of `mask`'s bits; false: no such code.
+/// Adds a stored difference to `before`, modulo `mask` + 1; false: invalid code.
 bool read_delta(BitReader& bits, const HuffmanTable& code, uint8_t mask, uint8_t& before) {
     const int delta = code.decode(bits);
     if (delta < 0) return false;

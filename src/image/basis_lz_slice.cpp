@@ -1,4 +1,4 @@
-// image/basis_lz_slice.cpp - reads one picture: for each block an endpoint and a selector.
+// image/basis_lz_slice.cpp - reads a BasisLZ slice: an endpoint and a selector for each block.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/basis_lz.h"
 
@@ -8,15 +8,15 @@ namespace obscura {
 
 namespace {
 
-/// Where a block's endpoint comes from.
+/// The source of a block's endpoint.
 enum Prediction : uint32_t { from_left, from_above, from_above_left, from_delta };
 
-constexpr uint32_t repeat_prediction = 256;  ///< after all that four predictions can say
-constexpr uint64_t least_prediction_run = 3;
-constexpr uint64_t least_selector_run = 3;
+constexpr uint32_t repeat_prediction = 256;  ///< follows all combinations of four predictions
+constexpr uint64_t min_prediction_run = 3;
+constexpr uint64_t min_selector_run = 3;
 constexpr int long_selector_run = 63;  ///< its length follows
 
-/// Selectors used lately; those used again move forward by halves.
+/// Recently used selectors; when one is used again, its index is halved.
 class SelectorHistory {
 public:
     explicit SelectorHistory(size_t size) : values_(size), next_(size / 2) {}
@@ -40,8 +40,8 @@ private:
     size_t next_;
 };
 
-/// A number in chunks of `chunk` bits, the lowest first, each with a bit that says whether another
-/// follows; nullopt: more than 32 bits.
+/// A number in chunks of `chunk` bits, the lowest first, each followed by a continuation bit;
+/// nullopt: more than 32 bits.
 std::optional<uint32_t> read_chunked(BitReader& bits, int chunk) {
     uint32_t value = 0;
     for (int at = 0; at < 32; at += chunk) {
@@ -62,7 +62,7 @@ public:
     std::optional<std::vector<BasisLzBlock>> read(size_t columns, size_t rows);
 
 private:
-    // Each gives false where the data are broken.
+    // These return false for broken data.
     bool read_predictions(uint32_t& of_four_blocks);
     bool read_endpoint(size_t x, size_t y, uint32_t prediction);
     bool read_selector();
@@ -89,7 +89,7 @@ bool SliceReader::read_predictions(uint32_t& of_four_blocks) {
         if (symbol == static_cast<int>(repeat_prediction)) {
             const std::optional<uint32_t> more = read_chunked(bits_, 4);
             if (!more) return false;
-            prediction_run_ = *more + least_prediction_run - 1;
+            prediction_run_ = *more + min_prediction_run - 1;
         } else {
             last_predictions_ = static_cast<uint32_t>(symbol);
         }
@@ -135,7 +135,7 @@ bool SliceReader::read_selector() {
                 if (!long_length) return false;
                 more = *long_length;
             }
-            selector_run_ = more + least_selector_run - 1;
+            selector_run_ = more + min_selector_run - 1;
             symbol = count;
         }
     }

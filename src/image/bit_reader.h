@@ -1,4 +1,4 @@
-// image/bit_reader.h - takes bits from bytes, the lowest bit of the first byte first.
+// image/bit_reader.h - reads bits from bytes, least significant bit first.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,12 +8,12 @@
 
 namespace obscura {
 
-/// Never reads past the end: missing bits are 0, and overran() tells.
+/// Never reads past the end: missing bits are 0, and overran() becomes true.
 class BitReader {
 public:
     explicit BitReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
-    /// The next `count` bits (0 to 32), the first one lowest; they stay where they are.
+    /// The next `count` bits (0 to 32), the first one lowest, without consuming them.
     uint32_t peek(int count) {
         while (held_ < count) {
             const uint64_t byte =
@@ -24,7 +24,7 @@ public:
         return static_cast<uint32_t>(window_ & ((uint64_t{1} << count) - 1));
     }
 
-    /// Takes bits that peek has shown.
+    /// Consumes bits that peek has returned.
     void skip(int count) {
         window_ >>= count;
         held_ -= count;
@@ -37,7 +37,7 @@ public:
         return bits;
     }
 
-    /// Whether bits were taken that are not there.
+    /// True when more bits were consumed than there are.
     bool overran() const { return taken_ > 8 * uint64_t{bytes_.size()}; }
 
 private:

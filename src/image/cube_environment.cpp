@@ -1,4 +1,4 @@
-// image/cube_environment.cpp - the six faces of a cube become a latitude-longitude environment.
+// image/cube_environment.cpp - converts a cube map to a latitude-longitude environment.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/cube_environment.h"
 
@@ -15,11 +15,11 @@ namespace obscura {
 namespace {
 
 constexpr int largest_side = 4096;
-constexpr int least_width = 256;
-constexpr int columns_per_texel = 4;  // a texel in a face's middle is then as wide as a pixel
+constexpr int min_width = 256;
+constexpr int columns_per_texel = 4;  // a texel at a face's centre is then as wide as a pixel
 constexpr int samples_per_side = 4;   // of a pixel
 
-/// A direction's place on the cube.
+/// A direction's position on the cube.
 struct CubePoint {
     size_t face;
     double s, t;  ///< in [-1, 1], as in CubeFaceFrame
@@ -42,7 +42,7 @@ CubePoint cube_point(const Vec3d& d) {
     return {face, dot(d, frame.right) / size, dot(d, frame.down) / size};
 }
 
-/// A face with one row and column more on each side, from its neighbours.
+/// A face with a border of one texel from its neighbours.
 struct PaddedFace {
     size_t stride = 0;  ///< texels
     std::vector<float> pixels;
@@ -132,12 +132,12 @@ Result<void> check_faces(const CubeFaces& faces, const std::string& where) {
 
 }  // namespace
 
-ImageRgb32f light_from_picture(const ImageRgba8& picture) {
-    const bool packed = picture.format == "png";
-    ImageRgb32f out{picture.width, picture.height, {}};
-    out.pixels.reserve(3 * picture.texels.size());
-    for (const uint32_t texel : picture.texels) {
-        // No light is infinite: an alpha of 0 counts as the least that there is.
+ImageRgb32f light_from_image(const ImageRgba8& image) {
+    const bool packed = image.format == "png";
+    ImageRgb32f out{image.width, image.height, {}};
+    out.pixels.reserve(3 * image.texels.size());
+    for (const uint32_t texel : image.texels) {
+        // Avoids division by zero: an alpha of 0 counts as 1/255.
         const uint32_t alpha = std::max(texel >> 24, 1U);
         const float divisor = packed ? static_cast<float>(alpha) / 255.0f : 1.0f;
         for (const uint32_t shift : {0U, 8U, 16U})
@@ -165,7 +165,7 @@ Result<ImageRgb32f> environment_from_cube(const CubeFaces& faces,
     PaddedCube cube;
     parallel_for(cube.size(), [&](size_t i) { cube[i] = pad_face(faces, i); });
 
-    const int width = std::max(columns_per_texel * faces[0].width, least_width);
+    const int width = std::max(columns_per_texel * faces[0].width, min_width);
     const int height = width / 2;
     ImageRgb32f out{width, height, {}};
     out.pixels.resize(3 * static_cast<size_t>(width) * static_cast<size_t>(height));
@@ -176,7 +176,7 @@ Result<ImageRgb32f> environment_from_cube(const CubeFaces& faces,
         const double bottom = std::cos(pi_d * static_cast<double>(row + 1) / height);
         std::vector<Vec3d> sums(static_cast<size_t>(width), splat3(0.0));
         for (int k = 0; k < samples_per_side; ++k) {
-            // Even steps of the cosine are even steps of solid angle.
+            // Equal steps of the cosine are equal steps of solid angle.
             const double y = top + (bottom - top) * (k + 0.5) / samples_per_side;
             const double sine = std::sqrt(std::max(1.0 - y * y, 0.0));
             for (size_t i = 0; i < turns.size(); ++i) {

@@ -1,4 +1,4 @@
-// image/decode.cpp - PNG, JPEG, WebP and KTX2 in memory become straight-alpha RGBA8.
+// image/decode.cpp - decodes PNG, JPEG, WebP and KTX2 in memory to straight-alpha RGBA8.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/decode.h"
 
@@ -53,8 +53,8 @@ bool read_wide(OiioInput& input, ImageRgba8& image) {
     return true;
 }
 
-/// Cut-off or undecodable data are an error. Anything else that the JPEG library complains about
-/// and survives, such as stray bytes after the pixels, is a warning.
+/// True for messages of truncated or undecodable data, which are errors. Other messages of the JPEG
+/// library, such as stray bytes after the pixels, are warnings.
 bool means_missing_pixels(const std::string& complaint) {
     const auto says = [&](const char* text) { return complaint.find(text) != std::string::npos; };
     return says("remature end") || (says("Corrupt JPEG data") && !says("xtraneous bytes"));
@@ -141,7 +141,7 @@ Result<ImageRgba8> decode_image(Bytes bytes, const std::string& where, Log& log,
     try {
         if (header->format == ImageFormat::ktx2) return decode_levels(bytes, extent, where, log);
         const size_t count = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
-        image.texels.assign(count, 0xFF000000U);  // opaque, when the picture has no alpha
+        image.texels.assign(count, 0xFF000000U);  // opaque, if the image has no alpha
         image.bits = header->bits;
         if (image.bits == 16 && extent == Extent::stored) image.low_bytes = image.texels;
         Result<void> decoded = header->format != ImageFormat::webp

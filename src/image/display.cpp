@@ -1,4 +1,4 @@
-// image/display.cpp - from scene-linear values to a display, by an OpenColorIO display and view.
+// image/display.cpp - converts scene-linear values by an OpenColorIO display and view.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/display.h"
 
@@ -39,8 +39,8 @@ tl::unexpected<Error> bad_configuration(const char* id,
     return fail(ExitCode::configuration, id, where, std::move(message));
 }
 
-/// Sends OpenColorIO's notes to our log for as long as it lives, instead of standard error.
-/// The library has one function for all threads, so these wait for one another.
+/// Redirects OpenColorIO's notes from standard error to our log while it exists. The library has
+/// one log function for all threads, so these objects exclude each other.
 class OcioNotesToLog {
 public:
     OcioNotesToLog(Log& log, const std::string& where) : turn_(one_at_a_time) {
@@ -111,7 +111,7 @@ std::string lower(std::string text) {
     return text;
 }
 
-/// The entry of `names` that `wanted` means, upper and lower case being equal; "" for none.
+/// The entry of `names` that equals `wanted` regardless of case; "" for none.
 std::string find_name(const std::vector<std::string>& names, const std::string& wanted) {
     for (const std::string& name : names) {
         if (name == wanted) return name;
@@ -167,8 +167,8 @@ Result<DisplayAndView> choose(const NamedConfig& from, const DisplayOptions& opt
     return chosen;
 }
 
-/// The name that a config has for scene-linear Rec.709, else its scene_linear role with a warning;
-/// "" when it has neither.
+/// A config's name for scene-linear Rec.709, else its scene_linear role with a warning; "" if it
+/// has neither.
 std::string input_space(const NamedConfig& from, Log& log) {
     for (const char* name : {"lin_rec709_scene",
                              "Linear Rec.709 (sRGB)",
@@ -212,8 +212,8 @@ Result<DisplayTransform> DisplayTransform::create(const DisplayOptions& options,
         transform->setSrc(space.c_str());
         transform->setDisplay(chosen->display.c_str());
         transform->setView(chosen->view.c_str());
-        const std::string endless = endless_references(*from->config, transform);
-        if (!endless.empty()) return bad_configuration("E-OCIO-CYCLE", from->name, endless);
+        const std::string cycle = cyclic_references(*from->config, transform);
+        if (!cycle.empty()) return bad_configuration("E-OCIO-CYCLE", from->name, cycle);
         auto impl = std::make_unique<Impl>();
         impl->processor = from->config->getProcessor(transform)->getDefaultCPUProcessor();
         impl->exposure = static_cast<float>(std::exp2(options.exposure_ev));

@@ -1,4 +1,4 @@
-// image/display.h - from scene-linear values to a display, by an OpenColorIO display and view.
+// image/display.h - converts scene-linear values by an OpenColorIO display and view.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,7 +22,7 @@ struct DisplayOptions {
 class DisplayTransform {
 public:
     /// Errors  78 E-OCIO-FILE unreadable or bad config, E-OCIO-DISPLAY / E-OCIO-VIEW unknown name
-    ///         (the message lists what there is), E-OCIO-CYCLE references in a circle
+    ///         (the message lists the valid ones), E-OCIO-CYCLE circular references
     static Result<DisplayTransform> create(const DisplayOptions& options, Log& log);
 
     DisplayTransform(DisplayTransform&&) noexcept;

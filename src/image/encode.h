@@ -1,4 +1,4 @@
-// image/encode.h - finished pictures become encoded bytes in memory.
+// image/encode.h - encodes finished images in memory.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,27 +11,27 @@
 
 namespace obscura {
 
-/// A picture as an OpenEXR file. The same picture gives the same bytes on any number of threads.
-/// Throws what OpenEXR throws.
-std::vector<std::byte> encode_exr(const Picture& picture,
-                                  const PictureMetadata& metadata,
+/// Encodes an image as an OpenEXR file. The same image gives the same bytes on any number of
+/// threads. OpenEXR's exceptions pass through.
+std::vector<std::byte> encode_exr(const OutputImage& image,
+                                  const ImageMetadata& metadata,
                                   ExrDepth depth,
                                   const std::string& name);
 
 enum class DisplayFormat { png, jpeg };
 
-/// A picture of 1 to 4 channels as PNG or JPEG; see write_picture.
+/// Encodes an image of 1 to 4 channels as PNG or JPEG; see write_image_file.
 ///
-/// Errors  70 E-OUT-ENCODE what the library says
-Result<std::vector<std::byte>> encode_for_display(const Picture& picture,
-                                                  const PictureMetadata& metadata,
+/// Errors  70 E-OUT-ENCODE with the library's message
+Result<std::vector<std::byte>> encode_for_display(const OutputImage& image,
+                                                  const ImageMetadata& metadata,
                                                   DisplayFormat format,
                                                   const DisplayTransform* display,
                                                   const std::string& where);
 
-/// The picture's 8-bit code values, interleaved, as encode_for_display stores them: grey, RGB or
-/// RGBA (JPEG: never alpha).
-std::vector<unsigned char> display_codes(const Picture& picture,
+/// The image's interleaved 8-bit code values, as encode_for_display stores them: grey, RGB or RGBA
+/// (JPEG: never alpha).
+std::vector<unsigned char> display_codes(const OutputImage& image,
                                          bool keep_alpha,
                                          const DisplayTransform* display);
 

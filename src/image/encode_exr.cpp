@@ -1,4 +1,4 @@
-// image/encode_exr.cpp - finished pictures become OpenEXR files in memory.
+// image/encode_exr.cpp - encodes finished images as OpenEXR.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/log.h"
 #include "base/parallel.h"
@@ -35,33 +35,33 @@ Imath::M44f matrix_from(const float values[16]) {
     return matrix;
 }
 
-/// Names from an asset may hold control characters, which a terminal would obey when they are
-/// shown.
+/// Inserts a text attribute. Escapes control characters: names from an asset may hold some, which
+/// terminals would execute.
 void insert_text(Imf::Header& header, const std::string& name, const std::string& text) {
     if (!text.empty()) header.insert(name, Imf::StringAttribute(escape_control(text)));
 }
 
-/// The part of an image that the pixels are; at the origin where they are all of it.
-Imath::Box2i data_window(const Picture& picture) {
+/// The data window: the position of the pixels in the image that they are a part of.
+Imath::Box2i data_window(const OutputImage& image) {
     const Imath::V2i low =
-        picture.part_of ? Imath::V2i(picture.part_of->x, picture.part_of->y) : Imath::V2i(0, 0);
-    return {low, low + Imath::V2i(picture.width - 1, picture.height - 1)};
+        image.part_of ? Imath::V2i(image.part_of->x, image.part_of->y) : Imath::V2i(0, 0);
+    return {low, low + Imath::V2i(image.width - 1, image.height - 1)};
 }
 
-Imf::Header header_of_size(const Picture& picture) {
-    const Imath::Box2i data = data_window(picture);
-    if (!picture.part_of) return {data, data};
-    return {{{0, 0}, {picture.part_of->width - 1, picture.part_of->height - 1}}, data};
+Imf::Header header_of_size(const OutputImage& image) {
+    const Imath::Box2i data = data_window(image);
+    if (!image.part_of) return {data, data};
+    return {{{0, 0}, {image.part_of->width - 1, image.part_of->height - 1}}, data};
 }
 
-Imf::Header header_of(const Picture& picture, const PictureMetadata& metadata, ExrDepth depth) {
-    Imf::Header header = header_of_size(picture);
+Imf::Header header_of(const OutputImage& image, const ImageMetadata& metadata, ExrDepth depth) {
+    Imf::Header header = header_of_size(image);
     header.compression() = Imf::ZIP_COMPRESSION;
     const Imf::PixelType type = depth == ExrDepth::half ? Imf::HALF : Imf::FLOAT;
-    for (const std::string& name : picture.channels) {
+    for (const std::string& name : image.channels) {
         header.channels().insert(name, Imf::Channel(type));
     }
-    // First, so that they cannot take the place of an attribute below.
+    // First, so that they cannot replace an attribute below.
     for (const auto& [name, text] : metadata.extra)
         insert_text(header, name, text);
     if (metadata.is_color) Imf::addChromaticities(header, Imf::Chromaticities());  // Rec.709
@@ -91,13 +91,12 @@ std::vector<half> halves_of(std::span<const float> values) {
     return halves;
 }
 
-/// Large pictures are compressed on the threads that the process has for OpenEXR; small ones are
-/// not worth starting them.
-int compression_threads(const Picture& picture) {
+/// Large images are compressed on OpenEXR's threads; for small ones starting them does not pay.
+int compression_threads(const OutputImage& image) {
     constexpr size_t large = 1 << 20;
-    constexpr size_t most = 16;
-    if (picture.pixels.size() < large) return 0;
-    const int threads = static_cast<int>(std::min(max_thread_index(), most));
+    constexpr size_t max_threads = 16;
+    if (image.pixels.size() < large) return 0;
+    const int threads = static_cast<int>(std::min(max_thread_index(), max_threads));
     if (owns_process_settings() && Imf::globalThreadCount() < threads) {
         Imf::setGlobalThreadCount(threads);
     }
@@ -106,33 +105,32 @@ int compression_threads(const Picture& picture) {
 
 }  // namespace
 
-std::vector<std::byte> encode_exr(const Picture& picture,
-                                  const PictureMetadata& metadata,
+std::vector<std::byte> encode_exr(const OutputImage& image,
+                                  const ImageMetadata& metadata,
                                   ExrDepth depth,
                                   const std::string& name) {
     const bool is_half = depth == ExrDepth::half;
-    const std::vector<half> halves = is_half ? halves_of(picture.pixels) : std::vector<half>();
+    const std::vector<half> halves = is_half ? halves_of(image.pixels) : std::vector<half>();
     const size_t value_bytes = is_half ? sizeof(half) : sizeof(float);
-    const size_t pixel_bytes = value_bytes * picture.channels.size();
+    const size_t pixel_bytes = value_bytes * image.channels.size();
     const void* data = is_half ? static_cast<const void*>(halves.data())
-                               : static_cast<const void*>(picture.pixels.data());
+                               : static_cast<const void*>(image.pixels.data());
     // OpenEXR's frame buffers serve reading too and are never const; writing does not change them.
     char* base = const_cast<char*>(static_cast<const char*>(data));
     Imf::FrameBuffer buffer;
-    for (size_t i = 0; i < picture.channels.size(); ++i) {
-        buffer.insert(picture.channels[i],
+    for (size_t i = 0; i < image.channels.size(); ++i) {
+        buffer.insert(image.channels[i],
                       Imf::Slice::Make(is_half ? Imf::HALF : Imf::FLOAT,
                                        base + i * value_bytes,
-                                       data_window(picture),
+                                       data_window(image),
                                        pixel_bytes,
-                                       pixel_bytes * static_cast<size_t>(picture.width)));
+                                       pixel_bytes * static_cast<size_t>(image.width)));
     }
     ExrMemoryWriter stream(name.c_str());
     {
-        Imf::OutputFile file(
-            stream, header_of(picture, metadata, depth), compression_threads(picture));
+        Imf::OutputFile file(stream, header_of(image, metadata, depth), compression_threads(image));
         file.setFrameBuffer(buffer);
-        file.writePixels(picture.height);
+        file.writePixels(image.height);
     }  // the table of offsets is written here
     return stream.take();
 }

@@ -1,4 +1,4 @@
-// image/environment.cpp - an environment picture on disk becomes clean linear RGB.
+// image/environment.cpp - reads an environment map from disk as finite linear RGB.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/decode.h"
 #include "image/environment_exr.h"
@@ -72,7 +72,7 @@ bool is_radiance_hdr(Bytes bytes) {
     return bytes.size() >= 2 && std::memcmp(bytes.data(), "#?", 2) == 0;
 }
 
-/// Reads "<axis> <number>" from the front of `line`; 0 when it is something else.
+/// Consumes "<axis> <number>" at the front of `line`; 0 if there is something else.
 int64_t take_side(std::string_view& line, std::string_view axis) {
     if (line.substr(0, axis.size()) != axis) return 0;
     line.remove_prefix(axis.size());
@@ -147,7 +147,7 @@ Result<ImageRgb32f> read_8_bit(Bytes bytes, const std::string& where, Log& log) 
     return result;
 }
 
-/// Makes every value finite and not negative, and says how many were not.
+/// Makes every value finite and not negative, and warns of the number of changed ones.
 void clean(ImageRgb32f& image, const std::string& where, Log& log) {
     constexpr float largest_half = 65504;
     size_t replaced = 0;

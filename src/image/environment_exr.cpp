@@ -1,4 +1,4 @@
-// image/environment_exr.cpp - an OpenEXR file in memory becomes linear RGB.
+// image/environment_exr.cpp - reads OpenEXR files in memory as linear RGB.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/environment_exr.h"
 
@@ -29,7 +29,7 @@ tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) 
     return fail(ExitCode::bad_resource, "E-ENV-CORRUPT", where, why);
 }
 
-/// Walks over the bytes of a header; everything is empty or 0 after the end.
+/// Reads the bytes of a header; after the end everything is empty or 0.
 struct HeaderReader {
     Bytes rest;
 
@@ -49,7 +49,7 @@ struct HeaderReader {
     void skip(size_t count) { rest = rest.subspan(std::min(count, rest.size())); }
 };
 
-/// One part's header: what OpenEXR allocates by as soon as it opens a file.
+/// The sizes in one part's header, by which OpenEXR allocates memory when it opens a file.
 struct PartSize {
     bool is_whole = false;  ///< its end was found
     std::optional<std::array<int64_t, 2>> window;
@@ -83,8 +83,8 @@ PartSize read_part(HeaderReader& reader) {
     return part;
 }
 
-/// OpenEXR allocates tables in proportion to the sizes of all parts and of their tiles: look at
-/// them before. Its own limits hold for a whole process, which is not ours to change.
+/// Checks the sizes of all parts and tiles first, because OpenEXR allocates tables in proportion to
+/// them. Its own limits are process-wide, which a library must not change.
 Result<void> check_sizes(Bytes bytes, const std::string& where) {
     constexpr size_t magic_and_flags = 8;
     constexpr int32_t several_parts = 0x1000;
@@ -111,7 +111,7 @@ Result<void> check_sizes(Bytes bytes, const std::string& where) {
     return {};
 }
 
-/// The channels of red, green and blue; all the same for a luminance picture; empty if none.
+/// The channels of red, green and blue; all the same for a luminance image; empty if none.
 Names color_channels(const Imf::ChannelList& channels) {
     const auto has = [&](const std::string& name) { return channels.findChannel(name) != nullptr; };
     if (has("R") && has("G") && has("B")) return {"R", "G", "B"};

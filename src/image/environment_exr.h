@@ -1,4 +1,4 @@
-// image/environment_exr.h - an OpenEXR file in memory becomes linear RGB.
+// image/environment_exr.h - reads OpenEXR files in memory as linear RGB.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,7 +16,7 @@ namespace obscura {
 bool is_exr(std::span<const std::byte> bytes);
 
 /// Reads R, G, B (of the file itself, else of its first layer that has them) or Y of the first
-/// part's data window. Values are as they are in the file.
+/// part's data window. Values are not changed.
 ///
 /// Errors  67 E-ENV-CORRUPT, 65 E-ENV-ASPECT, 77 E-ENV-LIMIT (before allocating)
 Result<ImageRgb32f> read_exr(std::span<const std::byte> bytes, const std::string& where, Log& log);

@@ -1,4 +1,4 @@
-// image/etc1s.cpp - ETC1S blocks become texels.
+// image/etc1s.cpp - decodes ETC1S blocks to texels.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/etc1s.h"
 
@@ -9,7 +9,7 @@ namespace obscura {
 
 namespace {
 
-/// Added to all three channels, by table and selector.
+/// Steps that are added to all three channels, by table and selector.
 constexpr int brightness_steps[8][4] = {{-8, -2, 2, 8},
                                         {-17, -5, 5, 17},
                                         {-29, -9, 9, 29},

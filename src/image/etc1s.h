@@ -1,4 +1,4 @@
-// image/etc1s.h - ETC1S blocks: one colour, one table of brightness steps, 16 selectors.
+// image/etc1s.h - ETC1S blocks: one base colour, one table of brightness steps, 16 selectors.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// image/exr_stream.h - OpenEXR files in memory.
+// image/exr_stream.h - OpenEXR streams over memory.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace obscura {
 
-/// Reads from bytes that outlive it.
+/// Reads from bytes, which must outlive it.
 class ExrMemoryReader final : public Imf::IStream {
 public:
     ExrMemoryReader(std::span<const std::byte> bytes, const char* name)
@@ -38,7 +38,7 @@ private:
     uint64_t position_ = 0;
 };
 
-/// Collects what is written; OpenEXR goes back once, to fill in its table of offsets.
+/// Collects written bytes; OpenEXR seeks back once, to fill in its table of offsets.
 class ExrMemoryWriter final : public Imf::OStream {
 public:
     explicit ExrMemoryWriter(const char* name) : Imf::OStream(name) {}

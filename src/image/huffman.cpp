@@ -9,7 +9,7 @@ namespace obscura {
 
 namespace {
 
-/// Codes are compared from their first bit on, which is the lowest in the stream.
+/// Reverses a code, because its first bit is the lowest in the stream.
 uint32_t reversed(uint32_t code, int length) {
     uint32_t out = 0;
     for (int i = 0; i < length; ++i)
@@ -17,7 +17,7 @@ uint32_t reversed(uint32_t code, int length) {
     return out;
 }
 
-/// What a symbol among the code lengths of a table does.
+/// The meaning of a symbol among a table's code lengths.
 struct LengthRun {
     bool repeats;  ///< the last length, else 0
     uint32_t least;

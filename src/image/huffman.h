@@ -21,7 +21,7 @@ public:
     /// Errors  false: with two symbols or more, the codes leave a gap or overlap
     bool build(std::span<const uint8_t> lengths);
 
-    /// The next symbol; -1 where the bits are no code, always so for a table without symbols.
+    /// The next symbol; -1 if the bits are no code, as always for a table without symbols.
     int decode(BitReader& bits) const;
 
 private:

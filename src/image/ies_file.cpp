@@ -1,4 +1,4 @@
-// image/ies_file.cpp - a photometric file by IES LM-63 becomes a table of luminous intensity.
+// image/ies_file.cpp - reads IES LM-63 photometric files.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/ies_file.h"
 
@@ -14,11 +14,11 @@ namespace {
 
 enum class Photometry { c = 1, b = 2, a = 3 };  // the file's numbers
 
-/// Factors and intensities beyond these are no lamp's; products stay finite in single precision.
+/// Limits of plausible factors and intensities; products stay finite in single precision.
 constexpr double largest_factor = 1e9;
 constexpr double largest_candela = 1e12;
 
-/// Numbers between blanks and commas, and which line they are on.
+/// Reads numbers separated by blanks and commas, and counts lines.
 struct NumberReader {
     std::string_view rest;
     std::string where;
@@ -36,7 +36,7 @@ struct NumberReader {
         rest.remove_prefix(length);
     }
 
-    /// What is read, for the message, and where it must lie.
+    /// Description of a number, for messages, and its range.
     struct Wanted {
         const char* what;
         double low;
@@ -86,7 +86,7 @@ struct NumberReader {
     }
 };
 
-/// What stands between TILT and the angles.
+/// The data between TILT and the angles.
 struct Header {
     double candela_factor = 1;
     size_t polar_count = 0;
@@ -94,9 +94,9 @@ struct Header {
     Photometry type = Photometry::c;
 };
 
-/// Finds the line that begins with TILT=; the reader then stands behind it.
+/// Moves the reader behind the line that begins with TILT=.
 ///
-/// Out     what follows the equals sign
+/// Out     the text after the equals sign
 Result<std::string_view> find_tilt(NumberReader& reader) {
     constexpr std::string_view key = "TILT=";
     while (!reader.rest.empty()) {
@@ -131,7 +131,7 @@ Result<void> skip_tilt(NumberReader& reader) {
     return skipped ? Result<void>{} : fail(skipped.error());
 }
 
-/// In      old: of 1986 or 1991, where the second number behind the sizes is a factor
+/// In      old: editions 1986 and 1991, where the second number after the sizes is a factor
 Result<Header> read_header(NumberReader& reader, bool old) {
     // A number needs a digit and a blank, so the rest of the file bounds how many there are.
     const auto most = static_cast<double>(reader.rest.size());
@@ -173,14 +173,14 @@ Result<Header> read_header(NumberReader& reader, bool old) {
     return out;
 }
 
-/// A file's planes as they are: angles in degrees, candela[plane][angle].
+/// The planes stored in a file: angles in degrees, candela[plane][angle].
 struct Planes {
     std::vector<double> angles;  ///< within a plane: "vertical"
     std::vector<double> places;  ///< of the planes: "horizontal"
     std::vector<std::vector<double>> candela;
 };
 
-/// In single precision, as the table has them.
+/// Whether angles rise strictly in single precision, the table's type.
 bool rises(const std::vector<double>& angles) {
     const auto stays = [](double a, double b) {
         return static_cast<float>(a) >= static_cast<float>(b);
@@ -211,7 +211,7 @@ Result<Planes> read_planes(NumberReader& reader, const Header& header) {
     return out;
 }
 
-/// Adds the mirror images of all planes behind the last one, which lies on the mirror.
+/// Appends the mirror images of all planes; the last plane is the mirror.
 void mirror_behind(Planes& planes) {
     const double mirror = planes.places.back();
     for (size_t i = planes.places.size() - 1; i-- > 0;) {
@@ -220,7 +220,7 @@ void mirror_behind(Planes& planes) {
     }
 }
 
-/// Adds mirror images of the planes above 0 before the first one.
+/// Prepends the mirror images of the planes above 0.
 void mirror_before_zero(Planes& planes) {
     const size_t skip = planes.places.front() == 0 ? 1 : 0;
     Planes out;
@@ -247,7 +247,7 @@ void mirror_angles(Planes& planes) {
         extend(plane, 1.0);
 }
 
-/// Makes the full circle of type C from the range that the file gives.
+/// Completes the planes of type C to the full circle.
 Result<void> close_circle(const NumberReader& reader, Planes& planes) {
     const double first = planes.places.front();
     const double last = planes.places.back();
@@ -258,7 +258,7 @@ Result<void> close_circle(const NumberReader& reader, Planes& planes) {
         return {};
     }
     if (first == 0 && last == 360) return {};
-    if (first == 0 && last > 180) {  // some programs leave out the plane at 360, which is that at 0
+    if (first == 0 && last > 180) {  // some programs omit the plane at 360, which equals that at 0
         planes.places.push_back(360);
         planes.candela.push_back(planes.candela.front());
         return {};
@@ -272,7 +272,7 @@ Result<void> close_circle(const NumberReader& reader, Planes& planes) {
 LightProfile profile_of(Planes planes, Photometry type) {
     LightProfile out;
     out.polar_is_aim = type == Photometry::c;
-    if (!out.polar_is_aim) {  // angles count from the plane that the polar axis stands on
+    if (!out.polar_is_aim) {  // angles count from the plane perpendicular to the polar axis
         for (double& angle : planes.angles)
             angle = 90.0 - angle;
         std::reverse(planes.angles.begin(), planes.angles.end());
@@ -290,8 +290,7 @@ LightProfile profile_of(Planes planes, Photometry type) {
     return out;
 }
 
-/// The first edition had no line with its name, the second one was "IESNA91" before it had a long
-/// name.
+/// True for the editions of 1986, which has no line with its name, and of 1991 ("IESNA91").
 bool is_before_1995(std::string_view text) {
     const std::string_view first = text.substr(0, text.find_first_of("\r\n"));
     return first.substr(0, 3) != "IES" || first.find("86") != std::string_view::npos ||

@@ -1,4 +1,4 @@
-// image/ies_file.h - a photometric file by IES LM-63 becomes a table of luminous intensity.
+// image/ies_file.h - reads IES LM-63 photometric files.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,12 +13,12 @@ namespace obscura {
 
 /// Reads LM-63 of 1986, 1991, 1995, 2002 and 2019, with photometry of types A, B and C. Candela
 /// are multiplied by the file's multiplier and ballast factor, before 1995 also by the ballast-lamp
-/// photometric factor. What a tilted lamp does to its light (TILT) is read over: the files say it
-/// of the lamp's position, and a scene does not. Planes that symmetry leaves out are made.
+/// photometric factor. The effect of lamp tilt (TILT) is ignored: it depends on how the lamp is
+/// mounted, which a scene does not describe. Planes that symmetry omits are reconstructed.
 ///
 /// Out     type C: the polar axis is the aim (straight down), the zero axis horizontal angle 0;
-///         A and B: the polar axis lies across the aim, the zero axis is the aim; what a file
-///         calls clockwise grows towards cross(zero axis, polar axis)
+///         A and B: the zero axis is the aim, the polar axis is perpendicular to it; a file's
+///         clockwise angles grow towards cross(zero axis, polar axis)
 /// Errors  65 E-IES-FORMAT no line TILT=, E-IES-SHORT cut off, E-IES-NUMBER not a number or out of
 ///         its range, E-IES-TYPE, E-IES-ANGLES do not rise or are not those of the type;
 ///         `where` and the line are in the message

@@ -1,4 +1,4 @@
-// image/image_header.cpp - what an encoded picture says about itself, read without decoding it.
+// image/image_header.cpp - reads the header of an encoded image without decoding it.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/image_header.h"
 
@@ -14,8 +14,8 @@ namespace obscura {
 namespace {
 
 constexpr int64_t longest_side = 65536;
-constexpr int64_t most_bytes = int64_t{1} << 31;
-constexpr int most_jpeg_scans = 1000;
+constexpr int64_t max_bytes = int64_t{1} << 31;
+constexpr int max_jpeg_scans = 1000;
 
 using Bytes = std::span<const std::byte>;
 
@@ -40,7 +40,7 @@ tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) 
     return fail(ExitCode::bad_resource, "E-IMG-CORRUPT", where, why);
 }
 
-/// A guess for people: which format the first bytes belong to.
+/// The probable format of the first bytes, for messages.
 const char* looks_like(Bytes bytes) {
     struct Magic {
         size_t at;
@@ -75,9 +75,9 @@ const char* looks_like(Bytes bytes) {
     return bytes.empty() ? "an empty file" : "an unknown format";
 }
 
-/// A few bytes that promise a large picture are refused before it is allocated.
-Result<void> check_enough_data(Bytes bytes, int64_t least_bytes, const std::string& where) {
-    if (static_cast<int64_t>(bytes.size()) >= least_bytes) return {};
+/// Refuses files that are too short for the image size in their header, before it is allocated.
+Result<void> check_enough_data(Bytes bytes, int64_t min_bytes, const std::string& where) {
+    if (static_cast<int64_t>(bytes.size()) >= min_bytes) return {};
     return corrupt(where,
                    std::to_string(bytes.size()) +
                        " bytes cannot hold a picture of the size in its header: it is cut off");
@@ -103,8 +103,8 @@ Result<ImageHeader> read_png(Bytes bytes, const std::string& where) {
         return fail(std::move(fits.error()));
     }
     constexpr int64_t best_compression = 1032;  // of the deflate method
-    const int64_t least_bytes = png_row_bytes(bytes, width) * height / best_compression;
-    if (auto enough = check_enough_data(bytes, least_bytes, where); !enough) {
+    const int64_t min_bytes = png_row_bytes(bytes, width) * height / best_compression;
+    if (auto enough = check_enough_data(bytes, min_bytes, where); !enough) {
         return fail(std::move(enough.error()));
     }
     header.width = static_cast<int>(width);
@@ -127,7 +127,7 @@ bool is_start_of_frame(uint32_t marker) {
     return marker >= 0xC0 && marker <= 0xCF && marker != 0xC4 && marker != 0xC8 && marker != 0xCC;
 }
 
-/// Baseline, extended and progressive, Huffman or arithmetic; 8 bits.
+/// Reads the frame header of an 8-bit JPEG: baseline, extended or progressive, in either coding.
 Result<ImageHeader> read_jpeg_frame(Bytes frame, uint32_t marker, const std::string& where) {
     if (frame.size() < 8) return corrupt(where, "the JPEG frame header is cut off");
     const bool read = marker <= 0xC2 || marker == 0xC9 || marker == 0xCA;
@@ -152,7 +152,7 @@ Result<ImageHeader> read_jpeg_frame(Bytes frame, uint32_t marker, const std::str
 int count_scans(Bytes bytes, size_t at) {
     int scans = 0;
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    while (scans <= most_jpeg_scans && at + 1 < bytes.size()) {
+    while (scans <= max_jpeg_scans && at + 1 < bytes.size()) {
         const void* found = std::memchr(data + at, 0xFF, bytes.size() - 1 - at);
         if (!found) break;
         at = static_cast<size_t>(static_cast<const unsigned char*>(found) - data) + 1;
@@ -179,7 +179,7 @@ Result<ImageHeader> read_jpeg(Bytes bytes, const std::string& where) {
         const size_t length = big_endian_16(bytes, at + 2);
         if (length < 2 || at + 2 + length > bytes.size()) break;
         if (is_start_of_frame(marker)) {
-            if (count_scans(bytes, at + 2 + length) > most_jpeg_scans) {
+            if (count_scans(bytes, at + 2 + length) > max_jpeg_scans) {
                 return fail(ExitCode::refused,
                             "E-IMG-LIMIT",
                             where,
@@ -189,8 +189,8 @@ Result<ImageHeader> read_jpeg(Bytes bytes, const std::string& where) {
             auto header = read_jpeg_frame(bytes.subspan(at + 2, length), marker, where);
             if (!header || marker > 0xC2) return header;
             // Huffman coding spends at least one bit on each block of 8 x 8 pixels.
-            const int64_t least_bytes = int64_t{header->width} * header->height / 512;
-            if (auto enough = check_enough_data(bytes, least_bytes, where); !enough) {
+            const int64_t min_bytes = int64_t{header->width} * header->height / 512;
+            if (auto enough = check_enough_data(bytes, min_bytes, where); !enough) {
                 return fail(std::move(enough.error()));
             }
             return header;
@@ -252,15 +252,14 @@ Result<void> check_image_size(int64_t width,
                     size + "; at least 1 x 1 is needed");
     }
     if (width <= longest_side && height <= longest_side &&
-        width * height <= most_bytes / bytes_per_pixel) {
+        width * height <= max_bytes / bytes_per_pixel) {
         return {};
     }
     return fail(ExitCode::refused,
                 family + "-LIMIT",
                 where,
                 size + "; accepted are sides up to " + std::to_string(longest_side) +
-                    " and, altogether, " + std::to_string(most_bytes / bytes_per_pixel) +
-                    " pixels");
+                    " and, altogether, " + std::to_string(max_bytes / bytes_per_pixel) + " pixels");
 }
 
 Result<ImageHeader> read_image_header(Bytes bytes, const std::string& where) {

@@ -1,4 +1,4 @@
-// image/image_header.h - what an encoded picture says about itself, read without decoding it.
+// image/image_header.h - reads the header of an encoded image without decoding it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,14 +21,14 @@ struct ImageHeader {
     bool animated = false;
     int levels = 1;  ///< mip levels that it stores
     ImageEncoding encoding = ImageEncoding::unsaid;
-    int bits = 8;  ///< of a channel: 16, or 8 where there are fewer
+    int bits = 8;  ///< per channel: 16, or 8 for 8 and fewer
 };
 
 /// "png", "jpeg", "webp" or "ktx2".
 const char* format_name(ImageFormat format);
 
-/// Tells PNG, JPEG, WebP and KTX2 apart by their first bytes and reads the size. No library is
-/// touched and nothing is allocated, so that a header that promises too much costs nothing.
+/// Tells PNG, JPEG, WebP and KTX2 apart by their first bytes and reads the size. Uses no library
+/// and allocates nothing, so that headers with excessive sizes do no harm.
 ///
 /// Errors  67 E-IMG-FORMAT none of the four (says what it looks like), 67 E-IMG-CORRUPT the
 ///         header is cut off or broken, 69 E-IMG-FEATURE a JPEG process that is not read
@@ -36,7 +36,7 @@ const char* format_name(ImageFormat format);
 ///         side over 65536, over 2^29 pixels, or a JPEG of more than 1000 scans
 Result<ImageHeader> read_image_header(std::span<const std::byte> bytes, const std::string& where);
 
-/// Refuses pictures that are too large to decode, before anything is allocated.
+/// Refuses images that are too large to decode, before anything is allocated.
 ///
 /// In      family: first part of the error's name, such as "E-IMG"
 /// Errors  77 "<family>-LIMIT" a side over 65536 or more than 2 GiB when decoded,

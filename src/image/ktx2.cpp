@@ -1,4 +1,4 @@
-// image/ktx2.cpp - KTX 2.0 files become straight RGBA8 with the mip levels that they store.
+// image/ktx2.cpp - decodes KTX 2.0 files to straight-alpha RGBA8 with their mip levels.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/ktx2.h"
 
@@ -20,7 +20,7 @@ tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) 
     return fail(ExitCode::bad_resource, "E-IMG-CORRUPT", where, why);
 }
 
-/// A stored texel as the material reads it.
+/// A stored texel with its channels in RGBA order, as materials read it.
 uint32_t as_seen(uint32_t texel, Ktx2Channels channels) {
     const uint32_t red = texel & 0xFFU;
     switch (channels) {

@@ -1,4 +1,4 @@
-// image/ktx2.h - KTX 2.0 files become straight RGBA8 with the mip levels that they store.
+// image/ktx2.h - decodes KTX 2.0 files to straight-alpha RGBA8 with their mip levels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

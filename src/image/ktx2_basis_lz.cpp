@@ -1,4 +1,4 @@
-// image/ktx2_basis_lz.cpp - finds BasisLZ's parts in a KTX 2.0 file and paints its levels.
+// image/ktx2_basis_lz.cpp - decodes the BasisLZ data of a KTX 2.0 file into mip levels.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/basis_lz.h"
 #include "image/ktx2.h"
@@ -13,8 +13,8 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-constexpr size_t counts_bytes = 20;  // of the global data, before the pictures' rows
-constexpr size_t picture_bytes = 20;
+constexpr size_t counts_bytes = 20;  // of the global data, before the images' rows
+constexpr size_t image_bytes = 20;
 constexpr uint32_t flag_p_frame = 2;
 constexpr uint32_t red_mask = 0xFFU;
 constexpr uint32_t green_mask = 0xFF00U;
@@ -32,14 +32,14 @@ tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) 
 
 Result<BasisLz> read_global(const Ktx2Header& header, const std::string& where) {
     const Bytes bytes = header.global_bytes;
-    const size_t pictures = static_cast<size_t>(header.levels_in_file) * picture_bytes;
-    if (bytes.size() < counts_bytes + pictures) {
+    const size_t images = static_cast<size_t>(header.levels_in_file) * image_bytes;
+    if (bytes.size() < counts_bytes + images) {
         return corrupt(where, "the KTX2 file's BasisLZ global data are cut off");
     }
     const uint32_t counts = little_endian_32(bytes, 0);
     const uint32_t endpoint_bytes = little_endian_32(bytes, 4);
     const uint32_t selector_bytes = little_endian_32(bytes, 8);
-    uint64_t at = counts_bytes + pictures;
+    uint64_t at = counts_bytes + images;
     const auto endpoint_range = range_of(bytes, at, endpoint_bytes);
     at += endpoint_bytes;
     const auto selector_range = range_of(bytes, at, selector_bytes);
@@ -57,7 +57,7 @@ Result<BasisLz> read_global(const Ktx2Header& header, const std::string& where) 
     return BasisLz{{std::move(*endpoints), std::move(*selectors)}, std::move(*codes)};
 }
 
-/// Decodes a slice into some channels of a level. False: it is broken.
+/// Decodes a slice into some channels of a level; false if it is broken.
 bool paint_slice(std::optional<Bytes> slice,
                  const BasisLz& basis,
                  const TexelLevel& level,
@@ -74,7 +74,7 @@ bool paint_slice(std::optional<Bytes> slice,
         for (int column = 0; column < level.block_columns(); ++column, ++next) {
             TexelBlock block = decode_etc1s_block(basis.books.endpoints[next->endpoint],
                                                   basis.books.selectors[next->selector]);
-            if (mask == alpha_mask) {  // alpha is stored as a grey picture
+            if (mask == alpha_mask) {  // alpha is stored as a grey image
                 for (uint32_t& texel : block)
                     texel <<= 16;
             }
@@ -94,7 +94,7 @@ Result<void> decode_basis_lz(const Ktx2Header& header,
     const bool is_red_green = header.channels == Ktx2Channels::red_green;
     const bool has_second = is_red_green || header.channels == Ktx2Channels::rgba;
     for (size_t i = 0; i < levels.size(); ++i) {
-        const size_t at = counts_bytes + i * picture_bytes;
+        const size_t at = counts_bytes + i * image_bytes;
         const auto field = [&](size_t number) {
             return little_endian_32(header.global_bytes, at + 4 * number);
         };

@@ -1,4 +1,4 @@
-// image/ktx2_header.cpp - reads the header, the index, and the description of a KTX 2.0 file.
+// image/ktx2_header.cpp - reads header, index and data format descriptor of a KTX 2.0 file.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/ktx2_header.h"
 
@@ -24,7 +24,7 @@ constexpr std::string_view identifier("\xABKTX 20\xBB\r\n\x1A\n", 12);
 constexpr size_t header_bytes = 80;
 constexpr size_t level_entry_bytes = 24;
 
-/// Where the header's fields are.
+/// Byte offsets of the header's fields.
 enum Field : size_t {
     at_vk_format = 12,
     at_width = 20,
@@ -79,12 +79,12 @@ Result<void> read_shape(Bytes bytes, Ktx2Header& header, const std::string& wher
     header.width = static_cast<int>(width);
     header.height = static_cast<int>(height);
     const uint32_t levels = std::max(little_endian_32(bytes, at_levels), 1U);
-    const auto most = static_cast<uint32_t>(
+    const auto max_levels = static_cast<uint32_t>(
         std::bit_width(static_cast<uint32_t>(std::max(header.width, header.height))));
-    if (levels > most) {
+    if (levels > max_levels) {
         return corrupt(where,
                        "the KTX2 file has " + std::to_string(levels) + " levels; its size allows " +
-                           std::to_string(most));
+                           std::to_string(max_levels));
     }
     header.levels = static_cast<int>(levels);
     header.levels_in_file = header.levels;
@@ -159,7 +159,7 @@ std::optional<Ktx2Channels> uastc_channels(const Description& description) {
     }
 }
 
-/// How many bytes a texel of a plain format has; 0: not one of those that are read.
+/// Bytes per texel of an uncompressed format; 0: not supported.
 int plain_texel_bytes(uint32_t vk_format) {
     switch (vk_format) {  // of each the UNORM and the SRGB format
         case 9:
@@ -217,7 +217,7 @@ Result<void> read_coding(Bytes bytes, Ktx2Header& header, const std::string& whe
     return {};
 }
 
-/// The text of an entry without the 0 at its end; nullopt: the entries are cut off.
+/// The text of an entry without the terminating 0; nullopt: the entries are truncated.
 std::optional<std::string_view> find_value(Bytes entries, std::string_view key) {
     while (!entries.empty()) {
         const auto size = range_of(entries, 0, 4);

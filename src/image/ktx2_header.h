@@ -1,10 +1,10 @@
-// image/ktx2_header.h - what a KTX 2.0 file says about itself, and where its levels lie.
+// image/ktx2_header.h - the header of a KTX 2.0 file, and the position of its levels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "base/error.h"
 #include "image/pixels.h"
-#include "surface/texture_row.h"
+#include "surface/texture_record.h"
 
 #include <array>
 #include <cstddef>
@@ -15,8 +15,8 @@ namespace obscura {
 
 enum class Ktx2Coding { basis_lz, uastc, plain };
 
-/// Which channels a picture has. Those that it has not become 0, alpha opaque; `red` is repeated
-/// in green and blue.
+/// The channels of an image. Missing ones become 0, alpha opaque; `red` is repeated in green and
+/// blue.
 enum class Ktx2Channels {
     rgb,
     rgba,
@@ -54,7 +54,7 @@ bool is_ktx2(std::span<const std::byte> bytes);
 ///
 /// In      bytes: the whole file, which is_ktx2 knows; where: for messages
 /// Errors  67 E-IMG-CORRUPT cut off or contradictory, 77 E-IMG-LIMIT too large,
-///         69 E-IMG-FEATURE not a 2D picture, or stored in a way that glTF does not allow: a
+///         69 E-IMG-FEATURE not a 2D image, or stored in a way that glTF does not allow: a
 ///         format, supercompression, orientation or swizzle that is not read
 /// Source  Khronos, "KTX File Format Specification", version 2.0
 Result<Ktx2Header> read_ktx2_header(std::span<const std::byte> bytes, const std::string& where);

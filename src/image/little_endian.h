@@ -1,4 +1,4 @@
-// image/little_endian.h - numbers and ranges in bytes that nobody has checked yet.
+// image/little_endian.h - little-endian numbers, and bounds-checked ranges, in bytes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace obscura {
 
-/// Four bytes at `at`, the lowest first; they must be there.
+/// Four bytes at `at`, the lowest first; the caller has checked that they exist.
 inline uint32_t little_endian_32(std::span<const std::byte> bytes, size_t at) {
     uint32_t value = 0;
     for (size_t i = 4; i-- > 0;)

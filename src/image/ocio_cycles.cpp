@@ -1,4 +1,4 @@
-// image/ocio_cycles.cpp - finds what makes OpenColorIO follow a config's references for ever.
+// image/ocio_cycles.cpp - detects circular references in an OpenColorIO config.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/ocio_cycles.h"
 
@@ -13,10 +13,10 @@ namespace ocio = OCIO_NAMESPACE;
 
 namespace {
 
-/// Names within names: OpenColorIO needs a few hundred bytes of stack for each.
+/// Maximum nesting of names: OpenColorIO needs a few hundred bytes of stack for each.
 constexpr size_t deepest = 200;
-/// Transforms that a processor is made of; a tower of doublings would have more than any memory.
-constexpr double most_transforms = 100000;
+/// Maximum number of transforms of a processor; a chain of doublings would exceed any memory.
+constexpr double max_transforms = 100000;
 
 /// Follows references depth first. Both directions of everything: OpenColorIO collects context
 /// variables from both, whichever it will use.
@@ -33,7 +33,7 @@ public:
 
     void follow(const ocio::ConstTransformRcPtr& transform);
     std::string problem() const {
-        if (problem_.empty() && size_ > most_transforms) {
+        if (problem_.empty() && size_ > max_transforms) {
             return "its references make more than 100000 transforms";
         }
         return problem_;
@@ -69,7 +69,7 @@ void References::tell_circle(const std::string& label) {
     problem_ += label;
 }
 
-/// Follows what is behind a name, once.
+/// Follows the content of a name, once.
 template <typename Follow>
 void References::enter(const std::string& label, const Follow& content) {
     if (!problem_.empty()) return;
@@ -93,8 +93,8 @@ void References::enter(const std::string& label, const Follow& content) {
     open_.pop_back();
 }
 
-/// Variables as $NAME, ${NAME} or %NAME%, whose values may hold others. OpenColorIO takes any
-/// variable whose name a word begins with.
+/// Follows variables ($NAME, ${NAME}, %NAME%), whose values may contain others. OpenColorIO also
+/// takes a variable whose name is only the start of the word.
 void References::follow_variables(const std::string& text) {
     if (text.find_first_of("$%") == std::string::npos) return;
     for (int i = 0; i < context_->getNumStringVars(); ++i) {
@@ -110,7 +110,7 @@ void References::follow_variables(const std::string& text) {
     }
 }
 
-/// A text with its variables' values; "" where they have no end.
+/// A text with its variables replaced by their values; "" if they are circular.
 std::string References::resolved(const char* text) {
     follow_variables(text);
     return problem_.empty() ? context_->resolveStringVar(text) : "";
@@ -207,8 +207,8 @@ void References::follow(const ocio::ConstTransformRcPtr& transform) {
 
 }  // namespace
 
-std::string endless_references(const ocio::Config& config,
-                               const ocio::ConstTransformRcPtr& transform) {
+std::string cyclic_references(const ocio::Config& config,
+                              const ocio::ConstTransformRcPtr& transform) {
     References references(config);
     references.follow(transform);
     return references.problem();

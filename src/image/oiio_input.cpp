@@ -1,4 +1,4 @@
-// image/oiio_input.cpp - opens an encoded picture in memory with exactly one OpenImageIO reader.
+// image/oiio_input.cpp - opens an encoded image in memory with exactly one OpenImageIO reader.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/oiio_input.h"
 

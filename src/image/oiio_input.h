@@ -1,4 +1,4 @@
-// image/oiio_input.h - opens an encoded picture in memory with exactly one OpenImageIO reader.
+// image/oiio_input.h - opens an encoded image in memory with exactly one OpenImageIO reader.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,22 +12,23 @@
 
 namespace obscura {
 
-/// Must be called before OpenImageIO is used: in a process of our own (image/process_settings.h) it
-/// makes no threads (decoding runs in ours, one picture a task) and looks for no plug-ins.
+/// Must be called before OpenImageIO is used. In programs that own their process
+/// (image/process_settings.h), OpenImageIO then starts no threads (we decode one image per task)
+/// and searches no plug-ins.
 void prepare_oiio();
 
-/// An open picture; `bytes` must outlive it.
+/// An open image; `bytes` must outlive it.
 class OiioInput {
 public:
     /// format: OpenImageIO's name of the one reader to use, such as "png".
     OiioInput(std::span<const std::byte> bytes, const char* format);
 
-    /// "" or why the picture could not be opened.
+    /// "", or the reason why the image could not be opened.
     const std::string& error() const { return error_; }
     const OIIO::ImageSpec& spec() const { return input_->spec(); }
 
     /// Reads all channels, converted to `type`, into pixels that lie `pixel_stride` bytes apart.
-    /// False on failure. Either way, errors() tells what the library said.
+    /// False on failure. In both cases errors() returns the library's messages.
     bool read(const OIIO::TypeDesc& type, void* pixels, OIIO::stride_t pixel_stride);
     std::string errors();
 

@@ -1,4 +1,4 @@
-// image/pixels.h - decoded pictures in memory.
+// image/pixels.h - decoded images in memory.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace obscura {
 
-/// What a file says of its colours' numbers.
+/// The encoding of colours that a file declares.
 enum class ImageEncoding { unsaid, linear, srgb };
 
 /// 8 or 16 bits a channel, rows from the top, alpha not premultiplied; R in the lowest byte of a
@@ -21,8 +21,7 @@ struct ImageRgba8 {
     int levels = 1;      ///< mip levels in `texels`, one behind the other, level 0 first
     ImageEncoding encoding = ImageEncoding::unsaid;
     int bits = 8;  ///< of a channel in the file
-    /// The low bytes of 16-bit channels, where they were asked for; then `texels` are the high
-    /// ones.
+    /// The low bytes of 16-bit channels, if they were asked for; `texels` are then the high ones.
     std::vector<uint32_t> low_bytes = {};
 };
 
@@ -33,7 +32,7 @@ struct ImageRgb32f {
     std::vector<float> pixels;
 };
 
-/// Where some pixels lie in an image that they are a part of, from its top left corner.
+/// Position of a part in the whole image, from its top left corner.
 struct ImagePart {
     int width = 0, height = 0;  ///< of the whole image
     int x = 0, y = 0;

@@ -1,4 +1,4 @@
-// image/process_settings.cpp - what a program that owns its process lets image libraries do.
+// image/process_settings.cpp - process-wide settings of the image libraries.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/process_settings.h"
 

@@ -1,4 +1,4 @@
-// image/strip_metadata.cpp - takes everything but the pixels out of encoded pictures.
+// image/strip_metadata.cpp - removes metadata from encoded PNG and JPEG images.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/strip_metadata.h"
 
@@ -17,7 +17,7 @@ size_t byte_at(Bytes bytes, size_t at) {
     return std::to_integer<size_t>(bytes[at]);
 }
 
-/// Collects parts that together are at most as long as the original.
+/// Collects the parts to keep; together they are at most as long as the original.
 struct Parts {
     std::vector<std::byte> bytes;
     size_t used = 0;
@@ -30,7 +30,7 @@ struct Parts {
 
 bool is_needed_png_chunk(Bytes chunk) {
     const std::string_view type(reinterpret_cast<const char*>(chunk.data()) + 4, 4);
-    const bool is_critical = (type[0] & 0x20) == 0;  // also one that is broken: to be refused
+    const bool is_critical = (type[0] & 0x20) == 0;  // broken ones too: the decoder refuses them
     return is_critical || type == "tRNS";
 }
 

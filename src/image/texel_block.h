@@ -1,4 +1,4 @@
-// image/texel_block.h - blocks of 4 x 4 texels, and the levels of a picture that they fill.
+// image/texel_block.h - blocks of 4 x 4 texels, and writing them into mip levels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

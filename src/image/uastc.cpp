@@ -1,4 +1,4 @@
-// image/uastc.cpp - UASTC LDR 4x4 blocks become texels: 19 modes, one table.
+// image/uastc.cpp - decodes UASTC LDR 4x4 blocks to texels: 19 modes in one table.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/uastc.h"
 
@@ -12,17 +12,17 @@ namespace obscura {
 
 namespace {
 
-constexpr size_t most_endpoint_values = 18;  // three subsets of two colours of three channels
+constexpr size_t max_endpoint_values = 18;  // three subsets of two colours of three channels
 constexpr uint32_t alpha_channel = 3;
 
-/// How numbers of one range are stored: base 3 and 5 as packed digits, then plain bits.
+/// Ranges of stored numbers: packed digits in base 3 or 5, then plain bits.
 enum class Range { to_11, to_15, to_31, to_39, to_47, to_159, to_191, to_255 };
 
 struct RangeForm {
     uint32_t base;  ///< 3: trits, 5: quints, 1: none
     int bits;
     int group;          ///< digits that are packed together
-    int group_bits[6];  ///< bits of a group of so many digits
+    int group_bits[6];  ///< bits of a group, by its number of digits
 };
 
 constexpr RangeForm form_of(Range range) {
@@ -94,7 +94,7 @@ constexpr uint32_t unquantized(Range range, uint32_t digit, uint32_t low) {
 
 using ByteTable = std::array<uint8_t, 256>;
 
-/// By digit << bits | low bits.
+/// The table of unquantized values, indexed by digit << bits | low bits.
 constexpr ByteTable unquantize_table(Range range) {
     const RangeForm form = form_of(range);
     ByteTable table = {};
@@ -129,7 +129,7 @@ constexpr std::array<std::array<uint8_t, 32>, 6> weight_tables = {
     {{}, weight_table(1), weight_table(2), weight_table(3), weight_table(4), weight_table(5)}};
 
 enum class Channels { luminance_alpha, rgb, rgba };
-enum class Planes { one, two, two_alpha_apart };  ///< two: a field says which channel is apart
+enum class Planes { one, two, two_alpha_apart };  ///< two: a field names the separate channel
 
 struct Mode {
     uint32_t code;
@@ -175,7 +175,7 @@ constexpr Mode modes[] = {
     {0b1001, 4, 15, rgb, one, 0, 1, Planes::one, Range::to_31, 5},
 };
 
-/// The block's 128 bits, taken from the lowest on.
+/// Reads the block's 128 bits, the lowest first.
 class BlockBits {
 public:
     explicit BlockBits(std::span<const std::byte, uastc_block_bytes> bytes) {
@@ -207,7 +207,7 @@ struct Endpoints {
     std::array<uint32_t, 4> high;
 };
 
-using Subsets = std::array<Endpoints, most_uastc_subsets>;
+using Subsets = std::array<Endpoints, max_uastc_subsets>;
 
 void read_values(BlockBits& bits, Range range, std::span<uint32_t> values) {
     const RangeForm form = form_of(range);
@@ -229,7 +229,7 @@ void read_values(BlockBits& bits, Range range, std::span<uint32_t> values) {
 
 void read_endpoints(BlockBits& bits, const Mode& mode, Subsets& subsets) {
     const size_t channels = mode.channels == la ? 2 : mode.channels == rgb ? 3 : 4;
-    std::array<uint32_t, most_endpoint_values> values = {};
+    std::array<uint32_t, max_endpoint_values> values = {};
     read_values(bits, mode.endpoints, std::span(values).first(2 * channels * mode.subsets));
     const uint32_t* next = values.data();
     for (size_t s = 0; s < mode.subsets; ++s, next += 2 * channels) {

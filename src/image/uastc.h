@@ -1,4 +1,4 @@
-// image/uastc.h - UASTC LDR 4x4 blocks become texels.
+// image/uastc.h - decodes UASTC LDR 4x4 blocks to texels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@ namespace obscura {
 
 inline constexpr size_t uastc_block_bytes = 16;
 
-/// Decodes one block, exactly as ASTC's rules say; hints for other formats are passed over.
+/// Decodes one block, exactly by ASTC's rules; ignores hints for other formats.
 ///
 /// In      srgb: the texels are sRGB-encoded, which ASTC rounds differently (not so alpha)
 /// Errors  false: a reserved mode or a pattern that does not exist

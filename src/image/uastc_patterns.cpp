@@ -1,4 +1,4 @@
-// image/uastc_patterns.cpp - makes UASTC's patterns from ASTC's partition function.
+// image/uastc_patterns.cpp - computes UASTC's partition patterns from ASTC's partition function.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/uastc_patterns.h"
 
@@ -23,8 +23,8 @@ constexpr uint32_t hash52(uint32_t p) {
     return p;
 }
 
-/// The subset of texel (x, y) of a block of 4 x 4, for two or three subsets. There, a block of so
-/// few texels counts as twice as wide and high, and the third coordinate is 0.
+/// The subset of texel (x, y) of a block of 4 x 4, for two or three subsets. ASTC doubles the
+/// coordinates of such small blocks; the third coordinate is 0.
 constexpr uint8_t select_subset(uint32_t seed, uint32_t x, uint32_t y, uint32_t subsets) {
     seed += (subsets - 1) * 1024;
     const uint32_t hash = hash52(seed);
@@ -50,7 +50,7 @@ constexpr uint8_t select_subset(uint32_t seed, uint32_t x, uint32_t y, uint32_t 
 
 constexpr UastcPattern make_pattern(uint32_t seed, uint32_t subsets) {
     UastcPattern pattern;
-    for (uint32_t i = 16; i-- > 0;) {  // backwards: the first texel of each subset stays
+    for (uint32_t i = 16; i-- > 0;) {  // backwards, so that each subset's first texel remains
         const uint8_t subset = select_subset(seed, i % 4, i / 4, subsets);
         pattern.subset[i] = subset;
         pattern.anchor[subset] = static_cast<uint8_t>(i);

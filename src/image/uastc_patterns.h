@@ -1,4 +1,4 @@
-// image/uastc_patterns.h - how a UASTC block's texels are split into subsets.
+// image/uastc_patterns.h - UASTC's patterns that partition a block's texels into subsets.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,11 +8,11 @@
 
 namespace obscura {
 
-inline constexpr size_t most_uastc_subsets = 3;
+inline constexpr size_t max_uastc_subsets = 3;
 
 struct UastcPattern {
-    std::array<uint8_t, 16> subset = {};                  ///< of each texel
-    std::array<uint8_t, most_uastc_subsets> anchor = {};  ///< each subset's first texel
+    std::array<uint8_t, 16> subset = {};                 ///< of each texel
+    std::array<uint8_t, max_uastc_subsets> anchor = {};  ///< each subset's first texel
 };
 
 /// The lists of patterns; each mode with subsets uses one of them.

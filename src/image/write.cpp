@@ -1,4 +1,4 @@
-// image/write.cpp - finished pictures become files: EXR scene-linear, PNG and JPEG by a display.
+// image/write.cpp - writes finished images: EXR scene-linear, PNG and JPEG through a display.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/write.h"
 
@@ -38,18 +38,18 @@ Result<void> check_format(const std::filesystem::path& file) {
                           "; accepted are .exr, .png, .jpg and .jpeg");
 }
 
-Result<void> check_picture(const std::filesystem::path& file, const Picture& picture) {
-    const bool is_sound = picture.width > 0 && picture.height > 0 && !picture.channels.empty() &&
-                          picture.pixels.size() == static_cast<size_t>(picture.width) *
-                                                       static_cast<size_t>(picture.height) *
-                                                       picture.channels.size();
+Result<void> check_image(const std::filesystem::path& file, const OutputImage& image) {
+    const bool is_sound = image.width > 0 && image.height > 0 && !image.channels.empty() &&
+                          image.pixels.size() == static_cast<size_t>(image.width) *
+                                                     static_cast<size_t>(image.height) *
+                                                     image.channels.size();
     if (!is_sound) {
         return fail(ExitCode::internal,
                     "E-OUT-ENCODE",
                     file.string(),
                     "the picture's size, channels and pixels contradict each other");
     }
-    const size_t channels = picture.channels.size();
+    const size_t channels = image.channels.size();
     if (format_of(file) != FileFormat::exr && channels != 1 && channels != 3 && channels != 4) {
         return bad_format(file,
                           "a picture of " + std::to_string(channels) +
@@ -59,17 +59,17 @@ Result<void> check_picture(const std::filesystem::path& file, const Picture& pic
 }
 
 Result<std::vector<std::byte>> encode(const std::filesystem::path& file,
-                                      const Picture& picture,
-                                      const PictureMetadata& metadata,
+                                      const OutputImage& image,
+                                      const ImageMetadata& metadata,
                                       ExrDepth depth,
                                       const DisplayTransform* display) {
     try {
         const FileFormat format = format_of(file);
         if (format == FileFormat::exr) {
-            return encode_exr(picture, metadata, depth, file.string());
+            return encode_exr(image, metadata, depth, file.string());
         }
         return encode_for_display(
-            picture.part_of ? whole_picture(picture) : picture,
+            image.part_of ? whole_image(image) : image,
             metadata,
             format == FileFormat::png ? DisplayFormat::png : DisplayFormat::jpeg,
             display,
@@ -86,31 +86,31 @@ Result<std::vector<std::byte>> encode(const std::filesystem::path& file,
 
 }  // namespace
 
-Picture whole_picture(const Picture& picture) {
-    if (!picture.part_of) return picture;
-    const ImagePart& part = *picture.part_of;
-    const size_t channels = picture.channels.size();
-    const size_t row = static_cast<size_t>(picture.width) * channels;
+OutputImage whole_image(const OutputImage& image) {
+    if (!image.part_of) return image;
+    const ImagePart& part = *image.part_of;
+    const size_t channels = image.channels.size();
+    const size_t row = static_cast<size_t>(image.width) * channels;
     const size_t whole_row = static_cast<size_t>(part.width) * channels;
-    Picture whole{part.width, part.height, picture.channels, {}};
+    OutputImage whole{part.width, part.height, image.channels, {}};
     whole.pixels.resize(whole_row * static_cast<size_t>(part.height));
     std::fill(whole.pixels.begin(), whole.pixels.end(), 0.0f);
-    for (size_t y = 0; y < static_cast<size_t>(picture.height); ++y) {
+    for (size_t y = 0; y < static_cast<size_t>(image.height); ++y) {
         float* const target = whole.pixels.data() + (static_cast<size_t>(part.y) + y) * whole_row +
                               static_cast<size_t>(part.x) * channels;
-        std::copy_n(picture.pixels.data() + y * row, row, target);
+        std::copy_n(image.pixels.data() + y * row, row, target);
     }
     return whole;
 }
 
-Result<void> write_picture(const std::filesystem::path& file,
-                           const Picture& picture,
-                           const PictureMetadata& metadata,
-                           ExrDepth depth,
-                           const DisplayTransform* display) {
+Result<void> write_image_file(const std::filesystem::path& file,
+                              const OutputImage& image,
+                              const ImageMetadata& metadata,
+                              ExrDepth depth,
+                              const DisplayTransform* display) {
     if (auto known = check_format(file); !known) return known;
-    if (auto sound = check_picture(file, picture); !sound) return sound;
-    const Result<std::vector<std::byte>> bytes = encode(file, picture, metadata, depth, display);
+    if (auto sound = check_image(file, image); !sound) return sound;
+    const Result<std::vector<std::byte>> bytes = encode(file, image, metadata, depth, display);
     if (!bytes) return fail(bytes.error());
     return write_file_atomically(file, *bytes);
 }

@@ -1,4 +1,4 @@
-// image/write.h - finished pictures become files: EXR scene-linear, PNG and JPEG through a display.
+// image/write.h - writes finished images: EXR scene-linear, PNG and JPEG through a display.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace obscura {
 
-/// A finished picture: interleaved float32, rows from the top, scene-linear Rec.709.
-struct Picture {
+/// A finished image: interleaved float32, rows from the top, scene-linear Rec.709.
+struct OutputImage {
     int width = 0;
     int height = 0;
     std::vector<std::string> channels;  ///< "R","G","B","A" or e.g. "Z", "N.X","N.Y","N.Z"
@@ -27,13 +27,13 @@ struct Picture {
 };
 
 /// The image that a part belongs to, zero elsewhere.
-Picture whole_picture(const Picture& picture);
+OutputImage whole_image(const OutputImage& image);
 
-/// What a picture says about itself. An EXR has the attributes Software, asset, copyright,
+/// Metadata of an image. An EXR has the attributes Software, asset, copyright,
 /// samplesPerPixel (int), seed (text: it may need 64 bits), renderSeconds (float), worldToCamera,
 /// worldToNDC (m44f), colorInteropID ("lin_rec709_scene" or "data"), chromaticities (colour only)
 /// and the extra ones; PNG and JPEG have Software and Copyright.
-struct PictureMetadata {
+struct ImageMetadata {
     std::string software;   ///< "Obscura 0.1.0"
     std::string asset;      ///< the asset's file name
     std::string copyright;  ///< asset.copyright, may be empty
@@ -43,15 +43,15 @@ struct PictureMetadata {
     bool is_color = true;  ///< false: data such as depth; no chromaticities
     /// Row-major 4x4 for row vectors, as OpenEXR's standard attributes want them.
     float world_to_camera[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-    bool has_ndc = true;  ///< false: no matrix does what the camera does, and none is written
+    bool has_ndc = true;  ///< false: the projection is no matrix, and none is written
     float world_to_ndc[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     std::vector<std::pair<std::string, std::string>> extra;  ///< further text attributes
 };
 
 enum class ExrDepth { half, float32 };
 
-/// Writes `file` by its extension: .exr, .png, .jpg/.jpeg. To a temporary file beside it, synced,
-/// renamed: an existing file is replaced whole or not at all.
+/// Writes `file` by its extension: .exr, .png, .jpg/.jpeg. Atomically: an existing file is replaced
+/// completely or not at all.
 ///
 /// EXR: ZIP; half values are clamped to +-65504 and NaN becomes 0, float32 values are kept. A part
 /// of an image has its own data window inside the image's display window; the other formats have
@@ -61,12 +61,12 @@ enum class ExrDepth { half, float32 };
 ///
 /// Errors  73 E-OUT-CREATE the folder is missing or not writable; 74 E-OUT-WRITE disk full or I/O;
 ///         64 E-OUT-FORMAT another extension, or channels that a PNG or JPEG cannot hold;
-///         33 E-OUT-MEMORY; 70 E-OUT-ENCODE a picture that contradicts itself
-Result<void> write_picture(const std::filesystem::path& file,
-                           const Picture& picture,
-                           const PictureMetadata& metadata,
-                           ExrDepth depth,
-                           const DisplayTransform* display);
+///         33 E-OUT-MEMORY; 70 E-OUT-ENCODE an inconsistent image
+Result<void> write_image_file(const std::filesystem::path& file,
+                              const OutputImage& image,
+                              const ImageMetadata& metadata,
+                              ExrDepth depth,
+                              const DisplayTransform* display);
 
 /// Checks before any work that `file` can be created: known extension, folder there and writable
 /// (by creating and removing a temporary file), not a folder or device itself. Same errors.

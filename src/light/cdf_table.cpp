@@ -1,4 +1,4 @@
-// light/cdf_table.cpp - builds tables that draw an index, and tells the probabilities they have.
+// light/cdf_table.cpp - builds the tables that draw an index, and their exact probabilities.
 // SPDX-License-Identifier: Apache-2.0
 #include "light/cdf_table.h"
 
@@ -14,7 +14,7 @@ double usable(double weight) {
     return weight > 0 && std::isfinite(weight) ? weight : 0;
 }
 
-/// How much of a sum each weight has, none above 1; equal parts when all are 0.
+/// Weights scaled so that none exceeds 1; equal ones when all are 0.
 std::vector<double> parts_of(std::span<const double> weights) {
     double largest = 0;
     for (const double weight : weights)
@@ -27,8 +27,8 @@ std::vector<double> parts_of(std::span<const double> weights) {
 
 }  // namespace
 
-// The one step must come out of all shares alike: taken from the neighbours alone it would starve
-// the rim of a sun, which shines far more than all the sky before it.
+// The minimum of one step is taken from all shares in proportion. Taken from the neighbours alone,
+// it would starve the rim of a sun, which has far more weight than the sky before it.
 std::vector<uint64_t> share_randoms(std::span<const double> weights, uint64_t step) {
     const std::vector<double> parts = parts_of(weights);
     double sum = 0;
@@ -73,7 +73,7 @@ std::vector<double> cdf_probabilities(std::span<const CdfEntry> entries) {
     uint64_t begin = 0;
     for (size_t i = 0; i < probabilities.size(); ++i) {
         const uint64_t bound = entries[i + 1].first_random;
-        // 2^32 is stored as 0: it ends the last index that is possible, and what follows.
+        // 2^32 is stored as 0: it ends the last possible index, and all impossible ones after it.
         const uint64_t end = bound == 0 && i >= static_cast<size_t>(entries.back().first_index)
                                  ? all_randoms
                                  : bound;

@@ -1,8 +1,8 @@
-// light/cdf_table.h - draws an index with given probabilities, in the order of the random number.
+// light/cdf_table.h - draws an index with given probabilities by inverting their CDF.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "light/row_words.h"
+#include "light/record_words.h"
 #include "math/gather4.h"
 
 #include <cstddef>
@@ -15,34 +15,34 @@ namespace obscura {
 /// One index of a table, read as two 32-bit words; a table has one entry more than indices.
 struct CdfEntry {
     uint32_t first_random;  ///< smallest random number that leads to this index or a later one
-    int32_t first_index;  ///< what the smallest random number in this cell of equal cells leads to
+    int32_t first_index;    ///< index of the smallest random number in this equal cell
 };
 
 static_assert(sizeof(CdfEntry) == 2 * 4, "read as 32-bit words: no padding");
 
-/// Indices that one table may have. Above, cells would be missed by the random numbers.
+/// Maximum number of indices. With more, some cells would get no random number.
 inline constexpr size_t max_cdf_indices = size_t{1} << 24;
 
-/// Shares the 2^32 random numbers out in proportion to weights, in order.
+/// Distributes the 2^32 random numbers over the indices in proportion to weights, in order.
 ///
-/// In      weights: at least one; negative and non-finite ones count as 0; when all are 0, all get
-///         the same; step: numbers are given in multiples of it, a power of two; 2^32 / step is
-///         more than there are weights
-/// Out     the first number of each, and 2^32 after the last; a weight above 0 gets at least `step`
+/// In      weights: at least one; negative and non-finite ones count as 0; when all are 0, all are
+///         equal; step: a power of two of which all shares are multiples; 2^32 / step exceeds the
+///         number of weights
+/// Out     the first number of each index, and 2^32 at the end; weights above 0 get at least `step`
 std::vector<uint64_t> share_randoms(std::span<const double> weights, uint64_t step);
 
 /// Builds the table; the same weights give the same table.
 ///
-/// The index grows with the random number, so that well-spread numbers lead to well-spread indices:
-/// an alias table would draw in constant time, and tear neighbouring numbers apart.
+/// The index grows with the random number, so that stratified numbers give stratified indices. An
+/// alias table would draw in constant time but scatter neighbouring numbers.
 ///
 /// In      weights: 1 to max_cdf_indices; as share_randoms takes them
 /// Out     weights.size() + 1 entries; an index with weight > 0 has a probability of at least 2^-32
 std::vector<CdfEntry> build_cdf_table(std::span<const double> weights);
 
-/// What sample_cdf really does: how many of the 2^32 random numbers lead to each index, as a share.
-/// Densities made from it match the sampler exactly; the weights are met to about count * 2^-32,
-/// relative to the mean probability.
+/// The exact probabilities of sample_cdf: the fraction of the 2^32 random numbers that leads to
+/// each index. Densities made from them match the sampler exactly. They differ from the weights by
+/// about count * 2^-32, relative to the mean probability.
 std::vector<double> cdf_probabilities(std::span<const CdfEntry> entries);
 
 inline namespace OBSCURA_ISA {

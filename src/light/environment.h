@@ -1,4 +1,4 @@
-// light/environment.h - light from infinitely far away, all around: look-up, density and sampling.
+// light/environment.h - the environment light: look-up, density and importance sampling.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,17 +10,17 @@
 
 namespace obscura {
 
-/// What the lanes see of an EnvironmentTable (light/environment_table.h), which owns the arrays.
+/// A view of an EnvironmentTable (light/environment_table.h), which owns the arrays.
 ///
 /// The map is latitude-longitude: u = atan2(z, x) / 2 pi + 0.5, v = acos(y) / pi; +Y is row 0.
 struct EnvironmentView {
-    /// 4 floats a pixel, so that one cache line holds what a look-up needs: the radiance, and the
-    /// density per solid angle with which the pixel is sampled, times sin(theta)
+    /// 4 floats a pixel, so that a look-up reads one cache line: the radiance, and the density per
+    /// solid angle with which the pixel is sampled, times sin(theta)
     const float* pixels = nullptr;
     PixelChoiceView choice;  ///< draws a pixel in proportion to its light
     int32_t width = 1;
     int32_t height = 1;
-    float cos_rotation = 1;  ///< of the angle by which the map is turned about +Y,
+    float cos_rotation = 1;  ///< of the map's rotation about +Y,
     float sin_rotation = 0;  ///< counter-clockwise seen from above
 };
 
@@ -33,15 +33,15 @@ struct EnvironmentSample {
     F pdf;              ///< 1/sr, of that pixel; 0 when the map is black
 };
 
-/// A direction's place on the map, in pixels, and the sine of its polar angle.
+/// A direction's position on the map, in pixels, and the sine of its polar angle.
 template <typename F>
 struct EnvironmentPoint {
     F x, y;  ///< in [0, width], [0, height]
     F sin_theta;
 };
 
-/// Finds a world direction on the map. The polar angle comes from an arc tangent: the arc cosine
-/// would lose half the digits near the poles.
+/// The position of a world direction on the map. The polar angle is an arc tangent because the arc
+/// cosine loses half the digits near the poles.
 template <typename F>
 OBSCURA_INLINE EnvironmentPoint<F> environment_point(const EnvironmentView& view,
                                                      const Vec3<F>& direction) {
@@ -57,23 +57,23 @@ OBSCURA_INLINE EnvironmentPoint<F> environment_point(const EnvironmentView& view
             sin_theta};
 }
 
-/// Where a direction lies between four pixel centres: left and right of one row, then of the next.
+/// The four pixels around a direction: left and right of one row, then of the next.
 template <typename F>
 struct EnvironmentCell {
     IntOf<F> word[4];  ///< first of each pixel
-    F right, down;     ///< shares of the second column and the second row
+    F right, down;     ///< weights of the second column and the second row
     F sin_theta;       ///< of the direction
 };
 
-/// The four pixels that bilinear interpolation mixes for one direction. Their weights sum to 1.
+/// The four pixels of the bilinear interpolation for one direction. Their weights sum to 1.
 template <typename F>
 struct EnvironmentTaps {
     Vec3<F> radiance[4];
-    F pdf[4];  ///< 1/sr, of making this direction from this pixel, divided by its weight
+    F pdf[4];  ///< 1/sr, of sampling this direction from this pixel, divided by its weight
     F weight[4];
 };
 
-/// A pixel's density per solid angle times sin(theta), as density per solid angle.
+/// Density per solid angle from a pixel's density times sin(theta).
 template <typename F>
 OBSCURA_INLINE F environment_density(const F& times_sine, const F& sin_theta) {
     return times_sine / max(sin_theta, F(1e-7f));
@@ -108,16 +108,16 @@ OBSCURA_INLINE EnvironmentCell<F> environment_cell(const EnvironmentView& view,
             point.sin_theta};
 }
 
-/// One pixel of a cell, drawn with its weight in bilinear interpolation: right on average, for a
-/// quarter of the memory. That weight is part of its density in both strategies, so that for
-/// multiple importance sampling the densities of direction and pixel are to be compared.
+/// Draws one pixel of a cell with its weight in bilinear interpolation: unbiased, with a quarter of
+/// the memory traffic. The weight is part of the density in both strategies, so that multiple
+/// importance sampling compares the joint densities of direction and pixel.
 ///
 /// In   random: uniform 32-bit numbers; halves of 16 bits are used
 /// Out  the first word of the pixel
 template <typename F>
 OBSCURA_INLINE IntOf<F> choose_environment_pixel(const EnvironmentCell<F>& cell,
                                                  const UintOf<F>& random) {
-    const F unit(1.0f / 65536.0f);  // of the middles of as many equal parts
+    const F unit(1.0f / 65536.0f);  // steps of 2^-16, sampled at their centres
     const auto is_right =
         (from_int<F>(as_int(random & UintOf<F>(0xFFFFU))) + F(0.5f)) * unit < cell.right;
     const auto is_down = (from_int<F>(as_int(random >> 16)) + F(0.5f)) * unit < cell.down;
@@ -163,8 +163,8 @@ OBSCURA_INLINE Vec3<F> environment_radiance(const EnvironmentView& view, const V
     return mix(environment_taps(view, direction));
 }
 
-/// Density per solid angle with which sample_environment makes a direction (unit) from any pixel; 0
-/// for a black map.
+/// Density per solid angle with which sample_environment draws a direction (unit), over all pixels;
+/// 0 for a black map.
 template <typename F>
 OBSCURA_INLINE F environment_pdf(const EnvironmentView& view, const Vec3<F>& direction) {
     const EnvironmentTaps<F> taps = environment_taps(view, direction);
@@ -174,7 +174,7 @@ OBSCURA_INLINE F environment_pdf(const EnvironmentView& view, const Vec3<F>& dir
     return sum;
 }
 
-/// A place in [-1, 1] with the density 1 - |place|, which is a pixel's weight in interpolation.
+/// An offset x in [-1, 1] with the density 1 - |x|, which is a pixel's weight in interpolation.
 template <typename F>
 OBSCURA_INLINE F tent(const F& u) {
     const F a = F(2.0f) * u - F(1.0f);
@@ -182,7 +182,7 @@ OBSCURA_INLINE F tent(const F& u) {
     return select(a < F(0.0f), -size, size);
 }
 
-/// Chooses the pixel of a draw_block, and asks for its memory.
+/// Chooses the pixel of a draw_block, and prefetches it.
 template <typename F>
 OBSCURA_INLINE void draw_environment_pixel(const EnvironmentView& view, PixelDraw<F>& draw) {
     draw_pixel(view.choice, draw);
@@ -190,13 +190,12 @@ OBSCURA_INLINE void draw_environment_pixel(const EnvironmentView& view, PixelDra
     prefetch<F>(view.pixels, IntOf<F>(pixel * IntOf<F>(4)));
 }
 
-/// Chooses a pixel in proportion to its light, and a place around it with the density of the
-/// pixel's weight in bilinear interpolation. The map is a sum of weighted pixels, and one term of
-/// the sum is drawn, together with a direction: so radiance / pdf is nearly the same for all
-/// samples, even where a bright pixel lies beside a dark one, and one pixel is read. The other
-/// strategy draws a direction first; given that, a term's density is the direction's times the
-/// weight. The weight cancels in the quotient of both densities: multiple importance sampling
-/// compares the pdf here and of a chosen pixel with the other's pdf.
+/// Chooses a pixel in proportion to its light, and a position around it with the pixel's bilinear
+/// weight as density. The map is a sum of weighted pixels: this draws one term of the sum together
+/// with a direction. So radiance / pdf is nearly constant, even where bright and dark pixels meet,
+/// and one pixel is read. BSDF sampling draws the direction first; its density of a term is that of
+/// the direction times the weight. The weight cancels in the ratio of both densities: multiple
+/// importance sampling compares the chosen pixel's pdf with the BSDF's pdf.
 ///
 /// Out     radiance and pdf of the chosen pixel, both without its weight, which cancels too
 /// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 12.5, for
@@ -206,7 +205,7 @@ OBSCURA_INLINE EnvironmentSample<F> finish_environment_draw(const EnvironmentVie
                                                             const PixelDraw<F>& draw) {
     using I = IntOf<F>;
     const F height = from_int<F>(I(view.height));
-    // What reaches past a pole comes back: there the pixel's weight is 1 up to the border.
+    // Positions past a pole are mirrored back: there the pixel's weight is 1 up to the border.
     F y = abs(from_int<F>(draw.row) + F(0.5f) + tent(draw.left.y));
     y = min(y, F(2.0f) * height - y);
     const F x = from_int<F>(draw.column) + F(0.5f) + tent(draw.left.x);
@@ -214,7 +213,7 @@ OBSCURA_INLINE EnvironmentSample<F> finish_environment_draw(const EnvironmentVie
     const SinCos<F> polar = sin_cos_turn(y / height * F(0.5f));
     const SinCos<F> turn = sin_cos_turn(x / from_int<F>(I(view.width)));
     const F sin_theta = max(polar.sin, F(1e-7f));
-    const F map_x = -(sin_theta * turn.cos);  // u = 0.5 is +X, so a turn begins at -X
+    const F map_x = -(sin_theta * turn.cos);  // u = 0.5 is +X, so rotations begin at -X
     const F map_z = -(sin_theta * turn.sin);
     const F c(view.cos_rotation);
     const F s(view.sin_rotation);

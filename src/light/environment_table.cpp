@@ -1,4 +1,4 @@
-// light/environment_table.cpp - copies an environment map and builds the tables that sample it.
+// light/environment_table.cpp - copies an environment map and builds its sampling tables.
 // SPDX-License-Identifier: Apache-2.0
 #include "light/environment_table.h"
 
@@ -29,7 +29,7 @@ double luminance_of(const float* rgb) {
     return luminance(Vec3d{rgb[0], rgb[1], rgb[2]});
 }
 
-/// Half luminance, half the strongest channel: a deep blue light is sampled well too.
+/// Half luminance, half the largest channel, so that deep blue lights are sampled well too.
 double importance_of(const float* rgb) {
     return 0.5 * (luminance_of(rgb) + std::max({rgb[0], rgb[1], rgb[2]}));
 }

@@ -1,4 +1,4 @@
-// light/environment_table.h - owns an environment map and the tables that sample it.
+// light/environment_table.h - owns an environment map and its sampling tables.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -18,7 +18,7 @@ struct EnvironmentImage {
     const float* rgb = nullptr;
 };
 
-/// Sides an environment map may have.
+/// Maximum width and height of an environment map.
 inline constexpr int max_environment_side = 16384;
 
 /// Radiance of a pixel after scaling never exceeds this, so that sums of squares stay finite.
@@ -43,10 +43,10 @@ public:
     /// Integral of the luminance over the sphere; 0 when the map is black.
     double power() const { return power_; }
 
-    /// No light comes from it: leave it out of light selection.
+    /// True when the map is black: leave it out of light selection.
     bool black() const { return black_; }
 
-    /// How many of the map's values had to be replaced; worth a warning when not 0.
+    /// Number of map values that were replaced; worth a warning when not 0.
     int64_t repaired_values() const { return repaired_values_; }
 
 private:

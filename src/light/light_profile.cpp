@@ -1,4 +1,4 @@
-// light/light_profile.cpp - measured lamps side by side in one table, and how much light they send.
+// light/light_profile.cpp - packs photometric profiles into a table; computes their flux.
 // SPDX-License-Identifier: Apache-2.0
 #include "light/light_profile.h"
 
@@ -49,17 +49,17 @@ LightProfileTable pack_light_profiles(std::span<const LightProfile> profiles) {
         return first;
     };
     for (const LightProfile& profile : profiles) {
-        table.rows.push_back({append(profile.polar_deg),
-                              static_cast<int32_t>(profile.polar_deg.size()),
-                              append(profile.azimuth_deg),
-                              static_cast<int32_t>(profile.azimuth_deg.size()),
-                              append(profile.candela)});
+        table.records.push_back({append(profile.polar_deg),
+                                 static_cast<int32_t>(profile.polar_deg.size()),
+                                 append(profile.azimuth_deg),
+                                 static_cast<int32_t>(profile.azimuth_deg.size()),
+                                 append(profile.candela)});
     }
     return table;
 }
 
 LightProfileView LightProfileTable::view() const {
-    return rows.empty() ? LightProfileView{} : LightProfileView{rows.data(), words.data()};
+    return records.empty() ? LightProfileView{} : LightProfileView{records.data(), words.data()};
 }
 
 }  // namespace obscura

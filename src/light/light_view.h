@@ -28,7 +28,7 @@ struct LightView {
     const ShapeLight* shapes = nullptr;
     float environment_select = 0;  ///< probability of choosing the environment
     LightProfileView profiles;     ///< of punctual lights
-    /// Lights at each of MotionView::steps times: so many rows for every punctual light, and for
+    /// Lights at each of MotionView::steps times: `steps` records for every punctual light, and for
     /// every triangle that moves. Null: none moves.
     const PunctualLight* moving_punctual = nullptr;
     const MovingTriangle* moving_triangles = nullptr;

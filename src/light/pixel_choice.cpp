@@ -16,12 +16,12 @@ namespace {
 
 constexpr auto pixels_of_block = static_cast<size_t>(choice_block_pixels);
 constexpr uint32_t cell_numbers = 1U << 24;  ///< random numbers of one pixel's cell
-constexpr uint32_t pixel_bits = 8;           ///< of the other pixel, below the numbers that stay
+constexpr uint32_t pixel_bits = 8;           ///< low bits, which hold the cell's other pixel
 
 using BlockWeights = std::array<double, pixels_of_block>;
 using BlockNumbers = std::array<uint32_t, pixels_of_block>;
 
-/// Where (x, y) comes on Hilbert's curve through a square of `side` (a power of two).
+/// Position of (x, y) on the Hilbert curve through a square of `side` (a power of two).
 uint64_t place_on_curve(uint32_t side, uint32_t x, uint32_t y) {
     uint64_t place = 0;
     for (uint32_t half = side / 2; half > 0; half /= 2) {
@@ -30,7 +30,7 @@ uint64_t place_on_curve(uint32_t side, uint32_t x, uint32_t y) {
         const uint64_t quarter = right ? (down ? 2 : 3) : (down ? 1 : 0);
         place = place * 4 + quarter;
         if (down) continue;
-        // The first and the last quarter are turned, the last one upside down too.
+        // The first and the last quarter are transposed, the last one also mirrored.
         if (right) {
             x = side - 1 - x;
             y = side - 1 - y;
@@ -40,7 +40,7 @@ uint64_t place_on_curve(uint32_t side, uint32_t x, uint32_t y) {
     return place;
 }
 
-/// Numbers of the blocks of a grid, row by row, in the order of the curve.
+/// Row-major numbers of a grid's blocks, in the order of the curve.
 std::vector<uint32_t> curve_order(uint32_t columns, uint32_t rows) {
     const uint32_t side = std::bit_ceil(std::max(columns, rows));
     std::vector<uint64_t> place(size_t{columns} * rows);
@@ -65,7 +65,7 @@ BlockNumbers share_numbers(const BlockWeights& weights) {
     return numbers;
 }
 
-/// Walker's tables: cells that a pixel does not fill are filled up from one that has too much.
+/// Walker's alias tables: cells that a pixel does not fill are completed by one with an excess.
 void write_choices(BlockNumbers numbers, std::span<uint32_t> out) {
     std::vector<uint32_t> small;
     std::vector<uint32_t> large;
@@ -100,7 +100,7 @@ std::vector<uint32_t> make_guide(std::span<const uint64_t> bounds, int shift) {
     return guide;
 }
 
-/// How many of the 2^30 random numbers of a block lead to each pixel, as the tables have it.
+/// How many of the 2^30 random numbers of a block lead to each pixel, counted from the tables.
 BlockNumbers count_numbers(std::span<const uint32_t> choices) {
     BlockNumbers numbers{};
     for (size_t i = 0; i < pixels_of_block; ++i) {
@@ -147,7 +147,7 @@ void PixelChoice::build(int width,
         write_choices(share_numbers(weights), choices_of(block));
     });
     const std::vector<uint64_t> bounds = share_randoms(sums, 1);
-    // Twice as many parts as blocks: few blocks are passed behind the guide.
+    // Twice as many parts as blocks, so that the search after the guide is short.
     guide_shift_ = 31 - static_cast<int32_t>(std::bit_width(corners_.size() - 1));
     guide_ = make_guide(bounds, guide_shift_);
     bounds_.assign(bounds.size() + 3, 0xFFFFFFFFU);  // gather4 reads three after the last block

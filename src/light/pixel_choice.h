@@ -12,22 +12,22 @@
 
 namespace obscura {
 
-/// Side of the square blocks of pixels. The map's blocks are chosen in the order of a curve, so
-/// that well-spread random numbers lead to well-spread blocks; within a block the pixel comes from
-/// an alias table, which tears neighbouring numbers apart, but not farther than the block is wide.
+/// Side of the square blocks of pixels. Blocks are chosen in the order of a space-filling curve, so
+/// that stratified random numbers give stratified blocks. Within a block an alias table chooses the
+/// pixel: it scatters neighbouring numbers, but only within the block.
 inline constexpr int choice_block_side = 8;
 inline constexpr int choice_block_pixels = choice_block_side * choice_block_side;
 
-/// What the lanes see of a PixelChoice, which owns the arrays.
+/// A view of a PixelChoice, which owns the arrays.
 struct PixelChoiceView {
-    /// the block to which the first number of each of 2^(32 - guide_shift) equal parts leads
+    /// [k]: block of the first random number in part k of 2^(32 - guide_shift) equal parts
     const uint32_t* guide = nullptr;
     /// [k]: the last random number that leads to a block before block k
     const uint32_t* bounds = nullptr;
     /// [k]: first pixel of block k, its column in the lower half and its row in the upper
     const uint32_t* corners = nullptr;
-    /// choice_block_pixels of them a block, one a pixel: how many of 2^24 random numbers stay
-    /// with the pixel, and in the lower 8 bits the pixel of the block that gets the others
+    /// One per pixel, choice_block_pixels per block: how many of 2^24 random numbers choose this
+    /// pixel, and in the lower 8 bits the pixel of the block that the others choose
     const uint32_t* choices = nullptr;
     int32_t guide_shift = 31;
 };
@@ -42,9 +42,8 @@ public:
     ///
     /// In      width and height: 1 to 32768; weight: of the pixel in column x and row y, at least 0
     ///         and finite, as all their sums
-    /// Out     set: is told for every pixel with what probability it is drawn; those with a weight
-    ///         above 0 have at least 2^-62. Where all weights are 0, the first pixels of blocks
-    ///         are drawn
+    /// Out     set: called with the probability of every pixel; pixels with a weight above 0 have
+    ///         at least 2^-62. If all weights are 0, the first pixels of blocks are drawn
     void build(int width, int height, const PixelWeight& weight, const SetProbability& set);
 
     /// Valid for as long as the tables live, wherever they are moved.
@@ -57,24 +56,23 @@ private:
 
 inline namespace OBSCURA_ISA {
 
-/// A pixel on its way to be drawn. Tables and map are large, and their memory is far: the first
-/// step asks for what the second one reads, and a caller with other work does it in between.
+/// State of a draw in two steps. Tables and map are too large for the caches: the first step
+/// prefetches the memory of the second, and the caller can work in between.
 template <typename F>
 struct PixelDraw {
     Vec2<UintOf<F>> random;  ///< uniform 32-bit numbers
     IntOf<F> block;
     IntOf<F> column, row;  ///< after the second step
-    Vec2<F> left;          ///< in [0, 1], uniform again: what the choices left of `random`
+    Vec2<F> left;          ///< in [0, 1], uniform: the randomness that the choices left
 };
 
-/// Where the second step reads.
+/// Index of the entry of `choices` that the second step reads.
 template <typename F>
 OBSCURA_INLINE IntOf<F> choice_number(const PixelDraw<F>& draw) {
     return draw.block * IntOf<F>(choice_block_pixels) + as_int(draw.random.y >> 26);
 }
 
-/// First step: the block. As many entries of `bounds` as parts of `guide` are passed on average, so
-/// the search needs no halving.
+/// First step: the block. The search is linear: on average it passes few entries of `bounds`.
 template <typename F>
 OBSCURA_INLINE PixelDraw<F> draw_block(const PixelChoiceView& view, const Vec2<UintOf<F>>& random) {
     using U = UintOf<F>;
@@ -94,7 +92,7 @@ OBSCURA_INLINE PixelDraw<F> draw_block(const PixelChoiceView& view, const Vec2<U
     draw.block = select(third, low + I(2), select(second, low + I(1), low));
     const U before = as_uint(select(third, window.z, select(second, window.y, window.x)));
     const U last = as_uint(select(third, window.w, select(second, window.z, window.y)));
-    // Counted from `before`, which is all ones ahead of the first block: it wraps around.
+    // Relative to `before`; ahead of the first block that is all ones and wraps around.
     const F place = float_from_uint<F>(U(r - before - U(1U))) + F(0.5f);
     draw.left.x = place / (float_from_uint<F>(U(last - before - U(1U))) + F(1.0f));
     prefetch<F>(view.choices, choice_number(draw));

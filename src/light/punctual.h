@@ -1,4 +1,4 @@
-// light/punctual.h - lights without size: KHR_lights_punctual, and EXT_lights_ies by a profile.
+// light/punctual.h - the record of a punctual light (KHR_lights_punctual, EXT_lights_ies).
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,10 +1,10 @@
-// light/punctual_sample.h - light that a point, spot or directional light sends to a point.
+// light/punctual_sample.h - the irradiance of a point, spot or directional light at a point.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "light/light_profile.h"
 #include "light/punctual.h"
-#include "light/row_words.h"
+#include "light/record_words.h"
 #include "math/vec.h"
 
 namespace obscura {
@@ -23,7 +23,7 @@ struct PunctualSample {
 
 /// One light for each lane, as PunctualLight.
 template <typename F>
-struct PunctualRow {
+struct PunctualRecord {
     IntOf<F> type, profile;
     Vec3<F> position, shines;
     Vec3<F> zero_axis;  ///< read where there are profiles
@@ -33,18 +33,18 @@ struct PunctualRow {
 
 /// In      index must be in range for idle lanes too; has_profiles: some light may have one
 template <typename F>
-OBSCURA_INLINE PunctualRow<F> read_punctual(const PunctualLight* rows,
-                                            const IntOf<F>& index,
-                                            bool has_profiles) {
-    const IntOf<F> word = index * IntOf<F>(words_per_row<PunctualLight>);
+OBSCURA_INLINE PunctualRecord<F> read_punctual(const PunctualLight* lights,
+                                               const IntOf<F>& index,
+                                               bool has_profiles) {
+    const IntOf<F> word = index * IntOf<F>(words_per_record<PunctualLight>);
     const auto read = [&](size_t offset) {
-        return gather<F>(member_words<float>(rows, offset), word);
+        return gather<F>(member_words<float>(lights, offset), word);
     };
     const auto read3 = [&](size_t offset) {
         return Vec3<F>{read(offset), read(offset + 4), read(offset + 8)};
     };
-    PunctualRow<F> out;
-    out.type = gather<F>(member_words<int32_t>(rows, offsetof(PunctualLight, type)), word);
+    PunctualRecord<F> out;
+    out.type = gather<F>(member_words<int32_t>(lights, offsetof(PunctualLight, type)), word);
     out.position = read3(offsetof(PunctualLight, position));
     out.shines = read3(offsetof(PunctualLight, direction));
     out.intensity = read3(offsetof(PunctualLight, intensity));
@@ -55,23 +55,23 @@ OBSCURA_INLINE PunctualRow<F> read_punctual(const PunctualLight* rows,
     out.zero_axis = splat3(F(0.0f));
     if (has_profiles) {
         out.profile =
-            gather<F>(member_words<int32_t>(rows, offsetof(PunctualLight, profile)), word);
+            gather<F>(member_words<int32_t>(lights, offsetof(PunctualLight, profile)), word);
         out.zero_axis = read3(offsetof(PunctualLight, zero_axis));
     }
     return out;
 }
 
-/// A light on its way from one pose to the next, `share` of it.
+/// Interpolates a light between two poses.
 template <typename F>
-OBSCURA_INLINE PunctualRow<F> blend(const PunctualRow<F>& a,
-                                    const PunctualRow<F>& b,
-                                    const F& share) {
-    const auto mix = [&](const auto& p, const auto& q) { return p + (q - p) * share; };
+OBSCURA_INLINE PunctualRecord<F> blend(const PunctualRecord<F>& a,
+                                       const PunctualRecord<F>& b,
+                                       const F& fraction) {
+    const auto mix = [&](const auto& p, const auto& q) { return p + (q - p) * fraction; };
     const auto turn = [&](const Vec3<F>& p, const Vec3<F>& q) {
         const Vec3<F> between = mix(p, q);
         return between * (F(1.0f) / max(length(between), F(1e-18f)));
     };
-    PunctualRow<F> out = a;
+    PunctualRecord<F> out = a;
     out.position = mix(a.position, b.position);
     out.shines = turn(a.shines, b.shines);
     out.zero_axis = turn(a.zero_axis, b.zero_axis);
@@ -82,53 +82,56 @@ OBSCURA_INLINE PunctualRow<F> blend(const PunctualRow<F>& a,
     return out;
 }
 
-/// There is one direction only, so there is no density: add bsdf * cosine * irradiance, divided
-/// by the probability of choosing this light.
+/// Samples a light whose direction is unique, so that there is no density: add bsdf * cosine *
+/// irradiance, divided by the probability of choosing this light.
 ///
 /// In      profiles: of lights that have one
 /// Out     finite at any distance for intensities up to 1e20 cd: nearer than 1e-9 m, the light is
 ///         treated as that far away
 /// Source  KHR_lights_punctual: range window, inverse square law and spot cone; EXT_lights_ies
 template <typename F>
-OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualRow<F>& row,
+OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualRecord<F>& light,
                                                  const Vec3<F>& from,
                                                  const LightProfileView& profiles = {}) {
-    const auto directional = row.type == IntOf<F>(static_cast<int32_t>(PunctualType::directional));
-    const auto spot = row.type == IntOf<F>(static_cast<int32_t>(PunctualType::spot));
+    const auto directional =
+        light.type == IntOf<F>(static_cast<int32_t>(PunctualType::directional));
+    const auto spot = light.type == IntOf<F>(static_cast<int32_t>(PunctualType::spot));
 
-    const Vec3<F> to_light = row.position - from;
+    const Vec3<F> to_light = light.position - from;
     const F distance = length(to_light);
     const Vec3<F> towards = to_light * (F(1.0f) / max(distance, F(1e-18f)));
 
-    const F reach = distance / max(row.range, F(1e-18f));
+    const F reach = distance / max(light.range, F(1e-18f));
     const F window = clamp(F(1.0f) - square(square(reach)), F(0.0f), F(1.0f));
-    const F limited = select(row.range > F(0.0f), window, F(1.0f));
+    const F limited = select(light.range > F(0.0f), window, F(1.0f));
     const F cone =
-        clamp(-dot(row.shines, towards) * row.spot_scale + row.spot_offset, F(0.0f), F(1.0f));
+        clamp(-dot(light.shines, towards) * light.spot_scale + light.spot_offset, F(0.0f), F(1.0f));
     F angular = select(spot, cone * cone, F(1.0f));
-    if (profiles.rows != nullptr) {
-        const MaskOf<F> measured = row.profile >= IntOf<F>(0);
+    if (profiles.records != nullptr) {
+        const MaskOf<F> measured = light.profile >= IntOf<F>(0);
         if (any(measured)) {
-            const F candela = profile_candela<F>(
-                profiles, max(row.profile, IntOf<F>(0)), {row.shines, row.zero_axis}, -towards);
+            const F candela = profile_candela<F>(profiles,
+                                                 max(light.profile, IntOf<F>(0)),
+                                                 {light.shines, light.zero_axis},
+                                                 -towards);
             angular = select(measured, candela, angular);
         }
     }
     const F attenuation = limited * angular / max(distance * distance, F(1e-18f));
     const F factor = select(directional, F(1.0f), attenuation);
-    return {select(directional, -row.shines, towards),
+    return {select(directional, -light.shines, towards),
             select(directional, F(directional_distance_m), distance),
-            row.intensity * factor};
+            light.intensity * factor};
 }
 
-/// The same of rows[index].
+/// The same of lights[index].
 template <typename F>
-OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* rows,
+OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualLight* lights,
                                                  const IntOf<F>& index,
                                                  const Vec3<F>& from,
                                                  const LightProfileView& profiles = {}) {
     return sample_punctual<F>(
-        read_punctual<F>(rows, index, profiles.rows != nullptr), from, profiles);
+        read_punctual<F>(lights, index, profiles.records != nullptr), from, profiles);
 }
 
 }  // namespace OBSCURA_ISA

@@ -2,21 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "light/row_words.h"
+#include "light/record_words.h"
 #include "light/triangle_light.h"
-#include "math/table_row.h"
+#include "math/table_record.h"
 #include "math/warp.h"
 
 #include <cstdint>
 
 namespace obscura {
 
-/// To add one: a name here, a case in sample_shape_light and in shape_light_density, and a row in
-/// render/shape_light_table.cpp.
+/// To add one: a name here; a case in sample_shape_light and in shape_light_density; its choice and
+/// its record in light_of of render/shape_light_table.cpp; if it is not flat, its mean emission in
+/// render/raycast_lights.cpp; a test in tests/statistics/shape_light_test.cpp.
 enum class ShapeLightKind : int32_t {
     sphere,         ///< by solid angle
     rectangle,      ///< by solid angle; by area where that is small
-    parallelogram,  ///< by area: a rectangle that its node has sheared
+    parallelogram,  ///< by area: a rectangle under a transform with shear
     ellipse         ///< by area
 };
 
@@ -24,8 +25,8 @@ enum class ShapeLightKind : int32_t {
 struct ShapeLight {
     int32_t kind = 0;  ///< ShapeLightKind
     float centre[3] = {0, 0, 0};
-    /// sphere: its axes, unit; flat ones: half edges or half axes along u and v, and the unit
-    /// normal to the front in between
+    /// sphere: its unit axes; flat ones: x and z are the half edges or half axes along u and v, y
+    /// is the unit normal to the front
     float x[3] = {1, 0, 0}, y[3] = {0, 1, 0}, z[3] = {0, 0, 1};
     float radius = 1;               ///< of a sphere
     float area = 0;                 ///< square metres
@@ -51,9 +52,9 @@ struct ShapeLightSample {
     Vec2<F> uv;
 };
 
-/// A row in registers.
+/// A light in registers.
 template <typename F>
-struct ShapeLightRow {
+struct ShapeLightRecord {
     IntOf<F> kind;
     Vec3<F> centre, x, y, z;
     F radius, area;
@@ -61,24 +62,24 @@ struct ShapeLightRow {
 };
 
 template <auto member, typename F>
-OBSCURA_INLINE Vec3<F> light_vector(const TableRow<F, ShapeLight>& row) {
-    const auto number = [&](int k) { return row.template number<member>(k); };
+OBSCURA_INLINE Vec3<F> light_vector(const TableRecord<F, ShapeLight>& record) {
+    const auto number = [&](int k) { return record.template number<member>(k); };
     return {number(0), number(1), number(2)};
 }
 
 template <typename F>
-OBSCURA_INLINE ShapeLightRow<F> read_shape_light(const TableRow<F, ShapeLight>& row) {
-    return {.kind = row.template integer<&ShapeLight::kind>(),
-            .centre = light_vector<&ShapeLight::centre>(row),
-            .x = light_vector<&ShapeLight::x>(row),
-            .y = light_vector<&ShapeLight::y>(row),
-            .z = light_vector<&ShapeLight::z>(row),
-            .radius = row.template number<&ShapeLight::radius>(),
-            .area = row.template number<&ShapeLight::area>(),
-            .two_sided = row.template integer<&ShapeLight::two_sided>() != IntOf<F>(0)};
+OBSCURA_INLINE ShapeLightRecord<F> read_shape_light(const TableRecord<F, ShapeLight>& record) {
+    return {.kind = record.template integer<&ShapeLight::kind>(),
+            .centre = light_vector<&ShapeLight::centre>(record),
+            .x = light_vector<&ShapeLight::x>(record),
+            .y = light_vector<&ShapeLight::y>(record),
+            .z = light_vector<&ShapeLight::z>(record),
+            .radius = record.template number<&ShapeLight::radius>(),
+            .area = record.template number<&ShapeLight::area>(),
+            .two_sided = record.template integer<&ShapeLight::two_sided>() != IntOf<F>(0)};
 }
 
-/// 1 - cos of the angle that a sphere's radius is seen under; without cancellation far away.
+/// 1 - cos of the angle that a sphere's radius subtends; without cancellation far away.
 template <typename F>
 OBSCURA_INLINE F sphere_cap(const F& radius, const F& distance) {
     const F sine = radius / distance;
@@ -86,7 +87,7 @@ OBSCURA_INLINE F sphere_cap(const F& radius, const F& distance) {
     return squared / (F(1.0f) + sqrt(F(1.0f) - squared));
 }
 
-/// A rectangle as a point sees it.
+/// The solid angle of a rectangle as seen from a point.
 /// Source  Urena, Fajardo and King, "An Area-Preserving Parametrization for Spherical Rectangles",
 ///         EGSR 2013
 template <typename F>
@@ -96,11 +97,11 @@ struct SphericalRectangle {
     F solid_angle;
 };
 
-/// Below this rectangles are sampled by area: rounding would eat the angles.
+/// Smaller rectangles are sampled by area, because angles lose precision.
 inline constexpr float smallest_solid_angle = 0.01f;
 
 template <typename F>
-OBSCURA_INLINE SphericalRectangle<F> spherical_rectangle(const ShapeLightRow<F>& light,
+OBSCURA_INLINE SphericalRectangle<F> spherical_rectangle(const ShapeLightRecord<F>& light,
                                                          const Vec3<F>& from) {
     const F half_x = length(light.x);
     const F half_y = length(light.z);
@@ -133,7 +134,7 @@ OBSCURA_INLINE SphericalRectangle<F> spherical_rectangle(const ShapeLightRow<F>&
     return r;
 }
 
-/// A place on the rectangle, uniform over the solid angle; in -1 to 1 along the half edges.
+/// A point on the rectangle, uniform over the solid angle; in -1 to 1 along the half edges.
 template <typename F>
 OBSCURA_INLINE Vec2<F> sample_spherical_rectangle(const SphericalRectangle<F>& r,
                                                   const Vec2<F>& u) {
@@ -156,21 +157,21 @@ OBSCURA_INLINE Vec2<F> sample_spherical_rectangle(const SphericalRectangle<F>& r
 }
 
 template <typename F>
-OBSCURA_INLINE MaskOf<F> is_kind(const ShapeLightRow<F>& light, ShapeLightKind kind) {
+OBSCURA_INLINE MaskOf<F> is_kind(const ShapeLightRecord<F>& light, ShapeLightKind kind) {
     return light.kind == IntOf<F>(static_cast<int32_t>(kind));
 }
 
-/// True where a sphere holds the point; from there it is sampled by area.
+/// True where the point is inside a sphere light, which is then sampled by area.
 template <typename F>
-OBSCURA_INLINE MaskOf<F> is_inside(const ShapeLightRow<F>& light, const F& distance) {
+OBSCURA_INLINE MaskOf<F> is_inside(const ShapeLightRecord<F>& light, const F& distance) {
     return distance <= light.radius * F(1.00001f);
 }
 
 /// Density of choosing a direction towards a light by solid angle; `area_density` elsewhere.
 ///
-/// In      cosine: between the light's normal at the point met and the way back
+/// In      cosine: between the light's normal at the hit point and the direction back
 template <typename F>
-OBSCURA_INLINE F shape_light_density(const ShapeLightRow<F>& light,
+OBSCURA_INLINE F shape_light_density(const ShapeLightRecord<F>& light,
                                      const Vec3<F>& from,
                                      const F& distance,
                                      const F& cosine) {
@@ -192,9 +193,9 @@ OBSCURA_INLINE F shape_light_density(const ShapeLightRow<F>& light,
     return pdf;
 }
 
-/// The unit normal of a place on a sphere light and its coordinates: as shape/sphere.h.
+/// Texture coordinates of a sphere light at a unit normal: as shape/sphere.h.
 template <typename F>
-OBSCURA_INLINE Vec2<F> sphere_light_uv(const ShapeLightRow<F>& light, const Vec3<F>& n) {
+OBSCURA_INLINE Vec2<F> sphere_light_uv(const ShapeLightRecord<F>& light, const Vec3<F>& n) {
     const F x = dot(n, light.x);
     const F y = dot(n, light.y);
     const F z = dot(n, light.z);
@@ -202,11 +203,12 @@ OBSCURA_INLINE Vec2<F> sphere_light_uv(const ShapeLightRow<F>& light, const Vec3
             atan2(F(sqrt(x * x + z * z)), y) * F(1.0f / pi_f)};
 }
 
-/// The normal of a chosen place on a sphere light: in the cone towards it, all over it from inside.
+/// Samples a point on a sphere light, as its normal: within the cone towards it, or from inside
+/// over the whole sphere.
 /// Source  Shirley, Wang and Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations",
 ///         ACM TOG 15(1), 1996
 template <typename F>
-OBSCURA_INLINE Vec3<F> sample_sphere_light(const ShapeLightRow<F>& light,
+OBSCURA_INLINE Vec3<F> sample_sphere_light(const ShapeLightRecord<F>& light,
                                            const Vec2<F>& u,
                                            const Vec3<F>& from) {
     const Vec3<F> to_centre = light.centre - from;
@@ -225,12 +227,12 @@ OBSCURA_INLINE Vec3<F> sample_sphere_light(const ShapeLightRow<F>& light,
     return select(inside, uniform_sphere(u), normalize(to_world(frame, local)));
 }
 
-/// A place on one light as seen from `from`.
+/// Samples a point on a light, as seen from `from`.
 ///
 /// In      u: [0,1)^2
 /// Out     the light reaches `from` when pdf > 0; estimate: emission * texture / pdf
 template <typename F>
-OBSCURA_INLINE ShapeLightSample<F> sample_shape_light(const ShapeLightRow<F>& light,
+OBSCURA_INLINE ShapeLightSample<F> sample_shape_light(const ShapeLightRecord<F>& light,
                                                       const Vec2<F>& u,
                                                       const Vec3<F>& from) {
     const F one(1.0f);

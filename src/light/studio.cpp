@@ -1,4 +1,4 @@
-// light/studio.cpp - paints the built-in studio.
+// light/studio.cpp - draws the built-in studio environment.
 // SPDX-License-Identifier: Apache-2.0
 #include "light/studio.h"
 
@@ -16,7 +16,7 @@ double smooth_step(double low, double high, double x) {
     return t * t * (3 - 2 * t);
 }
 
-/// A rectangular soft box that hangs around the subject and faces it.
+/// A rectangular soft box that faces the subject.
 struct SoftBox {
     Vec3d towards;      ///< its centre, seen from the subject; any length
     double half_width;  ///< as tangents of angles
@@ -38,7 +38,7 @@ double radiance_of(const SoftBox& box, const Vec3d& direction) {
     return box.radiance * inside_x * inside_y;
 }
 
-/// Floor, wall and ceiling without a seam: brighter towards the top.
+/// A seamless background that is brighter towards the top.
 double dome(const Vec3d& direction) {
     return 0.22 + 0.38 * smooth_step(-0.45, 0.95, direction.y);
 }

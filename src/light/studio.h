@@ -1,4 +1,4 @@
-// light/studio.h - the neutral photo studio that lights a scene without any light of its own.
+// light/studio.h - the built-in studio environment, which lights scenes that have no light.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// light/triangle_light.cpp - fills the geometric part of a light's row.
+// light/triangle_light.cpp - computes the geometric part of a light triangle's record.
 // SPDX-License-Identifier: Apache-2.0
 #include "light/triangle_light.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "light/row_words.h"
+#include "light/record_words.h"
 #include "math/gather4.h"
 #include "math/vec.h"
 #include "surface/fresnel.h"
@@ -17,7 +17,7 @@ struct TriangleLight {
     float e1[3] = {0, 0, 0};        ///< to the second vertex
     float e2[3] = {0, 0, 0};        ///< to the third; cross(e1, e2) points to the front
     float emission[3] = {0, 0, 0};  ///< radiance, before the texture
-    float coat = 0;                 ///< clear coat over it, the mean of its texture
+    float coat = 0;                 ///< clearcoat factor times its texture's mean
     float uv0[2] = {0, 0};
     float uv1[2] = {0, 0};
     float uv2[2] = {0, 0};
@@ -25,20 +25,20 @@ struct TriangleLight {
     float area = 0;         ///< square metres
     float pdf_area = 0;     ///< probability of choosing this triangle / area; 0 when area is 0
     int32_t two_sided = 0;  ///< 1: also emits from the back
-    int32_t motion = -1;    ///< first row in LightView::moving_triangles; -1: it stands still
+    int32_t motion = -1;    ///< first index in LightView::moving_triangles; -1: it stands still
 };
 
 static_assert(sizeof(TriangleLight) == 24 * 4, "read as 32-bit words: no padding");
 
-/// Where a moving triangle is at one time.
+/// Corner and edges of a moving triangle at one time.
 struct MovingTriangle {
     float p0[3] = {0, 0, 0};
     float e1[3] = {0, 0, 0};
     float e2[3] = {0, 0, 0};
 };
 
-/// Corners, edges and area of a row; the rest stays at its default. Corners that are equal, in a
-/// line or not finite give the area 0.
+/// A light with corners, edges and area; the rest stays at its default. Corners that are equal,
+/// collinear or not finite give the area 0.
 TriangleLight make_triangle_light(const Vec3f& p0, const Vec3f& p1, const Vec3f& p2);
 
 inline namespace OBSCURA_ISA {
@@ -85,19 +85,19 @@ struct TriangleCorners {
     F pdf_area;
 };
 
-/// Four neighbouring words of rows[index], all of them within the row.
+/// Four neighbouring words of lights[index], all of them within the record.
 template <typename F>
-OBSCURA_INLINE Four<F> read_four(const TriangleLight* rows,
+OBSCURA_INLINE Four<F> read_four(const TriangleLight* lights,
                                  const IntOf<F>& index,
                                  size_t byte_offset) {
-    return gather4<F>(member_words<float>(rows, byte_offset),
-                      IntOf<F>(index * IntOf<F>(words_per_row<TriangleLight>)));
+    return gather4<F>(member_words<float>(lights, byte_offset),
+                      IntOf<F>(index * IntOf<F>(words_per_record<TriangleLight>)));
 }
 
 /// In      index must be in range for idle lanes too
 template <typename F>
-OBSCURA_INLINE TriangleCorners<F> read_corners(const TriangleLight* rows, const IntOf<F>& index) {
-    const auto read = [&](size_t offset) { return read_four<F>(rows, index, offset); };
+OBSCURA_INLINE TriangleCorners<F> read_corners(const TriangleLight* lights, const IntOf<F>& index) {
+    const auto read = [&](size_t offset) { return read_four<F>(lights, index, offset); };
     const Four<F> p0_e1 = read(offsetof(TriangleLight, p0));
     const Four<F> e1_e2 = read(offsetof(TriangleLight, e1) + 4);
     const Four<F> e2_on = read(offsetof(TriangleLight, e2) + 8);
@@ -111,24 +111,24 @@ OBSCURA_INLINE TriangleCorners<F> read_corners(const TriangleLight* rows, const 
             area_on.y};
 }
 
-/// A point on triangle rows[index], uniform over its area, as seen from `from`.
+/// A point on triangle lights[index], uniform over its area, as seen from `from`.
 ///
 /// In      corners: where the triangle is; u: [0,1)^2; index must be in range for idle lanes too
 /// Out     the light reaches `from` when pdf > 0; estimate: emission * texture / pdf
 template <typename F>
-OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight* rows,
+OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight* lights,
                                                             const IntOf<F>& index,
                                                             const TriangleCorners<F>& corners,
                                                             const Vec2<F>& u,
                                                             const Vec3<F>& from) {
-    const auto read = [&](size_t offset) { return read_four<F>(rows, index, offset); };
+    const auto read = [&](size_t offset) { return read_four<F>(lights, index, offset); };
     const Four<F> emission = read(offsetof(TriangleLight, emission));
     const Four<F> uv0_uv1 = read(offsetof(TriangleLight, uv0));
     const Four<F> uv2_on = read(offsetof(TriangleLight, uv2));
     static_assert(offsetof(TriangleLight, uv1) == offsetof(TriangleLight, uv0) + 8);
     const auto read_int = [&](size_t offset) {
-        return gather<F>(member_words<int32_t>(rows, offset),
-                         IntOf<F>(index * IntOf<F>(words_per_row<TriangleLight>)));
+        return gather<F>(member_words<int32_t>(lights, offset),
+                         IntOf<F>(index * IntOf<F>(words_per_record<TriangleLight>)));
     };
     const Vec2<F> weight = triangle_from_square(u);
     const Vec3<F>& e1 = corners.e1;
@@ -160,13 +160,13 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
     return sample;
 }
 
-/// The same of a triangle that stands still.
+/// The same for a triangle that stands still.
 template <typename F>
-OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight* rows,
+OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight* lights,
                                                             const IntOf<F>& index,
                                                             const Vec2<F>& u,
                                                             const Vec3<F>& from) {
-    return sample_triangle_light<F>(rows, index, read_corners<F>(rows, index), u, from);
+    return sample_triangle_light<F>(lights, index, read_corners<F>(lights, index), u, from);
 }
 
 }  // namespace OBSCURA_ISA

@@ -1,4 +1,4 @@
-// math/exact.h - products and sums with what rounding takes away from them.
+// math/exact.h - exact sums and products by error-free transformations.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,13 +7,13 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// A number and the error that rounding made: value + error is exact.
+/// A number and its rounding error: value + error is exact.
 template <typename F>
 struct Exact {
     F value, error;
 };
 
-/// a * b + c, rounded once. By intrinsics: xsimd 8 multiplies, rounds and adds for AVX-512.
+/// a * b + c, rounded once. By intrinsics because xsimd 8 does not fuse for AVX-512.
 #if defined(__AVX512F__)
 #define OBSCURA_FUSED
 OBSCURA_INLINE Lanes fused(Lanes a, Lanes b, Lanes c) {
@@ -31,7 +31,7 @@ OBSCURA_INLINE Lanes fused(Lanes a, Lanes b, Lanes c) {
 }
 #endif
 
-/// a + b without loss.
+/// a + b with its exact rounding error.
 /// Source  Knuth, The Art of Computer Programming 2, section 4.2.2, theorem B
 template <typename F>
 OBSCURA_INLINE Exact<F> two_sum(const F& a, const F& b) {
@@ -40,9 +40,9 @@ OBSCURA_INLINE Exact<F> two_sum(const F& a, const F& b) {
     return {sum, (a - (sum - b_part)) + (b - b_part)};
 }
 
-/// a * b without loss, as long as neither product nor error leaves the range of normal numbers.
-/// Source  Dekker, "A floating-point technique for extending the available precision", 1971, where
-///         the processor cannot fuse
+/// a * b with its exact rounding error, as long as both are normal numbers.
+/// Source  Dekker, "A floating-point technique for extending the available precision", 1971, for
+///         processors without fused multiply-add
 OBSCURA_INLINE Exact<double> two_product(double a, double b) {
     const double product = a * b;
     return {product, __builtin_fma(a, b, -product)};
@@ -71,7 +71,7 @@ OBSCURA_INLINE Exact<Lanes> two_product(Lanes a, Lanes b) {
 #endif
 }
 
-/// a * b + c with an error of one rounding (of hardly more where the processor cannot fuse).
+/// a * b + c with an error of one rounding, or slightly more without fused multiply-add.
 OBSCURA_INLINE double multiply_add(double a, double b, double c) {
     return __builtin_fma(a, b, c);
 }

@@ -1,4 +1,4 @@
-// math/gather4.h - two or four neighbouring words for every lane, for less than that many gathers.
+// math/gather4.h - gathers two or four neighbouring words per lane, cheaper than separate gathers.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,14 +7,14 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Words [i, i + 4) of a table, one member a word.
+/// Words [i, i + 4) of a table, one member per word.
 template <typename T>
 struct Four {
     T x, y, z, w;
 };
 
 #if defined(__AVX512F__)
-/// 16 loads of 16 bytes and a transposition: processors split a gather into loads of one word each.
+/// 16 loads of 16 bytes and a transposition: faster than gathers, which load single words.
 OBSCURA_INLINE Four<Lanes> gather4_lanes(const float* base, LanesI first) {
     alignas(64) int32_t at[lane_count];
     _mm512_store_si512(at, first.v);
@@ -79,8 +79,8 @@ OBSCURA_INLINE Four<Lanes> gather4_lanes(const float* base, LanesI first) {
 }
 #endif
 
-/// Reads base[i] to base[i + 3] for every lane. All four words must exist, in idle lanes too, also
-/// where the caller drops some: tables read this way have padding at their end.
+/// Reads base[i] to base[i + 3] for every lane. All four words must exist, even unused ones and in
+/// idle lanes: tables read this way have padding at their end.
 template <typename F>
 OBSCURA_INLINE Four<F> gather4(const float* base, const IntOf<F>& i) {
     if constexpr (std::is_same_v<F, Lanes>) {
@@ -161,7 +161,7 @@ OBSCURA_INLINE Two<UintOf<F>> gather2(const uint32_t* base, const IntOf<F>& i) {
     }
 }
 
-/// Asks for the memory that gather4(base, i) will read, so that other work can go on meanwhile.
+/// Prefetches the memory that gather4(base, i) will read.
 template <typename F, typename T>
 OBSCURA_INLINE void prefetch(const T* base, const IntOf<F>& i) {
     if constexpr (std::is_same_v<F, Lanes>) {

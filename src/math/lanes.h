@@ -10,8 +10,8 @@
 #include <immintrin.h>
 #endif
 
-/// Name of the inline namespace that keeps code compiled for one instruction set apart from the
-/// others. The build sets it for the stages; everything else is compiled once, as baseline.
+/// Name of the inline namespace that separates the code of one instruction set from that of others.
+/// The build sets it for the stages; everything else is compiled once, as baseline.
 #ifndef OBSCURA_ISA
 #define OBSCURA_ISA isa_baseline
 #endif
@@ -32,7 +32,7 @@ inline constexpr int lane_count = static_cast<int>(BatchF::size);
 
 // clang-format off
 
-/// One truth value a lane.
+/// One boolean per lane.
 struct Mask {
     xs::batch_bool<float> v;
     Mask() = default;
@@ -200,7 +200,7 @@ OBSCURA_INLINE Lanes atan2(Lanes y, Lanes x) { return xs::atan2(y.v, x.v); }
 OBSCURA_INLINE LanesI min(LanesI a, LanesI b) { return xs::min(a.v, b.v); }
 OBSCURA_INLINE LanesI max(LanesI a, LanesI b) { return xs::max(a.v, b.v); }
 
-/// The same bits in registers of another type; xsimd 10 went from naming the batch to its element.
+/// The same bits as another type; since xsimd 10 the target is named by its element type.
 #if XSIMD_VERSION_MAJOR >= 10
 template <typename To, typename From> OBSCURA_INLINE To same_bits(From v) {
     return xs::bitwise_cast<typename To::value_type>(v);
@@ -262,7 +262,7 @@ OBSCURA_INLINE float bits_float(int32_t a) { return __builtin_bit_cast(float, a)
 
 // clang-format on
 
-/// The integer and truth types that go with a value type, and how tables are read with them.
+/// The integer and boolean types of a value type, and gathers with them.
 template <typename F>
 struct LaneTypes {  // float and double
     using Int = int32_t;
@@ -346,7 +346,7 @@ OBSCURA_INLINE LanesI lane_numbers() {
     return load(numbers);
 }
 
-/// Moves the lanes of a mask together at the front, in order; the rest is unspecified.
+/// Stream compaction: moves the lanes of a mask to the front, in order; the rest is unspecified.
 class Packer {
 public:
 #if defined(__AVX512F__)

@@ -1,4 +1,4 @@
-// math/reverse_bits.h - mirrors the bits of words, one or a register full.
+// math/reverse_bits.h - reverses the bits of words, scalar or in lanes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -7,19 +7,19 @@
 
 namespace obscura {
 
-/// What each pair of random numbers is for. A path's pair number is `bounce * pairs_per_bounce +
-/// use`; bounce 0 is the camera's own.
+/// The uses of the pairs of random numbers. A path's pair index is `bounce * pairs_per_bounce +
+/// use`; bounce 0 is the camera's.
 ///
-/// To add a use: append it before `count`. Every picture's noise (not its mean) then changes.
+/// To add a use: append it before `count`. This changes the noise of every image, not its mean.
 enum class RandomUse : uint32_t { film, bsdf, roulette, light, light_choice, texture, count };
 
 inline constexpr uint32_t pairs_per_bounce = static_cast<uint32_t>(RandomUse::count);
 
-/// Pair number of the point on the lens: beyond those of any bounce, so that cameras without a lens
-/// draw what they always did.
+/// Pair index of the point on the lens: greater than those of any bounce, so that a lens does not
+/// shift the other pairs.
 inline constexpr uint32_t lens_pair = 0x4C454E53U;
 
-/// Likewise of the time while the shutter is open.
+/// Likewise of the shutter time.
 inline constexpr uint32_t shutter_pair = 0x53485554U;
 
 /// Likewise of the wavelength that dispersion gives a path.
@@ -41,12 +41,12 @@ OBSCURA_INLINE U hash_word(U x) {
 /// Key of a pixel's random numbers: depends on seed and absolute pixel coordinates only.
 template <typename U>
 OBSCURA_INLINE U pixel_key(const U& x, const U& y, uint32_t seed_low, uint32_t seed_high) {
-    U key = hash_word(U(x + U(hash_word(seed_low))));  // seeds must not move the picture
+    U key = hash_word(U(x + U(hash_word(seed_low))));  // seeds must not shift the pattern
     key = hash_word(U(key ^ (y * U(0x9E3779B9U))));
     return hash_word(U(key + U(seed_high)));
 }
 
-/// Owen scrambling of a number given with its bits reversed; so is the result.
+/// Owen scrambling; input and result have their bits reversed.
 /// Source  Laine and Karras, "Stratified Sampling for Stochastic Transparency", 2011; constants of
 ///         N. Vegdahl, "Building a Better LK Hash", 2021
 template <typename U>
@@ -58,9 +58,9 @@ OBSCURA_INLINE U owen_scramble_reversed(U x, const U& seed) {
     return x ^ (x * U(0x53A22864U));
 }
 
-/// Second Sobol dimension of an index, bits reversed: the Pascal triangle modulo 2 as matrix.
+/// Second Sobol dimension of an index, bits reversed: the matrix is the Pascal triangle modulo 2.
 /// Source  Ahmed, "An Implementation Algorithm of 2D Sobol Sequence Fast, Elegant, and Compact",
-/// 2024
+///         2024
 template <typename U>
 OBSCURA_INLINE U sobol_second_reversed(U x) {
     x = x ^ ((x >> 1) & U(0x55555555U));
@@ -84,13 +84,13 @@ OBSCURA_INLINE Vec2<U> sobol_pair(const U& key, const U& index_reversed, uint32_
     return {reverse_bits(first), reverse_bits(second)};
 }
 
-/// The number in [0, 1) that a 32-bit fraction stands for; 24 bits are kept.
+/// A 32-bit fraction as a number in [0, 1); keeps 24 bits.
 template <typename F>
 OBSCURA_INLINE F unit_float(const UintOf<F>& bits) {
     return from_int<F>(as_int(bits >> 8)) * F(1.0f / 16777216.0f);
 }
 
-/// All 32 bits of a number, rounded once.
+/// Converts an unsigned integer, rounded once.
 template <typename F>
 OBSCURA_INLINE F float_from_uint(const UintOf<F>& u) {
     return from_int<F>(as_int(u >> 16)) * F(65536.0f) + from_int<F>(as_int(u & UintOf<F>(0xFFFFU)));

@@ -1,4 +1,4 @@
-// math/transform.h - affine maps between spaces, as three rows of four numbers.
+// math/transform.h - affine transforms as 3x4 matrices.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -41,7 +41,7 @@ OBSCURA_INLINE Vec3<F> transform_normal(const Affine<F>& inverse, const Vec3<F>&
             inverse.m[0][2] * n.x + inverse.m[1][2] * n.y + inverse.m[2][2] * n.z};
 }
 
-/// The map that applies b first, then a.
+/// The transform that applies b first, then a.
 template <typename F>
 OBSCURA_INLINE Affine<F> compose(const Affine<F>& a, const Affine<F>& b) {
     Affine<F> out;

@@ -68,8 +68,8 @@ OBSCURA_INLINE F length(const Vec3<F>& a) {
     return sqrt(dot(a, a));
 }
 
-/// Unit vector along a; the zero vector (and anything that underflows to it) stays zero, and one
-/// beyond 1e19 becomes short.
+/// Unit vector along a. Zero and underflowing vectors give zero; vectors above 1e19 give too short
+/// ones.
 template <typename F>
 OBSCURA_INLINE Vec3<F> normalize(const Vec3<F>& a) {
     return a * inverse_sqrt(clamp(dot(a, a), F(1e-36f), F(3e38f)));
@@ -85,7 +85,7 @@ OBSCURA_INLINE Vec3<F> select(const M& mask, const Vec3<F>& a, const Vec3<F>& b)
     return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
 }
 
-/// Scalars need their own: the overload above and the scalar select would be equally good.
+/// Scalars need their own overload: the one above would be ambiguous with the scalar select.
 template <typename F>
 OBSCURA_INLINE Vec3<F> select(bool mask, const Vec3<F>& a, const Vec3<F>& b) {
     return mask ? a : b;

@@ -1,4 +1,4 @@
-// math/warp.h - maps from the unit square to directions, and frames around a normal.
+// math/warp.h - maps from the unit square to directions, and orthonormal frames.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@ inline constexpr double pi_d = 3.14159265358979324;
 
 inline namespace OBSCURA_ISA {
 
-/// A constant with all the digits that F has.
+/// A constant in the full precision of F.
 template <typename F>
 OBSCURA_INLINE F exact_constant(double value) {
     if constexpr (std::is_same_v<F, double>) {
@@ -28,7 +28,7 @@ struct SinCos {
     F sin, cos;
 };
 
-/// Sine and cosine of an angle and so many quarter turns, from those of the angle.
+/// Sine and cosine of an angle plus a number of quarter turns, from those of the angle.
 ///
 /// In   quarters: whole
 template <typename F>
@@ -51,8 +51,9 @@ template <typename F>
 OBSCURA_INLINE SinCos<F> sin_cos(const F& angle) {
     if constexpr (std::is_floating_point_v<F>) {
         return {sin(angle), cos(angle)};
-    } else {  // xsimd's own carry a scalar function for huge angles along, of which no copy may
-              // stay
+    } else {
+        // Not xsimd's own: they contain a scalar function for huge angles, which the linker might
+        // share between instruction sets.
         const F quadrant = floor(angle * F(2.0f / pi_f) + F(0.5f));
         const F x = ((angle - quadrant * F(1.5703125f)) - quadrant * F(4.837512969970703125e-4f)) -
                     quadrant * F(7.549789948768648e-8f);
@@ -68,7 +69,7 @@ OBSCURA_INLINE SinCos<F> sin_cos(const F& angle) {
     }
 }
 
-/// Sine and cosine of a whole turn times t, t in [0, 1]; absolute error below 4e-7 in float.
+/// Sine and cosine of t turns, t in [0, 1]; absolute error below 4e-7 in float.
 template <typename F>
 OBSCURA_INLINE SinCos<F> sin_cos_turn(const F& t) {
     if constexpr (std::is_same_v<F, double>) {

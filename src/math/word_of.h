@@ -1,4 +1,4 @@
-// math/word_of.h - where a member lies in a record that lanes read as 32-bit words.
+// math/word_of.h - the offset of a member in a record that lanes read as 32-bit words.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,9 +10,9 @@
 namespace obscura {
 
 template <typename Record>
-inline constexpr int32_t words_per_row = static_cast<int32_t>(sizeof(Record) / 4);
+inline constexpr int32_t words_per_record = static_cast<int32_t>(sizeof(Record) / 4);
 
-/// What a pointer to a member says about it.
+/// The record and the member type of a pointer to member.
 template <typename T>
 struct MemberTraits;
 template <typename R, typename M>
@@ -26,7 +26,7 @@ using RecordOf = typename MemberTraits<decltype(member)>::Record;
 template <auto member>
 using MemberOf = typename MemberTraits<decltype(member)>::Member;
 
-/// A member as a value without a type of its own, for functions that are told which one.
+/// A pointer to member as an empty value, to pass it to functions.
 template <auto member>
 struct Member {};
 
@@ -40,7 +40,7 @@ struct RecordWords {
     uint32_t word[sizeof(Record) / 4];
 };
 
-/// A record whose words are their own numbers.
+/// A record in which every word holds its own index.
 template <typename Record>
 constexpr Record numbered_words() {
     RecordWords<Record> words = {};
@@ -58,8 +58,8 @@ constexpr const auto& first_element(const T& member) {
     }
 }
 
-/// The first word of a member, or of a member within that member, and so on: the compiler looks
-/// it up in the record itself, so that it stays right whatever the order of the members is.
+/// The first word of a member, of a member within that member, and so on. Read from the record
+/// itself at compile time, so that it stays right when members are reordered.
 template <auto member, auto... inner>
 constexpr int find_word() {
     constexpr RecordOf<member> record = numbered_words<RecordOf<member>>();
@@ -77,7 +77,7 @@ constexpr int find_word() {
 template <auto... members>
 inline constexpr int word_of = find_word<members...>();
 
-/// The type at the end of such a way.
+/// The type of the last member of such a chain.
 template <auto first, auto... rest>
 struct LastMember {
     using Type = typename LastMember<rest...>::Type;
@@ -89,7 +89,7 @@ struct LastMember<only> {
 template <auto... members>
 using LastMemberOf = typename LastMember<members...>::Type;
 
-/// One such member, or the elements of an array of them.
+/// That type, or its element type if it is an array.
 template <auto... members>
 using ElementOf = std::remove_all_extents_t<LastMemberOf<members...>>;
 

@@ -1,4 +1,4 @@
-// render/enclosed_lights.cpp - finds lights that are shut up in the closed mesh of their fixture.
+// render/enclosed_lights.cpp - finds lights that their own fixture's closed mesh blocks.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/enclosed_lights.h"
 
@@ -16,15 +16,15 @@ namespace obscura {
 namespace {
 
 constexpr int directions = 64;
-constexpr size_t most_lights = 256;
+constexpr size_t max_lights = 256;
 
 /// Rays from one point, in columns with the padding that Accel asks for.
 struct Rays {
-    static constexpr size_t rows = directions + 16;
-    using Column = std::array<float, rows>;
+    static constexpr size_t padded_count = directions + 16;
+    using Column = std::array<float, padded_count>;
     Column ox = {}, oy = {}, oz = {}, dx = {}, dy = {}, dz = {}, tfar = {};
     Column t = {}, u = {}, v = {};
-    std::array<int32_t, rows> instance = {}, primitive = {}, triangle = {};
+    std::array<int32_t, padded_count> instance = {}, primitive = {}, triangle = {};
     int count = 0;
 
     void add(const Vec3f& origin, const Vec3f& direction, float length) {
@@ -57,7 +57,7 @@ struct Rays {
     }
 };
 
-/// Evenly spread over the sphere, or over a spot's cone.
+/// Adds rays spread evenly over the sphere, or over a spot's cone.
 ///
 /// Source  the golden spiral: equal steps of height, each turned by the golden angle
 void add_directions(const PunctualLight& light, Rays& rays) {
@@ -69,8 +69,8 @@ void add_directions(const PunctualLight& light, Rays& rays) {
     const float lowest =
         cone && light.spot_scale > 0 ? std::max(-light.spot_offset / light.spot_scale, -1.0f) : -1;
     for (int i = 0; i < directions; ++i) {
-        const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(directions);
-        const float z = 1 - share * (1 - lowest);
+        const float fraction = (static_cast<float>(i) + 0.5f) / static_cast<float>(directions);
+        const float z = 1 - fraction * (1 - lowest);
         const float r = std::sqrt(std::max(0.0f, 1 - z * z));
         const float phi = static_cast<float>(i) * 2.3999632f;
         rays.add(place,
@@ -87,7 +87,7 @@ bool is_opaque(const Scene& scene, const Primitive& primitive) {
     return layers.transmission <= 0 && layers.diffuse_transmission <= 0;
 }
 
-/// The one node, if there is one, at whose opaque faces all rays end.
+/// The node at whose opaque faces all rays end; nothing if there is no single one.
 std::optional<int32_t> enclosing_node(const Scene& scene, const Rays& rays) {
     std::optional<int32_t> node;
     for (size_t i = 0; i < static_cast<size_t>(rays.count); ++i) {
@@ -103,7 +103,7 @@ std::optional<int32_t> enclosing_node(const Scene& scene, const Rays& rays) {
     return node;
 }
 
-/// True when the eye is among what the rays met, or looks into it.
+/// True when the eye is within the box of the hits, or sees the light with back faces culled.
 bool sees_inside(const Accel& accel, const Rays& rays, const Vec3f& eye) {
     Vec3f low{INFINITY, INFINITY, INFINITY};
     Vec3f high = -low;
@@ -116,9 +116,9 @@ bool sees_inside(const Accel& accel, const Rays& rays, const Vec3f& eye) {
     const bool within = eye.x >= low.x && eye.x <= high.x && eye.y >= low.y && eye.y <= high.y &&
                         eye.z >= low.z && eye.z <= high.z;
     if (within) return true;
-    const Vec3f way = light - eye;
+    const Vec3f to_light = light - eye;
     Rays look;
-    look.add(eye, normalize(way), length(way));
+    look.add(eye, normalize(to_light), length(to_light));
     look.intersect(accel, {.culls_back_faces = true, .fixed_alpha = true});
     return look.primitive[0] < 0;
 }
@@ -128,7 +128,7 @@ bool sees_inside(const Accel& accel, const Rays& rays, const Vec3f& eye) {
 std::vector<EnclosedLight> find_enclosed_lights(const PreparedScene& prepared, const Vec3f& eye) {
     const Scene& scene = prepared.scene();
     std::vector<EnclosedLight> out;
-    for (size_t i = 0; i < std::min(scene.lights.size(), most_lights); ++i) {
+    for (size_t i = 0; i < std::min(scene.lights.size(), max_lights); ++i) {
         const PunctualLight& light = scene.lights[i];
         if (light.type == static_cast<int32_t>(PunctualType::directional)) continue;
         Rays rays;

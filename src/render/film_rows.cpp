@@ -1,4 +1,4 @@
-// render/film_rows.cpp - samples, one column a channel, into the film's rows of pixels.
+// render/film_rows.cpp - interleaves sample columns into the pixels of a film.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/film_rows.h"
 
@@ -10,7 +10,7 @@ namespace obscura {
 
 namespace {
 
-/// Films of more floats than this do not stay in a cache until they are read.
+/// Films with more floats than this do not stay in a cache until they are read.
 constexpr size_t large_film = size_t{4} << 20U;
 
 /// Four pixels side by side: a row of a tile's block.
@@ -23,7 +23,7 @@ void write_four(const float* const (&columns)[4], int row, float* out) {
 }
 
 template <int channels>
-void write_pixels(const SampleRows& samples, const FilmPixels& pixels, Film& film) {
+void write_pixels(const SampleColumns& samples, const FilmPixels& pixels, Film& film) {
     const float* const columns[] = {samples.r, samples.g, samples.b, samples.a};
     const bool large = film.pixels.size() > large_film;
     float* const start = film.pixels.data();
@@ -49,7 +49,7 @@ void write_pixels(const SampleRows& samples, const FilmPixels& pixels, Film& fil
 
 }  // namespace
 
-void write_film(const SampleRows& samples, const FilmPixels& pixels, Film& film) {
+void write_film(const SampleColumns& samples, const FilmPixels& pixels, Film& film) {
     switch (film.channels.size()) {
         case 1:
             return write_pixels<1>(samples, pixels, film);

@@ -1,8 +1,8 @@
-// render/filter_table.cpp - reconstruction filters as inverse cumulative distributions.
+// render/filter_table.cpp - pixel reconstruction filters as inverse cumulative distributions.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/filter_table.h"
 
-#include "stages/doors.h"
+#include "stages/path_state.h"
 
 #include <cmath>
 
@@ -32,7 +32,7 @@ std::vector<float> make_filter_table(PixelFilter filter) {
     if (filter == PixelFilter::box) return {};
     const Shape shape =
         filter == PixelFilter::gaussian ? Shape{1.5, gaussian} : Shape{1.65, blackman_harris};
-    // Cumulative sums of the midpoint rule, then the steps at which they pass k / entries.
+    // Cumulative sums by the midpoint rule, then the offsets at which they reach k / entries.
     constexpr int steps = 1 << 16;
     const double width = 2.0 * shape.radius / steps;
     std::vector<double> cumulative(steps + 1, 0.0);

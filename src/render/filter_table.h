@@ -1,4 +1,4 @@
-// render/filter_table.h - reconstruction filters as tables for the camera stage.
+// render/filter_table.h - pixel reconstruction filters as inverse cumulative distributions.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace obscura {
 
-/// Offsets in pixels at equal steps of the filter's cumulative distribution, filter_entries + 1 of
-/// them; empty for the box filter of one pixel.
+/// Offsets in pixels at filter_entries + 1 equal steps of the filter's cumulative distribution;
+/// empty for the box filter of one pixel.
 ///
 /// gaussian: standard deviation 0.5, cut at 1.5 pixels. blackman_harris: four-term window,
 /// 1.65 pixels to each side.

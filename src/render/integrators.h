@@ -1,9 +1,9 @@
-// render/integrators.h - the closed list of integrators: their names, walks and channels.
+// render/integrators.h - the closed list of integrators: names, kinds of transport, channels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "render/render.h"
-#include "stages/walk.h"
+#include "stages/wavefront.h"
 
 #include <array>
 #include <string>
@@ -11,51 +11,47 @@
 
 namespace obscura {
 
-struct IntegratorRow {
+struct IntegratorEntry {
     const char* name;  ///< on the command line
     Integrator value;
-    WalkKind walk;
-    Quantity quantity;                ///< for WalkKind::quantity and wireframe; else not looked at
+    WavefrontKind kind;
+    Aov aov;                          ///< for WavefrontKind::aov and wireframe; else unused
     std::array<const char*, 4> film;  ///< channels; null: no more
 };
 
 /// In the order of the enumeration.
-inline constexpr std::array<IntegratorRow, 13> integrator_rows = {
-    {{"path", Integrator::path, WalkKind::path, {}, {"R", "G", "B", "A"}},
-     {"direct", Integrator::direct, WalkKind::path, {}, {"R", "G", "B", "A"}},
-     {"raycast", Integrator::raycast, WalkKind::raycast, {}, {"R", "G", "B", "A"}},
-     {"ao", Integrator::ao, WalkKind::ao, {}, {"R", "G", "B", "A"}},
-     {"normal", Integrator::normal, WalkKind::quantity, Quantity::normal, {"N.X", "N.Y", "N.Z"}},
-     {"facing", Integrator::facing, WalkKind::quantity, Quantity::facing, {"facing"}},
-     {"depth", Integrator::depth, WalkKind::quantity, Quantity::depth, {"Z"}},
-     {"distance", Integrator::distance, WalkKind::quantity, Quantity::distance, {"distance"}},
-     {"uv", Integrator::uv, WalkKind::quantity, Quantity::uv, {"UV.U", "UV.V"}},
-     {"albedo", Integrator::albedo, WalkKind::quantity, Quantity::albedo, {"R", "G", "B", "A"}},
-     {"id",
-      Integrator::id,
-      WalkKind::quantity,
-      Quantity::id,
-      {"id.node", "id.material", "id.triangle"}},
+inline constexpr std::array<IntegratorEntry, 13> integrator_entries = {
+    {{"path", Integrator::path, WavefrontKind::path, {}, {"R", "G", "B", "A"}},
+     {"direct", Integrator::direct, WavefrontKind::path, {}, {"R", "G", "B", "A"}},
+     {"raycast", Integrator::raycast, WavefrontKind::raycast, {}, {"R", "G", "B", "A"}},
+     {"ao", Integrator::ao, WavefrontKind::ao, {}, {"R", "G", "B", "A"}},
+     {"normal", Integrator::normal, WavefrontKind::aov, Aov::normal, {"N.X", "N.Y", "N.Z"}},
+     {"facing", Integrator::facing, WavefrontKind::aov, Aov::facing, {"facing"}},
+     {"depth", Integrator::depth, WavefrontKind::aov, Aov::depth, {"Z"}},
+     {"distance", Integrator::distance, WavefrontKind::aov, Aov::distance, {"distance"}},
+     {"uv", Integrator::uv, WavefrontKind::aov, Aov::uv, {"UV.U", "UV.V"}},
+     {"albedo", Integrator::albedo, WavefrontKind::aov, Aov::albedo, {"R", "G", "B", "A"}},
+     {"id", Integrator::id, WavefrontKind::aov, Aov::id, {"id.node", "id.material", "id.triangle"}},
      {"wireframe",
       Integrator::wireframe,
-      WalkKind::wireframe,
-      Quantity::wireframe,
+      WavefrontKind::wireframe,
+      Aov::wireframe,
       {"R", "G", "B", "A"}},
-     {"heat", Integrator::heat, WalkKind::quantity, Quantity::heat, {"heat"}}}};
+     {"heat", Integrator::heat, WavefrontKind::aov, Aov::heat, {"heat"}}}};
 
-constexpr const IntegratorRow& row_of(Integrator integrator) {
-    return integrator_rows[static_cast<size_t>(integrator)];
+constexpr const IntegratorEntry& entry_of(Integrator integrator) {
+    return integrator_entries[static_cast<size_t>(integrator)];
 }
 
-/// True when the integrator takes one ray through each pixel's centre, and writes what it finds.
-constexpr bool is_quantity(Integrator integrator) {
-    return row_of(integrator).walk == WalkKind::quantity;
+/// True for AOVs: one ray through each pixel's centre, without light.
+constexpr bool is_aov(Integrator integrator) {
+    return entry_of(integrator).kind == WavefrontKind::aov;
 }
 
-/// What the film of an integrator holds.
+/// Names of the channels of an integrator's film.
 std::vector<std::string> film_channels(Integrator integrator);
 
-/// Samples that a pixel gets: not every integrator asks --spp.
+/// Samples per pixel: some integrators ignore samples_per_pixel.
 int samples_taken(const RenderOptions& options);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// render/light_table.cpp - gathers every light of a scene into one numbered, samplable list.
+// render/light_table.cpp - lists all lights of a scene, with their sampling probabilities.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/light_table.h"
 
@@ -30,15 +30,15 @@ double punctual_power(const Scene& scene, const PunctualLight& light, double rad
     return directional ? pi_d * radius * radius * intensity : 4.0 * pi_d * intensity;
 }
 
-/// Emitters with holes are left to the rays that meet them: a point on the table's triangle cannot
-/// tell whether it is there.
+/// True for emitters that light sampling can use. Alpha cut-outs are left to BSDF sampling: a point
+/// sampled on a triangle does not know its alpha.
 bool emits(const Material& material) {
     constexpr uint32_t unsampled = material_unlit | material_alpha_mask | material_alpha_blend;
     return (material.flags & unsampled) == 0 &&
            std::max({material.emission[0], material.emission[1], material.emission[2]}) > 0;
 }
 
-/// What the rows of one emissive primitive have in common.
+/// Data that the lights of one emissive primitive share.
 struct Emitter {
     const Scene& scene;
     const Primitive& primitive;
@@ -58,26 +58,29 @@ Vec2f corner_uv(const Emitter& e, uint32_t vertex) {
 }
 
 /// Mean emission of a triangle's texture, by a small grid of look-ups at a fitting mip level.
-Vec3f mean_texture(const Scene& scene, const TriangleLight& row) {
+Vec3f mean_texture(const Scene& scene, const TriangleLight& record) {
     const TextureView view = view_of(scene.textures);
     constexpr int side = 4;
-    const float area = 0.5f * std::fabs((row.uv1[0] - row.uv0[0]) * (row.uv2[1] - row.uv0[1]) -
-                                        (row.uv1[1] - row.uv0[1]) * (row.uv2[0] - row.uv0[0]));
+    const float area =
+        0.5f * std::fabs((record.uv1[0] - record.uv0[0]) * (record.uv2[1] - record.uv0[1]) -
+                         (record.uv1[1] - record.uv0[1]) * (record.uv2[0] - record.uv0[0]));
     Vec3f sum{0, 0, 0};
     for (int i = 0; i < side * side; ++i) {
         const int row_of_cell = i / side;
         const Vec2f u{(static_cast<float>(i % side) + 0.5f) / side,
                       (static_cast<float>(row_of_cell) + 0.5f) / side};
         const Vec2f b = triangle_from_square(u);
-        const Vec2f uv{
-            row.uv0[0] + (row.uv1[0] - row.uv0[0]) * b.x + (row.uv2[0] - row.uv0[0]) * b.y,
-            row.uv0[1] + (row.uv1[1] - row.uv0[1]) * b.x + (row.uv2[1] - row.uv0[1]) * b.y};
-        sum = sum + sample_texture_bilinear<float>(view, row.texture, uv, area / (side * side)).rgb;
+        const Vec2f uv{record.uv0[0] + (record.uv1[0] - record.uv0[0]) * b.x +
+                           (record.uv2[0] - record.uv0[0]) * b.y,
+                       record.uv0[1] + (record.uv1[1] - record.uv0[1]) * b.x +
+                           (record.uv2[1] - record.uv0[1]) * b.y};
+        sum = sum +
+              sample_texture_bilinear<float>(view, record.texture, uv, area / (side * side)).rgb;
     }
     return sum * (1.0f / (side * side));
 }
 
-TriangleLight light_row(const Emitter& e, int32_t triangle) {
+TriangleLight light_record(const Emitter& e, int32_t triangle) {
     const uint32_t* corners =
         &e.scene.indices[3 * static_cast<size_t>(e.primitive.first_triangle + triangle)];
     Vec3f p[3];
@@ -87,40 +90,40 @@ TriangleLight light_row(const Emitter& e, int32_t triangle) {
         if (e.instance != nullptr) p[k] = transform_point(e.instance->world_from_object, p[k]);
     }
     const bool mirrored = e.instance != nullptr && e.instance->mirrored != 0;
-    TriangleLight row =
+    TriangleLight record =
         mirrored ? make_triangle_light(p[0], p[2], p[1]) : make_triangle_light(p[0], p[1], p[2]);
-    std::copy_n(e.material.emission, 3, row.emission);
-    row.coat = mean_coat(e.scene, e.material);
-    row.two_sided = (e.material.flags & material_double_sided) != 0 ? 1 : 0;
+    std::copy_n(e.material.emission, 3, record.emission);
+    record.coat = mean_coat(e.scene, e.material);
+    record.two_sided = (e.material.flags & material_double_sided) != 0 ? 1 : 0;
     const TextureSlot& slot = e.material.emissive_texture;
     const bool has_uv = e.primitive.uv_base[slot.uv_set] != no_attribute;
-    row.texture = has_uv ? slot.texture : -1;
-    if (row.texture >= 0) {
+    record.texture = has_uv ? slot.texture : -1;
+    if (record.texture >= 0) {
         const Vec2f uv[3] = {corner_uv(e, corners[0]),
                              corner_uv(e, corners[mirrored ? 2 : 1]),
                              corner_uv(e, corners[mirrored ? 1 : 2])};
-        std::copy_n(&uv[0].x, 2, row.uv0);
-        std::copy_n(&uv[1].x, 2, row.uv1);
-        std::copy_n(&uv[2].x, 2, row.uv2);
+        std::copy_n(&uv[0].x, 2, record.uv0);
+        std::copy_n(&uv[1].x, 2, record.uv1);
+        std::copy_n(&uv[2].x, 2, record.uv2);
     }
-    return row;
+    return record;
 }
 
-/// least: what a black texture counts as.
-Vec3f emission_of(const Scene& scene, const TriangleLight& row, float least) {
-    const Vec3f emission{row.emission[0], row.emission[1], row.emission[2]};
-    const Vec3f below = emission * (1 - row.coat * mean_coat_reflectance);
-    return row.texture < 0 ? below : below * (mean_texture(scene, row) + splat3(least));
+/// least: added to the texture's mean, so that black textures keep some weight.
+Vec3f emission_of(const Scene& scene, const TriangleLight& record, float least) {
+    const Vec3f emission{record.emission[0], record.emission[1], record.emission[2]};
+    const Vec3f below = emission * (1 - record.coat * mean_coat_reflectance);
+    return record.texture < 0 ? below : below * (mean_texture(scene, record) + splat3(least));
 }
 
-double triangle_power(const Scene& scene, const TriangleLight& row, float least) {
-    const Vec3f emission = emission_of(scene, row, least);
-    const double sides = row.two_sided != 0 ? 2.0 : 1.0;
-    return sides * pi_d * static_cast<double>(row.area) *
+double triangle_power(const Scene& scene, const TriangleLight& record, float least) {
+    const Vec3f emission = emission_of(scene, record, least);
+    const double sides = record.two_sided != 0 ? 2.0 : 1.0;
+    return sides * pi_d * static_cast<double>(record.area) *
            static_cast<double>(max_component(emission));
 }
 
-/// A corner at one of Motion's times. Either the primitive moves or its instance: see is_sampled.
+/// A corner at one of Motion's times. Primitive or instance moves, not both: see is_sampled.
 Vec3f corner_at(const Emitter& e, uint32_t vertex, int32_t step) {
     const Scene& scene = e.scene;
     const float* p = &scene.positions[3 * static_cast<size_t>(vertex)];
@@ -133,8 +136,8 @@ Vec3f corner_at(const Emitter& e, uint32_t vertex, int32_t step) {
     const Vec3f at{p[0], p[1], p[2]};
     if (e.instance == nullptr) return at;
     if (!moves(*e.instance)) return transform_point(e.instance->world_from_object, at);
-    const auto row = static_cast<size_t>(e.instance->motion) + static_cast<size_t>(step);
-    return transform_point(scene.motion.instances[row], at);
+    const auto index = static_cast<size_t>(e.instance->motion) + static_cast<size_t>(step);
+    return transform_point(scene.motion.instances[index], at);
 }
 
 void store(const Vec3f& v, float* out) {
@@ -143,7 +146,7 @@ void store(const Vec3f& v, float* out) {
     out[2] = v.z;
 }
 
-/// Where a triangle of the table is, with its corners in the row's order.
+/// Position of a triangle of the table, with its corners in the record's order.
 MovingTriangle triangle_at(const Emitter& e, int32_t triangle, int32_t step) {
     const uint32_t* corners =
         &e.scene.indices[3 * static_cast<size_t>(e.primitive.first_triangle + triangle)];
@@ -156,14 +159,14 @@ MovingTriangle triangle_at(const Emitter& e, int32_t triangle, int32_t step) {
     return out;
 }
 
-/// A mesh that bends while its node moves follows no straight lines between two times: only rays
-/// that meet it know where it is.
+/// False for a mesh that deforms while its instance moves: its vertices do not move linearly
+/// between two times, so that only BSDF sampling finds it.
 bool is_sampled(const Emitter& e) {
     return e.instance == nullptr || !moves(*e.instance) || !moves(e.primitive);
 }
 
-/// Rows of one placing of a primitive, appended; those that are not sampled have no area.
-void append_rows(const Emitter& e, LightTable& table) {
+/// Appends the lights of one instance of a primitive; those that are not sampled have no area.
+void append_records(const Emitter& e, LightTable& table) {
     const auto count = static_cast<size_t>(e.primitive.triangle_count);
     const size_t first = table.triangles.size();
     table.triangles.resize(first + count);
@@ -174,11 +177,11 @@ void append_rows(const Emitter& e, LightTable& table) {
     if (is_moving) table.moving_triangles.resize(first_moving + count * steps);
     parallel_ranges(count, 1024, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
-            TriangleLight& row = table.triangles[first + i];
-            row = light_row(e, static_cast<int32_t>(i));
+            TriangleLight& record = table.triangles[first + i];
+            record = light_record(e, static_cast<int32_t>(i));
             if (!is_moving) continue;
             const size_t at = first_moving + i * steps;
-            row.motion = static_cast<int32_t>(at);
+            record.motion = static_cast<int32_t>(at);
             for (size_t step = 0; step < steps; ++step) {
                 table.moving_triangles[at + step] =
                     triangle_at(e, static_cast<int32_t>(i), static_cast<int32_t>(step));
@@ -193,11 +196,11 @@ void collect_world_emitters(Scene& scene, LightTable& table) {
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
         if (!emits(material) || !is_mesh(primitive)) continue;
         primitive.light_base = static_cast<int32_t>(table.triangles.size());
-        append_rows({scene, primitive, material, nullptr}, table);
+        append_records({scene, primitive, material, nullptr}, table);
     }
 }
 
-/// A mesh's emissive primitives are numbered within the mesh; an instance adds where it starts.
+/// Numbers emissive primitives within their mesh; Instance::light_base is added to that.
 void collect_instance_emitters(Scene& scene, LightTable& table) {
     for (const Mesh& mesh : scene.meshes) {
         int32_t within = 0;
@@ -218,13 +221,13 @@ void collect_instance_emitters(Scene& scene, LightTable& table) {
             const Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
             if (primitive.light_base < 0 || !is_mesh(primitive)) continue;
             const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-            append_rows({scene, primitive, material, &instance}, table);
+            append_records({scene, primitive, material, &instance}, table);
         }
     }
 }
 
-/// Power shares, with a floor for each kind of light that is present: power says nothing of how
-/// near a light is, and a dim lamp beside a bright sky still lights its corner.
+/// Weights by power, with a minimum for each kind of light that is present. Power does not tell how
+/// near a light is: under a bright sky, a dim lamp still lights its corner.
 std::vector<double> choice_weights(const std::vector<double>& punctual,
                                    const std::vector<double>& triangles,
                                    double environment) {
@@ -238,10 +241,10 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
     const double total = kinds[0] + kinds[1] + kinds[2];
     double scale[3] = {0, 0, 0};
     for (int k = 0; k < 3; ++k) {
-        const double share = kinds[k] / total;
-        // BSDF sampling finds what is near of the faint kinds, but for the punctual ones.
-        const double least = k == 0 ? 0.2 : std::min(0.2, 50.0 * share);
-        if (kinds[k] > 0) scale[k] = std::max(share, least) / kinds[k];
+        const double fraction = kinds[k] / total;
+        // Near lights of faint kinds are also found by BSDF sampling, except punctual ones.
+        const double least = k == 0 ? 0.2 : std::min(0.2, 50.0 * fraction);
+        if (kinds[k] > 0) scale[k] = std::max(fraction, least) / kinds[k];
     }
     std::vector<double> weights;
     weights.reserve(punctual.size() + triangles.size() + 1);
@@ -288,9 +291,9 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     const std::vector<double> pdf = cdf_probabilities(table.choice);
     table.select_pdf.assign(pdf.begin(), pdf.end());
     for (size_t i = 0; i < table.triangles.size(); ++i) {
-        TriangleLight& row = table.triangles[i];
-        const double area = static_cast<double>(row.area);
-        row.pdf_area = area > 0 ? static_cast<float>(pdf[punctual.size() + i] / area) : 0.0f;
+        TriangleLight& record = table.triangles[i];
+        const double area = static_cast<double>(record.area);
+        record.pdf_area = area > 0 ? static_cast<float>(pdf[punctual.size() + i] / area) : 0.0f;
     }
     const size_t first_shape = punctual.size() + table.triangles.size();
     for (size_t i = 0; i < table.shapes.size(); ++i)
@@ -304,14 +307,14 @@ float mean_coat(const Scene& scene, const Material& material) {
     const MaterialLayers& layers = scene.layers[static_cast<size_t>(material.layers)];
     const int32_t texture = layers.clearcoat_texture.texture;
     if (texture < 0 || !(layers.clearcoat > 0)) return layers.clearcoat;
-    const TextureRow& row = scene.textures.rows[static_cast<size_t>(texture)];
-    // The mean, where the mip chain goes down to one texel.
-    const auto last = static_cast<size_t>(row.level_offset[row.levels - 1]);
-    return layers.clearcoat * texel_channel(scene.textures, row, last, 0);
+    const TextureRecord& record = scene.textures.records[static_cast<size_t>(texture)];
+    // The last texel is the mean if the mip chain goes down to one texel.
+    const auto last = static_cast<size_t>(record.level_offset[record.levels - 1]);
+    return layers.clearcoat * texel_channel(scene.textures, record, last, 0);
 }
 
-Vec3f mean_emission(const Scene& scene, const TriangleLight& row) {
-    return emission_of(scene, row, 0.0f);
+Vec3f mean_emission(const Scene& scene, const TriangleLight& record) {
+    return emission_of(scene, record, 0.0f);
 }
 
 double brightest_mean_radiance(const Scene& scene, const LightTable& table) {
@@ -323,12 +326,12 @@ double brightest_mean_radiance(const Scene& scene, const LightTable& table) {
     double power = 0;
     double area = 0;
     for (size_t i = 0; i < table.triangles.size(); ++i) {
-        const TriangleLight& row = table.triangles[i];
-        if (i > 0 && !same_surface(row, table.triangles[i - 1])) power = area = 0;
-        power += triangle_power(scene, row, 0.0f);
-        area += (row.two_sided != 0 ? 2.0 : 1.0) * static_cast<double>(row.area);
+        const TriangleLight& record = table.triangles[i];
+        if (i > 0 && !same_surface(record, table.triangles[i - 1])) power = area = 0;
+        power += triangle_power(scene, record, 0.0f);
+        area += (record.two_sided != 0 ? 2.0 : 1.0) * static_cast<double>(record.area);
         const bool is_last =
-            i + 1 == table.triangles.size() || !same_surface(row, table.triangles[i + 1]);
+            i + 1 == table.triangles.size() || !same_surface(record, table.triangles[i + 1]);
         if (is_last && area > 0) brightest = std::max(brightest, power / (pi_d * area));
     }
     return brightest;

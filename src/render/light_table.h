@@ -1,4 +1,4 @@
-// render/light_table.h - gathers every light of a scene into one numbered, samplable list.
+// render/light_table.h - lists all lights of a scene, with their sampling probabilities.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace obscura {
 
-/// Owns what LightView points to.
+/// Owns the arrays of LightView.
 struct LightTable {
     std::vector<PunctualLight> punctual;
     std::vector<TriangleLight> triangles;
@@ -35,14 +35,14 @@ struct LightTable {
 /// In      environment: null or black: none
 LightTable make_light_table(Scene& scene, const EnvironmentTable* environment);
 
-/// KHR_materials_clearcoat's factor of a material, times the mean of its texture.
+/// A material's clearcoat factor times the mean of its texture.
 float mean_coat(const Scene& scene, const Material& material);
 
-/// Radiance of a row, with its texture and coat, averaged over the triangle and all directions.
-Vec3f mean_emission(const Scene& scene, const TriangleLight& row);
+/// Radiance of a light, with its texture and coat, averaged over the triangle and all directions.
+Vec3f mean_emission(const Scene& scene, const TriangleLight& record);
 
-/// Radiance of the emissive surface that has most of it, averaged over its area with its texture:
-/// low where a material glows in name only, with a black texture or a few small spots.
+/// The maximum over emissive surfaces of the radiance, averaged over area and texture: low if the
+/// textures are black but for a few small spots.
 double brightest_mean_radiance(const Scene& scene, const LightTable& table);
 
 }  // namespace obscura

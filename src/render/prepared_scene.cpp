@@ -1,4 +1,4 @@
-// render/prepared_scene.cpp - builds what rendering needs once: lights, environment, BVH.
+// render/prepared_scene.cpp - prepares a scene for rendering: lights, environment, BVH.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/prepared_scene.h"
 
@@ -10,7 +10,7 @@
 #include "scene/edge_scale.h"
 #include "scene/split_curves.h"
 #include "scene/thin_walls.h"
-#include "scene/touching_bodies.h"
+#include "scene/touching_media.h"
 
 #include <algorithm>
 
@@ -18,10 +18,10 @@ namespace obscura {
 
 namespace {
 
-/// Surfaces that glow less than this on average are no lamps (the studio's radiance is about 0.7).
-constexpr double least_lamp_radiance = 0.05;
+/// Surfaces with a lower mean radiance do not count as lights (the studio's is about 0.7).
+constexpr double min_lamp_radiance = 0.05;
 
-/// Emitters with alpha, and those that bend and are moved, are not in the light table.
+/// True when an emitter may be missing in the light table: with alpha, or with too complex motion.
 bool has_unlisted_emitter(const Scene& scene) {
     return std::any_of(
         scene.primitives.begin(), scene.primitives.end(), [&](const Primitive& primitive) {
@@ -33,7 +33,7 @@ bool has_unlisted_emitter(const Scene& scene) {
         });
 }
 
-/// True when something could be seen by light and nothing lights it.
+/// True when the scene has surfaces to light but no light.
 bool needs_studio(const Scene& scene, const LightTable& lights) {
     if (!scene.lights.empty()) return false;
     const auto is_unlit = [&](const Primitive& primitive) {
@@ -44,15 +44,15 @@ bool needs_studio(const Scene& scene, const LightTable& lights) {
     const bool shows = !all.empty() || !scene.splats.empty();
     if (shows && std::all_of(all.begin(), all.end(), is_unlit)) return false;
     return !has_unlisted_emitter(scene) &&
-           brightest_mean_radiance(scene, lights) < least_lamp_radiance &&
-           brightest_shape_radiance(scene) < least_lamp_radiance;
+           brightest_mean_radiance(scene, lights) < min_lamp_radiance &&
+           brightest_shape_radiance(scene) < min_lamp_radiance;
 }
 
 EnvironmentImage image_of(const ImageRgb32f& image) {
     return {image.width, image.height, image.pixels.data()};
 }
 
-/// Makes the environment's table, unless there is one of the same source.
+/// Makes the environment's table, unless the old one has the same source.
 Result<void> make_environment(PreparedScene::Impl& impl,
                               const LightingOptions& lighting,
                               const EnvironmentSource& source) {
@@ -75,8 +75,8 @@ Result<void> make_environment(PreparedScene::Impl& impl,
     return {};
 }
 
-/// The environment that the user chose, else the scene's own, else the studio, when nothing lights
-/// the scene.
+/// Uses the environment that the user chose, else the scene's own, else the studio if nothing
+/// lights the scene.
 Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
     const EnvironmentSource source{lighting.environment.has_value(), impl.scene.environment};
     if (source.chosen && source.own) {
@@ -96,7 +96,7 @@ Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lig
     return made;
 }
 
-/// Everything but the tables of an instruction set. The accel is built, or brought up to date.
+/// Prepares everything except the stage table of an instruction set. Builds or updates the Accel.
 Result<void> prepare(PreparedScene::Impl& impl,
                      Scene scene,
                      const LightingOptions& lighting,
@@ -106,7 +106,7 @@ Result<void> prepare(PreparedScene::Impl& impl,
     mark_alike_textures(impl.scene);
     split_long_curves(impl.scene);
     impl.edge_scale = edge_scale(impl.scene);
-    impl.touching_bodies = find_touching_bodies(impl.scene);
+    impl.touching_media = find_touching_media(impl.scene);
     auto lit = make_lighting(impl, lighting, log);
     if (!lit) return lit;
     const Stopwatch building_bvh;
@@ -133,9 +133,9 @@ SceneView PreparedScene::Impl::view() const {
     out.primitives = scene.primitives.data();
     out.instances = scene.instances.data();
     if (!scene.shapes.empty() || !scene.spheres.empty() || !scene.curve_points.empty()) {
-        // Lanes that hit shapes read mesh tables at 0, whatever is there.
+        // Lanes that hit shapes also read the mesh tables, at index 0, and ignore the values.
         static constexpr float zeros[16] = {};
-        static constexpr ShapeRow no_shape = {};
+        static constexpr ShapeRecord no_shape = {};
         const auto zero_indices = reinterpret_cast<const int32_t*>(zeros);
         if (scene.indices.size() < 4) out.indices = zero_indices;
         if (scene.positions.size() < 3) out.positions = zeros;
@@ -148,9 +148,9 @@ SceneView PreparedScene::Impl::view() const {
     out.materials = scene.materials.data();
     out.layers = scene.layers.data();
     out.media = scene.media.size() > 1 ? scene.media.data() : nullptr;
-    out.touching_bodies = touching_bodies.empty() ? nullptr : touching_bodies.data();
+    out.touching_media = touching_media.empty() ? nullptr : touching_media.data();
     out.scatters = std::any_of(scene.media.begin(), scene.media.end(), scatters);
-    out.thin_walls = accel && (accel->has_thin_walls() || has_bodies_like_air(scene));
+    out.thin_walls = accel && (accel->has_thin_walls() || has_media_like_air(scene));
     out.occludes =
         std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
             return material.occlusion_texture.texture >= 0;

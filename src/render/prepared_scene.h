@@ -1,4 +1,4 @@
-// render/prepared_scene.h - what a PreparedScene owns.
+// render/prepared_scene.h - the private parts of PreparedScene.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,13 +22,13 @@ struct EnvironmentSource {
 struct PreparedScene::Impl {
     Scene scene;
     std::optional<EnvironmentTable> environment;
-    EnvironmentSource environment_source;  ///< of which it was made
+    EnvironmentSource environment_source;  ///< of the current environment
     LightTable lights;
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;
-    float edge_scale = 1;                  ///< see scene/edge_scale.h
-    std::vector<int32_t> touching_bodies;  ///< see scene/touching_bodies.h
-    std::string embree_isa;                ///< as Accel::build takes it
+    float edge_scale = 1;                 ///< see scene/edge_scale.h
+    std::vector<int32_t> touching_media;  ///< see scene/touching_media.h
+    std::string embree_isa;               ///< as Accel::build takes it
     BuildSeconds build_seconds;
 
     SceneView view() const;

@@ -1,4 +1,4 @@
-// render/raycast_lights.cpp - draws every light with an extent together into what raycast can use.
+// render/raycast_lights.cpp - for raycast: area lights as points, the environment as irradiance.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/raycast_lights.h"
 
@@ -13,7 +13,7 @@ namespace obscura {
 
 namespace {
 
-/// Rows of the triangle light table that one placing of a primitive has.
+/// The range of the triangle light table that belongs to one instance of a primitive.
 struct Emitter {
     size_t first = 0, count = 0;
 };
@@ -46,10 +46,10 @@ void store(const Vec3d& v, float* out) {
     out[2] = static_cast<float>(v.z);
 }
 
-/// Triangles whose normals stay within about 8 degrees of their mean are one flat lamp.
-constexpr double flat_share = 0.99;
+/// Triangles whose normals stay within about 8 degrees of their mean count as one flat lamp.
+constexpr double flat_fraction = 0.99;
 
-CentreLight centre_of(const Scene& scene, const TriangleLight* rows, size_t count) {
+CentreLight centre_of(const Scene& scene, const TriangleLight* lights, size_t count) {
     Vec3d flux = splat3(0.0);  // radiance times area
     Vec3d place = splat3(0.0);
     Vec3d normal = splat3(0.0);
@@ -57,10 +57,10 @@ CentreLight centre_of(const Scene& scene, const TriangleLight* rows, size_t coun
     double area = 0;
     const auto for_each = [&](const auto& use) {
         for (size_t i = 0; i < count; ++i)
-            use(rows[i], vector(rows[i].p0), vector(rows[i].e1), vector(rows[i].e2));
+            use(lights[i], vector(lights[i].p0), vector(lights[i].e1), vector(lights[i].e2));
     };
-    for_each([&](const TriangleLight& row, const Vec3d& p0, const Vec3d& e1, const Vec3d& e2) {
-        const Vec3f mean = mean_emission(scene, row);
+    for_each([&](const TriangleLight& light, const Vec3d& p0, const Vec3d& e1, const Vec3d& e2) {
+        const Vec3f mean = mean_emission(scene, light);
         const Vec3d emission{mean.x, mean.y, mean.z};
         const Vec3d face = cross(e1, e2) * 0.5;
         const double weight = max_component(emission);
@@ -78,16 +78,16 @@ CentreLight centre_of(const Scene& scene, const TriangleLight* rows, size_t coun
         for (const Vec3d& corner : {p0, p0 + e1, p0 + e2})
             radius = std::max(radius, length(corner - centre));
     });
-    out.flat = length(normal) >= flat_share * weights ? 1 : 0;
+    out.flat = length(normal) >= flat_fraction * weights ? 1 : 0;
     const double share = out.flat != 0 ? 1.0 : 0.25;
     store(centre, out.position);
     store(normalize(normal), out.normal);
     store(flux * share, out.intensity);
-    out.least_squared = static_cast<float>(area * share / pi_d);
-    // A flat lamp is cleared by what rounding may move it; a round one must not hide itself.
+    out.min_distance_squared = static_cast<float>(area * share / pi_d);
+    // Shadow rays must not hit the lamp: for flat ones a margin for rounding suffices.
     const double slack = 1e-5 * (length(centre) + radius);
     out.radius = static_cast<float>(out.flat != 0 ? 1e-3 * radius + slack : radius + slack);
-    out.two_sided = rows[0].two_sided;
+    out.two_sided = lights[0].two_sided;
     return out;
 }
 
@@ -124,7 +124,7 @@ CentreLight centre_of(const Scene& scene, const ShapeLight& light) {
     std::copy_n(light.centre, 3, out.position);
     std::copy_n(light.y, 3, out.normal);
     store(mean_shape_emission(scene, light) * area, out.intensity);
-    out.least_squared = static_cast<float>(area / pi_d);
+    out.min_distance_squared = static_cast<float>(area / pi_d);
     out.flat = sphere ? 0 : 1;
     out.two_sided = light.two_sided;
     const double slack = 1e-5 * (length(vector(light.centre)) + size);
@@ -145,11 +145,11 @@ using Terms = std::array<Vec3d, ambient_terms>;
 
 /// A horizontal band of directions.
 struct Band {
-    double cosine;      ///< of the polar angle, in the middle
+    double cosine;      ///< of the polar angle at the centre
     double steradians;  ///< of one pixel's part
 };
 
-/// Adds the part of one row of the map that lies in a band.
+/// Adds the part of one pixel row of the map that lies in a band.
 void add_row(const EnvironmentView& map, int32_t row, const Band& band, Terms& sum) {
     const double cosine = band.cosine;
     const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
@@ -174,7 +174,7 @@ void add_row(const EnvironmentView& map, int32_t row, const Band& band, Terms& s
 AmbientLight project_environment(const EnvironmentView& map) {
     std::vector<Terms> rows(static_cast<size_t>(map.height));
     parallel_for(rows.size(), [&](size_t y) {
-        // Tall pixels are cut into bands, for the terms change within them.
+        // Tall pixels are cut into bands because the terms vary within them.
         const int bands = 1 + 256 / map.height;
         const double step = pi_d / (map.height * bands);
         for (int band = 0; band < bands; ++band) {

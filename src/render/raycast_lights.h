@@ -1,4 +1,4 @@
-// render/raycast_lights.h - draws every light with an extent together into what raycast can use.
+// render/raycast_lights.h - for raycast: area lights as points, the environment as irradiance.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace obscura {
 
-/// Owns what RaycastView points to.
+/// Owns the arrays of RaycastView.
 struct RaycastLights {
     std::vector<CentreLight> centres;
     std::optional<AmbientLight> ambient;
@@ -19,11 +19,11 @@ struct RaycastLights {
     RaycastView view() const;
 };
 
-/// One point for every placing of an emissive primitive; the environment as irradiance by normal;
-/// a headlight when there is neither of these nor a punctual light.
+/// One point light for every instance of an emissive primitive; the environment as irradiance by
+/// normal; a headlight if there is neither of these nor a punctual light.
 RaycastLights make_raycast_lights(const PreparedScene::Impl& scene);
 
-/// The integral over all directions, pixel by pixel, onto the nine terms of AmbientLight.
+/// Projects the environment onto the nine terms of AmbientLight, pixel by pixel.
 AmbientLight project_environment(const EnvironmentView& environment);
 
 }  // namespace obscura

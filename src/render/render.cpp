@@ -1,16 +1,16 @@
-// render/render.cpp - cuts the film into tiles, one task each, and walks their batches.
+// render/render.cpp - divides the film into tiles, one task each, and traces their batches.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/render.h"
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "render/camera_bodies.h"
+#include "render/camera_media.h"
 #include "render/film_rows.h"
 #include "render/filter_table.h"
 #include "render/integrators.h"
 #include "render/prepared_scene.h"
 #include "render/raycast_lights.h"
-#include "stages/walk.h"
+#include "stages/wavefront.h"
 
 #include <algorithm>
 #include <memory>
@@ -20,22 +20,22 @@ namespace obscura {
 
 namespace {
 
-/// What one of a pixel's samples stands for, of the area that the pixel covers: samples share it,
-/// as long as their look-ups still find texels in nearby memory.
+/// Fraction of a pixel's footprint that one sample's texture look-up covers: 1 / samples, with a
+/// minimum so that look-ups still hit the caches.
 /// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 10.1.1
-float footprint_share(int samples) {
+float footprint_fraction(int samples) {
     constexpr float least = 1.0f / 64;
     return std::max(least, 1.0f / static_cast<float>(samples));
 }
 
-WalkInput make_walk(const PreparedScene::Impl& scene,
-                    const Camera& camera,
-                    const RenderOptions& options) {
-    WalkInput walk{};
-    walk.stages = scene.stages;
-    walk.accel = &*scene.accel;
-    walk.scene = scene.view();
-    BatchSettings& batch = walk.batch;
+WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
+                                    const Camera& camera,
+                                    const RenderOptions& options) {
+    WavefrontInput input{};
+    input.stages = scene.stages;
+    input.accel = &*scene.accel;
+    input.scene = scene.view();
+    BatchSettings& batch = input.batch;
     batch.camera = camera;
     batch.width = options.width;
     batch.height = options.height;
@@ -48,24 +48,25 @@ WalkInput make_walk(const PreparedScene::Impl& scene,
         std::copy_n(options.background_color, 3, batch.background);
         batch.background[3] = 1.0f;
     } else if (batch.background_visible) {
-        batch.background[3] = walk.scene.has_environment ? 1.0f : 0.0f;
+        batch.background[3] = input.scene.has_environment ? 1.0f : 0.0f;
     }
     const Bounds& bounds = scene.scene.bounds;
     const float diagonal = bounds.empty() ? 1.0f : length(bounds.high - bounds.low);
     batch.ao_distance =
         options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m) : 0.2f * diagonal;
-    batch.footprint_share = footprint_share(samples_taken(options));
+    batch.footprint_fraction = footprint_fraction(samples_taken(options));
     batch.wire_width_px = static_cast<float>(options.wire_width_px);
     const auto& eye = camera.world_from_camera.m;
-    batch.bodies = bodies_around(*scene.accel, scene.scene, {eye[0][3], eye[1][3], eye[2][3]});
+    batch.medium_stack =
+        medium_stack_around(*scene.accel, scene.scene, {eye[0][3], eye[1][3], eye[2][3]});
     if (options.integrator == Integrator::direct) batch.max_bounces = 0;
-    walk.kind = row_of(options.integrator).walk;
-    walk.quantity = row_of(options.integrator).quantity;
-    batch.through_centres = walk.kind == WalkKind::raycast;
-    return walk;
+    input.kind = entry_of(options.integrator).kind;
+    input.aov = entry_of(options.integrator).aov;
+    batch.through_centres = input.kind == WavefrontKind::raycast;
+    return input;
 }
 
-/// One square of the film and its pixels, in an order that keeps neighbours together.
+/// One tile of the film.
 struct Tile {
     int x, y, width, height;
 };
@@ -83,15 +84,16 @@ std::vector<Tile> cut_tiles(const PixelRect& area, int size) {
     return tiles;
 }
 
-/// Quantities take one ray a pixel: only a larger tile fills their rows.
+/// Side of a tile. AOVs take one ray per pixel and need larger tiles to fill a batch.
 int tile_side(const RenderOptions& options) {
-    constexpr int side_for_quantities = 32;
-    static_assert(side_for_quantities * side_for_quantities == quantity_rows);
-    return is_quantity(options.integrator) ? std::max(options.tile_size, side_for_quantities)
-                                           : options.tile_size;
+    constexpr int side_for_aovs = 32;
+    static_assert(side_for_aovs * side_for_aovs == aov_batch_size);
+    return is_aov(options.integrator) ? std::max(options.tile_size, side_for_aovs)
+                                      : options.tile_size;
 }
 
-/// Pixels of a tile of one size in 4x4 blocks, row by row inside a block: packets of 16 are square.
+/// Order of a tile's pixels: 4x4 blocks, row by row within a block, so that packets of 16 rays are
+/// square.
 struct TilePattern {
     int width = 0, height = 0;
     std::vector<int32_t> dx, dy;  ///< from the tile's corner
@@ -112,17 +114,18 @@ void fill_pattern(int width, int height, TilePattern& pattern) {
     }
 }
 
-/// What one thread keeps from tile to tile.
+/// State that one thread keeps from tile to tile.
 struct ThreadState {
     Workspace work;
     TilePattern pattern;
     std::vector<int32_t> xs, ys;
     std::vector<PixelSum> sums;
-    WalkCounters counters;
-    std::unique_ptr<RayRecorder> recorder;  ///< null: nobody wants the rays
+    WavefrontCounters counters;
+    std::unique_ptr<RayRecorder> recorder;  ///< null: no recording
 };
 
-/// Lists the tile's pixels, and 16 more, for stages read whole registers. Returns their number.
+/// Lists the tile's pixels, padded by 16 because stages read whole registers. Returns their number
+/// without the padding.
 int list_pixels(const Tile& tile, ThreadState& state) {
     fill_pattern(tile.width, tile.height, state.pattern);
     const size_t count = state.pattern.dx.size();
@@ -136,17 +139,17 @@ int list_pixels(const Tile& tile, ThreadState& state) {
 }
 
 /// Renders all samples of one tile into state.sums; leaves early when `stop` is set.
-void render_tile(const WalkInput& walk_input,
+void render_tile(const WavefrontInput& wavefront_input,
                  int samples,
                  const Tile& tile,
                  const std::atomic<bool>& stop,
                  ThreadState& state) {
     const int pixels = list_pixels(tile, state);
     state.sums.assign(static_cast<size_t>(pixels), {});
-    WalkInput in = walk_input;
+    WavefrontInput in = wavefront_input;
     in.recorder = state.recorder.get();
-    const int per_batch = std::max(1, batch_rows / pixels);
-    const int pixels_per_batch = std::min(pixels, batch_rows);
+    const int per_batch = std::max(1, batch_size / pixels);
+    const int pixels_per_batch = std::min(pixels, batch_size);
     for (int first = 0; first < pixels; first += pixels_per_batch) {
         in.batch.pixel_x = state.xs.data() + first;
         in.batch.pixel_y = state.ys.data() + first;
@@ -154,30 +157,30 @@ void render_tile(const WalkInput& walk_input,
             if (stop.load(std::memory_order_relaxed)) return;
             in.batch.first_sample = static_cast<uint32_t>(sample);
             in.batch.samples = std::min(per_batch, samples - sample);
-            walk(in,
-                 std::min(pixels_per_batch, pixels - first),
-                 state.work,
-                 state.sums.data() + first,
-                 state.counters);
+            trace_batch(in,
+                        std::min(pixels_per_batch, pixels - first),
+                        state.work,
+                        state.sums.data() + first,
+                        state.counters);
         }
     }
 }
 
-/// Finds the quantity in one tile and writes it into the film.
-void render_quantity_tile(const WalkInput& walk_input,
-                          const Tile& tile,
-                          const std::atomic<bool>& stop,
-                          ThreadState& state,
-                          Film& film) {
+/// Computes an AOV in one tile and writes it into the film.
+void render_aov_tile(const WavefrontInput& wavefront_input,
+                     const Tile& tile,
+                     const std::atomic<bool>& stop,
+                     ThreadState& state,
+                     Film& film) {
     const int pixels = list_pixels(tile, state);
-    WalkInput in = walk_input;
+    WavefrontInput in = wavefront_input;
     in.recorder = state.recorder.get();
-    for (int first = 0; first < pixels; first += quantity_rows) {
+    for (int first = 0; first < pixels; first += aov_batch_size) {
         if (stop.load(std::memory_order_relaxed)) return;
-        const int count = std::min(quantity_rows, pixels - first);
+        const int count = std::min(aov_batch_size, pixels - first);
         in.batch.pixel_x = state.xs.data() + first;
         in.batch.pixel_y = state.ys.data() + first;
-        walk_quantity(in, count, state.work, state.counters);
+        trace_aov(in, count, state.work, state.counters);
         const SumOfTime time(state.counters.seconds.accumulate);
         write_film(state.work.samples, {in.batch.pixel_x, in.batch.pixel_y, count}, film);
     }
@@ -209,7 +212,7 @@ RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& sta
     return total;
 }
 
-/// reach: of the rays to be kept; null: none are
+/// reach: of the rays to record; null: none are recorded
 std::unique_ptr<ThreadState> make_state(const RayReach* reach) {
     auto state = std::make_unique<ThreadState>();
     if (reach != nullptr) state->recorder = std::make_unique<RayRecorder>(*reach);
@@ -222,14 +225,14 @@ void hand_over(std::vector<std::unique_ptr<ThreadState>>& states, RayRecording& 
     }
 }
 
-/// What an integrator reads besides the prepared scene.
+/// Data of an integrator besides the prepared scene.
 struct Supplies {
     RaycastLights raycast;
     std::optional<Accel> counting;
     std::vector<Affinef> camera;  ///< MotionView::camera
 };
 
-/// What the camera has moved by, at each time: a map of the world.
+/// The camera's movement since the first time, at each time, as a transform of the world.
 std::vector<Affinef> camera_motion(const std::vector<Affined>& world_from_camera) {
     std::vector<Affinef> moved;
     for (const Affined& placing : world_from_camera) {
@@ -251,7 +254,7 @@ Result<Supplies> make_supplies(const PreparedScene::Impl& scene, const RenderOpt
     return out;
 }
 
-/// As large as the crop, in old memory where there is some.
+/// A film of the crop's size, in the memory of an earlier film if there is one.
 Film make_film(const RenderOptions& options) {
     Film film;
     film.width = options.crop ? options.crop->width : options.width;
@@ -261,7 +264,7 @@ Film make_film(const RenderOptions& options) {
     }
     film.channels = film_channels(options.integrator);
     if (options.film_memory != nullptr) film.pixels = std::move(*options.film_memory);
-    // Not cleared here: the threads that write the pixels first bring in their memory.
+    // Not cleared here: the memory pages are first touched by the threads that write the pixels.
     film.pixels.resize(static_cast<size_t>(film.width) * static_cast<size_t>(film.height) *
                        film.channels.size());
     return film;
@@ -281,16 +284,16 @@ Result<RenderResult> render(const PreparedScene& scene,
     result.film = make_film(options);
 
     const std::vector<float> filter = make_filter_table(options.filter);
-    WalkInput walk_input = make_walk(scene.impl(), camera, options);
-    walk_input.batch.filter = filter.empty() ? nullptr : filter.data();
-    walk_input.scene.raycast = supplies->raycast.view();
-    walk_input.notes = options.notes;
+    WavefrontInput wavefront_input = make_wavefront_input(scene.impl(), camera, options);
+    wavefront_input.batch.filter = filter.empty() ? nullptr : filter.data();
+    wavefront_input.scene.raycast = supplies->raycast.view();
+    wavefront_input.notes = options.notes;
     if (!supplies->camera.empty()) {
-        walk_input.scene.motion.camera = supplies->camera.data();
-        walk_input.scene.motion.camera_steps = static_cast<int>(supplies->camera.size());
+        wavefront_input.scene.motion.camera = supplies->camera.data();
+        wavefront_input.scene.motion.camera_steps = static_cast<int>(supplies->camera.size());
     }
-    walk_input.counting = supplies->counting ? &*supplies->counting : nullptr;
-    const bool quantity = is_quantity(options.integrator);
+    wavefront_input.counting = supplies->counting ? &*supplies->counting : nullptr;
+    const bool aov = is_aov(options.integrator);
     const int samples = samples_taken(options);
     const PixelRect whole{0, 0, options.width, options.height};
     const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), tile_side(options));
@@ -302,10 +305,10 @@ Result<RenderResult> render(const PreparedScene& scene,
         if (stop.load(std::memory_order_relaxed)) return;
         std::unique_ptr<ThreadState>& state = states[thread_index()];
         if (!state) state = make_state(options.recording != nullptr ? &reach : nullptr);
-        if (quantity) {
-            render_quantity_tile(walk_input, tiles[i], stop, *state, result.film);
+        if (aov) {
+            render_aov_tile(wavefront_input, tiles[i], stop, *state, result.film);
         } else {
-            render_tile(walk_input, samples, tiles[i], stop, *state);
+            render_tile(wavefront_input, samples, tiles[i], stop, *state);
             store_tile(*state, samples, result.film);
         }
         const size_t done = ++finished;

@@ -24,10 +24,12 @@ namespace obscura {
 
 struct RaycastNotes;
 
-/// To add one: append it here and in render/integrators.h, with a name, channels and a walk. A
-/// quantity is computed in stages/3_quantity.cpp and, for PNG and JPEG, mapped to colours in
-/// session/preview.cpp; light transport is a case in stages/walk.cpp. Then docs/cli.md and the help
-/// in app/render_options.cpp.
+/// To add one: append it here, in include/obscura/view.h, and in render/integrators.h with a name,
+/// a kind and channels. An AOV also needs a name in stages/stages.h, a case in
+/// stages/3_aov.cpp and, for PNG and JPEG, a mapping to colours in session/preview.cpp. Light
+/// transport needs a kind in stages/wavefront.h, with cases in stages/wavefront.cpp and
+/// render/integrators.cpp. Then docs/cli.md, the help in app/render_options.cpp, and
+/// tests/render/integrators_test.cpp.
 enum class Integrator {
     path,
     direct,
@@ -64,25 +66,25 @@ struct RenderOptions {
     int samples_per_pixel = 64;
     int max_bounces = 8;
     uint64_t seed = 0;
-    int tile_size = 16;  ///< pixels; any value gives the same picture; at least 32 for quantities
+    int tile_size = 16;  ///< pixels; any value gives the same image; at least 32 for AOVs
     std::optional<PixelRect> crop;  ///< renders only this part
     Integrator integrator = Integrator::path;
     PixelFilter filter = PixelFilter::box;
     BackgroundKind background = BackgroundKind::environment;
     float background_color[3] = {0, 0, 0};
-    /// The camera's placing at evenly spaced times while the shutter is open, the first one as in
+    /// world_from_camera at evenly spaced times while the shutter is open, the first one as in
     /// Camera; empty: it stands still.
     std::vector<Affined> moving_camera;
     double ao_distance_m = 0;  ///< 0: a fifth of the scene's diagonal
     double wire_width_px = 1;
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
     int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling
-    /// Memory of an earlier film, written again in place of new; null or empty: new memory.
+    /// Memory of an earlier film, to reuse; null or empty: new memory.
     UnsetArray<float>* film_memory = nullptr;
-    /// Filled with every ray that was asked, about 32 bytes each; null: nobody wants them.
+    /// Filled with every traced ray, about 32 bytes each; null: no recording.
     RayRecording* recording = nullptr;
-    /// Filled with what every light does for the one pixel of `crop`, where the integrator is
-    /// raycast; null: nobody wants it.
+    /// Filled with the contribution of every light to the one pixel of `crop`, if the integrator is
+    /// raycast; null: no notes.
     RaycastNotes* notes = nullptr;
 };
 
@@ -129,11 +131,10 @@ public:
                                         const LightingOptions& lighting,
                                         Isa isa,
                                         Log& log);
-    /// Prepares another pose of the same asset, after take_scene: what has not changed since is not
-    /// built again.
+    /// Prepares another pose of the same asset, after take_scene: unchanged parts are not rebuilt.
     ///
     /// In      lighting: as for create
-    /// Errors  as create; then nothing can be rendered any more
+    /// Errors  as create; afterwards this object cannot render any more
     Result<void> update(Scene scene, const LightingOptions& lighting, Log& log);
 
     PreparedScene(PreparedScene&&) noexcept;
@@ -147,8 +148,7 @@ public:
     std::string isa_name() const;  ///< "avx512"
     std::string embree_version() const;
 
-    /// Gives the scene back, for what the next pose may use of it; until update() nothing can be
-    /// rendered.
+    /// Returns the scene so that the next pose can reuse its arrays. No rendering until update().
     Scene take_scene();
 
     struct Impl;
@@ -159,23 +159,23 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// 69 E-ISA: what PreparedScene::create says of an instruction set that the CPU lacks.
+/// 69 E-ISA: PreparedScene::create's error for an instruction set that the CPU lacks.
 Error missing_isa();
 
-/// A part of the image that is ready.
+/// A finished part of the image.
 struct FinishedTile {
-    double done;       ///< share of the image that is finished, in [0, 1]
+    double done;       ///< fraction of the image that is finished, in [0, 1]
     PixelRect area;    ///< from the image's top left corner
-    const Film* film;  ///< its pixels elsewhere may be written at this moment
+    const Film* film;  ///< other threads may be writing its pixels outside `area`
 };
 
 /// Called from any thread after every tile.
 using ProgressFunction = std::function<void(const FinishedTile&)>;
 
-/// Renders one picture on all threads. The same arguments give the same bits for any number of
+/// Renders one image on all threads. The same arguments give the same bits for any number of
 /// threads, any tile size and any crop.
 ///
-/// In      stop: when it becomes true, tiles end after the batch they are in
+/// In      stop: when it becomes true, tiles end after their current batch
 /// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM; 70 E-EMBREE (heat builds a hierarchy)
 Result<RenderResult> render(const PreparedScene& scene,
                             const Camera& camera,

@@ -1,4 +1,4 @@
-// render/shape_light_table.cpp - emissive spheres, rectangles and disks as rows of the light table.
+// render/shape_light_table.cpp - lists emissive spheres, rectangles and disks for sampling.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/shape_light_table.h"
 
@@ -16,7 +16,7 @@ double largest_emission(const Material& m) {
     return static_cast<double>(std::max({m.emission[0], m.emission[1], m.emission[2]}));
 }
 
-/// As for triangles: what has holes or is unlit cannot be sampled.
+/// As for triangles: unlit materials and alpha cut-outs cannot be sampled.
 bool emits(const Material& material) {
     constexpr uint32_t unsampled = material_unlit | material_alpha_mask | material_alpha_blend;
     return (material.flags & unsampled) == 0 && largest_emission(material) > 0;
@@ -32,7 +32,7 @@ Vec3d column(const Affined& map, int c) {
     return {map.m[0][c], map.m[1][c], map.m[2][c]};
 }
 
-/// Whether three axes stay orthogonal and of one length.
+/// Whether the three axes stay orthogonal and of equal length.
 bool stays_round(const Affined& map) {
     const Vec3d axes[3] = {column(map, 0), column(map, 1), column(map, 2)};
     const double size = dot(axes[0], axes[0]);
@@ -43,24 +43,24 @@ bool stays_round(const Affined& map) {
     return true;
 }
 
-std::optional<ShapeLight> sphere_light(const ShapeRow& row, const Affined& world) {
+std::optional<ShapeLight> sphere_light(const ShapeRecord& record, const Affined& world) {
     if (!stays_round(world)) return std::nullopt;
     ShapeLight out;
     const Vec3d axes[3] = {column(world, 0), column(world, 1), column(world, 2)};
     store(normalize(axes[0]), out.x);
     store(normalize(axes[1]), out.y);
     store(normalize(axes[2]), out.z);
-    const double radius = length(axes[0]) * static_cast<double>(row.size[0]);
+    const double radius = length(axes[0]) * static_cast<double>(record.size[0]);
     out.radius = static_cast<float>(radius);
     out.area = static_cast<float>(4 * pi_d * radius * radius);
     return out;
 }
 
-std::optional<ShapeLight> flat_light(const ShapeRow& row, const Affined& world, bool disk) {
-    if (is_unbounded(row) || (disk && row.size[1] > 0)) return std::nullopt;
+std::optional<ShapeLight> flat_light(const ShapeRecord& record, const Affined& world, bool disk) {
+    if (is_unbounded(record) || (disk && record.size[1] > 0)) return std::nullopt;
     ShapeLight out;
-    const Vec3d x = column(world, 0) * static_cast<double>(row.size[0]);
-    const Vec3d z = column(world, 2) * static_cast<double>(row.size[disk ? 0 : 1]);
+    const Vec3d x = column(world, 0) * static_cast<double>(record.size[0]);
+    const Vec3d z = column(world, 2) * static_cast<double>(record.size[disk ? 0 : 1]);
     const Vec3d upright = cross(z, x);
     const double squares = length(upright);
     const bool mirrored = dot(upright, column(world, 1)) < 0;
@@ -76,30 +76,30 @@ std::optional<ShapeLight> flat_light(const ShapeRow& row, const Affined& world, 
     return out;
 }
 
-/// The light of one placing of a shape; nothing where it cannot be sampled.
+/// The light of one instance of a shape; nothing if it cannot be sampled.
 std::optional<ShapeLight> light_of(const Scene& scene,
                                    const Primitive& primitive,
                                    const Affined& world) {
     const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
     if (!emits(material)) return std::nullopt;
     if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) return std::nullopt;
-    const ShapeRow& row = scene.shapes[static_cast<size_t>(primitive.first_triangle)];
+    const ShapeRecord& record = scene.shapes[static_cast<size_t>(primitive.first_triangle)];
     std::optional<ShapeLight> light;
-    switch (static_cast<ShapeKind>(row.kind)) {
+    switch (static_cast<ShapeKind>(record.kind)) {
         case ShapeKind::sphere:
-            light = sphere_light(row, world);
+            light = sphere_light(record, world);
             break;
         case ShapeKind::plane:
-            light = flat_light(row, world, false);
+            light = flat_light(record, world, false);
             break;
         case ShapeKind::disk:
-            light = flat_light(row, world, true);
+            light = flat_light(record, world, true);
             break;
         default:
             break;
     }
     if (!light || !(light->area > 0) || !std::isfinite(light->area)) return std::nullopt;
-    const Vec3d centre{row.centre[0], row.centre[1], row.centre[2]};
+    const Vec3d centre{record.centre[0], record.centre[1], record.centre[2]};
     store(transform_point(world, centre), light->centre);
     std::copy_n(material.emission, 3, light->emission);
     light->coat = mean_coat(scene, material);
@@ -126,7 +126,7 @@ std::vector<ShapeLight> collect_shape_lights(Scene& scene, int32_t first) {
         if (mesh.primitive_count != 1) continue;  // shapes have a mesh of their own
         Primitive& primitive = scene.primitives[static_cast<size_t>(mesh.first_primitive)];
         if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) continue;
-        // Whether a shape can be sampled depends on its placing.
+        // Whether a shape can be sampled depends on its instance's transform.
         const auto light =
             light_of(scene, primitive, affine_cast<double>(instance.world_from_object));
         primitive.light_base = 0;

@@ -1,4 +1,4 @@
-// render/shape_light_table.h - emissive spheres, rectangles and disks as rows of the light table.
+// render/shape_light_table.h - lists emissive spheres, rectangles and disks for sampling.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,15 +10,14 @@
 namespace obscura {
 
 /// The emissive shapes that can be sampled: spheres that are round in the world, finite planes and
-/// disks without a hole. What else glows is left to the rays that meet it. Writes
-/// Primitive::light_base and Instance::light_base; lights of shapes are numbered from `first` on.
+/// disks without a hole. Other emitters are left to BSDF sampling. Writes Primitive::light_base and
+/// Instance::light_base; lights of shapes are numbered from `first` on.
 std::vector<ShapeLight> collect_shape_lights(Scene& scene, int32_t first);
 
-/// Watts per steradian unit of radiance that a light sends out, for choosing it: an upper bound
-/// where it has a texture.
+/// Power of a light, for choosing it: an upper bound if it has a texture.
 double shape_light_power(const ShapeLight& light);
 
-/// The largest radiance of any emissive shape, sampled or not, its texture taken as white.
+/// The maximum radiance of any emissive shape, sampled or not, with its texture taken as white.
 double brightest_shape_radiance(const Scene& scene);
 
 }  // namespace obscura

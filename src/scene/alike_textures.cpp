@@ -1,4 +1,4 @@
-// scene/alike_textures.cpp - finds materials whose textures can be looked up together.
+// scene/alike_textures.cpp - finds materials whose textures share size, sampler and coordinates.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/alike_textures.h"
 
@@ -13,8 +13,8 @@ bool same_coordinates(const TextureSlot& a, const TextureSlot& b) {
     return a.uv_set == b.uv_set && std::equal(a.uv_from_mesh, a.uv_from_mesh + 6, b.uv_from_mesh);
 }
 
-/// The same place has the same texel number, counted from the start of the texture.
-bool same_layout(const TextureRow& a, const TextureRow& b) {
+/// True when equal coordinates give equal texel indices, counted from the start of each texture.
+bool same_layout(const TextureRecord& a, const TextureRecord& b) {
     if (a.width != b.width || a.height != b.height || a.levels != b.levels) return false;
     if (((a.sampler ^ b.sampler) & ~sampler_srgb) != 0) return false;
     for (int level = 0; level < a.levels; ++level) {
@@ -24,18 +24,18 @@ bool same_layout(const TextureRow& a, const TextureRow& b) {
     return true;
 }
 
-void mark(const std::vector<TextureRow>& rows, Material& material) {
+void mark(const std::vector<TextureRecord>& records, Material& material) {
     const std::array<TextureSlot*, 3> slots = {&material.base_color_texture,
                                                &material.metallic_roughness_texture,
                                                &material.normal_texture};
     const auto first =
         std::find_if(slots.begin(), slots.end(), [](const auto* s) { return s->texture >= 0; });
     if (first == slots.end()) return;
-    const TextureRow& row = rows[static_cast<size_t>((*first)->texture)];
+    const TextureRecord& record = records[static_cast<size_t>((*first)->texture)];
     for (const TextureSlot* slot : slots) {
         if (slot->texture < 0) continue;
         if (!same_coordinates(*slot, **first)) return;
-        if (!same_layout(rows[static_cast<size_t>(slot->texture)], row)) return;
+        if (!same_layout(records[static_cast<size_t>(slot->texture)], record)) return;
     }
     const TextureSlot coordinates = **first;
     for (TextureSlot* slot : slots) {
@@ -50,7 +50,7 @@ void mark(const std::vector<TextureRow>& rows, Material& material) {
 
 void mark_alike_textures(Scene& scene) {
     for (Material& material : scene.materials)
-        mark(scene.textures.rows, material);
+        mark(scene.textures.records, material);
 }
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// scene/asset_info.h - what `obscura info` and a picture's metadata say about the file.
+// scene/asset_info.h - facts about the asset for `obscura info` and for image metadata.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace obscura {
 
-/// What became of something that a file asks for.
+/// How far the renderer honours a feature that a file asks for.
 enum class Verdict { honoured, approximated, ignored };
 
 struct ExtensionInfo {
@@ -19,8 +19,8 @@ struct ExtensionInfo {
     std::vector<std::string> materials;  ///< names of the materials that use it, if any
 };
 
-/// One thing that a part of the file asks for.
-struct ReportRow {
+/// One feature that a part of the file asks for.
+struct ReportEntry {
     std::string place;    ///< "material 3 Glass", "asset"
     std::string feature;  ///< an extension's name or glTF's own word
     Verdict verdict = Verdict::honoured;
@@ -32,14 +32,14 @@ struct ImageInfo {
     std::string format;  ///< "png", "jpeg", "webp", "ktx2"
     int width = 0;
     int height = 0;
-    int bits = 8;  ///< of a channel
+    int bits = 8;  ///< per channel
     bool used_as_color = false;
     bool used_as_data = false;
 };
 
 struct NamedCount {
     std::string name;
-    size_t count = 0;  ///< triangles of a mesh, placings of a shape
+    size_t count = 0;  ///< triangles of a mesh, instances of a shape
 };
 
 struct AnimationInfo {
@@ -60,17 +60,17 @@ struct AssetInfo {
     std::string variant;                ///< the chosen one; empty: none
     std::string xmp;                    ///< the asset's XMP packet as JSON text; may be empty
     std::vector<NamedCount> meshes;     ///< as in the file, triangles counted once
-    std::vector<NamedCount> shapes;     ///< by type, every placing counted
+    std::vector<NamedCount> shapes;     ///< by type, every instance counted
     std::vector<AnimationInfo> animations;
-    std::optional<double> time_s;          ///< the scene is posed at it; nothing: as it is stored
+    std::optional<double> time_s;          ///< time of the pose; nothing: the pose as stored
     std::vector<std::string> node_names;   ///< by glTF node index
     std::vector<std::string> light_names;  ///< beside Scene::lights
     std::string environment;               ///< name of the scene's image-based light; empty: none
     std::vector<ImageInfo> images;
     std::vector<ExtensionInfo> extensions;
-    std::vector<ReportRow> report;  ///< part by part, in file order
-    size_t triangles_in_world = 0;  ///< with every instance counted
-    size_t points_in_world = 0;     ///< likewise
+    std::vector<ReportEntry> report;  ///< part by part, in file order
+    size_t triangles_in_world = 0;    ///< with every instance counted
+    size_t points_in_world = 0;       ///< likewise
     size_t line_segments_in_world = 0;
     size_t splats_in_world = 0;
     double parse_seconds = 0;

@@ -24,16 +24,16 @@ inline constexpr unsigned around = model_bit(CameraModel::environment);
 inline constexpr unsigned all = ~0U;
 }  // namespace camera_models
 
-/// What readers and writers want to know of a setting.
+/// Description of one setting for readers and writers.
 struct CameraSettingInfo {
     const char* name = "";      ///< one word, as options have it: "focal-length"
-    const char* report = "";    ///< with the unit, in reports: "focal_length_mm"; "": not there
+    const char* report = "";    ///< in reports, with the unit: "focal_length_mm"; "": absent
     const char* section = "";   ///< object inside OBSCURA_camera: "lens"; "": the extension itself
     const char* key = nullptr;  ///< in that object; null: not in the extension
     struct {
         double low = 0, high = 0;
     } range = {};                          ///< in the member's unit, inclusive
-    double shown = 1;                      ///< from the member's unit to the report's
+    double shown = 1;                      ///< factor from the member's unit to the report's
     unsigned models = camera_models::all;  ///< those that have it
 };
 
@@ -60,7 +60,7 @@ inline constexpr double max_camera_m = 1e12;
 inline constexpr double degrees_per_radian = 180 / pi_d;
 
 // clang-format off
-/// In the order of reports; what gltf/camera_extension.cpp reads follows it.
+/// In the order of reports; gltf/parse/camera_extension.cpp reads the extension by this table.
 inline constexpr auto camera_setting_table = std::tuple{
     camera_setting(&CameraSettings::near_m,
         {.name = "near", .report = "near_m", .key = "near", .range = {0, max_camera_m}}),
@@ -144,26 +144,26 @@ inline constexpr auto camera_setting_table = std::tuple{
          .range = {-60, 60}})};
 // clang-format on
 
-/// The first thing that is said and that a camera of that model does not have; null: it has all.
+/// The first given setting that cameras of this model do not have; null: there is none.
 const CameraSettingInfo* setting_without(const CameraSettings& settings, CameraModel model);
 
-/// Calls `body(row)` with each row of the table.
+/// Calls `body(entry)` with each entry of the table.
 template <typename Body>
 void for_each_camera_setting(const Body& body) {
-    std::apply([&](const auto&... rows) { (body(rows), ...); }, camera_setting_table);
+    std::apply([&](const auto&... entries) { (body(entries), ...); }, camera_setting_table);
 }
 
-/// The row of a member.
+/// The entry of a member.
 template <auto member>
 constexpr auto camera_setting_of() {
     using T = typename std::remove_cvref_t<decltype(CameraSettings{}.*member)>::value_type;
     CameraSetting<T> out = {};
-    const auto take = [&out]<typename Other>(const CameraSetting<Other>& row) {
+    const auto take = [&out]<typename Other>(const CameraSetting<Other>& entry) {
         if constexpr (std::is_same_v<Other, T>) {
-            if (row.member == member) out = row;
+            if (entry.member == member) out = entry;
         }
     };
-    std::apply([&](const auto&... rows) { (take(rows), ...); }, camera_setting_table);
+    std::apply([&](const auto&... entries) { (take(entries), ...); }, camera_setting_table);
     return out;
 }
 static_assert(camera_setting_of<&CameraSettings::blades>().info.range.high == 64);

@@ -1,4 +1,4 @@
-// scene/camera_settings.cpp - joins and names what is said of a camera.
+// scene/camera_settings.cpp - merges camera settings and prints them.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/camera_settings.h"
 
@@ -37,16 +37,16 @@ void add_intrinsics(const Intrinsics& i, Texts& texts) {
 }
 
 template <typename T>
-void add_text(const CameraSetting<T>& row, const T& value, Texts& texts) {
+void add_text(const CameraSetting<T>& entry, const T& value, Texts& texts) {
     if constexpr (std::is_same_v<T, Intrinsics>) {
         add_intrinsics(value, texts);
     } else if constexpr (std::is_enum_v<T>) {
-        for (const Named<T>& choice : row.choices)
-            if (choice.value == value) texts.emplace_back(row.info.report, choice.name);
+        for (const Named<T>& choice : entry.choices)
+            if (choice.value == value) texts.emplace_back(entry.info.report, choice.name);
     } else if constexpr (std::is_arithmetic_v<T>) {
-        texts.emplace_back(row.info.report, text_of(value * row.info.shown));
+        texts.emplace_back(entry.info.report, text_of(value * entry.info.shown));
     } else if constexpr (!std::is_same_v<T, std::string>) {
-        texts.emplace_back(row.info.report, text_of(value, row.info.shown));
+        texts.emplace_back(entry.info.report, text_of(value, entry.info.shown));
     }
 }
 
@@ -60,8 +60,8 @@ CameraSettings merge_settings(const CameraSettings& base, const CameraSettings& 
         out.lens_radius_m.reset();
     }
     if (over.shutter_s || over.iso) out.ev100.reset();
-    for_each_camera_setting([&](const auto& row) {
-        if (over.*row.member) out.*row.member = over.*row.member;
+    for_each_camera_setting([&](const auto& entry) {
+        if (over.*entry.member) out.*entry.member = over.*entry.member;
     });
     return out;
 }
@@ -70,7 +70,7 @@ std::optional<CameraModel> implied_model(const CameraSettings& s) {
     if (s.model) return s.model;
     if (s.fisheye || s.fisheye_k || s.fisheye_fit || s.fisheye_fov_rad) return CameraModel::fisheye;
     if (s.environment || s.stereo_m || s.align) return CameraModel::environment;
-    // An f-number beside a shutter may mean the exposure only.
+    // An f-number given with a shutter or ISO may be meant for the exposure only.
     const bool exposure_only = s.fstop && (s.shutter_s || s.iso) && !s.focus_distance_m;
     const bool lens = s.lens_radius_m || s.focus_distance_m || s.blades || s.aperture_file ||
                       (s.fstop && !exposure_only);
@@ -81,19 +81,19 @@ std::optional<CameraModel> implied_model(const CameraSettings& s) {
 
 const CameraSettingInfo* setting_without(const CameraSettings& settings, CameraModel model) {
     const CameraSettingInfo* found = nullptr;
-    for_each_camera_setting([&](const auto& row) {
-        // Beside a shutter an f-number is part of the exposure.
-        const bool exposes = std::string_view(row.info.name) == "fstop" && settings.shutter_s;
-        const bool has_it = (row.info.models & model_bit(model)) != 0 || exposes;
-        if (settings.*row.member && !has_it && !found) found = &row.info;
+    for_each_camera_setting([&](const auto& entry) {
+        // Together with a shutter, an f-number is part of the exposure.
+        const bool exposes = std::string_view(entry.info.name) == "fstop" && settings.shutter_s;
+        const bool has_it = (entry.info.models & model_bit(model)) != 0 || exposes;
+        if (settings.*entry.member && !has_it && !found) found = &entry.info;
     });
     return found;
 }
 
 std::vector<std::pair<std::string, std::string>> settings_texts(const CameraSettings& s) {
     Texts texts;
-    for_each_camera_setting([&](const auto& row) {
-        if (s.*row.member) add_text(row, *(s.*row.member), texts);
+    for_each_camera_setting([&](const auto& entry) {
+        if (s.*entry.member) add_text(entry, *(s.*entry.member), texts);
     });
     return texts;
 }

@@ -1,4 +1,4 @@
-// scene/camera_settings.h - what can be said of a camera beyond glTF's core, from whatever source.
+// scene/camera_settings.h - camera settings beyond glTF's core, whatever their source.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace obscura {
 
-/// Focal lengths and principal point in pixels of a picture of a given size. (0, 0) is the top left
-/// corner, so that the first pixel's centre is (0.5, 0.5).
+/// Focal lengths and principal point, in pixels of an image of the given size. (0, 0) is the top
+/// left corner, so that the first pixel's centre is (0.5, 0.5).
 struct Intrinsics {
     double width_px = 0;
     double height_px = 0;
@@ -23,17 +23,18 @@ struct Intrinsics {
     double cy_px = 0;
 };
 
-/// How a fisheye's circle lies in the picture.
-enum class FisheyeFit : int { circle, diagonal };  ///< all of it in view; it covers the picture
+/// How a fisheye's image circle fits the image: inside it (circle) or around it (diagonal).
+enum class FisheyeFit : int { circle, diagonal };
 
-/// Where a picture of all directions has its middle.
-enum class EnvironmentAlign : int { world, view };  ///< at +X, as environment maps; ahead
+/// The direction at the centre of a panorama: +X, as in environment maps (world), or ahead (view).
+enum class EnvironmentAlign : int { world, view };
 
-/// Empty: not said. docs/extensions/OBSCURA_camera/README.md has the meaning of each.
+/// Empty: not given. docs/extensions/OBSCURA_camera/README.md has the meaning of each.
 ///
 /// To add one: append it here and to scene/camera_setting_table.h, use it in
-/// session/camera_build.cpp, give it a row in app/lens_options.cpp for an option, and describe it
-/// in both places of docs/.
+/// session/camera_build.cpp, give it an entry in app/lens_options.cpp for an option and, for the
+/// library, a member in include/obscura/view.h and a check in session/library_request.cpp. Describe
+/// it in docs/cameras.md and in README.md and schema.json of docs/extensions/OBSCURA_camera.
 struct CameraSettings {
     std::optional<CameraModel> model = {};
     std::optional<double> near_m = {};
@@ -41,7 +42,7 @@ struct CameraSettings {
     std::optional<std::array<double, 2>> magnification_m = {};  ///< half width and half height
     std::optional<double> focal_length_m = {};
     std::optional<std::array<double, 2>> sensor_m = {};    ///< width, height
-    std::optional<std::array<double, 2>> shift = {};       ///< in pictures: right, up
+    std::optional<std::array<double, 2>> shift = {};       ///< in image sizes: right, up
     std::optional<std::array<double, 5>> distortion = {};  ///< k1 k2 p1 p2 k3
     std::optional<Intrinsics> intrinsics = {};
 
@@ -68,14 +69,14 @@ struct CameraSettings {
     std::optional<double> ev100 = {};
 };
 
-/// `over` where it says something, else `base`. The lens' size counts as one thing, and so does
-/// the exposure.
+/// The settings of `over`, completed by those of `base`. The lens' size counts as one setting, and
+/// so does the exposure.
 CameraSettings merge_settings(const CameraSettings& base, const CameraSettings& over);
 
-/// The model that the settings name, or the only one that they make sense for.
+/// The model that the settings name, or the only one that has all of them.
 std::optional<CameraModel> implied_model(const CameraSettings& settings);
 
-/// Name and value of each thing that is said, in a fixed order, for people.
+/// Name and value of each given setting, in a fixed order, for people.
 std::vector<std::pair<std::string, std::string>> settings_texts(const CameraSettings& settings);
 
 }  // namespace obscura

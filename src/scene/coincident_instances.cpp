@@ -1,4 +1,4 @@
-// scene/coincident_instances.cpp - finds what was placed again and again on one spot.
+// scene/coincident_instances.cpp - removes instances that lie on top of each other many times.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/coincident_instances.h"
 
@@ -33,14 +33,14 @@ bool are_copies(const Scene& scene, const Instance& a, const Instance& b) {
     return std::memcmp(first_place(scene, a), first_place(scene, b), steps * sizeof(Affinef)) == 0;
 }
 
-/// Counters, shared by few keys each: which keys may be frequent is seen without sorting.
+/// Hashed counters, each shared by a few keys: they find keys that may be frequent without sorting.
 class Tally {
 public:
     explicit Tally(size_t keys) : counts_(std::bit_ceil(2 * keys)) {}
     void add(uint64_t key) { ++counts_[slot(key)]; }
-    bool is_frequent(uint64_t key) const { return counts_[slot(key)] > most_copies; }
+    bool is_frequent(uint64_t key) const { return counts_[slot(key)] > max_copies; }
     bool has_frequent() const {
-        const auto frequent = [](uint32_t count) { return count > most_copies; };
+        const auto frequent = [](uint32_t count) { return count > max_copies; };
         return std::any_of(counts_.begin(), counts_.end(), frequent);
     }
 
@@ -49,7 +49,7 @@ private:
     std::vector<uint32_t> counts_;
 };
 
-/// Instances of one key: how many are as the first.
+/// Instances of one key: counts those that equal the first.
 struct Crowd {
     const Instance* first = nullptr;
     uint32_t count = 0;
@@ -60,7 +60,7 @@ struct Crowd {
 std::vector<Instance> leave_out_copies(Scene& scene) {
     std::vector<Instance> out;
     const std::vector<Instance>& all = scene.instances;
-    if (all.size() <= most_copies) return out;
+    if (all.size() <= max_copies) return out;
     Tally tally(all.size());
     for (const Instance& instance : all)
         tally.add(place_key(instance));
@@ -76,7 +76,7 @@ std::vector<Instance> leave_out_copies(Scene& scene) {
     std::vector<Instance> kept;
     for (const Instance& instance : all) {
         const auto found = crowds.find(place_key(instance));
-        const bool is_copy = found != crowds.end() && found->second.count > most_copies &&
+        const bool is_copy = found != crowds.end() && found->second.count > max_copies &&
                              found->second.first != &instance &&
                              are_copies(scene, *found->second.first, instance);
         (is_copy ? out : kept).push_back(instance);

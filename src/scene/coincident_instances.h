@@ -1,4 +1,4 @@
-// scene/coincident_instances.h - finds what was placed again and again on one spot.
+// scene/coincident_instances.h - removes instances that lie on top of each other many times.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,11 +8,12 @@
 
 namespace obscura {
 
-/// A few copies may be meant (alpha adds up) and cost little. Every ray that meets one meets all.
-inline constexpr uint32_t most_copies = 16;
+/// Up to this many copies are kept: a few may be intended (alpha adds up) and cost little. Every
+/// ray that hits one hits all.
+inline constexpr uint32_t max_copies = 16;
 
-/// Removes all but the first of the instances of one mesh that are in the same place, bit by bit
-/// and at every time, where there are more than most_copies of them. Returns those removed.
+/// Where more than max_copies instances of one mesh have equal transforms, bit by bit and at every
+/// time, removes all but the first. Returns the removed ones.
 std::vector<Instance> leave_out_copies(Scene& scene);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// scene/edge_scale.h - the unit in which edges of tiny and huge scenes are multiplied.
+// scene/edge_scale.h - a scale that keeps products of edges in the range of single precision.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,9 +6,9 @@
 
 namespace obscura {
 
-/// A power of two. A normal's length is the square root of a sum of fourth powers of edges: in
-/// single precision they fit from 1e-9 to 4e9. Where the scene's coordinates reach further than
-/// 1e6, or nowhere as far as 1e-3, edges times this lie well within; else it is 1.
+/// A power of two by which shading multiplies triangle edges. The length of a normal is the square
+/// root of a sum of fourth powers of edges: single precision holds them from 1e-9 to 4e9. The scale
+/// is 1 unless the largest coordinate of the scene is above 1e6 or below 1e-3.
 float edge_scale(const Scene& scene);
 
 }  // namespace obscura

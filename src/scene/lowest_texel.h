@@ -1,4 +1,4 @@
-// scene/lowest_texel.h - the least that a texture's channel can be anywhere.
+// scene/lowest_texel.h - the minimum of a texture's channel.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,8 +8,8 @@
 
 namespace obscura {
 
-/// In      texture: number, or -1 for none; channel: 0 to 3 for red to alpha
-/// Out     of the finest level, in [0, 1]: filtering never goes below; 1 where there is no texture
+/// In      texture: index, or -1 for none; channel: 0 to 3 for red to alpha
+/// Out     minimum of the finest level, in [0, 1]: filtering never goes below; 1 without a texture
 float lowest_texel(const Scene& scene, int32_t texture, int channel);
 
 }  // namespace obscura

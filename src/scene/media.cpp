@@ -1,4 +1,4 @@
-// scene/media.cpp - numbers the bodies that light travels through, by precedence.
+// scene/media.cpp - numbers the media inside meshes by their priority, for nested dielectrics.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/media.h"
 
@@ -8,14 +8,14 @@ namespace obscura {
 
 namespace {
 
-Medium medium_of(const MaterialLayers& body) {
+Medium medium_of(const MaterialLayers& dielectric) {
     Medium out;
     for (size_t i = 0; i < 3; ++i) {
-        out.extinction[i] = body.attenuation[i];
-        out.albedo[i] = body.scatter_albedo[i];
+        out.extinction[i] = dielectric.attenuation[i];
+        out.albedo[i] = dielectric.scatter_albedo[i];
     }
-    out.ior = body.ior > 0.0F ? body.ior : 1.5F;
-    out.anisotropy = body.scatter_anisotropy;
+    out.ior = dielectric.ior > 0.0F ? dielectric.ior : 1.5F;
+    out.anisotropy = dielectric.scatter_anisotropy;
     return out;
 }
 
@@ -27,18 +27,19 @@ int32_t medium_of(const Scene& scene, const Primitive& primitive) {
 }
 
 void number_media(Scene& scene) {
-    std::vector<MaterialLayers*> bodies;
+    std::vector<MaterialLayers*> dielectrics;
     for (MaterialLayers& layers : scene.layers) {
-        if (layers.medium != 0) bodies.push_back(&layers);
+        if (layers.medium != 0) dielectrics.push_back(&layers);
     }
-    std::stable_sort(
-        bodies.begin(), bodies.end(), [](const auto* a, const auto* b) { return a->ior < b->ior; });
+    std::stable_sort(dielectrics.begin(), dielectrics.end(), [](const auto* a, const auto* b) {
+        return a->ior < b->ior;
+    });
     scene.media.assign(1, Medium{});  // number 0: air
-    for (MaterialLayers* body : bodies) {
-        if (scene.media.size() <= most_media) {
-            scene.media.push_back(medium_of(*body));
+    for (MaterialLayers* dielectric : dielectrics) {
+        if (scene.media.size() <= max_media) {
+            scene.media.push_back(medium_of(*dielectric));
         }
-        body->medium = static_cast<int32_t>(scene.media.size()) - 1;
+        dielectric->medium = static_cast<int32_t>(scene.media.size()) - 1;
     }
 }
 

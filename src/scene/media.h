@@ -1,4 +1,4 @@
-// scene/media.h - numbers the bodies that light travels through, by precedence.
+// scene/media.h - numbers the media inside meshes by their priority, for nested dielectrics.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,12 +6,12 @@
 
 namespace obscura {
 
-/// Gives every row of Scene::layers whose `medium` is not 0 its final number and fills
+/// Gives every record of Scene::layers whose `medium` is not 0 its final number and fills
 /// Scene::media.
 ///
-/// Where bodies overlap, the one with the greater number fills the place: the optically denser one,
-/// so that a liquid which reaches into its glass ends at the glass. Beyond most_media, bodies
-/// share the last number.
+/// Where media overlap, the one with the greater number dominates: the optically denser one, so
+/// that a liquid which reaches into its glass ends at the glass. Beyond max_media, media share the
+/// last number.
 void number_media(Scene& scene);
 
 /// Number of the medium that a primitive bounds, 0: none.

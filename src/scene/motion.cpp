@@ -1,4 +1,4 @@
-// scene/motion.cpp - the same scene at several times becomes one scene with motion.
+// scene/motion.cpp - merges several poses of a scene into one scene with motion blur.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/motion.h"
 
@@ -11,14 +11,15 @@ namespace {
 
 using Poses = std::span<const ScenePose>;
 
-/// Whether what lies behind the still part of an array is equal.
+/// Whether two arrays are equal behind their static part.
 bool has_same_tail(const LargeArray<uint32_t>& all,
-                   size_t still,
+                   size_t static_size,
                    const LargeArray<uint32_t>& tail) {
-    return all.size() == still + tail.size() && std::equal(tail.begin(), tail.end(), &all[still]);
+    return all.size() == static_size + tail.size() &&
+           std::equal(tail.begin(), tail.end(), &all[static_size]);
 }
 
-bool have_same_parts(const Scene& a, const ScenePose& b) {
+bool have_same_structure(const Scene& a, const ScenePose& b) {
     const auto same_primitive = [](const Primitive& p, const Primitive& q) {
         return p.first_triangle == q.first_triangle && p.triangle_count == q.triangle_count &&
                p.normal_base == q.normal_base && p.geometry == q.geometry;
@@ -32,16 +33,16 @@ bool have_same_parts(const Scene& a, const ScenePose& b) {
     const auto all_same = [](const auto& p, const auto& q, const auto& same) {
         return std::equal(p.begin(), p.end(), q.begin(), q.end(), same);
     };
-    return a.positions.size() == b.still.positions + b.positions.size() &&
+    return a.positions.size() == b.static_sizes.positions + b.positions.size() &&
            a.cameras.size() == b.cameras.size() &&
-           has_same_tail(a.indices, b.still.indices, b.indices) &&
-           a.attributes.size() == b.still.attributes + b.attributes.size() &&
+           has_same_tail(a.indices, b.static_sizes.indices, b.indices) &&
+           a.attributes.size() == b.static_sizes.attributes + b.attributes.size() &&
            all_same(a.primitives, b.primitives, same_primitive) &&
            all_same(a.instances, b.instances, same_instance) &&
            all_same(a.lights, b.lights, same_light);
 }
 
-/// The vertices of a primitive: they are stored together.
+/// The vertices of a primitive, which are contiguous.
 struct VertexRange {
     size_t first = 0;
     size_t count = 0;
@@ -68,16 +69,18 @@ bool moves(const Scene& first,
            const VertexRange& range) {
     const size_t bytes = 3 * range.count * sizeof(float);
     const size_t p = 3 * range.first;
-    if (std::memcmp(&first.positions[p], &later.positions[p - later.still.positions], bytes) != 0) {
+    if (std::memcmp(
+            &first.positions[p], &later.positions[p - later.static_sizes.positions], bytes) != 0) {
         return true;
     }
     if (primitive.normal_base == no_attribute) return false;
     const size_t n = normals_start(primitive, range);
-    return std::memcmp(
-               &first.attributes[n], &later.attributes[n - later.still.attributes], bytes) != 0;
+    return std::memcmp(&first.attributes[n],
+                       &later.attributes[n - later.static_sizes.attributes],
+                       bytes) != 0;
 }
 
-/// A primitive's vertices in one pose, whose arrays begin at these pointers.
+/// The start of a primitive's vertices in one pose.
 struct PoseArrays {
     const float* positions;
     const float* normals;  ///< null: it has none
@@ -92,10 +95,10 @@ void append_pose(const PoseArrays& pose, size_t floats, Motion& motion) {
     motion.normals.insert(motion.normals.end(), pose.normals, pose.normals + floats);
 }
 
-/// Motion of one primitive's vertices, where they move.
+/// Adds the motion of one primitive's vertices, if they move.
 void join_primitive(Scene& first, Poses later, Primitive& primitive) {
-    const StillSizes& still = later.front().still;
-    if (static_cast<size_t>(primitive.first_triangle) * 3 < still.indices) return;
+    const StaticSizes& static_sizes = later.front().static_sizes;
+    if (static_cast<size_t>(primitive.first_triangle) * 3 < static_sizes.indices) return;
     const VertexRange range = vertices_of(first, primitive);
     if (range.count == 0) return;
     const auto differs = [&](const ScenePose& pose) {
@@ -115,8 +118,8 @@ void join_primitive(Scene& first, Poses later, Primitive& primitive) {
     };
     append(&first.positions[p], first.attributes.data() + n);
     for (const ScenePose& pose : later) {
-        append(&pose.positions[p - still.positions],
-               has_normals ? &pose.attributes[n - still.attributes] : nullptr);
+        append(&pose.positions[p - static_sizes.positions],
+               has_normals ? &pose.attributes[n - static_sizes.attributes] : nullptr);
     }
 }
 
@@ -125,26 +128,26 @@ bool is_same(const Affine<F>& a, const Affine<F>& b) {
     return std::equal(&a.m[0][0], &a.m[0][0] + 12, &b.m[0][0]);
 }
 
-void join_instance(Scene& first, Poses later, size_t row) {
-    Instance& instance = first.instances[row];
+void join_instance(Scene& first, Poses later, size_t index) {
+    Instance& instance = first.instances[index];
     const auto differs = [&](const ScenePose& pose) {
-        return !is_same(instance.world_from_object, pose.instances[row].world_from_object);
+        return !is_same(instance.world_from_object, pose.instances[index].world_from_object);
     };
     if (std::none_of(later.begin(), later.end(), differs)) return;
     instance.motion = static_cast<int32_t>(first.motion.instances.size());
     first.motion.instances.push_back(instance.world_from_object);
     for (const ScenePose& pose : later)
-        first.motion.instances.push_back(pose.instances[row].world_from_object);
+        first.motion.instances.push_back(pose.instances[index].world_from_object);
 }
 
-void join_camera(SceneCamera& first, Poses later, size_t row) {
+void join_camera(SceneCamera& first, Poses later, size_t index) {
     const auto differs = [&](const ScenePose& pose) {
-        return !is_same(first.world_from_camera, pose.cameras[row].world_from_camera);
+        return !is_same(first.world_from_camera, pose.cameras[index].world_from_camera);
     };
     if (std::none_of(later.begin(), later.end(), differs)) return;
     first.moving = {first.world_from_camera};
     for (const ScenePose& pose : later)
-        first.moving.push_back(pose.cameras[row].world_from_camera);
+        first.moving.push_back(pose.cameras[index].world_from_camera);
 }
 
 void join_lights(Scene& first, Poses later) {
@@ -154,10 +157,10 @@ void join_lights(Scene& first, Poses later) {
                            first.lights.size() * sizeof(PunctualLight)) != 0;
     };
     if (first.lights.empty() || std::none_of(later.begin(), later.end(), differs)) return;
-    for (size_t row = 0; row < first.lights.size(); ++row) {
-        first.motion.lights.push_back(first.lights[row]);
+    for (size_t index = 0; index < first.lights.size(); ++index) {
+        first.motion.lights.push_back(first.lights[index]);
         for (const ScenePose& pose : later)
-            first.motion.lights.push_back(pose.lights[row]);
+            first.motion.lights.push_back(pose.lights[index]);
     }
 }
 
@@ -167,26 +170,26 @@ Affinef world_from_object_at(const Scene& scene, const Instance& instance, float
     if (instance.motion < 0) return instance.world_from_object;
     const float place = time * static_cast<float>(scene.motion.steps - 1);
     const int32_t step = std::clamp(static_cast<int32_t>(place), 0, scene.motion.steps - 2);
-    const float share = place - static_cast<float>(step);
+    const float fraction = place - static_cast<float>(step);
     const Affinef* before =
         &scene.motion.instances[static_cast<size_t>(instance.motion) + static_cast<size_t>(step)];
     Affinef out;
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 4; ++c)
-            out.m[r][c] = before[0].m[r][c] + (before[1].m[r][c] - before[0].m[r][c]) * share;
+            out.m[r][c] = before[0].m[r][c] + (before[1].m[r][c] - before[0].m[r][c]) * fraction;
     }
     return out;
 }
 
-ScenePose take_pose(Scene& scene, const StillSizes& still) {
+ScenePose take_pose(Scene& scene, const StaticSizes& static_sizes) {
     const auto tail = [](const auto& all, size_t from) {
         using Array = std::decay_t<decltype(all)>;
         return Array(all.begin() + static_cast<std::ptrdiff_t>(from), all.end());
     };
-    return {still,
-            tail(scene.positions, still.positions),
-            tail(scene.indices, still.indices),
-            tail(scene.attributes, still.attributes),
+    return {static_sizes,
+            tail(scene.positions, static_sizes.positions),
+            tail(scene.indices, static_sizes.indices),
+            tail(scene.attributes, static_sizes.attributes),
             std::move(scene.primitives),
             std::move(scene.instances),
             std::move(scene.cameras),
@@ -196,17 +199,17 @@ ScenePose take_pose(Scene& scene, const StillSizes& still) {
 
 bool join_motion(Scene& first, std::span<const ScenePose> later) {
     if (later.empty()) return true;
-    const auto fits = [&](const ScenePose& pose) { return have_same_parts(first, pose); };
+    const auto fits = [&](const ScenePose& pose) { return have_same_structure(first, pose); };
     if (!std::all_of(later.begin(), later.end(), fits)) return false;
     Motion& motion = first.motion;
     motion.steps = static_cast<int32_t>(later.size()) + 1;
     for (Primitive& primitive : first.primitives) {
         if (is_mesh(primitive)) join_primitive(first, later, primitive);
     }
-    for (size_t row = 0; row < first.instances.size(); ++row)
-        join_instance(first, later, row);
-    for (size_t row = 0; row < first.cameras.size(); ++row)
-        join_camera(first.cameras[row], later, row);
+    for (size_t index = 0; index < first.instances.size(); ++index)
+        join_instance(first, later, index);
+    for (size_t index = 0; index < first.cameras.size(); ++index)
+        join_camera(first.cameras[index], later, index);
     join_lights(first, later);
     for (const ScenePose& pose : later) {
         first.bounds.low = -max3(-first.bounds.low, -pose.bounds.low);

@@ -1,4 +1,4 @@
-// scene/motion.h - the same scene at several times becomes one scene with motion.
+// scene/motion.h - merges several poses of a scene into one scene with motion blur.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,26 +8,26 @@
 
 namespace obscura {
 
-/// Entry by entry between two poses, as Embree does; `time` in [0, 1].
+/// Interpolates the matrix entries between two poses, as Embree does; `time` in [0, 1].
 Affinef world_from_object_at(const Scene& scene, const Instance& instance, float time);
 
-/// Its inverse; for what stands still the stored one.
+/// The inverse of world_from_object_at; the stored one for static instances.
 inline Affinef object_from_world_at(const Scene& scene, const Instance& instance, float time) {
     if (instance.motion < 0) return instance.object_from_world;
     return inverse(world_from_object_at(scene, instance, time));
 }
 
-/// How much of a scene's arrays, from their start, no time changes: numbers, not vertices.
-struct StillSizes {
+/// Sizes of the static parts at the start of a scene's arrays, in numbers, not vertices.
+struct StaticSizes {
     size_t positions = 0;
     size_t indices = 0;
     size_t attributes = 0;
 };
 
-/// What of a scene a time may change.
+/// The parts of a scene that may change with time.
 struct ScenePose {
-    StillSizes still;
-    LargeArray<float> positions;  ///< those behind the still ones, and so on
+    StaticSizes static_sizes;
+    LargeArray<float> positions;  ///< those behind the static ones; likewise the others
     LargeArray<uint32_t> indices;
     LargeArray<float> attributes;
     std::vector<Primitive> primitives;
@@ -37,15 +37,15 @@ struct ScenePose {
     Bounds bounds;
 };
 
-/// Takes it out of a scene of which the still parts alone will be wanted again.
-ScenePose take_pose(Scene& scene, const StillSizes& still);
+/// Moves the pose out of a scene; only the scene's static parts stay valid.
+ScenePose take_pose(Scene& scene, const StaticSizes& static_sizes);
 
-/// Keeps of later poses what differs from the first one: vertices, normals, instances, cameras and
-/// punctual lights. Textures and tangents stay those of the first pose; bounds grow to hold all.
+/// Adds to the first pose the motion towards the later ones: vertices, normals, instances, cameras
+/// and punctual lights. Textures and tangents stay those of the first pose; bounds hold all poses.
 ///
-/// In      first: not yet moving; later: the same scene at evenly spaced later times
-/// Returns false, and leaves `first` as it was, when the poses are not made of the same parts (a
-///         node appears or a triangle collapses meanwhile).
+/// In      first: without motion; later: the same scene at evenly spaced later times
+/// Out     false, with `first` unchanged, when the poses have different parts (a node appears or a
+///         triangle collapses meanwhile)
 bool join_motion(Scene& first, std::span<const ScenePose> later);
 
 }  // namespace obscura

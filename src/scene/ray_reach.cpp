@@ -1,4 +1,4 @@
-// scene/ray_reach.cpp - which rays stay within single precision in the space of every instance.
+// scene/ray_reach.cpp - limits of ray coordinates within which Embree's single precision suffices.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/ray_reach.h"
 
@@ -9,7 +9,7 @@ namespace obscura {
 
 namespace {
 
-/// What rounding in sums of few terms may add is taken off.
+/// Leaves a margin for the rounding of short sums.
 constexpr double limit = 0.95 * largest_component;
 /// Products beyond this are infinite in single precision, or nearly so.
 constexpr double largest_product = 1e37;
@@ -18,7 +18,7 @@ constexpr double smallest_product = 1.2e-38;
 /// Rounding of a determinant in single precision, against the sum of its terms' magnitudes.
 constexpr double rounding = 1.0 / (1 << 20);
 
-/// The row and column that follow: of a 3x3 matrix's cofactor.
+/// The next row or column in cyclic order, for the cofactors of a 3x3 matrix.
 constexpr int next(int i) {
     return (i + 1) % 3;
 }
@@ -35,12 +35,12 @@ double mixed_determinant(const Affinef& a, const Affinef& b, unsigned from_b) {
     return determinant(mixed);
 }
 
-/// A cubic polynomial over [0, 1] in Bernstein's basis, between whose coefficients it stays.
+/// A cubic polynomial over [0, 1] in the Bernstein basis: its values lie between its coefficients.
 struct Cubic {
     double b[4];
 };
 
-/// The determinant of the matrix on its straight way from a to b, which may be the same object.
+/// The determinant while the matrix is interpolated from a to b, which may be the same object.
 Cubic determinant_between(const Affinef& a, const Affinef& b) {
     if (&a == &b) {
         const double still = determinant(affine_cast<double>(a));
@@ -52,7 +52,7 @@ Cubic determinant_between(const Affinef& a, const Affinef& b) {
 
 /// A lower bound of |cubic|; 0 where the polynomial has a root or comes too close to one. By de
 /// Casteljau's halving.
-double least_magnitude(const Cubic& cubic, int halvings) {
+double min_magnitude(const Cubic& cubic, int halvings) {
     const auto [low, high] = std::minmax_element(cubic.b, cubic.b + 4);
     if (*low > 0) return *low;
     if (*high < 0) return -*high;
@@ -66,11 +66,11 @@ double least_magnitude(const Cubic& cubic, int halvings) {
     const double pq = mid(p, q);
     const double qr = mid(q, r);
     const double centre = mid(pq, qr);
-    return std::min(least_magnitude({{b[0], p, pq, centre}}, halvings - 1),
-                    least_magnitude({{centre, qr, r, b[3]}}, halvings - 1));
+    return std::min(min_magnitude({{b[0], p, pq, centre}}, halvings - 1),
+                    min_magnitude({{centre, qr, r, b[3]}}, halvings - 1));
 }
 
-/// Magnitudes that no entry exceeds on the way from a to b.
+/// Upper bounds of the entries' magnitudes between a and b.
 Affined largest_entries(const Affinef& a, const Affinef& b) {
     Affined out;
     for (int r = 0; r < 3; ++r) {
@@ -102,7 +102,7 @@ double largest_of_inverse(const Affinef& a, const Affinef& b, const Affined& mos
     }
     if (!(terms < largest_product && largest_cofactor < largest_product)) return INFINITY;
     const double error = rounding * terms + smallest_product * sum;
-    const double determinant = least_magnitude(determinant_between(a, b), 12);
+    const double determinant = min_magnitude(determinant_between(a, b), 12);
     if (!(determinant > 2 * error)) return INFINITY;
     return largest_cofactor / (determinant - error);
 }
@@ -115,22 +115,22 @@ RayReach reach_between(const Affinef& a, const Affinef& b) {
     const Affined most = largest_entries(a, b);
     const double widest = largest_of_inverse(a, b, most);
     const double moved = most.m[0][3] + most.m[1][3] + most.m[2][3];
-    const double farthest = limit / widest - moved;  // from where the instance's own origin is
+    const double farthest = limit / widest - moved;  // from the instance's own origin
     if (!(farthest > 0)) return {0, 0};
-    constexpr auto most_of_all = static_cast<double>(largest_component);
-    return {static_cast<float>(std::min(farthest, most_of_all)),
-            static_cast<float>(std::min(limit / widest, most_of_all))};
+    constexpr auto upper_limit = static_cast<double>(largest_component);
+    return {static_cast<float>(std::min(farthest, upper_limit)),
+            static_cast<float>(std::min(limit / widest, upper_limit))};
 }
 
-/// The sum of a point's largest components, whatever corner of the bounds it is.
+/// Upper bound of the sum of a point's component magnitudes within the bounds.
 double farthest(const Bounds& bounds) {
     if (bounds.empty()) return 0;
     const Vec3f most = max3(abs(bounds.low), abs(bounds.high));
     return static_cast<double>(most.x) + static_cast<double>(most.y) + static_cast<double>(most.z);
 }
 
-/// What rays of a picture need. Where nobody says where the camera is, it stands a few times the
-/// scene's size away.
+/// The reach that the rays of an image need. Without scene cameras, the camera is assumed to stand
+/// a few times the scene's size away.
 RayReach needed_reach(const Scene& scene) {
     constexpr double room = 8;
     double most = room * farthest(scene.bounds);

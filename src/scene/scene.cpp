@@ -1,4 +1,4 @@
-// scene/scene.cpp - what closes a scene's tables, and stamps of geometry.
+// scene/scene.cpp - padding at the end of the scene's tables, and geometry stamps.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/scene.h"
 

@@ -14,7 +14,7 @@ size_t vertex_bytes(const Scene& scene) {
 
 size_t geometry_bytes(const Scene& scene) {
     return vertex_bytes(scene) + scene.primitives.size() * sizeof(Primitive) +
-           scene.shapes.size() * sizeof(ShapeRow) + scene.spheres.size() * sizeof(float) +
+           scene.shapes.size() * sizeof(ShapeRecord) + scene.spheres.size() * sizeof(float) +
            scene.curve_points.size() * sizeof(float) +
            scene.curve_segments.size() * sizeof(uint32_t) +
            scene.instances.size() * sizeof(Instance) + scene.materials.size() * sizeof(Material) +
@@ -28,11 +28,11 @@ size_t texture_bytes(const Scene& scene) {
 
 size_t base_texel_bytes(const Scene& scene) {
     size_t texels = 0;
-    std::set<int32_t> seen;  // textures that differ in their sampler alone share their texels
-    for (const TextureRow& row : scene.textures.rows) {
-        if (!seen.insert(row.level_offset[0]).second) continue;
-        const size_t planes = row.low_plane != 0 ? 2 : 1;
-        texels += planes * static_cast<size_t>(row.width) * static_cast<size_t>(row.height);
+    std::set<int32_t> seen;  // textures that differ only in their sampler share their texels
+    for (const TextureRecord& record : scene.textures.records) {
+        if (!seen.insert(record.level_offset[0]).second) continue;
+        const size_t planes = record.low_plane != 0 ? 2 : 1;
+        texels += planes * static_cast<size_t>(record.width) * static_cast<size_t>(record.height);
     }
     return texels * sizeof(uint32_t);
 }

@@ -8,7 +8,7 @@
 
 namespace obscura {
 
-/// Corners and their attributes: what any renderer of the same triangles must keep.
+/// Vertices, attributes and indices: the minimum for any renderer of the same triangles.
 size_t vertex_bytes(const Scene& scene);
 
 /// All tables but the texels: vertices, shapes, primitives, instances, materials.
@@ -17,7 +17,7 @@ size_t geometry_bytes(const Scene& scene);
 /// Texels with their mip chains.
 size_t texture_bytes(const Scene& scene);
 
-/// Texels of the pictures alone, without mip chains.
+/// Texels of the images alone, without mip chains.
 size_t base_texel_bytes(const Scene& scene);
 
 /// Triangles as they are stored: those of an instanced mesh count once.

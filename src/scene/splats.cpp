@@ -18,10 +18,10 @@ Vec3d column(const Affined& map, int c) {
 }  // namespace
 
 ShapeBox splat_box(const Affined& world_from_ball, double opacity) {
-    const double least = static_cast<double>(least_splat_alpha);
+    const double least = static_cast<double>(min_splat_alpha);
     if (!(opacity >= least)) return {splat3(INFINITY), splat3(-INFINITY)};
     const double drawn = std::sqrt(2 * std::log(opacity / least));
-    // A little more: rays find the end with the rounding of single precision.
+    // Slightly enlarged: rays compute the end in single precision.
     const double reach = 1.001 * std::min(drawn, static_cast<double>(splat_reach)) + 0.001;
     float low[3];
     float high[3];
@@ -35,9 +35,9 @@ ShapeBox splat_box(const Affined& world_from_ball, double opacity) {
     return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
-void store_splat(const Affined& world_from_ball, float opacity, size_t row, SplatField& field) {
-    const size_t within = row % splat_block;
-    float* at = &field.blocks[(row - within) * splat_columns + within];
+void store_splat(const Affined& world_from_ball, float opacity, size_t index, SplatField& field) {
+    const size_t within = index % splat_block;
+    float* at = &field.blocks[(index - within) * splat_columns + within];
     const Affined ball_from_world = inverse(world_from_ball);
     const Vec3d mean = column(world_from_ball, 3);
     const double numbers[splat_columns] = {
@@ -62,20 +62,20 @@ void store_splat(const Affined& world_from_ball, float opacity, size_t row, Spla
         at[i * splat_block] = fits ? static_cast<float>(numbers[i]) : 0.0f;
     if (!fits) return;
     const ShapeBox box = splat_box(world_from_ball, static_cast<double>(opacity));
-    ShapeBox& all = field.boxes[row / splat_block];
+    ShapeBox& all = field.boxes[index / splat_block];
     all.low = -max3(-all.low, -box.low);
     all.high = max3(all.high, box.high);
 }
 
-Vec3f splat_color(const SplatField& field, size_t row, const Vec3f& direction) {
-    const auto number = static_cast<size_t>(field.group_of_block[row / splat_block]);
+Vec3f splat_color(const SplatField& field, size_t index, const Vec3f& direction) {
+    const auto number = static_cast<size_t>(field.group_of_block[index / splat_block]);
     const SplatGroup& group = field.groups[number];
-    const size_t splat = row - static_cast<size_t>(group.first);
+    const size_t splat = index - static_cast<size_t>(group.first);
     const float* base = &field.colors[group.first_color + 3 * splat];
     float rgb[3] = {base[0], base[1], base[2]};
     const auto count = static_cast<size_t>(directional_harmonics(group.degree));
     if (count > 0) {
-        float y[most_harmonics];
+        float y[max_harmonics];
         real_harmonics(normalize(transform_vector(group.object_from_world, direction)), y);
         const int16_t* code = &field.harmonics[group.first_harmonic + 3 * count * splat];
         float sum[3] = {0, 0, 0};

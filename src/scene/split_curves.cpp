@@ -1,4 +1,4 @@
-// scene/split_curves.cpp - more points for lines that pass a surface or are long.
+// scene/split_curves.cpp - splits curve segments that cross a surface or are very long.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/split_curves.h"
 
@@ -9,25 +9,25 @@ namespace obscura {
 
 namespace {
 
-/// Where a piece of a line, two rows of Scene::curve_points, is cut: shares of the way from its
-/// first point to its second, in (0, 1), rising.
+/// Parameters in (0, 1), rising, at which a curve segment is cut. ends: the two records of
+/// Scene::curve_points.
 using Cuts = std::function<std::vector<double>(const float* ends)>;
 
-Vec3d place(const float* point) {
+Vec3d position(const float* point) {
     return {point[0], point[1], point[2]};
 }
 
-/// A place between two points: `share` of the way from `first` to the next one.
+/// A point between `first` and the next curve point, at the parameter `fraction`.
 struct Vertex {
     uint32_t first = 0;
-    double share = 0;
+    double fraction = 0;
 };
 
-double mix(double a, double b, double share) {
-    return a + (b - a) * share;
+double mix(double a, double b, double fraction) {
+    return a + (b - a) * fraction;
 }
 
-/// The points and pieces of all lines, made anew.
+/// Rebuilds the points and segments of all curves.
 class CurveSplitter {
 public:
     CurveSplitter(Scene& scene, const Cuts& cuts) : scene_(scene), cuts_(cuts) {}
@@ -45,7 +45,7 @@ private:
     void add_point(const Vertex& vertex) {
         const float* p = &scene_.curve_points[size_t{vertex.first} * 4];
         for (size_t c = 0; c < 4; ++c) {
-            const double value = vertex.share > 0 ? mix(p[c], p[c + 4], vertex.share) : p[c];
+            const double value = vertex.fraction > 0 ? mix(p[c], p[c + 4], vertex.fraction) : p[c];
             points_.push_back(static_cast<float>(value));
         }
         vertices_.push_back(vertex);
@@ -56,7 +56,7 @@ private:
         add_point(to);
     }
 
-    /// Writes an attribute of `width` floats a vertex anew, for the points from `first` on.
+    /// Rewrites an attribute of `width` floats per vertex, for the points from `first` on.
     void split_attribute(int32_t& base, size_t width, size_t first) {
         if (base == no_attribute) return;
         LargeArray<float>& all = scene_.attributes;
@@ -67,8 +67,8 @@ private:
             const auto at =
                 static_cast<size_t>(old_base + int64_t{vertex.first} * static_cast<int64_t>(width));
             for (size_t c = 0; c < width; ++c) {
-                const double next = vertex.share > 0 ? all[at + c + width] : all[at + c];
-                all.push_back(static_cast<float>(mix(all[at + c], next, vertex.share)));
+                const double next = vertex.fraction > 0 ? all[at + c + width] : all[at + c];
+                all.push_back(static_cast<float>(mix(all[at + c], next, vertex.fraction)));
             }
         }
     }
@@ -83,8 +83,8 @@ private:
             const uint32_t from = scene_.curve_segments[i];
             const bool goes_on = i > begin && scene_.curve_segments[i - 1] + 1 == from;
             if (!goes_on) add_point({from, 0});
-            for (const double share : cuts_(&scene_.curve_points[size_t{from} * 4]))
-                add_segment({from, share});
+            for (const double fraction : cuts_(&scene_.curve_points[size_t{from} * 4]))
+                add_segment({from, fraction});
             add_segment({from + 1, 0});
         }
         primitive.first_triangle = static_cast<int32_t>(first_segment);
@@ -112,10 +112,10 @@ void split(Scene& scene, const Cuts& cuts) {
 
 }  // namespace
 
-void split_curves(Scene& scene, const std::function<double(const Vec3d& place_m)>& side) {
+void split_curves(Scene& scene, const std::function<double(const Vec3d& position_m)>& side) {
     split(scene, [&](const float* ends) -> std::vector<double> {
-        const double here = side(place(ends));
-        const double there = side(place(ends + 4));
+        const double here = side(position(ends));
+        const double there = side(position(ends + 4));
         if (here * there >= 0) return {};
         return {here / (here - there)};
     });
@@ -124,15 +124,15 @@ void split_curves(Scene& scene, const std::function<double(const Vec3d& place_m)
 void split_long_curves(Scene& scene) {
     // Squares of half the length round by 2^-22 of themselves: this is 1 % of the radius' square.
     constexpr double longest = 400;  // in radii
-    constexpr double most_pieces = 64;
+    constexpr double max_segments = 64;
     split(scene, [&](const float* ends) {
         const auto radius = static_cast<double>(std::min(ends[3], ends[7]));
-        const double thin = length(place(ends + 4) - place(ends)) / (radius * longest);
-        const int pieces = static_cast<int>(std::clamp(std::ceil(thin), 1.0, most_pieces));
-        std::vector<double> shares;
-        for (int i = 1; i < pieces; ++i)
-            shares.push_back(static_cast<double>(i) / pieces);
-        return shares;
+        const double thin = length(position(ends + 4) - position(ends)) / (radius * longest);
+        const int segments = static_cast<int>(std::clamp(std::ceil(thin), 1.0, max_segments));
+        std::vector<double> fractions;
+        for (int i = 1; i < segments; ++i)
+            fractions.push_back(static_cast<double>(i) / segments);
+        return fractions;
     });
 }
 

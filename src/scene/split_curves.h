@@ -1,4 +1,4 @@
-// scene/split_curves.h - more points for lines that pass a surface or are long.
+// scene/split_curves.h - splits curve segments that cross a surface or are very long.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,14 +8,14 @@
 
 namespace obscura {
 
-/// Splits every piece of a line whose ends lie on different sides, where `side` is 0. Colours and
-/// normals are interpolated; the new points' radii are for the caller to set.
+/// Splits every curve segment whose ends have different signs of `side`, at its zero. Colours and
+/// normals are interpolated; the caller sets the new points' radii.
 ///
-/// In   side: linear along every line
-void split_curves(Scene& scene, const std::function<double(const Vec3d& place_m)>& side);
+/// In   side: linear along every curve
+void split_curves(Scene& scene, const std::function<double(const Vec3d& position_m)>& side);
 
-/// Splits pieces that are much longer than thick into equal ones, at most 64: Embree finds the way
-/// through a piece relative to its length, so that a thin one gets holes. Colours and radii are
+/// Splits segments that are much longer than thick into equal ones, at most 64: Embree's precision
+/// is relative to a segment's length, so that thin ones get holes. Colours and radii are
 /// interpolated.
 void split_long_curves(Scene& scene);
 

@@ -1,4 +1,4 @@
-// scene/texel_span.h - which texels of a mip level one texel of the next covers, along one axis.
+// scene/texel_span.h - the texels under one texel of the next mip level, along one axis.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

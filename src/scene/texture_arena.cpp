@@ -20,7 +20,7 @@ struct Cover {
     float weight[N];
 };
 
-/// Mean of the four bytes, each on its own: data such as normals, roughness or metalness.
+/// Mean of each of the four bytes: for data such as normals, roughness or metalness.
 template <int N>
 uint32_t mean_of_data(const Cover<N>& cover) {
     if constexpr (N == 4) {  // two bytes at a time; the sums of four need ten of sixteen bits
@@ -146,20 +146,20 @@ size_t mip_chain_texels(int width, int height) {
 }
 
 TextureView view_of(const TextureArena& textures) {
-    const auto has_low_plane = [](const TextureRow& row) { return row.low_plane != 0; };
+    const auto has_low_plane = [](const TextureRecord& record) { return record.low_plane != 0; };
     return {textures.texels.data(),
-            textures.rows.data(),
-            std::any_of(textures.rows.begin(), textures.rows.end(), has_low_plane)};
+            textures.records.data(),
+            std::any_of(textures.records.begin(), textures.records.end(), has_low_plane)};
 }
 
 float texel_channel(const TextureArena& textures,
-                    const TextureRow& row,
+                    const TextureRecord& record,
                     size_t texel,
                     int channel) {
     const auto byte = [&](size_t at) { return textures.texels[at] >> (8 * channel) & 255U; };
     const uint32_t high = byte(texel);
-    if (row.low_plane == 0) return static_cast<float>(high) / 255.0f;
-    const uint32_t low = byte(texel + static_cast<size_t>(row.low_plane));
+    if (record.low_plane == 0) return static_cast<float>(high) / 255.0f;
+    const uint32_t low = byte(texel + static_cast<size_t>(record.low_plane));
     return static_cast<float>(high << 8 | low) / 65535.0f;
 }
 

@@ -1,4 +1,4 @@
-// scene/thin_walls.cpp - finds materials that may let light pass straight through.
+// scene/thin_walls.cpp - finds materials that may transmit light without refraction.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/thin_walls.h"
 
@@ -26,17 +26,17 @@ bool may_be_thin_wall(const Scene& scene, const Material& material) {
 }  // namespace
 
 std::vector<uint8_t> find_thin_walls(const Scene& scene) {
-    std::vector<uint8_t> walls(scene.materials.size(), 0);
+    std::vector<uint8_t> thin_walls(scene.materials.size(), 0);
     std::transform(
-        scene.materials.begin(), scene.materials.end(), walls.begin(), [&](const Material& m) {
+        scene.materials.begin(), scene.materials.end(), thin_walls.begin(), [&](const Material& m) {
             return static_cast<uint8_t>(may_be_thin_wall(scene, m) ? 1 : 0);
         });
-    return walls;
+    return thin_walls;
 }
 
-bool has_bodies_like_air(const Scene& scene) {
+bool has_media_like_air(const Scene& scene) {
     return std::any_of(scene.media.begin(), scene.media.end(), [&](const Medium& medium) {
-        return &medium != scene.media.data() && std::fabs(medium.ior - 1.0F) < least_refraction;
+        return &medium != scene.media.data() && std::fabs(medium.ior - 1.0F) < min_refraction;
     });
 }
 

@@ -1,4 +1,4 @@
-// scene/thin_walls.h - finds materials that may let light pass straight through.
+// scene/thin_walls.h - finds materials that may transmit light without refraction.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace obscura {
 
-/// 1 for every material that somewhere may be a smooth wall without thickness: see
-/// surface/thin_wall.h. What it is at one point, shading finds out.
+/// By material: 1 where some point may be a smooth thin wall, see surface/thin_wall.h. Shading
+/// decides for each point.
 std::vector<uint8_t> find_thin_walls(const Scene& scene);
 
-/// Whether light passes straight through the boundary of some body, as its index is that of air.
-bool has_bodies_like_air(const Scene& scene);
+/// Whether some medium has the index of air, so that light passes its boundary straight.
+bool has_media_like_air(const Scene& scene);
 
 }  // namespace obscura

@@ -40,7 +40,7 @@ void write_texel(const WideLevel& to, size_t at, const Rgba<float>& value, bool 
     to.low[at] = low;
 }
 
-/// As mean_of_data and mean_of_colors of 8-bit texels.
+/// The mean under one texel, as mean_of_data and mean_of_colors of 8-bit texels.
 Rgba<float> mean_under(const WideLevel& from,
                        const TexelSpan& columns,
                        const TexelSpan& rows,

@@ -1,4 +1,4 @@
-// session/asset_renderer.cpp - an asset that is read once and of which images are made.
+// session/asset_renderer.cpp - reads an asset once and makes images of it.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/asset_renderer.h"
 
@@ -12,11 +12,11 @@
 namespace obscura {
 
 Result<AssetRenderer> AssetRenderer::open(const std::filesystem::path& file,
-                                          const LoadOptions& options,
+                                          const gltf::LoadOptions& options,
                                           bool has_time,
                                           Log& log) {
     const Stopwatch loading;
-    Result<PosedAsset> asset = PosedAsset::open(file, options, has_time, log);
+    Result<gltf::PosedAsset> asset = gltf::PosedAsset::open(file, options, has_time, log);
     if (!asset) return fail(asset.error());
     AssetRenderer out(std::move(*asset));
     out.statistics_.load_s = loading.seconds();
@@ -59,7 +59,7 @@ Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
                                             Log& log) {
     Result<ChosenCamera> camera = choose_unfocused_camera(*scene_, request, log);
     if (!camera) return camera;
-    if (has_strokes(*scene_)) size_strokes(request.strokes, camera->camera, *scene_);
+    if (has_points_lines(*scene_)) size_points_lines(request.points_lines, camera->camera, *scene_);
     Scene scene = std::move(*scene_);
     scene_.reset();
     if (prepared_) {
@@ -75,7 +75,7 @@ Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
         prepared_ = std::move(*created);
     }
     is_prepared_ = true;
-    if (!is_quantity(request.options.integrator)) {
+    if (!is_aov(request.options.integrator)) {
         const auto& eye = camera->camera.world_from_camera.m;
         warn_of_enclosed_lights(*prepared_, {eye[0][3], eye[1][3], eye[2][3]}, log);
     }
@@ -98,10 +98,10 @@ Result<ChosenCamera> AssetRenderer::look_again(const RenderRequest& request, Log
     return camera;
 }
 
-Result<FinishedPicture> AssetRenderer::render(const RenderRequest& request,
-                                              const ChosenCamera& camera,
-                                              const RenderHooks& hooks,
-                                              const Log& log) {
+Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
+                                            const ChosenCamera& camera,
+                                            const RenderHooks& hooks,
+                                            const Log& log) {
     RenderOptions options = request.options;
     options.moving_camera = camera.moving;
     options.film_memory = &film_memory_;
@@ -116,14 +116,14 @@ Result<FinishedPicture> AssetRenderer::render(const RenderRequest& request,
     add_counters(result->counters, statistics_.counters);
     statistics_.film_bytes = result->film.pixels.size() * sizeof(float);
 
-    FinishedPicture finished;
+    FinishedImage finished;
     finished.metadata = make_metadata(request, *prepared_, camera, result->render_seconds, log);
     if (request.load.lenient) {
         finished.metadata.extra.emplace_back("degraded", degraded_text(degraded_));
     }
     Film& film = result->film;
     finished.counters = result->counters;
-    finished.picture = {
+    finished.image = {
         film.width, film.height, std::move(film.channels), std::move(film.pixels), film.part_of};
     return finished;
 }

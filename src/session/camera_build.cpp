@@ -1,4 +1,4 @@
-// session/camera_build.cpp - place, angle and settings become the record that rays come from.
+// session/camera_build.cpp - makes a camera from its position, angle and settings.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/camera_build.h"
 
@@ -14,7 +14,7 @@ namespace obscura {
 
 namespace {
 
-/// Height of 35 mm film: what a focal length is for when only an angle is known.
+/// Height of 35 mm film, for the focal length of a camera that has only an angle.
 constexpr double usual_sensor_height_m = 0.024;
 /// Tangent up to which distortion is followed: 89.4 degrees.
 constexpr double widest_distorted = 100;
@@ -27,13 +27,13 @@ tl::unexpected<Error> refuse(const char* id, const std::string& where, const std
     return fail(ExitCode::usage, id, where, message);
 }
 
-/// A film at distance 1 before the eye, or before the middle of the lens.
+/// A film at distance 1 before the eye, or before the lens' centre.
 struct FilmPlane {
     double tan_half_xfov, tan_half_yfov;
     double shift_x, shift_y;
 };
 
-/// Settings that hold for a picture of another size hold for this one, stretched.
+/// Intrinsics of another image size hold for this one, scaled.
 FilmPlane film_from_intrinsics(const Intrinsics& i) {
     return {i.width_px / (2 * i.fx_px),
             i.height_px / (2 * i.fy_px),
@@ -41,7 +41,7 @@ FilmPlane film_from_intrinsics(const Intrinsics& i) {
             (i.cy_px - i.height_px / 2) / i.fy_px};
 }
 
-/// Distance of the film behind the lens: with an f-number that of a real lens at its focus.
+/// Distance of the film behind the lens: with an f-number, that of a real lens in focus.
 double film_distance(const CameraSettings& s, bool is_lens, double focus_m) {
     const bool real = is_lens && s.fstop && focus_m > *s.focal_length_m;
     return real ? image_distance(*s.focal_length_m, focus_m) : *s.focal_length_m;
@@ -49,13 +49,13 @@ double film_distance(const CameraSettings& s, bool is_lens, double focus_m) {
 
 FilmPlane flat_film(const CameraBasis& basis,
                     const CameraSettings& s,
-                    PictureSize size,
+                    ImageSize size,
                     double film_distance_m) {
     if (s.intrinsics) return film_from_intrinsics(*s.intrinsics);
     const double aspect = static_cast<double>(size.width_px) / size.height_px;
     double half_height = basis.tan_half_yfov;
     if (s.focal_length_m && s.sensor_m && !basis.keeps_angle) {
-        // The whole sensor is in the picture, as a file's camera always is.
+        // The whole sensor is visible, as the view of a file's camera always is.
         const double wide = (*s.sensor_m)[0] / (2 * film_distance_m);
         half_height = std::max((*s.sensor_m)[1] / (2 * film_distance_m), wide / aspect);
     }
@@ -66,7 +66,7 @@ FilmPlane flat_film(const CameraBasis& basis,
             2 * shift[1] * half_height};
 }
 
-void set_film(const FilmPlane& film, PictureSize size, PinholeCamera& out) {
+void set_film(const FilmPlane& film, ImageSize size, PinholeCamera& out) {
     out.tan_half_yfov = narrow(film.tan_half_yfov);
     out.aspect = narrow(film.tan_half_xfov / film.tan_half_yfov);
     out.pixel_spread = narrow(2 * film.tan_half_yfov / size.height_px);
@@ -117,7 +117,7 @@ Result<ThinLens> make_lens(const CameraSettings& s, double focus_m, double tan_h
 
 Result<void> set_flat(const CameraBasis& basis,
                       const CameraSettings& s,
-                      PictureSize size,
+                      ImageSize size,
                       Camera& out) {
     const bool is_lens = out.model == CameraModel::thin_lens;
     const double focus = s.focus_distance_m.value_or(basis.focus_m);
@@ -140,7 +140,7 @@ Result<void> set_flat(const CameraBasis& basis,
 
 void set_orthographic(const CameraBasis& basis,
                       const CameraSettings& s,
-                      PictureSize size,
+                      ImageSize size,
                       OrthographicCamera& out) {
     const double aspect = static_cast<double>(size.width_px) / size.height_px;
     double half_height = basis.half_height_m;
@@ -152,7 +152,7 @@ void set_orthographic(const CameraBasis& basis,
     out.pixel_width_m = narrow(2 * half_height / size.height_px);
 }
 
-Result<void> set_fisheye(const CameraSettings& s, PictureSize size, FisheyeCamera& out) {
+Result<void> set_fisheye(const CameraSettings& s, ImageSize size, FisheyeCamera& out) {
     const bool has_k = s.fisheye_k.has_value();
     out.law = s.fisheye.value_or(has_k ? FisheyeLaw::opencv : FisheyeLaw::equidistant);
     const std::array<double, 4> k = s.fisheye_k.value_or(std::array<double, 4>{0, 0, 0, 0});
@@ -192,8 +192,8 @@ Result<void> set_fisheye(const CameraSettings& s, PictureSize size, FisheyeCamer
     return {};
 }
 
-/// Faces side by side; 0 when squares do not fill the picture.
-int cube_columns(PictureSize size) {
+/// Faces side by side; 0 when squares do not fill the image.
+int cube_columns(ImageSize size) {
     for (const int columns : {6, 3, 1}) {
         const int64_t rows = 6 / columns;
         if (size.width_px * rows == static_cast<int64_t>(size.height_px) * columns) return columns;
@@ -201,7 +201,7 @@ int cube_columns(PictureSize size) {
     return 0;
 }
 
-Result<void> set_environment(const CameraSettings& s, PictureSize size, EnvironmentCamera& out) {
+Result<void> set_environment(const CameraSettings& s, ImageSize size, EnvironmentCamera& out) {
     out.projection = s.environment.value_or(EnvironmentProjection::latlong);
     out.half_eyes_m = narrow(0.5 * s.stereo_m.value_or(0));
     const double eye_height = s.stereo_m.value_or(0) > 0 ? size.height_px / 2.0 : size.height_px;
@@ -228,7 +228,7 @@ Result<void> set_environment(const CameraSettings& s, PictureSize size, Environm
         out.pixel_height = narrow(pi_d / eye_height);
         return {};
     }
-    // Without an angle, pixels are as wide as high.
+    // Without an angle, pixels are square.
     const double square = pi_d * eye_height / size.width_px;
     const double half_height = s.cylinder_fov_rad ? std::tan(0.5 * *s.cylinder_fov_rad) : square;
     out.half_height = narrow(half_height);
@@ -236,8 +236,8 @@ Result<void> set_environment(const CameraSettings& s, PictureSize size, Environm
     return {};
 }
 
-/// Unless it shall look ahead, a picture of all directions is turned like an environment map: its
-/// middle at +X (a cube's faces are those of the world's axes).
+/// Unless it is aimed explicitly, an image of all directions is oriented like an environment map:
+/// its centre at +X (a cube's faces are those of the world's axes).
 Affined environment_place(const Affined& place, const CameraSettings& s) {
     if (s.align.value_or(EnvironmentAlign::world) == EnvironmentAlign::view) return place;
     const bool cube = s.environment == EnvironmentProjection::cubemap;
@@ -260,7 +260,7 @@ Affined camera_place(const Affined& world_from_camera,
 Result<Camera> make_camera(const CameraBasis& basis,
                            CameraModel model,
                            const CameraSettings& settings,
-                           PictureSize size) {
+                           ImageSize size) {
     Camera out;
     out.model = model;
     out.world_from_camera =

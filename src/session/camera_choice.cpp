@@ -1,11 +1,11 @@
-// session/camera_choice.cpp - which camera a picture is taken with.
+// session/camera_choice.cpp - chooses the camera of an image: asked for, of the file, or framed.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/camera_choice.h"
 
 #include "base/setting_names.h"
 #include "base/text.h"
 
-#include "session/aperture_picture.h"
+#include "session/aperture_image.h"
 #include "session/framing.h"
 #include "session/model_settings.h"
 #include <algorithm>
@@ -30,8 +30,8 @@ struct Placed {
     std::string description;
 };
 
-/// Distance from the camera to the scene's middle along the view; the radius when that is behind.
-double distance_to_middle(const Affined& world_from_camera, const BoundingSphere& sphere) {
+/// Distance from the camera to the scene's centre along the view; the radius when that is behind.
+double distance_to_centre(const Affined& world_from_camera, const BoundingSphere& sphere) {
     const auto& m = world_from_camera.m;
     const Vec3d backward = {m[0][2], m[1][2], m[2][2]};
     const Vec3d eye = {m[0][3], m[1][3], m[2][3]};
@@ -71,14 +71,14 @@ Result<size_t> find_camera(const std::vector<SceneCamera>& cameras, const std::s
                          : "the scene has: " + list_cameras(cameras)));
 }
 
-/// Half the vertical angle's tangent such that the camera's own view is whole in the picture.
-double uncropped_half_height(double half_height, double half_width, double picture_aspect) {
-    return std::max(half_height, half_width / picture_aspect);
+/// Tangent of the half vertical angle that shows the camera's whole view in the image.
+double uncropped_half_height(double half_height, double half_width, double image_aspect) {
+    return std::max(half_height, half_width / image_aspect);
 }
 
 Result<Placed> place_as_given(const SceneCamera& source,
                               const std::string& where,
-                              double picture_aspect) {
+                              double image_aspect) {
     const Result<Affined> rigid = rigid_part(source.world_from_camera, where);
     if (!rigid) return fail(rigid.error());
     Placed placed;
@@ -94,19 +94,19 @@ Result<Placed> place_as_given(const SceneCamera& source,
     if (source.type == SceneCameraType::orthographic) {
         placed.model = CameraModel::orthographic;
         placed.half_height_m =
-            uncropped_half_height(std::abs(source.ymag_m), std::abs(source.xmag_m), picture_aspect);
+            uncropped_half_height(std::abs(source.ymag_m), std::abs(source.xmag_m), image_aspect);
         return placed;
     }
     const double half_height = std::tan(0.5 * source.yfov_rad);
     placed.tan_half_yfov =
-        uncropped_half_height(half_height, half_height * source.aspect, picture_aspect);
+        uncropped_half_height(half_height, half_height * source.aspect, image_aspect);
     return placed;
 }
 
-Result<Placed> place_from_file(const Scene& scene, size_t index, double picture_aspect) {
+Result<Placed> place_from_file(const Scene& scene, size_t index, double image_aspect) {
     const SceneCamera& source = scene.cameras[index];
     Result<Placed> placed = place_as_given(
-        source, scene.info.file_name + " camera '" + source.name + "'", picture_aspect);
+        source, scene.info.file_name + " camera '" + source.name + "'", image_aspect);
     if (!placed) return placed;
     placed->description = "camera " + std::to_string(index) + " '" + source.name + "' of the file";
     return placed;
@@ -116,7 +116,7 @@ std::optional<CameraModel> wanted_model(const CameraRequest& request) {
     return request.model ? request.model : implied_model(request.settings);
 }
 
-/// The vertical angle of a flat picture: a fisheye's or cylinder's says nothing about one.
+/// The vertical angle of a flat image; those of a fisheye or cylinder do not apply.
 double flat_yfov(const CameraRequest& request) {
     const double angle = request.yfov_rad.value_or(default_yfov_rad);
     return angle < pi_d ? angle : default_yfov_rad;
@@ -173,7 +173,7 @@ Result<Placed> place_outside(const Scene& scene, const CameraRequest& request, d
 void override_lens(Placed& placed, const CameraRequest& request, const BoundingSphere& sphere) {
     const CameraModel in_file = implied_model(placed.settings).value_or(placed.model);
     const CameraModel wanted = wanted_model(request).value_or(in_file);
-    const double distance = distance_to_middle(placed.world_from_camera, sphere);
+    const double distance = distance_to_centre(placed.world_from_camera, sphere);
     if (request.yfov_rad) {
         placed.tan_half_yfov = std::tan(0.5 * flat_yfov(request));
         placed.half_height_m = distance * placed.tan_half_yfov;
@@ -189,7 +189,7 @@ void override_lens(Placed& placed, const CameraRequest& request, const BoundingS
 
 /// Near and far planes around the whole scene where the camera names none.
 void choose_planes(const Placed& placed, const BoundingSphere& sphere, ChosenCamera& out) {
-    const double middle = distance_to_middle(placed.world_from_camera, sphere);
+    const double middle = distance_to_centre(placed.world_from_camera, sphere);
     const double far_side = middle + 2 * sphere.radius_m;
     const double clipped_near = static_cast<double>(out.camera.near_m);
     const double clipped_far = static_cast<double>(out.camera.far_m);
@@ -215,8 +215,7 @@ bool fits_float(const Camera& camera) {
     return lens && std::isfinite(m[0][3]) && std::isfinite(m[1][3]) && std::isfinite(m[2][3]);
 }
 
-/// The settings of the file under those that are asked for; an angle counts where the model has an
-/// angle.
+/// The requested settings override those of the file; an angle counts where the model has an angle.
 CameraSettings join_settings(const Placed& placed, const CameraRequest& request) {
     CameraSettings joined = merge_settings(placed.settings, request.settings);
     joined.model = placed.model;
@@ -228,7 +227,7 @@ CameraSettings join_settings(const Placed& placed, const CameraRequest& request)
     return joined;
 }
 
-/// Asks each source in turn; the first that has a say decides.
+/// Asks each source in turn; the first that applies decides.
 Result<Placed> place(const Scene& scene, const CameraRequest& request, double aspect) {
     const BoundingSphere sphere = bounding_sphere(framed_bounds(scene, request));
     const bool by_hand = request.eye_m || request.target_m || request.up;
@@ -248,12 +247,12 @@ Result<Placed> place(const Scene& scene, const CameraRequest& request, double as
     return placed;
 }
 
-/// Makes the record that rays come from of what is known about the camera.
+/// Makes the camera record from all that is known about the camera.
 Result<void> build(CameraModel model, const std::string& file, ChosenCamera& out) {
     const Result<Camera> camera = make_camera(out.basis, model, out.settings, out.size);
     if (!camera) return fail(camera.error());
     out.camera = *camera;
-    if (out.aperture) out.camera.thin_lens.aperture.picture = out.aperture->view();
+    if (out.aperture) out.camera.thin_lens.aperture.image = out.aperture->view();
     if (fits_float(out.camera)) return {};
     return fail(ExitCode::bad_data,
                 "E-CAM-RANGE",
@@ -261,13 +260,13 @@ Result<void> build(CameraModel model, const std::string& file, ChosenCamera& out
                 "the camera's position or size is zero or beyond what 32-bit floats hold");
 }
 
-/// Gives the camera the picture of its opening, which `out` then owns.
+/// Gives the camera the image of its opening, which `out` then owns.
 Result<void> add_aperture(ChosenCamera& out, Log& log) {
     if (!out.settings.aperture_file || out.camera.model != CameraModel::thin_lens) return {};
     Result<ApertureTable> table = read_aperture(*out.settings.aperture_file, log);
     if (!table) return fail(table.error());
     out.aperture = std::make_shared<const ApertureTable>(std::move(*table));
-    out.camera.thin_lens.aperture.picture = out.aperture->view();
+    out.camera.thin_lens.aperture.image = out.aperture->view();
     return {};
 }
 
@@ -291,7 +290,7 @@ Result<ChosenCamera> choose_camera(
     basis.tan_half_yfov = placed->tan_half_yfov;
     basis.half_height_m = placed->half_height_m;
     basis.focus_m =
-        placed->target_m.value_or(distance_to_middle(placed->world_from_camera, sphere));
+        placed->target_m.value_or(distance_to_centre(placed->world_from_camera, sphere));
     basis.keeps_angle = request.yfov_rad.has_value();
     if (const Result<void> built = build(placed->model, scene.info.file_name, out); !built) {
         return fail(built.error());

@@ -1,4 +1,4 @@
-// session/camera_choice.h - which camera takes a picture: asked for, of the file, or framed.
+// session/camera_choice.h - chooses the camera of an image: asked for, of the file, or framed.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace obscura {
 
-/// What is asked of the camera; what was not asked for is empty.
+/// The camera that is asked for; empty members were not given.
 struct CameraRequest {
     std::string choice = {};  ///< an exact name, else an index
     std::optional<CameraModel> model = {};
@@ -27,8 +27,8 @@ struct CameraRequest {
     CameraSettings settings = {};  ///< all else; its model is `model`
     /// Pixel from the top left; the caller finds the distance (session/focus.h).
     std::optional<std::array<int, 2>> focus_on_px = {};
-    /// What the automatic framing shows in place of the whole scene: in a sequence the first
-    /// frame's bounds, so that the view stands still while things move.
+    /// Bounds that the automatic framing shows in place of the scene's: in a sequence those of the
+    /// first frame, so that the view stands still while things move.
     std::optional<Bounds> framed = {};
     /// Takes the place of the file's cameras.
     std::optional<SceneCamera> loaded = {};
@@ -36,8 +36,8 @@ struct CameraRequest {
 
 struct ChosenCamera {
     Camera camera;
-    CameraBasis basis;  ///< of which it was made, with `settings`
-    PictureSize size;
+    CameraBasis basis;  ///< from which it was made, with `settings`
+    ImageSize size;
     std::vector<Affined> moving;  ///< RenderOptions::moving_camera
     double znear_m = 0.01;        ///< for the NDC matrix; what is clipped is in `camera`
     double zfar_m = 1000;
@@ -59,7 +59,7 @@ struct ChosenCamera {
 /// camera that comes from an angle shows what a pinhole with that angle shows at the target's
 /// distance.
 ///
-/// A file's camera never has its view cropped or stretched (glTF 2.0, section 3.10.3): a picture
+/// A file's camera never has its view cropped or stretched (glTF 2.0, section 3.10.3): an image
 /// wider than the camera's aspect ratio shows more at the sides, a narrower one more above and
 /// below. Without aspectRatio, yfov is kept. The node's scale is ignored.
 ///
@@ -67,11 +67,11 @@ struct ChosenCamera {
 ///         target are the same or up is parallel to the view, E-USAGE-CONFLICT the camera's model
 ///         does not have what an option says, those of session/camera_build.h;
 ///         65 E-CAM-SINGULAR a node flattens its camera, 65 E-CAM-RANGE it does not fit 32-bit
-///         floats; 67 E-IMG-* and E-APERTURE-* the picture of an aperture
+///         floats; 67 E-IMG-* and E-APERTURE-* the image of an aperture
 Result<ChosenCamera> choose_camera(
     const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log);
 
-/// Makes the picture sharp at another distance along the view axis; all else stays.
+/// Focuses at another distance along the view axis; all else stays.
 ///
 /// Errors  64 E-CAM-LENS, 65 E-CAM-RANGE
 Result<void> refocus(ChosenCamera& chosen, double distance_m, const std::string& file);

@@ -1,4 +1,4 @@
-// session/camera_parameters.cpp - what a camera does, in words for a picture's header.
+// session/camera_parameters.cpp - describes a camera's settings in an image's header.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/camera_parameters.h"
 

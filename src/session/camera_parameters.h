@@ -1,4 +1,4 @@
-// session/camera_parameters.h - what a camera does, in words for a picture's header.
+// session/camera_parameters.h - describes a camera's settings in an image's header.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace obscura {
 
-/// What the camera does, as name=value pairs with a blank between them.
+/// The camera's settings as name=value pairs with a blank between them.
 std::string camera_parameters(const Camera& camera);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// session/focus.cpp - a camera that is focused on what one pixel shows.
+// session/focus.cpp - autofocus: focuses a camera on what one pixel shows.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/focus.h"
 
@@ -56,10 +56,10 @@ Result<void> focus(const PreparedScene& prepared,
     if (!request.camera.focus_on_px) return {};
     const std::array<int, 2> pixel = *request.camera.focus_on_px;
     const RenderOptions& options = request.options;
-    // A real lens' angle of view depends a little on its focus, so the pixel is asked again.
-    constexpr int most_rounds = 8;
+    // A real lens' angle of view changes slightly with its focus, so the pixel is traced again.
+    constexpr int max_rounds = 8;
     double before = 0;
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < max_rounds; ++round) {
         const Result<double> depth = depth_of_pixel(prepared, camera.camera, options, pixel);
         if (!depth) return fail(depth.error());
         if (!(*depth > 0)) return refuse("the pixel shows nothing to focus on; choose another");

@@ -18,7 +18,7 @@ struct FrameRange {
     double time_s(int frame) const { return frame / fps; }
 };
 
-/// While the shutter is open, in frames from the picture's own time.
+/// Open shutter, in frames relative to the image's time.
 struct ShutterFractions {
     double open = 0;
     double close = 0;
@@ -28,7 +28,7 @@ struct ShutterFractions {
 /// zeros in front up to as many digits as there are #. Nothing: there is no such run, or several.
 std::optional<std::filesystem::path> frame_file(const std::filesystem::path& pattern, int frame);
 
-/// One picture of a command: where it goes and when it is.
+/// One image of a command: its output files and its time.
 struct MovieFrame {
     std::optional<int> number;  ///< of a sequence
     double time_s = 0;

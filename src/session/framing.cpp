@@ -1,4 +1,4 @@
-// session/framing.cpp - views from outside that show a whole asset.
+// session/framing.cpp - automatic views that show a whole asset, from outside.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/framing.h"
 
@@ -13,10 +13,10 @@ namespace obscura {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double frame_share = 0.95;     ///< of the half frame that the corners may fill
-constexpr double azimuth = pi / 6;       ///< from +Z towards +X: the viewer's right
-constexpr double elevation = pi / 9;     ///< above the horizon
-constexpr double least_gap_share = 0.1;  ///< of the radius, between the eye and the nearest corner
+constexpr double frame_fraction = 0.95;   ///< of the half frame that the corners may fill
+constexpr double azimuth = pi / 6;        ///< from +Z towards +X: the viewer's right
+constexpr double elevation = pi / 9;      ///< above the horizon
+constexpr double min_gap_fraction = 0.1;  ///< of the radius, between the eye and the nearest corner
 
 struct Box {
     Vec3d low, high;
@@ -84,8 +84,8 @@ Framing frame_perspective(const Bounds& bounds, double yfov_rad, double aspect) 
     const Box box = box_to_frame(bounds);
     const BoundingSphere sphere = bounding_sphere(bounds);
     const double half_height = std::tan(0.5 * yfov_rad);
-    const double slope_x = frame_share * half_height * aspect;
-    const double slope_y = frame_share * half_height;
+    const double slope_x = frame_fraction * half_height * aspect;
+    const double slope_y = frame_fraction * half_height;
     Strip across;
     Strip upward;
     double nearest = 0;
@@ -96,7 +96,7 @@ Framing frame_perspective(const Bounds& bounds, double yfov_rad, double aspect) 
     }
     const double distance = std::max({(across.high - across.low) / (2 * slope_x),
                                       (upward.high - upward.low) / (2 * slope_y),
-                                      nearest + least_gap_share * sphere.radius_m});
+                                      nearest + min_gap_fraction * sphere.radius_m});
     const Vec3d target = sphere.centre_m + axes.x * across.centre() + axes.y * upward.centre();
     Framing framing;
     framing.view = {target + axes.z * distance, target, {0, 1, 0}};
@@ -114,7 +114,7 @@ Framing frame_orthographic(const Bounds& bounds, double aspect) {
         half_height = std::max(half_height, std::abs(corner.y));
     }
     Framing framing;
-    framing.half_height_m = std::max(half_height, half_width / aspect) / frame_share;
+    framing.half_height_m = std::max(half_height, half_width / aspect) / frame_fraction;
     framing.view = {sphere.centre_m + axes.z * (2 * sphere.radius_m), sphere.centre_m, {0, 1, 0}};
     return framing;
 }

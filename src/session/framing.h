@@ -17,7 +17,7 @@ struct Viewpoint {
     Vec3d up = {0, 1, 0};
 };
 
-/// An automatic view: the viewpoint, and half the picture's height in the target's plane.
+/// An automatic view: the viewpoint, and half the image's height in the target's plane.
 struct Framing {
     Viewpoint view;
     double half_height_m = 1;

@@ -38,7 +38,7 @@ LogSink library_sink(const v0::MessageSink& sink) {
 
 namespace {
 
-/// Runs a call; what it throws becomes an error.
+/// Runs a call; exceptions become errors.
 template <typename T, typename Body>
 v0::Result<T> guarded(const Body& body) {
     try {
@@ -79,8 +79,8 @@ v0::AssetInfo info_of(const Scene& scene) {
     return out;
 }
 
-/// Reads the file for what is asked of it now. What it was read for changes what is made of it, so
-/// that another purpose reads it again.
+/// Reads the file for the purposes of this call. They change what is made of the file, so that
+/// another purpose reads it again.
 Result<void> read(v0::Asset::Impl& asset, const ReadFor& wanted, Log& log) {
     if (asset.renderer && asset.read_for == wanted) return {};
     asset.read_for = wanted;
@@ -99,14 +99,14 @@ PoseTimes times_of(const v0::View& view) {
     PoseTimes times;
     times.time_s = view.time_s.value_or(0);
     if (view.shutter_s) {
-        times.shutter =
-            ShutterTimes{times.time_s + (*view.shutter_s)[0], times.time_s + (*view.shutter_s)[1]};
+        times.shutter = gltf::ShutterTimes{times.time_s + (*view.shutter_s)[0],
+                                           times.time_s + (*view.shutter_s)[1]};
     }
     return times;
 }
 
-/// Brings the asset to the pose and light of an image, as far as it is not there yet, and chooses
-/// the camera.
+/// Brings the asset to the pose and light of an image, unless it is there already, and chooses the
+/// camera.
 Result<ChosenCamera> prepare(v0::Asset::Impl& asset,
                              const v0::View& view,
                              const RenderRequest& request,
@@ -121,9 +121,9 @@ Result<ChosenCamera> prepare(v0::Asset::Impl& asset,
                              request.environment_intensity,
                              request.environment_rotation_deg,
                              request.isa};
-    // Points and lines are as thick as one camera sees them.
+    // The thickness of points and lines depends on the camera.
     const bool same = asset.prepared_for == wanted;
-    if (same && !has_strokes(renderer.scene())) return renderer.look_again(request, log);
+    if (same && !has_points_lines(renderer.scene())) return renderer.look_again(request, log);
     asset.prepared_for.reset();
     if (!same) {
         Result<LightingOptions> lighting = load_lighting(request, log);
@@ -163,24 +163,24 @@ ProgressFunction watched_by(const v0::Control& control, std::mutex& mutex) {
 namespace v0 {
 
 struct Image::Source {
-    PictureMetadata metadata;
+    ImageMetadata metadata;
     obscura::Integrator integrator;
     std::optional<double> ev100;
 };
 
 namespace {
 
-Image image_of(const FinishedPicture& finished,
+Image image_of(const FinishedImage& finished,
                const RenderRequest& request,
                const ChosenCamera& camera) {
-    const Picture& picture = finished.picture;
+    const OutputImage& image = finished.image;
     Image out;
     out.width = request.options.width;
     out.height = request.options.height;
-    const ImagePart part = picture.part_of.value_or(ImagePart{});
-    out.part = {part.x, part.y, picture.width, picture.height};
-    out.channels = picture.channels;
-    out.pixels.assign(picture.pixels.begin(), picture.pixels.end());
+    const ImagePart part = image.part_of.value_or(ImagePart{});
+    out.part = {part.x, part.y, image.width, image.height};
+    out.channels = image.channels;
+    out.pixels.assign(image.pixels.begin(), image.pixels.end());
     out.attributes = finished.metadata.extra;
     out.source = std::make_shared<const Image::Source>(
         Image::Source{finished.metadata, request.options.integrator, camera.ev100});
@@ -212,7 +212,7 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     auto finished = asset.renderer->render(request, *camera, hooks, asset.log);
     if (!finished) return fail(finished.error());
     Image image = image_of(*finished, request, *camera);
-    asset.renderer->recycle(std::move(finished->picture));
+    asset.renderer->recycle(std::move(finished->image));
     ImageStatistics& statistics = image.statistics;
     statistics.render_seconds = finished->metadata.render_seconds;
     statistics.paths = finished->counters.paths;
@@ -238,16 +238,16 @@ obscura::Result<void> write_image(const Image& image,
     ChosenCamera camera;
     camera.ev100 = image.source->ev100;
     if (auto done = expose_display(camera, request, *display, log); !done) return done;
-    FinishedPicture finished;
+    FinishedImage finished;
     finished.metadata = image.source->metadata;
     finished.metadata.extra = image.attributes;
-    Picture& picture = finished.picture;
-    picture.width = image.part.width;
-    picture.height = image.part.height;
-    picture.channels = image.channels;
-    picture.pixels.assign(image.pixels.begin(), image.pixels.end());
+    OutputImage& output = finished.image;
+    output.width = image.part.width;
+    output.height = image.part.height;
+    output.channels = image.channels;
+    output.pixels.assign(image.pixels.begin(), image.pixels.end());
     if (image.part.width != image.width || image.part.height != image.height) {
-        picture.part_of = ImagePart{image.width, image.height, image.part.x, image.part.y};
+        output.part_of = ImagePart{image.width, image.height, image.part.x, image.part.y};
     }
     const std::atomic<bool> never = false;
     return write_outputs(request, finished, *display, never);

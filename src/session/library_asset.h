@@ -1,4 +1,4 @@
-// session/library_asset.h - what is behind the library's Asset: a file and the images made of it.
+// session/library_asset.h - the state behind the library's Asset: a file and its images.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,13 +9,13 @@
 
 namespace obscura {
 
-/// The library's form of an error.
+/// Converts an error to the library's form.
 v0::Error library_error(const Error& error);
 
-/// The library's sink as a log's.
+/// Turns the library's sink into a log's.
 LogSink library_sink(const v0::MessageSink& sink);
 
-/// What the pose and everything that was built of it depend on, but for the camera.
+/// All that the pose and its scene depend on, except the camera.
 struct PreparedFor {
     std::optional<double> time_s;
     std::optional<std::array<double, 2>> shutter_s;
@@ -26,10 +26,10 @@ struct PreparedFor {
     bool operator==(const PreparedFor&) const = default;
 };
 
-/// What a file was read for.
+/// Purposes for which a file was read.
 struct ReadFor {
-    bool times = false;  ///< poses at times will be asked for
-    bool uv = false;     ///< texture coordinates that no texture looks up, too
+    bool times = false;  ///< it will be posed at times
+    bool uv = false;     ///< keep texture coordinates that no texture reads, too
 
     bool operator==(const ReadFor&) const = default;
 };
@@ -43,9 +43,9 @@ struct Asset::Impl {
 
     Log log;
     RepeatedLog later{log, SettingNames::plain};
-    bool has_images = false;  ///< what there was to say has been said
+    bool has_images = false;  ///< an image was made: all warnings were given
     std::filesystem::path file;
-    LoadOptions load;
+    gltf::LoadOptions load;
     ReadFor read_for;
     std::optional<AssetRenderer> renderer;  ///< none: the file is read again
     LightingOptions lighting;

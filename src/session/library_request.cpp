@@ -1,4 +1,4 @@
-// session/library_request.cpp - what a caller of the library asks for, checked as options are.
+// session/library_request.cpp - checks a library caller's request by the rules of options.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/library_request.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double degree = pi_d / 180;
 
-/// The library's lists have the order of ours.
+/// The library's enumerations have the same order as ours.
 static_assert(static_cast<int>(v0::Integrator::heat) == static_cast<int>(Integrator::heat) &&
               static_cast<int>(v0::Integrator::depth) == static_cast<int>(Integrator::depth) &&
               static_cast<int>(v0::CameraModel::fisheye) == 3 &&
@@ -194,8 +194,8 @@ void read_look(const v0::Look& look, RenderRequest& out, Checks& checks) {
     if (!look.environment.empty()) out.environment = look.environment;
     out.environment_intensity = look.environment_intensity;
     out.environment_rotation_deg = look.environment_rotation_deg;
-    out.strokes.points = {look.point_size_px, LengthUnit::pixels};
-    out.strokes.lines = {look.line_width_px, LengthUnit::pixels};
+    out.points_lines.points = {look.point_size_px, LengthUnit::pixels};
+    out.points_lines.lines = {look.line_width_px, LengthUnit::pixels};
     out.options.background = static_cast<BackgroundKind>(look.background);
     std::copy(
         look.background_color.begin(), look.background_color.end(), out.options.background_color);
@@ -217,8 +217,8 @@ void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& che
 
 }  // namespace
 
-LoadOptions load_options_of(const v0::AssetOptions& options) {
-    LoadOptions out;
+gltf::LoadOptions load_options_of(const v0::AssetOptions& options) {
+    gltf::LoadOptions out;
     const char* const end = options.scene.data() + options.scene.size();
     const bool is_number = is_index(options.scene) &&
                            std::from_chars(options.scene.data(), end, out.scene).ec == std::errc();

@@ -1,4 +1,4 @@
-// session/library_request.h - what a caller of the library asks for, checked as options are.
+// session/library_request.h - checks a library caller's request by the rules of options.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,13 +9,13 @@
 
 namespace obscura {
 
-/// How the file is to be read.
-LoadOptions load_options_of(const v0::AssetOptions& options);
+/// The options with which the file is read.
+gltf::LoadOptions load_options_of(const v0::AssetOptions& options);
 
-/// Everything that an image is asked for, but outputs and the file.
+/// Everything that an image is asked for, except outputs and the file.
 ///
-/// Errors  64 E-USAGE-RANGE a number that is out of its range, E-USAGE-CHOICE a name that there is
-///         not, E-USAGE-CONFLICT fields that exclude each other; `where` names the field
+/// Errors  64 E-USAGE-RANGE a number is out of its range, E-USAGE-CHOICE an unknown name,
+///         E-USAGE-CONFLICT fields that exclude each other; `where` names the field
 Result<RenderRequest> request_of(const v0::View& view,
                                  const v0::Look& look,
                                  const v0::Sampling& sampling,

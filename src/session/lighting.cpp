@@ -1,4 +1,4 @@
-// session/lighting.cpp - the light that the command line brings to a scene.
+// session/lighting.cpp - reads the environment map of the command line.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/lighting.h"
 

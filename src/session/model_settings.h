@@ -7,7 +7,7 @@
 
 namespace obscura {
 
-/// 64 E-USAGE-CONFLICT when something is set that a camera of that model does not have.
+/// 64 E-USAGE-CONFLICT when a setting does not belong to a camera of that model.
 Result<void> check_model_has(const CameraSettings& settings, CameraModel model);
 
 }  // namespace obscura

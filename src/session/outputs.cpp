@@ -20,7 +20,7 @@ namespace obscura {
 
 namespace {
 
-/// .exr in any case, as write_picture tells formats apart.
+/// .exr in upper or lower case, as write_image_file recognises formats.
 bool is_exr(const std::filesystem::path& file) {
     std::string extension = file.extension().string();
     for (char& c : extension) {
@@ -32,7 +32,7 @@ bool is_exr(const std::filesystem::path& file) {
 }  // namespace
 
 Result<void> check_outputs(const RenderRequest& request) {
-    // A sequence's files lie in one folder: the first frame's stand for all.
+    // All files of a sequence lie in one folder: those of the first frame stand for all.
     const MovieFrame first = frames_of(request).front();
     for (const std::filesystem::path& output : first.outputs) {
         if (auto writable = check_output(output); !writable) return writable;
@@ -63,14 +63,14 @@ Result<void> expose_display(const ChosenCamera& chosen,
     return {};
 }
 
-PictureMetadata make_metadata(const RenderRequest& request,
-                              const PreparedScene& prepared,
-                              const ChosenCamera& chosen,
-                              double render_seconds,
-                              const Log& log) {
+ImageMetadata make_metadata(const RenderRequest& request,
+                            const PreparedScene& prepared,
+                            const ChosenCamera& chosen,
+                            double render_seconds,
+                            const Log& log) {
     const RenderOptions& options = request.options;
     const AssetInfo& info = prepared.scene().info;
-    PictureMetadata metadata;
+    ImageMetadata metadata;
     metadata.software = "Obscura " OBSCURA_VERSION;
     metadata.asset = info.file_name;
     metadata.copyright = info.copyright;
@@ -83,7 +83,7 @@ PictureMetadata make_metadata(const RenderRequest& request,
     std::copy_n(matrices.world_to_camera, 16, metadata.world_to_camera);
     metadata.has_ndc = matrices.has_ndc;
     std::copy_n(matrices.world_to_ndc, 16, metadata.world_to_ndc);
-    metadata.extra = {{"integrator", row_of(options.integrator).name},
+    metadata.extra = {{"integrator", entry_of(options.integrator).name},
                       {"camera", chosen.description},
                       {"cameraModel", name_of(camera_model_names, chosen.camera.model)},
                       {"cameraParameters", camera_parameters(chosen.camera)},
@@ -100,7 +100,7 @@ PictureMetadata make_metadata(const RenderRequest& request,
     return metadata;
 }
 
-std::string degraded_text(const Degraded& degraded) {
+std::string degraded_text(const gltf::Degraded& degraded) {
     return fmt::format("textures={} primitives={} triangles={}",
                        degraded.textures,
                        degraded.primitives,
@@ -108,22 +108,22 @@ std::string degraded_text(const Degraded& degraded) {
 }
 
 Result<void> write_outputs(const RenderRequest& request,
-                           const FinishedPicture& finished,
+                           const FinishedImage& finished,
                            const std::optional<DisplayTransform>& display,
                            const std::atomic<bool>& stop) {
     const Integrator integrator = request.options.integrator;
-    const ExrDepth depth = is_quantity(integrator) ? ExrDepth::float32 : request.exr_depth;
+    const ExrDepth depth = is_aov(integrator) ? ExrDepth::float32 : request.exr_depth;
     for (const std::filesystem::path& output : request.outputs) {
         if (stop) return fail(ExitCode::stopped_early, "E-STOPPED", output.string(), "stopped");
         Result<void> written;
         if (needs_preview(integrator) && !is_exr(output)) {
-            PictureMetadata metadata = finished.metadata;
+            ImageMetadata metadata = finished.metadata;
             metadata.is_color = false;
-            const Picture preview = preview_picture(whole_picture(finished.picture), integrator);
-            written = write_picture(output, preview, metadata, depth, nullptr);
+            const OutputImage preview = preview_image(whole_image(finished.image), integrator);
+            written = write_image_file(output, preview, metadata, depth, nullptr);
         } else {
-            written = write_picture(
-                output, finished.picture, finished.metadata, depth, display ? &*display : nullptr);
+            written = write_image_file(
+                output, finished.image, finished.metadata, depth, display ? &*display : nullptr);
         }
         if (!written) return written;
     }

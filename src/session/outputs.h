@@ -10,8 +10,8 @@
 
 namespace obscura {
 
-/// Finds out what can be known before the costly work starts: every output and the statistics file
-/// can be created, and every extension is known.
+/// Finds early errors before the costly work starts: every output and the statistics file can be
+/// created, and every extension is known.
 ///
 /// Errors  64 E-OUT-FORMAT; 73 E-OUT-CREATE
 Result<void> check_outputs(const RenderRequest& request);
@@ -29,28 +29,28 @@ Result<void> expose_display(const ChosenCamera& chosen,
                             std::optional<DisplayTransform>& display,
                             Log& log);
 
-/// What the pictures say about themselves.
-PictureMetadata make_metadata(const RenderRequest& request,
-                              const PreparedScene& prepared,
-                              const ChosenCamera& chosen,
-                              double render_seconds,
-                              const Log& log);
+/// Metadata of an image's header.
+ImageMetadata make_metadata(const RenderRequest& request,
+                            const PreparedScene& prepared,
+                            const ChosenCamera& chosen,
+                            double render_seconds,
+                            const Log& log);
 
 /// The EXR attribute `degraded`: "textures=2 primitives=0 triangles=17".
-std::string degraded_text(const Degraded& degraded);
+std::string degraded_text(const gltf::Degraded& degraded);
 
-/// What write_outputs puts into every file.
-struct FinishedPicture {
-    Picture picture;
-    PictureMetadata metadata;
+/// The image and metadata that write_outputs puts into every file.
+struct FinishedImage {
+    OutputImage image;
+    ImageMetadata metadata;
     RenderCounters counters;
 };
 
 /// Writes every output, each whole or not at all; stops between two when a signal came.
 ///
-/// Errors  73, 74 of write_picture; 75 E-STOPPED
+/// Errors  73, 74 of write_image_file; 75 E-STOPPED
 Result<void> write_outputs(const RenderRequest& request,
-                           const FinishedPicture& finished,
+                           const FinishedImage& finished,
                            const std::optional<DisplayTransform>& display,
                            const std::atomic<bool>& stop);
 

@@ -1,4 +1,4 @@
-// session/preview.cpp - readable 8-bit pictures of quantities that are not colours.
+// session/preview.cpp - 8-bit previews of AOVs, readable without a colour transform.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/preview.h"
 
@@ -17,36 +17,36 @@ constexpr float farthest_grey = 0.15f;
 
 using Rgb = std::array<float, 3>;
 
-/// Where the values of one pixel stand: up to three channels besides alpha.
+/// The first channels of one pixel: up to three besides alpha.
 struct Layout {
     size_t stride = 0;
     std::vector<size_t> values;
 };
 
-Layout layout_of(const Picture& picture) {
+Layout layout_of(const OutputImage& image) {
     Layout layout;
-    layout.stride = picture.channels.size();
+    layout.stride = image.channels.size();
     for (size_t i = 0; i < layout.stride && layout.values.size() < 3; ++i) {
-        if (picture.channels[i] != "A") layout.values.push_back(i);
+        if (image.channels[i] != "A") layout.values.push_back(i);
     }
     return layout;
 }
 
-Rgb values_at(const Picture& picture, const Layout& layout, size_t pixel) {
+Rgb values_at(const OutputImage& image, const Layout& layout, size_t pixel) {
     Rgb values = {0, 0, 0};
     for (size_t i = 0; i < layout.values.size(); ++i) {
-        const float value = picture.pixels[pixel * layout.stride + layout.values[i]];
+        const float value = image.pixels[pixel * layout.stride + layout.values[i]];
         values[i] = std::isfinite(value) ? value : 0.0f;
     }
     return values;
 }
 
-/// Least and greatest of the first channel: 0 is where nothing was hit.
-std::array<float, 2> value_range(const Picture& picture, const Layout& layout, size_t pixels) {
+/// Least and greatest value of the first channel; 0 marks pixels without a hit.
+std::array<float, 2> value_range(const OutputImage& image, const Layout& layout, size_t pixels) {
     float least = INFINITY;
     float greatest = 0;
     for (size_t i = 0; i < pixels; ++i) {
-        const float value = values_at(picture, layout, i)[0];
+        const float value = values_at(image, layout, i)[0];
         if (value <= 0) continue;
         least = std::min(least, value);
         greatest = std::max(greatest, value);
@@ -54,11 +54,11 @@ std::array<float, 2> value_range(const Picture& picture, const Layout& layout, s
     return {least, greatest};
 }
 
-/// The value that one pixel in a hundred exceeds: few hot ones must not darken all others.
-float hot_value(const Picture& picture, const Layout& layout, size_t pixels) {
+/// The value that one pixel in a hundred exceeds, so that few hot ones do not darken the rest.
+float hot_value(const OutputImage& image, const Layout& layout, size_t pixels) {
     std::vector<float> values(pixels);
     for (size_t i = 0; i < pixels; ++i)
-        values[i] = values_at(picture, layout, i)[0];
+        values[i] = values_at(image, layout, i)[0];
     const auto place = values.begin() + static_cast<long>((pixels - 1) * 99 / 100);
     std::nth_element(values.begin(), place, values.end());
     return *place;
@@ -116,19 +116,18 @@ bool needs_preview(Integrator integrator) {
            integrator != Integrator::raycast;
 }
 
-Picture preview_picture(const Picture& picture, Integrator integrator) {
-    const Layout layout = layout_of(picture);
-    const size_t pixels = static_cast<size_t>(picture.width) * static_cast<size_t>(picture.height);
-    const std::array<float, 2> range = value_range(picture, layout, pixels);
-    const float hottest =
-        integrator == Integrator::heat ? hot_value(picture, layout, pixels) : 0.0f;
-    Picture out;
-    out.width = picture.width;
-    out.height = picture.height;
+OutputImage preview_image(const OutputImage& image, Integrator integrator) {
+    const Layout layout = layout_of(image);
+    const size_t pixels = static_cast<size_t>(image.width) * static_cast<size_t>(image.height);
+    const std::array<float, 2> range = value_range(image, layout, pixels);
+    const float hottest = integrator == Integrator::heat ? hot_value(image, layout, pixels) : 0.0f;
+    OutputImage out;
+    out.width = image.width;
+    out.height = image.height;
     out.channels = {"R", "G", "B"};
     out.pixels.resize(3 * pixels);
     for (size_t i = 0; i < pixels; ++i) {
-        const Rgb values = values_at(picture, layout, i);
+        const Rgb values = values_at(image, layout, i);
         Rgb color = {};
         switch (integrator) {
             case Integrator::normal:

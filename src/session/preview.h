@@ -1,4 +1,4 @@
-// session/preview.h - readable 8-bit pictures of quantities that are not colours.
+// session/preview.h - 8-bit previews of AOVs, readable without a colour transform.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace obscura {
 
-/// True for pictures that a display transform would spoil: all but path, direct and raycast.
+/// True for AOVs, which a display transform would spoil: all but path, direct and raycast.
 bool needs_preview(Integrator integrator);
 
 /// Code values in [0, 1], three channels, for PNG and JPEG:
@@ -19,7 +19,7 @@ bool needs_preview(Integrator integrator);
 ///  albedo, ao, facing, wireframe  encoded by the sRGB curve, without tone mapping; grey but for
 ///          albedo
 ///
-/// In      picture: what the integrator delivered, with or without a channel "A"
-Picture preview_picture(const Picture& picture, Integrator integrator);
+/// In      image: what the integrator delivered, with or without a channel "A"
+OutputImage preview_image(const OutputImage& image, Integrator integrator);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// session/render_request.cpp - the pictures that a request asks for, and what it must not ask.
+// session/render_request.cpp - lists the images of a request and checks the part to render.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/render_request.h"
 

@@ -6,8 +6,8 @@
 #include "gltf/load.h"
 #include "image/display.h"
 #include "image/write.h"
+#include "render/points_lines_sizes.h"
 #include "render/render.h"
-#include "render/stroke_sizes.h"
 
 #include "session/camera_choice.h"
 #include "session/frames.h"
@@ -19,15 +19,15 @@ namespace obscura {
 
 struct RenderRequest {
     std::filesystem::path scene;
-    std::vector<std::filesystem::path> outputs;  ///< at least one where pictures are written
-    LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
+    std::vector<std::filesystem::path> outputs;  ///< at least one where images are written
+    gltf::LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
     std::optional<FrameRange> frames;         ///< then the outputs are patterns; see frame_file
     std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
     double fps = 24;
     CameraRequest camera;
     std::optional<std::filesystem::path> camera_json;
-    StrokeSizes strokes;         ///< --point-size, --line-width
-    bool size_is_given = false;  ///< else --camera-json may have one
+    PointsLinesSizes points_lines;  ///< --point-size, --line-width
+    bool size_is_given = false;     ///< else --camera-json may have one
     RenderOptions options;
     std::optional<std::filesystem::path> environment;
     double environment_intensity = 1;
@@ -41,10 +41,10 @@ struct RenderRequest {
     bool check = false;  ///< --check: nothing is built, rendered or written
 };
 
-/// The pictures that a request asks for: one, or one for each frame.
+/// The images of a request: one, or one for each frame.
 std::vector<MovieFrame> frames_of(const RenderRequest& request);
 
-/// 64 E-USAGE-CONFLICT when the part to render reaches beyond the picture.
+/// 64 E-USAGE-CONFLICT when the part to render reaches beyond the image.
 Result<void> check_crop(const RenderOptions& options);
 
 }  // namespace obscura

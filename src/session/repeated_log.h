@@ -1,4 +1,4 @@
-// session/repeated_log.h - logs of images that mostly say what the first one said.
+// session/repeated_log.h - logs of further images, which pass on new warnings only.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace obscura {
 
-/// Of what later images say only the warnings that are new go to the first one's log.
+/// Of the messages of further images, only new warnings go to the first one's log.
 class RepeatedLog {
 public:
     /// names: as `log` spells them

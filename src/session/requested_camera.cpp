@@ -1,4 +1,4 @@
-// session/requested_camera.cpp - the camera of --camera-json, read before anything else.
+// session/requested_camera.cpp - reads the camera of --camera-json before anything else.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/requested_camera.h"
 
@@ -8,7 +8,7 @@ namespace obscura {
 
 Result<void> load_requested_camera(RenderRequest& request, Log& log) {
     if (!request.camera_json) return {};
-    Result<SceneCamera> camera = load_camera_json(*request.camera_json, log);
+    Result<SceneCamera> camera = gltf::load_camera_json(*request.camera_json, log);
     if (!camera) return fail(camera.error());
     const Intrinsics& intrinsics = *camera->settings.intrinsics;
     if (!request.size_is_given) {

@@ -1,4 +1,4 @@
-// session/requested_camera.h - the camera of --camera-json, read before anything else.
+// session/requested_camera.h - reads the camera of --camera-json before anything else.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,9 +6,9 @@
 
 namespace obscura {
 
-/// Reads --camera-json; without --size its picture has the size that the file names.
+/// Reads --camera-json; without --size the image gets the size that the file names.
 ///
-/// Errors  those of load_camera_json; 64 E-USAGE-CONFLICT --crop reaches beyond that picture
+/// Errors  those of load_camera_json; 64 E-USAGE-CONFLICT --crop reaches beyond that image
 Result<void> load_requested_camera(RenderRequest& request, Log& log);
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// session/statistics.cpp - the --stats file: what a rendering took and what it met.
+// session/statistics.cpp - the --stats file: times, memory, counters and warnings.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/statistics.h"
 
@@ -48,7 +48,7 @@ void add_memory(const RenderStatistics& statistics, Json& json) {
                       {"film", statistics.film_bytes}};
 }
 
-Json degraded_json(const Degraded& degraded) {
+Json degraded_json(const gltf::Degraded& degraded) {
     return {{"textures", degraded.textures},
             {"primitives", degraded.primitives},
             {"triangles", degraded.triangles}};
@@ -79,7 +79,7 @@ void add_counters(const RenderCounters& from, RenderCounters& to) {
     to.stages.add(from.stages);
 }
 
-void add_degraded(const Degraded& from, Degraded& to) {
+void add_degraded(const gltf::Degraded& from, gltf::Degraded& to) {
     to.textures = std::max(from.textures, to.textures);
     to.primitives = std::max(from.primitives, to.primitives);
     to.triangles = std::max(from.triangles, to.triangles);
@@ -102,7 +102,7 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
     json["spp"] = samples_taken(options);
     json["seed"] = options.seed;
     json["depth"] = options.max_bounces;
-    json["integrator"] = row_of(options.integrator).name;
+    json["integrator"] = entry_of(options.integrator).name;
     json["threads"] = statistics.threads;
     json["isa"] = statistics.isa;
     json["embree"] = statistics.embree;

@@ -1,4 +1,4 @@
-// session/statistics.h - the --stats file: what a rendering took and what it met.
+// session/statistics.h - the --stats file: times, memory, counters and warnings.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace obscura {
 
-/// What one frame of a sequence took.
+/// Figures of one frame of a sequence.
 struct FrameStatistics {
     int number = 0;
     double time_s = 0;
@@ -22,8 +22,8 @@ struct FrameStatistics {
     double write_s = 0;
 };
 
-/// Everything that --stats writes beside the request; of a sequence the sums of all frames and the
-/// memory of the last one.
+/// Everything that --stats writes beside the request; for a sequence the sums over all frames and
+/// the memory of the last one.
 struct RenderStatistics {
     std::string isa;
     std::string embree;
@@ -41,15 +41,15 @@ struct RenderStatistics {
     size_t texture_bytes = 0;
     size_t film_bytes = 0;
     std::vector<std::string> warnings;
-    Degraded degraded;                    ///< of a sequence the most of any frame
-    std::vector<FrameStatistics> frames;  ///< empty: it was one picture
+    gltf::Degraded degraded;              ///< of a sequence the maximum over frames
+    std::vector<FrameStatistics> frames;  ///< empty for a single image
 };
 
-/// Adds what one more frame has counted.
+/// Adds the counters of one more frame.
 void add_counters(const RenderCounters& from, RenderCounters& to);
 
 /// Keeps the greater of each count.
-void add_degraded(const Degraded& from, Degraded& to);
+void add_degraded(const gltf::Degraded& from, gltf::Degraded& to);
 
 /// Rays of every kind.
 uint64_t total_rays(const RenderCounters& counters);

@@ -10,7 +10,7 @@ inline namespace OBSCURA_ISA {
 template <typename F>
 struct AlignedBox {
     Vec3<F> centre;
-    Vec3<F> half;  ///< of the edges
+    Vec3<F> half;  ///< half edges
 };
 
 template <typename F>
@@ -22,8 +22,8 @@ OBSCURA_INLINE Roots<F> intersect_box(const AlignedBox<F>& box, const ShapeRay<F
     return on_ray(near, ends_of(overlap(overlap(x, y), z)));
 }
 
-/// Every face shows the whole texture: the four at the sides upright, +Y up; the top with +Z at its
-/// foot, the bottom with -Z at its foot.
+/// Every face shows the whole texture: the four sides upright, +Y up; the top with +Z at its lower
+/// edge, the bottom with -Z at its lower edge.
 template <typename F>
 OBSCURA_INLINE SurfacePoint<F> surface_of_box(const AlignedBox<F>& box, const Vec3<F>& near) {
     const F zero(0.0f);
@@ -41,14 +41,16 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_box(const AlignedBox<F>& box, const Ve
                     select(is_y, sy * box.half.y, clamp(near.y, F(-box.half.y), box.half.y)),
                     select(is_z, sz * box.half.z, clamp(near.z, F(-box.half.z), box.half.z))};
     const Vec3<F> size = box.half + box.half;
-    // To the right as seen from outside: -Z on +X, +X on +Z and so on; +X on top and bottom.
+    // The direction to the right, seen from outside: -Z on +X, +X on +Z and so on; +X on top and
+    // bottom.
     const F right_x = select(is_z, sz, F(1.0f));
     const F right_z = F(-sx);
     out.dpdu = {select(is_x, zero, right_x * size.x), zero, select(is_x, right_z * size.z, zero)};
     out.dpdv = {zero, select(is_y, zero, F(-size.y)), select(is_y, sy * size.z, zero)};
-    const Vec3<F> place{out.position.x / size.x, out.position.y / size.y, out.position.z / size.z};
-    out.uv = {select(is_x, right_z * place.z, right_x * place.x) + F(0.5f),
-              select(is_y, sy * place.z, F(-place.y)) + F(0.5f)};
+    const Vec3<F> position{
+        out.position.x / size.x, out.position.y / size.y, out.position.z / size.z};
+    out.uv = {select(is_x, right_z * position.z, right_x * position.x) + F(0.5f),
+              select(is_y, sy * position.z, F(-position.y)) + F(0.5f)};
     out.error = zero;
     return out;
 }

@@ -8,11 +8,11 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Radii may differ, but neither sphere may hold the other: |top - bottom| < 2 half_height.
+/// Radii may differ, but neither sphere may contain the other: |top - bottom| < 2 half_height.
 template <typename F>
 struct Capsule {
     Vec3<F> centre;
-    F half_height;  ///< of the way between the spheres' centres
+    F half_height;  ///< half the distance between the spheres' centres
     F bottom, top;  ///< radii at -half_height and +half_height
 };
 
@@ -35,8 +35,8 @@ OBSCURA_INLINE CapsuleSide<F> capsule_side(const Capsule<F>& c) {
     return side;
 }
 
-/// Goes in where the first of the three parts begins and comes out where the last one ends: their
-/// union is convex.
+/// The roots are the first entry into and the last exit from the three parts: their union is
+/// convex.
 template <typename F>
 OBSCURA_INLINE Roots<F> intersect_capsule(const Capsule<F>& capsule, const ShapeRay<F>& ray) {
     const NearRay<F> near = bring_near(ray, capsule.centre);
@@ -63,28 +63,29 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_capsule(const Capsule<F>& c, const Vec
     const CapsuleSide<F> side = capsule_side(c);
     const Azimuth<F> around = azimuth_of(near.x, near.z);
     SurfacePoint<F> out = surface_of_cone_side(side.cone, near, around);
-    // Normals along the outline turn from 0 (up) by `bend` at the top and to pi at the bottom.
+    // Along the outline the normal's angle grows from 0 (up) to `bend` on the top sphere, stays on
+    // the cone, and grows to pi on the bottom sphere.
     const F bend = atan2(side.cosine, side.sine);
     const F slant = (side.high - side.low) / side.cosine;
     const F length_top = c.top * bend;
     const F whole = length_top + slant + c.bottom * (F(pi_f) - bend);
     out.uv.y = (length_top + (side.high - near.y) / side.cosine) / whole;
     out.dpdv = out.dpdv * (whole * side.cosine);
-    // A normal leans as the cone's does: which part a point belongs to depends on its height there.
+    // A point belongs to a sphere if it lies above or below the circles where the cone touches.
     const auto above = near.y > side.high;
     const auto below = near.y < side.low;
     const auto round = above | below;
     if (any(round)) {
         const F offset = select(above, c.half_height, F(-c.half_height));
-        const Sphere<F> ball{{F(0.0f), offset, F(0.0f)},
-                             max(select(above, c.top, c.bottom), F(1e-30f))};
-        SurfacePoint<F> cap = surface_of_sphere(ball, {near.x, near.y - offset, near.z});
+        const Sphere<F> end_cap{{F(0.0f), offset, F(0.0f)},
+                                max(select(above, c.top, c.bottom), F(1e-30f))};
+        SurfacePoint<F> cap = surface_of_sphere(end_cap, {near.x, near.y - offset, near.z});
         const F angle = cap.uv.y * F(pi_f);
         const F along =
             select(above, c.top * angle, length_top + slant + c.bottom * (angle - bend));
         cap.position.y = cap.position.y + offset;
         cap.uv.y = along / whole;
-        cap.dpdv = cap.dpdv * (whole / (ball.radius * F(pi_f)));
+        cap.dpdv = cap.dpdv * (whole / (end_cap.radius * F(pi_f)));
         cap.error = cap.error + c.half_height * F(surface_slack);
         choose(out, round, cap);
     }

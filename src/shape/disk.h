@@ -25,7 +25,7 @@ OBSCURA_INLINE Roots<F> intersect_disk(const Disk<F>& disk, const ShapeRay<F>& r
     return on_ray<F>(near, {{t, t}, {met, met}});
 }
 
-/// The disk is cut out of a square picture: u grows along +X, v along +Z.
+/// The disk is cut out of a square texture: u grows along +X, v along +Z.
 template <typename F>
 OBSCURA_INLINE SurfacePoint<F> surface_of_disk(const Disk<F>& disk, const Vec3<F>& near) {
     const F zero(0.0f);

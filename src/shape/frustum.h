@@ -15,14 +15,15 @@ struct Frustum {
     F bottom, top;  ///< radii at -half_height and +half_height
 };
 
-/// The infinite cone through a frustum's side: its radius at height y is middle + slope * y.
+/// The infinite cone through a frustum's side: its radius at height y is the radius at 0 plus
+/// slope * y.
 template <typename F>
 struct ConeSide {
     F middle, slope;
 };
 
-/// Where the near ray is inside the cone, on the half where its radius is positive. That half is
-/// convex, so there is one span; together with a slab it leaves no crack at the rims.
+/// The span of the near ray inside the half of the cone with positive radius. That half is convex,
+/// so there is one span; intersected with a slab it leaves no cracks at the rims.
 template <typename F>
 OBSCURA_INLINE Span<F> span_in_cone(const NearRay<F>& ray, const ConeSide<F>& side) {
     const Vec3<F>& o = ray.origin;
@@ -51,7 +52,7 @@ OBSCURA_INLINE ConeSide<F> cone_side(const Frustum<F>& f) {
     return {(f.top + f.bottom) * half, (f.top - f.bottom) * half / f.half_height};
 }
 
-/// Where the near ray (near the frustum's centre) is inside, caps included.
+/// The span of the near ray (near the frustum's centre) inside the frustum with its caps.
 template <typename F>
 OBSCURA_INLINE Span<F> span_in_frustum(const NearRay<F>& ray, const Frustum<F>& frustum) {
     const Span<F> between = slab(ray.origin.y, ray.direction.y, frustum.half_height);
@@ -64,7 +65,7 @@ OBSCURA_INLINE Roots<F> intersect_frustum(const Frustum<F>& frustum, const Shape
     return on_ray(near, ends_of(span_in_frustum(near, frustum)));
 }
 
-/// A cone's side around the Y axis at a point close to it, v left to the caller.
+/// The surface point on a cone's side around the Y axis near a given point; the caller sets v.
 template <typename F>
 OBSCURA_INLINE SurfacePoint<F> surface_of_cone_side(const ConeSide<F>& side,
                                                     const Vec3<F>& near,
@@ -83,7 +84,7 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_cone_side(const ConeSide<F>& side,
 }
 
 /// Side: u goes once around +Y (see Azimuth), v from the top to the bottom. Caps are cut out of a
-/// square picture, the top with +Z at its foot, the bottom with -Z.
+/// square texture, the top with +Z at its lower edge, the bottom with -Z.
 template <typename F>
 OBSCURA_INLINE SurfacePoint<F> surface_of_frustum(const Frustum<F>& f, const Vec3<F>& near) {
     const F zero(0.0f);

@@ -6,7 +6,7 @@
 
 namespace obscura {
 
-/// Half sizes from here on mean that the plane has no end.
+/// Half sizes from this value on mean an infinite plane.
 inline constexpr float unbounded = 1.0e30f;
 
 inline namespace OBSCURA_ISA {
@@ -28,22 +28,22 @@ OBSCURA_INLINE Roots<F> intersect_plane(const Plane<F>& plane, const ShapeRay<F>
     return on_ray<F>(near, {{t, t}, {met, met}});
 }
 
-/// u grows along +X, v along +Z: seen from above the texture stands upright with +Z at its foot.
-/// Along an axis without end a texture repeats every metre.
+/// u grows along +X, v along +Z: seen from above, +Z is at the texture's lower edge. Along an
+/// unbounded axis the texture repeats every metre.
 template <typename F>
 OBSCURA_INLINE SurfacePoint<F> surface_of_plane(const Plane<F>& plane, const Vec3<F>& near) {
-    const auto endless_x = plane.half_x >= F(unbounded);
-    const auto endless_z = plane.half_z >= F(unbounded);
-    const F width = select(endless_x, F(1.0f), plane.half_x + plane.half_x);
-    const F depth = select(endless_z, F(1.0f), plane.half_z + plane.half_z);
+    const auto infinite_x = plane.half_x >= F(unbounded);
+    const auto infinite_z = plane.half_z >= F(unbounded);
+    const F width = select(infinite_x, F(1.0f), plane.half_x + plane.half_x);
+    const F depth = select(infinite_z, F(1.0f), plane.half_z + plane.half_z);
     const F zero(0.0f);
     SurfacePoint<F> out;
     out.position = {near.x, zero, near.z};
     out.normal = {zero, F(1.0f), zero};
     out.dpdu = {width, zero, zero};
     out.dpdv = {zero, zero, depth};
-    out.uv = {near.x / width + select(endless_x, zero, F(0.5f)),
-              near.z / depth + select(endless_z, zero, F(0.5f))};
+    out.uv = {near.x / width + select(infinite_x, zero, F(0.5f)),
+              near.z / depth + select(infinite_z, zero, F(0.5f))};
     out.error = zero;
     return out;
 }

@@ -8,11 +8,11 @@ namespace obscura {
 inline namespace OBSCURA_ISA {
 
 /// A x^2 + B y^2 + C z^2 + D xy + E xz + F yz + G x + H y + I z + J = 0, in this order, with x, y,
-/// z relative to the centre of the box. The front is where the left side is above 0.
+/// z relative to the centre of the box. The front is the side where the left side is above 0.
 template <typename F>
 struct Quadric {
     Vec3<F> centre;
-    Vec3<F> half;  ///< of the box's edges
+    Vec3<F> half;  ///< half edges of the box
     F k[10];
 };
 
@@ -24,7 +24,7 @@ OBSCURA_INLINE F quadric_value(const Quadric<F>& q, const Vec3<F>& p) {
            p.z * (q.k[2] * p.z + q.k[4] * p.x + q.k[8]) + q.k[9];
 }
 
-/// All terms without their signs: what rounding is relative to.
+/// The absolute values of all coefficients, for bounds of rounding errors.
 template <typename F>
 OBSCURA_INLINE Quadric<F> quadric_sizes(const Quadric<F>& q) {
     Quadric<F> sizes = q;
@@ -53,10 +53,9 @@ OBSCURA_INLINE MaskOf<F> is_in_box(const Quadric<F>& q, const Vec3<F>& p) {
     return (abs(p.x) <= q.half.x) & (abs(p.y) <= q.half.y) & (abs(p.z) <= q.half.z);
 }
 
-/// A root, moved by one step of Newton's towards the surface where that is safe, and whether it is
-/// inside the box.
+/// A root after one safe Newton step towards the surface, and whether it is inside the box.
 ///
-/// In   steady: the line runs along the surface there, and the step would be chance
+/// In   steady: no step, because the line is tangent to the surface and the step would be noise
 template <typename F>
 OBSCURA_INLINE NearHit<F> refined_root(const Quadric<F>& q,
                                        const NearRay<F>& ray,
@@ -70,22 +69,22 @@ OBSCURA_INLINE NearHit<F> refined_root(const Quadric<F>& q,
     return {t, is_in_box(q, point_at(ray, t))};
 }
 
-/// Rounding steps that the left side's sum may be wrong by.
+/// Relative rounding error of the left side's sum.
 template <typename F>
 inline constexpr float value_slack = 4.0f / 16777216.0f;
 template <>
 inline constexpr float value_slack<double> = 4.0f / 16777216.0f / 536870912.0f;
 
-/// Where a line meets the whole surface, whatever the box.
+/// Intersections of a line with the whole surface, ignoring the box.
 template <typename F>
 struct QuadricRoots {
     Quadratic<F> solved;
-    MaskOf<F> touch;  ///< both are one: the place where the line touches
+    MaskOf<F> touch;  ///< double root: the line is tangent there
 };
 
-/// Solves once more, from the middle between the roots: the equation's terms are as small there as
-/// the roots are close. Where rounding has moved the line, or is all that is left of the left side,
-/// the line touches: a plane squared is one surface, not what rounding leaves of it.
+/// Solves again relative to the midpoint of the roots: the equation's terms there are as small as
+/// the roots are close. If the left side there is within rounding, the line counts as tangent: a
+/// squared plane is one surface, not two by rounding.
 ///
 /// In   a, b: of the equation from the near ray's origin
 template <typename F>
@@ -111,8 +110,8 @@ OBSCURA_INLINE QuadricRoots<F> solve_from_middle(const Quadric<F>& q,
     return {{{from_here(near.t.low), from_here(near.t.high)}, real}, touch};
 }
 
-/// Roots that are far apart, for their places and for the box, are solved for once; where they are
-/// not, or not there, from between them.
+/// Roots that are far apart, relative to their positions and the box, are solved once; close or
+/// missing ones again, from their midpoint.
 template <typename F>
 OBSCURA_INLINE QuadricRoots<F> solve_quadric(const Quadric<F>& q, const NearRay<F>& ray) {
     const F a = quadric_bend(q, ray.direction);
@@ -147,9 +146,8 @@ OBSCURA_INLINE Roots<F> intersect_quadric(const Quadric<F>& q, const ShapeRay<F>
     return on_ray<F>(near, {{low.t, high.t}, {first, second}});
 }
 
-/// True where the left side falls along a line that meets the surface at t: it meets the front.
-/// Where it only touches, it comes from the front and goes back to it if the left side bends
-/// upwards.
+/// True where the left side falls along a line at its root t: the line hits the front. A tangent
+/// line stays in front if the left side has positive curvature.
 template <typename F>
 OBSCURA_INLINE MaskOf<F> falls_along(const Quadric<F>& q, const ShapeRay<F>& ray, const F& t) {
     const Vec3<F>& d = ray.direction;
@@ -160,20 +158,20 @@ OBSCURA_INLINE MaskOf<F> falls_along(const Quadric<F>& q, const ShapeRay<F>& ray
     return (touch & (quadric_bend(q, d) > F(0.0f))) | ((!touch) & (slope < F(0.0f)));
 }
 
-/// Unit; along that of X, Y and Z in which the left side bends most, the way in which it rises off
-/// that axis most: the normal of a plane squared, which has no gradient.
+/// The unit gradient of the left side a step along the axis (X, Y or Z) of its largest second
+/// derivative: the normal of a squared plane, whose own gradient is zero.
 template <typename F>
-OBSCURA_INLINE Vec3<F> steepest_way(const Quadric<F>& q) {
+OBSCURA_INLINE Vec3<F> steepest_direction(const Quadric<F>& q) {
     const F two(2.0f);
     const F x = abs(q.k[0]);
     const F y = abs(q.k[1]);
     const F z = abs(q.k[2]);
-    const auto most_y = (y >= x) & (y >= z);
-    const auto most_z = (!most_y) & (z >= x);
+    const auto y_is_max = (y >= x) & (y >= z);
+    const auto z_is_max = (!y_is_max) & (z >= x);
     const Vec3<F> rows[3] = {{two * q.k[0], q.k[3], q.k[4]},
                              {q.k[3], two * q.k[1], q.k[5]},
                              {q.k[4], q.k[5], two * q.k[2]}};
-    const Vec3<F> row = select(most_z, rows[2], select(most_y, rows[1], rows[0]));
+    const Vec3<F> row = select(z_is_max, rows[2], select(y_is_max, rows[1], rows[0]));
     const F size = length(row);
     const Vec3<F> up{F(0.0f), F(1.0f), F(0.0f)};
     return select(size > F(1e-18f), row * (F(1.0f) / max(size, F(1e-18f))), up);
@@ -188,9 +186,9 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_quadric(const Quadric<F>& q,
     SurfacePoint<F> out;
     const F widest = max_component(q.half);
     const Quadric<F> sizes = quadric_sizes(q);
-    // Where no side is up hill: at the point of a cone, and all over a plane squared.
+    // The gradient vanishes at the apex of a cone, and everywhere on a squared plane.
     const F least = max(quadric_bend(sizes, splat3(widest)) / widest * F(1e-5f), F(1e-18f));
-    // Newton's steps, as many as a point needs that was found from a hundred thousand sizes away.
+    // Enough Newton steps for points found from a hundred thousand sizes away.
     const F most = widest * F(1e-3f);
     const F longest = widest * F(0.1f);
     Vec3<F> p = near;
@@ -203,7 +201,8 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_quadric(const Quadric<F>& q,
     const Vec3<F> gradient = quadric_gradient(q, p);
     const F slope = length(gradient);
     const auto smooth = slope > least;
-    const Vec3<F> n = select(smooth, gradient * (F(1.0f) / max(slope, F(1e-18f))), steepest_way(q));
+    const Vec3<F> n =
+        select(smooth, gradient * (F(1.0f) / max(slope, F(1e-18f))), steepest_direction(q));
     out.position = p;
     out.normal = n;
     const F fuzzy = quadric_value(sizes, abs(p)) / max(slope, F(1e-18f)) * F(surface_slack);
@@ -211,8 +210,7 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_quadric(const Quadric<F>& q,
 
     const Vec3<F> size = q.half + q.half;
     const Azimuth<F> around = azimuth_of(p.x, p.z);
-    // Along the surface, level where it goes around the axis and along X where it is seen from
-    // above.
+    // Tangents: horizontal for the parametrisation around the axis, along X for that from above.
     const Vec3<F> level{n.z, F(0.0f), -n.x};
     const Vec3<F> along{n.y, -n.x, F(0.0f)};
     const Vec3<F> raw = select(from_above, along, level);
@@ -224,7 +222,7 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_quadric(const Quadric<F>& q,
     const F width = select(from_above, size.x / max(abs(t.x), F(0.05f)), ring);
     const F height =
         select(from_above, size.z / max(abs(b.z), F(0.05f)), size.y / max(abs(b.y), F(0.05f)));
-    // u must grow along dpdu and v along dpdv, whichever side is the front.
+    // u must grow along dpdu and v along dpdv for either front.
     const F u_way = select(from_above, t.x, t.x * around.cosine - t.z * around.sine);
     const F v_way = select(from_above, b.z, F(-b.y));
     out.dpdu = t * select(u_way < F(0.0f), F(-width), max(width, F(1e-18f)));

@@ -1,4 +1,4 @@
-// shape/roots.h - rays as shapes see them, robust quadratic roots, and the hits along a line.
+// shape/roots.h - rays for shapes, robust quadratic roots, and the nearest hit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace obscura {
 
-inline constexpr float no_limit = 3.0e38f;  ///< where a line's end is meant
+inline constexpr float no_limit = 3.0e38f;  ///< limit of a line without an end
 
 inline namespace OBSCURA_ISA {
 
@@ -16,15 +16,15 @@ struct ShapeRay {
     Vec3<F> origin, direction;
 };
 
-/// Both places at which a line meets a shape, with no regard to where the ray begins or ends:
-/// t[0] <= t[1] where both are hits. What is not a hit may hold anything.
+/// Both intersections of a line with a shape, before and behind the ray's origin: t[0] <= t[1] if
+/// both are hits. t is undefined where `hit` is false.
 template <typename F>
 struct Roots {
     F t[2];
     MaskOf<F> hit[2];
 };
 
-/// The part of a line that lies inside something convex; empty where high < low.
+/// The part of a line inside a convex shape; empty if high < low.
 template <typename F>
 struct Span {
     F low, high;
@@ -35,7 +35,7 @@ OBSCURA_INLINE Span<F> overlap(const Span<F>& a, const Span<F>& b) {
     return {max(a.low, b.low), min(a.high, b.high)};
 }
 
-/// The ends of a span are where the line goes in and comes out.
+/// The ends of a span as roots: the line's entry and exit.
 template <typename F>
 OBSCURA_INLINE Roots<F> ends_of(const Span<F>& span) {
     const MaskOf<F> met = span.low <= span.high;
@@ -57,17 +57,17 @@ OBSCURA_INLINE NearHit<F> nearest(const Roots<F>& roots, const F& tnear, const F
     return {select(first, roots.t[0], roots.t[1]), found};
 }
 
-/// A ray seen from its point nearest to a centre: what happens near the centre is computed with
-/// numbers as small as the shape, however far away the ray begins.
+/// A ray moved to its point nearest to a centre, so that numbers are as small as the shape, however
+/// far away the ray begins.
 template <typename F>
 struct NearRay {
     Vec3<F> origin;     ///< relative to the centre
     Vec3<F> direction;  ///< as the ray's
-    F squared;          ///< of the direction's length
-    F t;                ///< of the new origin on the ray
+    F squared;          ///< squared length of the direction
+    F t;                ///< position of the new origin on the ray
 };
 
-/// The new origin is rounded once: its error is as small as itself, not as large as the way to it.
+/// The new origin is rounded once: its error is relative to itself, not to the distance to it.
 template <typename F>
 OBSCURA_INLINE NearRay<F> bring_near(const ShapeRay<F>& ray, const Vec3<F>& centre) {
     const Vec3<F>& d = ray.direction;
@@ -92,7 +92,7 @@ OBSCURA_INLINE Vec3<F> point_at(const NearRay<F>& ray, const F& t) {
             multiply_add(t, ray.direction.z, ray.origin.z)};
 }
 
-/// Numbers on the near ray as numbers on the ray itself.
+/// Converts parameters on the near ray to parameters on the ray itself.
 template <typename F>
 OBSCURA_INLINE Roots<F> on_ray(const NearRay<F>& ray, const Roots<F>& near) {
     return {{near.t[0] + ray.t, near.t[1] + ray.t}, {near.hit[0], near.hit[1]}};
@@ -105,8 +105,8 @@ struct Quadratic {
     MaskOf<F> real;
 };
 
-/// Neither root suffers from cancellation. What is not there is infinite or NaN, and no limits hold
-/// it: one root where a = 0, both where b = 0 too (a line along a ruling).
+/// Neither root suffers from cancellation. Missing roots are infinite or NaN and fail any limits:
+/// one root if a = 0, both if b = 0 too (a line along a ruling).
 /// Source  Kahan (as difference_of_products); Haines et al., "Precision Improvements for Ray/Sphere
 ///         Intersection", Ray Tracing Gems, 2019, ch. 7
 template <typename F>
@@ -124,7 +124,7 @@ OBSCURA_INLINE Quadratic<F> solve_quadratic(const F& a, const F& b, const F& c) 
 /// The part of a line between two parallel planes: |origin + t * direction| <= half along one axis.
 template <typename F>
 OBSCURA_INLINE Span<F> slab(const F& origin, const F& direction, const F& half) {
-    // A line along the planes is between them everywhere or nowhere: 1e30 stands for ever.
+    // A line parallel to the planes is between them everywhere or nowhere: 1e30 acts as infinity.
     const F least(1e-30f);
     const F steep = select(abs(direction) < least, least, direction);
     const F inverse = F(1.0f) / steep;

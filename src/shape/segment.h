@@ -1,4 +1,4 @@
-// shape/segment.h - one piece of a line: a capsule in any direction, in a frame of its own.
+// shape/segment.h - one curve segment: a capsule in any direction, with its local frame.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -14,8 +14,8 @@ struct Segment {
     F radius_from, radius_to;
 };
 
-/// The same as a capsule around the origin, from bottom to top, with the way there. Numbers near
-/// the capsule stay as small as it is: points are moved before they are turned.
+/// The segment as a capsule around the origin, from bottom to top, with the transform to it. Points
+/// are translated before they are rotated, so that numbers stay as small as the capsule.
 template <typename F>
 struct SegmentFrame {
     Vec3<F> centre;
@@ -23,7 +23,7 @@ struct SegmentFrame {
     Capsule<F> capsule;
 };
 
-/// In   segment: its ends differ. A sphere that would hold the other one is taken as smaller.
+/// In   segment: its ends differ. A sphere that would contain the other one is made smaller.
 template <typename F>
 OBSCURA_INLINE SegmentFrame<F> frame_of(const Segment<F>& segment) {
     const Vec3<F> way = segment.to - segment.from;
@@ -54,9 +54,9 @@ OBSCURA_INLINE Roots<F> intersect_segment(const SegmentFrame<F>& frame, const Sh
     return on_ray(near, intersect_capsule(frame.capsule, own));
 }
 
-/// Share of the way from `from` to `to`, in [0, 1], at a height in the capsule's space.
+/// Interpolation weight of `to`, in [0, 1], at a height in the capsule's space.
 template <typename F>
-OBSCURA_INLINE F share_of_way(const SegmentFrame<F>& frame, const F& height) {
+OBSCURA_INLINE F fraction_along(const SegmentFrame<F>& frame, const F& height) {
     const F half = frame.capsule.half_height;
     return min(max((height + half) / (half + half), F(0.0f)), F(1.0f));
 }

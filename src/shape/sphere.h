@@ -13,9 +13,9 @@ struct Sphere {
     F radius;
 };
 
-/// Where the near ray is inside a sphere around (0, offset, 0); empty where it passes by. The near
-/// ray begins beside the sphere's middle: the discriminant is a difference of squares as small as
-/// the radius's.
+/// The span of the near ray inside a sphere around (0, offset, 0); empty if it misses. The near ray
+/// begins close to the sphere's centre, so that the discriminant is a difference of squares no
+/// larger than the radius's.
 /// Source  as solve_quadratic; both roots are of the size of the sphere
 template <typename F>
 OBSCURA_INLINE Span<F> span_in_sphere(const NearRay<F>& ray, const F& offset, const F& radius) {
@@ -46,7 +46,7 @@ OBSCURA_INLINE SurfacePoint<F> surface_of_sphere(const Sphere<F>& sphere, const 
     const Azimuth<F> around = azimuth_of(n.x, n.z);
     const F turn = F(2.0f * pi_f) * sphere.radius;
     const F half_turn = F(pi_f) * sphere.radius;
-    // On the axis u has no direction and no size; a little of both keeps tangents alive.
+    // On the axis dpdu would be zero; a minimum keeps tangents valid.
     const F ring = max(around.radius, F(1e-4f)) * turn;
     SurfacePoint<F> out;
     out.position = n * sphere.radius;

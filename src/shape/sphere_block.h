@@ -1,4 +1,4 @@
-// shape/sphere_block.h - many spheres: sixteen side by side, and one ray against all of them.
+// shape/sphere_block.h - sixteen spheres side by side, and one ray against all of them.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,17 +8,17 @@
 
 namespace obscura {
 
-/// Spheres in a block. Blocks are columns: 16 x, 16 y, 16 z, 16 radii; rows that are not there have
-/// a radius that is no number, which nothing hits.
+/// Spheres in a block. Blocks are columns: 16 x, 16 y, 16 z, 16 radii; unused entries have a NaN
+/// radius, which nothing hits.
 inline constexpr int sphere_block = 16;
 inline constexpr int sphere_block_floats = 4 * sphere_block;
 
-/// Float at which sphere `row` of a table of blocks has its x; y, z and radius follow at steps of
+/// Float at which sphere `index` of a table of blocks has its x; y, z and radius follow at steps of
 /// sphere_block.
 template <typename I>
-OBSCURA_INLINE I sphere_word(const I& row) {
-    const I within = row & I(sphere_block - 1);
-    return (row - within) * I(4) + within;
+OBSCURA_INLINE I sphere_word(const I& index) {
+    const I within = index & I(sphere_block - 1);
+    return (index - within) * I(4) + within;
 }
 
 inline namespace OBSCURA_ISA {
@@ -29,8 +29,8 @@ struct BlockHit {
     int sphere = -1;  ///< in the block; -1: none
 };
 
-/// The spheres that the ray's line may meet: a rough distance, with room for its rounding. Most
-/// blocks whose box a ray passes hold none, and end here.
+/// The spheres that the ray's line may hit, by an approximate distance with a margin for rounding.
+/// It rejects most blocks whose box a ray passes.
 ///
 /// In   squared_length: of the direction
 OBSCURA_INLINE Mask may_meet(const float* block,
@@ -47,8 +47,8 @@ OBSCURA_INLINE Mask may_meet(const float* block,
     return dot(across, across) <= reach * reach * Lanes(squared_length);
 }
 
-/// Both roots of one ray with the spheres in the lanes; as intersect_sphere, but that the ray's own
-/// numbers are computed once, and nothing more where all lanes pass by.
+/// Both roots of one ray with the spheres in the lanes; as intersect_sphere, but the ray's own
+/// numbers are computed once, and it returns early if all lanes miss.
 OBSCURA_INLINE Roots<Lanes> roots_in_lanes(const float* block,
                                            const ShapeRay<float>& ray,
                                            float squared_length) {
@@ -87,7 +87,7 @@ OBSCURA_INLINE Roots<Lanes> roots_in_lanes(const float* block,
 
 /// The nearest hit of one ray in (limits.low, limits.high] with one block.
 ///
-/// In      block: sphere_block_floats numbers; front_only: where the ray comes out does not count
+/// In      block: sphere_block_floats numbers; front_only: ignores exits
 OBSCURA_INLINE BlockHit intersect_sphere_block(const float* block,
                                                const ShapeRay<float>& ray,
                                                const Span<float>& limits,

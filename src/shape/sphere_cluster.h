@@ -2,22 +2,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "shape/shape_row.h"
+#include "shape/shape_record.h"
 #include "shape/sphere_block.h"
 
 #include <cstdint>
 
 namespace obscura {
 
-/// Blocks in a cluster. The boxes of a cluster are columns: 16 times the least x, y and z, then 16
-/// times the greatest; around blocks that are not there no ray finds a box.
+/// Blocks in a cluster. The boxes of a cluster are columns: 16 minimum x, y and z, then 16 maximum
+/// ones; unused entries are boxes that no ray hits.
 inline constexpr int cluster_blocks = 16;
 inline constexpr int cluster_floats = 6 * cluster_blocks;
 inline constexpr int cluster_spheres = cluster_blocks * sphere_block;
 
 /// Fills the boxes of one cluster.
 ///
-/// In      spheres: of its first block; blocks: that are there, at most cluster_blocks
+/// In      spheres: of its first block; blocks: how many there are, at most cluster_blocks
 /// Out     boxes: cluster_floats numbers
 void fill_cluster_boxes(const float* spheres, int blocks, float* boxes);
 
@@ -32,8 +32,8 @@ struct BoxEntries {
     uint32_t bits = 0;                    ///< one for each box
 };
 
-/// Of one axis: where the ray comes from, how much of its way a metre is, and the sides of the
-/// boxes by which it comes in and goes out.
+/// One axis of the slab test: the ray's origin, the reciprocal of its direction, and the sides by
+/// which it enters and leaves the boxes.
 struct BoxAxis {
     float origin, inverse;
     const float* in;
@@ -43,16 +43,16 @@ struct BoxAxis {
 OBSCURA_INLINE BoxAxis box_axis(const float* boxes, int axis, float origin, float direction) {
     const float* low = boxes + axis * cluster_blocks;
     const float* high = low + 3 * cluster_blocks;
-    // Along the sides 0 / 0 would be neither in nor out.
+    // For rays parallel to the sides, 0 / 0 would be neither in nor out.
     constexpr float least = 1e-18f;
     const bool up = direction >= 0.0f;
     const float steep = up ? max(direction, least) : min(direction, -least);
     return {origin, 1.0f / steep, up ? low : high, up ? high : low};
 }
 
-/// The boxes that a ray enters within its limits; one in whose side it runs may be left out, for
-/// there is room between sides and spheres. Each side's t has been rounded three times, a
-/// difference, a reciprocal and a product: in and out are told apart with room for six.
+/// The boxes that a ray enters within its limits. A box in whose side the ray runs may be missed:
+/// its spheres do not reach its sides. Each side's t is rounded three times, in a difference, a
+/// reciprocal and a product, so entry and exit are compared with a margin of six roundings.
 OBSCURA_INLINE BoxEntries enter_boxes(const float* boxes,
                                       const ShapeRay<float>& ray,
                                       const Span<float>& limits) {
@@ -75,7 +75,7 @@ OBSCURA_INLINE BoxEntries enter_boxes(const float* boxes,
     return entries;
 }
 
-/// The one of some boxes that the ray enters first.
+/// Of the boxes in `bits`, the one that the ray enters first.
 OBSCURA_INLINE int first_entry(const BoxEntries& entries, uint32_t bits) {
     int first = __builtin_ctz(bits);
     for (bits &= bits - 1; bits != 0; bits &= bits - 1) {

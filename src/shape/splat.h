@@ -1,4 +1,4 @@
-// shape/splat.h - Gaussian splats: how much of a ray one of them takes, and blocks of sixteen.
+// shape/splat.h - Gaussian splats: the opacity that a ray meets, and blocks of sixteen.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,22 +7,22 @@
 namespace obscura {
 
 /// Splats in a block. Blocks are columns: 16 x, y and z of the mean, nine times 16 numbers of
-/// ball_from_world row by row, 16 opacities; rows that are not there have opacity 0.
+/// ball_from_world row by row, 16 opacities; unused entries have opacity 0.
 inline constexpr int splat_block = 16;
 inline constexpr int splat_columns = 13;
 inline constexpr int splat_block_floats = splat_columns * splat_block;
 
-/// A splat ends so many standard deviations from its mean, as KHR_gaussian_splatting asks of its
-/// kernel "ellipse", or where it takes less than this of the light: the rasteriser that splats are
-/// trained with does not draw less.
+/// A splat ends this many standard deviations from its mean, as KHR_gaussian_splatting requires of
+/// its kernel "ellipse", or where its alpha falls below this minimum: the rasteriser that trains
+/// splats skips less.
 /// Source  Kerbl et al., "3D Gaussian Splatting for Real-Time Radiance Field Rendering", TOG 42(4),
 ///         2023, appendix C
 inline constexpr float splat_reach = 3.0f;
-inline constexpr float least_splat_alpha = 1.0f / 255.0f;
+inline constexpr float min_splat_alpha = 1.0f / 255.0f;
 
 inline namespace OBSCURA_ISA {
 
-/// A Gaussian of greatest value `opacity`. The rows make a unit Gaussian around the origin of it.
+/// A Gaussian with the maximum `opacity`. The matrix maps it to a unit Gaussian around the origin.
 template <typename F>
 struct Splat {
     Vec3<F> mean;
@@ -30,14 +30,13 @@ struct Splat {
     F opacity;
 };
 
-/// Where a ray's line passes a splat, and what share of the light behind it takes there; 0 where
-/// the line passes beyond its end.
+/// The position at which a ray's line passes a splat, and the alpha there; 0 past the splat's end.
 template <typename F>
 struct SplatPassage {
     F t, alpha;
 };
 
-/// The place of greatest response.
+/// Evaluates the splat at the point of maximum response.
 ///
 /// Source  Moenne-Loccoz et al., "3D Gaussian Ray Tracing", TOG 43(6), 2024, section 4.2
 template <typename F>
@@ -54,7 +53,7 @@ OBSCURA_INLINE SplatPassage<F> pass_splat(const Splat<F>& splat, const ShapeRay<
     const Vec3<F> nearest = origin + direction * step;
     const F squared = dot(nearest, nearest);
     const F alpha = splat.opacity * exp(squared * F(-0.5f));
-    const auto is_met = (squared <= F(splat_reach * splat_reach)) & (alpha >= F(least_splat_alpha));
+    const auto is_met = (squared <= F(splat_reach * splat_reach)) & (alpha >= F(min_splat_alpha));
     return {near.t + step, select(is_met, alpha, F(0.0f))};
 }
 

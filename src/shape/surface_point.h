@@ -1,4 +1,4 @@
-// shape/surface_point.h - what shading wants to know of a place on a shape.
+// shape/surface_point.h - position, normal, uv and derivatives at a point of a shape.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,16 +8,15 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// A place on a shape. Texture coordinates as in glTF: v grows downwards in the picture.
+/// A point on a shape. Texture coordinates as in glTF: v grows downwards in the image.
 template <typename F>
 struct SurfacePoint {
     Vec3<F> position;  ///< refined: on the surface to within `error`
     Vec3<F> normal;    ///< unit, outwards
-    Vec3<F> dpdu;      ///< change of position with u; never zero, in the surface
+    Vec3<F> dpdu;      ///< derivative by u; never zero, tangent to the surface
     Vec3<F> dpdv;
     Vec2<F> uv;
-    F error;  ///< metres along the normal: what rounding may have left of the distance to the
-              ///< surface
+    F error;  ///< bound of the distance to the surface along the normal, metres
 };
 
 template <typename F>
@@ -30,16 +29,16 @@ OBSCURA_INLINE void choose(SurfacePoint<F>& out, const MaskOf<F>& m, const Surfa
     out.error = select(m, in.error, out.error);
 }
 
-/// Rounding steps of single precision that a point and the formulas on it may be wrong by.
+/// Relative rounding error in single precision of a point and of the formulas on it.
 inline constexpr float surface_slack = 8.0f / 16777216.0f;
 
-/// Where a point lies around the Y axis: +Z is the middle of a texture and +X to the right of it,
-/// as on a globe that faces +Z.
+/// The azimuth of a point around the Y axis: +Z is the centre of a texture and +X to the right of
+/// it, as on a globe that faces +Z.
 template <typename F>
 struct Azimuth {
     F radius;        ///< from the axis
     F sine, cosine;  ///< of the angle from +Z towards +X; on the axis itself 0 and 1
-    F turn;          ///< angle as a share of a turn, +Z is 0.5: in [0, 1]
+    F turn;          ///< angle in turns, in [0, 1]; +Z is 0.5
 };
 
 template <typename F>

@@ -3,7 +3,7 @@
 #include "stages/1_camera.h"
 
 #include "math/sampler.h"
-#include "stages/rows.h"
+#include "stages/column_lanes.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -21,12 +21,12 @@ OBSCURA_INLINE Lanes filter_offset(const float* inverse_cdf, Lanes u) {
     return lerp(low, high, x - from_int<Lanes>(i));
 }
 
-/// Writes what every integrator needs of a ray.
+/// Writes the columns of a camera ray that every integrator reads.
 template <typename Maker>
 OBSCURA_INLINE CameraRay<Lanes> store_ray(const BatchSettings& batch,
                                           const FilmPoint<Lanes>& point,
                                           int i,
-                                          const PathRows& out,
+                                          const PathColumns& out,
                                           float* length_m) {
     const WorldRay<Lanes> made = world_ray<Maker>(batch.camera, point);
     store3(out.ox, out.oy, out.oz, i, made.ray.origin);
@@ -37,11 +37,11 @@ OBSCURA_INLINE CameraRay<Lanes> store_ray(const BatchSettings& batch,
     return made.ray;
 }
 
-/// One ray through every pixel's centre and the middle of the lens, for one kind of camera.
+/// One ray through every pixel's centre and the centre of the lens, for one kind of camera.
 template <typename Maker>
 void make_centre_rays_of(const BatchSettings& batch,
                          int count,
-                         const PathRows& out,
+                         const PathColumns& out,
                          float* length_m) {
     const FilmScale scale(batch);
     const Vec2<Lanes> offset{Lanes(batch.film_offset_px[0]), Lanes(batch.film_offset_px[1])};
@@ -55,14 +55,14 @@ void make_centre_rays_of(const BatchSettings& batch,
 template <typename Maker>
 void make_rays_of(const BatchSettings& batch,
                   int count,
-                  const PathRows& out,
-                  const SampleRows& samples,
+                  const PathColumns& out,
+                  const SampleColumns& samples,
                   float* length_m) {
     const float inverse_samples = 1.0f / static_cast<float>(batch.samples);
     const FilmScale scale(batch);
     for (int i = 0; i < count; i += lane_count) {
         const LanesI slot = min(LanesI(i) + lane_numbers(), LanesI(count - 1));
-        // Exact: slots are far below 2^23 and the half keeps the quotient off whole numbers.
+        // Exact: sample indices are far below 2^23, and the half keeps quotients off whole numbers.
         const LanesI pixel = to_int((from_int<Lanes>(slot) + Lanes(0.5f)) * Lanes(inverse_samples));
         const LanesI sample = slot - pixel * LanesI(batch.samples);
         const LanesI x = gather<Lanes>(batch.pixel_x, pixel);
@@ -84,13 +84,13 @@ void make_rays_of(const BatchSettings& batch,
             point.lens = unit_pair<Lanes>(sobol_pair(key, index, lens_pair));
         }
         const CameraRay<Lanes> ray = store_ray<Maker>(batch, point, i, out, length_m);
-        // What shows nothing carries no light, not even the background's.
+        // Rays outside the camera's image carry no light, not even the background's.
         store3(out.tr, out.tg, out.tb, i, splat3(select(ray.valid, Lanes(1.0f), Lanes(0.0f))));
         store(out.pdf + i, Lanes(0.0f));
         store(out.slot + i, as_uint(slot));
         store(out.key + i, key);
         store(out.sample + i, index);
-        store(out.bodies + i, LanesU(batch.bodies));
+        store(out.medium_stack + i, LanesU(batch.medium_stack));
         store(out.path_key + i, hash_word(key + index * LanesU(0x9E3779B9U)));
         store3(samples.r, samples.g, samples.b, i, splat3(Lanes(0.0f)));
         store(samples.a + i, Lanes(0.0f));
@@ -101,15 +101,18 @@ void make_rays_of(const BatchSettings& batch,
 
 void make_camera_rays(const BatchSettings& batch,
                       int count,
-                      const PathRows& out,
-                      const SampleRows& samples,
+                      const PathColumns& out,
+                      const SampleColumns& samples,
                       float* length_m) {
     visit_model(batch.camera, !batch.through_centres, [&](auto maker) {
         make_rays_of<decltype(maker)>(batch, count, out, samples, length_m);
     });
 }
 
-void make_centre_rays(const BatchSettings& batch, int count, const PathRows& out, float* length_m) {
+void make_centre_rays(const BatchSettings& batch,
+                      int count,
+                      const PathColumns& out,
+                      float* length_m) {
     visit_model(batch.camera, false, [&](auto maker) {
         make_centre_rays_of<decltype(maker)>(batch, count, out, length_m);
     });

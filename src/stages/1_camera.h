@@ -3,7 +3,7 @@
 #pragma once
 
 #include "math/lanes.h"
-#include "stages/doors.h"
+#include "stages/path_state.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -24,19 +24,22 @@ struct FilmScale {
 };
 
 /// In      batch.pixel_x/y, samples, first_sample: which film points
-/// Out     out: one row a slot, in slot order; throughput 0 where the camera shows nothing;
+/// Out     out: one path per sample, in sample order; throughput 0 outside the camera's image;
 ///         samples: cleared; length_m: how far each ray may go, null where !limits_rays(camera)
 /// Units   metres; key and sample feed math/sampler.h
 /// Errors  none
 void make_camera_rays(const BatchSettings& batch,
                       int count,
-                      const PathRows& out,
-                      const SampleRows& samples,
+                      const PathColumns& out,
+                      const SampleColumns& samples,
                       float* length_m);
 
-/// For quantities: one ray through the centre of each pixel (plus batch.film_offset_px) in the
-/// order of batch.pixel_x, as above but with origin, direction and cone alone.
-void make_centre_rays(const BatchSettings& batch, int count, const PathRows& out, float* length_m);
+/// For AOVs: one ray through the centre of each pixel (plus batch.film_offset_px), in the order of
+/// batch.pixel_x. Writes only origin, direction and cone.
+void make_centre_rays(const BatchSettings& batch,
+                      int count,
+                      const PathColumns& out,
+                      float* length_m);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

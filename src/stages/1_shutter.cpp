@@ -1,4 +1,4 @@
-// stages/1_shutter.cpp - stage 1, where something moves: the time of every path.
+// stages/1_shutter.cpp - stage 1, if something moves: draws a shutter time for every path.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/1_shutter.h"
 
@@ -11,18 +11,21 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// What the camera has moved by since the shutter opened.
+/// The camera's movement since the shutter opened.
 OBSCURA_INLINE Affine<Lanes> camera_moved(const MotionView& motion, Lanes time) {
     const Moment moment = moment_of(motion.camera_steps, time);
-    const TableRow<Lanes, Affinef> before(motion.camera, moment.step);
-    const TableRow<Lanes, Affinef> after(motion.camera, moment.step + LanesI(1));
-    return blend(read_affine(before), read_affine(after), moment.share);
+    const TableRecord<Lanes, Affinef> before(motion.camera, moment.step);
+    const TableRecord<Lanes, Affinef> after(motion.camera, moment.step + LanesI(1));
+    return blend(read_affine(before), read_affine(after), moment.fraction);
 }
 
 }  // namespace
 
-void open_shutter(
-    const SceneView& scene, bool through_centres, int count, const PathRows& paths, float* time) {
+void open_shutter(const SceneView& scene,
+                  bool through_centres,
+                  int count,
+                  const PathColumns& paths,
+                  float* time) {
     for (int i = 0; i < count; i += lane_count) {
         Lanes at(0.5f);
         if (!through_centres) {

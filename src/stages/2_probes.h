@@ -1,4 +1,4 @@
-// stages/2_probes.h - stage 2, where bodies touch: rays that look for faces in the same place.
+// stages/2_probes.h - stage 2, where media touch: probe rays that find coincident faces.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,11 +7,11 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Writes a short ray through every hit on a body that touches another one: along the normal, for
-/// on which sides of the faces around it the next rays start is decided along the normal.
+/// Writes a short probe ray through every hit on a medium that touches another one. It runs along
+/// the normal because the next rays' start is offset along the normal.
 ///
-/// Out     rows.probes, rows.row: packed. Returns how many.
-int make_probes(const SceneView& scene, int count, const ProbeRows& rows);
+/// Out     columns.probes, columns.path_index: packed. Returns how many.
+int make_probes(const SceneView& scene, int count, const ProbeColumns& columns);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// stages/2_scatter.cpp - stage 2, inside bodies that scatter light: one flight of each path.
+// stages/2_scatter.cpp - stage 2, inside scattering media: one flight of each random-walk path.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/2_scatter.h"
 
@@ -11,14 +11,14 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// Flights before weak paths are given up now and then.
+/// Flights before Russian roulette begins.
 constexpr int flights_before_roulette = 16;
 
-/// What a flight's random numbers are for.
+/// The uses of a flight's random numbers.
 enum class FlightUse : uint32_t { channel, distance, angle, turn, roulette, count };
 
-/// Flights have no place in the pixel's Sobol points, of which there is a pair a bounce: theirs are
-/// hashed.
+/// Random numbers of flights are hashed: the pixel's Sobol points have one pair per bounce and none
+/// for flights.
 OBSCURA_INLINE Lanes flight_random(LanesU path_key, const Flight& flight, FlightUse use) {
     const uint32_t number =
         (static_cast<uint32_t>(flight.bounce) << 20U) +
@@ -28,8 +28,8 @@ OBSCURA_INLINE Lanes flight_random(LanesU path_key, const Flight& flight, Flight
     return unit_float<Lanes>(hash_word(LanesU(path_key ^ LanesU(salt))));
 }
 
-/// Each channel's share of a path's light.
-OBSCURA_INLINE Vec3<Lanes> channel_shares(const Vec3<Lanes>& throughput) {
+/// The fraction of a path's throughput that each channel carries.
+OBSCURA_INLINE Vec3<Lanes> channel_weights(const Vec3<Lanes>& throughput) {
     const Lanes sum = throughput.x + throughput.y + throughput.z;
     const Mask dark = sum <= Lanes(0.0f);
     const Vec3<Lanes> share = throughput * (Lanes(1.0f) / select(dark, Lanes(1.0f), sum));
@@ -46,13 +46,13 @@ OBSCURA_INLINE PathLanes scattered_path(const PathLanes& path,
     next.direction = scatter_direction(
         path.direction, anisotropy, {random(FlightUse::angle), random(FlightUse::turn)});
     next.throughput = path.throughput * free.scattered;
-    next.pdf = Lanes(0.0f);  // no light is sampled here: what the ray finds counts in full
+    next.pdf = Lanes(0.0f);  // no light is sampled here: emission that the ray finds counts in full
     next.cone_width = path.cone_width + path.cone_spread * free.distance_m;
     next.cone_spread = max(path.cone_spread, Lanes(0.5f));
     return next;
 }
 
-/// Weak paths end with some probability; the others take over their light.
+/// Russian roulette: weak paths end with some probability, and survivors are weighted up.
 OBSCURA_INLINE Mask survives(const Flight& flight, PathLanes& path) {
     if (flight.number < flights_before_roulette) return Mask(true);
     const Lanes chance = clamp(max_component(path.throughput), Lanes(0.05f), Lanes(1.0f));
@@ -60,10 +60,11 @@ OBSCURA_INLINE Mask survives(const Flight& flight, PathLanes& path) {
     return flight_random(path.path_key, flight, FlightUse::roulette) < chance;
 }
 
-/// Writes lanes to the rows that they came from.
-class RowWriter {
+/// Writes lanes back to the paths that they came from.
+class IndexedWriter {
 public:
-    OBSCURA_INLINE RowWriter(const uint32_t* rows, Mask mask) : rows_(rows), mask_(mask) {}
+    OBSCURA_INLINE IndexedWriter(const uint32_t* indices, Mask mask)
+        : indices_(indices), mask_(mask) {}
 
     template <typename L, typename Word>
     OBSCURA_INLINE void operator()(const L& value, Word* column) const {
@@ -71,7 +72,7 @@ public:
         store(lanes, value);
         for (uint32_t bits = mask_bits(mask_); bits != 0; bits &= bits - 1) {
             const int lane = __builtin_ctz(bits);
-            column[rows_[lane]] = lanes[lane];
+            column[indices_[lane]] = lanes[lane];
         }
     }
     OBSCURA_INLINE void operator()(const Vec3<Lanes>& v, float* x, float* y, float* z) const {
@@ -79,68 +80,72 @@ public:
         (*this)(v.y, y);
         (*this)(v.z, z);
     }
-    /// A flight does not change which path it is, nor what it travels in.
+    /// A flight changes neither the path's key nor its medium stack.
     OBSCURA_INLINE void operator()(const LanesU&, uint32_t*) const {}
 
 private:
-    const uint32_t* rows_;
+    const uint32_t* indices_;
     Mask mask_;
 };
 
-/// What a flight can change of a path, and the hit that it ended at.
-OBSCURA_INLINE void give_back(const ScatterRows& rows,
-                              const RowWriter& write,
+/// Writes back the columns that a flight changes, and the hit at its end.
+OBSCURA_INLINE void give_back(const ScatterColumns& columns,
+                              const IndexedWriter& write,
                               const PathLanes& path,
                               const HitLanes& hit) {
-    PathRows::for_each_field(write, path, rows.paths);
-    HitRows::for_each_field(write, hit, rows.hits);
+    PathColumns::for_each_field(write, path, columns.paths);
+    HitColumns::for_each_field(write, hit, columns.hits);
 }
 
-template <typename Rows>
-OBSCURA_INLINE int append_walkers(
-    const Rows& rows, int at, Mask mask, const PathLanes& path, LanesU row) {
+template <typename Columns>
+OBSCURA_INLINE int append_random_walks(
+    const Columns& columns, int at, Mask mask, const PathLanes& path, LanesU path_index) {
     const Packer packer(mask);
-    store(rows.row + at, pack(packer, row));
-    return append_paths(rows.walkers, at, mask, path);
+    store(columns.path_index + at, pack(packer, path_index));
+    return append_paths(columns.random_walks, at, mask, path);
 }
 
 }  // namespace
 
-int begin_scatter(const SceneView& scene, int count, const ScatterStart& rows) {
-    int walkers = 0;
+int begin_scatter(const SceneView& scene, int count, const ScatterStart& columns) {
+    int random_walks = 0;
     for (int i = 0; i < count; i += lane_count) {
-        const PathLanes path = load_paths(rows.paths, i);
-        const HitLanes hit = load_hits(rows.hits, i);
-        const LanesI body = filling_body(path.bodies);
-        Mask inside = rows_in_range(i, count) & (hit.primitive >= LanesI(0)) & (body > LanesI(0));
+        const PathLanes path = load_paths(columns.paths, i);
+        const HitLanes hit = load_hits(columns.hits, i);
+        const LanesI medium = dominant_medium(path.medium_stack);
+        Mask inside =
+            lanes_in_range(i, count) & (hit.primitive >= LanesI(0)) & (medium > LanesI(0));
         if (none(inside)) continue;
-        const LanesI number = select(inside, body, LanesI(0));
+        const LanesI number = select(inside, medium, LanesI(0));
         inside = inside & scatters(read_scattering(scene, number));
-        append_hits(rows.walker_hits, walkers, inside, hit);
-        const LanesU row = as_uint(lane_numbers() + LanesI(i));
-        walkers = append_walkers(rows, walkers, inside, path, row);
+        append_hits(columns.random_walk_hits, random_walks, inside, hit);
+        const LanesU path_index = as_uint(lane_numbers() + LanesI(i));
+        random_walks = append_random_walks(columns, random_walks, inside, path, path_index);
     }
-    return walkers;
+    return random_walks;
 }
 
-int scatter(const SceneView& scene, const Flight& flight, int count, const ScatterRows& rows) {
+int scatter(const SceneView& scene,
+            const Flight& flight,
+            int count,
+            const ScatterColumns& columns) {
     int stay = 0;
     for (int i = 0; i < count; i += lane_count) {
-        const Mask exists = rows_in_range(i, count);
-        PathLanes path = load_paths(rows.walkers, i);
-        HitLanes hit = load_hits(rows.walker_hits, i);
-        const LanesU row = load(rows.row + i);
-        const LanesI body = select(exists, filling_body(path.bodies), LanesI(0));
-        const Four<Lanes> medium = read_medium(scene, body);
-        const Four<Lanes> scattering = read_scattering(scene, body);
+        const Mask exists = lanes_in_range(i, count);
+        PathLanes path = load_paths(columns.random_walks, i);
+        HitLanes hit = load_hits(columns.random_walk_hits, i);
+        const LanesU path_index = load(columns.path_index + i);
+        const LanesI medium = select(exists, dominant_medium(path.medium_stack), LanesI(0));
+        const Four<Lanes> extinction = read_medium(scene, medium);
+        const Four<Lanes> scattering = read_scattering(scene, medium);
         const Vec2<Lanes> u{flight_random(path.path_key, flight, FlightUse::channel),
                             flight_random(path.path_key, flight, FlightUse::distance)};
-        const FreeFlight<Lanes> free = sample_flight({medium.x, medium.y, medium.z},
+        const FreeFlight<Lanes> free = sample_flight({extinction.x, extinction.y, extinction.z},
                                                      {scattering.x, scattering.y, scattering.z},
-                                                     channel_shares(path.throughput),
+                                                     channel_weights(path.throughput),
                                                      hit.t,
                                                      u);
-        // Where a body is open, its inside has no end: what finds none is as if it had left.
+        // A ray that hits nothing inside (the mesh is open) counts as having left the medium.
         const Mask has_end = exists & (hit.primitive >= LanesI(0));
         const Mask turns = has_end & (free.distance_m < hit.t);
         PathLanes next = scattered_path(path, free, scattering.w, flight);
@@ -151,11 +156,11 @@ int scatter(const SceneView& scene, const Flight& flight, int count, const Scatt
         path.throughput = select(has_end, path.throughput * free.passed, path.throughput);
         path.throughput = select(lost, splat3(Lanes(0.0f)), path.throughput);
         hit.primitive = select(lost, LanesI(-1), hit.primitive);
-        // Before the walkers that stay are packed: they may be written over this group's rows.
-        alignas(64) uint32_t row_numbers[lane_count];
-        store(row_numbers, row);
-        give_back(rows, {row_numbers, exists & (!goes_on)}, path, hit);
-        stay = append_walkers(rows, stay, goes_on, next, row);
+        // Read before the paths that stay are packed, which may overwrite this group.
+        alignas(64) uint32_t path_indices[lane_count];
+        store(path_indices, path_index);
+        give_back(columns, {path_indices, exists & (!goes_on)}, path, hit);
+        stay = append_random_walks(columns, stay, goes_on, next, path_index);
     }
     return stay;
 }

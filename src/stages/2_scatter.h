@@ -1,4 +1,4 @@
-// stages/2_scatter.h - stage 2, inside bodies that scatter light: flights between surfaces.
+// stages/2_scatter.h - stage 2, inside scattering media: one flight of each random-walk path.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,19 +7,18 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Copies the paths that hit something from within a scattering body to the walkers.
+/// Copies the paths that hit something from inside a scattering medium to the random-walk columns.
 ///
-/// In      rows.paths, rows.hits: `count` rows after an intersection
-/// Out     rows.walkers, rows.walker_hits, rows.row: packed. Returns how many.
-int begin_scatter(const SceneView& scene, int count, const ScatterStart& rows);
+/// In      columns.paths, columns.hits: `count` paths after an intersection
+int begin_scatter(const SceneView& scene, int count, const ScatterStart& columns);
 
-/// One flight of every walker. Those that reach their surface go back to their row, with the light
-/// that the way leaves; those that scatter before stay, packed, with a new ray to be asked.
+/// One flight of every random-walk path. Paths that reach their surface are attenuated and written
+/// back; paths that scatter first stay, packed, with a new ray to trace.
 ///
-/// In      flight.last: nobody may scatter once more; what would is lost
-/// Out     rows.paths, rows.hits: of those that are done. Returns how many stay.
+/// In      flight.last: paths that would scatter again end
+/// Out     columns.paths, columns.hits: of the paths that reached a surface. Returns how many stay.
 /// Source  random walk with chromatic extinction: see surface/scattering.h
-int scatter(const SceneView& scene, const Flight& flight, int count, const ScatterRows& rows);
+int scatter(const SceneView& scene, const Flight& flight, int count, const ScatterColumns& columns);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -16,10 +16,10 @@ struct MeshUv {
 
 /// A hit's geometry in world space.
 struct HitGeometry {
-    TableRow<Lanes, Primitive> primitive;
-    TableRow<Lanes, Material> material;
-    bool one_triangle;     ///< all lanes hit the same: as camera rays of near pixels do
-    LanesI corner[3];      ///< absolute vertex numbers
+    TableRecord<Lanes, Primitive> primitive;
+    TableRecord<Lanes, Material> material;
+    bool one_triangle;     ///< all lanes hit the same triangle: usual for neighbouring camera rays
+    LanesI corner[3];      ///< absolute vertex indices
     Lanes weight[3];       ///< barycentric
     Vec3<Lanes> position;  ///< from the corners, not from the ray: error is bounded
     Vec3<Lanes> ng;        ///< geometric normal, unit, to the front
@@ -37,8 +37,8 @@ OBSCURA_INLINE Vec3<Lanes> weighted(const HitGeometry& g, const Vec3<Lanes> (&v)
     return v[0] * g.weight[0] + v[1] * g.weight[1] + v[2] * g.weight[2];
 }
 
-/// Where the surface through the corners with their normals would be, relative to the flat
-/// triangle: shadow rays that start there do not graze the facets.
+/// The offset from the flat triangle to the smooth surface that the vertex normals describe: shadow
+/// rays that start there do not graze the facets.
 /// Source  Hanika, "Hacking the Shadow Terminator", Ray Tracing Gems II, 2021, ch. 4
 OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
                                                 const Vec3<Lanes> (&p)[3],
@@ -51,7 +51,7 @@ OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
         const Lanes below = min(dot(position - p[k], up), Lanes(0.0f));
         shift = shift - up * (below * g.weight[k]);
     }
-    // A box with averaged normals is no sphere: never far from the triangle.
+    // The limit is for boxes with averaged normals, which are not meant as spheres.
     const Lanes most = Lanes(0.05f) * sqrt(g.area2);
     return shift * min(Lanes(1.0f), most / max(length(shift), Lanes(1e-30f)));
 }
@@ -79,10 +79,10 @@ OBSCURA_INLINE void set_face(float scale, const Vec3<Lanes> (&p)[3], HitGeometry
     if (scale != 1.0f) g.area2 = g.area2 * Lanes(1.0f / scale) * Lanes(1.0f / scale);
 }
 
-/// What a hit is wanted for: quantities need not know where rays that leave it may start.
-enum class HitUse { look, start_rays };
+/// What the caller needs of a hit: AOVs start no rays and need no offset.
+enum class HitUse { attributes, start_rays };
 
-/// Fills `g` where it is, for it is long to copy.
+/// Fills `g` in place because copies are slow.
 template <HitUse use>
 OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, HitGeometry& g) {
     g.has_shapes = false;
@@ -94,7 +94,7 @@ OBSCURA_INLINE void find_geometry(const SceneView& scene, const HitLanes& hit, H
     if (scene.shapes != nullptr) {
         g.shapes = g.primitive.integer<&Primitive::geometry>() != LanesI(0);
         g.has_shapes = any(g.shapes);
-        index_word = select(g.shapes, LanesI(0), index_word);  // any triangle: it is not looked at
+        index_word = select(g.shapes, LanesI(0), index_word);  // any triangle: result is unused
     }
     const Four<LanesI> corners = gather4<Lanes>(scene.indices, index_word);
     g.corner[0] = corners.x;

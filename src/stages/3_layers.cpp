@@ -1,4 +1,4 @@
-// stages/3_layers.cpp - reads, evaluates and samples the layers of the hit materials.
+// stages/3_layers.cpp - reads, evaluates and samples the lobes of KHR_materials_* at the hits.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/3_layers.h"
 
@@ -12,39 +12,40 @@ namespace {
 /// Reads the layers of one group of hits.
 class LayerReader {
 public:
-    /// In  layered: lanes whose material has layers; the others get what any row says
+    /// In  layered: lanes whose material has layers; the others read any record
     OBSCURA_INLINE LayerReader(const SceneView& scene,
                                const HitGeometry& g,
-                               const LookUp& look,
+                               const TextureFilter& filter,
                                Mask layered)
         : scene_(scene),
           g_(g),
-          row_(scene.layers, select(layered, g.material.integer<&Material::layers>(), LanesI(0))),
-          look_(look),
+          record_(scene.layers,
+                  select(layered, g.material.integer<&Material::layers>(), LanesI(0))),
+          filter_(filter),
           layered_(layered) {}
 
     template <auto member>
     OBSCURA_INLINE Lanes number(int element = 0) const {
-        return row_.number<member>(element);
+        return record_.number<member>(element);
     }
     template <auto member>
     OBSCURA_INLINE LanesI integer() const {
-        return row_.integer<member>();
+        return record_.integer<member>();
     }
     template <auto member>
     OBSCURA_INLINE Vec3<Lanes> color() const {
-        return row_.vector<member>();
+        return record_.vector<member>();
     }
 
     /// Lanes whose slot has a texture, and coordinates for it.
     template <auto slot, Detail detail = Detail::mean>
     OBSCURA_INLINE FoundSlot find() const {
-        FoundSlot found = find_slot<slot, detail>(scene_, g_, row_, look_, {});
+        FoundSlot found = find_slot<slot, detail>(scene_, g_, record_, filter_, {});
         found.used = found.used & layered_;
         return found;
     }
     OBSCURA_INLINE Rgba<Lanes> read(const FoundSlot& found) const {
-        return read_slot(scene_, g_, found, look_);
+        return read_slot(scene_, g_, found, filter_);
     }
     /// A slot's texel, 1 where there is none.
     template <auto slot>
@@ -60,12 +61,12 @@ public:
 private:
     const SceneView& scene_;
     const HitGeometry& g_;
-    TableRow<Lanes, MaterialLayers> row_;
-    const LookUp& look_;
+    TableRecord<Lanes, MaterialLayers> record_;
+    const TextureFilter& filter_;
     Mask layered_;
 };
 
-/// Reflectance at the dielectric's boundary, and how the surface lets light through.
+/// Reflectance and transmission of the dielectric's boundary.
 OBSCURA_INLINE void read_dielectric(const LayerReader& layers, LayeredParams<Lanes>& p) {
     const Lanes specular = layers.number<&MaterialLayers::specular>() *
                            layers.texel<&MaterialLayers::specular_texture>().alpha;
@@ -94,7 +95,7 @@ OBSCURA_INLINE void read_sheen(const LayerReader& layers, LayeredParams<Lanes>& 
 }
 
 OBSCURA_INLINE void read_coat(const LayerReader& layers,
-                              const LayerPlace& at,
+                              const LayerContext& at,
                               LayeredParams<Lanes>& p) {
     p.coat = layers.number<&MaterialLayers::clearcoat>() *
              layers.texel<&MaterialLayers::clearcoat_texture>().rgb.x;
@@ -114,21 +115,21 @@ OBSCURA_INLINE void read_coat(const LayerReader& layers,
     p.coat_normal = to_local(at.frame, bend_towards_viewer(normal, at.ng, at.wo));
 }
 
-OBSCURA_INLINE void read_film(const LayerReader& layers, LayeredParams<Lanes>& p) {
-    p.film = {layers.number<&MaterialLayers::iridescence>() *
-                  layers.texel<&MaterialLayers::iridescence_texture>().rgb.x,
-              layers.number<&MaterialLayers::iridescence_ior>(),
-              Lanes(0.0f)};
-    const Lanes least = layers.number<&MaterialLayers::film_thickness_nm>(0);
-    const Lanes most = layers.number<&MaterialLayers::film_thickness_nm>(1);
-    const Lanes share = layers.texel<&MaterialLayers::film_thickness_texture>().rgb.y;
-    p.film.thickness_nm = lerp(least, most, share);
-    p.film.strength = p.film.strength * film_presence(p.film.thickness_nm);
+OBSCURA_INLINE void read_thin_film(const LayerReader& layers, LayeredParams<Lanes>& p) {
+    p.thin_film = {layers.number<&MaterialLayers::iridescence>() *
+                       layers.texel<&MaterialLayers::iridescence_texture>().rgb.x,
+                   layers.number<&MaterialLayers::iridescence_ior>(),
+                   Lanes(0.0f)};
+    const Lanes least = layers.number<&MaterialLayers::thin_film_thickness_nm>(0);
+    const Lanes most = layers.number<&MaterialLayers::thin_film_thickness_nm>(1);
+    const Lanes fraction = layers.texel<&MaterialLayers::thin_film_thickness_texture>().rgb.y;
+    p.thin_film.thickness_nm = lerp(least, most, fraction);
+    p.thin_film.strength = p.thin_film.strength * thin_film_presence(p.thin_film.thickness_nm);
 }
 
 /// Stretches the highlight and turns the frame along it. Without tangents the highlight is round.
 OBSCURA_INLINE void read_anisotropy(const LayerReader& layers,
-                                    LayerPlace& at,
+                                    LayerContext& at,
                                     LayeredParams<Lanes>& p) {
     const Mask stretched = at.tangents.known;
     Lanes strength = layers.number<&MaterialLayers::anisotropy>();
@@ -154,7 +155,7 @@ OBSCURA_INLINE void read_anisotropy(const LayerReader& layers,
     p.alpha.x = select(turned, lerp(p.alpha.x, Lanes(1.0f), strength * strength), p.alpha.x);
 }
 
-/// A path's one wavelength, as numbers that the path is multiplied with.
+/// A path's single wavelength, and the colour that multiplies its throughput.
 struct Wavelength {
     Lanes nm;
     Vec3<Lanes> color;  ///< of mean 1 over all paths
@@ -162,12 +163,12 @@ struct Wavelength {
 
 constexpr float shortest_nm = 430, longest_nm = 650;
 
-/// Wavelengths lie evenly between the shortest and the longest; each goes to one or two
-/// neighbouring channels, whose peaks are the dominant wavelengths of Rec.709's primaries. Those of
-/// one pixel's samples are spread evenly.
+/// Wavelengths are uniform between the shortest and the longest, stratified over a pixel's samples.
+/// Each adds to one or two neighbouring channels, which peak at the dominant wavelengths of the
+/// Rec.709 primaries.
 OBSCURA_INLINE Wavelength wavelength_of(const PathLanes& path) {
-    const Lanes share = unit_float<Lanes>(sobol_pair(path.key, path.sample, wavelength_pair).x);
-    const Lanes nm = Lanes(shortest_nm) + share * Lanes(longest_nm - shortest_nm);
+    const Lanes fraction = unit_float<Lanes>(sobol_pair(path.key, path.sample, wavelength_pair).x);
+    const Lanes nm = Lanes(shortest_nm) + fraction * Lanes(longest_nm - shortest_nm);
     const Lanes green_over_blue =
         clamp((nm - Lanes(464.0f)) * Lanes(1.0f / 85.0f), Lanes(0.0f), Lanes(1.0f));
     const Lanes red_over_green =
@@ -186,8 +187,8 @@ OBSCURA_INLINE Lanes relative_ior(Lanes ior, Lanes dispersion, Lanes nm) {
     return max(n, Lanes(1.0f)) / ior;
 }
 
-/// Bends the boundary for the path's wavelength where the body disperses light. How much it
-/// reflects follows from the index of the d line.
+/// Sets the index of refraction for the path's wavelength where the medium is dispersive. The
+/// reflectance stays that of the d line.
 ///
 /// In   out.params.eta: of the d line
 OBSCURA_INLINE void disperse(const LayerReader& layers,
@@ -201,57 +202,56 @@ OBSCURA_INLINE void disperse(const LayerReader& layers,
     const Wavelength wavelength = wavelength_of(path);
     const Lanes denser =
         relative_ior(layers.number<&MaterialLayers::ior>(), dispersion, wavelength.nm);
-    // Total reflection, from the denser side, is not the same for all wavelengths. The index is
-    // least for the longest.
+    // From the denser side, total reflection depends on the wavelength. The longest wavelength has
+    // the lowest index.
     const Lanes least = relative_ior(layers.number<&MaterialLayers::ior>(), dispersion, longest_nm);
     out.reflects_white = entering & (p.eta * least > Lanes(1.0f));
     p.eta = select(disperses, p.eta * select(entering, denser, Lanes(1.0f) / denser), p.eta);
     out.wavelength = select(disperses, LanesU(one_wavelength), LanesU(0U));
-    const Mask first = disperses & ((path.bodies & LanesU(one_wavelength)) == LanesU(0U));
+    const Mask first = disperses & ((path.medium_stack & LanesU(one_wavelength)) == LanesU(0U));
     out.tint = select(first, wavelength.color, out.tint);
 }
 
 void read_point(const LayerReader& layers,
                 const LayerHit& hit,
                 const BsdfParams<Lanes>& base,
-                LayerPlace& place,
+                LayerContext& context,
                 LayeredPoint& out) {
     const SceneView& scene = hit.scene;
     const PathLanes& path = hit.path;
-    out.layered = place.layered;
-    const LanesI medium = layers.integer<&MaterialLayers::medium>();
-    const LanesI body = select(out.layered, medium, LanesI(0));
-    out.boundary = boundary_at(scene, path.bodies, body, place.front);
+    out.layered = context.layered;
+    const LanesI medium = select(out.layered, layers.integer<&MaterialLayers::medium>(), LanesI(0));
+    out.boundary = boundary_at(scene, path.medium_stack, medium, context.front);
     if (hit.shared != nullptr) {
         SharedLanes shared = read_shared_faces(hit.shared, path.slot);
-        shared.exist = shared.exist & (body > LanesI(0));
-        if (any(shared.exist)) join_boundaries(scene, path.bodies, shared, out.boundary);
+        shared.exist = shared.exist & (medium > LanesI(0));
+        if (any(shared.exist)) join_boundaries(scene, path.medium_stack, shared, out.boundary);
     }
     LayeredParams<Lanes>& p = out.params;
-    p.solid = (body > LanesI(0)) & (!out.boundary.matched);
+    p.solid = (medium > LanesI(0)) & (!out.boundary.matched);
     out.tint = splat3(Lanes(1.0f));
     out.wavelength = LanesU(0U);
     out.reflects_white = Mask(false);
     p.base_color = base.base_color;
     p.metallic = base.metallic;
     p.alpha = {base.alpha, base.alpha};
-    p.eta = select(body > LanesI(0), out.boundary.eta, layers.number<&MaterialLayers::ior>());
+    p.eta = select(medium > LanesI(0), out.boundary.eta, layers.number<&MaterialLayers::ior>());
     read_dielectric(layers, p);
-    disperse(layers, path, place.front, out);
+    disperse(layers, path, context.front, out);
     read_sheen(layers, p);
-    read_anisotropy(layers, place, p);
-    read_coat(layers, place, p);
-    read_film(layers, p);
-    // Seen from inside, a body has no coat.
-    const Mask inside = (body > LanesI(0)) & (!place.front);
+    read_anisotropy(layers, context, p);
+    read_coat(layers, context, p);
+    read_thin_film(layers, p);
+    // Coat, sheen and thin film lie on the outside only.
+    const Mask inside = (medium > LanesI(0)) & (!context.front);
     p.coat = select(inside, Lanes(0.0f), p.coat);
     p.sheen_color = select(inside, splat3(Lanes(0.0f)), p.sheen_color);
-    p.film.strength = select(inside, Lanes(0.0f), p.film.strength);
-    // The less a boundary bends, the blurrier a facet may be without a difference: see boundary_at.
+    p.thin_film.strength = select(inside, Lanes(0.0f), p.thin_film.strength);
+    // The less a boundary refracts, the less its roughness shows: this minimum is invisible.
     const Lanes blurred = Lanes(5e-5f) / max(abs(p.eta - Lanes(1.0f)), Lanes(1e-3f));
     p.alpha.x = select(p.solid, max(p.alpha.x, blurred), p.alpha.x);
     p.alpha.y = select(p.solid, max(p.alpha.y, blurred), p.alpha.y);
-    out.weights = layered_weights(p, to_local(place.frame, place.wo));
+    out.weights = layered_weights(p, to_local(context.frame, context.wo));
     out.lets_through =
         out.layered & ((p.transmission > Lanes(0.0f)) | (p.diffuse_transmission > Lanes(0.0f)));
 }
@@ -260,10 +260,10 @@ void read_point(const LayerReader& layers,
 
 void read_layered_point(const LayerHit& hit,
                         const BsdfParams<Lanes>& base,
-                        LayerPlace& place,
+                        LayerContext& context,
                         LayeredPoint& out) {
-    const LayerReader reader(hit.scene, hit.geometry, hit.look, place.layered);
-    read_point(reader, hit, base, place, out);
+    const LayerReader reader(hit.scene, hit.geometry, hit.filter, context.layered);
+    read_point(reader, hit, base, context, out);
 }
 
 StraightLight<Lanes> take_straight(LayeredPoint& point, const Vec3<Lanes>& wo) {

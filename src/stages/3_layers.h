@@ -1,4 +1,4 @@
-// stages/3_layers.h - the layers of the hit materials: apart from the core material's short path.
+// stages/3_layers.h - the lobes of KHR_materials_* at the hits, apart from the core material.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,12 +9,12 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// The pixel key that gives a path's sample 0 the wavelength 587.56 nm, the d line of helium: for
-/// this the indices of refraction are given, so that nothing is dispersed.
+/// The pixel key with which sample 0 has the wavelength 587.56 nm, the d line of helium. Indices of
+/// refraction are given for that line, so that nothing is dispersed.
 inline constexpr uint32_t d_line_key = 0x5505BU;
 
-/// Where a hit lies on its surface, for its layers.
-struct LayerPlace {
+/// The local geometry of a hit that its layers read.
+struct LayerContext {
     const TangentLanes& tangents;
     Frame<Lanes> frame;         ///< around the base's shading normal; turned for anisotropy
     Vec3<Lanes> smooth_normal;  ///< without any normal map, towards the viewer
@@ -31,7 +31,7 @@ struct LayeredPoint {
     LayeredWeights<Lanes> weights;
     Boundary boundary;
     Vec3<Lanes> tint;     ///< of paths that are given a wavelength here; else 1
-    LanesU wavelength;    ///< what bodies gain by it: one_wavelength, or 0 where nothing disperses
+    LanesU wavelength;    ///< what media gain by it: one_wavelength, or 0 where nothing disperses
     Mask reflects_white;  ///< only what goes through is given a wavelength
     Mask lets_through;
 };
@@ -40,16 +40,16 @@ struct LayeredPoint {
 struct LayerHit {
     const SceneView& scene;
     const HitGeometry& geometry;
-    const LookUp& look;
+    const TextureFilter& filter;
     const PathLanes& path;
     const SharedFaces* shared = nullptr;  ///< as HitLanes has it
 };
 
-/// In   base: the core material; place: layered lanes; its frame may be turned
-/// Out  out: filled where it is, for it is long to copy
+/// In   base: the core material; context: layered lanes; its frame may be turned
+/// Out  out: filled in place because copies are slow
 void read_layered_point(const LayerHit& hit,
                         const BsdfParams<Lanes>& base,
-                        LayerPlace& place,
+                        LayerContext& context,
                         LayeredPoint& out);
 
 /// take_straight_light of the lanes that have layers; the others let nothing pass straight.

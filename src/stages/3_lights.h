@@ -1,11 +1,14 @@
 // stages/3_lights.h - next-event estimation: one light a shading point, weighted against the BSDF.
 // SPDX-License-Identifier: Apache-2.0
+//
+// Light selection: a light is drawn by its power from a CDF (render/light_table.h,
+// light/cdf_table.h) wherever the shading point lies: there is no light tree.
 #pragma once
 
 #include "light/cdf_table.h"
 #include "light/environment.h"
 #include "light/punctual_sample.h"
-#include "light/row_words.h"
+#include "light/record_words.h"
 #include "light/triangle_light.h"
 #include "stages/3_moving_lights.h"
 #include "stages/3_shape_lights.h"
@@ -31,7 +34,7 @@ struct LightLanes {
     Mask valid;
 };
 
-/// Of lights without end only the environment has an extent.
+/// True for the environment, the only light at infinity with an extent.
 OBSCURA_INLINE Mask is_environment(const LightLanes& light) {
     return (light.pdf > Lanes(0.0f)) & (light.distance >= Lanes(directional_distance_m));
 }
@@ -49,13 +52,13 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
                                                  const Vec2<Lanes>& u,
                                                  const ShadingPoint& point,
                                                  const Vec3<Lanes>& random) {
-    const TriangleLight* rows = scene.lights.triangles;
-    TriangleCorners<Lanes> corners = read_corners<Lanes>(rows, index);
+    const TriangleLight* lights = scene.lights.triangles;
+    TriangleCorners<Lanes> corners = read_corners<Lanes>(lights, index);
     if (scene.lights.moving_triangles != nullptr) {
         corners = moved_light_corners(scene, index, point.time, corners);
     }
     const TriangleLightSample<Lanes> s =
-        sample_triangle_light<Lanes>(rows, index, corners, u, point.light_start);
+        sample_triangle_light<Lanes>(lights, index, corners, u, point.light_start);
     Vec3<Lanes> emission = s.emission;
     const Mask textured = s.texture >= LanesI(0);
     if (any(textured)) {
@@ -64,8 +67,8 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
             sample_texture_stochastic<Lanes>(scene.textures, texture, s.uv, Lanes(0.0f), random);
         emission = select(textured, emission * texel.rgb, emission);
     }
-    // End before the light's own triangle by what rounding may move it, and no sooner: whatever
-    // covers the light closely must still be met.
+    // End before the light's own triangle by the rounding error and no more: geometry that covers
+    // the light closely must still be hit.
     const Lanes size = dot(abs(s.normal), abs(s.point) + abs(point.light_start));
     const Lanes clear = Lanes(32.0f / 16777216.0f) * (size + s.distance * Lanes(0.25f));
     const Lanes distance = max(s.distance - clear / max(abs(s.cosine), Lanes(0.02f)), Lanes(0.0f));
@@ -89,14 +92,14 @@ OBSCURA_INLINE LightLanes sample_shapes(const SceneView& scene,
             s.pdf > Lanes(0.0f)};
 }
 
-/// The random numbers that choose a light and a place on it.
+/// The random numbers that choose a light and a point on it.
 struct LightRandom {
     LanesU choice;
     Vec3<Lanes> texture;
     PixelDraw<Lanes> environment;  ///< drawn ahead; its random numbers serve other lights too
 };
 
-/// Chooses one light for every lane and a place on it.
+/// Chooses one light for every lane and a point on it.
 OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                                        const ShadingPoint& point,
                                        const LightRandom& random) {
@@ -132,20 +135,21 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                                       random.texture));
     }
     if (any(shape)) {
-        const LanesI row = select(shape, shape_index, LanesI(0));
+        const LanesI in_range = select(shape, shape_index, LanesI(0));
         choose(out,
                shape,
-               sample_shapes(scene, row, unit_pair<Lanes>(random.environment.random), point));
+               sample_shapes(scene, in_range, unit_pair<Lanes>(random.environment.random), point));
     }
     if (any(punctual)) {
-        const LanesI row = select(punctual, index, LanesI(0));
+        const LanesI in_range = select(punctual, index, LanesI(0));
         PunctualSample<Lanes> s;
         if (lights.moving_punctual != nullptr) {
-            sample_moving_punctual(scene, row, point.time, point.light_start, s);
+            sample_moving_punctual(scene, in_range, point.time, point.light_start, s);
         } else {
-            s = sample_punctual<Lanes>(lights.punctual, row, point.light_start, lights.profiles);
+            s = sample_punctual<Lanes>(
+                lights.punctual, in_range, point.light_start, lights.profiles);
         }
-        const Lanes select_pdf = gather<Lanes>(lights.select_pdf, row);
+        const Lanes select_pdf = gather<Lanes>(lights.select_pdf, in_range);
         choose(out,
                punctual,
                {s.direction,
@@ -157,8 +161,8 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     return out;
 }
 
-/// What the coat of an emitter lets pass in light sampling's eyes, which know neither its texture
-/// nor its normals. Lanes whose `light` is -1 get 1.
+/// Transmittance of an emitter's coat as light sampling computes it: without the coat's texture and
+/// normal map. Lanes whose `light` is -1 get 1.
 OBSCURA_INLINE Lanes sampled_coat_lets_pass(const SceneView& scene, LanesI light, Lanes cosine) {
     const LanesI shape = light - LanesI(scene.lights.triangle_count);
     const Mask is_triangle = (light >= LanesI(0)) & (shape < LanesI(0));
@@ -167,14 +171,14 @@ OBSCURA_INLINE Lanes sampled_coat_lets_pass(const SceneView& scene, LanesI light
     if (any(is_triangle)) {
         const auto* words =
             member_words<float>(scene.lights.triangles, offsetof(TriangleLight, coat));
-        const LanesI row = select(is_triangle, light, LanesI(0));
-        const Lanes read = gather<Lanes>(words, row * LanesI(words_per_row<TriangleLight>));
+        const LanesI in_range = select(is_triangle, light, LanesI(0));
+        const Lanes read = gather<Lanes>(words, in_range * LanesI(words_per_record<TriangleLight>));
         coat = select(is_triangle, read, coat);
     }
     if (any(is_shape)) {
         const auto* words = member_words<float>(scene.lights.shapes, offsetof(ShapeLight, coat));
-        const LanesI row = select(is_shape, shape, LanesI(0));
-        const Lanes read = gather<Lanes>(words, row * LanesI(words_per_row<ShapeLight>));
+        const LanesI in_range = select(is_shape, shape, LanesI(0));
+        const Lanes read = gather<Lanes>(words, in_range * LanesI(words_per_record<ShapeLight>));
         coat = select(is_shape, read, coat);
     }
     return coat_lets_pass<Lanes>(coat, cosine);
@@ -188,13 +192,13 @@ OBSCURA_INLINE Lanes light_pdf(const SceneView& scene,
     const LanesI light = point.light;
     const Mask known = (light >= LanesI(0)) & (light < LanesI(scene.lights.triangle_count));
     if (none(known) || scene.lights.triangle_count == 0) return Lanes(0.0f);
-    const LanesI row = select(known, light, LanesI(0));
+    const LanesI in_range = select(known, light, LanesI(0));
     Lanes pdf_area = gather<Lanes>(
         member_words<float>(scene.lights.triangles, offsetof(TriangleLight, pdf_area)),
-        row * LanesI(words_per_row<TriangleLight>));
+        in_range * LanesI(words_per_record<TriangleLight>));
     if (scene.lights.moving_triangles != nullptr) {
-        const auto still = read_corners<Lanes>(scene.lights.triangles, row);
-        pdf_area = moved_light_corners(scene, row, point.time, still).pdf_area;
+        const auto still = read_corners<Lanes>(scene.lights.triangles, in_range);
+        pdf_area = moved_light_corners(scene, in_range, point.time, still).pdf_area;
     }
     const Lanes pdf = solid_angle_pdf<Lanes>(pdf_area, distance, abs(dot(point.ng, direction)));
     return select(known, pdf, Lanes(0.0f));

@@ -1,4 +1,4 @@
-// stages/3_media.h - the bodies that a ray travels in: which, what they absorb, where they end.
+// stages/3_media.h - the stack of media that a path is inside of: enter, leave, absorb, refract.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,114 +8,120 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-// PathRows::bodies holds, from the upper end:
+// The medium stack: the media that a path is inside of, as nested dielectrics with priorities.
+// PathColumns::medium_stack holds, from the upper end:
 //   bits 31-24  1 once the path has been given one wavelength (dispersion)
-//   bits 23-0   the numbers of up to three bodies that overlap here, the greatest first; 0: none
-// The greatest number fills the place (scene/media.h). Of more than three, the least is forgotten.
+//   bits 23-0   the numbers of up to three media that overlap here, the greatest first; 0: none
+// The greatest number dominates (scene/media.h). Of more than three, the least is dropped.
 
 inline constexpr uint32_t one_wavelength = 1U << 24;
 
-/// Number of the body that fills the place.
-OBSCURA_INLINE LanesI filling_body(LanesU bodies) {
-    return as_int((bodies >> 16) & LanesU(255U));
+/// Number of the dominant medium.
+OBSCURA_INLINE LanesI dominant_medium(LanesU medium_stack) {
+    return as_int((medium_stack >> 16) & LanesU(255U));
 }
 
-OBSCURA_INLINE LanesU join_bodies(LanesU bodies, LanesI first, LanesI second, LanesI third) {
-    return (bodies & LanesU(~0xFFFFFFU)) | as_uint(first) << 16 | as_uint(second) << 8 |
+OBSCURA_INLINE LanesU pack_medium_stack(LanesU medium_stack,
+                                        LanesI first,
+                                        LanesI second,
+                                        LanesI third) {
+    return (medium_stack & LanesU(~0xFFFFFFU)) | as_uint(first) << 16 | as_uint(second) << 8 |
            as_uint(third);
 }
 
-/// The bodies after one more is entered.
-OBSCURA_INLINE LanesU enter_body(LanesU bodies, LanesI body) {
-    const LanesI first = filling_body(bodies);
-    const LanesI second = as_int((bodies >> 8) & LanesU(255U));
-    const LanesI third = as_int(bodies & LanesU(255U));
-    const LanesI lower = min(first, body);
-    return join_bodies(
-        bodies, max(first, body), max(second, lower), max(third, min(second, lower)));
+/// The stack after one more medium is entered.
+OBSCURA_INLINE LanesU enter_medium(LanesU medium_stack, LanesI medium) {
+    const LanesI first = dominant_medium(medium_stack);
+    const LanesI second = as_int((medium_stack >> 8) & LanesU(255U));
+    const LanesI third = as_int(medium_stack & LanesU(255U));
+    const LanesI lower = min(first, medium);
+    return pack_medium_stack(
+        medium_stack, max(first, medium), max(second, lower), max(third, min(second, lower)));
 }
 
-/// The bodies after one is left; one that was never entered changes nothing.
-OBSCURA_INLINE LanesU leave_body(LanesU bodies, LanesI body) {
-    const LanesI first = filling_body(bodies);
-    const LanesI second = as_int((bodies >> 8) & LanesU(255U));
-    const LanesI third = as_int(bodies & LanesU(255U));
-    const Mask is_first = first == body;
-    const Mask is_second = is_first | (second == body);
-    const Mask is_third = is_second | (third == body);
-    return join_bodies(bodies,
-                       select(is_first, second, first),
-                       select(is_second, third, second),
-                       select(is_third, LanesI(0), third));
+/// The stack after a medium is left; one that was never entered changes nothing.
+OBSCURA_INLINE LanesU leave_medium(LanesU medium_stack, LanesI medium) {
+    const LanesI first = dominant_medium(medium_stack);
+    const LanesI second = as_int((medium_stack >> 8) & LanesU(255U));
+    const LanesI third = as_int(medium_stack & LanesU(255U));
+    const Mask is_first = first == medium;
+    const Mask is_second = is_first | (second == medium);
+    const Mask is_third = is_second | (third == medium);
+    return pack_medium_stack(medium_stack,
+                             select(is_first, second, first),
+                             select(is_second, third, second),
+                             select(is_third, LanesI(0), third));
 }
 
 /// Four words of a medium, from a member on. Always gathered: lanes seldom travel in one medium.
 template <auto member>
-OBSCURA_INLINE Four<Lanes> gather_medium(const SceneView& scene, LanesI body) {
+OBSCURA_INLINE Four<Lanes> gather_medium(const SceneView& scene, LanesI medium) {
     return gather4<Lanes>(reinterpret_cast<const float*>(scene.media) + word_of<member>,
-                          LanesI(body * LanesI(words_per_row<Medium>)));
+                          LanesI(medium * LanesI(words_per_record<Medium>)));
 }
 
 /// Extinction per metre, and the index of refraction in w.
-OBSCURA_INLINE Four<Lanes> read_medium(const SceneView& scene, LanesI body) {
+OBSCURA_INLINE Four<Lanes> read_medium(const SceneView& scene, LanesI medium) {
     static_assert(word_of<&Medium::ior> == word_of<&Medium::extinction> + 3);
-    return gather_medium<&Medium::extinction>(scene, body);
+    return gather_medium<&Medium::extinction>(scene, medium);
 }
 
-/// Share of the extinction that is scattering, and the mean cosine of a scattering in w.
-OBSCURA_INLINE Four<Lanes> read_scattering(const SceneView& scene, LanesI body) {
+/// Scattering albedo, and the mean cosine of the phase function in w.
+OBSCURA_INLINE Four<Lanes> read_scattering(const SceneView& scene, LanesI medium) {
     static_assert(word_of<&Medium::anisotropy> == word_of<&Medium::albedo> + 3);
-    return gather_medium<&Medium::albedo>(scene, body);
+    return gather_medium<&Medium::albedo>(scene, medium);
 }
 
 OBSCURA_INLINE Mask scatters(const Four<Lanes>& scattering) {
     return max(scattering.x, max(scattering.y, scattering.z)) > Lanes(0.0f);
 }
 
-/// What is left of light after a way through what fills the place.
+/// Transmittance of a distance through the dominant medium.
 /// Source  Beer and Lambert's law
-OBSCURA_INLINE Vec3<Lanes> transmittance(const SceneView& scene, LanesU bodies, Lanes distance_m) {
-    const Four<Lanes> medium = read_medium(scene, filling_body(bodies));
+OBSCURA_INLINE Vec3<Lanes> transmittance(const SceneView& scene,
+                                         LanesU medium_stack,
+                                         Lanes distance_m) {
+    const Four<Lanes> medium = read_medium(scene, dominant_medium(medium_stack));
     return {exp(-(medium.x * distance_m)),
             exp(-(medium.y * distance_m)),
             exp(-(medium.z * distance_m))};
 }
 
-/// The boundary of a body as a path meets it.
+/// The boundary of a medium as a path meets it.
 struct Boundary {
-    LanesU beyond;  ///< the bodies on the other side
-    Lanes eta;      ///< index of refraction there / here
-    Mask hidden;    ///< inside a denser body: nothing happens here
-    Mask matched;   ///< between equal indices: light passes straight; where SceneView::thin_walls
+    LanesU transmitted_stack;  ///< the medium stack on the transmitted side
+    Lanes eta;                 ///< index of refraction there / here
+    Mask hidden;               ///< inside a denser medium: nothing happens here
+    Mask matched;  ///< between equal indices: light passes straight; where SceneView::thin_walls
 };
 
-/// What the boundary does to light between the bodies that fill the places here and there.
+/// Sets how the boundary refracts light between the dominant media of its two sides.
 ///
 /// In/Out  b: with `hidden`; lanes of `exists` change
 OBSCURA_INLINE void bend(
     const SceneView& scene, Mask exists, LanesI here, LanesI there, Boundary& b) {
     const Lanes eta = read_medium(scene, there).w / read_medium(scene, here).w;
-    const Mask equal = exists & (abs(eta - Lanes(1.0f)) < Lanes(least_refraction));
+    const Mask equal = exists & (abs(eta - Lanes(1.0f)) < Lanes(min_refraction));
     if (scene.thin_walls) b.matched = (equal & (!b.hidden)) | ((!exists) & b.matched);
-    b.eta = select(exists, select(equal, Lanes(1.0f + least_refraction), eta), b.eta);
+    b.eta = select(exists, select(equal, Lanes(1.0f + min_refraction), eta), b.eta);
     b.eta = select(b.matched, Lanes(1.0f), b.eta);
 }
 
-/// In  body: number of the body that the surface bounds, 0: none; entering: seen from outside
+/// In  medium: number of the medium that the surface bounds, 0: none; entering: seen from outside
 OBSCURA_INLINE Boundary boundary_at(const SceneView& scene,
-                                    LanesU bodies,
-                                    LanesI body,
+                                    LanesU medium_stack,
+                                    LanesI medium,
                                     Mask entering) {
-    Boundary b{bodies, Lanes(1.0f), Mask(false), Mask(false)};
-    const Mask exists = body > LanesI(0);
+    Boundary b{medium_stack, Lanes(1.0f), Mask(false), Mask(false)};
+    const Mask exists = medium > LanesI(0);
     if (scene.media == nullptr || none(exists)) return b;
-    const LanesU inside = select(entering, enter_body(bodies, body), bodies);
-    const LanesU outside = select(entering, bodies, leave_body(bodies, body));
-    b.beyond = select(exists, select(entering, inside, outside), bodies);
-    // A path that starts inside has not entered: what it leaves is this body all the same.
-    const LanesI within = max(filling_body(inside), body);
-    const LanesI around = filling_body(outside);
-    b.hidden = exists & (within > body);
+    const LanesU inside = select(entering, enter_medium(medium_stack, medium), medium_stack);
+    const LanesU outside = select(entering, medium_stack, leave_medium(medium_stack, medium));
+    b.transmitted_stack = select(exists, select(entering, inside, outside), medium_stack);
+    // A path that starts inside has not entered: what it leaves is this medium all the same.
+    const LanesI within = max(dominant_medium(inside), medium);
+    const LanesI around = dominant_medium(outside);
+    b.hidden = exists & (within > medium);
     bend(scene, exists, select(entering, around, within), select(entering, within, around), b);
     return b;
 }
@@ -124,40 +130,44 @@ OBSCURA_INLINE Boundary boundary_at(const SceneView& scene,
 struct SharedLanes {
     Mask exist;
     LanesU left, entered;
-    Lanes before, beyond;
+    Lanes reflected_clearance, transmitted_clearance;
 };
 
 OBSCURA_INLINE SharedLanes read_shared_faces(const SharedFaces* by_slot, LanesU slot) {
-    static_assert((batch_rows & (batch_rows - 1)) == 0);
+    static_assert((batch_size & (batch_size - 1)) == 0);
     const auto words = reinterpret_cast<const int32_t*>(by_slot);
-    const LanesI in_range = as_int(slot & LanesU(uint32_t{batch_rows - 1}));  // in idle lanes too
-    const Four<LanesI> row = gather4<Lanes>(words, LanesI(in_range * LanesI(shared_faces_words)));
-    return {
-        row.x < LanesI(0), as_uint(row.x), as_uint(row.y), bits_float(row.z), bits_float(row.w)};
+    const LanesI in_range = as_int(slot & LanesU(uint32_t{batch_size - 1}));  // in idle lanes too
+    const Four<LanesI> record =
+        gather4<Lanes>(words, LanesI(in_range * LanesI(shared_faces_words)));
+    return {record.x < LanesI(0),
+            as_uint(record.x),
+            as_uint(record.y),
+            bits_float(record.z),
+            bits_float(record.w)};
 }
 
-/// The boundary of all bodies whose faces lie together at a hit, in place of the one that was hit:
-/// from the body that fills the place before them to the one that does behind them.
+/// Replaces the boundary of the hit face by that of all coincident faces: from the dominant medium
+/// before them to the dominant medium behind them.
 ///
 /// In/Out  b: of the hit face; lanes of shared.exist change
 OBSCURA_INLINE void join_boundaries(const SceneView& scene,
-                                    LanesU bodies,
+                                    LanesU medium_stack,
                                     const SharedLanes& shared,
                                     Boundary& b) {
     const auto number = [](LanesU all, int shift) { return as_int((all >> shift) & LanesU(255U)); };
-    LanesU beyond = bodies;
+    LanesU stack = medium_stack;
     for (const int shift : {16, 8, 0}) {
-        const LanesI body = number(shared.left, shift);
-        beyond = select(body > LanesI(0), leave_body(beyond, body), beyond);
+        const LanesI medium = number(shared.left, shift);
+        stack = select(medium > LanesI(0), leave_medium(stack, medium), stack);
     }
     for (const int shift : {16, 8, 0}) {
-        const LanesI body = number(shared.entered, shift);
-        beyond = select(body > LanesI(0), enter_body(beyond, body), beyond);
+        const LanesI medium = number(shared.entered, shift);
+        stack = select(medium > LanesI(0), enter_medium(stack, medium), stack);
     }
-    // As above: what a path leaves without having entered it is around it all the same.
-    const LanesI here = max(filling_body(bodies), number(shared.left, 16U));
-    const LanesI there = filling_body(beyond);
-    b.beyond = select(shared.exist, beyond, b.beyond);
+    // As above: a medium that the path leaves without having entered counts as around it.
+    const LanesI here = max(dominant_medium(medium_stack), number(shared.left, 16U));
+    const LanesI there = dominant_medium(stack);
+    b.transmitted_stack = select(shared.exist, stack, b.transmitted_stack);
     b.hidden = (shared.exist & (here == there)) | ((!shared.exist) & b.hidden);
     bend(scene, shared.exist, here, there, b);
 }

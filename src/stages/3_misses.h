@@ -1,4 +1,4 @@
-// stages/3_misses.h - the light that paths which leave the scene see, and the alpha of camera rays.
+// stages/3_misses.h - environment light for paths that leave the scene; alpha of camera rays.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,9 +13,9 @@ inline namespace OBSCURA_ISA {
 inline void add_background(const EnvironmentView& environment,
                            int count_in,
                            const MissView& m,
-                           const SampleRows& samples) {
+                           const SampleColumns& samples) {
     for (int i = 0; i < count_in; i += lane_count) {
-        const Mask exists = rows_in_range(i, count_in);
+        const Mask exists = lanes_in_range(i, count_in);
         const Vec3<Lanes> direction =
             select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
         const Vec3<Lanes> light = environment_radiance(environment, direction);
@@ -32,7 +32,7 @@ OBSCURA_INLINE Lanes environment_weight(int strategies, Lanes pdf, Lanes other) 
     return select(both_can, weight, Lanes(1.0f));
 }
 
-/// A pixel of the environment that a bounced ray meets; its memory is on its way.
+/// The environment pixel that a bounced ray meets; already prefetched.
 struct MetPixel {
     LanesI word;
     Lanes sin_theta;
@@ -55,47 +55,49 @@ inline void shade_misses(const SceneView& scene,
                          const BatchSettings& batch,
                          int bounce,
                          int count_in,
-                         const ShadeRows& rows) {
+                         const ShadeColumns& columns) {
     const EnvironmentView& environment = scene.environment;
-    const MissView m = rows.misses;
+    const MissView m = columns.misses;
     if (!scene.has_environment) return;
     if (bounce == 0) {
-        if (batch.background_visible) add_background(environment, count_in, m, rows.samples);
+        if (batch.background_visible) add_background(environment, count_in, m, columns.samples);
         return;
     }
     MetPixel met[groups_ahead];
     for (int first = 0; first < count_in; first += groups_ahead * lane_count) {
         const int end = min(first + groups_ahead * lane_count, count_in);
         for (int i = first, k = 0; i < end; i += lane_count, ++k)
-            met[k] = meet_pixel(environment, m, i, rows_in_range(i, count_in), bounce);
+            met[k] = meet_pixel(environment, m, i, lanes_in_range(i, count_in), bounce);
         for (int i = first, k = 0; i < end; i += lane_count, ++k) {
             const Four<Lanes> pixel = gather4<Lanes>(environment.pixels, met[k].word);
             const Lanes other = environment_density(pixel.w, met[k].sin_theta) *
                                 Lanes(scene.lights.environment_select);
             const Lanes weight = environment_weight(batch.strategies, load(m.pdf + i), other);
-            const Mask exists = rows_in_range(i, count_in);
+            const Mask exists = lanes_in_range(i, count_in);
             const LanesU slot = load(m.slot + i);
             Vec3<Lanes> light = Vec3<Lanes>{pixel.x, pixel.y, pixel.z} * weight;
-            if (scene.occludes) light = light * last_occlusion(rows, exists, slot);
-            add_radiance(rows.samples, exists, slot, light * load3(m.tr, m.tg, m.tb, i));
+            if (scene.occludes) light = light * last_occlusion(columns, exists, slot);
+            add_radiance(columns.samples, exists, slot, light * load3(m.tr, m.tg, m.tb, i));
         }
     }
 }
 
 /// Camera rays that miss take the background colour, if there is one; those that hit are opaque.
-/// Where the camera shows nothing the throughput is 0, and the sample stays clear.
-inline void set_camera_alpha(const BatchSettings& batch, int count_in, const ShadeRows& rows) {
+/// Outside the camera's image the throughput is 0, and the sample stays transparent.
+inline void set_camera_alpha(const BatchSettings& batch,
+                             int count_in,
+                             const ShadeColumns& columns) {
     const Vec3<Lanes> background{
         Lanes(batch.background[0]), Lanes(batch.background[1]), Lanes(batch.background[2])};
     for (int i = 0; i < count_in; i += lane_count) {
-        const Mask is_hit = load(rows.hits.primitive + i) >= LanesI(0);
-        const Mask is_clear = load(rows.paths.tr + i) == Lanes(0.0f);
+        const Mask is_hit = load(columns.hits.primitive + i) >= LanesI(0);
+        const Mask is_clear = load(columns.paths.tr + i) == Lanes(0.0f);
         const Vec3<Lanes> seen = select(is_hit | is_clear, splat3(Lanes(0.0f)), background);
         const Lanes behind = select(is_clear, Lanes(0.0f), Lanes(batch.background[3]));
         const Lanes alpha = select(is_hit, Lanes(1.0f), behind);
-        const SampleRows& out = rows.samples;
-        add_to_slots(rows_in_range(i, count_in),
-                     load(rows.paths.slot + i),
+        const SampleColumns& out = columns.samples;
+        add_to_slots(lanes_in_range(i, count_in),
+                     load(columns.paths.slot + i),
                      {{out.r, seen.x}, {out.g, seen.y}, {out.b, seen.z}, {out.a, alpha}});
     }
 }

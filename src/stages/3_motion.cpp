@@ -1,4 +1,4 @@
-// stages/3_motion.cpp - where moving things are at the time of a hit.
+// stages/3_motion.cpp - instances and vertices interpolated to the time of the hit.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/3_motion.h"
 
@@ -8,18 +8,18 @@ namespace obscura {
 inline namespace OBSCURA_ISA {
 
 InstanceMaps moved_instance(const SceneView& scene,
-                            LanesI row,
+                            LanesI first,
                             Lanes time,
                             const InstanceMaps& still) {
-    const Mask moves = row >= LanesI(0);
+    const Mask moves = first >= LanesI(0);
     if (none(moves)) return still;
     const Moment moment = moment_of(scene.motion.steps, time);
-    const LanesI before = select(moves, row + moment.step, LanesI(0));
+    const LanesI before = select(moves, first + moment.step, LanesI(0));
     const LanesI after = select(moves, before + LanesI(1), LanesI(0));
     const Affine<Lanes> world =
-        blend(read_affine(TableRow<Lanes, Affinef>(scene.motion.instances, before)),
-              read_affine(TableRow<Lanes, Affinef>(scene.motion.instances, after)),
-              moment.share);
+        blend(read_affine(TableRecord<Lanes, Affinef>(scene.motion.instances, before)),
+              read_affine(TableRecord<Lanes, Affinef>(scene.motion.instances, after)),
+              moment.fraction);
     const Affine<Lanes> object = inverse(world);
     InstanceMaps out;
     for (int r = 0; r < 3; ++r) {
@@ -37,7 +37,7 @@ CornerVectors moved_corners(const SceneView& scene,
                             const float* table,
                             const HitCorners& corners,
                             const CornerVectors& still) {
-    const TableRow<Lanes, Primitive>& primitive = corners.primitive;
+    const TableRecord<Lanes, Primitive>& primitive = corners.primitive;
     const LanesI base = primitive.integer<&Primitive::motion_base>();
     const Mask moves = base != LanesI(no_attribute);
     if (none(moves)) return still;
@@ -48,7 +48,7 @@ CornerVectors moved_corners(const SceneView& scene,
         const LanesI word = base + moment.step * stride + corners.number[k] * LanesI(3);
         const Vec3<Lanes> before = gather3(table, select(moves, word, LanesI(0)));
         const Vec3<Lanes> after = gather3(table, select(moves, word + stride, LanesI(0)));
-        out.at[k] = select(moves, before + (after - before) * moment.share, still.at[k]);
+        out.at[k] = select(moves, before + (after - before) * moment.fraction, still.at[k]);
     }
     return out;
 }

@@ -1,4 +1,4 @@
-// stages/3_motion.h - where moving things are at the time of a hit.
+// stages/3_motion.h - instances and vertices interpolated to the time of the hit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// How an instance is placed at the time of each hit. Lanes in world space get any placing.
+/// Transforms of the hit instance at the time of each hit; arbitrary for lanes in world space.
 struct InstanceMaps {
     Affine<Lanes> world_from_object, object_from_world;
 };
@@ -17,15 +17,15 @@ struct CornerVectors {
     Vec3<Lanes> at[3];
 };
 
-/// Apart from the shading functions: they are long enough without what most scenes have no use for.
+/// Not inlined into the shading functions, because most scenes have no motion.
 InstanceMaps moved_instance(const SceneView& scene,
-                            LanesI row,
+                            LanesI first,
                             Lanes time,
                             const InstanceMaps& still);
 
 /// The corners of the triangles that were hit.
 struct HitCorners {
-    const TableRow<Lanes, Primitive>& primitive;
+    const TableRecord<Lanes, Primitive>& primitive;
     const LanesI (&number)[3];
     Lanes time;
 };
@@ -36,14 +36,14 @@ CornerVectors moved_corners(const SceneView& scene,
                             const HitCorners& corners,
                             const CornerVectors& still);
 
-/// In  instance: rows; lanes in world space may have any
+/// In  instance: records; lanes in world space may have any
 OBSCURA_INLINE InstanceMaps instance_maps(const SceneView& scene, LanesI instance, Lanes time) {
-    const TableRow<Lanes, Instance> row(scene.instances, max(instance, LanesI(0)));
-    InstanceMaps maps{read_affine<&Instance::world_from_object>(row),
-                      read_affine<&Instance::object_from_world>(row)};
+    const TableRecord<Lanes, Instance> record(scene.instances, max(instance, LanesI(0)));
+    InstanceMaps maps{read_affine<&Instance::world_from_object>(record),
+                      read_affine<&Instance::object_from_world>(record)};
     if (scene.motion.instances != nullptr) {
         const InstanceMaps still = maps;
-        maps = moved_instance(scene, row.integer<&Instance::motion>(), time, still);
+        maps = moved_instance(scene, record.integer<&Instance::motion>(), time, still);
     }
     return maps;
 }

@@ -1,4 +1,4 @@
-// stages/3_moving_lights.cpp - where moving lights are at the time of a hit.
+// stages/3_moving_lights.cpp - punctual lights and light triangles at the time of the hit.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/3_moving_lights.h"
 
@@ -14,30 +14,30 @@ void sample_moving_punctual(const SceneView& scene,
                             PunctualSample<Lanes>& out) {
     const LightView& lights = scene.lights;
     const Moment moment = moment_of(scene.motion.steps, time);
-    const LanesI row = index * LanesI(scene.motion.steps) + moment.step;
-    const bool profiles = lights.profiles.rows != nullptr;
-    const auto before = read_punctual<Lanes>(lights.moving_punctual, row, profiles);
-    const auto after = read_punctual<Lanes>(lights.moving_punctual, row + LanesI(1), profiles);
-    out = sample_punctual<Lanes>(blend(before, after, moment.share), from, lights.profiles);
+    const LanesI at = index * LanesI(scene.motion.steps) + moment.step;
+    const bool profiles = lights.profiles.records != nullptr;
+    const auto before = read_punctual<Lanes>(lights.moving_punctual, at, profiles);
+    const auto after = read_punctual<Lanes>(lights.moving_punctual, at + LanesI(1), profiles);
+    out = sample_punctual<Lanes>(blend(before, after, moment.fraction), from, lights.profiles);
 }
 
 TriangleCorners<Lanes> moved_light_corners(const SceneView& scene,
                                            LanesI index,
                                            Lanes time,
                                            const TriangleCorners<Lanes>& still) {
-    const TableRow<Lanes, TriangleLight> light(scene.lights.triangles, index);
+    const TableRecord<Lanes, TriangleLight> light(scene.lights.triangles, index);
     const LanesI first = light.integer<&TriangleLight::motion>();
     const Mask moves = first >= LanesI(0);
     if (none(moves)) return still;
     const Moment moment = moment_of(scene.motion.steps, time);
-    const LanesI row = select(moves, first + moment.step, LanesI(0));
-    const TableRow<Lanes, MovingTriangle> before(scene.lights.moving_triangles, row);
-    const TableRow<Lanes, MovingTriangle> after(scene.lights.moving_triangles,
-                                                select(moves, row + LanesI(1), LanesI(0)));
+    const LanesI at = select(moves, first + moment.step, LanesI(0));
+    const TableRecord<Lanes, MovingTriangle> before(scene.lights.moving_triangles, at);
+    const TableRecord<Lanes, MovingTriangle> after(scene.lights.moving_triangles,
+                                                   select(moves, at + LanesI(1), LanesI(0)));
     const auto corner = [&]<auto member>(Member<member>, const Vec3<Lanes>& otherwise) {
         const auto mix = [&](int k) {
             const Lanes from = before.number<member>(k);
-            return from + (after.number<member>(k) - from) * moment.share;
+            return from + (after.number<member>(k) - from) * moment.fraction;
         };
         return select(moves, Vec3<Lanes>{mix(0), mix(1), mix(2)}, otherwise);
     };
@@ -45,7 +45,7 @@ TriangleCorners<Lanes> moved_light_corners(const SceneView& scene,
     out.p0 = corner(Member<&MovingTriangle::p0>{}, still.p0);
     out.e1 = corner(Member<&MovingTriangle::e1>{}, still.e1);
     out.e2 = corner(Member<&MovingTriangle::e2>{}, still.e2);
-    // The choice of the triangle stays as likely while its area changes.
+    // The probability of choosing the triangle stays while its area changes.
     const Lanes area = Lanes(0.5f) * length(cross(out.e1, out.e2));
     const Lanes choice = still.pdf_area * still.area;
     out.area = select(moves, area, still.area);

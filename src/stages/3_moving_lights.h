@@ -1,4 +1,4 @@
-// stages/3_moving_lights.h - where moving lights are at the time of a hit.
+// stages/3_moving_lights.h - punctual lights and light triangles at the time of the hit.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,18 +9,18 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Light of a punctual light at a time. Apart from light sampling, which is long enough without.
+/// Samples a punctual light at a time. Not inlined into light sampling, as few scenes need it.
 ///
-/// In      LightView::moving_punctual is there; index: of the light; from: where it is wanted
+/// In      LightView::moving_punctual is set; index: of the light; from: the lit point
 void sample_moving_punctual(const SceneView& scene,
                             LanesI index,
                             Lanes time,
                             const Vec3<Lanes>& from,
                             PunctualSample<Lanes>& out);
 
-/// Where triangles of the light table are at a time, and with which density they are sampled.
+/// Corners of light triangles at a time, and the density with which they are sampled.
 ///
-/// In      LightView::moving_triangles is there; still: of those that stand still
+/// In      LightView::moving_triangles is set; still: the corners of triangles that do not move
 TriangleCorners<Lanes> moved_light_corners(const SceneView& scene,
                                            LanesI index,
                                            Lanes time,

@@ -8,8 +8,8 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// Light from the environment without shadows: by the normal into the diffuse part, and from around
-/// the mirrored direction into the specular one.
+/// Unshadowed environment light: irradiance by the normal for the diffuse part, radiance around the
+/// mirror direction for the specular part.
 OBSCURA_INLINE Vec3<Lanes> ambient_light(const AmbientLight& light,
                                          const ShadingPoint& s,
                                          const Vec3<Lanes>& wo) {
@@ -25,8 +25,8 @@ OBSCURA_INLINE Vec3<Lanes> ambient_light(const AmbientLight& light,
            (s.lobes.specular_f0 * once.mirror + s.lobes.specular_rise * once.grazing) * specular;
 }
 
-/// Share of light from all around that sheen leaves to what is below it: for a view direction the
-/// mean of evaluate_layered's over the cosine law.
+/// Fraction of uniform light that sheen passes on to the layers below: evaluate_layered's factor
+/// for this view direction, averaged over cosine-distributed light directions.
 OBSCURA_INLINE Lanes left_by_sheen(const LayeredParams<Lanes>& p, const LayeredWeights<Lanes>& w) {
     const Lanes most = max_component(p.sheen_color);
     if (none(most > Lanes(0.0f))) return Lanes(1.0f);
@@ -40,8 +40,8 @@ OBSCURA_INLINE Lanes left_by_sheen(const LayeredParams<Lanes>& p, const LayeredW
     return sum * Lanes(1.0f / strata);
 }
 
-/// The same for a material with layers: every lobe reflects by its directional albedo what comes
-/// from around its own direction, and what goes through comes from straight behind.
+/// The same for a material with layers: every lobe reflects the light around its own main direction
+/// by its directional albedo, and transmitted light comes from straight behind.
 OBSCURA_INLINE Vec3<Lanes> ambient_layers(const AmbientLight& light,
                                           const ShadingPoint& s,
                                           const Vec3<Lanes>& wo) {
@@ -56,11 +56,11 @@ OBSCURA_INLINE Vec3<Lanes> ambient_layers(const AmbientLight& light,
     };
     const Vec3<Lanes>& n = s.frame.normal;
     const Lanes cosine = dot(n, wo);
-    const FacetShares<Lanes> facets = facet_shares(p, to_local(s.frame, wo));
-    const auto albedo = [&](const Vec3<Lanes>& f0, Lanes f90, const Vec3<Lanes>& filmed) {
+    const FacetWeights<Lanes> facets = facet_weights(p, to_local(s.frame, wo));
+    const auto albedo = [&](const Vec3<Lanes>& f0, Lanes f90, const Vec3<Lanes>& with_thin_film) {
         const Vec3<Lanes> plain =
             f0 * (facets.once.mirror - facets.once.grazing) + splat3(f90 * facets.once.grazing);
-        return plain + (filmed * facets.once.mirror - plain) * p.film.strength;
+        return plain + (with_thin_film * facets.once.mirror - plain) * p.thin_film.strength;
     };
     const Vec3<Lanes> dielectric = albedo(p.f0, p.f90, facets.fresnel.dielectric);
     const Vec3<Lanes> metal = albedo(p.base_color, one, facets.fresnel.metal);
@@ -79,9 +79,9 @@ OBSCURA_INLINE Vec3<Lanes> ambient_layers(const AmbientLight& light,
     return sum * w.below_coat + mirrored(coat_normal) * (one - w.below_coat);
 }
 
-/// What needs no shadow ray: emission, unlit colours, the environment, the headlight.
+/// Adds the light that needs no shadow ray: emission, unlit colours, environment, headlight.
 OBSCURA_INLINE void add_unshadowed(const SceneView& scene,
-                                   const SampleRows& samples,
+                                   const SampleColumns& samples,
                                    Mask exists,
                                    const PathLanes& path,
                                    const ShadingPoint& s) {
@@ -101,7 +101,7 @@ OBSCURA_INLINE void add_unshadowed(const SceneView& scene,
         light = light + evaluate_point(s, local, local).value_cos * Lanes(headlight_irradiance);
     }
     light = select(s.unlit, s.emission + s.bsdf.base_color, light);
-    // A mask made here: GCC 12 reads one kept from before this many registers with wrong high bits.
+    // The mask is computed anew: GCC 12 reloads one spilled earlier with wrong high bits.
     const Mask glows = exists & !(max_component(light) <= Lanes(0.0f));
     if (any(glows)) add_radiance(samples, glows, path.slot, path.throughput * light);
 }
@@ -111,25 +111,27 @@ OBSCURA_INLINE void add_unshadowed(const SceneView& scene,
 int begin_raycast(const SceneView& scene,
                   const BatchSettings& batch,
                   int count,
-                  const ShadeRows& rows) {
-    set_camera_alpha(batch, count, rows);
-    const SortedCounts sorted = sort_hits_from_misses(count, rows);
-    shade_misses(scene, batch, 0, sorted.misses, rows);
+                  const ShadeColumns& columns) {
+    set_camera_alpha(batch, count, columns);
+    const SortedCounts sorted = sort_hits_from_misses(count, columns);
+    shade_misses(scene, batch, 0, sorted.misses, columns);
     return sorted.hits;
 }
 
-int shade_raycast(const SceneView& scene, const RaycastRange& range, const RaycastColumns& rows) {
+int shade_raycast(const SceneView& scene,
+                  const RaycastRange& range,
+                  const RaycastColumns& columns) {
     const int end = range.first_hit + range.hits;
     int shadows = 0;
     for (int i = range.first_hit; i < end; i += lane_count) {
-        const Mask exists = rows_in_range(i, end);
-        PathLanes path = load_paths(rows.paths, i);
+        const Mask exists = lanes_in_range(i, end);
+        PathLanes path = load_paths(columns.paths, i);
         path.key = LanesU(d_line_key);  // pixels must not differ in their wavelengths
         path.sample = LanesU(0U);
-        const HitLanes hit = hits_of_paths(rows, i, exists, path);
+        const HitLanes hit = hits_of_paths(columns, i, exists, path);
         const ShadingPoint s =
             shading_point(scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f))});
-        if (range.first_light == 0) add_unshadowed(scene, rows.samples, exists, path, s);
+        if (range.first_light == 0) add_unshadowed(scene, columns.samples, exists, path, s);
         const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
         for (int k = range.first_light; k < range.first_light + range.lights; ++k) {
             const int centre = k - scene.lights.punctual_count;
@@ -141,13 +143,14 @@ int shade_raycast(const SceneView& scene, const RaycastRange& range, const Rayca
             const Vec3<Lanes> wi = to_local(s.frame, light.direction);
             const Vec3<Lanes> radiance =
                 path.throughput * light.irradiance * evaluate_point(s, wo, wi).value_cos;
-            const Mask before = dot(light.direction, s.ng) > Lanes(0.0f);
-            const Mask useful = exists & (!s.unlit) & may_leave(s, before, wi) &
+            const Mask reflected_side = dot(light.direction, s.ng) > Lanes(0.0f);
+            const Mask useful = exists & (!s.unlit) & may_leave(s, reflected_side, wi) &
                                 (max_component(radiance) > Lanes(0.0f));
             if (none(useful)) continue;
             const Vec3<Lanes> start =
-                s.any_layers ? select(before, s.light_start, s.start_beyond) : s.light_start;
-            shadows = append_shadows(rows.shadows,
+                s.any_layers ? select(reflected_side, s.light_start, s.transmitted_start)
+                             : s.light_start;
+            shadows = append_shadows(columns.shadows,
                                      shadows,
                                      useful,
                                      {.origin = start,

@@ -1,4 +1,4 @@
-// stages/3_scatter.h - how light is scattered at a shading point: core material or layers.
+// stages/3_scatter.h - evaluates and samples the BSDF of a shading point, core or layered.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -35,26 +35,29 @@ OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
             select(l.layered, layers.spread, core.spread)};
 }
 
-/// Whether a ray may leave on the side that its direction has of the true surface (`before`: the
-/// viewer's): where light goes through, the shading normal must put it on the same side.
-OBSCURA_INLINE Mask may_leave(const ShadingPoint& s, Mask before, const Vec3<Lanes>& wi) {
-    if (!s.any_layers) return before;
-    const Mask through = s.layers.lets_through & (!before) & (wi.z < Lanes(0.0f));
-    return (before & (wi.z > Lanes(0.0f))) | through;
+/// Whether a ray may leave on the side that its direction has of the true surface
+/// (`reflected_side`: the viewer's, else the transmitted side): where light goes through, the
+/// shading normal must put it on the same side.
+OBSCURA_INLINE Mask may_leave(const ShadingPoint& s, Mask reflected_side, const Vec3<Lanes>& wi) {
+    if (!s.any_layers) return reflected_side;
+    const Mask through = s.layers.lets_through & (!reflected_side) & (wi.z < Lanes(0.0f));
+    return (reflected_side & (wi.z > Lanes(0.0f))) | through;
 }
 
 /// What the wavelength that a path is given here multiplies it with.
 ///
-/// In   s: with layers; before: rays that leave on the viewer's side
-OBSCURA_INLINE Vec3<Lanes> wavelength_tint(const ShadingPoint& s, Mask before) {
-    return select(before & s.layers.reflects_white, splat3(Lanes(1.0f)), s.layers.tint);
+/// In   s: with layers; reflected_side: rays that leave on the viewer's side
+OBSCURA_INLINE Vec3<Lanes> wavelength_tint(const ShadingPoint& s, Mask reflected_side) {
+    return select(reflected_side & s.layers.reflects_white, splat3(Lanes(1.0f)), s.layers.tint);
 }
 
-/// The bodies around a path that leaves. One that was given a wavelength keeps it.
-OBSCURA_INLINE LanesU bodies_towards(const ShadingPoint& s, LanesU bodies, Mask before) {
+/// The medium stack of a path that leaves. One that was given a wavelength keeps it.
+OBSCURA_INLINE LanesU medium_stack_towards(const ShadingPoint& s,
+                                           LanesU medium_stack,
+                                           Mask reflected_side) {
     const LayeredPoint& l = s.layers;
-    const LanesU given = select(before & l.reflects_white, LanesU(0U), l.wavelength);
-    return select(before, bodies, l.boundary.beyond) | given;
+    const LanesU given = select(reflected_side & l.reflects_white, LanesU(0U), l.wavelength);
+    return select(reflected_side, medium_stack, l.boundary.transmitted_stack) | given;
 }
 
 }  // namespace OBSCURA_ISA

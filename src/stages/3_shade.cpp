@@ -6,7 +6,7 @@
 #include "stages/3_lights.h"
 #include "stages/3_misses.h"
 #include "stages/3_scatter.h"
-#include "stages/3_walls.h"
+#include "stages/3_thin_walls.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -44,7 +44,7 @@ OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
                                                   : unit_float<Lanes>(pair(RandomUse::roulette).x);
     r.light.choice = light_count > 1 ? pair(RandomUse::light_choice).x : LanesU(0U);
     r.light.environment = draw;
-    // A place between texels, and from the bits that remain one between mip levels.
+    // A position between texels, and from the remaining bits one between mip levels.
     const Vec2<LanesU> bits = pair(RandomUse::texture);
     const Vec2<Lanes> texel = unit_pair<Lanes>(bits);
     r.texture = {texel.x, texel.y, unit_float<Lanes>((bits.y << 16) | (bits.x & LanesU(0xFFFFU)))};
@@ -65,10 +65,10 @@ struct ShadedGroup {
     const PathLanes& path;
     ShadingPoint& s;
     BounceRandom& random;
-    Lanes distance;  ///< from where the paths come
+    Lanes distance;  ///< from the paths' origins
 };
 
-/// Draws pixels of the environment for the groups that start at row `first`.
+/// Draws pixels of the environment for the groups that start at index `first`.
 OBSCURA_INLINE void draw_ahead(const Bounce& bounce,
                                const PathView& paths,
                                int first,
@@ -90,9 +90,9 @@ OBSCURA_INLINE void draw_ahead(const Bounce& bounce,
         draw_environment_pixel(scene.environment, draws[g]);
 }
 
-/// Light that the hit surfaces send towards the viewer themselves.
+/// Adds the emission of the hit surfaces.
 OBSCURA_INLINE void add_emission(const Bounce& bounce,
-                                 const ShadeRows& rows,
+                                 const ShadeColumns& columns,
                                  Mask active,
                                  const ShadedGroup& group) {
     const SceneView& scene = bounce.scene;
@@ -105,16 +105,16 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
         const Mask chosen_by_bsdf = path.pdf > Lanes(0.0f);
         Lanes weight(1.0f);
         if (batch.strategies == (sample_lights | sample_bsdfs)) {
-            PathLanes chosen = path;  // as the last scattering chose it
-            Lanes way = group.distance;
-            if (rows.passed != nullptr) {
-                const Lanes passed = passed_way(rows, glows, path);
-                way = way + passed;
-                chosen.origin = path.origin - path.direction * passed;
+            PathLanes chosen = path;  // with the ray's origin and density at the last scattering
+            Lanes path_length = group.distance;
+            if (columns.distance_since_scattering != nullptr) {
+                const Lanes straight = read_distance_since_scattering(columns, glows, path);
+                path_length = path_length + straight;
+                chosen.origin = path.origin - path.direction * straight;
             }
-            Lanes other = light_pdf(scene, s, path.direction, way);
+            Lanes other = light_pdf(scene, s, path.direction, path_length);
             if (scene.lights.shape_count > 0) {
-                other = shape_light_pdf(scene, s.light, chosen, s.ng, {way, other});
+                other = shape_light_pdf(scene, s.light, chosen, s.ng, {path_length, other});
             }
             weight = select(chosen_by_bsdf, mis_weight(path.pdf, other), weight);
         } else if (batch.strategies == sample_lights) {
@@ -130,25 +130,30 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
     const Mask unlit = active & s.unlit;
     light = select(unlit, light + s.bsdf.base_color, light);
     const Mask any_light = glows | unlit;
-    if (any(any_light)) add_radiance(rows.samples, any_light, path.slot, path.throughput * light);
+    if (any(any_light))
+        add_radiance(columns.samples, any_light, path.slot, path.throughput * light);
 }
 
-/// The share of a light's radiance that the body around the path lets through. Lights at infinity
-/// lie outside of all bodies: the shadow ray finds the body's end.
-OBSCURA_INLINE Vec3<Lanes> way_to_light(const SceneView& scene,
-                                        Mask useful,
-                                        LanesU bodies,
-                                        Lanes distance) {
+/// Transmittance of the medium around the path towards a light. Lights at infinity get 1: they lie
+/// outside of all media, and the shadow ray meets the medium's boundary.
+OBSCURA_INLINE Vec3<Lanes> transmittance_to_light(const SceneView& scene,
+                                                  Mask useful,
+                                                  LanesU medium_stack,
+                                                  Lanes distance) {
     const Lanes farthest(1e18f);
-    const Mask inside = useful & (filling_body(bodies) > LanesI(0)) & (distance < farthest);
+    const Mask inside =
+        useful & (dominant_medium(medium_stack) > LanesI(0)) & (distance < farthest);
     if (none(inside)) return splat3(Lanes(1.0f));
-    const Lanes way = select(inside, distance, Lanes(0.0f));
-    return transmittance(scene, select(inside, bodies, LanesU(0U)), way);
+    const Lanes path_length = select(inside, distance, Lanes(0.0f));
+    return transmittance(scene, select(inside, medium_stack, LanesU(0U)), path_length);
 }
 
-/// Writes the shadow rays of one group; returns the new number of rows.
-OBSCURA_INLINE int add_shadow_rays(
-    const Bounce& bounce, const ShadowRows& rows, int at, Mask active, const ShadedGroup& group) {
+/// Writes the shadow rays of one group; returns their new count.
+OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
+                                   const ShadowColumns& columns,
+                                   int at,
+                                   Mask active,
+                                   const ShadedGroup& group) {
     const SceneView& scene = bounce.scene;
     const BatchSettings& batch = bounce.batch;
     const PathLanes& path = group.path;
@@ -156,8 +161,8 @@ OBSCURA_INLINE int add_shadow_rays(
     const LightLanes light = sample_light(scene, s, group.random.light);
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
-    const Mask before = dot(light.direction, s.ng) > Lanes(0.0f);
-    Mask useful = active & light.valid & may_leave(s, before, wi);
+    const Mask reflected_side = dot(light.direction, s.ng) > Lanes(0.0f);
+    Mask useful = active & light.valid & may_leave(s, reflected_side, wi);
     if (none(useful)) return at;
     const BsdfValue<Lanes> bsdf = evaluate_point(s, wo, wi);
     const bool both = batch.strategies == (sample_lights | sample_bsdfs);
@@ -165,19 +170,21 @@ OBSCURA_INLINE int add_shadow_rays(
         both ? select(light.pdf > Lanes(0.0f), mis_weight(light.pdf, bsdf.pdf), Lanes(1.0f))
              : Lanes(1.0f);
     Vec3<Lanes> radiance = path.throughput * bsdf.value_cos * light.radiance_over_pdf * weight;
-    if (s.any_layers) radiance = radiance * wavelength_tint(s, before);
+    if (s.any_layers) radiance = radiance * wavelength_tint(s, reflected_side);
     if (scene.occludes)
         radiance = radiance * select(is_environment(light), s.occlusion, Lanes(1.0f));
     if (scene.media != nullptr) {
-        const LanesU bodies =
-            s.any_layers ? select(before, path.bodies, s.layers.boundary.beyond) : path.bodies;
-        radiance = radiance * way_to_light(scene, useful, bodies, light.distance);
+        const LanesU medium_stack =
+            s.any_layers
+                ? select(reflected_side, path.medium_stack, s.layers.boundary.transmitted_stack)
+                : path.medium_stack;
+        radiance = radiance * transmittance_to_light(scene, useful, medium_stack, light.distance);
     }
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
     const Vec3<Lanes> start =
-        s.any_layers ? select(before, s.light_start, s.start_beyond) : s.light_start;
-    return append_shadows(rows,
+        s.any_layers ? select(reflected_side, s.light_start, s.transmitted_start) : s.light_start;
+    return append_shadows(columns,
                           at,
                           useful,
                           {.origin = start,
@@ -188,14 +195,14 @@ OBSCURA_INLINE int add_shadow_rays(
                            .path_key = path.path_key});
 }
 
-/// Probability of going on after a bounce; the survivors are divided by it.
+/// Probability of surviving Russian roulette after a bounce; survivors are divided by it.
 OBSCURA_INLINE Lanes survival(const Vec3<Lanes>& throughput, int bounce) {
     if (bounce < bounces_before_roulette) return Lanes(1.0f);
     return clamp(max_component(throughput), Lanes(0.05f), Lanes(1.0f));
 }
 
-/// The numbers that choose a direction. The third, which only surfaces read that let light through,
-/// is the half of roulette's pair that nothing else reads.
+/// The random numbers that choose a direction. Only transmissive surfaces read the third: it is the
+/// unused half of the roulette's pair.
 OBSCURA_INLINE Vec3<Lanes> direction_random(const PathLanes& path,
                                             const ShadingPoint& s,
                                             const BounceRandom& random,
@@ -208,9 +215,9 @@ OBSCURA_INLINE Vec3<Lanes> direction_random(const PathLanes& path,
     return {random.bsdf.x, random.bsdf.y, facet};
 }
 
-/// Writes the next rays of one group; returns the new number of rows.
+/// Writes the next rays of one group; returns their new count.
 OBSCURA_INLINE int add_next_rays(
-    const PathRows& rows, int at, Mask active, const ShadedGroup& group, int bounce) {
+    const PathColumns& columns, int at, Mask active, const ShadedGroup& group, int bounce) {
     const PathLanes& path = group.path;
     const ShadingPoint& s = group.s;
     const BounceRandom& random = group.random;
@@ -218,11 +225,12 @@ OBSCURA_INLINE int add_next_rays(
     const Vec3<Lanes> u = direction_random(path, s, random, bounce);
     const BsdfSample<Lanes> sample = sample_point(s, wo, u);
     const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
-    const Mask before = dot(direction, s.ng) > Lanes(0.0f);
-    Mask goes_on = active & (sample.at.pdf > Lanes(0.0f)) & may_leave(s, before, sample.direction);
+    const Mask reflected_side = dot(direction, s.ng) > Lanes(0.0f);
+    Mask goes_on =
+        active & (sample.at.pdf > Lanes(0.0f)) & may_leave(s, reflected_side, sample.direction);
     if (none(goes_on)) return at;
     Vec3<Lanes> weight = sample.at.value_cos * (Lanes(1.0f) / max(sample.at.pdf, Lanes(1e-30f)));
-    if (s.any_layers) weight = weight * wavelength_tint(s, before);
+    if (s.any_layers) weight = weight * wavelength_tint(s, reflected_side);
     const Vec3<Lanes> throughput = path.throughput * weight;
     const Lanes survives = survival(throughput, bounce);
     goes_on = goes_on & (random.roulette < survives) & (max_component(throughput) > Lanes(0.0f));
@@ -237,16 +245,16 @@ OBSCURA_INLINE int add_next_rays(
     next.key = path.key;
     next.sample = path.sample;
     next.path_key = path.path_key;
-    next.bodies = path.bodies;
+    next.medium_stack = path.medium_stack;
     if (s.any_layers) {
-        next.origin = select(before, next.origin, s.start_beyond);
-        next.bodies = bodies_towards(s, path.bodies, before);
+        next.origin = select(reflected_side, next.origin, s.transmitted_start);
+        next.medium_stack = medium_stack_towards(s, path.medium_stack, reflected_side);
     }
-    return append_paths(rows, at, goes_on, next);
+    return append_paths(columns, at, goes_on, next);
 }
 
-/// Rays go straight on where a body ends inside a denser one that fills the place.
-OBSCURA_INLINE int add_passing_rays(const PathRows& rows,
+/// Rays pass straight through boundaries inside a medium of higher priority.
+OBSCURA_INLINE int add_passing_rays(const PathColumns& columns,
                                     int at,
                                     Mask active,
                                     const ShadedGroup& group) {
@@ -255,42 +263,45 @@ OBSCURA_INLINE int add_passing_rays(const PathRows& rows,
     const Mask passes = active & s.layers.layered & s.layers.boundary.hidden;
     if (none(passes)) return at;
     PathLanes next = path;
-    next.origin = s.start_beyond;
-    next.bodies = s.layers.boundary.beyond;
-    next.pdf = Lanes(0.0f);  // light sampling did not see through the surface
+    next.origin = s.transmitted_start;
+    next.medium_stack = s.layers.boundary.transmitted_stack;
+    next.pdf = Lanes(0.0f);  // light sampling does not reach through the surface
     next.cone_width = path.cone_width + path.cone_spread * group.distance;
-    return append_paths(rows, at, passes, next);
+    return append_paths(columns, at, passes, next);
 }
 
-/// Lets paths pass smooth thin walls; what stays of the layers' lobes is sampled with `random`.
-OBSCURA_INLINE PassedWalls add_straight_rays(
-    const ShadeRows& rows, int at, Mask scatters, const ShadedGroup& group, const Bounce& bounce) {
+/// Lets paths pass smooth thin walls; the layers' remaining lobes are sampled with `random`.
+OBSCURA_INLINE PassedThinWalls add_straight_rays(const ShadeColumns& columns,
+                                                 int at,
+                                                 Mask scatters,
+                                                 const ShadedGroup& group,
+                                                 const Bounce& bounce) {
     const PathLanes& path = group.path;
     ShadingPoint& s = group.s;
     BounceRandom& random = group.random;
     const Vec3<Lanes> u = direction_random(path, s, random, bounce.number);
     const PathLanes here = path;  // only a copy has an address: the path itself stays in registers
-    const WallHit hit{.scatters = scatters,
-                      .any_layers = s.any_layers,
-                      .only_passes = bounce.is_over,
-                      .distance = group.distance,
-                      .choice = u.z,
-                      .wo = to_local(s.frame, -path.direction),
-                      .start_beyond = s.any_layers ? s.start_beyond : s.start};
-    const PassedWalls passed = pass_walls(rows, at, here, hit, s.layers);
+    const ThinWallHit hit{.scatters = scatters,
+                          .any_layers = s.any_layers,
+                          .only_passes = bounce.is_over,
+                          .distance = group.distance,
+                          .choice = u.z,
+                          .wo = to_local(s.frame, -path.direction),
+                          .transmitted_start = s.any_layers ? s.transmitted_start : s.start};
+    const PassedThinWalls passed = pass_thin_walls(columns, at, here, hit, s.layers);
     random.bsdf.x = random.bsdf.x * passed.left;
     return passed;
 }
 
-/// Takes from the paths what the bodies that they came through absorb. Where a body scatters light,
-/// stage 2 has done so.
+/// Attenuates the paths by the absorption of the medium they came through. In scattering media
+/// stage 2 has already done so.
 OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, PathLanes& path) {
-    const LanesI body = filling_body(path.bodies);
-    Mask inside = exists & (body > LanesI(0));
+    const LanesI medium = dominant_medium(path.medium_stack);
+    Mask inside = exists & (medium > LanesI(0));
     if (none(inside)) return;
-    if (scene.scatters) inside = inside & (!scatters(read_scattering(scene, body)));
-    const LanesU bodies = select(inside, path.bodies, LanesU(0U));
-    path.throughput = path.throughput * transmittance(scene, bodies, distance);
+    if (scene.scatters) inside = inside & (!scatters(read_scattering(scene, medium)));
+    const LanesU medium_stack = select(inside, path.medium_stack, LanesU(0U));
+    path.throughput = path.throughput * transmittance(scene, medium_stack, distance);
 }
 
 }  // namespace
@@ -299,47 +310,48 @@ ShadeCounts shade(const SceneView& scene,
                   const BatchSettings& batch,
                   int number,
                   int count_in,
-                  const ShadeRows& rows) {
+                  const ShadeColumns& columns) {
     const Bounce bounce{
         .scene = scene, .batch = batch, .number = number, .is_over = number > batch.max_bounces};
-    if (number == 0) set_camera_alpha(batch, count_in, rows);
-    const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
-    shade_misses(scene, batch, number, sorted.misses, rows);
+    if (number == 0) set_camera_alpha(batch, count_in, columns);
+    const SortedCounts sorted = sort_hits_from_misses(count_in, columns);
+    shade_misses(scene, batch, number, sorted.misses, columns);
     PixelDraw<Lanes> draws[groups_ahead];
     ShadeCounts out;
     for (int i = 0; i < sorted.hits; i += lane_count) {
         const int k = i / lane_count % groups_ahead;
         if (k == 0) {
             const int groups = (sorted.hits - i + lane_count - 1) / lane_count;
-            draw_ahead(bounce, rows.paths, i, min(groups, groups_ahead), draws);
+            draw_ahead(bounce, columns.paths, i, min(groups, groups_ahead), draws);
         }
-        const Mask exists = rows_in_range(i, sorted.hits);
-        PathLanes path = load_paths(rows.paths, i);
-        const HitLanes hit = hits_of_paths(rows, i, exists, path);
+        const Mask exists = lanes_in_range(i, sorted.hits);
+        PathLanes path = load_paths(columns.paths, i);
+        const HitLanes hit = hits_of_paths(columns, i, exists, path);
         if (scene.media != nullptr) absorb(scene, exists, hit.t, path);
         BounceRandom random = bounce_random(path, number, scene.lights.count, draws[k]);
         ShadingPoint s = shading_point(
-            scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_share});
+            scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_fraction});
         const ShadedGroup group{path, s, random, hit.t};
-        add_emission(bounce, rows, exists, group);
+        add_emission(bounce, columns, exists, group);
         Mask scatters = exists & (!s.unlit);
         Mask turns = scatters;
-        if (rows.passed != nullptr) {
-            const PassedWalls passed = add_straight_rays(rows, out.next, scatters, group, bounce);
+        if (columns.distance_since_scattering != nullptr) {
+            const PassedThinWalls passed =
+                add_straight_rays(columns, out.next, scatters, group, bounce);
             out.next = passed.next;
             turns = passed.others;
         }
         if (bounce.is_over || none(scatters)) continue;
         if (s.any_layers) {
-            out.next = add_passing_rays(rows.next, out.next, scatters, group);
+            out.next = add_passing_rays(columns.next, out.next, scatters, group);
             const Mask hidden = s.layers.layered & s.layers.boundary.hidden;
             scatters = scatters & (!hidden);
             turns = turns & (!hidden);
         }
-        if (scene.occludes) store_by_slot(rows.occlusion, turns, path.slot, s.occlusion);
-        out.next = add_next_rays(rows.next, out.next, turns, group, number);
+        if (scene.occludes) store_by_slot(columns.occlusion, turns, path.slot, s.occlusion);
+        out.next = add_next_rays(columns.next, out.next, turns, group, number);
         if (scene.lights.count > 0) {
-            out.shadow = add_shadow_rays(bounce, rows.shadows, out.shadow, scatters, group);
+            out.shadow = add_shadow_rays(bounce, columns.shadows, out.shadow, scatters, group);
         }
     }
     return out;
@@ -348,20 +360,20 @@ ShadeCounts shade(const SceneView& scene,
 int shade_ao(const SceneView& scene,
              const BatchSettings& batch,
              int count_in,
-             const ShadeRows& rows) {
-    set_camera_alpha(batch, count_in, rows);
-    const SortedCounts sorted = sort_hits_from_misses(count_in, rows);
+             const ShadeColumns& columns) {
+    set_camera_alpha(batch, count_in, columns);
+    const SortedCounts sorted = sort_hits_from_misses(count_in, columns);
     int shadows = 0;
     for (int i = 0; i < sorted.hits; i += lane_count) {
-        const Mask exists = rows_in_range(i, sorted.hits);
-        const PathLanes path = load_paths(rows.paths, i);
-        const HitLanes hit = hits_of_paths(rows, i, exists, path);
+        const Mask exists = lanes_in_range(i, sorted.hits);
+        const PathLanes path = load_paths(columns.paths, i);
+        const HitLanes hit = hits_of_paths(columns, i, exists, path);
         const BounceRandom random = bounce_random(path, 0, 0, {});
         const ShadingPoint s = shading_point(
-            scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_share});
+            scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_fraction});
         const Vec3<Lanes> direction = normalize(to_world(s.frame, cosine_hemisphere(random.bsdf)));
         const Mask useful = exists & (dot(direction, s.ng) > Lanes(0.0f));
-        shadows = append_shadows(rows.shadows,
+        shadows = append_shadows(columns.shadows,
                                  shadows,
                                  useful,
                                  {.origin = s.start,

@@ -2,34 +2,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "stages/rows.h"
+#include "stages/column_lanes.h"
 #include "stages/stages.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Groups that ask for far memory together: while one group's is on its way, the others are served.
+/// Groups whose memory is prefetched together, so that the others are served while one waits.
 inline constexpr int groups_ahead = 8;
 
 /// The hits of one group at their paths' times; see hits_or_first.
 ///
-/// In  rows: with hits, shared and time, as ShadeRows has them
-template <typename Rows>
-OBSCURA_INLINE HitLanes hits_of_paths(const Rows& rows, int i, Mask exists, const PathLanes& path) {
-    HitLanes hit = hits_or_first(rows.hits, i, exists);
-    hit.shared = rows.shared;
-    if (rows.time != nullptr) {
-        hit.time = gather<Lanes>(rows.time, select(exists, as_int(path.slot), LanesI(0)));
+/// In  columns: with hits, shared and time, as ShadeColumns has them
+template <typename Columns>
+OBSCURA_INLINE HitLanes
+hits_of_paths(const Columns& columns, int i, Mask exists, const PathLanes& path) {
+    HitLanes hit = hits_or_first(columns.hits, i, exists);
+    hit.shared = columns.shared;
+    if (columns.time != nullptr) {
+        hit.time = gather<Lanes>(columns.time, select(exists, as_int(path.slot), LanesI(0)));
     }
     return hit;
 }
 
 /// One bounce of path tracing.
 ///
-/// In      rows.paths, rows.hits: `count` rows of this bounce; number: 0 for camera rays
-/// In/Out  rows.passed: by slot, see stages/3_walls.h
-/// Out     rows.next, rows.shadows: at most `count` rows each, packed, one a slot; rows.samples:
-///         emission and environment light are added
+/// In      columns.paths, columns.hits: `count` paths of this bounce; number: 0 for camera rays
+/// In/Out  columns.passed: by sample index, see stages/3_thin_walls.h
+/// Out     columns.next, columns.shadows: packed, at most `count` each and one per sample;
+///         columns.samples: emission and environment light are added
 /// Units   radiance; distance m; pdf 1/sr
 /// Errors  none
 /// Source  Veach, PhD thesis, 1997, ch. 9 (multiple importance sampling), ch. 10.4 (roulette)
@@ -37,51 +38,54 @@ ShadeCounts shade(const SceneView& scene,
                   const BatchSettings& batch,
                   int number,
                   int count,
-                  const ShadeRows& rows);
+                  const ShadeColumns& columns);
 
 /// Ambient occlusion: one cosine-distributed ray of limited length a hit.
-/// Returns the number of shadow rows.
-int shade_ao(const SceneView& scene, const BatchSettings& batch, int count, const ShadeRows& rows);
+/// Returns the number of shadow rays.
+int shade_ao(const SceneView& scene,
+             const BatchSettings& batch,
+             int count,
+             const ShadeColumns& columns);
 
-/// First step of ray casting: parts hits from misses, and gives misses the background.
-/// Returns the number of hits, which are now the first rows.
+/// First step of ray casting: separates hits from misses, and gives misses the background.
+/// Returns the number of hits, which now come first in their columns.
 int begin_raycast(const SceneView& scene,
                   const BatchSettings& batch,
                   int count,
-                  const ShadeRows& rows);
+                  const ShadeColumns& columns);
 
-/// Light that reaches some of the hits from some of the lights: one shadow row for each pair, and
-/// with the first light what needs none. Returns the number of shadow rows.
+/// Shades a range of hits with a range of lights: one shadow ray for each pair. The first light
+/// also adds the light that needs no shadow ray. Returns the number of shadow rays.
 ///
-/// In      range: at most as many pairs as rows.shadows holds
+/// In      range: at most as many pairs as columns.shadows holds
 /// Source  Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968
-int shade_raycast(const SceneView& scene, const RaycastRange& range, const RaycastColumns& rows);
+int shade_raycast(const SceneView& scene, const RaycastRange& range, const RaycastColumns& columns);
 
-/// Quantities of the first hit (see Quantity), without light. Misses leave zero.
-void write_quantity(const SceneView& scene,
-                    const BatchSettings& batch,
-                    Quantity quantity,
-                    int count,
-                    const AovColumns& rows);
+/// Writes an AOV of the first hit (see Aov). Misses get zero.
+void write_aov(const SceneView& scene,
+               const BatchSettings& batch,
+               Aov aov,
+               int count,
+               const AovColumns& columns);
 
-/// How much of a line's width lies around each ray: the edges of triangles, and on analytic shapes
-/// the lines on which u or v is a multiple of an eighth. Lines are batch.wire_width_px wide.
+/// Coverage of the wireframe at each ray: the edges of triangles, and on analytic shapes the lines
+/// on which u or v is a multiple of an eighth. Lines are batch.wire_width_px wide.
 ///
-/// In      rows.paths, rows.hits: row i is pixel i of the batch, moved by batch.film_offset_px
-/// Out     rows.samples: r = g = b in [0, 1]; a = 1 where something was hit
+/// In      columns.paths, columns.hits: index i is pixel i of the batch, moved by
+///         batch.film_offset_px
+/// Out     columns.samples: r = g = b in [0, 1]; a = 1 where something was hit
 void write_wireframe(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const AovColumns& rows);
+                     const AovColumns& columns);
 
-/// Moves the hits together at the front of their columns, those of one primitive side by side where
-/// that saves much (lanes that share a surface share its rows of tables), and the misses to
-/// rows.misses.
+/// Moves the hits to the front of their columns and the misses to columns.misses. Hits are sorted
+/// by primitive where that saves much: lanes that share a surface share its records.
 struct SortedCounts {
     int hits = 0;
     int misses = 0;
 };
-SortedCounts sort_hits_from_misses(int count, const ShadeRows& rows);
+SortedCounts sort_hits_from_misses(int count, const ShadeColumns& columns);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// stages/3_shape.h - the shading geometry of analytic shapes, rebuilt from the ray and the shape.
+// stages/3_shape.h - position, normal and derivatives at hits on analytic shapes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,30 +8,30 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// What shading wants to know of the lanes that hit shapes, in world space.
+/// Shading data of the lanes that hit shapes, in world space.
 struct ShapeLanes {
     Vec3<Lanes> position, normal;
     Vec3<Lanes> dpdu, dpdv;
     Vec2<Lanes> uv;
     Lanes offset;  ///< distance along the normal at which rays start clear of the shape
-    /// Of points and lines: the vertices on both sides, and the share of the way to the second.
+    /// Of points and lines: the vertices on both sides, and the interpolation weight of the second.
     LanesI vertex, next_vertex;
-    Lanes share;
+    Lanes fraction;
 };
 
-/// Where and on what the lanes hit; copies, so that the caller's own stay in registers.
+/// The shapes that the lanes hit; copies, so that the caller's own values stay in registers.
 struct ShapeQuery {
-    Mask shapes;        ///< other lanes get anything
-    LanesI first, row;  ///< first row of the primitive, row within it
-    LanesI geometry;    ///< GeometryKind
-    LanesI normals;     ///< as Primitive::normal_base: points and lines may have them
+    Mask shapes;          ///< other lanes get anything
+    LanesI first, index;  ///< of the primitive's first element, and within it
+    LanesI geometry;      ///< GeometryKind
+    LanesI normals;       ///< as Primitive::normal_base: points and lines may have them
     LanesI instance;
     Vec3<Lanes> origin, direction;
     Lanes t;
     Lanes time;
 };
 
-/// The lanes that hit pieces of lines, each in a frame of its own.
+/// The lanes that hit curve segments, each in its segment's own frame.
 struct CurveLanes {
     bool any = false;
     Mask lanes;
@@ -39,20 +39,20 @@ struct CurveLanes {
     SegmentFrame<Lanes> frame;
 };
 
-OBSCURA_INLINE CurveLanes read_curves(const SceneView& scene, Mask lanes, LanesI row) {
+OBSCURA_INLINE CurveLanes read_curves(const SceneView& scene, Mask lanes, LanesI index) {
     CurveLanes out;
     if (scene.curve_points == nullptr || none(lanes)) return out;
     out.any = true;
     out.lanes = lanes;
     const LanesI none(0);
-    out.first_point = gather<Lanes>(scene.curve_segments, select(lanes, row, none));
+    out.first_point = gather<Lanes>(scene.curve_segments, select(lanes, index, none));
     const Four<Lanes> from = gather4<Lanes>(scene.curve_points, out.first_point * LanesI(4));
     const Four<Lanes> to = gather4<Lanes>(scene.curve_points + 4, out.first_point * LanesI(4));
     out.frame = frame_of<Lanes>({{from.x, from.y, from.z}, {to.x, to.y, to.z}, from.w, to.w});
     return out;
 }
 
-/// Brings what is known of a place on a line's piece back to where the piece is.
+/// Transforms a surface point from the curve segment's frame back to the frame of the curve.
 OBSCURA_INLINE void leave_frame(const CurveLanes& curves, SurfacePoint<Lanes>& s) {
     const SegmentFrame<Lanes>& frame = curves.frame;
     const Mask m = curves.lanes;
@@ -62,8 +62,8 @@ OBSCURA_INLINE void leave_frame(const CurveLanes& curves, SurfacePoint<Lanes>& s
     s.dpdv = select(m, out_of_frame(frame, s.dpdv), s.dpdv);
 }
 
-/// How far beside a piece of a line Embree finds hits: it takes differences of squares as large as
-/// that of half the piece's length, so that the radius is as much off as they round.
+/// How far off a curve segment Embree may report hits: it subtracts squares as large as that of
+/// half the segment's length, and their rounding shifts the radius.
 OBSCURA_INLINE Lanes curve_slack(const CurveLanes& curves) {
     constexpr float rounding = 4.0f / 4194304.0f;
     const Capsule<Lanes>& capsule = curves.frame.capsule;
@@ -72,43 +72,43 @@ OBSCURA_INLINE Lanes curve_slack(const CurveLanes& curves) {
     return select(curves.lanes, slack, Lanes(0.0f));
 }
 
-/// A table's row as ShapeRow's members; particles lie in blocks and know no other kind, and pieces
-/// of lines are capsules around their own origin.
+/// Reads any shape as the members of a ShapeRecord: particles are spheres stored in blocks, and
+/// curve segments are capsules around their own origin.
 class ShapeWords {
 public:
     OBSCURA_INLINE ShapeWords(const SceneView& scene, const ShapeQuery& q) {
-        const LanesI row = q.first + q.row;
+        const LanesI index = q.first + q.index;
         const Mask lines = q.geometry == LanesI(static_cast<int32_t>(GeometryKind::curves));
-        curves_ = read_curves(scene, q.shapes & lines, row);
+        curves_ = read_curves(scene, q.shapes & lines, index);
         particles_ = q.geometry == LanesI(static_cast<int32_t>(GeometryKind::spheres));
         if (scene.spheres != nullptr && any(particles_)) {
-            const LanesI word = select(particles_, sphere_word(row), LanesI(0));
+            const LanesI word = select(particles_, sphere_word(index), LanesI(0));
             for (int i = 0; i < 4; ++i)
                 sphere_[i] = gather<Lanes>(scene.spheres + i * sphere_block, word);
             has_particles_ = true;
         }
         const LanesI none(0);
-        row_ = {scene.shapes, select(q.shapes & (!(particles_ | lines)), row, none)};
+        record_ = {scene.shapes, select(q.shapes & (!(particles_ | lines)), index, none)};
     }
 
     OBSCURA_INLINE LanesI kind() const {
         const LanesI sphere(static_cast<int32_t>(ShapeKind::sphere));
-        const LanesI own = select(particles_, sphere, row_.integer<&ShapeRow::kind>());
+        const LanesI own = select(particles_, sphere, record_.integer<&ShapeRecord::kind>());
         if (!curves_.any) return own;
         return select(curves_.lanes, LanesI(static_cast<int32_t>(ShapeKind::capsule)), own);
     }
     template <auto member>
     OBSCURA_INLINE Lanes number(int element) const {
-        Lanes value = row_.number<member>(element);
+        Lanes value = record_.number<member>(element);
         if (has_particles_) {  // centre and radius
-            constexpr bool is_centre = same_member<member, &ShapeRow::centre>;
+            constexpr bool is_centre = same_member<member, &ShapeRecord::centre>;
             if (is_centre) value = select(particles_, sphere_[element], value);
-            if (same_member<member, &ShapeRow::size> && element == 0) {
+            if (same_member<member, &ShapeRecord::size> && element == 0) {
                 value = select(particles_, sphere_[3], value);
             }
         }
         if (curves_.any) {
-            const bool is_size = same_member<member, &ShapeRow::size>;
+            const bool is_size = same_member<member, &ShapeRecord::size>;
             value = select(curves_.lanes, is_size ? capsule_size(element) : Lanes(0.0f), value);
         }
         return value;
@@ -123,40 +123,40 @@ private:
     }
 
     CurveLanes curves_;
-    TableRow<Lanes, ShapeRow> row_;
+    TableRecord<Lanes, ShapeRecord> record_;
     Lanes sphere_[4];
     Mask particles_;
     bool has_particles_ = false;
 };
 
-/// The vertices that colours come from.
+/// Finds the vertices whose colours are interpolated.
 ///
-/// In   position: in the frame of the line's piece, for lanes that hit one
+/// In   position: in the segment's frame, for lanes that hit curves
 OBSCURA_INLINE void find_vertices(const ShapeQuery& q,
                                   const CurveLanes& curves,
                                   const Vec3<Lanes>& position,
                                   ShapeLanes& out) {
-    out.vertex = q.first + q.row;
+    out.vertex = q.first + q.index;
     out.next_vertex = out.vertex;
-    out.share = Lanes(0.0f);
+    out.fraction = Lanes(0.0f);
     if (!curves.any) return;
-    const Lanes share = share_of_way(curves.frame, position.y);
+    const Lanes fraction = fraction_along(curves.frame, position.y);
     out.vertex = select(curves.lanes, curves.first_point, out.vertex);
     out.next_vertex = select(curves.lanes, curves.first_point + LanesI(1), out.next_vertex);
-    out.share = select(curves.lanes, share, out.share);
+    out.fraction = select(curves.lanes, fraction, out.fraction);
 }
 
-/// Lets points and lines with normals of their own face where these say, from all sides: as small
-/// pieces of surface through their middle, from which rays start where the round surface ends. A
-/// normal along the line says nothing.
+/// Shades points and lines that have vertex normals as small flat surfaces through their centre,
+/// with that normal, from all sides; rays start outside the round surface. A normal along the line
+/// is ignored.
 ///
 /// In   s: in the primitive's own space; out: with the vertices
 /// Source  glTF 2.0, Point and Line Materials
-inline __attribute__((noinline)) void turn_strokes(const SceneView& scene,
-                                                   const ShapeQuery& q,
-                                                   const ShapeWords& words,
-                                                   SurfacePoint<Lanes>& s,
-                                                   ShapeLanes& out) {
+inline __attribute__((noinline)) void orient_points_lines(const SceneView& scene,
+                                                          const ShapeQuery& q,
+                                                          const ShapeWords& words,
+                                                          SurfacePoint<Lanes>& s,
+                                                          ShapeLanes& out) {
     const Mask has_normals = q.shapes & (q.normals != LanesI(no_attribute));
     const auto normal_of = [&](LanesI vertex) {
         return gather3(scene.attributes,
@@ -164,21 +164,21 @@ inline __attribute__((noinline)) void turn_strokes(const SceneView& scene,
     };
     const Vec3<Lanes> first = normal_of(out.vertex);
     const Vec3<Lanes> next = normal_of(out.next_vertex);
-    Vec3<Lanes> n = first + (next - first) * out.share;
+    Vec3<Lanes> n = first + (next - first) * out.fraction;
     const Lanes size = length(n);
     Mask turns = has_normals & (size > Lanes(1e-6f));
     n = n * (Lanes(1.0f) / max(size, Lanes(1e-6f)));
     Vec3<Lanes> middle = shape_centre<Lanes>(words);
-    Lanes radius = words.number<&ShapeRow::size>(0);
+    Lanes radius = words.number<&ShapeRecord::size>(0);
     const CurveLanes& curves = words.curves();
     if (curves.any) {
         const Capsule<Lanes>& capsule = curves.frame.capsule;
         const Vec3<Lanes> axis = curves.frame.axes.normal;
-        const Lanes height = capsule.half_height * (out.share + out.share - Lanes(1.0f));
+        const Lanes height = capsule.half_height * (out.fraction + out.fraction - Lanes(1.0f));
         middle = select(curves.lanes, curves.frame.centre + axis * height, middle);
-        // The more the normal leans along the line, the further is the way out of it.
+        // The more the normal leans along the line, the longer is the distance out of it.
         const Lanes width = length(n - axis * dot(n, axis));
-        const Lanes thickness = capsule.bottom + (capsule.top - capsule.bottom) * out.share;
+        const Lanes thickness = capsule.bottom + (capsule.top - capsule.bottom) * out.fraction;
         radius = select(curves.lanes, thickness / max(width, Lanes(0.1f)), radius);
         turns = turns & (!(curves.lanes & (width < Lanes(0.1f))));
     }
@@ -191,7 +191,7 @@ inline __attribute__((noinline)) void turn_strokes(const SceneView& scene,
 ///
 /// In      q: rays in world space; at least one lane of q.shapes
 /// Out     out: lanes of q.shapes
-/// Source  shape/shape_row.h; offset: as for triangles in 3_surface.h
+/// Source  shape/shape_record.h; offset: as for triangles in 3_surface.h
 inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
                                                        const ShapeQuery& q,
                                                        ShapeLanes& out) {
@@ -217,7 +217,8 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
     find_vertices(q, curves, s.position, out);
     if (curves.any) leave_frame(curves, s);
     out.offset = Lanes(0.0f);
-    if (any(q.shapes & (q.normals != LanesI(no_attribute)))) turn_strokes(scene, q, words, s, out);
+    if (any(q.shapes & (q.normals != LanesI(no_attribute))))
+        orient_points_lines(scene, q, words, s, out);
     constexpr float steps = 32.0f / 16777216.0f;
     const Vec3<Lanes> half = shape_size<Lanes>(words);
     const Lanes extent = min(max_component(abs(half)), max_component(abs(s.position)));
@@ -249,8 +250,8 @@ inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
     out.offset = select(instanced, offset, out.offset);
 }
 
-/// Puts the lanes that hit analytic shapes in place of what was read as triangles. Geometry: the
-/// HitGeometry of 3_surface.h.
+/// Replaces the triangle geometry of lanes that hit analytic shapes. Geometry: the HitGeometry of
+/// 3_geometry.h.
 template <typename Geometry>
 OBSCURA_INLINE void shapes_to_world(const SceneView& scene,
                                     const HitLanes& hit,
@@ -275,24 +276,24 @@ OBSCURA_INLINE void shapes_to_world(const SceneView& scene,
     g.normal = select(m, s.normal, g.normal);
     g.offset = select(m, s.offset, g.offset);
     g.smooth_shift = select(m, splat3(Lanes(0.0f)), g.smooth_shift);
-    // Texture space is stretched as the parametrisation is: one unit of it covers this area.
+    // One unit of texture space covers this area.
     g.area2 = select(m, length(cross(s.dpdu, s.dpdv)), g.area2);
     g.first_uv.base = select(m, LanesI(0), g.first_uv.base);
     g.first_uv.at = {select(m, s.uv.x, g.first_uv.at.x), select(m, s.uv.y, g.first_uv.at.y)};
     g.first_uv.area2 = select(m, Lanes(1.0f), g.first_uv.area2);
     g.dpdu = s.dpdu;
     g.dpdv = s.dpdv;
-    // Of all shapes, points and lines alone have colours, texture coordinates by vertex and no
-    // tangents: their vertices are the corners.
+    // Among shapes, only points and lines have vertex colours, vertex texture coordinates and no
+    // tangents: their vertices serve as the corners.
     const LanesI tangents = g.primitive.template integer<&Primitive::tangent_base>();
-    const Mask strokes = m & (tangents == LanesI(no_attribute));
-    if (none(strokes)) return;
-    g.corner[0] = select(strokes, s.vertex, g.corner[0]);
-    g.corner[1] = select(strokes, s.next_vertex, g.corner[1]);
-    g.corner[2] = select(strokes, s.vertex, g.corner[2]);
-    g.weight[0] = select(strokes, Lanes(1.0f) - s.share, g.weight[0]);
-    g.weight[1] = select(strokes, s.share, g.weight[1]);
-    g.weight[2] = select(strokes, Lanes(0.0f), g.weight[2]);
+    const Mask points_lines = m & (tangents == LanesI(no_attribute));
+    if (none(points_lines)) return;
+    g.corner[0] = select(points_lines, s.vertex, g.corner[0]);
+    g.corner[1] = select(points_lines, s.next_vertex, g.corner[1]);
+    g.corner[2] = select(points_lines, s.vertex, g.corner[2]);
+    g.weight[0] = select(points_lines, Lanes(1.0f) - s.fraction, g.weight[0]);
+    g.weight[1] = select(points_lines, s.fraction, g.weight[1]);
+    g.weight[2] = select(points_lines, Lanes(0.0f), g.weight[2]);
 }
 
 }  // namespace OBSCURA_ISA

@@ -4,13 +4,13 @@
 
 #include "light/light_view.h"
 #include "light/shape_light.h"
-#include "stages/rows.h"
+#include "stages/column_lanes.h"
 #include "surface/texture.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// A place on one chosen light.
+/// A point on one chosen light.
 struct ShapeLightLanes {
     Vec3<Lanes> direction;
     Lanes distance;  ///< ends before the light itself
@@ -18,23 +18,24 @@ struct ShapeLightLanes {
     Lanes pdf;  ///< 1/sr, choice included
 };
 
-OBSCURA_INLINE TableRow<Lanes, ShapeLight> shape_light_row(const SceneView& scene, LanesI index) {
+OBSCURA_INLINE TableRecord<Lanes, ShapeLight> shape_light_record(const SceneView& scene,
+                                                                 LanesI index) {
     return {scene.lights.shapes, index};
 }
 
-/// In      index: rows of the shape light table; from: where rays to lights start
+/// In      index: into the shape light table; from: where rays to lights start
 inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene,
                                                           const LanesI& index,
                                                           const Vec2<Lanes>& u,
                                                           const Vec3<Lanes>& from,
                                                           ShapeLightLanes& out) {
-    const TableRow<Lanes, ShapeLight> row = shape_light_row(scene, index);
-    const ShapeLightSample<Lanes> s = sample_shape_light(read_shape_light(row), u, from);
-    out.emission = light_vector<&ShapeLight::emission>(row);
-    const LanesI texture = row.integer<&ShapeLight::texture>();
+    const TableRecord<Lanes, ShapeLight> record = shape_light_record(scene, index);
+    const ShapeLightSample<Lanes> s = sample_shape_light(read_shape_light(record), u, from);
+    out.emission = light_vector<&ShapeLight::emission>(record);
+    const LanesI texture = record.integer<&ShapeLight::texture>();
     const Mask textured = texture >= LanesI(0);
     if (any(textured)) {
-        const auto m = [&](int k) { return row.number<&ShapeLight::uv_from_shape>(k); };
+        const auto m = [&](int k) { return record.number<&ShapeLight::uv_from_shape>(k); };
         const Vec2<Lanes> uv{m(0) * s.uv.x + m(1) * s.uv.y + m(2),
                              m(3) * s.uv.x + m(4) * s.uv.y + m(5)};
         const Rgba<Lanes> texel = sample_texture_bilinear<Lanes>(
@@ -44,15 +45,15 @@ inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene
     const Lanes size = dot(abs(s.normal), abs(s.point) + abs(from));
     const Lanes clear = Lanes(32.0f / 16777216.0f) * (size + s.distance * Lanes(0.25f));
     const Lanes cosine = abs(dot(s.normal, s.direction));
-    const Lanes coat = row.number<&ShapeLight::coat>();
+    const Lanes coat = record.number<&ShapeLight::coat>();
     out.emission = out.emission * coat_lets_pass<Lanes>(coat, cosine);
     out.direction = s.direction;
     out.distance = max(s.distance - clear / max(cosine, Lanes(0.02f)), Lanes(0.0f));
-    out.pdf = s.pdf * row.number<&ShapeLight::select>();
+    out.pdf = s.pdf * record.number<&ShapeLight::select>();
 }
 
-/// Density with which light sampling would have chosen a direction that met a shape light; `other`
-/// where it met none.
+/// Density with which light sampling would have chosen a direction that hit a shape light; `other`
+/// where it hit none.
 ///
 /// In      light: as ShadingPoint::light; from, direction, distance: the ray that met it; ng: faces
 ///         the ray
@@ -65,12 +66,13 @@ inline __attribute__((noinline)) Lanes shape_light_pdf(const SceneView& scene,
     const Mask known = index >= LanesI(0);
     const Lanes other = distance_and_other.y;
     if (none(known)) return other;
-    const TableRow<Lanes, ShapeLight> row = shape_light_row(scene, select(known, index, LanesI(0)));
-    ShapeLightRow<Lanes> read = read_shape_light(row);
-    read.two_sided = Mask(true);  // what shines has been decided: the normal faces the ray
+    const TableRecord<Lanes, ShapeLight> record =
+        shape_light_record(scene, select(known, index, LanesI(0)));
+    ShapeLightRecord<Lanes> read = read_shape_light(record);
+    read.two_sided = Mask(true);  // the caller has tested the side: the normal faces the ray
     const Lanes cosine = abs(dot(ng, path.direction));
     const Lanes pdf = shape_light_density(read, path.origin, distance_and_other.x, cosine);
-    return select(known, pdf * row.number<&ShapeLight::select>(), other);
+    return select(known, pdf * record.number<&ShapeLight::select>(), other);
 }
 
 }  // namespace OBSCURA_ISA

@@ -1,7 +1,7 @@
-// stages/3_sort.cpp - keeps lanes full and alike: hits are parted from misses, and by surface.
+// stages/3_sort.cpp - sorts paths before shading: hits apart from misses, and hits by primitive.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/3_shade.h"
-#include "stages/rows.h"
+#include "stages/column_lanes.h"
 
 #include <cstring>
 #include <type_traits>
@@ -11,32 +11,32 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// Primitives that are told apart; beyond, several share a bucket.
+/// With more primitives than this, several share a bucket.
 constexpr uint32_t bucket_count = 1024;
 
-/// The hits and misses of a batch by row number.
+/// The hits and misses of a batch, as path indices.
 struct Order {
     SortedCounts counts;
-    uint16_t hit[batch_rows];  ///< by primitive, in one primitive as they came
-    uint16_t miss[batch_rows];
+    uint16_t hit[batch_size];  ///< by primitive; within one primitive in their old order
+    uint16_t miss[batch_size];
 };
-static_assert(batch_rows <= 65536);
+static_assert(batch_size <= 65536);
 
-/// Groups of rows that hit several primitives, or hit and miss.
+/// Number of groups whose lanes hit several primitives, or both hit and miss.
 int mixed_groups(int count, const HitView& hits) {
     int mixed = 0;
     for (int i = 0; i < count; i += lane_count) {
         const LanesI primitive = load(hits.primitive + i);
         const Mask differs = primitive != LanesI(first_lane(primitive));
-        mixed += any(differs & rows_in_range(i, count)) ? 1 : 0;
+        mixed += any(differs & lanes_in_range(i, count)) ? 1 : 0;
     }
     return mixed;
 }
 
 void find_order(int count, const HitView& hits, Order& order) {
     uint16_t begins[bucket_count] = {};
-    const auto bucket = [&](int row) {
-        return static_cast<uint32_t>(hits.primitive[row]) % bucket_count;
+    const auto bucket = [&](int index) {
+        return static_cast<uint32_t>(hits.primitive[index]) % bucket_count;
     };
     int misses = 0;
     uint32_t last = 0;
@@ -60,57 +60,58 @@ void find_order(int count, const HitView& hits, Order& order) {
     order.counts = {count - misses, misses};
 }
 
-void take_misses(const PathView& paths, const Order& order, const MissRows& out) {
+void take_misses(const PathView& paths, const Order& order, const MissColumns& out) {
     const auto column = [&](const auto* from, auto* to) {
-        take_rows(order.miss, order.counts.misses, from, to);
+        take_entries(order.miss, order.counts.misses, from, to);
     };
-    MissRows::for_each_column(column, paths, out);
+    MissColumns::for_each_column(column, paths, out);
 }
 
-void sort_hits(const PathRows& paths, const HitRows& hits, const Order& order) {
-    uint32_t sorted[batch_rows];
+void sort_hits(const PathColumns& paths, const HitColumns& hits, const Order& order) {
+    uint32_t sorted[batch_size];
     const auto column = [&](auto* words) {
         using Word = std::remove_pointer_t<decltype(words)>;
         const int count = order.counts.hits;
-        take_rows<Word>(order.hit, count, words, reinterpret_cast<Word*>(sorted));
+        take_entries<Word>(order.hit, count, words, reinterpret_cast<Word*>(sorted));
         std::memcpy(words, sorted, static_cast<size_t>(count) * sizeof(Word));
     };
-    PathRows::for_each_column(column, paths);
-    HitRows::for_each_column(column, hits);
+    PathColumns::for_each_column(column, paths);
+    HitColumns::for_each_column(column, hits);
 }
 
-/// As sort_hits_from_misses, in the order in which the rows come: camera rays of neighbouring
-/// pixels mostly meet the same surface as it is.
-SortedCounts pack_hits(int count_in, const ShadeRows& rows) {
+/// As sort_hits_from_misses, but keeps the order of the hits: camera rays of neighbouring pixels
+/// mostly hit the same surface anyway.
+SortedCounts pack_hits(int count_in, const ShadeColumns& columns) {
     SortedCounts sorted;
     for (int i = 0; i < count_in; i += lane_count) {
-        const Mask exists = rows_in_range(i, count_in);
-        const Mask is_hit = exists & (load(rows.hits.primitive + i) >= LanesI(0));
+        const Mask exists = lanes_in_range(i, count_in);
+        const Mask is_hit = exists & (load(columns.hits.primitive + i) >= LanesI(0));
         const Mask is_miss = exists & (!is_hit);
         if (any(is_miss)) {
-            sorted.misses = append_misses(rows.misses, sorted.misses, is_miss, rows.paths, i);
+            sorted.misses = append_misses(columns.misses, sorted.misses, is_miss, columns.paths, i);
         }
         if (none(is_hit)) continue;
-        if (none(is_miss) && sorted.hits == i) {  // where they belong already
+        if (none(is_miss) && sorted.hits == i) {  // already in their final position
             sorted.hits += count(is_hit);
             continue;
         }
-        // In place: the rows written here have all been read.
-        append_hits(rows.hits, sorted.hits, is_hit, load_hits(rows.hits, i));
-        sorted.hits = append_paths(rows.paths, sorted.hits, is_hit, load_paths(rows.paths, i));
+        // In place: the entries written here have all been read.
+        append_hits(columns.hits, sorted.hits, is_hit, load_hits(columns.hits, i));
+        sorted.hits =
+            append_paths(columns.paths, sorted.hits, is_hit, load_paths(columns.paths, i));
     }
     return sorted;
 }
 
 }  // namespace
 
-SortedCounts sort_hits_from_misses(int count_in, const ShadeRows& rows) {
+SortedCounts sort_hits_from_misses(int count_in, const ShadeColumns& columns) {
     const int groups = (count_in + lane_count - 1) / lane_count;
-    if (mixed_groups(count_in, rows.hits) * 4 <= groups) return pack_hits(count_in, rows);
+    if (mixed_groups(count_in, columns.hits) * 4 <= groups) return pack_hits(count_in, columns);
     Order order;
-    find_order(count_in, rows.hits, order);
-    take_misses(rows.paths, order, rows.misses);
-    sort_hits(rows.paths, rows.hits, order);
+    find_order(count_in, columns.hits, order);
+    take_misses(columns.paths, order, columns.misses);
+    sort_hits(columns.paths, columns.hits, order);
     return order.counts;
 }
 

@@ -1,4 +1,4 @@
-// stages/3_tangents.h - tangents at hits, and what normal maps do with them.
+// stages/3_tangents.h - tangent frames at hits, and normal mapping.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,7 +13,7 @@ struct TangentLanes {
     Vec3<Lanes> tangent, bitangent;
 };
 
-/// In  wanted: lanes that have a use for tangents; the others are not known
+/// In  wanted: lanes that need tangents; for the others `known` is false
 OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
                                           const HitLanes& hit,
                                           const HitGeometry& g,
@@ -32,7 +32,7 @@ OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
     Vec3<Lanes> t = weighted(g, corners);
     const Mask instanced = out.known & (hit.instance >= LanesI(0));
     if (any(instanced)) {
-        const TableRow<Lanes, Instance> instance = instance_row(scene, hit);
+        const TableRecord<Lanes, Instance> instance = instance_record(scene, hit);
         const InstanceMaps maps = instance_maps(scene, hit.instance, hit.time);
         t = select(instanced, transform_vector(maps.world_from_object, t), t);
         const Mask mirrored = instanced & (instance.integer<&Instance::mirrored>() != LanesI(0));
@@ -48,7 +48,7 @@ OBSCURA_INLINE TangentLanes read_tangents(const SceneView& scene,
     return out;
 }
 
-/// A normal as a tangent-space texel says; where it says nothing usable it stays.
+/// Applies a tangent-space texel to a normal; unusable texels leave it as it is.
 OBSCURA_INLINE Vec3<Lanes> tilt_normal(const TangentLanes& tangents,
                                        Mask used,
                                        const Vec3<Lanes>& normal,

@@ -1,4 +1,4 @@
-// stages/3_textures.h - the textures of the hit materials: coordinates, texels, values.
+// stages/3_textures.h - texture look-ups at the hits: UV coordinates, texels, values.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,14 +8,14 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// How textures are read: one random texel, or exact bilinear for noise-free quantities.
+/// How textures are read: one random texel, or exact bilinear for noise-free AOVs.
 enum class Filtering { stochastic, bilinear };
 
 /// How the textures at hits are read.
 struct Reading {
     Filtering filtering;
     Vec3<Lanes> random;  ///< for Filtering::stochastic
-    float share = 1;     ///< of the area under a ray's cone that one look-up stands for
+    float fraction = 1;  ///< fraction of the ray cone's area that one look-up stands for
 };
 
 /// A texture slot of the hit materials, with the coordinates of its UV set.
@@ -26,10 +26,10 @@ struct SlotLanes {
     Lanes uv_area2;  ///< twice the triangle's area in the texture's UV space
 };
 
-/// The texture in a slot of the row's record, -1: none.
+/// The texture in a slot of the record, -1: none.
 template <auto slot, typename Record>
-OBSCURA_INLINE LanesI texture_of(const TableRow<Lanes, Record>& row) {
-    return row.template integer<slot, &TextureSlot::texture>();
+OBSCURA_INLINE LanesI texture_of(const TableRecord<Lanes, Record>& record) {
+    return record.template integer<slot, &TextureSlot::texture>();
 }
 
 /// `base`: as Primitive::uv_base; lanes without the attribute get anything.
@@ -52,17 +52,17 @@ OBSCURA_INLINE LanesI mesh_uv_base(const HitGeometry& g, LanesI base) {
 }
 
 /// UV set 0 of points and lines, whose vertices are known after shapes_to_world.
-OBSCURA_INLINE void read_stroke_uv(const SceneView& scene, HitGeometry& g) {
+OBSCURA_INLINE void read_points_lines_uv(const SceneView& scene, HitGeometry& g) {
     if (!g.has_shapes) return;
-    const Mask strokes =
+    const Mask points_lines =
         g.shapes & (g.primitive.integer<&Primitive::tangent_base>() == LanesI(no_attribute));
-    if (none(strokes)) return;
+    if (none(points_lines)) return;
     const LanesI base = g.primitive.integer<&Primitive::uv_base>();
-    const MeshUv uv = read_mesh_uv(scene, g, select(strokes, base, LanesI(no_attribute)));
-    g.first_uv.base = select(strokes, uv.base, g.first_uv.base);
-    g.first_uv.at = {select(strokes, uv.at.x, g.first_uv.at.x),
-                     select(strokes, uv.at.y, g.first_uv.at.y)};
-    g.first_uv.area2 = select(strokes, uv.area2, g.first_uv.area2);
+    const MeshUv uv = read_mesh_uv(scene, g, select(points_lines, base, LanesI(no_attribute)));
+    g.first_uv.base = select(points_lines, uv.base, g.first_uv.base);
+    g.first_uv.at = {select(points_lines, uv.at.x, g.first_uv.at.x),
+                     select(points_lines, uv.at.y, g.first_uv.at.y)};
+    g.first_uv.area2 = select(points_lines, uv.area2, g.first_uv.area2);
 }
 
 /// Reads UV set 0, which most textures use, once for all of them.
@@ -79,11 +79,11 @@ OBSCURA_INLINE void read_first_uv_set(const SceneView& scene, HitGeometry& g) {
 
 /// The coordinates of a slot, for a texture that need not be the slot's own.
 ///
-/// In  slot: a TextureSlot of the row's record
+/// In  slot: a TextureSlot of the record
 template <auto slot, typename Record>
 OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
                                     const HitGeometry& g,
-                                    const TableRow<Lanes, Record>& row,
+                                    const TableRecord<Lanes, Record>& record,
                                     LanesI texture) {
     SlotLanes s;
     s.texture = texture;
@@ -92,8 +92,9 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
     constexpr auto set = &TextureSlot::uv_set;
     const LanesI base =
         g.primitive.shared()
-            ? g.primitive.integer<&Primitive::uv_base>(row.template one_integer<slot, set>())
-            : g.primitive.varying_integer<&Primitive::uv_base>(row.template integer<slot, set>());
+            ? g.primitive.integer<&Primitive::uv_base>(record.template one_integer<slot, set>())
+            : g.primitive.varying_integer<&Primitive::uv_base>(
+                  record.template integer<slot, set>());
     s.used = s.used & (base != LanesI(no_attribute));
     if (none(s.used)) return s;
     s.texture = select(s.used, s.texture, LanesI(0));
@@ -107,8 +108,8 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
     }
     // The transform's six words end the slot: two of them are read twice.
     constexpr auto matrix = &TextureSlot::uv_from_mesh;
-    const Four<Lanes> first_four = row.template four_numbers<slot, matrix>(0);
-    const Four<Lanes> last_four = row.template four_numbers<slot, matrix>(2);
+    const Four<Lanes> first_four = record.template four_numbers<slot, matrix>(0);
+    const Four<Lanes> last_four = record.template four_numbers<slot, matrix>(2);
     const Vec3<Lanes> u_row{first_four.x, first_four.y, first_four.z};
     const Vec3<Lanes> v_row{first_four.w, last_four.z, last_four.w};
     const Vec2<Lanes>& at = mesh.at;
@@ -117,8 +118,8 @@ OBSCURA_INLINE SlotLanes slot_lanes(const SceneView& scene,
     return s;
 }
 
-/// What all look-ups at one hit share.
-struct LookUp {
+/// The texture filter context that all look-ups at one hit share.
+struct TextureFilter {
     Lanes footprint;  ///< world area of the ray's cone on the surface
     Vec3<Lanes> random;
     Filtering filtering;
@@ -126,26 +127,26 @@ struct LookUp {
 
 OBSCURA_INLINE Lanes texture_footprint(const HitGeometry& g,
                                        const SlotLanes& s,
-                                       const LookUp& look) {
-    return look.footprint * s.uv_area2 / max(g.area2, Lanes(1e-30f));
+                                       const TextureFilter& filter) {
+    return filter.footprint * s.uv_area2 / max(g.area2, Lanes(1e-30f));
 }
 
-/// A slot whose texel is known and on its way: look-ups of one hit are found first and read later.
+/// A slot whose texel address is known and prefetched: all slots of a hit are found before any is
+/// read.
 struct FoundSlot {
     Mask used;
     SlotLanes lanes;   ///< for Filtering::bilinear
-    LanesU texel;      ///< number in the arena, for Filtering::stochastic
+    LanesU texel;      ///< index in the arena, for Filtering::stochastic
     LanesI low_plane;  ///< of its texture
     Mask srgb;
 };
 
-/// Which texel stands for a footprint: one of the mip level whose texels have its size, each the
-/// mean of what it covers; or one of level 0, as the footprint holds them. A mean of normals is
-/// smoother than they are: only the normals themselves keep minified surfaces as rough.
+/// Which texel stands for a footprint. mean: a texel of the mip level that matches the footprint's
+/// size. single: a texel of level 0 inside the footprint, for normal maps: averaged normals would
+/// make minified surfaces smoother.
 enum class Detail { mean, single };
 
-/// Where the textures of a material that are alike (material_textures_alike) are read: found once
-/// for all of them.
+/// The texel that all textures of a material with material_textures_alike share; found once.
 struct CommonTexel {
     bool usable = false;  ///< all lanes have such a material
     Mask used;            ///< and texture coordinates
@@ -154,9 +155,9 @@ struct CommonTexel {
 
 OBSCURA_INLINE CommonTexel find_common_texel(const SceneView& scene,
                                              const HitGeometry& g,
-                                             const LookUp& look) {
+                                             const TextureFilter& filter) {
     CommonTexel common;
-    if (look.filtering == Filtering::bilinear) return common;
+    if (filter.filtering == Filtering::bilinear) return common;
     if (!all(has_bits<Lanes>(g.material.integer<&Material::flags>(), material_textures_alike)))
         return common;
     // Absent slots have texture -1, and the coordinates of the others.
@@ -167,49 +168,49 @@ OBSCURA_INLINE CommonTexel find_common_texel(const SceneView& scene,
     const SlotLanes s = slot_lanes<&Material::base_color_texture>(scene, g, g.material, texture);
     if (none(s.used)) return common;
     const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, s.texture);
-    const Lanes footprint = texture_footprint(g, s, look);
-    const LanesI start = info.row.integer<&TextureRow::level_offset>();
-    const LanesI mean = stochastic_texel<Lanes>(info, s.uv, footprint, look.random);
+    const Lanes footprint = texture_footprint(g, s, filter);
+    const LanesI start = info.record.integer<&TextureRecord::level_offset>();
+    const LanesI mean = stochastic_texel<Lanes>(info, s.uv, footprint, filter.random);
     LanesI single = mean;
     if (any(normal >= LanesI(0))) {
-        single = stochastic_single_texel<Lanes>(info, s.uv, footprint, look.random);
+        single = stochastic_single_texel<Lanes>(info, s.uv, footprint, filter.random);
     }
     return {true, s.used, mean - start, single - start};
 }
 
 /// Finds what a slot reads, and asks for its memory.
 ///
-/// In  slot: a TextureSlot of the row's record; common: of the core material's row, or none
+/// In  slot: a TextureSlot of the record; common: of the core material's record, or none
 template <auto slot, Detail detail = Detail::mean, typename Record>
 OBSCURA_INLINE FoundSlot find_slot(const SceneView& scene,
                                    const HitGeometry& g,
-                                   const TableRow<Lanes, Record>& material,
-                                   const LookUp& look,
+                                   const TableRecord<Lanes, Record>& material,
+                                   const TextureFilter& filter,
                                    const CommonTexel& common) {
     FoundSlot found;
     const LanesI texture = texture_of<slot>(material);
     if (common.usable) {
         found.used = common.used & (texture >= LanesI(0));
         if (none(found.used)) return found;
-        const TableRow<Lanes, TextureRow> row(scene.textures.rows,
-                                              select(found.used, texture, LanesI(0)));
-        const LanesI texel = row.integer<&TextureRow::level_offset>() +
+        const TableRecord<Lanes, TextureRecord> record(scene.textures.records,
+                                                       select(found.used, texture, LanesI(0)));
+        const LanesI texel = record.integer<&TextureRecord::level_offset>() +
                              (detail == Detail::mean ? common.mean : common.single);
         found.texel = as_uint(select(found.used, texel, LanesI(0)));
-        found.srgb = has_bits<Lanes>(row.integer<&TextureRow::sampler>(), sampler_srgb);
-        found.low_plane = low_plane_of(scene.textures, row);
+        found.srgb = has_bits<Lanes>(record.integer<&TextureRecord::sampler>(), sampler_srgb);
+        found.low_plane = low_plane_of(scene.textures, record);
     } else {
         found.lanes = slot_lanes<slot>(scene, g, material, texture);
         found.used = found.lanes.used;
-        if (none(found.used) || look.filtering == Filtering::bilinear) return found;
+        if (none(found.used) || filter.filtering == Filtering::bilinear) return found;
         const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, found.lanes.texture);
-        const Lanes footprint = texture_footprint(g, found.lanes, look);
+        const Lanes footprint = texture_footprint(g, found.lanes, filter);
         found.texel = as_uint(
             detail == Detail::mean
-                ? stochastic_texel<Lanes>(info, found.lanes.uv, footprint, look.random)
-                : stochastic_single_texel<Lanes>(info, found.lanes.uv, footprint, look.random));
+                ? stochastic_texel<Lanes>(info, found.lanes.uv, footprint, filter.random)
+                : stochastic_single_texel<Lanes>(info, found.lanes.uv, footprint, filter.random));
         found.srgb = has_bits<Lanes>(info.sampler, sampler_srgb);
-        found.low_plane = low_plane_of(scene.textures, info.row);
+        found.low_plane = low_plane_of(scene.textures, info.record);
     }
     prefetch<Lanes>(scene.textures.texels, as_int(found.texel));
     return found;
@@ -218,12 +219,12 @@ OBSCURA_INLINE FoundSlot find_slot(const SceneView& scene,
 OBSCURA_INLINE Rgba<Lanes> read_slot(const SceneView& scene,
                                      const HitGeometry& g,
                                      const FoundSlot& found,
-                                     const LookUp& look) {
-    if (look.filtering == Filtering::bilinear) {
+                                     const TextureFilter& filter) {
+    if (filter.filtering == Filtering::bilinear) {
         return sample_texture_bilinear<Lanes>(scene.textures,
                                               found.lanes.texture,
                                               found.lanes.uv,
-                                              texture_footprint(g, found.lanes, look));
+                                              texture_footprint(g, found.lanes, filter));
     }
     return read_texel<Lanes>(scene.textures, as_int(found.texel), found.low_plane, found.srgb);
 }

@@ -1,4 +1,4 @@
-// stages/3_wireframe.cpp - stage 3 for --integrator wireframe: how far a ray passes from an edge.
+// stages/3_wireframe.cpp - stage 3 for --integrator wireframe: how close a ray passes to an edge.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/1_camera.h"
 #include "stages/3_shade.h"
@@ -18,7 +18,7 @@ struct RaysAround {
     FilmRay left, right, above, below;
 };
 
-/// The neighbours belong to the same face of a cube and to the same eye as the pixel.
+/// The neighbouring rays use the same cube face and the same eye as the pixel.
 template <typename Maker>
 void find_rays_around(const BatchSettings& batch, int i, RaysAround& out) {
     const FilmScale scale(batch);
@@ -41,14 +41,14 @@ void find_rays_around(const BatchSettings& batch, int i, RaysAround& out) {
     out.below = at(none, half);
 }
 
-/// Length of a change per pixel from the values half a pixel away on all sides.
+/// Gradient magnitude per pixel from the values half a pixel away on all sides.
 OBSCURA_INLINE Lanes slope(Lanes left, Lanes right, Lanes above, Lanes below) {
     const Lanes x = right - left;
     const Lanes y = below - above;
     return max(sqrt(x * x + y * y), Lanes(1e-30f));
 }
 
-/// Volume that a ray and an edge span: 0 where they meet, and linear across the picture to first
+/// Volume spanned by a ray and an edge: 0 where they meet, and linear across the image to first
 /// order, whatever the camera.
 /// Source  Pluecker's side product, as in Shoemake, "Pluecker Coordinate Tutorial", Ray Tracing
 ///         News 11(1), 1998
@@ -93,7 +93,7 @@ OBSCURA_INLINE Lanes edge_distance_px(const SceneView& scene,
     return nearest;
 }
 
-/// u and v have a line at every multiple of one part.
+/// The unit range of u and of v is divided into this many parts by lines.
 constexpr float parts = 8.0f;
 
 /// Distance on the film to the nearest line of constant u or v, in pixels.
@@ -102,7 +102,7 @@ OBSCURA_INLINE Lanes iso_line_distance_px(const HitGeometry& g, const RaysAround
     const Vec3<Lanes> across_v = cross(g.normal, g.dpdu);
     const Lanes area = dot(g.dpdu, across_u);
     const Lanes inverse = Lanes(1.0f) / select(abs(area) > Lanes(1e-30f), area, Lanes(1e-30f));
-    // Where a ray meets the plane that touches the shape at the hit point, relative to that point.
+    // Intersection of a ray with the tangent plane, relative to the hit point.
     const auto on_plane = [&](const FilmRay& ray) {
         const Vec3<Lanes> to_point = g.position - ray.origin;
         const Lanes along = dot(ray.direction, g.normal);
@@ -123,7 +123,7 @@ OBSCURA_INLINE Lanes iso_line_distance_px(const HitGeometry& g, const RaysAround
                distance(g.first_uv.at.y, across_v * inverse));
 }
 
-/// Each ray stands for a square of a quarter of a pixel: see wireframe_side in walk.h.
+/// Each ray stands for a square with a side of a quarter pixel: see wireframe_side in wavefront.h.
 OBSCURA_INLINE Lanes coverage(const BatchSettings& batch, Lanes distance_px) {
     const Lanes inside = Lanes(0.5f * batch.wire_width_px) - distance_px;
     return clamp(inside * Lanes(4.0f) + Lanes(0.5f), Lanes(0.0f), Lanes(1.0f));
@@ -133,19 +133,20 @@ template <typename Maker>
 void write_all_wires(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const AovColumns& rows) {
+                     const AovColumns& columns) {
     const Lanes zero(0.0f);
     for (int i = 0; i < count; i += lane_count) {
-        const SampleRows& out = rows.samples;
-        const Mask hits = rows_in_range(i, count) & (load(rows.hits.primitive + i) >= LanesI(0));
+        const SampleColumns& out = columns.samples;
+        const Mask hits =
+            lanes_in_range(i, count) & (load(columns.hits.primitive + i) >= LanesI(0));
         store3(out.r, out.g, out.b, i, splat3(zero));
         store(out.a + i, select(hits, Lanes(1.0f), zero));
         if (none(hits)) continue;
-        HitLanes hit = hits_or_first(rows.hits, i, hits);
-        if (rows.time != nullptr) hit.time = load(rows.time + i);  // row i is pixel i
-        const PathLanes path = load_paths(rows.paths, i);
+        HitLanes hit = hits_or_first(columns.hits, i, hits);
+        if (columns.time != nullptr) hit.time = load(columns.time + i);  // path i is pixel i
+        const PathLanes path = load_paths(columns.paths, i);
         HitGeometry g;
-        find_geometry<HitUse::look>(scene, hit, g);
+        find_geometry<HitUse::attributes>(scene, hit, g);
         instance_to_world(scene, hit, g);
         RaysAround around;
         find_rays_around<Maker>(batch, i, around);
@@ -163,9 +164,9 @@ void write_all_wires(const SceneView& scene,
 void write_wireframe(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const AovColumns& rows) {
+                     const AovColumns& columns) {
     visit_model(batch.camera, false, [&](auto maker) {
-        write_all_wires<decltype(maker)>(scene, batch, count, rows);
+        write_all_wires<decltype(maker)>(scene, batch, count, columns);
     });
 }
 

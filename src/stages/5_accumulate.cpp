@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/5_accumulate.h"
 
-#include "stages/rows.h"
+#include "stages/column_lanes.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -24,28 +24,28 @@ OBSCURA_INLINE void end_block(PixelSum& sum) {
 }  // namespace
 
 void add_shadow_light(int count,
-                      const ShadowView& rows,
+                      const ShadowView& columns,
                       const uint8_t* occluded,
-                      const SampleRows& samples) {
+                      const SampleColumns& samples) {
     for (int i = 0; i < count; ++i) {
         if (occluded[i] != 0) continue;
-        const uint32_t slot = rows.slot[i];
-        samples.r[slot] += rows.r[i];
-        samples.g[slot] += rows.g[i];
-        samples.b[slot] += rows.b[i];
+        const uint32_t slot = columns.slot[i];
+        samples.r[slot] += columns.r[i];
+        samples.g[slot] += columns.g[i];
+        samples.b[slot] += columns.b[i];
     }
 }
 
 /// Above this a sample counts as not finite: the sum of a pixel's samples must stay finite too.
 constexpr float largest_sample = 1.0e30f;
 
-uint64_t clear_nonfinite(int count, const SampleRows& samples) {
+uint64_t clear_nonfinite(int count, const SampleColumns& samples) {
     uint64_t nonfinite = 0;
     const Vec3<Lanes> zero = splat3(Lanes(0.0f));
     for (int i = 0; i < count; i += lane_count) {
         const Vec3<Lanes> value = load3(samples.r, samples.g, samples.b, i);
         const Lanes size = abs(value.x) + abs(value.y) + abs(value.z);
-        const Mask broken = rows_in_range(i, count) & !(size <= Lanes(largest_sample));
+        const Mask broken = lanes_in_range(i, count) & !(size <= Lanes(largest_sample));
         if (none(broken)) continue;
         nonfinite += static_cast<uint64_t>(obscura::count(broken));
         store3(samples.r, samples.g, samples.b, i, select(broken, zero, value));
@@ -56,7 +56,7 @@ uint64_t clear_nonfinite(int count, const SampleRows& samples) {
 
 uint64_t accumulate(int pixels,
                     const SampleRange& range,
-                    const SampleRows& samples,
+                    const SampleColumns& samples,
                     PixelSum* sums) {
     const uint64_t nonfinite = clear_nonfinite(pixels * range.count, samples);
     int slot = 0;

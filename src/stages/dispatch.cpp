@@ -1,4 +1,4 @@
-// stages/dispatch.cpp - picks the instruction set that the stages run on.
+// stages/dispatch.cpp - chooses the instruction set that the stages run on.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/dispatch.h"
 

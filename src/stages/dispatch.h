@@ -1,4 +1,4 @@
-// stages/dispatch.h - picks the instruction set that the stages run on.
+// stages/dispatch.h - chooses the instruction set that the stages run on.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -23,10 +23,11 @@ enum class Isa { automatic, baseline, avx2, avx512 };
 /// True when this program and this CPU have it.
 bool has_isa(Isa isa);
 
-/// The stages for `isa`; automatic takes the widest that there is. In: has_isa(isa).
+/// The stages for `isa`; automatic takes the widest that has_isa. has_isa(isa) must hold.
 const StageTable& stage_table_for(Isa isa);
 
-/// The isa that Embree is pinned to so that results do not depend on the CPU; "" leaves the choice.
+/// The isa that Embree is restricted to, so that results do not depend on the CPU; "": Embree's
+/// own choice.
 const char* embree_isa_for(Isa isa);
 
 }  // namespace obscura

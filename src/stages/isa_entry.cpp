@@ -1,11 +1,11 @@
-// stages/isa_entry.cpp - the table of one instruction set; compiled once for each.
+// stages/isa_entry.cpp - the table of stage functions; compiled once for each instruction set.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/1_camera.h"
 #include "stages/1_shutter.h"
 #include "stages/2_probes.h"
 #include "stages/2_scatter.h"
 #include "stages/3_shade.h"
-#include "stages/4_walls.h"
+#include "stages/4_transparent_shadows.h"
 #include "stages/5_accumulate.h"
 
 #define OBSCURA_TEXT_OF(name) #name
@@ -30,9 +30,9 @@ const StageTable stage_table = {
     .shade_ao = shade_ao,
     .begin_raycast = begin_raycast,
     .shade_raycast = shade_raycast,
-    .quantity = write_quantity,
+    .aov = write_aov,
     .take_waiting = take_waiting,
-    .cross_walls = cross_walls,
+    .cross_thin_walls = cross_thin_walls,
     .add_shadows = add_shadow_light,
     .accumulate = accumulate,
     .clear_nonfinite = clear_nonfinite,

@@ -1,17 +1,17 @@
-// stages/moment.h - a time between two poses of what moves.
+// stages/moment.h - the two poses around a time, and the fraction between them.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "math/transform.h"
-#include "stages/doors.h"
+#include "stages/path_state.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// The pose before a time, and how much of the way to the next one has passed.
+/// The pose before a time, and the fraction of the interval to the next one.
 struct Moment {
     LanesI step;
-    Lanes share;
+    Lanes fraction;
 };
 
 /// In  time: 0 when the shutter opens, 1 when it closes; steps: at least 2
@@ -22,11 +22,11 @@ OBSCURA_INLINE Moment moment_of(int steps, Lanes time) {
 }
 
 /// Entry by entry, as Embree blends its instances.
-OBSCURA_INLINE Affine<Lanes> blend(const Affine<Lanes>& a, const Affine<Lanes>& b, Lanes share) {
+OBSCURA_INLINE Affine<Lanes> blend(const Affine<Lanes>& a, const Affine<Lanes>& b, Lanes fraction) {
     Affine<Lanes> out;
     for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 4; ++c)
-            out.m[r][c] = a.m[r][c] + (b.m[r][c] - a.m[r][c]) * share;
+            out.m[r][c] = a.m[r][c] + (b.m[r][c] - a.m[r][c]) * fraction;
     }
     return out;
 }

@@ -1,4 +1,4 @@
-// stages/pixel_sum.h - the sum of a pixel's samples, which does not lose small ones among many.
+// stages/pixel_sum.h - sums a pixel's samples in blocks, so that rounding stays small.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -12,21 +12,20 @@ struct SampleRange {
     int count = 0;
 };
 
-/// The first samples of a pixel are added one by one: so few lose little.
+/// The first samples of a pixel are added one by one: so few round little.
 inline constexpr uint32_t first_sum_samples = 1024;
 
-/// The others are added one by one in blocks that begin at every so many, and the blocks' sums in
-/// double: a constant is then right to 5e-7 after 2^20 samples, where a single sum in float would
-/// be 1.4 % off.
+/// Later samples are added in blocks of this size, one by one; the blocks are summed in double. A
+/// constant is then right to 5e-7 after 2^20 samples, where a single sum in float is 1.4 % off.
 inline constexpr uint32_t sum_block_samples = 32;
 
 static_assert(first_sum_samples % sum_block_samples == 0);
 
-/// RGBA. Which samples are added to which block follows from their numbers alone, so that the sum
-/// does not depend on how they were cut into batches.
+/// RGBA sum of a pixel. A sample's block follows from its index alone, so that the sum does not
+/// depend on how samples are cut into batches.
 struct PixelSum {
-    double blocks[4] = {0, 0, 0, 0};  ///< of those that are finished
-    float block[4] = {0, 0, 0, 0};    ///< of the one that is not
+    double blocks[4] = {0, 0, 0, 0};  ///< sums of finished blocks
+    float block[4] = {0, 0, 0, 0};    ///< sum of the block in progress
 
     /// Channel c of the mean of a pixel's first `samples` samples.
     float mean(int c, int samples) const {

@@ -1,4 +1,4 @@
-// stages/shared_faces.cpp - faces of several bodies in one place, which a path crosses at once.
+// stages/shared_faces.cpp - coincident faces of several media, which a path crosses all at once.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/shared_faces.h"
 
@@ -23,9 +23,9 @@ bool is_before(const Crossing& a, const Crossing& b) {
     return a.t < b.t || (a.t == b.t && identity(a) < identity(b));
 }
 
-/// The first face that the path has not gone through yet, and all in company with it.
+/// The first face that the path has not crossed yet, and all faces that coincide with it.
 std::span<const Crossing> first_company(const Probe& probe, std::vector<Crossing>& faces) {
-    // Behind the path's start: it has gone through these before.
+    // These lie behind the path's start: it has crossed them before.
     std::erase_if(faces, [&](const Crossing& face) {
         return face.t < probe.depth && probe.depth - face.t >= probe.height;
     });
@@ -38,40 +38,40 @@ std::span<const Crossing> first_company(const Probe& probe, std::vector<Crossing
     return {faces.data(), std::min(count, faces.size())};
 }
 
-/// What becomes of one body. Several faces of it that all lead in or all lead out are one boundary
-/// met on an edge; out of it and into it again is no boundary at all.
+/// The change of one medium. Several faces that all enter or all leave it are one boundary, met at
+/// an edge; leaving and entering again cancel.
 struct Change {
-    int32_t body = 0;
+    int32_t medium = 0;
     bool enters = false;
     bool leaves = false;
     bool counts() const { return enters != leaves; }
 };
 
-/// The greatest number first.
+/// Changes of the media at these faces, the greatest number first.
 std::vector<Change> find_changes(std::span<const Crossing> faces) {
     std::vector<Change> changes;
     for (const Crossing& face : faces) {
         auto at = std::find_if(changes.begin(), changes.end(), [&](const Change& change) {
-            return change.body == face.body;
+            return change.medium == face.medium;
         });
-        if (at == changes.end()) at = changes.insert(at, {face.body});
+        if (at == changes.end()) at = changes.insert(at, {face.medium});
         (face.enters ? at->enters : at->leaves) = true;
     }
     std::erase_if(changes, [](const Change& change) { return !change.counts(); });
     std::sort(changes.begin(), changes.end(), [](const Change& a, const Change& b) {
-        return a.body > b.body;
+        return a.medium > b.medium;
     });
     return changes;
 }
 
-/// As PathRows::bodies holds them: three at most.
-void add_body(int32_t body, uint32_t& bodies) {
-    if ((bodies & 0xFFU) != 0) return;
-    const auto number = static_cast<uint32_t>(body);
-    if ((bodies >> 16U & 0xFFU) == 0) {
-        bodies |= number << 16U;
+/// Appends a medium, in the format of PathColumns::medium_stack: three at most.
+void add_medium(int32_t medium, uint32_t& medium_stack) {
+    if ((medium_stack & 0xFFU) != 0) return;
+    const auto number = static_cast<uint32_t>(medium);
+    if ((medium_stack >> 16U & 0xFFU) == 0) {
+        medium_stack |= number << 16U;
     } else {
-        bodies |= (bodies >> 8U & 0xFFU) == 0 ? number << 8U : number;
+        medium_stack |= (medium_stack >> 8U & 0xFFU) == 0 ? number << 8U : number;
     }
 }
 
@@ -83,45 +83,45 @@ Company find_company(const Probe& probe, const Crossing& hit, std::vector<Crossi
     const std::span<const Crossing> company = first_company(probe, faces);
     Company out;
     out.found = std::any_of(company.begin(), company.end(), [&](const Crossing& face) {
-        return face.body != hit.body || face.enters != hit.enters;
+        return face.medium != hit.medium || face.enters != hit.enters;
     });
     if (!out.found) return out;
     out.crossed.left = faces_shared;
     const std::vector<Change> changes = find_changes(company);
     for (const Change& change : changes)
-        add_body(change.body, change.enters ? out.crossed.entered : out.crossed.left);
-    // Where nothing changes, any face is as good: nothing will be seen of it.
+        add_medium(change.medium, change.enters ? out.crossed.entered : out.crossed.left);
+    // Where nothing changes, any face will do: it stays invisible.
     const auto rank = [&](const Crossing& face) {
-        const bool fills = !changes.empty() && face.body == changes.front().body;
+        const bool fills = !changes.empty() && face.medium == changes.front().medium;
         return std::make_tuple(fills ? 0 : 1, identity(face));
     };
     out.face = *std::min_element(
         company.begin(), company.end(), [&](const Crossing& a, const Crossing& b) {
             return rank(a) < rank(b);
         });
-    out.crossed.before = out.face.t - company.front().t + probe.clearance;
-    out.crossed.beyond = company.back().t - out.face.t + probe.clearance;
+    out.crossed.reflected_clearance = out.face.t - company.front().t + probe.clearance;
+    out.crossed.transmitted_clearance = company.back().t - out.face.t + probe.clearance;
     return out;
 }
 
 namespace {
 
-/// One ray of paths or probes, alone.
-template <typename Rows>
-RayColumns ray_of(const Rows& rows, size_t row, const float* tfar, const float* slot_time) {
-    return {.ox = rows.ox + row,
-            .oy = rows.oy + row,
-            .oz = rows.oz + row,
-            .dx = rows.dx + row,
-            .dy = rows.dy + row,
-            .dz = rows.dz + row,
+/// One ray of a column of paths or probes.
+template <typename Columns>
+RayColumns ray_of(const Columns& columns, size_t index, const float* tfar, const float* slot_time) {
+    return {.ox = columns.ox + index,
+            .oy = columns.oy + index,
+            .oz = columns.oz + index,
+            .dx = columns.dx + index,
+            .dy = columns.dy + index,
+            .dz = columns.dz + index,
             .tfar = tfar,
-            .key = rows.path_key + row,
+            .key = columns.path_key + index,
             .count = 1,
-            .time = slot_time != nullptr ? slot_time + rows.slot[row] : nullptr};
+            .time = slot_time != nullptr ? slot_time + columns.slot[index] : nullptr};
 }
 
-/// All faces of bodies along one ray of a slot's path.
+/// All faces of media along one ray of a sample's path.
 void list_faces(const CompanyQuery& query,
                 const RayColumns& ray,
                 const uint32_t* slot,
@@ -136,51 +136,55 @@ void list_faces(const CompanyQuery& query,
     query.accel.list_crossings(ray, 0, see_through, out);
 }
 
-/// Puts a face in the place of a path's hit.
+/// Replaces a path's hit by a face.
 ///
-/// In   faces: all that the path's ray goes through up to there; it may miss the face by rounding
-void move_hit(const HitRows& h, size_t row, Crossing face, const std::vector<Crossing>& faces) {
-    face.t = h.t[row];
+/// In   faces: all that the path's ray crosses up to there; rounding may make it miss the face
+void move_hit(const HitColumns& h,
+              size_t index,
+              Crossing face,
+              const std::vector<Crossing>& faces) {
+    face.t = h.t[index];
     for (const Crossing& met : faces) {
         if (is_same_face(met, face)) face = met;
     }
-    h.t[row] = face.t;
-    h.u[row] = face.u;
-    h.v[row] = face.v;
-    h.instance[row] = face.surface.instance;
-    h.primitive[row] = face.surface.primitive;
-    h.triangle[row] = face.triangle;
+    h.t[index] = face.t;
+    h.u[index] = face.u;
+    h.v[index] = face.v;
+    h.instance[index] = face.surface.instance;
+    h.primitive[index] = face.surface.primitive;
+    h.triangle[index] = face.triangle;
 }
 
 }  // namespace
 
 int meet_company(const CompanyQuery& query,
                  int probes,
-                 const ProbeRows& rows,
-                 const HitRows& hits,
+                 const ProbeColumns& columns,
+                 const HitColumns& hits,
                  SharedFaces* shared) {
     int met = 0;
-    const ShadowView p = rows.probes;
-    const HitRows& h = hits;
+    const ShadowView p = columns.probes;
+    const HitColumns& h = hits;
     std::vector<Crossing> faces;
     for (size_t i = 0; i < static_cast<size_t>(probes); ++i) {
-        const size_t row = rows.row[i] & ~seen_from_front;
-        const SceneRows surface{h.instance[row], h.primitive[row]};
+        const size_t index = columns.path_index[i] & ~seen_from_front;
+        const SceneRecords surface{h.instance[index], h.primitive[index]};
         const Crossing hit{p.r[i],
-                           h.u[row],
-                           h.v[row],
+                           h.u[index],
+                           h.v[index],
                            surface,
-                           h.triangle[row],
-                           query.touching_bodies[surface.primitive],
-                           (rows.row[i] & seen_from_front) != 0};
-        list_faces(query, ray_of(p, i, p.tfar + i, rows.time), p.slot + i, faces);
+                           h.triangle[index],
+                           query.touching_media[surface.primitive],
+                           (columns.path_index[i] & seen_from_front) != 0};
+        list_faces(query, ray_of(p, i, p.tfar + i, columns.time), p.slot + i, faces);
         const Company company = find_company({p.r[i], p.g[i], p.b[i]}, hit, faces);
         if (!company.found) continue;
         ++met;
         shared[p.slot[i]] = company.crossed;
-        const float tfar = h.t[row] * 1.001f;  // a little beyond: the face may lie behind the hit
-        list_faces(query, ray_of(rows.paths, row, &tfar, rows.time), p.slot + i, faces);
-        move_hit(h, row, company.face, faces);
+        const float tfar =
+            h.t[index] * 1.001f;  // a little further: the face may lie behind the hit
+        list_faces(query, ray_of(columns.paths, index, &tfar, columns.time), p.slot + i, faces);
+        move_hit(h, index, company.face, faces);
     }
     return met;
 }

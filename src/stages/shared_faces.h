@@ -1,4 +1,4 @@
-// stages/shared_faces.h - faces of several bodies in the same place, which a path crosses at once.
+// stages/shared_faces.h - coincident faces of several media, which a path crosses all at once.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,47 +9,46 @@
 
 namespace obscura {
 
-/// A path's hit as its probe sees it; see ProbeRows.
+/// A path's hit as its probe sees it; see ProbeColumns.
 struct Probe {
     float depth = 0;      ///< of the hit, along the probe
     float height = 0;     ///< of the path's start, before the hit
     float clearance = 0;  ///< of the hit
 };
 
-/// What a path meets at a place where several faces are.
+/// The coincident faces that a path crosses at a hit.
 struct Company {
     bool found = false;  ///< false: the hit face is alone
-    Crossing face;       ///< the one that counts: of the body that fills the place on one side
+    Crossing face;       ///< the one that counts: of the medium that dominates on one side
     SharedFaces crossed;
 };
 
-/// Finds the faces that a path goes through together with the one that it hit.
+/// Finds the faces that a path crosses together with the one that it hit.
 ///
-/// Which of them Embree found first is chance, and says nothing: what counts are the bodies before
-/// and behind all of them, and the face of the one that fills the place there (scene/media.h),
-/// which then is the path's hit.
+/// Which of them Embree reports first is random. So the media before and behind all of them decide:
+/// the face of the dominant medium there (scene/media.h) becomes the path's hit.
 ///
-/// In      hit: t along the probe; faces: all that the probe goes through, perhaps the hit too
-/// Source  bodies by precedence: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced
-///         Images", Journal of Graphics Tools 7(2), 2002; they leave out faces in the same place
+/// In      hit: t along the probe; faces: all that the probe crosses, with or without the hit
+/// Source  priorities: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", Journal
+///         of Graphics Tools 7(2), 2002; they do not treat coincident faces
 Company find_company(const Probe& probe, const Crossing& hit, std::vector<Crossing>& faces);
 
-/// What the faces around hits are asked of.
+/// The inputs of the search for coincident faces.
 struct CompanyQuery {
     const Accel& accel;
-    const int32_t* touching_bodies;  ///< by primitive
-    SeeThrough see_through;          ///< of the paths' rays; cutaway: by row of these
+    const int32_t* touching_media;  ///< by primitive
+    SeeThrough see_through;         ///< of the paths' rays; cutaway: by path index
 };
 
-/// Looks along probes for faces in the same place as the hits. Where there are, the face that
-/// counts takes the place of the hit, at the place where the path's own ray meets it.
+/// Searches along the probes for faces that coincide with the hits. Where there are any, the face
+/// to shade replaces the hit, at the position where the path's own ray meets it.
 ///
-/// In/Out  hits: those of `rows`; shared: by slot; written where a hit has company.
-///         Returns how many hits have.
+/// In/Out  hits: those of `columns`; shared: by sample index; written where faces coincide.
+///         Returns the number of such hits.
 int meet_company(const CompanyQuery& query,
                  int probes,
-                 const ProbeRows& rows,
-                 const HitRows& hits,
+                 const ProbeColumns& columns,
+                 const HitColumns& hits,
                  SharedFaces* shared);
 
 }  // namespace obscura

@@ -6,7 +6,7 @@
 
 namespace obscura {
 
-/// Seconds in each stage, summed over threads. Embree's two kinds of nearest-hit rays are apart.
+/// Seconds in each stage, summed over threads. Camera and bounce rays are counted separately.
 struct StageSeconds {
     double camera = 0;
     double intersect_camera = 0;
@@ -33,7 +33,7 @@ struct NamedSeconds {
     double seconds;
 };
 
-/// The stages in the order of the corridor.
+/// The stages in the order of the wavefront pipeline.
 inline std::array<NamedSeconds, 5> by_stage(const StageSeconds& s) {
     return {{{"camera", s.camera},
              {"intersect", s.intersect()},

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "stages/doors.h"
+#include "stages/path_state.h"
 #include "stages/pixel_sum.h"
 
 namespace obscura {
 
-/// What integrators that are named after a quantity write.
-enum class Quantity : int {
+/// The AOVs: per-pixel outputs other than radiance, each an integrator of its own.
+enum class Aov : int {
     normal,
     facing,
     depth,
@@ -20,115 +20,115 @@ enum class Quantity : int {
     heat,  ///< not a stage's work: accel/ counts
 };
 
-/// What shade writes besides the samples.
+/// Sizes of the columns that shade writes.
 struct ShadeCounts {
-    int next = 0;    ///< rows in the next paths
-    int shadow = 0;  ///< rows in the shadow rays
+    int next = 0;    ///< in the next paths
+    int shadow = 0;  ///< in the shadow rays
 };
 
-/// Hits and lights that one step of ray casting joins.
+/// The hits and lights that one step of ray casting pairs.
 struct RaycastRange {
     int first_hit = 0, hits = 0;      ///< first_hit: a multiple of 16
     int first_light = 0, lights = 0;  ///< punctual ones first, then RaycastView::centres
 };
 
-/// The columns that shading one bounce touches.
-struct ShadeRows {
-    PathRows paths;      ///< in: this bounce's rays; they are overwritten (packed in place)
-    HitRows hits;        ///< in: what they hit; overwritten likewise
-    MissRows misses;     ///< scratch
-    PathRows next;       ///< out
-    ShadowRows shadows;  ///< out
-    SampleRows samples;  ///< in and out
-    const float* time = nullptr;  ///< by slot; null: nothing moves
-    float* passed = nullptr;      ///< where SceneView::thin_walls, by slot; see stages/3_walls.h
-    float* occlusion = nullptr;   ///< where SceneView::occludes, by slot; see stages/3_occlusion.h
-    const SharedFaces* shared = nullptr;  ///< where SceneView::touching_bodies, by slot
+/// The columns that shading one bounce reads and writes.
+struct ShadeColumns {
+    PathColumns paths;      ///< in: this bounce's rays; they are overwritten (packed in place)
+    HitColumns hits;        ///< in: what they hit; overwritten likewise
+    MissColumns misses;     ///< scratch
+    PathColumns next;       ///< out
+    ShadowColumns shadows;  ///< out
+    SampleColumns samples;  ///< in and out
+    const float* time = nullptr;                 ///< by slot; null: nothing moves
+    float* distance_since_scattering = nullptr;  ///< metres, by slot; see stages/3_thin_walls.h
+    float* occlusion = nullptr;  ///< where SceneView::occludes, by slot; see stages/3_occlusion.h
+    const SharedFaces* shared = nullptr;  ///< where SceneView::touching_media, by slot
 };
 
-/// The columns that ray casting reads and writes, once hits and misses are parted.
+/// The columns that ray casting reads and writes, once hits and misses are separated.
 struct RaycastColumns {
     PathView paths;
     HitView hits;
-    ShadowRows shadows;           ///< out
-    SampleRows samples;           ///< in and out
-    const float* time = nullptr;  ///< as in ShadeRows
+    ShadowColumns shadows;        ///< out
+    SampleColumns samples;        ///< in and out
+    const float* time = nullptr;  ///< as in ShadeColumns
     const SharedFaces* shared = nullptr;
 };
 
-/// The columns from which an AOV is written: row i is pixel i.
+/// The columns from which an AOV is written: index i is pixel i.
 struct AovColumns {
     PathView paths;
     HitView hits;
-    SampleRows samples;           ///< out
+    SampleColumns samples;        ///< out
     const float* time = nullptr;  ///< by pixel; null: nothing moves
 };
 
-/// Smooth thin walls that a shadow ray passes at most, and a path after its last bounce: behind
-/// more of them there is less light than should be.
-inline constexpr int most_walls = 32;
+/// Limit of smooth thin walls that a shadow ray passes, and a path after its last bounce. Behind
+/// more of them the image is too dark.
+inline constexpr int max_thin_walls = 32;
 
-/// In place of 0 and 1 in `occluded`: nothing but what may be thin walls is in the way.
-inline constexpr uint8_t waits_at_wall = 2;
+/// A third value in `occluded`, beside 0 and 1: only possible thin walls are in the way.
+inline constexpr uint8_t waits_at_thin_wall = 2;
 
-/// Shadow rays on their way through thin walls.
-struct WallRows {
-    ShadowRows shadows;  ///< in and out, packed in place
+/// Transparent shadow rays, which pass thin walls.
+struct ThinWallColumns {
+    ShadowColumns shadows;  ///< in and out, packed in place
     HitView hits;
-    SampleRows samples;           ///< in and out
+    SampleColumns samples;        ///< in and out
     const float* time = nullptr;  ///< by slot; null: nothing moves
 };
 
-/// One step on that way.
-struct WallStep {
+/// One step of transparent shadow rays: up to the next thin wall.
+struct ThinWallStep {
     uint32_t segment = 0;
     uint32_t number = 0;
     bool random = true;  ///< texels are drawn; else filtered
 };
 
-/// Paths that begin their way through bodies that scatter light.
+/// The start of random walks inside scattering media.
 struct ScatterStart {
-    PathView paths;       ///< all paths of a bounce
-    HitView hits;         ///< what they hit
-    PathRows walkers;     ///< out: those of them inside such bodies, packed
-    HitRows walker_hits;  ///< out: what these hit
-    uint32_t* row;        ///< out: of a walker, in `paths`
+    PathView paths;               ///< all paths of a bounce
+    HitView hits;                 ///< what they hit
+    PathColumns random_walks;     ///< out: those of them inside such media, packed
+    HitColumns random_walk_hits;  ///< out: what these hit
+    uint32_t* path_index;         ///< out: of a random walk, in `paths`
 };
 
-/// Paths on that way.
-struct ScatterRows {
-    PathRows paths;       ///< out, by row: walkers that are done
-    HitRows hits;         ///< out: what they hit
-    PathRows walkers;     ///< in and out, packed in place
-    HitView walker_hits;  ///< what these hit
-    uint32_t* row;        ///< in and out: of a walker, in `paths`
+/// One flight of random-walk paths.
+struct ScatterColumns {
+    PathColumns paths;         ///< out, by index: random walks that are done
+    HitColumns hits;           ///< out: what they hit
+    PathColumns random_walks;  ///< in and out, packed in place
+    HitView random_walk_hits;  ///< what these hit
+    uint32_t* path_index;      ///< in and out: of a random walk, in `paths`
 };
 
-/// Paths that may have met faces of several bodies at once, and the rays that look for them: along
-/// the normal through the hit, from its viewer's side.
-struct ProbeRows {
+/// Paths whose hit may coincide with faces of other media, and the probe rays that find those:
+/// along the normal through the hit, from the viewer's side.
+struct ProbeColumns {
     PathView paths;
     HitView hits;                 ///< what they hit
     const float* time = nullptr;  ///< by slot; null: nothing moves
     const SharedFaces* shared =
-        nullptr;  ///< by slot: only those that say so are looked at; or null
-    /// Out, packed. Their colours: how far along the hit lies; how far before the hit, along the
-    /// normal, the path began; the distance at which rays start clear of the hit.
-    ShadowRows probes;
-    uint32_t* row;  ///< out: of a probe, in `paths`; and seen_from_front
+        nullptr;  ///< by sample index: probes only where faces_shared; null: all
+    /// Out, packed. The colour channels hold distances: of the hit along the probe; of the path's
+    /// start before the hit, along the normal; at which rays start clear of the hit.
+    ShadowColumns probes;
+    uint32_t* path_index;  ///< out: a probe's index in `paths`, with seen_from_front
 };
 
-// Distances around a hit are counted in clearances: HitGeometry::offset, at which rays start clear
-// of the face that they leave, for Embree and shading round what lies nearer.
+// The unit of distances around a hit is the clearance: HitGeometry::offset, at which rays start
+// clear of the face that they leave. Nearer faces are within the rounding of Embree and shading.
 
-/// Faces that are nearer to each other are in the same place: a ray that starts clear of one of
-/// them would miss the other.
+/// Faces closer together than this coincide: a ray that starts clear of one would miss the other.
 inline constexpr float company_distance = 2.0f;
 
-/// How far beyond a hit faces are looked for, each next one in company with the last.
+/// Length of a probe behind the hit: a chain of faces, each coincident with the next, may be longer
+/// than company_distance.
 inline constexpr float probe_distance = 10.0f;
 
-/// In ProbeRows::row: the path comes from the front of what it hit.
+/// Bit in ProbeColumns::path_index: the path comes from the front of the face it hit.
 inline constexpr uint32_t seen_from_front = 1U << 31;
 
 /// One flight between two scatterings.
@@ -139,58 +139,65 @@ struct Flight {
 };
 
 /// One instruction set's stages. To add a stage: declare it here, define it in its own numbered
-/// file, list it in isa_entry.cpp and call it from walk.cpp.
+/// file, list the file in src/CMakeLists.txt (stages_sources) and the function in isa_entry.cpp,
+/// call it from wavefront.cpp, and enter it in the table of path_state.h and in
+/// tests/stages/path_state_test.cpp.
 struct StageTable {
     const char* isa;
     int lanes;
 
-    /// Stage 1: one camera ray a slot; samples are cleared.
+    /// Stage 1: one camera ray per sample; samples are cleared.
     void (*camera)(
-        const BatchSettings&, int count, const PathRows&, const SampleRows&, float* length_m);
+        const BatchSettings&, int count, const PathColumns&, const SampleColumns&, float* length_m);
 
-    /// Stage 1 for quantities: one ray a pixel, and of its row only what they need.
-    void (*centre_camera)(const BatchSettings&, int count, const PathRows&, float* length_m);
+    /// Stage 1 for AOVs: one ray per pixel; only the columns that AOVs read.
+    void (*centre_camera)(const BatchSettings&, int count, const PathColumns&, float* length_m);
 
-    /// Stage 1, where something moves: the time of every slot.
+    /// Stage 1, if something moves: the time of every sample.
     void (*open_shutter)(
-        const SceneView&, bool through_centres, int count, const PathRows&, float* time);
+        const SceneView&, bool through_centres, int count, const PathColumns&, float* time);
 
-    /// Stage 2, inside bodies that scatter light: which paths are, then one flight of each.
+    /// Stage 2, inside scattering media: finds the paths that are, then makes one flight of each.
     int (*begin_scatter)(const SceneView&, int count, const ScatterStart&);
-    int (*scatter)(const SceneView&, const Flight&, int count, const ScatterRows&);
+    int (*scatter)(const SceneView&, const Flight&, int count, const ScatterColumns&);
 
-    /// Stage 2, where bodies touch: rays that look for faces in the same place. Returns how many.
-    int (*make_probes)(const SceneView&, int count, const ProbeRows&);
+    /// Stage 2, where media touch: probe rays that find coincident faces. Returns how many.
+    int (*make_probes)(const SceneView&, int count, const ProbeColumns&);
 
     /// Stage 3: hits become radiance, shadow rays and next rays; misses see the environment.
     ShadeCounts (*shade)(
-        const SceneView&, const BatchSettings&, int bounce, int count, const ShadeRows&);
+        const SceneView&, const BatchSettings&, int bounce, int count, const ShadeColumns&);
 
     /// Stage 3 for --integrator ao: one occlusion ray a hit.
-    int (*shade_ao)(const SceneView&, const BatchSettings&, int count, const ShadeRows&);
+    int (*shade_ao)(const SceneView&, const BatchSettings&, int count, const ShadeColumns&);
 
     /// Stage 3 for --integrator raycast: the number of hits, which come to the front; then their
     /// shadow rays, range by range.
-    int (*begin_raycast)(const SceneView&, const BatchSettings&, int count, const ShadeRows&);
+    int (*begin_raycast)(const SceneView&, const BatchSettings&, int count, const ShadeColumns&);
     int (*shade_raycast)(const SceneView&, const RaycastRange&, const RaycastColumns&);
 
-    /// Stage 3 for quantities: every sample is written, without light; 0 where nothing was hit.
-    void (*quantity)(
-        const SceneView&, const BatchSettings&, Quantity, int count, const AovColumns&);
+    /// Stage 3 for AOVs: every sample is written; 0 where nothing was hit.
+    void (*aov)(const SceneView&, const BatchSettings&, Aov, int count, const AovColumns&);
 
-    /// Stage 4, where there are thin walls: the rays that wait there, then one step of each.
-    int (*take_waiting)(int count, const uint8_t* occluded, const ShadowRows&);
-    int (*cross_walls)(const SceneView&, const WallStep&, int count, const WallRows&);
+    /// Stage 4, if there are thin walls: packs the shadow rays that wait there, then steps each.
+    int (*take_waiting)(int count, const uint8_t* occluded, const ShadowColumns&);
+    int (*cross_thin_walls)(const SceneView&,
+                            const ThinWallStep&,
+                            int count,
+                            const ThinWallColumns&);
 
-    /// Stage 5a: unoccluded shadow rows are added to their samples.
-    void (*add_shadows)(int count, const ShadowView&, const uint8_t* occluded, const SampleRows&);
+    /// Stage 5a: unoccluded shadow rays are added to their samples.
+    void (*add_shadows)(int count,
+                        const ShadowView&,
+                        const uint8_t* occluded,
+                        const SampleColumns&);
 
     /// Stage 5b: adds each pixel's samples to its sum, in sample order.
-    uint64_t (*accumulate)(int pixels, const SampleRange&, const SampleRows&, PixelSum* sums);
+    uint64_t (*accumulate)(int pixels, const SampleRange&, const SampleColumns&, PixelSum* sums);
 
-    /// Stage 5 for quantities, whose samples are pixels: clears those that are not finite, and says
-    /// how many they were.
-    uint64_t (*clear_nonfinite)(int count, const SampleRows&);
+    /// Stage 5 for AOVs, whose samples are pixels: clears those that are not finite and returns
+    /// their number.
+    uint64_t (*clear_nonfinite)(int count, const SampleColumns&);
 };
 
 }  // namespace obscura

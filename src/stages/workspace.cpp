@@ -1,6 +1,6 @@
-// stages/workspace.cpp - the columns of one batch in one block of memory.
+// stages/workspace.cpp - allocates the columns of one batch in one block of memory.
 // SPDX-License-Identifier: Apache-2.0
-#include "stages/walk.h"
+#include "stages/wavefront.h"
 
 #include <memory>
 
@@ -18,7 +18,7 @@ public:
     template <typename T>
     void operator()(T*& column) const {
         column = reinterpret_cast<T*>(next_);
-        next_ += (padded_rows * sizeof(T) + alignment - 1) / alignment * alignment;
+        next_ += (padded_batch_size * sizeof(T) + alignment - 1) / alignment * alignment;
     }
     template <template <typename> typename Columns>
     void all(Columns<float>& columns) {
@@ -32,30 +32,30 @@ private:
 }  // namespace
 
 Workspace::Workspace() {
-    constexpr size_t words = 2 * words_in_row<PathRows> + 2 * words_in_row<HitRows> +
-                             words_in_row<MissRows> + words_in_row<ShadowRows> +
-                             words_in_row<SampleRows>;
-    memory_.resize(words * (padded_rows * 4 + alignment) + alignment);
+    constexpr size_t words = 2 * column_count<PathColumns> + 2 * column_count<HitColumns> +
+                             column_count<MissColumns> + column_count<ShadowColumns> +
+                             column_count<SampleColumns>;
+    memory_.resize(words * (padded_batch_size * 4 + alignment) + alignment);
     void* start = memory_.data();
     size_t space = memory_.size();
     Carver carve(
         static_cast<std::byte*>(std::align(alignment, memory_.size() - alignment, start, space)));
-    for (PathRows& p : paths)
+    for (PathColumns& p : paths)
         carve.all(p);
     carve.all(hits);
-    carve.all(walker_hits);
+    carve.all(random_walk_hits);
     carve.all(misses);
     carve.all(shadows);
     carve.all(samples);
-    walker_row.resize(padded_rows);
-    occluded.resize(padded_rows);
-    camera_length_m.resize(padded_rows);
-    slot_time.resize(padded_rows);
-    ray_time.resize(padded_rows);
-    cut_faces.resize(padded_rows);
-    ray_end.resize(padded_rows);
+    random_walk_path.resize(padded_batch_size);
+    occluded.resize(padded_batch_size);
+    camera_length_m.resize(padded_batch_size);
+    slot_time.resize(padded_batch_size);
+    ray_time.resize(padded_batch_size);
+    cut_faces.resize(padded_batch_size);
+    ray_end.resize(padded_batch_size);
     for (std::vector<float>& column : splats)
-        column.resize(padded_rows);
+        column.resize(padded_batch_size);
 }
 
 }  // namespace obscura

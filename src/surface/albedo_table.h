@@ -1,4 +1,4 @@
-// surface/albedo_table.h - how much of a white sky a lobe reflects, by angle and roughness.
+// surface/albedo_table.h - directional albedo of single-scattering lobes, by cosine and roughness.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -27,7 +27,7 @@ extern const float sheen_cells[albedo_cells * 4];
 
 inline namespace OBSCURA_ISA {
 
-/// A place in the tables.
+/// A position in the tables.
 template <typename F>
 struct AlbedoCell {
     IntOf<F> index;
@@ -49,8 +49,8 @@ OBSCURA_INLINE F bilinear(const Four<F>& corner, const F& x, const F& y) {
     return lerp(lerp(corner.x, corner.y, x), lerp(corner.z, corner.w, x), y);
 }
 
-/// Share of a white sky that microfacets reflect after one bounce. Schlick's Fresnel is linear in
-/// the reflectances f0 at normal and f90 at grazing incidence, and so are these.
+/// Directional albedo of single-scattering microfacets. Like Schlick's Fresnel, it is linear in the
+/// reflectances f0 at normal and f90 at grazing incidence.
 ///
 /// Source  Karis, "Real Shading in Unreal Engine 4", SIGGRAPH 2013 course
 template <typename F>
@@ -72,7 +72,7 @@ OBSCURA_INLINE SpecularAlbedo<F> specular_albedo(const F& cosine, const F& alpha
     return {bilinear(corners(0), cell.x, cell.y), bilinear(corners(4), cell.x, cell.y)};
 }
 
-/// Mean over the cosine law of Schlick's reflectance from f0 to f90.
+/// Cosine-weighted mean of Schlick's reflectance from f0 to f90.
 template <typename F>
 OBSCURA_INLINE F mean_schlick(const F& f0, const F& f90) {
     return f0 + (f90 - f0) * F(1.0f / 21);
@@ -83,14 +83,14 @@ OBSCURA_INLINE Vec3<F> mean_schlick(const Vec3<F>& f0) {
     return f0 * F(20.0f / 21) + splat3(F(1.0f / 21));
 }
 
-/// What light gains that microfacets reflect more than once: the factor of a single-scattering
-/// lobe. A lobe that loses nothing at its facets then loses nothing at all.
+/// The factor on a single-scattering lobe that adds light reflected between microfacets. A lobe
+/// whose facets absorb nothing then absorbs nothing at all.
 ///
 /// In      mirror: SpecularAlbedo::mirror towards wo; mean_reflectance: of a facet, over all angles
 /// Source  Turquin, "Practical Multiple Scattering Compensation for Microfacet Models", 2019, with
 ///         the sum over bounces of Fdez-Aguera, "A Multiple-Scattering Microfacet Model for
-///         Real-Time Image-based Lighting", JCGT 8(1), 2019: each of the share 1 - mirror that is
-///         caught meets a facet again. Not reciprocal: the factor belongs to wo.
+///         Real-Time Image-based Lighting", JCGT 8(1), 2019: the fraction 1 - mirror that is caught
+///         meets another facet. Not reciprocal: the factor belongs to wo.
 template <typename F>
 OBSCURA_INLINE F interreflection(const F& mirror, const F& mean_reflectance) {
     return F(1.0f) / (F(1.0f) - mean_reflectance * (F(1.0f) - mirror));
@@ -103,7 +103,7 @@ OBSCURA_INLINE Vec3<F> interreflection(const F& mirror, const Vec3<F>& mean_refl
             interreflection(mirror, mean_reflectance.z)};
 }
 
-/// A dielectric's lobe of f0 = dielectric_f0: what it reflects of a white sky, and its factor.
+/// A dielectric's lobe with f0 = dielectric_f0: its interreflection factor and directional albedo.
 template <typename F>
 struct DielectricLobe {
     F factor;  ///< interreflection

@@ -73,11 +73,11 @@ OBSCURA_INLINE LobeWeights<F> lobe_weights(const BsdfParams<F>& p, const F& cos_
     w.diffuse = (one - p.metallic) * (one - dielectric.albedo);
     w.specular_f0 = p.base_color * metal + splat3(plastic * F(dielectric_f0));
     w.specular_rise = metal + splat3(plastic) - w.specular_f0;
-    const F specular_share =
+    const F specular_weight =
         luminance(w.specular_f0) * once.mirror + luminance(w.specular_rise) * once.grazing;
-    const F diffuse_share = w.diffuse * luminance(p.base_color);
-    const F share = specular_share / max(specular_share + diffuse_share, F(1e-6f));
-    w.specular_probability = select(diffuse_share > F(0.0f), clamp(share, F(0.1f), F(0.9f)), one);
+    const F diffuse_weight = w.diffuse * luminance(p.base_color);
+    const F share = specular_weight / max(specular_weight + diffuse_weight, F(1e-6f));
+    w.specular_probability = select(diffuse_weight > F(0.0f), clamp(share, F(0.1f), F(0.9f)), one);
     return w;
 }
 

@@ -1,4 +1,4 @@
-// surface/fresnel.h - how much of the light a boundary reflects: Schlick, refraction, thin films.
+// surface/fresnel.h - reflectance of boundaries: Schlick, refraction, thin films.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -15,20 +15,19 @@ OBSCURA_INLINE F schlick_weight(const F& cosine) {
     return m2 * m2 * m;
 }
 
-/// Share of the light from below that a clear coat lets pass: of an index of 1.5, in the share
-/// `coat`.
+/// Transmittance of a clear coat with index 1.5 for light from below; `coat` is its coverage.
 /// Source  KHR_materials_clearcoat, Emission
 template <typename F>
 OBSCURA_INLINE F coat_lets_pass(const F& coat, const F& cosine) {
     return F(1.0f) - coat * (F(0.04f) + F(0.96f) * schlick_weight(cosine));
 }
 
-/// The mean of what coat_lets_pass takes, over a Lambertian surface.
+/// The mean reflectance of a coat (1 - coat_lets_pass at coat = 1) over a Lambertian surface.
 inline constexpr float mean_coat_reflectance = 0.04f + 0.96f / 21;
 
-/// Indices of refraction that differ by less, as a share, count as equal: refraction would bend by
-/// less than this, and its formulas divide by the difference.
-inline constexpr float least_refraction = 1e-3f;
+/// Indices of refraction with a smaller relative difference count as equal: the formulas divide by
+/// the difference, and refraction would bend light by less than this.
+inline constexpr float min_refraction = 1e-3f;
 
 /// Reflectance at normal incidence between media whose indices of refraction have the ratio eta.
 template <typename F>
@@ -36,9 +35,8 @@ OBSCURA_INLINE F normal_reflectance(const F& eta) {
     return square((eta - F(1.0f)) / (eta + F(1.0f)));
 }
 
-/// Reflectance at grazing incidence that goes with it in Schlick's formula: 1 from an index of 1.3
-/// on. Towards equal indices less and less is reflected at any angle short of 90 degrees, down to
-/// nothing; Schlick's curve to 1 would not see that.
+/// The f90 of Schlick's formula: 1 from an index of 1.3 on. As the indices become equal, the true
+/// reflectance falls to 0 at all angles below 90 degrees, which Schlick's curve to 1 would miss.
 ///
 /// Errors  against Fresnel's equations at 84 degrees: 0.05 at most
 template <typename F>
@@ -49,7 +47,7 @@ OBSCURA_INLINE F grazing_reflectance(const F& eta) {
 
 /// Cosine of the refracted ray against the normal; negative under total reflection.
 ///
-/// In      cosine: of the incident ray, >= 0; eta: index beyond / index on this side
+/// In      cosine: of the incident ray, >= 0; eta: index of transmitted side / of incident side
 template <typename F>
 OBSCURA_INLINE F refracted_cosine(const F& cosine, const F& eta) {
     const F sine2 = (F(1.0f) - cosine * cosine) / (eta * eta);
@@ -60,30 +58,30 @@ OBSCURA_INLINE F refracted_cosine(const F& cosine, const F& eta) {
 /// under total reflection.
 template <typename F>
 OBSCURA_INLINE F boundary_schlick_weight(const F& cosine, const F& eta) {
-    const F beyond = refracted_cosine(cosine, eta);
-    const F weight = schlick_weight(select(eta < F(1.0f), beyond, cosine));
-    return select(beyond < F(0.0f), F(1.0f), weight);
+    const F transmitted_cosine = refracted_cosine(cosine, eta);
+    const F weight = schlick_weight(select(eta < F(1.0f), transmitted_cosine, cosine));
+    return select(transmitted_cosine < F(0.0f), F(1.0f), weight);
 }
 
 /// A thin film on a surface.
 template <typename F>
 struct ThinFilm {
-    F strength;  ///< 0 to 1; see film_presence
+    F strength;  ///< 0 to 1; see thin_film_presence
     F ior;
     F thickness_nm;
 };
 
-/// How much there is of a film: it disappears continuously towards no thickness, where the formulas
-/// below, made for films that light takes time to cross, do not.
+/// Strength of a thin film: it fades continuously towards zero thickness, where the formulas below
+/// do not.
 ///
 /// Source  KHR_materials_iridescence: no film at a thickness of 0
 template <typename F>
-OBSCURA_INLINE F film_presence(const F& thickness_nm) {
+OBSCURA_INLINE F thin_film_presence(const F& thickness_nm) {
     const F near_zero = clamp(thickness_nm * F(1.0f / 30), F(0.0f), F(1.0f));
     return near_zero * near_zero * (F(3.0f) - F(2.0f) * near_zero);
 }
 
-namespace film {
+namespace thin_film {
 
 /// The eye's response to a cosine of the optical path difference, as Rec.709, 1 for a constant.
 ///
@@ -107,13 +105,13 @@ OBSCURA_INLINE Vec3<F> sensitivity(const F& path_nm, const Vec3<F>& shift) {
             F(0.0556434f) * x - F(0.2040259f) * y + F(1.0572252f) * z};
 }
 
-/// Phase jump of a reflection, by the indices on both sides.
+/// Phase shift of a reflection, by the indices on both sides.
 template <typename F>
 OBSCURA_INLINE F jump(const F& near_ior, const F& far_ior) {
     return select(far_ior < near_ior, F(pi_f), F(0.0f));
 }
 
-}  // namespace film
+}  // namespace thin_film
 
 /// Reflectance of a surface under a thin film, seen from air.
 ///
@@ -121,15 +119,15 @@ OBSCURA_INLINE F jump(const F& near_ior, const F& far_ior) {
 /// Source  KHR_materials_iridescence, "Theory": Airy sum over the film's inner reflections, two
 ///         terms after the constant one
 template <typename F>
-OBSCURA_INLINE Vec3<F> film_reflectance(const F& cosine,
-                                        const ThinFilm<F>& thin,
-                                        const Vec3<F>& base) {
+OBSCURA_INLINE Vec3<F> thin_film_reflectance(const F& cosine,
+                                             const ThinFilm<F>& thin,
+                                             const Vec3<F>& base) {
     const F ior = thin.ior;
     const F inside = refracted_cosine(cosine, ior);
     const F outer_weight = schlick_weight(cosine);
     const F outer = lerp(normal_reflectance(ior), F(1.0f), outer_weight);
     const F through = F(1.0f) - outer;
-    const F outer_jump = film::jump(F(1.0f), ior);
+    const F outer_jump = thin_film::jump(F(1.0f), ior);
     const F path_nm = F(2.0f) * ior * thin.thickness_nm * inside;
     const F inner_weight = schlick_weight(inside);
 
@@ -138,7 +136,7 @@ OBSCURA_INLINE Vec3<F> film_reflectance(const F& cosine,
         const F root = sqrt(clamp(reflectance, F(0.0f), F(0.9999f)));
         const F base_ior = (F(1.0f) + root) / (F(1.0f) - root);
         inner_channel = lerp(normal_reflectance(base_ior / ior), F(1.0f), inner_weight);
-        phase_channel = F(pi_f) - outer_jump + film::jump(ior, base_ior);
+        phase_channel = F(pi_f) - outer_jump + thin_film::jump(ior, base_ior);
     };
     channel(base.x, inner.x, phase.x);
     channel(base.y, inner.y, phase.y);
@@ -157,7 +155,7 @@ OBSCURA_INLINE Vec3<F> film_reflectance(const F& cosine,
     for (int order = 1; order <= 2; ++order) {
         const F n(static_cast<float>(order));
         term = term * root;
-        sum = sum + term * film::sensitivity(n * path_nm, phase * n) * F(2.0f);
+        sum = sum + term * thin_film::sensitivity(n * path_nm, phase * n) * F(2.0f);
     }
     const Vec3<F> bounded = each(sum, [](const F& r) { return clamp(r, F(0.0f), F(1.0f)); });
     return select(inside < F(0.0f), splat3(F(1.0f)), bounded);

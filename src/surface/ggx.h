@@ -18,14 +18,14 @@ OBSCURA_INLINE F ggx_distribution(const Vec3<F>& h, const GgxWidths<F>& alpha) {
     return F(1.0f) / (F(pi_f) * alpha.x * alpha.y * t * t);
 }
 
-/// Length of a direction once the surface is stretched until its facets have slopes of width 1.
+/// Length of a direction after the stretch that gives the facets slopes of width 1.
 /// Smith's Lambda is (this / |cos| - 1) / 2, G1 is 2 |cos| / (|cos| + this).
 template <typename F>
 OBSCURA_INLINE F smith_length(const Vec3<F>& w, const GgxWidths<F>& alpha) {
     return sqrt(square(w.x * alpha.x) + square(w.y * alpha.y) + w.z * w.z);
 }
 
-/// Height-correlated masking and shadowing over 4 |cos_o cos_i|: what D and F are multiplied with.
+/// Height-correlated masking and shadowing over 4 |cos_o cos_i|, the factor besides D and F.
 ///
 /// In      length_o, length_i: smith_length of both directions; cosines >= 0
 /// Source  Heitz, "Understanding the Masking-Shadowing Function in Microfacet-Based BRDFs", JCGT
@@ -36,8 +36,8 @@ smith_visibility(const F& cos_o, const F& length_o, const F& cos_i, const F& len
     return F(0.5f) / (cos_o * length_i + cos_i * length_o);
 }
 
-/// What is left of light that a visible microfacet of wo sends to wi: the masking and shadowing of
-/// both over the masking of wo alone.
+/// Weight of a sample from a visible microfacet: the masking and shadowing of both directions over
+/// the masking of wo alone.
 template <typename F>
 OBSCURA_INLINE F
 smith_shadowing(const F& cos_o, const F& length_o, const F& cos_i, const F& length_i) {
@@ -46,7 +46,7 @@ smith_shadowing(const F& cos_o, const F& length_o, const F& cos_i, const F& leng
 
 /// A microfacet normal as seen from wo.
 ///
-/// In      turn: of the angle around the view direction; height: in [0, 1)
+/// In      turn: sine and cosine of the angle around the view direction; height: in [0, 1)
 /// Source  Dupuy and Benyoub, "Sampling Visible GGX Normals with Spherical Caps", HPG 2023
 template <typename F>
 OBSCURA_INLINE Vec3<F> visible_normal(const Vec3<F>& wo,

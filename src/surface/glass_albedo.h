@@ -1,4 +1,4 @@
-// surface/glass_albedo.h - how much of a white sky rough glass reflects and lets through together.
+// surface/glass_albedo.h - directional albedo of rough glass: reflection plus refraction.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,16 +16,16 @@ inline constexpr int glass_cosines = 33;
 inline constexpr int glass_nodes = 2 * glass_indices * glass_roughnesses * glass_cosines;
 inline constexpr float glass_last_root = 0.6f;  ///< of the index 4
 
-/// Each node's share for facets that reflect only totally, then for those that follow Schlick; then
-/// both of the next cosine's. Written while the project is built, as those of albedo_table.h.
+/// Of each node: the albedo with facets that only reflect totally, then with Schlick's reflectance;
+/// then both for the next cosine. Written while the project is built, as those of albedo_table.h.
 extern const float glass_cells[glass_nodes * 4];
 
 inline namespace OBSCURA_ISA {
 
-/// Share of a white sky that a rough boundary reflects or refracts towards the viewer after one
-/// bounce, radiance counted per squared index of refraction.
+/// Directional albedo of a rough boundary, single-scattering reflection plus refraction, for
+/// radiance per squared index of refraction.
 ///
-/// In      eta: index beyond / on the viewer's side; specular: scales what Schlick's Fresnel says
+/// In      eta: index of transmitted side / of viewer's side; specular: factor on Schlick's Fresnel
 template <typename F>
 OBSCURA_INLINE F
 glass_albedo(const F& cosine, const F& roughness, const F& eta, const F& specular) {
@@ -37,23 +37,23 @@ glass_albedo(const F& cosine, const F& roughness, const F& eta, const F& specula
         clamp(root, zero, one), clamp(roughness, zero, one), sqrt(clamp(cosine, zero, one))};
     const int steps[3] = {glass_indices, glass_roughnesses, glass_cosines};
     I node = select(eta < one, I(1), I(0));
-    F share[3];
+    F fraction[3];
     for (int k = 0; k < 3; ++k) {
         const F x = place[k] * F(static_cast<float>(steps[k] - 1));
         const I step = min(to_int(x), I(steps[k] - 2));
-        share[k] = x - from_int<F>(step);
+        fraction[k] = x - from_int<F>(step);
         node = node * I(steps[k]) + step;
     }
     const auto along_cosine = [&](int offset) {
         const Four<F> at = gather4<F>(glass_cells, I((node + I(offset)) * I(4)));
-        const F total = lerp(at.x, at.z, share[2]);
-        return total + (lerp(at.y, at.w, share[2]) - total) * specular;
+        const F total = lerp(at.x, at.z, fraction[2]);
+        return total + (lerp(at.y, at.w, fraction[2]) - total) * specular;
     };
     constexpr int next_row = glass_cosines;
     constexpr int next_index = glass_roughnesses * glass_cosines;
-    return lerp(lerp(along_cosine(0), along_cosine(next_row), share[1]),
-                lerp(along_cosine(next_index), along_cosine(next_index + next_row), share[1]),
-                share[0]);
+    return lerp(lerp(along_cosine(0), along_cosine(next_row), fraction[1]),
+                lerp(along_cosine(next_index), along_cosine(next_index + next_row), fraction[1]),
+                fraction[0]);
 }
 
 }  // namespace OBSCURA_ISA

@@ -1,4 +1,4 @@
-// surface/harmonics.h - real spherical harmonics of the degrees 0 to 3.
+// surface/harmonics.h - real spherical harmonics of degrees 0 to 3.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,8 +6,8 @@
 
 namespace obscura {
 
-/// Functions up to a degree: (degree + 1)^2.
-inline constexpr int most_harmonics = 16;
+/// Number of functions up to degree 3: (degree + 1)^2.
+inline constexpr int max_harmonics = 16;
 
 inline namespace OBSCURA_ISA {
 
@@ -17,7 +17,7 @@ inline namespace OBSCURA_ISA {
 /// Source  KHR_gaussian_splatting, "Calculating color from Spherical Harmonics"; Sloan, "Stupid
 ///         Spherical Harmonics Tricks", 2008, appendix A2, for the polynomials
 template <typename F>
-OBSCURA_INLINE void real_harmonics(const Vec3<F>& d, F (&y)[most_harmonics]) {
+OBSCURA_INLINE void real_harmonics(const Vec3<F>& d, F (&y)[max_harmonics]) {
     const F xx = d.x * d.x;
     const F yy = d.y * d.y;
     const F zz = d.z * d.z;

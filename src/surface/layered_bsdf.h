@@ -62,9 +62,9 @@ OBSCURA_INLINE BsdfValue<F> layered_reflection(const LayeredParams<F>& p,
     Vec3<F> f = p.base_color * (w.diffuse * (one - p.diffuse_transmission) * F(1.0f / pi_f)) +
                 facet_reflectance(w, fresnel) * specular;
     f = f * wi.z;
-    const F most_sheen = max_component(p.sheen_color);
-    if (any(most_sheen > F(0.0f))) {
-        const F below_i = one - most_sheen * sheen_albedo(wi.z, p.sheen_alpha).albedo;
+    const F max_sheen = max_component(p.sheen_color);
+    if (any(max_sheen > F(0.0f))) {
+        const F below_i = one - max_sheen * sheen_albedo(wi.z, p.sheen_alpha).albedo;
         const F sheen = w.sheen_scale * charlie_cos(wo.z, wi.z, h.z, p.sheen_alpha);
         f = f * min(w.below_sheen, below_i) + p.sheen_color * sheen;
     }
@@ -80,7 +80,7 @@ OBSCURA_INLINE BsdfValue<F> layered_reflection(const LayeredParams<F>& p,
     return {f, pdf};
 }
 
-/// The microfacet that sends wo to wi beyond the surface: half vector and what densities gain.
+/// The microfacet that sends wo to wi on the transmitted side: half vector and what densities gain.
 template <typename F>
 struct Crossing {
     Vec3<F> h;
@@ -125,7 +125,7 @@ OBSCURA_INLINE BsdfValue<F> layered_transmission(const LayeredParams<F>& p,
     const F below = w.below_coat * w.below_sheen;
     Vec3<F> value = p.diffuse_transmission_color *
                     (w.diffuse * p.diffuse_transmission * cosine * F(1.0f / pi_f));
-    F pdf = w.p_behind * cosine * F(1.0f / pi_f);
+    F pdf = w.p_diffuse_transmission * cosine * F(1.0f / pi_f);
     if (any(w.transmitted > zero)) {
         const Crossing<F> c = crossing(p, wo, wi);
         const LayeredFresnel<F> fresnel = layered_fresnel(p, c.cosine);
@@ -177,35 +177,36 @@ OBSCURA_INLINE Vec3<F> transmit(const LayeredParams<F>& p, const Vec3<F>& wo, co
     const Vec3<F> mirrored = h * (F(2.0f) * cosine) - wo;
     const Vec3<F> thin{mirrored.x, mirrored.y, -mirrored.z};
     if (none(p.solid)) return thin;
-    const F beyond = refracted_cosine(cosine, p.eta);
-    const Vec3<F> refracted = h * (cosine / p.eta - beyond) - wo * (F(1.0f) / p.eta);
-    const Vec3<F> solid = select(beyond < F(0.0f), Vec3<F>{F(0.0f), F(0.0f), F(1.0f)}, refracted);
+    const F transmitted_cosine = refracted_cosine(cosine, p.eta);
+    const Vec3<F> refracted = h * (cosine / p.eta - transmitted_cosine) - wo * (F(1.0f) / p.eta);
+    const Vec3<F> solid =
+        select(transmitted_cosine < F(0.0f), Vec3<F>{F(0.0f), F(0.0f), F(1.0f)}, refracted);
     return select(p.solid, solid, thin);
 }
 
 /// A lobe of sample_layered, and the number that chose it stretched back over [0, 1).
 template <typename F>
 struct ChosenLobe {
-    F number;  ///< 0 diffuse, 1 behind, 2 facets, 3 coat
+    F number;  ///< 0 diffuse, 1 diffuse transmission, 2 facets, 3 coat
     F stretched;
 };
 
 template <typename F>
 OBSCURA_INLINE ChosenLobe<F> choose_lobe(const LayeredWeights<F>& w, const F& u) {
     constexpr int lobes = 4;
-    const F shares[lobes] = {w.p_diffuse, w.p_behind, w.p_facet, w.p_coat};
+    const F probabilities[lobes] = {w.p_diffuse, w.p_diffuse_transmission, w.p_facet, w.p_coat};
     F begin(0.0f);
     F from(0.0f);
     F number(0.0f);
     for (int lobe = 0; lobe < lobes; ++lobe) {  // the last one that begins at or below u
-        const auto in = (shares[lobe] > F(0.0f)) & (u >= begin);
+        const auto in = (probabilities[lobe] > F(0.0f)) & (u >= begin);
         from = select(in, begin, from);
         number = select(in, F(static_cast<float>(lobe)), number);
-        begin = begin + shares[lobe];
+        begin = begin + probabilities[lobe];
     }
-    F share = shares[0];
+    F share = probabilities[0];
     for (int lobe = 1; lobe < lobes; ++lobe)
-        share = select(number == F(static_cast<float>(lobe)), shares[lobe], share);
+        share = select(number == F(static_cast<float>(lobe)), probabilities[lobe], share);
     return {number, clamp((u - from) / max(share, F(1e-6f)), F(0.0f), F(0x1.fffffep-1f))};
 }
 
@@ -221,12 +222,12 @@ OBSCURA_INLINE BsdfSample<F> sample_layered(const LayeredParams<F>& p,
     const ChosenLobe<F> lobe = choose_lobe(w, u.x);
     const Vec2<F> stretched{lobe.stretched, u.y};
     const F number = lobe.number;
-    const auto behind = number == F(1.0f);
+    const auto diffuse_transmitted = number == F(1.0f);
     const auto by_facet = number == F(2.0f);
     const auto coated = number == F(3.0f);
     Vec3<F> wi = cosine_hemisphere(stretched);
-    wi.z = select(behind, -wi.z, wi.z);
-    auto through = behind;
+    wi.z = select(diffuse_transmitted, -wi.z, wi.z);
+    auto through = diffuse_transmitted;
     if (any(by_facet)) {
         GgxWidths<F> alpha = p.alpha;
         const auto may_pass = by_facet & (w.transmitted > F(0.0f));

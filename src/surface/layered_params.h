@@ -14,8 +14,8 @@ struct LayeredParams {
     GgxWidths<F> alpha;  ///< along the shading frame's tangent and bitangent
     Vec3<F> f0;          ///< of the dielectric, at normal incidence
     F f90;               ///< of the dielectric, at grazing incidence
-    F eta;               ///< index of refraction beyond / on the viewer's side; a thin wall's own
-    MaskOf<F> solid;     ///< what is transmitted is refracted; else the surface is a thin wall
+    F eta;  ///< index of refraction on the transmitted / on the viewer's side; a thin wall's own
+    MaskOf<F> solid;  ///< what is transmitted is refracted; else the surface is a thin wall
     F transmission;
     F diffuse_transmission;
     Vec3<F> diffuse_transmission_color;
@@ -24,7 +24,7 @@ struct LayeredParams {
     F coat;
     F coat_alpha;
     Vec3<F> coat_normal;  ///< in the shading frame, towards wo
-    ThinFilm<F> film;
+    ThinFilm<F> thin_film;
 };
 
 /// What depends on the view direction only: how the layers share the light. The factors of facets
@@ -37,12 +37,12 @@ struct LayeredWeights {
     F diffuse;                   ///< what neither reflects at the dielectric boundary nor passes it
     F dielectric;                ///< scales the dielectric's facets, its share included
     Vec3<F> metal;               ///< scales the metal's facets, its share included
-    F transmitted;               ///< of the light on a thin wall, of that on a body's dielectric
+    F transmitted;               ///< of the light on a thin wall, of that on a solid dielectric
     F through_factor;            ///< scales the facets that light passes
     GgxWidths<F> through_alpha;  ///< of those facets
     MaskOf<F> facetwise;         ///< each facet shares light by its own reflectance, else all alike
     F reflects;  ///< where all are alike: probability that a path which meets one is reflected
-    F p_diffuse, p_facet, p_coat, p_behind;  ///< of sample_layered's lobes, sum 1
+    F p_diffuse, p_facet, p_coat, p_diffuse_transmission;  ///< of sample_layered's lobes, sum 1
 };
 
 inline namespace OBSCURA_ISA {
@@ -59,19 +59,19 @@ OBSCURA_INLINE LayeredFresnel<F> layered_fresnel(const LayeredParams<F>& p, cons
     F inner = weight;
     F total(0.0f);  // 1: total reflection
     if (any(p.solid)) {
-        const F beyond = refracted_cosine(cosine, p.eta);
-        total = select(p.solid & (beyond < F(0.0f)), F(1.0f), F(0.0f));
-        const F in_thinner = select(p.eta < F(1.0f), max(beyond, F(0.0f)), cosine);
+        const F transmitted_cosine = refracted_cosine(cosine, p.eta);
+        total = select(p.solid & (transmitted_cosine < F(0.0f)), F(1.0f), F(0.0f));
+        const F in_thinner = select(p.eta < F(1.0f), max(transmitted_cosine, F(0.0f)), cosine);
         inner = select(p.solid, schlick_weight(in_thinner), weight);
     }
     LayeredFresnel<F> r;
     r.dielectric = p.f0 + (splat3(p.f90) - p.f0) * inner;
     r.metal = p.base_color + (splat3(F(1.0f)) - p.base_color) * weight;
-    if (any(p.film.strength > F(0.0f))) {
-        const Vec3<F> over_dielectric = film_reflectance(cosine, p.film, p.f0);
-        const Vec3<F> over_metal = film_reflectance(cosine, p.film, p.base_color);
-        r.dielectric = r.dielectric + (over_dielectric - r.dielectric) * p.film.strength;
-        r.metal = r.metal + (over_metal - r.metal) * p.film.strength;
+    if (any(p.thin_film.strength > F(0.0f))) {
+        const Vec3<F> over_dielectric = thin_film_reflectance(cosine, p.thin_film, p.f0);
+        const Vec3<F> over_metal = thin_film_reflectance(cosine, p.thin_film, p.base_color);
+        r.dielectric = r.dielectric + (over_dielectric - r.dielectric) * p.thin_film.strength;
+        r.metal = r.metal + (over_metal - r.metal) * p.thin_film.strength;
     }
     r.dielectric = r.dielectric + (splat3(F(1.0f)) - r.dielectric) * total;
     return r;

@@ -38,7 +38,7 @@ OBSCURA_INLINE F inner_boundary_albedo(const LayeredParams<F>& p, const Vec3<F>&
 
 /// The dielectric boundary and the metal towards one view direction.
 template <typename F>
-struct FacetShares {
+struct FacetWeights {
     LayeredFresnel<F> fresnel;      ///< at wo's own angle
     SpecularAlbedo<F> once;         ///< of all facets
     SpecularAlbedo<F> unstretched;  ///< of round ones with the same area
@@ -54,9 +54,9 @@ OBSCURA_INLINE MaskOf<F> is_smooth(const GgxWidths<F>& alpha) {
 }
 
 template <typename F>
-OBSCURA_INLINE FacetShares<F> facet_shares(const LayeredParams<F>& p, const Vec3<F>& wo) {
+OBSCURA_INLINE FacetWeights<F> facet_weights(const LayeredParams<F>& p, const Vec3<F>& wo) {
     const F one(1.0f);
-    FacetShares<F> s;
+    FacetWeights<F> s;
     s.fresnel = layered_fresnel(p, wo.z);
     s.unstretched = specular_albedo(wo.z, sqrt(p.alpha.x * p.alpha.y));
     s.once = s.unstretched;
@@ -70,11 +70,11 @@ OBSCURA_INLINE FacetShares<F> facet_shares(const LayeredParams<F>& p, const Vec3
     s.once.mirror = select(smooth, one, s.once.mirror);
 
     const F most = max_component(s.fresnel.dielectric);
-    const F most_f0 = max_component(p.f0);
-    const F reflected = s.once(most_f0, p.f90);
-    s.boundary = lerp(reflected, most * s.once.mirror, p.film.strength);
+    const F max_f0 = max_component(p.f0);
+    const F reflected = s.once(max_f0, p.f90);
+    s.boundary = lerp(reflected, most * s.once.mirror, p.thin_film.strength);
     s.boundary = select(smooth, most, s.boundary);
-    F mean = lerp(mean_schlick(most_f0, p.f90), most, p.film.strength);
+    F mean = lerp(mean_schlick(max_f0, p.f90), most, p.thin_film.strength);
     const auto from_within =
         p.solid & (p.eta < one) & ((one - p.metallic) * (one - p.transmission) > F(0.0f));
     if (any(from_within)) {
@@ -85,8 +85,8 @@ OBSCURA_INLINE FacetShares<F> facet_shares(const LayeredParams<F>& p, const Vec3
     s.factor = interreflection(s.once.mirror, mean);
     s.boundary = min(s.boundary * s.factor, one);
     const Vec3<F> mean_metal = mean_schlick(p.base_color);
-    s.metal_factor = interreflection(s.once.mirror,
-                                     mean_metal + (s.fresnel.metal - mean_metal) * p.film.strength);
+    s.metal_factor = interreflection(
+        s.once.mirror, mean_metal + (s.fresnel.metal - mean_metal) * p.thin_film.strength);
     return s;
 }
 
@@ -97,7 +97,7 @@ OBSCURA_INLINE F thin_wall_spread(const F& ior) {
     return square(clamp(F(2.0f) * abs(ior - F(1.0f)), F(0.0f), F(1.0f)));
 }
 
-/// What the facets of a body's boundary gain by further bounces, reflecting and refracting.
+/// What the facets of a dielectric's boundary gain by further bounces, reflecting and refracting.
 template <typename F>
 OBSCURA_INLINE F glass_factor(const LayeredParams<F>& p, const Vec3<F>& wo) {
     // The table is for round facets. Of others the width along the view matters most: what is
@@ -114,8 +114,8 @@ OBSCURA_INLINE F glass_factor(const LayeredParams<F>& p, const Vec3<F>& wo) {
 /// Sets what passes the boundary, and what that does to what it reflects: together they lose
 /// nothing.
 template <typename F>
-OBSCURA_INLINE void share_transmission(const LayeredParams<F>& p,
-                                       const FacetShares<F>& s,
+OBSCURA_INLINE void split_transmission(const LayeredParams<F>& p,
+                                       const FacetWeights<F>& s,
                                        const Vec3<F>& wo,
                                        LayeredWeights<F>& w) {
     const F one(1.0f);
@@ -132,19 +132,19 @@ OBSCURA_INLINE void share_transmission(const LayeredParams<F>& p,
     w.through_alpha = {max(p.alpha.x * spread, least), max(p.alpha.y * spread, least)};
     w.facetwise = spread >= one;
 
-    // What a wall does not reflect passes; a film's facets are not known one by one.
+    // What a wall does not reflect passes; a thin-film's facets are not known one by one.
     const F passes = one - s.boundary;
     const F passes_once = max(s.once.mirror - s.boundary / s.factor, F(0.02f));
-    F factor = lerp(passes / passes_once, one / s.once.mirror, p.film.strength);
+    F factor = lerp(passes / passes_once, one / s.once.mirror, p.thin_film.strength);
     if (any(!w.facetwise)) {
         F mirror = stretched_albedo(wo, w.through_alpha).mirror;
         mirror = select(is_smooth(w.through_alpha), one, mirror);
         factor = select(w.facetwise, factor, passes / mirror);
     }
     if (any(p.solid)) {
-        const F body = glass_factor(p, wo);
-        factor = select(p.solid, body, factor);
-        const F clear = select(p.solid, (one - p.metallic) * body, w.dielectric);
+        const F glass = glass_factor(p, wo);
+        factor = select(p.solid, glass, factor);
+        const F clear = select(p.solid, (one - p.metallic) * glass, w.dielectric);
         w.dielectric = lerp(w.dielectric, clear, p.transmission);
     }
     w.through_factor = total * factor;
@@ -164,7 +164,7 @@ OBSCURA_INLINE void share_transmission(const LayeredParams<F>& p,
 /// Sets the probabilities of the lobes.
 template <typename F>
 OBSCURA_INLINE void choose_lobes(const LayeredParams<F>& p,
-                                 const FacetShares<F>& s,
+                                 const FacetWeights<F>& s,
                                  const F& sheen_albedo,
                                  LayeredWeights<F>& w) {
     const F zero(0.0f);
@@ -173,32 +173,32 @@ OBSCURA_INLINE void choose_lobes(const LayeredParams<F>& p,
     const F reflected = luminance(s.fresnel.dielectric);
     const F below = w.below_coat * w.below_sheen;
     const F dielectric = one - p.metallic;
-    const F coat_share = one - w.below_coat;
+    const F coat_weight = one - w.below_coat;
     const F specular =
         below * (dielectric * max(s.boundary, reflected) + p.metallic * luminance(s.fresnel.metal));
     const F diffuse = below * w.diffuse * (one - p.diffuse_transmission) * color +
                       w.below_coat * luminance(p.sheen_color) * sheen_albedo;
-    const F behind =
+    const F diffuse_transmitted =
         below * w.diffuse * p.diffuse_transmission * luminance(p.diffuse_transmission_color);
     const F passes = select(p.solid, w.transmitted * (one - reflected), w.transmitted);
     const F transmitted = below * passes * color;
     // What exists is tried now and then, for other directions than the mirrored one.
     const F facet = specular + transmitted;
-    const F sum = max(facet + diffuse + behind + coat_share, F(1e-6f));
+    const F sum = max(facet + diffuse + diffuse_transmitted + coat_weight, F(1e-6f));
     const auto at_least = [&](const F& share, const MaskOf<F>& exists) {
         return select(exists, max(share / sum, F(0.05f)), F(0.0f));
     };
     const F nothing(1e-7f);  // rounding of what other layers take
     w.p_diffuse = at_least(diffuse, diffuse > nothing);
     w.p_facet = at_least(facet, (specular > zero) | (w.transmitted * color > zero));
-    w.p_coat = at_least(coat_share, p.coat > zero);
-    w.p_behind = at_least(behind, behind > nothing);
-    const F total = w.p_diffuse + w.p_facet + w.p_coat + w.p_behind;
+    w.p_coat = at_least(coat_weight, p.coat > zero);
+    w.p_diffuse_transmission = at_least(diffuse_transmitted, diffuse_transmitted > nothing);
+    const F total = w.p_diffuse + w.p_facet + w.p_coat + w.p_diffuse_transmission;
     const F scale = one / max(total, F(1e-6f));
     w.p_diffuse = w.p_diffuse * scale;
     w.p_facet = w.p_facet * scale;
     w.p_coat = w.p_coat * scale;
-    w.p_behind = w.p_behind * scale;
+    w.p_diffuse_transmission = w.p_diffuse_transmission * scale;
 }
 
 /// Shares and probabilities for one view direction, wo.z > 0.
@@ -216,17 +216,17 @@ OBSCURA_INLINE LayeredWeights<F> layered_weights(const LayeredParams<F>& p, cons
         w.coat_factor = coat.factor;
     }
     SheenAlbedo<F> sheen{zero, one};
-    const F most_sheen = max_component(p.sheen_color);
-    if (any(most_sheen > zero)) sheen = sheen_albedo(wo.z, p.sheen_alpha);
+    const F max_sheen = max_component(p.sheen_color);
+    if (any(max_sheen > zero)) sheen = sheen_albedo(wo.z, p.sheen_alpha);
     w.sheen_scale = sheen.scale;
-    w.below_sheen = one - most_sheen * sheen.albedo;
+    w.below_sheen = one - max_sheen * sheen.albedo;
 
-    const FacetShares<F> shares = facet_shares(p, wo);
+    const FacetWeights<F> shares = facet_weights(p, wo);
     const F dielectric = one - p.metallic;
     w.diffuse = dielectric * (one - p.transmission) * (one - shares.boundary);
     w.dielectric = dielectric * shares.factor;
     w.metal = shares.metal_factor * p.metallic;
-    share_transmission(p, shares, wo, w);
+    split_transmission(p, shares, wo, w);
     choose_lobes(p, shares, sheen.albedo, w);
     return w;
 }

@@ -8,7 +8,7 @@ namespace obscura {
 
 /// One texture use in a material: which texture, which UV set, and KHR_texture_transform.
 struct TextureSlot {
-    int32_t texture = -1;  ///< row in TextureArena::rows, -1 is none
+    int32_t texture = -1;  ///< index in TextureArena::records, -1: none
     int32_t uv_set = 0;    ///< TEXCOORD_n, below max_uv_sets
     /// Rows of the 2x3 matrix that maps mesh UV to texture UV.
     float uv_from_mesh[6] = {1, 0, 0, 0, 1, 0};
@@ -21,8 +21,8 @@ enum MaterialFlag : uint32_t {
     material_alpha_blend = 1U << 1,  ///< alphaMode BLEND: hit with probability alpha
     material_double_sided = 1U << 2,
     material_unlit = 1U << 3,  ///< not lit: base colour and emission are the radiance
-    /// Base colour, metallic-roughness and normal texture, where present, have the same size,
-    /// sampler and coordinates (absent ones have them too), so that a place in one is found for all
+    /// Base colour, metallic-roughness and normal texture have the same size, sampler and
+    /// coordinates, so that one texel position serves all; absent ones share the coordinates
     material_textures_alike = 1U << 4,
 };
 
@@ -38,12 +38,12 @@ struct Material {
     float alpha_cutoff = 0.5f;
     float emission[3] = {0, 0, 0};           ///< nits: emissiveFactor * emissiveStrength
     uint32_t flags = 0;                      ///< MaterialFlag bits
-    int32_t layers = -1;                     ///< row of Scene::layers, -1: the core material only
+    int32_t layers = -1;                     ///< index in Scene::layers, -1: the core material only
     TextureSlot base_color_texture;          ///< sRGB, alpha linear
     TextureSlot metallic_roughness_texture;  ///< G roughness, B metallic
     TextureSlot normal_texture;              ///< tangent space, +Y up
     TextureSlot emissive_texture;            ///< sRGB
-    TextureSlot occlusion_texture;           ///< R; only where the loader is asked for it
+    TextureSlot occlusion_texture;           ///< R; only if the loader is asked for it
     float occlusion_strength = 1;
 };
 

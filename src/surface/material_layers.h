@@ -1,4 +1,4 @@
-// surface/material_layers.h - what glTF's material extensions add to a material, as 32-bit words.
+// surface/material_layers.h - the parameters of glTF's material extensions, as 32-bit words.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,10 +7,10 @@
 namespace obscura {
 
 /// Factors and textures of the KHR_materials extensions that go beyond the core material. Only
-/// materials that use one have such a row (Material::layers); the defaults say "as the core does".
+/// materials that use one have such a record (Material::layers); the defaults equal the core.
 /// Read word by word by the shading lanes: every member is 32 bits wide, there is no padding.
 ///
-/// To add a lobe: append its factors here and its slots at the end, read them by rows of
+/// To add a lobe: append its factors here and its slots at the end, read them by records of
 /// gltf/parse/material_factors.cpp, fill them in gltf/parse/finish_material.cpp, name the slots in
 /// gltf/materials/materials.h, turn both into LayeredParams in stages/3_layers.h, and evaluate them
 /// in surface/layered_bsdf.h.
@@ -28,8 +28,8 @@ struct MaterialLayers {
     float anisotropy_sine = 0;
     float iridescence = 0;
     float iridescence_ior = 1.3f;
-    float film_thickness_nm[2] = {100,
-                                  400};  ///< where the texture is 0 and 1; without one: the second
+    float thin_film_thickness_nm[2] = {100,
+                                       400};  ///< for texel 0 and 1; without a texture: the second
     float transmission = 0;
     float diffuse_transmission = 0;
     float diffuse_transmission_color[3] = {1, 1, 1};
@@ -37,8 +37,8 @@ struct MaterialLayers {
     float scatter_albedo[3] = {0, 0, 0};  ///< of one scattering
     float scatter_anisotropy = 0;
     float dispersion = 0;  ///< 20 / Abbe number
-    /// 1 to most_media: bodies with a volume, the greater the index of refraction the greater the
-    /// number (see scene/media.h); 0: a thin wall.
+    /// 1 to max_media: number of the medium inside, greater for greater indices of refraction (see
+    /// scene/media.h); 0: thin-walled.
     int32_t medium = 0;
     TextureSlot specular_texture;                    ///< A
     TextureSlot specular_color_texture;              ///< sRGB
@@ -49,14 +49,14 @@ struct MaterialLayers {
     TextureSlot sheen_roughness_texture;             ///< A
     TextureSlot anisotropy_texture;                  ///< RG direction, B strength
     TextureSlot iridescence_texture;                 ///< R
-    TextureSlot film_thickness_texture;              ///< G
+    TextureSlot thin_film_thickness_texture;         ///< G
     TextureSlot transmission_texture;                ///< R
     TextureSlot diffuse_transmission_texture;        ///< A
     TextureSlot diffuse_transmission_color_texture;  ///< sRGB
 };
 
 inline constexpr int layer_slot_count = 13;
-inline constexpr int most_media = 255;
+inline constexpr int max_media = 255;
 
 static_assert(sizeof(MaterialLayers) == (33 + layer_slot_count * 8) * 4, "no padding");
 

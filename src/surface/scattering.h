@@ -1,4 +1,4 @@
-// surface/scattering.h - light inside a body that scatters it: free flights and the phase function.
+// surface/scattering.h - volume scattering: free flights and the phase function.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,8 +8,7 @@
 
 namespace obscura {
 
-/// Share of the light that one scattering leaves, for a body that shows the colour `multi_scatter`
-/// after many; both in [0, 1].
+/// Single-scattering albedo of a medium from its multiple-scattering albedo; both in [0, 1].
 /// Source  KHR_materials_volume_scatter, after Kulla and Conty, "Revisiting Physically Based
 ///         Shading at Imageworks", SIGGRAPH 2017 course
 inline double single_scatter_albedo(double multi_scatter) {
@@ -45,28 +44,28 @@ OBSCURA_INLINE Vec3<F> scatter_direction(const Vec3<F>& direction, const F& g, c
     return normalize(to_world(frame_around(direction), local));
 }
 
-/// How far light flies until it is absorbed or scattered, and what that says of each channel.
+/// A sampled free-flight distance, and its weights by channel.
 template <typename F>
 struct FreeFlight {
     F distance_m;
-    Vec3<F> scattered;  ///< what the path is multiplied with, if it ends at distance_m
-    Vec3<F> passed;     ///< or, if a surface lies nearer, at `limit_m`
+    Vec3<F> scattered;  ///< weight of the path if it scatters at distance_m
+    Vec3<F> passed;     ///< weight if it reaches a surface at `limit_m` before
 };
 
-/// Draws a flight. One channel, chosen by its share of the path's light, gives the distance; the
+/// Samples a free flight. The distance follows one channel, chosen in proportion to `share`; the
 /// weights hold for all three.
 ///
-/// In      extinction, 1/m; albedo: share of it that scatters; share: of the channels, sum 1, none
-///         negative; limit_m: distance of the surface; u: uniform in [0, 1)^2
+/// In      extinction, 1/m; albedo: scattering / extinction; share: probabilities of the channels,
+///         sum 1; limit_m: distance of the surface; u: uniform in [0, 1)^2
 /// Source  balance heuristic over the channels: Veach, PhD thesis, 1997, ch. 9.2
 template <typename F>
 OBSCURA_INLINE FreeFlight<F> sample_flight(const Vec3<F>& extinction,
                                            const Vec3<F>& albedo,
-                                           const Vec3<F>& share,
+                                           const Vec3<F>& weight,
                                            const F& limit_m,
                                            const Vec2<F>& u) {
-    const auto red = u.x < share.x;
-    const auto green = (!red) & (u.x < share.x + share.y);
+    const auto red = u.x < weight.x;
+    const auto green = (!red) & (u.x < weight.x + weight.y);
     const F sigma = select(red, extinction.x, select(green, extinction.y, extinction.z));
     const F depth = -log(max(F(1.0f) - u.y, F(1e-8f)));
     const auto never = sigma <= F(0.0f);
@@ -80,8 +79,8 @@ OBSCURA_INLINE FreeFlight<F> sample_flight(const Vec3<F>& extinction,
     const Vec3<F> at_end = extinction * left(min(flight.distance_m, limit_m));
     const Vec3<F> at_limit = left(limit_m);
     const F least(1e-30f);
-    flight.scattered = albedo * at_end * (F(1.0f) / max(dot(share, at_end), least));
-    flight.passed = at_limit * (F(1.0f) / max(dot(share, at_limit), least));
+    flight.scattered = albedo * at_end * (F(1.0f) / max(dot(weight, at_end), least));
+    flight.passed = at_limit * (F(1.0f) / max(dot(weight, at_limit), least));
     return flight;
 }
 

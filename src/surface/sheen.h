@@ -1,4 +1,4 @@
-// surface/sheen.h - the Charlie lobe of KHR_materials_sheen: cloth's soft rim.
+// surface/sheen.h - the Charlie lobe of KHR_materials_sheen, for cloth.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace obscura {
 
-/// Sheen narrower than this has no numbers to speak of.
+/// Minimum width of sheen, for numerical stability.
 inline constexpr float min_sheen_alpha = 0.005f;
 
 inline namespace OBSCURA_ISA {
@@ -51,8 +51,8 @@ OBSCURA_INLINE F charlie_cos(const F& cos_o, const F& cos_i, const F& cos_h, con
     return charlie_distribution(cos_h, alpha) / (F(4.0f) * max(cos_o, F(1e-6f)) * visibility);
 }
 
-/// The lobe's albedo towards one direction. Narrow fibres seen along the surface reflect more than
-/// they get; `scale` brings the lobe back to what a surface can do.
+/// Directional albedo of the lobe. At grazing angles narrow lobes would exceed 1; `scale` limits
+/// them to 1.
 template <typename F>
 struct SheenAlbedo {
     F albedo;  ///< after scaling, at most 1

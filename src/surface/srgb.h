@@ -11,9 +11,9 @@ namespace obscura {
 /// Linear light of the 256 codes; plain data, so that lanes can gather from it.
 extern const float srgb_to_linear_table[256];
 
-/// What srgb8_from_linear reads: a first guess for each of 4096 equal steps of linear light, and
-/// for each code the least linear light that rounds to it. The narrowest code is wider than one
-/// step, so the guess is right or one too low.
+/// Tables of srgb8_from_linear: a first guess for each of 4096 equal steps of linear light, and for
+/// each code the smallest linear light that rounds to it. The narrowest code is wider than a step,
+/// so that the guess is right or one too low.
 struct Srgb8Encoder {
     float least[257];
     uint8_t guess[4097];

@@ -1,4 +1,4 @@
-// surface/stretched_albedo.h - how much of a white sky microfacets of two widths reflect.
+// surface/stretched_albedo.h - directional albedo of anisotropic microfacets.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace obscura {
 
-/// Steps of the table, in the order of its rows: how much wider the wider width is, the narrower
-/// one as perceptual roughness, the width along the view direction between both, the cosine as in
+/// Dimensions of the table, outermost first: ratio of the two widths, the narrower one as
+/// perceptual roughness, the width along the view direction between both, the cosine as in
 /// albedo_table.h.
 inline constexpr int stretched_ratios = 9;
 inline constexpr int stretched_roughnesses = 13;
@@ -17,8 +17,8 @@ inline constexpr int stretched_cosines = 17;
 inline constexpr int stretched_nodes =
     stretched_ratios * stretched_roughnesses * stretched_turns * stretched_cosines;
 
-/// mirror and grazing (SpecularAlbedo) of each node and of the next cosine's. Written while the
-/// project is built, as those of albedo_table.h.
+/// mirror and grazing (SpecularAlbedo) of each node, then those of the next cosine. Written while
+/// the project is built, as those of albedo_table.h.
 extern const float stretched_cells[stretched_nodes * 4];
 
 inline namespace OBSCURA_ISA {
@@ -37,7 +37,7 @@ OBSCURA_INLINE SpecularAlbedo<F> stretched_albedo(const Vec3<F>& wo, const GgxWi
     const F along = sqrt(along2 / max(wo.x * wo.x + wo.y * wo.y, F(1e-12f)));
 
     I node(0);
-    F share[4];
+    F fraction[4];
     const int steps[4] = {
         stretched_ratios, stretched_roughnesses, stretched_turns, stretched_cosines};
     const F place[4] = {sqrt(difference / max(one - narrow, F(1e-6f))),
@@ -47,7 +47,7 @@ OBSCURA_INLINE SpecularAlbedo<F> stretched_albedo(const Vec3<F>& wo, const GgxWi
     for (int k = 0; k < 4; ++k) {
         const F x = clamp(place[k], F(0.0f), one) * F(static_cast<float>(steps[k] - 1));
         const I step = min(to_int(x), I(steps[k] - 2));
-        share[k] = x - from_int<F>(step);
+        fraction[k] = x - from_int<F>(step);
         node = node * I(steps[k]) + step;
     }
     SpecularAlbedo<F> sum{F(0.0f), F(0.0f)};
@@ -56,13 +56,13 @@ OBSCURA_INLINE SpecularAlbedo<F> stretched_albedo(const Vec3<F>& wo, const GgxWi
         F weight = one;
         int offset = 0;
         for (int k = 0; k < 3; ++k) {
-            weight = weight * (up[k] == 1 ? share[k] : one - share[k]);
+            weight = weight * (up[k] == 1 ? fraction[k] : one - fraction[k]);
             offset = offset * steps[k] + up[k];
         }
         const I cell = (node + I(offset * stretched_cosines)) * I(4);
         const Four<F> at = gather4<F>(stretched_cells, cell);
-        sum.mirror = sum.mirror + weight * lerp(at.x, at.z, share[3]);
-        sum.grazing = sum.grazing + weight * lerp(at.y, at.w, share[3]);
+        sum.mirror = sum.mirror + weight * lerp(at.x, at.z, fraction[3]);
+        sum.grazing = sum.grazing + weight * lerp(at.y, at.w, fraction[3]);
     }
     return sum;
 }

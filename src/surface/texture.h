@@ -3,10 +3,10 @@
 #pragma once
 
 #include "math/gather4.h"
-#include "math/table_row.h"
+#include "math/table_record.h"
 #include "math/vec.h"
 #include "surface/srgb.h"
-#include "surface/texture_row.h"
+#include "surface/texture_record.h"
 
 namespace obscura {
 
@@ -18,22 +18,22 @@ struct Rgba {
 
 inline namespace OBSCURA_ISA {
 
-/// One texture's row, read for every lane.
+/// The fields of a texture's record that look-ups need, for every lane.
 template <typename F>
 struct TextureInfo {
-    TableRow<F, TextureRow> row;
+    TableRecord<F, TextureRecord> record;
     IntOf<F> width, height, levels;
     IntOf<F> sampler;
 };
 
 template <typename F>
 OBSCURA_INLINE TextureInfo<F> texture_info(const TextureView& view, const IntOf<F>& texture) {
-    const TableRow<F, TextureRow> row(view.rows, texture);
-    return {.row = row,
-            .width = row.template integer<&TextureRow::width>(),
-            .height = row.template integer<&TextureRow::height>(),
-            .levels = row.template integer<&TextureRow::levels>(),
-            .sampler = row.template integer<&TextureRow::sampler>()};
+    const TableRecord<F, TextureRecord> record(view.records, texture);
+    return {.record = record,
+            .width = record.template integer<&TextureRecord::width>(),
+            .height = record.template integer<&TextureRecord::height>(),
+            .levels = record.template integer<&TextureRecord::levels>(),
+            .sampler = record.template integer<&TextureRecord::sampler>()};
 }
 
 /// log2 of the side, in texels of level 0, of a footprint given as an area in UV space.
@@ -125,13 +125,14 @@ OBSCURA_INLINE Rgba<F> decode_wide_texel(const UintOf<F>& high,
     return {rgb, code(24) * scale};
 }
 
-/// Where a texture's low bytes lie, counted from its texels.
+/// Offset from a texture's texels to their low bytes.
 template <typename F>
-OBSCURA_INLINE IntOf<F> low_plane_of(const TextureView& view, const TableRow<F, TextureRow>& row) {
-    return view.wide ? row.template integer<&TextureRow::low_plane>() : IntOf<F>(0);
+OBSCURA_INLINE IntOf<F> low_plane_of(const TextureView& view,
+                                     const TableRecord<F, TextureRecord>& record) {
+    return view.wide ? record.template integer<&TextureRecord::low_plane>() : IntOf<F>(0);
 }
 
-/// Reads a texel by its number.
+/// Reads a texel by its index.
 ///
 /// In      low_plane: of its texture
 template <typename F>
@@ -152,7 +153,8 @@ struct MipLevel {
 
 template <typename F>
 OBSCURA_INLINE MipLevel<F> mip_level(const TextureInfo<F>& info, const IntOf<F>& level) {
-    const IntOf<F> offset = info.row.template varying_integer<&TextureRow::level_offset>(level);
+    const IntOf<F> offset =
+        info.record.template varying_integer<&TextureRecord::level_offset>(level);
     // Sides halve, rounding down: exact in float for sides up to 65536.
     const F scale = power_of_two<F>(IntOf<F>(IntOf<F>(127) - level));
     return {offset,
@@ -160,8 +162,8 @@ OBSCURA_INLINE MipLevel<F> mip_level(const TextureInfo<F>& info, const IntOf<F>&
             max(to_int(from_int<F>(info.height) * scale), IntOf<F>(1))};
 }
 
-/// Which level a look-up reads: the sampler's mip mode, `pick` in [0,1) decides between two levels
-/// in proportion (0.5: the nearest one).
+/// The mip level of a look-up, by the sampler's mip mode. `pick` in [0,1) chooses between two
+/// levels in proportion; 0.5 takes the nearest.
 template <typename F>
 OBSCURA_INLINE IntOf<F> choose_level(const TextureInfo<F>& info, const F& lod, const F& pick) {
     const IntOf<F> mode = IntOf<F>(as_int(as_uint(info.sampler) >> 6)) & IntOf<F>(3);
@@ -200,7 +202,7 @@ OBSCURA_INLINE TexelPosition<F> texel_position(const TextureInfo<F>& info,
             wrap_v};
 }
 
-/// The number of a texel in the arena.
+/// The index of a texel in the arena.
 template <typename F>
 OBSCURA_INLINE IntOf<F> texel_number(const TexelPosition<F>& at,
                                      const IntOf<F>& x,
@@ -210,8 +212,8 @@ OBSCURA_INLINE IntOf<F> texel_number(const TexelPosition<F>& at,
     return at.level.offset + row * at.level.width + column;
 }
 
-/// The number of one texel, chosen at random with the weights of the bilinear (and mip) filter:
-/// right on average, a quarter or an eighth of the memory traffic.
+/// The index of one texel, chosen at random with the weights of the bilinear (and mip) filter:
+/// unbiased, with a quarter or an eighth of the memory traffic.
 ///
 /// In      footprint: area in UV space that the look-up stands for; random: three numbers in [0,1)
 /// Source  Pharr et al., "Filtering After Shading With Stochastic Texture Filtering", I3D 2024
@@ -227,9 +229,9 @@ OBSCURA_INLINE IntOf<F> stochastic_texel(const TextureInfo<F>& info,
     return texel_number<F>(at, to_int(floor(at.x + jitter_x)), to_int(floor(at.y + jitter_y)));
 }
 
-/// The number of a texel of level 0, each found as often as the footprint, a square, covers it:
-/// for what must not be averaged before it is used. Magnified, and without mip levels, it is
-/// stochastic_texel's.
+/// The index of a texel of level 0, chosen in proportion to its part of the square footprint: for
+/// values that must not be averaged before use, such as normals. Under magnification, and
+/// without mip levels, the same as stochastic_texel.
 ///
 /// In      as stochastic_texel
 template <typename F>
@@ -256,7 +258,7 @@ OBSCURA_INLINE IntOf<F> stochastic_single_texel(const TextureInfo<F>& info,
 
 /// Reads one random texel.
 ///
-/// In      texture: row number of every lane, all valid; the others as stochastic_texel
+/// In      texture: index of every lane, all valid; the others as stochastic_texel
 template <typename F>
 OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
                                                  const IntOf<F>& texture,
@@ -266,7 +268,7 @@ OBSCURA_INLINE Rgba<F> sample_texture_stochastic(const TextureView& view,
     const TextureInfo<F> info = texture_info<F>(view, texture);
     return read_texel<F>(view,
                          stochastic_texel<F>(info, uv, footprint, random),
-                         low_plane_of<F>(view, info.row),
+                         low_plane_of<F>(view, info.record),
                          has_bits<F>(info.sampler, sampler_srgb));
 }
 
@@ -314,7 +316,7 @@ OBSCURA_INLINE Rgba<F> sample_texture_bilinear(const TextureView& view,
         const F weight = line == 0 ? F(1.0f) - fy : fy;
         Two<UintOf<F>> low = texels;
         if (view.wide) {
-            const IntOf<F> low_start = start + low_plane_of<F>(view, info.row);
+            const IntOf<F> low_start = start + low_plane_of<F>(view, info.record);
             low = gather_texels<F>(view.texels, low_start + left, low_start + right, side_by_side);
         }
         const auto decode = [&](const UintOf<F>& texel, const UintOf<F>& low_bytes) {

@@ -1,4 +1,4 @@
-// surface/thin_wall.h - light that passes a smooth wall without thickness in its own direction.
+// surface/thin_wall.h - a smooth thin wall: light that passes it in its own direction.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// tests/accel/accel_scenes.h - rays in columns, hits beside them, and scenes to shoot at.
+// tests/accel/accel_scenes.h - ray columns, their hits, and scenes to trace.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -24,14 +24,14 @@ inline constexpr int thorough = 1;
 
 inline constexpr Coherence both_ways[] = {Coherence::coherent, Coherence::incoherent};
 
-/// Rays and the hits that belong to them; columns are padded to whole packets.
+/// Rays with their hits; columns are padded to whole packets.
 class RayList {
 public:
     void add(const Vec3f& origin, const Vec3f& direction, float tfar = 3e38F) {
-        const float row[7] = {
+        const float numbers[7] = {
             origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tfar};
         for (size_t c = 0; c < 7; ++c)
-            ray_[c].push_back(row[c]);
+            ray_[c].push_back(numbers[c]);
         key_.push_back(static_cast<uint32_t>(key_.size()) * 0x9E3779B9U);
     }
 
@@ -42,11 +42,11 @@ public:
     /// Returns the number of refused rays; hits are in the members below.
     int intersect(const Accel& accel, Coherence coherence, SeeThrough see_through = {}) {
         const RayColumns rays = pad();
-        const size_t rows = ray_[0].size() + 16;
+        const size_t padded = ray_[0].size() + 16;
         for (std::vector<float>* column : {&t, &u, &v})
-            column->assign(rows, -7.0F);
+            column->assign(padded, -7.0F);
         for (std::vector<int32_t>* column : {&instance, &primitive, &triangle})
-            column->assign(rows, -7);
+            column->assign(padded, -7);
         const HitColumns hits{
             t.data(), u.data(), v.data(), instance.data(), primitive.data(), triangle.data()};
         const int refused = accel.intersect(rays, hits, coherence, see_through);
@@ -54,16 +54,19 @@ public:
         return refused;
     }
 
-    /// passes_walls: as Accel::occluded does where it is given `walls`
+    /// passes_thin_walls: as Accel::occluded does where it is given `thin_walls`
     int occlude(const Accel& accel,
                 Coherence coherence,
                 uint32_t segment = 0,
-                bool passes_walls = false) {
+                bool passes_thin_walls = false) {
         const RayColumns rays = pad();
         occluded.assign(ray_[0].size() + 16, 9);
-        walls.assign(ray_[0].size() + 16, 0);
-        const int refused = accel.occluded(
-            rays, occluded.data(), coherence, {segment, passes_walls ? walls.data() : nullptr});
+        thin_walls.assign(ray_[0].size() + 16, 0);
+        const int refused =
+            accel.occluded(rays,
+                           occluded.data(),
+                           coherence,
+                           {segment, passes_thin_walls ? thin_walls.data() : nullptr});
         unpad();
         return refused;
     }
@@ -73,16 +76,16 @@ public:
     std::vector<float> t, u, v;
     std::vector<int32_t> instance, primitive, triangle;
     std::vector<uint8_t> occluded;
-    std::vector<uint8_t> walls;
+    std::vector<uint8_t> thin_walls;
 
 private:
     float at(size_t column, int i) const { return ray_[column][static_cast<size_t>(i)]; }
 
     RayColumns pad() {
-        rows_ = key_.size();
-        for (auto& column : ray_)  // what lies past the last row may be anything
-            column.resize(rows_ + 16, std::nanf(""));
-        key_.resize(rows_ + 16, 0U);
+        count_ = key_.size();
+        for (auto& column : ray_)  // what lies past the last ray may be anything
+            column.resize(count_ + 16, std::nanf(""));
+        key_.resize(count_ + 16, 0U);
         return {ray_[0].data(),
                 ray_[1].data(),
                 ray_[2].data(),
@@ -91,18 +94,18 @@ private:
                 ray_[5].data(),
                 ray_[6].data(),
                 key_.data(),
-                static_cast<int>(rows_)};
+                static_cast<int>(count_)};
     }
     void unpad() {
-        const auto rows = static_cast<std::ptrdiff_t>(rows_);
+        const auto kept = static_cast<std::ptrdiff_t>(count_);
         for (auto& column : ray_)
-            column.erase(column.begin() + rows, column.end());
-        key_.erase(key_.begin() + rows, key_.end());
+            column.erase(column.begin() + kept, column.end());
+        key_.erase(key_.begin() + kept, key_.end());
     }
 
     std::vector<float> ray_[7];
     std::vector<uint32_t> key_;
-    size_t rows_ = 0;
+    size_t count_ = 0;
 };
 
 /// A scene that does not move, with its hierarchy.

@@ -24,20 +24,20 @@ Material see_through(MaterialFlag mode, float alpha, float cutoff = 0.5F) {
 /// Squares of one material at heights 0, 1, ..., seen from above.
 Scene sheets(const Material& material, int count = 1) {
     SceneBuilder builder;
-    const int32_t row = builder.material(material);
+    const int32_t index = builder.material(material);
     for (int i = 0; i < count; ++i)
-        builder.quad({-1, -1, static_cast<float>(i)}, {2, 0, 0}, {0, 2, 0}, row);
+        builder.quad({-1, -1, static_cast<float>(i)}, {2, 0, 0}, {0, 2, 0}, index);
     return builder.take();
 }
 
-/// Gives every quad the texture coordinates (0,0) (1,0) (1,1) (0,1) and the texels, in one row.
+/// Gives every quad the texture coordinates (0,0) (1,0) (1,1) (0,1) and the texels, in one line.
 void add_texture(Scene& scene, const std::vector<uint32_t>& texels) {
-    TextureRow row;
-    row.width = static_cast<int32_t>(texels.size());
-    row.sampler = pack_sampler(Wrap::clamp, Wrap::clamp, true, true, MipMode::none, false);
-    row.level_offset[0] = static_cast<int32_t>(scene.textures.texels.size());
+    TextureRecord record;
+    record.width = static_cast<int32_t>(texels.size());
+    record.sampler = pack_sampler(Wrap::clamp, Wrap::clamp, true, true, MipMode::none, false);
+    record.level_offset[0] = static_cast<int32_t>(scene.textures.texels.size());
     scene.textures.texels.insert(scene.textures.texels.end(), texels.begin(), texels.end());
-    scene.textures.rows.push_back(row);
+    scene.textures.records.push_back(record);
     scene.materials[0].base_color_texture.texture = 0;
     for (size_t i = 0; i < scene.primitives.size(); ++i) {
         scene.primitives[i].uv_base[0] =
@@ -57,8 +57,8 @@ RayList rays_from_above(int count) {
     return rays;
 }
 
-/// Share of rays that hit; intersect and occluded must say the same of every ray.
-double share_of_hits(const BuiltScene& built, int count, uint32_t segment = 0) {
+/// Fraction of rays that hit; intersect and occluded must agree on every ray.
+double fraction_of_hits(const BuiltScene& built, int count, uint32_t segment = 0) {
     RayList rays = rays_from_above(count);
     int hits = 0;
     for (const Coherence coherence : both_ways) {
@@ -88,7 +88,7 @@ TEST(AlphaFilter, MaskHitsFromTheCutoffOn) {
                           {1, 1.5F, 0}};
     for (const Case& c : cases) {
         const BuiltScene built = build(sheets(see_through(material_alpha_mask, c.alpha, c.cutoff)));
-        EXPECT_EQ(share_of_hits(built, 40), c.hits) << c.alpha << " cut at " << c.cutoff;
+        EXPECT_EQ(fraction_of_hits(built, 40), c.hits) << c.alpha << " cut at " << c.cutoff;
     }
 }
 
@@ -139,10 +139,10 @@ TEST(AlphaFilter, BlendHitsInProportion) {
     for (const float alpha : {0.25F, 0.5F, 0.9F}) {
         const BuiltScene built = build(sheets(see_through(material_alpha_blend, alpha)));
         const double deviation = std::sqrt(alpha * (1 - alpha) / blend_rays);
-        EXPECT_NEAR(share_of_hits(built, blend_rays), alpha, 3 * deviation);
+        EXPECT_NEAR(fraction_of_hits(built, blend_rays), alpha, 3 * deviation);
     }
-    EXPECT_EQ(share_of_hits(build(sheets(see_through(material_alpha_blend, 0))), 2000), 0);
-    EXPECT_EQ(share_of_hits(build(sheets(see_through(material_alpha_blend, 1))), 2000), 1);
+    EXPECT_EQ(fraction_of_hits(build(sheets(see_through(material_alpha_blend, 0))), 2000), 0);
+    EXPECT_EQ(fraction_of_hits(build(sheets(see_through(material_alpha_blend, 1))), 2000), 1);
 }
 
 TEST(AlphaFilter, SheetsBehindEachOtherDecideOnTheirOwn) {
@@ -151,8 +151,8 @@ TEST(AlphaFilter, SheetsBehindEachOtherDecideOnTheirOwn) {
         instanced(sheets(see_through(material_alpha_blend, 0.5F)),
                   {scaling(1, 1, 1), scaling(1, 1, 1, {0, 0, 1}), scaling(1, 1, 1, {0, 0, 2})}));
     const double deviation = std::sqrt(0.125 * 0.875 / blend_rays);
-    EXPECT_NEAR(1 - share_of_hits(world, blend_rays), 0.125, 3 * deviation);
-    EXPECT_NEAR(1 - share_of_hits(placed, blend_rays), 0.125, 3 * deviation);
+    EXPECT_NEAR(1 - fraction_of_hits(world, blend_rays), 0.125, 3 * deviation);
+    EXPECT_NEAR(1 - fraction_of_hits(placed, blend_rays), 0.125, 3 * deviation);
 }
 
 TEST(AlphaFilter, SegmentsAreIndependentAndRepeatable) {
@@ -189,10 +189,10 @@ TEST(AlphaFilter, HiddenBacksDecideLikeFronts) {
     Material single = see_through(material_alpha_blend, 0.5F);
     single.flags &= ~static_cast<uint32_t>(material_double_sided);
     SceneBuilder builder;
-    const int32_t row = builder.material(single);
-    builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, row);
-    builder.quad({-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, row);
-    builder.quad({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, row);
+    const int32_t index = builder.material(single);
+    builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, index);
+    builder.quad({-1, -1, 1}, {0, 2, 0}, {2, 0, 0}, index);
+    builder.quad({-1, -1, 2}, {0, 2, 0}, {2, 0, 0}, index);
     const BuiltScene built = build(builder.take());
     RayList rays = rays_from_above(blend_rays);
     rays.intersect(built.accel, Coherence::coherent, {true, false, 0});

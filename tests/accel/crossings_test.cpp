@@ -1,4 +1,4 @@
-// tests/accel/crossings_test.cpp - all faces of bodies along a ray, whatever they are made of.
+// tests/accel/crossings_test.cpp - all boundaries of media along a ray, of any geometry.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_scenes.h"
 
@@ -10,7 +10,7 @@
 namespace obscura::test {
 namespace {
 
-/// Where a ray goes in (+) and out of (-) a body: metres with a sign.
+/// Where a ray enters (+) and leaves (-) a medium: metres with a sign.
 std::vector<float> ways(const Scene& scene, const Vec3f& origin, const Vec3f& direction) {
     const BuiltScene built = build(scene);
     const RayColumns ray{&origin.x,
@@ -34,8 +34,8 @@ std::vector<float> ways(const Scene& scene, const Vec3f& origin, const Vec3f& di
     return out;
 }
 
-/// Material 0 bounds a body, material 1 does not.
-Scene bodies_scene(SceneBuilder&& builder) {
+/// Material 0 bounds a medium, material 1 does not.
+Scene media_scene(SceneBuilder&& builder) {
     Scene scene = builder.take();
     scene.materials[0].layers = 0;
     scene.layers.resize(1);
@@ -48,14 +48,14 @@ Scene nothing_yet() {
     SceneBuilder builder;
     builder.material({});
     builder.material({});
-    return bodies_scene(std::move(builder));
+    return media_scene(std::move(builder));
 }
 
 using Ways = std::vector<float>;
 constexpr Vec3f from{0.01f, 0.02f, 10};
 constexpr Vec3f ahead{0, 0, -1};
 
-TEST(Crossings, TrianglesOfBodiesAlone) {
+TEST(Crossings, TrianglesOfMediaAlone) {
     SceneBuilder builder;
     builder.material({});
     builder.material({});
@@ -64,7 +64,7 @@ TEST(Crossings, TrianglesOfBodiesAlone) {
     builder.quad({-1, -1, 0}, {0, 2, 0}, {2, 0, 0}, 0);
     builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0);
     builder.quad({-1, -1, -9}, {0, 2, 0}, {2, 0, 0}, 0);
-    const Scene scene = bodies_scene(std::move(builder));
+    const Scene scene = media_scene(std::move(builder));
     const Ways found = ways(scene, from, ahead);
     ASSERT_EQ(found.size(), 4U);
     EXPECT_EQ(found.front(), 8);
@@ -96,7 +96,7 @@ TEST(Crossings, MirroredInstancesKeepTheirSides) {
     builder.material({});
     builder.material({});
     builder.quad({-1, -1, 1}, {2, 0, 0}, {0, 2, 0}, 0);
-    Scene mesh = instanced(bodies_scene(std::move(builder)), {scaling(-1, 1, 1)});
+    Scene mesh = instanced(media_scene(std::move(builder)), {scaling(-1, 1, 1)});
     EXPECT_EQ(ways(mesh, from, ahead), Ways{9});
 }
 

@@ -1,4 +1,4 @@
-// tests/accel/packets_test.cpp - rays into packets of 16 and hits out, on every instruction set.
+// tests/accel/packets_test.cpp - packets of 16 rays in, hits out, on every instruction set.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/packets.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
-constexpr size_t rows = 40;
+constexpr size_t padded = 40;
 constexpr RayReach reach = {1.6e18f, 1.75e18f};
 
 /// Safe rays, all different.
@@ -37,19 +37,19 @@ struct Rays {
                 columns[5].data(),
                 with_end ? columns[6].data() : nullptr,
                 nullptr,
-                static_cast<int>(rows),
+                static_cast<int>(padded),
                 with_time ? columns[7].data() : nullptr};
     }
 
     /// Origin, direction, end and time.
-    std::array<std::vector<float>, 8> columns = {std::vector<float>(rows),
-                                                 std::vector<float>(rows),
-                                                 std::vector<float>(rows),
-                                                 std::vector<float>(rows),
-                                                 std::vector<float>(rows),
-                                                 std::vector<float>(rows),
-                                                 std::vector<float>(rows),
-                                                 std::vector<float>(rows)};
+    std::array<std::vector<float>, 8> columns = {std::vector<float>(padded),
+                                                 std::vector<float>(padded),
+                                                 std::vector<float>(padded),
+                                                 std::vector<float>(padded),
+                                                 std::vector<float>(padded),
+                                                 std::vector<float>(padded),
+                                                 std::vector<float>(padded),
+                                                 std::vector<float>(padded)};
 };
 
 class Packets : public testing::TestWithParam<Isa> {
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(EveryIsa, Packets, testing::ValuesIn(all_isas()), [](co
     return stage_table_for(isa.param).isa;
 });
 
-TEST_P(Packets, RowsArriveAsTheyAre) {
+TEST_P(Packets, RaysArriveAsTheyAre) {
     const Rays rays;
     for (const int first : {0, 1, 16, 24}) {
         for (const bool extras : {false, true}) {
@@ -72,7 +72,7 @@ TEST_P(Packets, RowsArriveAsTheyAre) {
             begin_packets(out);
             ASSERT_TRUE(moves().load(rays.view(extras, extras), first, reach, out));
             for (int i = 0; i < packet; ++i) {
-                const auto row = static_cast<size_t>(first + i);
+                const auto index = static_cast<size_t>(first + i);
                 const float got[] = {out.org_x[i],
                                      out.org_y[i],
                                      out.org_z[i],
@@ -80,10 +80,10 @@ TEST_P(Packets, RowsArriveAsTheyAre) {
                                      out.dir_y[i],
                                      out.dir_z[i]};
                 for (size_t c = 0; c < 6; ++c)
-                    EXPECT_EQ(got[c], rays.columns[c][row]);
-                EXPECT_EQ(out.tfar[i], extras ? rays.columns[6][row] : unlimited);
-                EXPECT_EQ(out.time[i], extras ? rays.columns[7][row] : 0.0f);
-                EXPECT_EQ(out.id[i], static_cast<unsigned>(row));
+                    EXPECT_EQ(got[c], rays.columns[c][index]);
+                EXPECT_EQ(out.tfar[i], extras ? rays.columns[6][index] : unlimited);
+                EXPECT_EQ(out.time[i], extras ? rays.columns[7][index] : 0.0f);
+                EXPECT_EQ(out.id[i], static_cast<unsigned>(index));
                 EXPECT_EQ(out.tnear[i], 0.0f);
                 EXPECT_EQ(out.mask[i], 0xFFFFFFFFU);
             }
@@ -91,7 +91,7 @@ TEST_P(Packets, RowsArriveAsTheyAre) {
     }
 }
 
-/// The same rays are refused as one by one, in every lane.
+/// Refused rays are the same as one by one, in every lane.
 TEST_P(Packets, OneUnsafeRayRefusesThePacket) {
     const float values[] = {
         nan, infinity, -infinity, 1.9e18f, -1.9e18f, 1.7e18f, 0.0f, -0.0f, -1.0f};
@@ -99,10 +99,10 @@ TEST_P(Packets, OneUnsafeRayRefusesThePacket) {
         for (const float value : values) {
             for (int lane = 0; lane < packet; ++lane) {
                 Rays rays;
-                const int row = 5 + lane;
-                rays.columns[column][static_cast<size_t>(row)] = value;
+                const int index = 5 + lane;
+                rays.columns[column][static_cast<size_t>(index)] = value;
                 RTCRay16 out;
-                const bool safe = is_safe(rays.view(true, false), row, reach);
+                const bool safe = is_safe(rays.view(true, false), index, reach);
                 EXPECT_EQ(moves().load(rays.view(true, false), 5, reach, out), safe)
                     << value << " in column " << column << ", lane " << lane;
             }
@@ -127,22 +127,22 @@ TEST_P(Packets, HitsOfValidLanesAreStored) {
         block.hit.geomID[i] = i % 3 == 0 ? RTC_INVALID_GEOMETRY_ID : i;
         valid.lane[i] = i % 5 == 0 ? 0 : -1;
     }
-    std::vector<float> t(rows, -7), u(rows, -7), v(rows, -7);
-    std::vector<int32_t> instance(rows, -7), primitive(rows, -7), triangle(rows, -7);
+    std::vector<float> t(padded, -7), u(padded, -7), v(padded, -7);
+    std::vector<int32_t> instance(padded, -7), primitive(padded, -7), triangle(padded, -7);
     const HitColumns hits{
         t.data(), u.data(), v.data(), instance.data(), primitive.data(), triangle.data()};
     moves().store(block, valid, hits, 3);
-    for (size_t row = 0; row < rows; ++row) {
-        const bool inside = row >= 3 && row < 3 + packet;
-        const size_t i = row - 3;
+    for (size_t index = 0; index < padded; ++index) {
+        const bool inside = index >= 3 && index < 3 + packet;
+        const size_t i = index - 3;
         const bool hit = inside && i % 3 != 0 && i % 5 != 0;
-        EXPECT_EQ(primitive[row], !inside ? -7 : hit ? static_cast<int32_t>(i) : -1) << row;
-        EXPECT_EQ(instance[row], inside ? -1 : -7) << row;
+        EXPECT_EQ(primitive[index], !inside ? -7 : hit ? static_cast<int32_t>(i) : -1) << index;
+        EXPECT_EQ(instance[index], inside ? -1 : -7) << index;
         if (!hit) continue;
-        EXPECT_EQ(t[row], static_cast<float>(i) + 0.5f);
-        EXPECT_EQ(u[row], static_cast<float>(i) * 0.01f);
-        EXPECT_EQ(v[row], static_cast<float>(i) * 0.02f);
-        EXPECT_EQ(triangle[row], 100 + static_cast<int32_t>(i));
+        EXPECT_EQ(t[index], static_cast<float>(i) + 0.5f);
+        EXPECT_EQ(u[index], static_cast<float>(i) * 0.01f);
+        EXPECT_EQ(v[index], static_cast<float>(i) * 0.02f);
+        EXPECT_EQ(triangle[index], 100 + static_cast<int32_t>(i));
     }
 }
 

@@ -44,7 +44,7 @@ TEST(Accel, LinesNeedAnEmbreeWithCurves) {
     EXPECT_EQ(without.error().code, ExitCode::unsupported);
 }
 
-/// Origins and directions that Embree must not see.
+/// Origins and directions that Embree must never get.
 std::vector<std::pair<Vec3f, Vec3f>> unsafe_rays() {
     std::vector<std::pair<Vec3f, Vec3f>> unsafe;
     for (const float bad : {nan, infinity, -infinity, 1e30F, -3e38F}) {
@@ -76,11 +76,11 @@ TEST(Queries, UnsafeRaysAreRefusedAndCounted) {
             EXPECT_EQ(rays.intersect(built.accel, coherence), bad);
             EXPECT_EQ(rays.occlude(built.accel, coherence), bad);
             for (int i = 0; i < rays.count(); ++i) {
-                const auto row = static_cast<size_t>(i);
+                const auto index = static_cast<size_t>(i);
                 EXPECT_EQ(rays.hit(i), i % 2 == 0) << i;
-                EXPECT_EQ(rays.occluded[row], 1) << "refused rays bring no light, ray " << i;
+                EXPECT_EQ(rays.occluded[index], 1) << "refused rays bring no light, ray " << i;
                 if (i % 2 == 0) {
-                    EXPECT_NEAR(rays.t[row], 5.0F, 1e-5F);
+                    EXPECT_NEAR(rays.t[index], 5.0F, 1e-5F);
                 }
             }
         }
@@ -129,16 +129,16 @@ void expect_packet(const BuiltScene& built, int count, Coherence coherence) {
     EXPECT_EQ(rays.intersect(built.accel, coherence), 0);
     EXPECT_EQ(rays.occlude(built.accel, coherence), 0);
     for (int i = 0; i < count; ++i) {
-        const auto row = static_cast<size_t>(i);
+        const auto index = static_cast<size_t>(i);
         EXPECT_EQ(rays.hit(i), i % 3 != 0) << i << " of " << count;
-        EXPECT_EQ(rays.occluded[row], i % 3 != 0 ? 1 : 0) << i << " of " << count;
+        EXPECT_EQ(rays.occluded[index], i % 3 != 0 ? 1 : 0) << i << " of " << count;
         if (rays.hit(i)) {
-            EXPECT_NEAR(rays.t[row], 1 + static_cast<float>(i), 1e-5F);
+            EXPECT_NEAR(rays.t[index], 1 + static_cast<float>(i), 1e-5F);
         }
     }
-    for (size_t row = static_cast<size_t>(count); row < rays.occluded.size(); ++row) {
-        EXPECT_EQ(rays.occluded[row], 9) << "answers past the last row are not written";
-        EXPECT_LT(rays.primitive[row], 0) << "and nothing is hit there";
+    for (size_t index = static_cast<size_t>(count); index < rays.occluded.size(); ++index) {
+        EXPECT_EQ(rays.occluded[index], 9) << "answers past the last ray are not written";
+        EXPECT_LT(rays.primitive[index], 0) << "and nothing is hit there";
     }
 }
 
@@ -197,7 +197,7 @@ TEST(Queries, DegenerateTrianglesAreNeverHit) {
     }
 }
 
-/// Two world squares, then two meshes of two and one squares; the instances stand in rows along x.
+/// Two world squares, then two meshes of two and one squares; the instances stand in lines along x.
 Scene numbered_scene() {
     SceneBuilder builder;
     const int32_t material = builder.material({});
@@ -216,7 +216,7 @@ Scene numbered_scene() {
     return scene;
 }
 
-TEST(Queries, RowsOfInstancesPrimitivesAndTriangles) {
+TEST(Queries, IndicesOfInstancesPrimitivesAndTriangles) {
     const BuiltScene built = build(numbered_scene());
     struct Expected {
         float x, z;
@@ -238,11 +238,11 @@ TEST(Queries, RowsOfInstancesPrimitivesAndTriangles) {
         }
         rays.intersect(built.accel, coherence);
         for (int i = 0; i < rays.count(); ++i) {
-            const auto row = static_cast<size_t>(i);
+            const auto index = static_cast<size_t>(i);
             const Expected& e = cases[i / 2];
-            EXPECT_EQ(rays.instance[row], e.instance) << i;
-            EXPECT_EQ(rays.primitive[row], e.primitive) << i;
-            EXPECT_EQ(rays.triangle[row], i % 2) << i;
+            EXPECT_EQ(rays.instance[index], e.instance) << i;
+            EXPECT_EQ(rays.primitive[index], e.primitive) << i;
+            EXPECT_EQ(rays.triangle[index], i % 2) << i;
         }
         // Barycentrics weigh the second and third corner: (1,-1) and (1,1) of (0.5,-0.25).
         EXPECT_NEAR(rays.u[0], 0.375F, 1e-6F);
@@ -250,7 +250,7 @@ TEST(Queries, RowsOfInstancesPrimitivesAndTriangles) {
     }
 }
 
-/// What a camera ray down -Z, or up +Z, sees: primitive row or -1.
+/// What a camera ray down -Z, or up +Z, sees: primitive or -1.
 int32_t seen(const BuiltScene& built, bool from_above, Coherence coherence) {
     RayList rays;
     for (int i = 0; i < 5; ++i) {
@@ -327,7 +327,7 @@ TEST(Queries, MirroredInstancesKeepTheirFront) {
     }
 }
 
-/// Leaves numbers where later calls have their local variables.
+/// Leaves values where later calls keep their local variables.
 [[gnu::noinline]] uint32_t soil_the_stack(uint32_t seed) {
     volatile uint32_t words[20000];
     for (uint32_t i = 0; i < 20000; ++i)

@@ -1,4 +1,4 @@
-// tests/accel/reference_kernels_test.cpp - every way of asking Embree says what the renderer says.
+// tests/accel/reference_kernels_test.cpp - every way to query Embree gives the renderer's answers.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/reference_kernels.h"
 
@@ -13,21 +13,21 @@ namespace {
 
 using namespace test;
 
-/// A mesh, a sphere, particles, a plane without end and an instance of a box.
+/// A mesh, a sphere, particles, an infinite plane and an instance of a box.
 Scene mixed_scene() {
     SceneBuilder builder;
     builder.quad({-1, -1, -0.5F}, {2, 0.1F, 0}, {0, 2, 0.2F}, builder.material({}));
     Scene scene = builder.take();
     add_shape(scene, make_shape(ShapeKind::sphere, 0.6F), 0);
     add_spheres(scene, {1, 1, 0, 0.3F, -1, 1, 0.2F, 0.25F, 0, -1, 0.4F, 0.2F}, 0);
-    ShapeRow floor = make_shape(ShapeKind::plane, unbounded, unbounded);
+    ShapeRecord floor = make_shape(ShapeKind::plane, unbounded, unbounded);
     floor.centre[1] = -2;
     add_shape(scene, floor, 0);
     add_shape(scene, make_shape(ShapeKind::box, 0.2F, 0.3F, 0.4F), 0, scaling(1, 2, -1, {1, 0, 0}));
     return scene;
 }
 
-/// What the renderer's own queries say, and room for what others say.
+/// The answers of the renderer's own queries, and room for those of others.
 class ReferenceKernelsTest : public testing::Test {
 protected:
     ReferenceKernelsTest() : built_(build(mixed_scene())) {
@@ -45,9 +45,9 @@ protected:
         for (int i = 0; i <= count_; ++i) {
             const Vec3f o = rays_.origin(i);
             const Vec3f d = rays_.direction(i);
-            const float row[6] = {o.x, o.y, o.z, d.x, d.y, d.z};
+            const float numbers[6] = {o.x, o.y, o.z, d.x, d.y, d.z};
             for (size_t c = 0; c < 6; ++c)
-                column_[c].push_back(row[c]);
+                column_[c].push_back(numbers[c]);
         }
         key_.assign(column_[0].size(), 0);
         return {column_[0].data(),
@@ -61,17 +61,17 @@ protected:
                 count_ + 1};
     }
 
-    /// Rays on which the kernel says something else than the renderer.
+    /// Rays on which the kernel disagrees with the renderer.
     int differences(const KernelChoice& choice, int width) {
         const auto kernels = ReferenceKernels::build(*built_.scene, choice);
         if (!kernels) throw std::runtime_error(kernels.error().message);
-        const size_t rows = static_cast<size_t>(count_) + 17;
-        std::vector<float> t(rows), u(rows), v(rows);
-        std::vector<int32_t> instance(rows), primitive(rows), row(rows);
-        std::vector<uint8_t> occluded(rows);
+        const size_t padded = static_cast<size_t>(count_) + 17;
+        std::vector<float> t(padded), u(padded), v(padded);
+        std::vector<int32_t> instance(padded), primitive(padded), triangle(padded);
+        std::vector<uint8_t> occluded(padded);
         kernels->intersect(
             columns(),
-            {t.data(), u.data(), v.data(), instance.data(), primitive.data(), row.data()},
+            {t.data(), u.data(), v.data(), instance.data(), primitive.data(), triangle.data()},
             width);
         kernels->occluded(columns(), occluded.data(), width);
         int differ = 0;
@@ -80,7 +80,7 @@ protected:
             const bool hit = primitive[at] >= 0;
             bool same = hit == rays_.hit(i) && (occluded[at] != 0) == hit;
             if (same && hit) {
-                same = primitive[at] == rays_.primitive[at] && row[at] == rays_.triangle[at] &&
+                same = primitive[at] == rays_.primitive[at] && triangle[at] == rays_.triangle[at] &&
                        instance[at] == rays_.instance[at] &&
                        std::abs(t[at] - rays_.t[at]) <= 1e-5F * (1 + rays_.t[at]);
             }

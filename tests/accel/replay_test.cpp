@@ -1,4 +1,4 @@
-// tests/accel/replay_test.cpp - recorded rays hit the same in Embree alone as in the queries.
+// tests/accel/replay_test.cpp - recorded rays have the same hits in bare Embree as in the queries.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_scenes.h"
 #include "accel/ray_recording.h"
@@ -11,9 +11,9 @@
 namespace obscura::test {
 namespace {
 
-constexpr ReplayWay all_ways[] = {
-    ReplayWay::single, ReplayWay::packets, ReplayWay::coherent_packets};
-/// More than a thread takes at a time, and not whole packets.
+constexpr ReplayMode all_modes[] = {
+    ReplayMode::single, ReplayMode::packets, ReplayMode::coherent_packets};
+/// More than one thread takes at a time, and not whole packets.
 constexpr size_t ray_count = 5003;
 
 /// A ball of triangles, a sheet that a ray passes as its key decides, and an analytic sphere.
@@ -25,7 +25,7 @@ Scene things() {
     builder.sphere({0, 0, 0}, 1.0F, 12, builder.material({}));
     builder.quad({-2, -2, 1.5F}, {4, 0, 0}, {0, 4, 0}, builder.material(sheet));
     Scene scene = builder.take();
-    ShapeRow sphere = make_shape(ShapeKind::sphere, 0.5F);
+    ShapeRecord sphere = make_shape(ShapeKind::sphere, 0.5F);
     sphere.centre[1] = 1.5F;
     scene.primitives.push_back(shape_primitive(scene, sphere, 0));
     scene.world_primitive_count = static_cast<int32_t>(scene.primitives.size());
@@ -39,7 +39,7 @@ Scene placed_things() {
                      {scaling(1, 1, 1, {-1.25, 0, 0}), scaling(0.5, 1.5, -1, {1.25, 0.5, 0})});
 }
 
-/// Rays from around the origin to near it, every hundredth not finite, and what queries say.
+/// Rays from around the origin to near it, every hundredth not finite, with the queries' answers.
 class Rays {
 public:
     explicit Rays(uint64_t seed) {
@@ -53,9 +53,9 @@ public:
             const Vec3f origin = within(4);
             const Vec3f direction = normalize(within(2) - origin);
             const float x = is_refused(i) ? std::nanf("") : origin.x;
-            const float row[] = {x, origin.y, origin.z, direction.x, direction.y, direction.z};
+            const float numbers[] = {x, origin.y, origin.z, direction.x, direction.y, direction.z};
             for (size_t c = 0; c < 6; ++c)
-                ray_[c][i] = row[c];
+                ray_[c][i] = numbers[c];
             end_[i] = 1 + 4 * random.next_float();
             key_[i] = random.next_uint();
         }
@@ -66,7 +66,7 @@ public:
     bool is_occluded(size_t i) const { return !is_refused(i) && occluded_[i] != 0; }
     float t(size_t i) const { return number_[0][i]; }
 
-    /// Asks, and keeps the rays and the answers as a renderer does.
+    /// Queries, and records the rays and the answers as a renderer does.
     void intersect(const Accel& accel,
                    Coherence coherence,
                    SeeThrough see_through,
@@ -86,7 +86,7 @@ public:
     }
 
 private:
-    static constexpr size_t rows = ray_count + 16;  // whole packets are read and written
+    static constexpr size_t padded = ray_count + 16;  // whole packets are read and written
 
     RayColumns columns(bool with_end) const {
         return {ray_[0].data(),
@@ -102,16 +102,20 @@ private:
 
     using Numbers = std::vector<float>;
     using Indices = std::vector<int32_t>;
-    std::array<Numbers, 6> ray_ = {
-        Numbers(rows), Numbers(rows), Numbers(rows), Numbers(rows), Numbers(rows), Numbers(rows)};
-    Numbers end_ = Numbers(rows);
-    std::vector<uint32_t> key_ = std::vector<uint32_t>(rows);
-    std::array<Numbers, 3> number_ = {Numbers(rows), Numbers(rows), Numbers(rows)};
-    std::array<Indices, 3> index_ = {Indices(rows), Indices(rows), Indices(rows)};
-    std::vector<uint8_t> occluded_ = std::vector<uint8_t>(rows);
+    std::array<Numbers, 6> ray_ = {Numbers(padded),
+                                   Numbers(padded),
+                                   Numbers(padded),
+                                   Numbers(padded),
+                                   Numbers(padded),
+                                   Numbers(padded)};
+    Numbers end_ = Numbers(padded);
+    std::vector<uint32_t> key_ = std::vector<uint32_t>(padded);
+    std::array<Numbers, 3> number_ = {Numbers(padded), Numbers(padded), Numbers(padded)};
+    std::array<Indices, 3> index_ = {Indices(padded), Indices(padded), Indices(padded)};
+    std::vector<uint8_t> occluded_ = std::vector<uint8_t>(padded);
 };
 
-/// What a replay should say.
+/// The expected result of a replay.
 struct Expected {
     uint64_t hits = 0;
     uint64_t checksum = 0;
@@ -125,7 +129,7 @@ struct Expected {
     }
 };
 
-/// Two threads' rays, and what the queries said of them.
+/// Rays of two threads, with the queries' answers.
 struct Recorded {
     Recorded(const Accel& accel, Coherence coherence, SeeThrough see_through) {
         for (const uint64_t seed : {1U, 2U}) {
@@ -141,18 +145,18 @@ struct Recorded {
 
 /// The queries ask packets of 16.
 void expect_same_hits(const Accel& accel, RayKind kind, SeeThrough see_through) {
-    for (const ReplayWay way : all_ways) {
-        const bool coherent = way == ReplayWay::coherent_packets;
+    for (const ReplayMode mode : all_modes) {
+        const bool coherent = mode == ReplayMode::coherent_packets;
         const Recorded recorded(
             accel, coherent ? Coherence::coherent : Coherence::incoherent, see_through);
-        const ReplayResult got = accel.replay(recorded.recording, kind, way);
-        const auto number = static_cast<int>(way);
+        const ReplayResult got = accel.replay(recorded.recording, kind, mode);
+        const auto number = static_cast<int>(mode);
         EXPECT_EQ(recorded.recording.count(kind), 2 * (ray_count - ray_count / 100)) << number;
         EXPECT_EQ(recorded.recording.hits(kind), recorded.expected.hits) << number;
         EXPECT_GT(got.hits, ray_count / 2) << number;
         EXPECT_EQ(got.hits, recorded.expected.hits) << number;
-        // For a ray alone the last place of a depth may be rounded otherwise, here and there.
-        const uint64_t most = way == ReplayWay::single ? got.hits / 100 : 0;
+        // A single ray may round the last digit of a depth differently here and there.
+        const uint64_t most = mode == ReplayMode::single ? got.hits / 100 : 0;
         const auto off = static_cast<int64_t>(got.checksum - recorded.expected.checksum);
         EXPECT_LE(static_cast<uint64_t>(std::abs(off)), most) << number;
     }
@@ -192,10 +196,10 @@ TEST(Replay, ShadowRaysAreOccludedAsInTheQueries) {
                 expected += rays.is_occluded(i) ? 1 : 0;
         }
         EXPECT_EQ(recording.hits(RayKind::shadow), expected);
-        for (const ReplayWay way : all_ways) {
-            const ReplayResult got = built.accel.replay(recording, RayKind::shadow, way);
-            EXPECT_EQ(got.hits, expected) << static_cast<int>(way);
-            EXPECT_EQ(got.checksum, expected) << static_cast<int>(way);
+        for (const ReplayMode mode : all_modes) {
+            const ReplayResult got = built.accel.replay(recording, RayKind::shadow, mode);
+            EXPECT_EQ(got.hits, expected) << static_cast<int>(mode);
+            EXPECT_EQ(got.checksum, expected) << static_cast<int>(mode);
         }
         EXPECT_GT(expected, ray_count / 4);
         EXPECT_LT(expected, 2 * ray_count);
@@ -210,7 +214,7 @@ TEST(Replay, OtherHitsGiveAnotherSum) {
         x *= 1.0001F;
     const BuiltScene other = build(std::move(moved));
     const ReplayResult got =
-        other.accel.replay(recorded.recording, RayKind::camera, ReplayWay::single);
+        other.accel.replay(recorded.recording, RayKind::camera, ReplayMode::single);
     EXPECT_NE(got.checksum, recorded.expected.checksum);
 }
 
@@ -219,7 +223,7 @@ TEST(Replay, WhatWasNotRecordedTakesNothing) {
     const Recorded recorded(built.accel, Coherence::incoherent, {});
     for (const RayKind kind : {RayKind::bounce, RayKind::shadow}) {
         EXPECT_EQ(recorded.recording.count(kind), 0U);
-        EXPECT_EQ(built.accel.replay(recorded.recording, kind, ReplayWay::packets).hits, 0U);
+        EXPECT_EQ(built.accel.replay(recorded.recording, kind, ReplayMode::packets).hits, 0U);
     }
 }
 

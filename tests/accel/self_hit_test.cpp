@@ -1,7 +1,7 @@
-// tests/accel/self_hit_test.cpp - rays that start at a hit leave it, and stop at thin walls.
+// tests/accel/self_hit_test.cpp - rays that start at a hit leave it and stop at close surfaces.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_scenes.h"
-#include "stages/walk.h"
+#include "stages/wavefront.h"
 
 #include <gtest/gtest.h>
 
@@ -39,9 +39,9 @@ public:
     template <typename From, typename At>
     Spawned shoot(int count, const From& from, const At& at) {
         Spawned sum;
-        for (int done = 0; done < count; done += batch_rows) {
-            const PathRows& p = work_.paths[0];
-            for (int i = 0; i < batch_rows; ++i) {
+        for (int done = 0; done < count; done += batch_size) {
+            const PathColumns& p = work_.paths[0];
+            for (int i = 0; i < batch_size; ++i) {
                 const Vec3d origin = from(random_);
                 const Vec3d direction = normalize(at(random_) - origin);
                 p.ox[i] = static_cast<float>(origin.x);
@@ -63,8 +63,8 @@ public:
 
 private:
     void trace_batch(Spawned& sum) {
-        const PathRows& p = work_.paths[0];
-        built_.accel.intersect({p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, nullptr, p.key, batch_rows},
+        const PathColumns& p = work_.paths[0];
+        built_.accel.intersect({p.ox, p.oy, p.oz, p.dx, p.dy, p.dz, nullptr, p.key, batch_size},
                                work_.hits,
                                Coherence::incoherent,
                                {});
@@ -73,9 +73,9 @@ private:
         const int shadows = stages_.shade_ao(
             view_of(*built_.scene),
             batch,
-            batch_rows,
+            batch_size,
             {p, work_.hits, work_.misses, work_.paths[1], work_.shadows, work_.samples});
-        const ShadowRows& s = work_.shadows;
+        const ShadowColumns& s = work_.shadows;
         built_.accel.occluded({s.ox, s.oy, s.oz, s.dx, s.dy, s.dz, s.tfar, s.slot, shadows},
                               work_.occluded.data(),
                               Coherence::incoherent,
@@ -107,7 +107,7 @@ Affined turned(Affined a) {
     return compose(a, turn);
 }
 
-/// Where a unit-sized object is placed: scale, moved by some of its own sizes.
+/// Placement of a unit-sized object: scale, and a translation by some of its own sizes.
 struct Placing {
     const char* name;
     Affined world_from_object;

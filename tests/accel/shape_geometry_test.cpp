@@ -13,7 +13,7 @@
 namespace obscura::test {
 namespace {
 
-/// One ray as the callbacks are asked about it.
+/// One ray as the callbacks get it.
 struct Asked {
     ShapeRay<float> ray;
     float tnear = 0;
@@ -107,11 +107,11 @@ void expect_widths_agree(const ShapeCallbacks& callbacks,
     }
 }
 
-std::vector<Asked> random_questions(const ShapeRow& row, int count) {
+std::vector<Asked> random_questions(const ShapeRecord& record, int count) {
     Pcg32 random(3);
     std::vector<Asked> asked;
     for (int i = 0; i < count; ++i) {
-        Asked a{random_ray(row, i % 2 == 0 ? 0.0F : 3.0F, random)};
+        Asked a{random_ray(record, i % 2 == 0 ? 0.0F : 3.0F, random)};
         if (i % 3 == 0) a.tnear = 2.0F * random.next_float();
         if (i % 5 == 0) a.tfar = a.tnear + 4.0F * random.next_float();
         asked.push_back(a);
@@ -124,8 +124,8 @@ TEST(ShapeCallbacks, AllWidthsAgreeOnEveryShape) {
         for (const NamedShape& shape : sample_shapes()) {
             SCOPED_TRACE(shape.name);
             for (const bool culls : {false, true}) {
-                const ShapeGeometry geometry{&shape.row, nullptr, 1, true};
-                const auto asked = random_questions(shape.row, 16 * 20);
+                const ShapeGeometry geometry{&shape.record, nullptr, 1, true};
+                const auto asked = random_questions(shape.record, 16 * 20);
                 expect_widths_agree(*callbacks, geometry, asked, culls);
             }
         }
@@ -133,7 +133,7 @@ TEST(ShapeCallbacks, AllWidthsAgreeOnEveryShape) {
 }
 
 TEST(ShapeCallbacks, HitsLieBetweenTnearAndTfar) {
-    const ShapeRow sphere = shape_row(ShapeKind::sphere, 1, 0, 0);
+    const ShapeRecord sphere = shape_record(ShapeKind::sphere, 1, 0, 0);
     const ShapeGeometry geometry{&sphere, nullptr, 1};
     const ShapeRay<float> ray{{0, 0, 3}, {0, 0, -1}};
     for (const ShapeCallbacks* callbacks : all_callbacks()) {
@@ -175,15 +175,15 @@ void expect_nearest_of(const std::vector<float>& spheres, Isa isa) {
     rays.occlude(built.accel, Coherence::incoherent);
     int hits = 0;
     for (int i = 0; i < rays.count(); ++i) {
-        const auto row = static_cast<size_t>(i);
+        const auto index = static_cast<size_t>(i);
         size_t which = 0;
         const NearHit<double> hit = nearest_of(spheres, {rays.origin(i), rays.direction(i)}, which);
         ASSERT_EQ(rays.hit(i), hit.found) << i;
-        ASSERT_EQ(rays.occluded[row] != 0, hit.found) << i;
+        ASSERT_EQ(rays.occluded[index] != 0, hit.found) << i;
         if (!hit.found) continue;
         ++hits;
-        ASSERT_EQ(static_cast<size_t>(rays.triangle[row]), which) << i;
-        ASSERT_NEAR(rays.t[row], hit.t, 1e-5);
+        ASSERT_EQ(static_cast<size_t>(rays.triangle[index]), which) << i;
+        ASSERT_NEAR(rays.t[index], hit.t, 1e-5);
     }
     EXPECT_GT(hits, 300);
 }
@@ -209,7 +209,7 @@ TEST(ShapeScenes, EveryInstructionSetAndWayAgrees) {
             Scene scene = empty_scene({});
             float x = -12;
             for (const NamedShape& shape : shapes)
-                add_shape(scene, scaled_and_moved(shape.row, 1, {x += 1.3F, 0, 0}), 0);
+                add_shape(scene, scaled_and_moved(shape.record, 1, {x += 1.3F, 0, 0}), 0);
             add_shape(scene, make_shape(ShapeKind::sphere, 1), 0, scaling(1, -2, 0.5, {0, 4, 0}));
             const BuiltScene built = build(std::move(scene), embree_isa_for(isa));
             Pcg32 random(8);
@@ -257,7 +257,7 @@ TEST(ShapeScenes, PlanesWithoutEndAreMetBesideTheHierarchy) {
 }
 
 /// As a camera's far distance and the dark corners of a fisheye ask.
-TEST(ShapeScenes, RaysEndBeforePlanesWithoutEnd) {
+TEST(ShapeScenes, RaysEndBeforeInfinitePlanes) {
     Scene scene = empty_scene({});
     add_shape(scene, make_shape(ShapeKind::plane, unbounded, unbounded), 0, scaling(1, 1, 1, {}));
     const BuiltScene built = build(std::move(scene));
@@ -266,9 +266,9 @@ TEST(ShapeScenes, RaysEndBeforePlanesWithoutEnd) {
         rays.add({0, 3, 0}, {0, -1, 0}, tfar);
     rays.intersect(built.accel, Coherence::coherent);
     rays.occlude(built.accel, Coherence::coherent);
-    for (const int row : {0, 1, 2}) {
-        EXPECT_EQ(rays.hit(row), row == 2) << row;
-        EXPECT_EQ(rays.occluded[static_cast<size_t>(row)], row == 2 ? 1 : 0) << row;
+    for (const int index : {0, 1, 2}) {
+        EXPECT_EQ(rays.hit(index), index == 2) << index;
+        EXPECT_EQ(rays.occluded[static_cast<size_t>(index)], index == 2 ? 1 : 0) << index;
     }
 }
 

@@ -1,4 +1,4 @@
-// tests/accel/splat_layers_test.cpp - splats along rays: all of them, in their order, blended.
+// tests/accel/splat_layers_test.cpp - splats along rays: all of them, sorted and blended.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/splat_layers.h"
 
@@ -16,9 +16,9 @@ namespace {
 struct Rays {
     std::vector<float> column[7];
     void add(const Vec3f& o, const Vec3f& d, float end = 3e38F) {
-        const float row[7] = {o.x, o.y, o.z, d.x, d.y, d.z, end};
+        const float numbers[7] = {o.x, o.y, o.z, d.x, d.y, d.z, end};
         for (size_t c = 0; c < 7; ++c)
-            column[c].push_back(row[c]);
+            column[c].push_back(numbers[c]);
     }
     RayColumns columns() const {
         return {column[0].data(),
@@ -91,7 +91,7 @@ std::vector<TestSplat> cloud(int count, double sigma, float opacity, uint64_t se
     return out;
 }
 
-Rays rays_at_the_middle(int count, uint64_t seed) {
+Rays rays_at_the_centre(int count, uint64_t seed) {
     Pcg32 random(seed);
     Rays rays;
     const auto number = [&] { return 2 * random.next_float() - 1; };
@@ -109,7 +109,7 @@ Scene scene_of(const std::vector<TestSplat>& splats, bool linear = true) {
     return scene;
 }
 
-/// Few, many and more than there is room for at first; thin and dense.
+/// Few, many and more than the first buffer holds; thin and dense.
 TEST(SplatLayers, AreBlendedFromNearToFar) {
     struct Case {
         int count;
@@ -120,7 +120,7 @@ TEST(SplatLayers, AreBlendedFromNearToFar) {
          {Case{3, 0.5, 1}, Case{900, 0.1, 0.9F}, Case{3000, 0.4, 0.02F}, Case{3000, 0.3, 0.6F}}) {
         const std::vector<TestSplat> splats = cloud(c.count, c.sigma, c.opacity, 31);
         const BuiltScene built = build(scene_of(splats));
-        const Rays rays = rays_at_the_middle(300, 32);
+        const Rays rays = rays_at_the_centre(300, 32);
         const Blended got = blend(built.accel, rays);
         int crossed = 0;
         int exact = 0;
@@ -174,8 +174,8 @@ TEST(SplatLayers, EncodedColoursAreMixedAsTheyAre) {
     EXPECT_NEAR(got.passes[0], 0.25, 1e-6);
 }
 
-/// The harmonic (1, 0) grows along z: a splat is brighter the more one looks along +z at it.
-TEST(SplatLayers, HarmonicsFollowTheWayToTheMiddle) {
+/// The harmonic (1, 0) grows along z: a splat is brighter along directions closer to +z.
+TEST(SplatLayers, HarmonicsFollowTheDirectionToTheCentre) {
     TestSplat splat{ball({0, 0, 0}, 1), 1, {0.5F, 0.5F, 0.5F}};
     splat.harmonics = {0, 0, 0, 0.4F, 0, 0, 0, 0, 0};
     const BuiltScene built = build(scene_of({splat}));
@@ -195,7 +195,7 @@ TEST(SplatLayers, HarmonicsFollowTheWayToTheMiddle) {
 TEST(SplatLayers, ShadowRaysAreDimmedByAllInTheirWay) {
     const std::vector<TestSplat> splats = cloud(500, 0.2, 0.7F, 41);
     const BuiltScene built = build(scene_of(splats));
-    const Rays rays = rays_at_the_middle(200, 42);
+    const Rays rays = rays_at_the_centre(200, 42);
     const Blended seen = blend(built.accel, rays);
     std::vector<float> passes(200, -1.0F);
     std::vector<uint8_t> skips(200, 0);
@@ -227,7 +227,7 @@ TEST(SplatLayers, RaysThatAreNotFinitePassNone) {
 
 TEST(SplatLayers, InstructionSetsAgree) {
     const std::vector<TestSplat> splats = cloud(2000, 0.2, 0.8F, 51);
-    const Rays rays = rays_at_the_middle(200, 52);
+    const Rays rays = rays_at_the_centre(200, 52);
     const BuiltScene first = build(scene_of(splats), "sse4.2");
     const Blended expected = blend(first.accel, rays);
     for (const Isa isa : all_isas()) {

@@ -1,4 +1,4 @@
-// tests/accel/thin_wall_test.cpp - occlusion behind what may be a thin wall.
+// tests/accel/thin_wall_test.cpp - occlusion behind surfaces that may be thin walls.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_scenes.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 using namespace test;
 
-/// Row 0 is opaque, row 1 clear glass without thickness.
+/// Record 0 is opaque, record 1 clear glass without thickness.
 SceneBuilder glass_and_stone() {
     SceneBuilder builder;
     builder.material(Material{});
@@ -41,13 +41,13 @@ void expect_first_passes(const Accel& accel) {
         RayList rays = three_rays();
         rays.occlude(accel, coherence, 0, true);
         EXPECT_EQ(rays.occluded[0], 0);
-        EXPECT_EQ(rays.walls[0], 1);
+        EXPECT_EQ(rays.thin_walls[0], 1);
         EXPECT_EQ(rays.occluded[1], 1);
         EXPECT_EQ(rays.occluded[2], 0);
-        EXPECT_EQ(rays.walls[2], 0);
+        EXPECT_EQ(rays.thin_walls[2], 0);
         rays.occlude(accel, coherence);
         EXPECT_EQ(rays.occluded[0], 1);
-        EXPECT_EQ(rays.walls[0], 0);
+        EXPECT_EQ(rays.thin_walls[0], 0);
         EXPECT_EQ(rays.occluded[2], 0);
         rays.intersect(accel, coherence);
         EXPECT_TRUE(rays.hit(0));
@@ -65,7 +65,7 @@ TEST(ThinWallsInTheWay, OfShapes) {
     SceneBuilder builder = glass_and_stone();
     builder.quad({1, 0, 0}, {1, 0, 0}, {0, 1, 0}, 0);
     Scene scene = builder.take();
-    ShapeRow box = make_shape(ShapeKind::box, 1, 0.5F, 0.25F);
+    ShapeRecord box = make_shape(ShapeKind::box, 1, 0.5F, 0.25F);
     box.centre[0] = 1;
     box.centre[1] = 0.5F;
     box.centre[2] = 2;
@@ -96,7 +96,7 @@ TEST(ThinWallsInTheWay, NoneWhereGlassIsRoughOrHasAVolume) {
     }
 }
 
-/// A cut at one half: what alpha leaves open is no wall.
+/// A cut at one half: where alpha cuts out, there is no wall.
 TEST(ThinWallsInTheWay, AlphaIsAskedFirst) {
     for (const float alpha : {0.4F, 0.6F}) {
         SceneBuilder builder = glass_and_stone();
@@ -108,7 +108,7 @@ TEST(ThinWallsInTheWay, AlphaIsAskedFirst) {
         RayList rays = three_rays();
         rays.occlude(built.accel, Coherence::incoherent, 0, true);
         EXPECT_EQ(rays.occluded[0], 0);
-        EXPECT_EQ(rays.walls[0], alpha > 0.5F ? 1 : 0);
+        EXPECT_EQ(rays.thin_walls[0], alpha > 0.5F ? 1 : 0);
     }
 }
 

@@ -1,4 +1,4 @@
-// tests/accel/traversal_cost_test.cpp - how many tests a ray costs, counted by hand.
+// tests/accel/traversal_cost_test.cpp - the number of tests per ray, counted by hand.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@ constexpr int sheets = 12;
 /// Triangles one behind the other at z = 0, -1, ...: each fills the lower left half of its box.
 SceneBuilder stack(const Material& m) {
     SceneBuilder builder;
-    const int32_t row = builder.material(m);
+    const int32_t index = builder.material(m);
     for (int i = 0; i < sheets; ++i) {
-        builder.quad({0, 0, static_cast<float>(-i)}, {1, 0, 0.1f}, {0, 1, 0.1f}, row);
+        builder.quad({0, 0, static_cast<float>(-i)}, {1, 0, 0.1f}, {0, 1, 0.1f}, index);
         Scene& scene = builder.scene();
         --scene.primitives.back().triangle_count;
         scene.indices.resize(scene.indices.size() - 3);

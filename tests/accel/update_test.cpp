@@ -1,4 +1,4 @@
-// tests/accel/update_test.cpp - the hierarchy of a later pose is that of the pose alone.
+// tests/accel/update_test.cpp - an updated hierarchy equals one built for the later pose alone.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel.h"
 #include "accel/accel_scenes.h"
@@ -12,15 +12,15 @@ namespace {
 
 using namespace test;
 
-/// What poses share: a still ball and a ball in a mesh, 3 m from it at the start.
+/// Geometry shared by poses: a static ball, and a ball in a mesh, 3 m from it at the start.
 Scene two_balls(GeometryStamp still, GeometryStamp mesh) {
     SceneBuilder builder;
     const int32_t material = builder.material({});
     builder.sphere({0, 0, 0}, 1, 12, material);
     builder.sphere({3, 0, 0}, 1, 12, material);
     Scene scene = builder.take();
-    scene.world_primitive_count = scene.still_primitive_count = 1;
-    scene.still_stamp = still;
+    scene.world_primitive_count = scene.static_primitive_count = 1;
+    scene.static_stamp = still;
     scene.meshes = {{1, 1, mesh}};
     return scene;
 }
@@ -84,37 +84,37 @@ TEST(Update, ALaterPoseHasTheHitsOfThePoseAlone) {
     EXPECT_THAT(rays.primitive, testing::Not(testing::Contains(1)));
 }
 
-/// The still part in a hierarchy of its own gives the hits of one hierarchy.
+/// Static geometry in a hierarchy of its own gives the hits of one hierarchy.
 TEST(Update, WhatStandsStillIsHitAsInTheWorld) {
     Scene apart = two_balls(0, 0);
     place(apart, 0);
     Scene together = two_balls(0, 0);
     place(together, 0);
-    together.still_primitive_count = 0;
+    together.static_primitive_count = 0;
     const BuiltScene one = build(std::move(apart));
     const BuiltScene other = build(std::move(together));
     expect_same_hits(one.accel, other.accel);
 }
 
-/// Vertices that change without a new stamp are not looked at: that is what stamps are for.
+/// Changed vertices with an old stamp are not noticed: that is what stamps are for.
 TEST(Update, AStampStandsForTheVertices) {
     Scene scene = two_balls(new_geometry_stamp(), new_geometry_stamp());
     place(scene, 0);
     auto accel = Accel::build(scene, "");
     ASSERT_TRUE(accel);
-    const auto hits_still = [&] {
+    const auto hits_static = [&] {
         RayList rays;
         rays.add({0, 0, 10}, {0, 0, -1});
         rays.intersect(*accel, Coherence::incoherent);
         return rays.hit(0);
     };
-    EXPECT_TRUE(hits_still());
+    EXPECT_TRUE(hits_static());
     const size_t ball = scene.positions.size() / 2 - 2;
     for (size_t i = 0; i < ball; i += 3)
         scene.positions[i] += 100;
-    scene.still_stamp = new_geometry_stamp();
+    scene.static_stamp = new_geometry_stamp();
     ASSERT_TRUE(accel->update(scene));
-    EXPECT_FALSE(hits_still());
+    EXPECT_FALSE(hits_static());
 }
 
 /// A material that becomes see-through gives its geometry a filter.

@@ -1,4 +1,4 @@
-// tests/accel/watertight_test.cpp - no ray leaks, and hits are those of a search in double.
+// tests/accel/watertight_test.cpp - no ray leaks, and hits equal those of a search in double.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel.h"
 #include "accel/accel_scenes.h"
@@ -10,7 +10,7 @@ namespace {
 
 using namespace test;
 
-/// Rays from inside of a closed sphere that see no wall.
+/// Rays from inside of a closed sphere that find no surface.
 int leaks(const Vec3f& centre, Coherence coherence, int ray_count) {
     constexpr int rings = 100;
     SceneBuilder builder;
@@ -70,7 +70,7 @@ std::vector<WideTriangle> widen(const Scene& scene) {
     return out;
 }
 
-/// Looks at every triangle in double.
+/// Tests every triangle in double.
 TrueHit search(const std::vector<WideTriangle>& triangles, const Vec3d& o, const Vec3d& d) {
     TrueHit best;
     for (size_t i = 0; i < triangles.size(); ++i) {
@@ -136,8 +136,8 @@ Disagreements compare(const Scene& soup, Coherence coherence, int ray_count) {
         const Vec3f o = rays.origin(i);
         const Vec3f d = rays.direction(i);
         const TrueHit truth = search(triangles, {o.x, o.y, o.z}, {d.x, d.y, d.z});
-        const auto row = static_cast<size_t>(i);
-        const int got = rays.hit(i) ? rays.triangle[row] : -1;
+        const auto index = static_cast<size_t>(i);
+        const int got = rays.hit(i) ? rays.triangle[index] : -1;
         out.hits += got >= 0 ? 1 : 0;
         if (got != truth.triangle) {
             ++out.other;
@@ -147,7 +147,7 @@ Disagreements compare(const Scene& soup, Coherence coherence, int ray_count) {
             continue;
         }
         if (got < 0) continue;
-        const double error = std::abs(rays.t[row] - truth.t) / (truth.t + 0.1);
+        const double error = std::abs(rays.t[index] - truth.t) / (truth.t + 0.1);
         out.distance += error > 1e-5 / std::min(1.0, 10 * truth.cosine) ? 1 : 0;
     }
     return out;

@@ -15,7 +15,7 @@
 namespace obscura::test {
 namespace {
 
-constexpr double farthest_position = 1e18;  ///< beyond it readers of files leave out what they find
+constexpr double farthest_position = 1e18;  ///< readers of files leave out positions beyond it
 
 class WildScenes {
 public:
@@ -82,7 +82,7 @@ Affined WildScenes::place() {
     return out;
 }
 
-/// Where it is a little later: mirrored, turned about, shrunk, or somewhere else.
+/// A later placement: mirrored, rotated, shrunk, or somewhere else.
 Affined WildScenes::next_place(const Affined& before) {
     Affined out = before;
     const uint32_t way = random_.next_uint() % 4;
@@ -96,7 +96,7 @@ Affined WildScenes::next_place(const Affined& before) {
     return out;
 }
 
-/// As readers of files do: what is not finite or reaches too far at some time is left out.
+/// Leaves out what file readers do: instances that are not finite or out of range at some time.
 void WildScenes::add_instance(Scene& scene) {
     Instance instance;
     instance.mesh = chance(2) ? 1 : 0;
@@ -132,17 +132,17 @@ void WildScenes::add_instance(Scene& scene) {
     scene.instances.push_back(instance);
 }
 
-/// Rays of a picture and others, with a time each.
+/// Rays of an image and others, with a time each.
 struct WildRays {
     std::vector<float> columns[8];
     std::vector<uint32_t> key;
     int count = 0;
 
     void add(const Vec3f& origin, const Vec3f& direction, float tfar, float time) {
-        const float row[] = {
+        const float numbers[] = {
             origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, tfar, time};
         for (size_t c = 0; c < 8; ++c)
-            columns[c].push_back(row[c]);
+            columns[c].push_back(numbers[c]);
         key.push_back(static_cast<uint32_t>(count++));
     }
     RayColumns view() {
@@ -190,18 +190,18 @@ WildRays rays_for(const Scene& scene, WildScenes& wild) {
     return rays;
 }
 
-/// Every way of asking; returns the number of hits.
+/// Runs every kind of query; returns the number of hits.
 int ask_all(const Scene& scene, WildScenes& wild, bool thoroughly) {
     auto accel = Accel::build(scene, "");
     EXPECT_TRUE(accel);
     WildRays rays = rays_for(scene, wild);
     const RayColumns columns = rays.view();
-    const size_t rows = rays.columns[0].size();
-    std::vector<float> t(rows), u(rows), v(rows);
-    std::vector<int32_t> instance(rows), primitive(rows), triangle(rows);
+    const size_t padded = rays.columns[0].size();
+    std::vector<float> t(padded), u(padded), v(padded);
+    std::vector<int32_t> instance(padded), primitive(padded), triangle(padded);
     const HitColumns hits{
         t.data(), u.data(), v.data(), instance.data(), primitive.data(), triangle.data()};
-    std::vector<uint8_t> occluded(rows);
+    std::vector<uint8_t> occluded(padded);
     int found = 0;
     RayRecording recording;
     recording.threads.push_back(std::make_unique<RayRecorder>(accel->ray_reach()));
@@ -221,8 +221,8 @@ int ask_all(const Scene& scene, WildScenes& wild, bool thoroughly) {
     }
     if (!thoroughly) return found;
     for (const RayKind kind : {RayKind::camera, RayKind::shadow}) {
-        for (const ReplayWay way :
-             {ReplayWay::single, ReplayWay::packets, ReplayWay::coherent_packets})
+        for (const ReplayMode way :
+             {ReplayMode::single, ReplayMode::packets, ReplayMode::coherent_packets})
             accel->replay(recording, kind, way);
     }
     for (const std::string& isa : embree_isas()) {
@@ -265,7 +265,7 @@ TEST(WildInstances, NoRayEndsTheProcess) {
     EXPECT_GT(hit, 3 * scenes);
 }
 
-/// What nobody has sorted out is refused ray by ray.
+/// What no reader has removed is refused ray by ray.
 TEST(WildInstances, RaysThatAnInstanceCannotTakeAreRefused) {
     WildScenes wild(81);
     for (int i = 0; i < 1000 / thorough; ++i) {

@@ -6,7 +6,7 @@
 
 #include "support/scene_builder.h"
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 using test::SceneBuilder;
@@ -16,13 +16,13 @@ PreparedScene box(const Vec3f& half) {
     SceneBuilder builder;
     Material material;
     material.flags = material_double_sided;
-    const int32_t row = builder.material(material);
+    const int32_t index = builder.material(material);
     const Vec3f edge[3] = {{2 * half.x, 0, 0}, {0, 2 * half.y, 0}, {0, 0, 2 * half.z}};
     for (size_t axis = 0; axis < 3; ++axis) {
         const Vec3f& a = edge[(axis + 1) % 3];
         const Vec3f& b = edge[(axis + 2) % 3];
-        builder.quad(half * -1.0f, a, b, row);
-        builder.quad(half * -1.0f + edge[axis], a, b, row);
+        builder.quad(half * -1.0f, a, b, index);
+        builder.quad(half * -1.0f + edge[axis], a, b, index);
     }
     Log silent(Verbosity::quiet);
     auto prepared = PreparedScene::create(builder.take(), {}, Isa::automatic, silent);
@@ -101,7 +101,7 @@ TEST(BenchViews, ACameraPlacedByHandIsTheOnlyOne) {
     EXPECT_NEAR(views[0].numbers.yfov_deg, 0.5 * 180 / pi_d, 1e-4);
 }
 
-TEST(BenchViews, NothingToSeeIsNoEndlessSearch) {
+TEST(BenchViews, NothingToSeeEndsTheSearch) {
     SceneBuilder builder;
     Log silent(Verbosity::quiet);
     auto scene = PreparedScene::create(builder.take(), {}, Isa::automatic, silent);
@@ -114,4 +114,4 @@ TEST(BenchViews, NothingToSeeIsNoEndlessSearch) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 TEST(CrosscheckRequest, CountsTakeSuffixes) {
@@ -59,4 +59,4 @@ TEST(CrosscheckRequest, RefusesCombinations) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

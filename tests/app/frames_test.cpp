@@ -8,7 +8,7 @@
 
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 using testing::HasSubstr;
@@ -68,7 +68,7 @@ TEST(Shutter, AnIntervalBlursAndSecondsExpose) {
     EXPECT_EQ(exposed->camera.settings.shutter_s, 1.0 / 125);
 }
 
-TEST(Frames, ARequestBecomesItsPictures) {
+TEST(Frames, ARequestBecomesItsImages) {
     RenderArguments arguments = arguments_of({"a.##.exr", "a.##.png"});
     arguments.frames = "9-10";
     arguments.fps = "5";
@@ -81,7 +81,7 @@ TEST(Frames, ARequestBecomesItsPictures) {
     EXPECT_EQ(frames[0].outputs, (std::vector<std::filesystem::path>{"a.09.exr", "a.09.png"}));
 }
 
-TEST(Frames, AStillIsOnePictureAndMayHaveHashesInItsName) {
+TEST(Frames, AStillIsOneImageAndMayHaveHashesInItsName) {
     RenderArguments arguments = arguments_of({"a#1.exr"});
     arguments.time = "1.5";
     const Result<RenderRequest> request = make_render_request(arguments);
@@ -133,4 +133,4 @@ TEST(Frames, ContradictionsAreRefused) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 using testing::HasSubstr;
@@ -118,4 +118,4 @@ TEST(Numbers, IndicesAreDigitsOnly) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

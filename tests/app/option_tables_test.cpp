@@ -1,4 +1,4 @@
-// tests/app/option_tables_test.cpp - rules for every row of the tables of options.
+// tests/app/option_tables_test.cpp - rules for every entry of the option tables.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_options.h"
 #include "app/crosscheck_options.h"
@@ -13,7 +13,7 @@
 #include <functional>
 #include <set>
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 /// All commands with the texts that their options fill.
@@ -36,7 +36,7 @@ const BoundOption* find(const Command& command, const std::string& name) {
     return nullptr;
 }
 
-TEST(OptionTables, RowsAreWholeAndNamesAreThereOnce) {
+TEST(OptionTables, EntriesAreWholeAndNamesAreThereOnce) {
     const Tables tables;
     for (const Command& command : tables.commands) {
         std::set<std::string> names;
@@ -101,8 +101,8 @@ TEST(OptionTables, DefaultsAreThoseOfAnUntouchedRequest) {
 
 TEST(OptionTables, LensOptionsAreCalledAsTheirSettings) {
     const Tables tables;
-    for_each_camera_setting([&](const auto& row) {
-        const std::string name = std::string("--") + row.info.name;
+    for_each_camera_setting([&](const auto& entry) {
+        const std::string name = std::string("--") + entry.info.name;
         EXPECT_TRUE(find(tables.commands.front(), name)) << name;
     });
 }
@@ -143,4 +143,4 @@ TEST(OptionTables, ExcludedAndNeededOptionsAreReported) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 TEST(Outcome, TheResultLineHasOneWordPerField) {
@@ -58,4 +58,4 @@ TEST(Outcome, SuccessIsSilentWhenQuiet) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

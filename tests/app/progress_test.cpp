@@ -1,4 +1,4 @@
-// tests/app/progress_test.cpp - when progress is told, and how the bar looks.
+// tests/app/progress_test.cpp - when progress is reported, and how the bar looks.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/progress.h"
 
@@ -6,7 +6,7 @@
 
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 TEST(ProgressPacer, TellsAtOnceThenAtMostOnceASecond) {
@@ -82,4 +82,4 @@ TEST(Progress, AFailureHasNoLastLine) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

@@ -1,4 +1,4 @@
-// tests/app/render_request_test.cpp - what the option texts become; mistakes are in tests/cli.
+// tests/app/render_request_test.cpp - option texts become a request; mistakes are in tests/cli.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_request.h"
 
@@ -7,7 +7,7 @@
 #include "support/temp_folder.h"
 #include <cmath>
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
@@ -32,9 +32,9 @@ TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(request->load.scene, -1);
     EXPECT_FALSE(request->load.occlusion);
     EXPECT_EQ(request->verbosity, Verbosity::normal);
-    EXPECT_EQ(request->strokes.points.diameter, 3);
-    EXPECT_EQ(request->strokes.lines.diameter, 2);
-    EXPECT_EQ(request->strokes.lines.unit, LengthUnit::pixels);
+    EXPECT_EQ(request->points_lines.points.diameter, 3);
+    EXPECT_EQ(request->points_lines.lines.diameter, 2);
+    EXPECT_EQ(request->points_lines.lines.unit, LengthUnit::pixels);
     EXPECT_FALSE(request->camera.yfov_rad || request->camera.eye_m || request->camera.model);
 }
 
@@ -76,7 +76,7 @@ RenderArguments every_option() {
     return a;
 }
 
-TEST(RenderRequest, PictureAndSamplingOptionsArrive) {
+TEST(RenderRequest, ImageAndSamplingOptionsArrive) {
     const Result<RenderRequest> request = make_render_request(every_option());
     ASSERT_TRUE(request) << request.error().message;
     const RenderOptions& options = request->options;
@@ -95,10 +95,10 @@ TEST(RenderRequest, PictureAndSamplingOptionsArrive) {
     EXPECT_EQ(request->load.scene, 3);
     EXPECT_EQ(options.integrator, Integrator::ao);
     EXPECT_EQ(options.ao_distance_m, 0.5);
-    EXPECT_EQ(request->strokes.points.diameter, 0.25);
-    EXPECT_EQ(request->strokes.points.unit, LengthUnit::metres);
-    EXPECT_EQ(request->strokes.lines.diameter, 5);
-    EXPECT_EQ(request->strokes.lines.unit, LengthUnit::pixels);
+    EXPECT_EQ(request->points_lines.points.diameter, 0.25);
+    EXPECT_EQ(request->points_lines.points.unit, LengthUnit::metres);
+    EXPECT_EQ(request->points_lines.lines.diameter, 5);
+    EXPECT_EQ(request->points_lines.lines.unit, LengthUnit::pixels);
     EXPECT_EQ(options.filter, PixelFilter::gaussian);
 }
 
@@ -148,4 +148,4 @@ TEST(SameFile, SeesThroughLinksAndMissingFiles) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

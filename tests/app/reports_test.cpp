@@ -7,7 +7,7 @@
 #include "session/statistics.h"
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::app {
 namespace {
 
 using testing::HasSubstr;
@@ -44,7 +44,7 @@ TEST(Statistics, RatesComeFromTheRenderTimeAlone) {
     EXPECT_THAT(statistics_json(request, statistics), HasSubstr("\"rays_per_second\": 0.0,"));
 }
 
-TEST(Statistics, QuantitiesTakeOneSample) {
+TEST(Statistics, AovsTakeOneSample) {
     RenderRequest request;
     request.options.integrator = Integrator::depth;
     EXPECT_THAT(statistics_json(request, {}), HasSubstr("\"spp\": 1,"));
@@ -76,4 +76,4 @@ TEST(InfoReport, NamesFromTheFileAreEscaped) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::app

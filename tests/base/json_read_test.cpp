@@ -1,4 +1,4 @@
-// tests/base/json_read_test.cpp - what passes as a number, and where faults are.
+// tests/base/json_read_test.cpp - which values are accepted as numbers, and where faults are.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json/json_read.h"
 
@@ -9,7 +9,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Reads member "x" of {"x": value} and tells the fault, if any, as "id place".
+/// Reads member "x" of {"x": value}; returns the fault, if any, as "id place".
 template <typename Body>
 std::string fault_of(const std::string& value, const Body& body) {
     const json tree = json::parse("{\"x\":" + value + "}");

@@ -1,4 +1,4 @@
-// tests/base/json_text_test.cpp - JSON text, its limits and the places of its errors.
+// tests/base/json_text_test.cpp - JSON text, its limits and the positions of its errors.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json/json_text.h"
 

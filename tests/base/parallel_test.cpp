@@ -1,4 +1,4 @@
-// tests/base/parallel_test.cpp - loops on as many threads as their own thread asked for.
+// tests/base/parallel_test.cpp - loops use as many threads as their own thread may use.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
 

@@ -7,7 +7,7 @@
 #include "support/temp_folder.h"
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::bench {
 namespace {
 
 using testing::HasSubstr;
@@ -75,4 +75,4 @@ TEST(Compare, RefusesWhatIsNoReport) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -1,13 +1,13 @@
-// tests/bench/measure_view_test.cpp - recorded rays, their replay, and the shares of the stages.
+// tests/bench/measure_view_test.cpp - recorded rays, their replay, and the times of the stages.
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/measure_view.h"
 
 #include <gtest/gtest.h>
 
-#include "support/wall_scenes.h"
+#include "support/thin_wall_scenes.h"
 #include <numeric>
 
-namespace obscura {
+namespace obscura::bench {
 namespace {
 
 using namespace test;
@@ -22,11 +22,11 @@ PreparedScene some_scene(bool with_pane = false) {
     Material glass = solid;
     glass.flags |= material_alpha_blend;
     glass.base_color[3] = 0.5f;
-    const int32_t solid_row = builder.material(solid);
-    const int32_t glass_row = builder.material(glass);
-    builder.quad({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}, solid_row);
-    builder.sphere({-1, 0, 0}, 0.8f, 12, solid_row);
-    builder.sphere({1, 0, 0}, 0.8f, 12, glass_row);
+    const int32_t solid_index = builder.material(solid);
+    const int32_t glass_index = builder.material(glass);
+    builder.quad({-3, -1, -3}, {0, 0, 6}, {6, 0, 0}, solid_index);
+    builder.sphere({-1, 0, 0}, 0.8f, 12, solid_index);
+    builder.sphere({1, 0, 0}, 0.8f, 12, glass_index);
     Material pane = glass_material();
     pane.layers = 0;
     if (with_pane) builder.quad({-3, 1.5f, 3}, {6, 0, 0}, {0, 0, -6}, builder.material(pane));
@@ -56,7 +56,7 @@ RenderOptions some_options(Integrator integrator = Integrator::path) {
     return options;
 }
 
-TEST(Recording, LeavesThePictureAlone) {
+TEST(Recording, LeavesTheImageAlone) {
     const PreparedScene scene = some_scene();
     RenderOptions options = some_options();
     const auto plain = render(scene, some_camera(), options, {}, never_stop);
@@ -74,10 +74,11 @@ TEST(Recording, LeavesThePictureAlone) {
 void expect_replay_finds_all_hits(const PreparedScene& scene, const RayRecording& recording) {
     for (size_t k = 0; k < ray_kinds; ++k) {
         const auto kind = static_cast<RayKind>(k);
-        for (const ReplayWay way :
-             {ReplayWay::single, ReplayWay::packets, ReplayWay::coherent_packets}) {
-            const ReplayResult got = scene.accel().replay(recording, kind, way);
-            EXPECT_EQ(got.hits, recording.hits(kind)) << ray_kind_names[k] << way_name(way);
+        for (const ReplayMode mode :
+             {ReplayMode::single, ReplayMode::packets, ReplayMode::coherent_packets}) {
+            const ReplayResult got = scene.accel().replay(recording, kind, mode);
+            EXPECT_EQ(got.hits, recording.hits(kind))
+                << ray_kind_names[k] << replay_mode_name(mode);
         }
     }
     EXPECT_GT(recording.hits(RayKind::camera), 0U);
@@ -94,7 +95,7 @@ TEST(Replay, FindsTheHitsOfTheRendering) {
     }
 }
 
-TEST(Replay, ShadowRaysGoOnBehindPanes) {
+TEST(Replay, ShadowRaysGoOnThroughPanes) {
     const PreparedScene scene = some_scene(true);
     RenderOptions options = some_options();
     RayRecording recording;
@@ -125,7 +126,7 @@ TEST(MeasureView, CountsAndShares) {
     EXPECT_EQ(view->counters.paths, 48U * 32U * 3U);
     EXPECT_EQ(view->kinds[0].rays, view->counters.camera_rays);
     EXPECT_TRUE(doubts_about(*view).empty());
-    const auto shares = stage_shares(*view);
+    const auto shares = stage_fractions(*view);
     EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1.0, 1e-12);
     for (const double share : shares)
         EXPECT_GE(share, 0);
@@ -146,10 +147,10 @@ TEST(MeasureView, StopsOnRequest) {
     EXPECT_EQ(view.error().id, "E-STOPPED");
 }
 
-/// What is cut away for the rendering's shadow rays, the replay meets: also behind panes.
+/// Faces cut away for the rendering's shadow rays are hit by the replay: also behind panes.
 TEST(MeasureView, CutAwayFacesAreNoReasonForDoubt) {
     for (const bool pane : {false, true}) {
-        WallScene walls;
+        ThinWallScene walls;
         walls.light(slanting_sun());
         if (pane) walls.pane(1, walls.add(glass_material(), glass_layers()), 3);
         Material white;
@@ -175,19 +176,19 @@ TEST(MeasureView, CutAwayFacesAreNoReasonForDoubt) {
 
 TEST(MeasureView, DoubtsHitsThatDiffer) {
     ViewFigures view;
-    view.kinds[1] = {1000, 500, 500, 0, ReplayWay::single, {}, 0};
+    view.kinds[1] = {1000, 500, 500, 0, ReplayMode::single, {}, 0};
     EXPECT_TRUE(doubts_about(view).empty());
     view.kinds[1].bare_hits = 700;
     EXPECT_TRUE(doubts_about(view).empty()) << "backs that the renderer passes";
     view.kinds[1].bare_hits = 400;
     EXPECT_EQ(doubts_about(view).size(), 1U);
-    view.kinds[2] = {1000, 500, 700, 200, ReplayWay::single, {}, 0};
+    view.kinds[2] = {1000, 500, 700, 200, ReplayMode::single, {}, 0};
     EXPECT_EQ(doubts_about(view).size(), 1U) << "faces that are cut away";
     view.kinds[2].spared = 100;
     EXPECT_EQ(doubts_about(view).size(), 2U);
-    view.recording_changed_picture = true;
+    view.recording_changed_image = true;
     EXPECT_EQ(doubts_about(view).size(), 3U);
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::bench

@@ -7,7 +7,7 @@
 #include "support/xml_text.h"
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::bench {
 namespace {
 
 using test::is_well_formed;
@@ -67,4 +67,4 @@ TEST(Report, SpeedUpsAreRelativeToTheRightRow) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::bench

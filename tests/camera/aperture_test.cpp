@@ -1,4 +1,4 @@
-// tests/camera/aperture_test.cpp - points on the lens are where they should be, equally often.
+// tests/camera/aperture_test.cpp - points on the lens lie where they should, uniformly.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/aperture_table.h"
 
@@ -35,7 +35,7 @@ double largest_radius_of(const std::vector<Vec2<double>>& points) {
     return largest;
 }
 
-/// Uniform in area: the share inside a circle of half the radius is a quarter.
+/// Uniform in area: a quarter of the points lie inside a circle of half the radius.
 TEST(Aperture, ADiskIsFilledEvenly) {
     const Aperture aperture = opening(2);
     const auto points = points_of(aperture, 40000);
@@ -58,7 +58,7 @@ TEST(Aperture, APolygonHasItsCornersOnTheCircleAndIsFilledEvenly) {
         EXPECT_GT(largest_radius_of(points), inner + 0.5 * (1 - inner));
         int inside = 0;
         for (const auto& p : points) {
-            // Beyond no edge: the normals point between two corners; one corner is at the top.
+            // Inside of all edges: the normals point between two corners; one corner is at the top.
             for (int k = 0; k < blades; ++k) {
                 const double angle = pi_d / 2 + (2 * k + 1) * pi_d / blades;
                 EXPECT_LE(p.x * std::cos(angle) + p.y * std::sin(angle), inner + 1e-6);
@@ -92,10 +92,10 @@ TEST(Aperture, RotationTurnsCounterClockwiseAndAnamorphicIsTaller) {
 }
 
 /// Two by two pixels: black, 1; 3, black.
-TEST(Aperture, APictureIsHitAsOftenAsItIsBright) {
+TEST(Aperture, AnImageIsHitAsOftenAsItIsBright) {
     const ApertureTable table = make_aperture_table({0, 1, 3, 0}, 2, 2);
     Aperture aperture = opening(1);
-    aperture.picture = table.view();
+    aperture.image = table.view();
     int lower_left = 0;
     constexpr int count = 40000;
     for (const auto& p : points_of(aperture, count)) {

@@ -1,4 +1,4 @@
-// tests/camera/camera_models.h - one camera of each kind, in one place, for tests of all of them.
+// tests/camera/camera_models.h - one camera of each kind, all at one position, for tests.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -22,7 +22,7 @@ inline Vec3d widen(const Vec3f& v) {
     return {v.x, v.y, v.z};
 }
 
-/// A place with no right angles in it.
+/// A pose without right angles.
 inline Affinef some_place() {
     const double a = 0.7;
     const double b = -0.4;
@@ -42,7 +42,7 @@ inline Camera pinhole_camera() {
     return camera;
 }
 
-/// A fisheye whose circle touches the picture's upper and lower edge.
+/// A fisheye whose circle touches the image's upper and lower edge.
 inline Camera fisheye_camera(FisheyeLaw law, double fov_deg, const double (&k)[4]) {
     Camera camera;
     camera.model = CameraModel::fisheye;

@@ -52,7 +52,7 @@ struct Projected {
     double x_px, y_px, z_ndc;
 };
 
-/// Projects with the row-vector matrix that pictures carry: p' = p * M.
+/// Projects with the row-vector matrix that images carry: p' = p * M.
 Projected project(const CameraMatrices& matrices, const Vec3d& p) {
     const double in[4] = {p.x, p.y, p.z, 1};
     double out[4] = {};

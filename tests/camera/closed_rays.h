@@ -1,4 +1,4 @@
-// tests/camera/closed_rays.h - the ray of a pixel by each camera's definition, for tests alone.
+// tests/camera/closed_rays.h - the ray of a pixel by each camera's definition, for tests only.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -21,7 +21,7 @@ struct ClosedPixel {
 
 namespace closed_rays_detail {
 
-/// Pixel centres as a share of the film, from -1 at the left and the bottom to 1.
+/// Pixel centres on the film, from -1 at the left and the bottom to 1.
 struct Share {
     double right, up;
 };
@@ -31,7 +31,7 @@ inline Share share_of(const ClosedPixel& p) {
 }
 
 /// Looks at a point of the plane one metre ahead. Distortion is undone as OpenCV's undistortPoints
-/// does: what the coefficients add is taken away again until nothing changes.
+/// does: the added distortion is subtracted until nothing changes.
 inline ClosedRay flat(const Camera& camera, const Share& at) {
     const double tall = camera.pinhole.tan_half_yfov;
     double x = at.right * tall * static_cast<double>(camera.pinhole.aspect);
@@ -101,11 +101,11 @@ inline ClosedRay fisheye(const FisheyeCamera& camera, const Share& at) {
     return ray;
 }
 
-/// A face of the cube map as a camera that was turned: about the vertical, or up and down.
+/// A face of the cube map as a rotated camera: about the vertical, or up and down.
 inline ClosedRay cube_face(const EnvironmentCamera& camera, const ClosedPixel& p) {
     const int columns = camera.cube_columns;
     const int rows = 6 / columns;
-    // In faces from the left and from the top; a picture's side need not be a multiple of them.
+    // In faces from the left and from the top; an image's side need not be a multiple of them.
     const double across = (p.x + 0.5) * columns / p.width;
     const double down = (p.y + 0.5) * rows / p.height;
     const int face = static_cast<int>(down) * columns + static_cast<int>(across);
@@ -137,8 +137,8 @@ inline ClosedRay environment(const EnvironmentCamera& camera, ClosedPixel p) {
 
 }  // namespace closed_rays_detail
 
-/// Through the middle of a pixel and of the lens, without clipping. Written from the definitions in
-/// docs/cameras.md; nothing but the numbers in Camera is the program's.
+/// The ray through the centres of a pixel and of the lens, without clipping, by the definitions in
+/// docs/cameras.md; it shares only the numbers in Camera with the program.
 inline ClosedRay closed_ray(const Camera& camera, const ClosedPixel& pixel) {
     using namespace closed_rays_detail;
     ClosedRay ray;

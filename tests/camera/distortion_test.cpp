@@ -44,8 +44,8 @@ TEST(Distortion, IsOpenCvsFormulaWithItsDerivatives) {
             const double x = 1.6 * static_cast<double>(random.next_float()) - 0.8;
             const double y = 1.6 * static_cast<double>(random.next_float()) - 0.8;
             const Distorted<double> got = distort(make(c), Vec2<double>{x, y});
-            EXPECT_NEAR(got.place.x, forward(c, x, y).x, 1e-7);
-            EXPECT_NEAR(got.place.y, forward(c, x, y).y, 1e-7);
+            EXPECT_NEAR(got.position.x, forward(c, x, y).x, 1e-7);
+            EXPECT_NEAR(got.position.y, forward(c, x, y).y, 1e-7);
             constexpr double h = 1e-5;
             EXPECT_NEAR(got.xx, (forward(c, x + h, y).x - forward(c, x - h, y).x) / (2 * h), 1e-6);
             EXPECT_NEAR(got.xy, (forward(c, x, y + h).x - forward(c, x, y - h).x) / (2 * h), 1e-6);
@@ -67,9 +67,9 @@ TEST(Distortion, IsUndone) {
             const Vec2<double> p{radius * std::cos(angle), radius * std::sin(angle)};
             const Distorted<double> wanted = distort(d, p);
             if (wanted.xx * wanted.yy - wanted.xy * wanted.yx < 0.01) continue;
-            const Undistorted<double> got = undistort(d, wanted.place);
+            const Undistorted<double> got = undistort(d, wanted.position);
             EXPECT_TRUE(got.valid);
-            EXPECT_LT(std::hypot(got.place.x - p.x, got.place.y - p.y) * 1000, 1e-4);
+            EXPECT_LT(std::hypot(got.position.x - p.x, got.position.y - p.y) * 1000, 1e-4);
         }
     }
 }
@@ -82,10 +82,10 @@ TEST(Distortion, WhatFoldsOverIsSeenNowhere) {
     for (const double r : {0.55, 0.8, 1.5, 20.0}) {
         const Undistorted<double> got = undistort(d, Vec2<double>{0.6 * r, 0.8 * r});
         EXPECT_FALSE(got.valid) << r;
-        EXPECT_TRUE(std::isfinite(got.place.x + got.place.y));
+        EXPECT_TRUE(std::isfinite(got.position.x + got.position.y));
         const Undistorted<float> narrow = undistort(d, Vec2<float>{static_cast<float>(r), 0.0f});
         EXPECT_FALSE(narrow.valid);
-        EXPECT_TRUE(std::isfinite(narrow.place.x + narrow.place.y));
+        EXPECT_TRUE(std::isfinite(narrow.position.x + narrow.position.y));
     }
     EXPECT_DOUBLE_EQ(largest_radius(0.1, 0, 0, 100), 100);
 }

@@ -1,4 +1,4 @@
-// tests/camera/environment_test.cpp - pictures of all directions against their closed forms.
+// tests/camera/environment_test.cpp - images of all directions against their closed forms.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/environment.h"
 
@@ -17,8 +17,8 @@ Camera at_origin(EnvironmentProjection projection) {
     return camera;
 }
 
-/// docs/conventions.md: u = atan2(z, x) / 2 pi + 0.5, v = acos(y) / pi, for a camera that is turned
-/// to look along +X.
+/// docs/conventions.md: u = atan2(z, x) / 2 pi + 0.5, v = acos(y) / pi, for a camera rotated to
+/// look along +X.
 TEST(Environment, LatLongIsTheConventionOfEnvironmentMaps) {
     Camera camera = at_origin(EnvironmentProjection::latlong);
     camera.world_from_camera = {{{0, 0, -1, 0}, {0, 1, 0, 0}, {1, 0, 0, 0}}};
@@ -34,7 +34,7 @@ TEST(Environment, LatLongIsTheConventionOfEnvironmentMaps) {
     }
 }
 
-TEST(Environment, TheMiddleLooksAheadAndRightIsRight) {
+TEST(Environment, TheCentreLooksAheadAndRightIsRight) {
     for (const auto projection :
          {EnvironmentProjection::latlong, EnvironmentProjection::cylindrical}) {
         const Camera camera = at_origin(projection);
@@ -98,7 +98,7 @@ TEST(Environment, SamplesBeyondAnEdgeContinueTheirOwnFaceOrEye) {
     EXPECT_LT(generate_ray(eyes, below).direction.y, -0.99);
 }
 
-/// Each eye stands beside the middle, at right angles to where it looks.
+/// Each eye stands beside the centre, at right angles to its view direction.
 TEST(Environment, EyesStandBesideTheDirectionTheyLookIn) {
     Camera camera = at_origin(EnvironmentProjection::latlong);
     camera.environment.half_eyes_m = 0.032f;

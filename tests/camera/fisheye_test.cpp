@@ -47,9 +47,9 @@ std::vector<LawCase> law_cases() {
     return out;
 }
 
-/// Of each ray the angle to the axis is measured, and its radius by the law compared with where it
-/// was sent from, over the whole picture.
-TEST(Fisheye, TheAngleDecidesTheRadiusOverTheWholePicture) {
+/// Measures each ray's angle to the axis and compares its radius by the law with its film point,
+/// over the whole image.
+TEST(Fisheye, TheAngleDecidesTheRadiusOverTheWholeImage) {
     for (const LawCase& c : law_cases()) {
         SCOPED_TRACE(std::string(c.name) + " " + std::to_string(c.fov_deg));
         Camera camera = fisheye_camera(c.law, c.fov_deg, some_k);
@@ -60,16 +60,16 @@ TEST(Fisheye, TheAngleDecidesTheRadiusOverTheWholePicture) {
             for (int x = 0; x < film_width; x += 7) {
                 const double dx = x + 0.5 - film_width / 2.0;
                 const double dy = y + 0.5 - film_height / 2.0;
-                const double from_middle = std::hypot(dx, dy);
+                const double from_centre = std::hypot(dx, dy);
                 const CameraRay<double> ray = generate_ray(
                     camera, Vec2<double>{(x + 0.5) / film_width, (y + 0.5) / film_height});
-                if (std::abs(from_middle - edge_px) > 1e-3) {
-                    EXPECT_EQ(ray.valid, from_middle < edge_px);
+                if (std::abs(from_centre - edge_px) > 1e-3) {
+                    EXPECT_EQ(ray.valid, from_centre < edge_px);
                 }
                 if (!ray.valid) continue;
                 const double theta =
                     std::atan2(std::hypot(ray.direction.x, ray.direction.y), -ray.direction.z);
-                EXPECT_NEAR(c.radius(theta) * focal_px, from_middle, 1e-4);
+                EXPECT_NEAR(c.radius(theta) * focal_px, from_centre, 1e-4);
                 EXPECT_NEAR(ray.direction.x * dy, -ray.direction.y * dx, 1e-7 * edge_px);
             }
         }
@@ -99,7 +99,7 @@ TEST(Fisheye, LawsEndWhereTheyStopGrowing) {
     EXPECT_DOUBLE_EQ(largest_fisheye_angle(FisheyeLaw::opencv, no_k), pi_d);
 }
 
-TEST(Fisheye, ThePictureIsUpright) {
+TEST(Fisheye, TheImageIsUpright) {
     Camera camera = fisheye_camera(FisheyeLaw::equisolid, 180, no_k);
     camera.world_from_camera = {};
     EXPECT_GT(generate_ray(camera, Vec2<double>{0.6, 0.5}).direction.x, 0.1);

@@ -1,4 +1,4 @@
-// tests/camera/project_test.cpp - what a ray meets is seen where the ray came from, in every model.
+// tests/camera/project_test.cpp - points on a ray project back to the ray's pixel, in every model.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/project.h"
 
@@ -6,18 +6,18 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include "support/random.h"
 
 namespace obscura::test {
 namespace {
 
 template <typename F>
-FilmPoint<F> middle_of_lens(const F& x, const F& y) {
+FilmPoint<F> centre_of_lens(const F& x, const F& y) {
     return {{x, y}, {x, y}, {F(0.5f), F(0.5f)}};
 }
 
-/// The right eye's half is left out: project answers for the left one.
+/// Without the right eye's half, because project() answers for the left eye.
 Vec2<double> some_film_point(const Camera& camera, Pcg32& random) {
     const double height = camera.environment.half_eyes_m > 0 ? 0.49 : 1;
     return {static_cast<double>(random.next_float()),
@@ -38,7 +38,7 @@ TEST(Project, FindsTheFilmPointOfEveryRayWithinATenThousandthPixel) {
             const auto got = project(camera, ray.origin + distance * ray.direction);
             ASSERT_TRUE(got) << film.x << " " << film.y;
             const double across = got->x - film.x;
-            // The left and right edge of a picture of all directions are one.
+            // The left and right edge of an image of all directions are one.
             const double turned = std::abs(across - std::round(across));
             const bool round = camera.model == CameraModel::environment;
             EXPECT_LT((round ? turned : std::abs(across)) * film_width, 1e-4) << film.x;
@@ -61,7 +61,7 @@ TEST(Project, RaysOfFloatsStayNearThoseOfDoubles) {
             EXPECT_TRUE(std::isfinite(ray.direction.x + ray.direction.y + ray.direction.z));
             EXPECT_NEAR(length(ray.direction), 1.0f, 1e-5f);
             if (!ray.valid || !truth.valid) continue;
-            // The end of the law is where an angle depends most on its radius.
+            // At the end of the law the angle is most sensitive to its radius.
             const bool steep = truth.cone_spread > 4 * camera.fisheye.pixel_spread &&
                                camera.model == CameraModel::fisheye;
             EXPECT_LT(length(widen(ray.direction) - truth.direction), steep ? 1e-4 : 2e-6);
@@ -82,7 +82,7 @@ TEST(Project, LanesMatchSingleRays) {
             ys[i] = random.next_float();
         }
         const CameraRay<Lanes> rays =
-            generate_ray(camera, middle_of_lens(load(xs), load(ys)), false);
+            generate_ray(camera, centre_of_lens(load(xs), load(ys)), false);
         float d[3][lane_count];
         store(d[0], rays.direction.x);
         store(d[1], rays.direction.y);
@@ -109,7 +109,7 @@ TEST(Project, NothingIsSeenBehindAFlatFilmOrOutsideACircle) {
     EXPECT_TRUE(generate_ray(fisheye, Vec2<double>{0.5, 0.001}).valid);
 }
 
-/// One pixel further, the ray is one footprint further, to within a factor that filtering forgives.
+/// One pixel away, the ray moves by one footprint, within a factor that filtering tolerates.
 TEST(Project, AFootprintIsAboutOnePixel) {
     for (const auto& [name, camera] : all_cameras()) {
         SCOPED_TRACE(name);

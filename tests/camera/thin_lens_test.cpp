@@ -62,8 +62,8 @@ TEST(ThinLens, RadiusZeroIsThePinholeBitForBit) {
     }
 }
 
-/// A photograph with 50 mm, f/2, focused at 2 m: where rays from a point through the lens' rim
-/// meet the film, by similar triangles behind the lens.
+/// A photograph with 50 mm, f/2, focused at 2 m: film positions of rays from a point through the
+/// lens' rim, by similar triangles behind the lens.
 TEST(LensEquation, TheCircleOfConfusionIsTheShadowOfTheLens) {
     const double focal = 0.05;
     const double diameter = focal / 2;

@@ -1,4 +1,4 @@
-// tests/cli/bench_test.cpp - obscura bench from outside: its report, its files and what it refuses.
+// tests/cli/bench_test.cpp - obscura bench from outside: report, files, refusals.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include <nlohmann/json.hpp>

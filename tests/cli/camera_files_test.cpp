@@ -12,13 +12,13 @@ using Strings = std::vector<std::string>;
 
 class CameraFiles : public Cli {
 protected:
-    ReadPicture shot(const std::string& scene, const Strings& options) const {
+    ReadImage shot(const std::string& scene, const Strings& options) const {
         Strings all = {"-o", "a.exr", "--float", "--threads", "2"};
         all.insert(all.end(), options.begin(), options.end());
         expect_result(render(scene, all), 0, "OK");
-        auto picture = read_picture(folder_ / "a.exr");
-        EXPECT_TRUE(picture);
-        return picture.value_or(ReadPicture{});
+        auto image = read_image_file(folder_ / "a.exr");
+        EXPECT_TRUE(image);
+        return image.value_or(ReadImage{});
     }
     /// The box, its first camera with the extension's object.
     void write_box_with(const std::string& extension) const {
@@ -50,8 +50,8 @@ TEST_F(CameraFiles, TheExtensionIsTheOptions) {
     const auto same = [&](const std::string& extension, const Strings& options) {
         SCOPED_TRACE(extension);
         write_box_with(extension);
-        const ReadPicture by_file = shot("own.gltf", {});
-        const ReadPicture by_options = shot("box.gltf", options);
+        const ReadImage by_file = shot("own.gltf", {});
+        const ReadImage by_options = shot("box.gltf", options);
         EXPECT_EQ(by_file.pixels, by_options.pixels);
         EXPECT_EQ(by_file.spec.get_string_attribute("cameraParameters"),
                   by_options.spec.get_string_attribute("cameraParameters"));
@@ -72,8 +72,8 @@ TEST_F(CameraFiles, TheExtensionIsTheOptions) {
 
 TEST_F(CameraFiles, OptionsOverrideTheExtensionOneByOne) {
     write_box_with(R"({"lens": {"radius": 0.2, "focusDistance": 5}})");
-    const ReadPicture picture = shot("own.gltf", {"--focus-distance", "7"});
-    const std::string parameters(picture.spec.get_string_attribute("cameraParameters"));
+    const ReadImage image = shot("own.gltf", {"--focus-distance", "7"});
+    const std::string parameters(image.spec.get_string_attribute("cameraParameters"));
     EXPECT_THAT(parameters, HasSubstr("lens_radius_m=0.2"));
     EXPECT_THAT(parameters, HasSubstr("focus_distance_m=7"));
     EXPECT_EQ(shot("own.gltf", {"--camera-model", "pinhole"}).pixels, shot("box.gltf", {}).pixels);
@@ -109,7 +109,7 @@ TEST_F(CameraFiles, FaultsOfTheExtensionArePointedAt) {
     expect_bad_extension(R"(7)", "E-JSON-TYPE", "");
 }
 
-/// A camera of 60x40 pixels 6 m before the box, like "Front", in the way of computer vision.
+/// A camera of 60x40 pixels 6 m before the box, like "Front", in the form of computer vision.
 json vision_camera() {
     return {{"width", 60},
             {"height", 40},
@@ -121,18 +121,18 @@ json vision_camera() {
             {"t", {0, 0, 6}}};
 }
 
-TEST_F(CameraFiles, IntrinsicsAndExtrinsicsMakeTheSamePictureAsOurs) {
+TEST_F(CameraFiles, IntrinsicsAndExtrinsicsMakeTheSameImageAsOurs) {
     folder_.write("c.json", vision_camera().dump());
-    const ReadPicture vision = shot("box.gltf", {"--camera-json", "c.json", "--size", "60x40"});
+    const ReadImage vision = shot("box.gltf", {"--camera-json", "c.json", "--size", "60x40"});
     const std::string fov = std::to_string(2 * std::atan(20 / 70.0) * 180 / 3.14159265358979);
     const Strings ours = {"--eye", "0,0,6", "--target", "0,0,0", "--fov", fov, "--size", "60x40"};
-    const ReadPicture same = shot("box.gltf", ours);
+    const ReadImage same = shot("box.gltf", ours);
     for (size_t i = 0; i < vision.pixels.size(); ++i)
         EXPECT_NEAR(vision.pixels[i], same.pixels[i], 0.3f) << i;
-    const ReadPicture depth =
+    const ReadImage depth =
         shot("box.gltf", {"--camera-json", "c.json", "--size", "60x40", "--integrator", "depth"});
     EXPECT_NEAR(depth.pixels[20 * 60 + 30], 5, 1e-5);
-    // Without --size the picture has the file's.
+    // Without --size the image has the file's.
     const ProgramRun got = run({"render",
                                 "box.gltf",
                                 "--camera-json",
@@ -144,18 +144,18 @@ TEST_F(CameraFiles, IntrinsicsAndExtrinsicsMakeTheSamePictureAsOurs) {
                                 "--threads",
                                 "2"});
     expect_result(got, 0, "OK");
-    EXPECT_EQ(read_picture(folder_ / "a.exr")->width, 60);
+    EXPECT_EQ(read_image_file(folder_ / "a.exr")->width, 60);
     const Strings part = {"render", "box.gltf", "--camera-json", "c.json", "--crop", "50,0,11,9"};
     expect_result(run(part), 64, "E-USAGE-CONFLICT");
 }
 
-/// The edge of the box at x = 1, z = 1 is seen where OpenCV's formula puts it.
+/// The edge of the box at x = 1, z = 1 appears where OpenCV's formula puts it.
 TEST_F(CameraFiles, PointsLandOnOpenCvsPixels) {
     json camera = vision_camera();
     camera["cx"] = 22.5;
     camera["distortion"] = {0.2, 0.05, 0, 0, 0};
     folder_.write("c.json", camera.dump());
-    const ReadPicture depth =
+    const ReadImage depth =
         shot("box.gltf", {"--camera-json", "c.json", "--size", "600x400", "--integrator", "depth"});
     int edge = 0;
     while (edge < 600 && depth.pixels[static_cast<size_t>(200 * 600 + edge)] == 0)

@@ -1,4 +1,4 @@
-// tests/cli/cameras_test.cpp - every camera by its options: pictures, headers, messages.
+// tests/cli/cameras_test.cpp - every camera by its options: images, headers, messages.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include <algorithm>
@@ -13,43 +13,42 @@ using Strings = std::vector<std::string>;
 class Cameras : public Cli {
 protected:
     /// Renders the box into a.exr and reads it.
-    ReadPicture shot(const Strings& options, const std::string& scene = "box.gltf") const {
+    ReadImage shot(const Strings& options, const std::string& scene = "box.gltf") const {
         Strings all = {"-o", "a.exr", "--float", "--threads", "2"};
         all.insert(all.end(), options.begin(), options.end());
         expect_result(render(scene, all), 0, "OK");
-        auto picture = read_picture(folder_ / "a.exr");
-        EXPECT_TRUE(picture);
-        return picture.value_or(ReadPicture{});
+        auto image = read_image_file(folder_ / "a.exr");
+        EXPECT_TRUE(image);
+        return image.value_or(ReadImage{});
     }
     void expect_refusal(const Strings& options, const std::string& id, const std::string& text) {
         const ProgramRun got = render("box.gltf", options);
         expect_result(got, 64, id);
         EXPECT_THAT(got.err, HasSubstr(text));
     }
-    static const float* pixel(const ReadPicture& picture, int x, int y) {
-        return &picture
-                    .pixels[static_cast<size_t>(y * picture.width + x) * picture.channels.size()];
+    static const float* pixel(const ReadImage& image, int x, int y) {
+        return &image.pixels[static_cast<size_t>(y * image.width + x) * image.channels.size()];
     }
-    static std::string text(const ReadPicture& picture, const char* attribute) {
-        return std::string(picture.spec.get_string_attribute(attribute));
+    static std::string text(const ReadImage& image, const char* attribute) {
+        return std::string(image.spec.get_string_attribute(attribute));
     }
 };
 
 TEST_F(Cameras, HeadersNameModelAndParameters) {
-    const ReadPicture lens = shot({"--camera-model",
-                                   "thinlens",
-                                   "--lens-radius",
-                                   "0.25",
-                                   "--focus-distance",
-                                   "5",
-                                   "--blades",
-                                   "6"});
+    const ReadImage lens = shot({"--camera-model",
+                                 "thinlens",
+                                 "--lens-radius",
+                                 "0.25",
+                                 "--focus-distance",
+                                 "5",
+                                 "--blades",
+                                 "6"});
     EXPECT_EQ(text(lens, "cameraModel"), "thinlens");
     EXPECT_THAT(text(lens, "cameraParameters"), HasSubstr("lens_radius_m=0.25"));
     EXPECT_THAT(text(lens, "cameraParameters"), HasSubstr("focus_distance_m=5"));
     EXPECT_THAT(text(lens, "cameraParameters"), HasSubstr("blades=6"));
     EXPECT_NE(lens.spec.find_attribute("worldToNDC"), nullptr);
-    const ReadPicture fisheye = shot({"--fisheye", "equisolid", "--fov", "220"});
+    const ReadImage fisheye = shot({"--fisheye", "equisolid", "--fov", "220"});
     EXPECT_EQ(text(fisheye, "cameraModel"), "fisheye");
     EXPECT_THAT(text(fisheye, "cameraParameters"), HasSubstr("fisheye=equisolid"));
     EXPECT_NE(fisheye.spec.find_attribute("worldToCamera"), nullptr);
@@ -57,14 +56,14 @@ TEST_F(Cameras, HeadersNameModelAndParameters) {
 }
 
 TEST_F(Cameras, ALensOfRadiusZeroIsAPinholeBitForBit) {
-    const ReadPicture pinhole = shot({"--camera-model", "pinhole"});
-    const ReadPicture lens =
+    const ReadImage pinhole = shot({"--camera-model", "pinhole"});
+    const ReadImage lens =
         shot({"--camera-model", "thinlens", "--lens-radius", "0", "--focus-distance", "2"});
     EXPECT_EQ(pinhole.pixels, lens.pixels);
     EXPECT_NE(pinhole.pixels, shot({"--lens-radius", "0.2", "--focus-distance", "2"}).pixels);
 }
 
-/// Small pictures of whole scenes by each model, without a refused ray or a bad sample.
+/// Small images of whole scenes by each model, without a refused ray or a bad sample.
 TEST_F(Cameras, EveryModelRenders) {
     for (const Strings& options :
          {Strings{"--fstop", "1.4"},
@@ -91,20 +90,20 @@ TEST_F(Cameras, EveryModelRenders) {
     }
 }
 
-/// The same, once more with every quantity, whose rays go through the middles of pixels and lens.
-TEST_F(Cameras, QuantitiesGoThroughTheMiddleOfTheLens) {
+/// The same once more with every AOV, whose rays pass the centres of pixels and lens.
+TEST_F(Cameras, AovsGoThroughTheMiddleOfTheLens) {
     const Strings depth = {"--integrator", "depth"};
-    const ReadPicture pinhole = shot(depth);
+    const ReadImage pinhole = shot(depth);
     EXPECT_EQ(shot({"--integrator", "depth", "--lens-radius", "0.5"}).pixels, pinhole.pixels);
-    const ReadPicture wide = shot({"--integrator", "depth", "--fisheye", "equidistant"});
+    const ReadImage wide = shot({"--integrator", "depth", "--fisheye", "equidistant"});
     EXPECT_EQ(*pixel(wide, 0, 0), 0) << "outside the circle";
     EXPECT_NEAR(*pixel(wide, 12, 8), 5, 0.05) << "from the eye at (0, 0, 6) to the box";
 }
 
 TEST_F(Cameras, TheFilmsSizeAndFocalLengthAreAnAngle) {
     const std::string fov = std::to_string(2 * std::atan(12.0 / 50) * 180 / 3.14159265358979);
-    const ReadPicture by_angle = shot({"--fov", fov});
-    const ReadPicture by_film = shot({"--focal-length", "50", "--sensor", "36x24"});
+    const ReadImage by_angle = shot({"--fov", fov});
+    const ReadImage by_film = shot({"--focal-length", "50", "--sensor", "36x24"});
     EXPECT_EQ(by_angle.spec.get_string_attribute("cameraModel"), "pinhole");
     for (size_t i = 0; i < by_angle.pixels.size(); ++i)
         EXPECT_NEAR(by_angle.pixels[i], by_film.pixels[i], 0.35f) << i;
@@ -112,10 +111,10 @@ TEST_F(Cameras, TheFilmsSizeAndFocalLengthAreAnAngle) {
     expect_refusal({"--focal-length", "50"}, "E-CAM-LENS", "--sensor");
 }
 
-TEST_F(Cameras, ShiftMovesThePictureByWholePictures) {
+TEST_F(Cameras, ShiftMovesTheImageByWholeImages) {
     const Strings albedo = {"--integrator", "normal"};
-    const ReadPicture plain = shot(albedo);
-    const ReadPicture shifted = shot({"--integrator", "normal", "--shift", "0.25,0"});
+    const ReadImage plain = shot(albedo);
+    const ReadImage shifted = shot({"--integrator", "normal", "--shift", "0.25,0"});
     for (int x = 0; x < 18; ++x) {  // a quarter of 24 pixels
         for (int y = 0; y < 16; ++y)
             EXPECT_EQ(*pixel(shifted, x, y), *pixel(plain, x + 6, y));
@@ -136,7 +135,7 @@ TEST_F(Cameras, ClippingHidesAndKeepsDepths) {
 }
 
 TEST_F(Cameras, AutofocusFindsThePixelsDistance) {
-    const ReadPicture focused =
+    const ReadImage focused =
         shot({"--fstop", "1.4", "--focal-length", "50", "--sensor", "36x24", "--focus-on", "12,8"},
              "quad.gltf");
     EXPECT_THAT(text(focused, "cameraParameters"), HasSubstr("focus_distance_m=3"));
@@ -144,9 +143,9 @@ TEST_F(Cameras, AutofocusFindsThePixelsDistance) {
     expect_refusal({"--fstop", "2", "--focus-on", "24,0"}, "E-CAM-FOCUS", "24x16");
 }
 
-/// What a pixel's samples find in a map that is interpolated between texels: in each direction six
-/// parts of the texel itself and one of each neighbour.
-float seen_in_map(const ReadPicture& map, int x, int y, size_t channel) {
+/// The mean of a pixel's samples in a map interpolated between texels: in each direction six parts
+/// of the texel itself and one of each neighbour.
+float seen_in_map(const ReadImage& map, int x, int y, size_t channel) {
     const float weights[3] = {1.0f / 8, 6.0f / 8, 1.0f / 8};
     float sum = 0;
     for (int dy = -1; dy <= 1; ++dy) {
@@ -160,16 +159,16 @@ float seen_in_map(const ReadPicture& map, int x, int y, size_t channel) {
     return sum;
 }
 
-/// A picture of everything around is an environment map of itself, whatever camera looks.
-TEST_F(Cameras, ALatLongPictureUsedAsEnvironmentReproducesItself) {
+/// An image of all directions is an environment map that reproduces itself, with any camera.
+TEST_F(Cameras, ALatLongImageUsedAsEnvironmentReproducesItself) {
     const Strings around = {"--environment", "latlong", "--size", "64x32", "--spp", "256"};
     Strings first = around;
     first.insert(first.end(), {"--camera", "Front", "--background", "0.2,0.3,0.4"});
-    const ReadPicture map = shot(first);
+    const ReadImage map = shot(first);
     std::filesystem::rename(folder_ / "a.exr", folder_ / "map.exr");
     Strings second = around;
     second.insert(second.end(), {"--camera", "Top", "--env", "map.exr", "--far", "0.001"});
-    const ReadPicture again = shot(second);
+    const ReadImage again = shot(second);
     double difference = 0;
     float contrast = 0;
     for (int y = 0; y < 32; ++y) {
@@ -192,14 +191,14 @@ TEST_F(Cameras, PhotographicExposureDarkensTheDisplayOnly) {
         Strings all = frame;
         all.insert(all.end(), more.begin(), more.end());
         expect_result(render("quad.gltf", all), 0, "OK");
-        return read_picture(folder_ / "a.png")->pixels;
+        return read_image_file(folder_ / "a.png")->pixels;
     };
     // EV100 of f/2, 1/2 s, ISO 200 is 2; 1 / (1.2 * 4) is 2^-2.263.
     const std::vector<float> by_hand = png({"--exposure", "-2.2630344058"});
-    const auto exr = read_picture(folder_ / "a.exr")->pixels;
+    const auto exr = read_image_file(folder_ / "a.exr")->pixels;
     EXPECT_EQ(png({"--ev100", "2"}), by_hand);
     EXPECT_EQ(png({"--fstop", "2", "--shutter", "1/2", "--iso", "200"}), by_hand);
-    const auto exposed = read_picture(folder_ / "a.exr");
+    const auto exposed = read_image_file(folder_ / "a.exr");
     EXPECT_EQ(exposed->pixels, exr);
     EXPECT_EQ(text(*exposed, "cameraModel"), "pinhole") << "the f-number is for the exposure";
     EXPECT_EQ(std::stof(text(*exposed, "ev100")), 2);
@@ -223,7 +222,7 @@ TEST_F(Cameras, ImpossibleCamerasAreRefusedWithWhatWouldDo) {
                    "larger distance");
 }
 
-TEST_F(Cameras, AnAperturesPictureIsReadOrRefused) {
+TEST_F(Cameras, AnAperturesImageIsReadOrRefused) {
     expect_result(render("quad.gltf", {"-o", "a.png"}), 0, "OK");
     const Strings lens = {"--lens-radius", "0.1", "--aperture"};
     const auto with = [&](const std::string& file) {

@@ -35,8 +35,8 @@ inline std::optional<ResultLine> result_of(const ProgramRun& run) {
     return ResultLine{std::stoi(match[1]), match[2], match[3], std::stoi(match[4])};
 }
 
-/// A picture as OpenImageIO reads it.
-struct ReadPicture {
+/// An image as OpenImageIO reads it.
+struct ReadImage {
     int width = 0;
     int height = 0;
     std::vector<std::string> channels;
@@ -44,21 +44,19 @@ struct ReadPicture {
     OIIO::ImageSpec spec;
 };
 
-inline std::optional<ReadPicture> read_picture(const std::filesystem::path& file) {
+inline std::optional<ReadImage> read_image_file(const std::filesystem::path& file) {
     const auto input = OIIO::ImageInput::open(file.string());
     if (!input) return std::nullopt;
-    ReadPicture picture;
-    picture.spec = input->spec();
-    picture.width = picture.spec.width;
-    picture.height = picture.spec.height;
-    picture.channels = picture.spec.channelnames;
-    picture.pixels.resize(picture.spec.image_pixels() *
-                          static_cast<size_t>(picture.spec.nchannels));
-    if (!input->read_image(
-            0, 0, 0, picture.spec.nchannels, OIIO::TypeFloat, picture.pixels.data())) {
+    ReadImage image;
+    image.spec = input->spec();
+    image.width = image.spec.width;
+    image.height = image.spec.height;
+    image.channels = image.spec.channelnames;
+    image.pixels.resize(image.spec.image_pixels() * static_cast<size_t>(image.spec.nchannels));
+    if (!input->read_image(0, 0, 0, image.spec.nchannels, OIIO::TypeFloat, image.pixels.data())) {
         return std::nullopt;
     }
-    return picture;
+    return image;
 }
 
 /// Every test gets a folder with three scenes: triangle.gltf, quad.gltf, box.gltf.

@@ -19,7 +19,7 @@ protected:
     }
 };
 
-TEST_F(Config, OptionsOfAFileMakeThePicture) {
+TEST_F(Config, OptionsOfAFileMakeTheImage) {
     folder_.write("look.toml",
                   "# for every command\n"
                   "quiet = true  # no notes\n"
@@ -36,10 +36,10 @@ TEST_F(Config, OptionsOfAFileMakeThePicture) {
     const ProgramRun got = run({"render", "box.gltf", "--config", "look.toml"});
     EXPECT_EQ(got.code, 0) << got.err;
     EXPECT_EQ(got.err, "") << "quiet was asked for";
-    const auto picture = read_picture(folder_ / "shot #1.exr");
-    ASSERT_TRUE(picture);
-    EXPECT_EQ(picture->width, 8);
-    EXPECT_EQ(picture->height, 6);
+    const auto image = read_image_file(folder_ / "shot #1.exr");
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->width, 8);
+    EXPECT_EQ(image->height, 6);
     EXPECT_TRUE(std::filesystem::exists(folder_ / "b.png"));
 }
 
@@ -57,9 +57,9 @@ TEST_F(Config, TheCommandLineGoesBefore) {
                                 "-o",
                                 "a.exr"});
     EXPECT_EQ(got.code, 0) << got.err;
-    const auto picture = read_picture(folder_ / "a.exr");
-    ASSERT_TRUE(picture);
-    EXPECT_EQ(picture->width, 4);
+    const auto image = read_image_file(folder_ / "a.exr");
+    ASSERT_TRUE(image);
+    EXPECT_EQ(image->width, 4);
 }
 
 TEST_F(Config, MistakesSayWhereTheyAre) {

@@ -16,7 +16,7 @@ protected:
     }
 };
 
-TEST_F(Crosscheck, WritesAReportAndAPicture) {
+TEST_F(Crosscheck, WritesAReportAndAImage) {
     const ProgramRun got = run({"crosscheck",
                                 "box.gltf",
                                 "--rays",
@@ -43,9 +43,9 @@ TEST_F(Crosscheck, WritesAReportAndAPicture) {
             sum += pair.at(key).get<uint64_t>();
         EXPECT_EQ(sum, 32000U) << pair.at("kernel");
     }
-    const auto picture = read_picture(folder_ / "c.png");
-    ASSERT_TRUE(picture.has_value());
-    EXPECT_EQ(picture->width, 64);
+    const auto image = read_image_file(folder_ / "c.png");
+    ASSERT_TRUE(image.has_value());
+    EXPECT_EQ(image->width, 64);
 }
 
 TEST_F(Crosscheck, ReplaysARay) {

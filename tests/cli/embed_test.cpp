@@ -1,4 +1,4 @@
-// tests/cli/embed_test.cpp - what is installed: the library, its symbols, a program that uses it.
+// tests/cli/embed_test.cpp - the installed library, its symbols, a program that embeds it.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 
@@ -49,7 +49,7 @@ TEST_F(Installed, AProgramOfAnyStandardAndMachineGetsTheBitsOfTheCommand) {
         run({"render", "box.gltf", "--size", "96x64", "--spp", "4", "--float", "-o", "own.exr"}),
         0,
         "OK");
-    const auto own = read_picture(folder_ / "own.exr");
+    const auto own = read_image_file(folder_ / "own.exr");
     ASSERT_TRUE(own);
     const std::string source = "'" OBSCURA_SOURCE_DIR "/examples/embed/embed.cpp'";
     const std::string by_hand = "'" OBSCURA_CXX "' " + source +
@@ -69,7 +69,7 @@ TEST_F(Installed, AProgramOfAnyStandardAndMachineGetsTheBitsOfTheCommand) {
             shell(find_library + build + "\nrm -f embed.exr; ./embed box.gltf embed.exr");
         ASSERT_EQ(got.code, 0) << build << '\n' << got.err;
         EXPECT_THAT(got.out, HasSubstr("tiles")) << build;
-        const auto embedded = read_picture(folder_ / "embed.exr");
+        const auto embedded = read_image_file(folder_ / "embed.exr");
         ASSERT_TRUE(embedded) << build;
         EXPECT_EQ(embedded->channels, own->channels);
         EXPECT_EQ(embedded->pixels, own->pixels) << build;

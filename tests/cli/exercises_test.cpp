@@ -1,4 +1,4 @@
-// tests/cli/exercises_test.cpp - the answers of docs/lecture/exercises.md are what is printed.
+// tests/cli/exercises_test.cpp - docs/lecture/exercises.md has the answers that are printed.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include "support/text_files.h"
@@ -10,7 +10,7 @@ namespace {
 
 using nlohmann::json;
 
-/// One command and the answers below it: names and what stands behind the equals sign.
+/// One command and the answers below it: names with the text behind the equals sign.
 struct Exercise {
     std::vector<std::string> command;
     std::vector<std::pair<std::string, std::string>> answers;
@@ -53,7 +53,7 @@ std::vector<std::string> numbers_in(const std::string& text) {
     return out;
 }
 
-/// A unit of the last digit that is written, or what single precision may be off.
+/// One unit of the last written digit, or the error of single precision.
 double tolerance_of(const std::string& number) {
     const size_t point = number.find('.');
     const size_t digits = point == std::string::npos ? 6 : number.size() - point - 1;
@@ -63,7 +63,7 @@ double tolerance_of(const std::string& number) {
 
 using Values = std::map<std::string, std::vector<double>>;
 
-/// What stands before the first " = " of a term's name, of several names the first.
+/// The text before the first " = " of a term's name; of several names the first.
 void add_terms(const json& terms, Values& values) {
     for (const json& term : terms) {
         std::string name = term.at("name");

@@ -38,8 +38,8 @@ protected:
     }
 };
 
-/// The very picture that another run of the program has written, for pixels all over it.
-TEST_F(ExplainPixelCommand, TheSumIsThePixelOfThePicture) {
+/// Compared with the image of another run of the program, for pixels all over it.
+TEST_F(ExplainPixelCommand, TheSumIsThePixelOfTheImage) {
     for (const std::string& scene : {lecture, analytic, instances}) {
         expect_result(run({"render",
                            scene,
@@ -52,13 +52,13 @@ TEST_F(ExplainPixelCommand, TheSumIsThePixelOfThePicture) {
                            "r.exr"}),
                       0,
                       "OK");
-        const auto picture = read_picture(folder_ / "r.exr");
-        ASSERT_TRUE(picture);
+        const auto image = read_image_file(folder_ / "r.exr");
+        ASSERT_TRUE(image);
         for (size_t i = 41; i < 96; i += scene == instances ? 60 : 17) {
             const std::string pixel = std::to_string(i % 12) + "," + std::to_string(i / 12);
             const json got = report({scene, pixel, "--size", "12x8"});
             for (size_t c = 0; c < 3; ++c) {
-                const float expected = picture->pixels[4 * i + c];
+                const float expected = image->pixels[4 * i + c];
                 EXPECT_EQ(got.at("rgba").at(c).get<float>(), expected) << scene << pixel;
             }
             EXPECT_TRUE(got.at("renderer").at("agrees").get<bool>()) << scene << pixel;

@@ -1,4 +1,4 @@
-// tests/cli/explain_test.cpp - what the program says about extensions, variants and metadata.
+// tests/cli/explain_test.cpp - the program's report of extensions, variants and metadata.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include <nlohmann/json.hpp>
@@ -9,7 +9,7 @@ namespace {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// The box with two looks, of which "Night" glows, an unknown extension, and an XMP packet.
+/// The box with two variants, of which "Night" glows, an unknown extension, and an XMP packet.
 class Explain : public Cli {
 protected:
     void SetUp() override {
@@ -65,7 +65,7 @@ TEST_F(Explain, VariantsAreListedAndChosen) {
 
 TEST_F(Explain, ThePacketAndTheVariantGoIntoTheHeader) {
     expect_result(render("looks.gltf", {"--variant", "Night", "-o", "a.exr"}), 0, "OK");
-    const auto exr = read_picture(folder_ / "a.exr");
+    const auto exr = read_image_file(folder_ / "a.exr");
     ASSERT_TRUE(exr);
     EXPECT_EQ(exr->spec.get_string_attribute("xmp"), R"({"dc:title":"Box"})");
     EXPECT_EQ(exr->spec.get_string_attribute("variant"), "Night");

@@ -91,9 +91,9 @@ TEST_F(Failures, SamplesThatAreNotFinite) {
     expect_result(got, 76, "E-NONFINITE");
     EXPECT_THAT(got.err, HasSubstr("of 768 samples were not finite"));
     EXPECT_THAT(read_whole_file(folder_ / "s.json"), HasSubstr("\"nonfinite_samples\": "));
-    const std::optional<ReadPicture> picture = read_picture(folder_ / "a.exr");
-    ASSERT_TRUE(picture) << "the picture is written all the same";
-    for (const float value : picture->pixels)
+    const std::optional<ReadImage> image = read_image_file(folder_ / "a.exr");
+    ASSERT_TRUE(image) << "the picture is written all the same";
+    for (const float value : image->pixels)
         EXPECT_TRUE(std::isfinite(value));
     expect_result(run({"bench", "bright.gltf", "--size", "24x16", "--spp", "2", "--repeat", "1"}),
                   76,

@@ -1,4 +1,4 @@
-// tests/cli/hostile_test.cpp - inputs and surroundings that would end the process, or enter it.
+// tests/cli/hostile_test.cpp - inputs and environments that would crash or hijack the process.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include <cmath>
@@ -24,9 +24,9 @@ protected:
         return "squares.gltf";
     }
     void expect_finite(const char* file) const {
-        const std::optional<ReadPicture> picture = read_picture(folder_ / file);
-        ASSERT_TRUE(picture);
-        for (const float value : picture->pixels)
+        const std::optional<ReadImage> image = read_image_file(folder_ / file);
+        ASSERT_TRUE(image);
+        for (const float value : image->pixels)
             EXPECT_TRUE(std::isfinite(value));
     }
 };
@@ -42,7 +42,7 @@ TEST_F(Hostile, InstancesTooSmallForTheWorldAreLeftOut) {
     }
 }
 
-/// Pressed so flat that no inverse undoes it, a mesh is still drawn.
+/// A mesh is drawn even when flattened so far that no inverse exists.
 TEST_F(Hostile, InstancesThatAreNearlyFlatAreDrawn) {
     for (const double world : {1e-3, 1.0, 1e3, 1e9}) {
         SCOPED_TRACE(world);

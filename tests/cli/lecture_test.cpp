@@ -1,4 +1,4 @@
-// tests/cli/lecture_test.cpp - every command of docs/lecture.md makes the picture that it promises.
+// tests/cli/lecture_test.cpp - every command of docs/lecture.md makes the promised image.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include "support/text_files.h"
@@ -41,20 +41,20 @@ std::vector<std::string> small_and_absolute(const std::vector<std::string>& comm
     return out;
 }
 
-/// The share of pixels in which hardly anything is to be seen.
-double dark_share(const ReadPicture& picture) {
-    const size_t channels = picture.channels.size();
+/// The fraction of pixels that are nearly black.
+double dark_fraction(const ReadImage& image) {
+    const size_t channels = image.channels.size();
     size_t dark = 0;
-    for (size_t i = 0; i < picture.pixels.size(); i += channels) {
-        const float* pixel = &picture.pixels[i];
+    for (size_t i = 0; i < image.pixels.size(); i += channels) {
+        const float* pixel = &image.pixels[i];
         dark += *std::max_element(pixel, pixel + std::min<size_t>(channels, 3)) < 0.04f ? 1U : 0U;
     }
-    return static_cast<double>(dark * channels) / static_cast<double>(picture.pixels.size());
+    return static_cast<double>(dark * channels) / static_cast<double>(image.pixels.size());
 }
 
 class Lecture : public Cli {};
 
-TEST_F(Lecture, EveryCommandMakesItsPicture) {
+TEST_F(Lecture, EveryCommandMakesItsImage) {
     const auto commands = commands_of(read_text(fs::path(OBSCURA_SOURCE_DIR) / "docs/lecture.md"));
     EXPECT_GT(commands.size(), 8U);
     for (const std::vector<std::string>& command : commands) {
@@ -62,13 +62,12 @@ TEST_F(Lecture, EveryCommandMakesItsPicture) {
         expect_result(run(small_and_absolute(command)), 0, "OK");
         EXPECT_TRUE(fs::exists(fs::path(OBSCURA_SOURCE_DIR) / "docs/lecture" / command.back()));
         if (command.front() != "render") continue;
-        const auto picture = read_picture(folder_ / command.back());
-        ASSERT_TRUE(picture);
-        const auto [least, most] =
-            std::minmax_element(picture->pixels.begin(), picture->pixels.end());
+        const auto image = read_image_file(folder_ / command.back());
+        ASSERT_TRUE(image);
+        const auto [least, most] = std::minmax_element(image->pixels.begin(), image->pixels.end());
         EXPECT_GT(*most - *least, 0.1f) << "something is to be seen";
         const bool lines = command.back() == "wires.png";  // white on black
-        EXPECT_LT(dark_share(*picture), lines ? 0.9 : 0.5) << "it is to be seen in most places";
+        EXPECT_LT(dark_fraction(*image), lines ? 0.9 : 0.5) << "it is to be seen in most places";
     }
 }
 

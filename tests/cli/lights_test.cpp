@@ -1,4 +1,4 @@
-// tests/cli/lights_test.cpp - what the program does with the lights that extensions bring.
+// tests/cli/lights_test.cpp - lights of extensions through the whole program.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/png_builder.h"
 
@@ -17,7 +17,7 @@ class Lights : public Cli {
 protected:
     void SetUp() override {
         Cli::SetUp();
-        const auto png = testing_pictures::PngBuilder(1, 1, 8, 6).finish({{255, 0, 0, 51}});
+        const auto png = testing_images::PngBuilder(1, 1, 8, 6).finish({{255, 0, 0, 51}});
         folder_.write("face.png", {reinterpret_cast<const char*>(png.data()), png.size()});
         folder_.write("lamp.ies", "TILT=NONE\n1 1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n5 5\n");
         json tree = json::parse(gltf_text(box_scene()));
@@ -34,14 +34,14 @@ protected:
         folder_.write("lit.gltf", tree.dump());
     }
 
-    /// The upper left pixel of a small picture: the environment, behind the box.
+    /// The upper left pixel of a small image: the environment behind the box.
     std::vector<float> corner(const std::vector<std::string>& more) const {
         std::vector<std::string> arguments = {"-o", "out.exr", "--eye", "0,0,9", "--fov", "60"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         expect_result(render("lit.gltf", arguments), 0, "OK");
-        const auto picture = read_picture(folder_ / "out.exr");
-        if (!picture) return {};
-        return {picture->pixels.begin(), picture->pixels.begin() + 3};
+        const auto image = read_image_file(folder_ / "out.exr");
+        if (!image) return {};
+        return {image->pixels.begin(), image->pixels.begin() + 3};
     }
 };
 

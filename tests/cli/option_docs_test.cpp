@@ -1,4 +1,4 @@
-// tests/cli/option_docs_test.cpp - man page, completions and docs/cli.md say what the program does.
+// tests/cli/option_docs_test.cpp - man page, completions and docs/cli.md agree with the program.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 
@@ -26,7 +26,7 @@ protected:
     bool is_installed(const std::string& program) {
         return shell("sh", "command -v " + program).code == 0;
     }
-    /// What bash offers for the last of the words.
+    /// The completions that bash offers for the last word.
     std::vector<std::string> complete(const std::vector<std::string>& words) {
         std::string list;
         for (const std::string& word : words)

@@ -1,4 +1,4 @@
-// tests/cli/outputs_test.cpp - pictures that are written, and those that survive a failed run.
+// tests/cli/outputs_test.cpp - images that are written, and files that survive a failed run.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include <sys/resource.h>
@@ -12,34 +12,33 @@ using testing::HasSubstr;
 
 class Outputs : public Cli {
 protected:
-    /// The pixel in the middle of the picture.
-    static std::vector<float> middle(const ReadPicture& picture) {
-        const size_t channels = picture.channels.size();
-        const size_t pixel =
-            static_cast<size_t>(picture.height / 2 * picture.width + picture.width / 2);
-        return {picture.pixels.begin() + static_cast<long>(pixel * channels),
-                picture.pixels.begin() + static_cast<long>((pixel + 1) * channels)};
+    /// The pixel in the centre of the image.
+    static std::vector<float> centre(const ReadImage& image) {
+        const size_t channels = image.channels.size();
+        const size_t pixel = static_cast<size_t>(image.height / 2 * image.width + image.width / 2);
+        return {image.pixels.begin() + static_cast<long>(pixel * channels),
+                image.pixels.begin() + static_cast<long>((pixel + 1) * channels)};
     }
 };
 
 TEST_F(Outputs, OneRenderingSeveralFiles) {
     expect_result(render("quad.gltf", {"-o", "a.exr", "-o", "b.png", "-o", "c.jpg"}), 0, "OK");
-    const auto exr = read_picture(folder_ / "a.exr");
-    const auto png = read_picture(folder_ / "b.png");
-    const auto jpg = read_picture(folder_ / "c.jpg");
+    const auto exr = read_image_file(folder_ / "a.exr");
+    const auto png = read_image_file(folder_ / "b.png");
+    const auto jpg = read_image_file(folder_ / "c.jpg");
     ASSERT_TRUE(exr && png && jpg);
-    for (const auto& picture : {*exr, *png, *jpg}) {
-        EXPECT_EQ(picture.width, 24);
-        EXPECT_EQ(picture.height, 16);
+    for (const auto& image : {*exr, *png, *jpg}) {
+        EXPECT_EQ(image.width, 24);
+        EXPECT_EQ(image.height, 16);
     }
     EXPECT_EQ(exr->spec.format, OIIO::TypeHalf);
     EXPECT_EQ(exr->channels, (std::vector<std::string>{"R", "G", "B", "A"}));
-    const std::vector<float> lit = middle(*exr);
+    const std::vector<float> lit = centre(*exr);
     EXPECT_GT(lit[0], 0.8f);
     EXPECT_LT(lit[0], 1.1f);
     EXPECT_FLOAT_EQ(lit[3], 1);
-    EXPECT_GT(middle(*png)[0], 0.3f);
-    EXPECT_NEAR(middle(*png)[1], middle(*jpg)[1], 0.03f);
+    EXPECT_GT(centre(*png)[0], 0.3f);
+    EXPECT_NEAR(centre(*png)[1], centre(*jpg)[1], 0.03f);
 }
 
 TEST_F(Outputs, TheDefaultNameIsTheScenesStemHere) {
@@ -63,7 +62,7 @@ TEST_F(Outputs, StrangeNamesKeepTheirBytes) {
 TEST_F(Outputs, TheExrSpeaksAboutItself) {
     expect_result(
         render("box.gltf", {"-o", "a.exr", "--float", "--seed", "7", "--camera", "Top"}), 0, "OK");
-    const auto exr = read_picture(folder_ / "a.exr");
+    const auto exr = read_image_file(folder_ / "a.exr");
     ASSERT_TRUE(exr);
     const OIIO::ImageSpec& spec = exr->spec;
     EXPECT_EQ(spec.format, OIIO::TypeFloat);
@@ -77,28 +76,28 @@ TEST_F(Outputs, TheExrSpeaksAboutItself) {
     EXPECT_NE(spec.find_attribute("worldToNDC", OIIO::TypeMatrix44), nullptr);
 }
 
-TEST_F(Outputs, QuantitiesAreFloatsInExrAndReadableInPng) {
-    const std::vector<std::pair<std::string, size_t>> quantities = {
+TEST_F(Outputs, AovsAreFloatsInExrAndReadableInPng) {
+    const std::vector<std::pair<std::string, size_t>> aovs = {
         {"normal", 3}, {"depth", 1}, {"id", 3}, {"facing", 1}, {"distance", 1}, {"heat", 1}};
-    for (const auto& [name, channels] : quantities) {
+    for (const auto& [name, channels] : aovs) {
         SCOPED_TRACE(name);
         const std::string exr_name = name + ".exr";
         const std::string png_name = name + ".png";
         expect_result(
             render("quad.gltf", {"--integrator", name, "-o", exr_name, "-o", png_name}), 0, "OK");
-        const auto exr = read_picture(folder_ / exr_name);
-        const auto png = read_picture(folder_ / png_name);
+        const auto exr = read_image_file(folder_ / exr_name);
+        const auto png = read_image_file(folder_ / png_name);
         ASSERT_TRUE(exr && png);
         EXPECT_EQ(exr->channels.size(), channels);
         EXPECT_EQ(exr->spec.format, OIIO::TypeFloat);
         EXPECT_EQ(exr->spec.get_string_attribute("colorInteropID"), "data");
         EXPECT_EQ(exr->spec.get_int_attribute("samplesPerPixel"), 1);
-        EXPECT_GT(middle(*png)[0] + middle(*png)[1] + middle(*png)[2], 0.3f);
+        EXPECT_GT(centre(*png)[0] + centre(*png)[1] + centre(*png)[2], 0.3f);
     }
-    EXPECT_NEAR(middle(*read_picture(folder_ / "depth.exr"))[0], 3, 1e-5);
-    EXPECT_NEAR(middle(*read_picture(folder_ / "normal.exr"))[2], 1, 1e-5);
-    EXPECT_NEAR(middle(*read_picture(folder_ / "normal.png"))[2], 1, 1e-5);
-    EXPECT_NEAR(middle(*read_picture(folder_ / "normal.png"))[0], 0.5, 0.01);
+    EXPECT_NEAR(centre(*read_image_file(folder_ / "depth.exr"))[0], 3, 1e-5);
+    EXPECT_NEAR(centre(*read_image_file(folder_ / "normal.exr"))[2], 1, 1e-5);
+    EXPECT_NEAR(centre(*read_image_file(folder_ / "normal.png"))[2], 1, 1e-5);
+    EXPECT_NEAR(centre(*read_image_file(folder_ / "normal.png"))[0], 0.5, 0.01);
 }
 
 TEST_F(Outputs, EveryIntegratorRuns) {
@@ -106,15 +105,15 @@ TEST_F(Outputs, EveryIntegratorRuns) {
         SCOPED_TRACE(name);
         expect_result(
             render("quad.gltf", {"--integrator", name, "-o", "a.exr", "-o", "a.jpg"}), 0, "OK");
-        const auto exr = read_picture(folder_ / "a.exr");
+        const auto exr = read_image_file(folder_ / "a.exr");
         ASSERT_TRUE(exr);
-        EXPECT_GT(middle(*exr)[0], 0.5f);
+        EXPECT_GT(centre(*exr)[0], 0.5f);
     }
     const std::vector<std::string> wires = {
         "--integrator", "wireframe", "--wire-width", "4", "-o", "a.exr", "-o", "a.png"};
     expect_result(render("quad.gltf", wires), 0, "OK");
-    EXPECT_EQ(middle(*read_picture(folder_ / "a.exr"))[0], 1) << "the quad's diagonal";
-    EXPECT_EQ(read_picture(folder_ / "a.exr")->spec.get_int_attribute("samplesPerPixel"), 16);
+    EXPECT_EQ(centre(*read_image_file(folder_ / "a.exr"))[0], 1) << "the quad's diagonal";
+    EXPECT_EQ(read_image_file(folder_ / "a.exr")->spec.get_int_attribute("samplesPerPixel"), 16);
 }
 
 TEST_F(Outputs, BackgroundsAndExposure) {
@@ -125,20 +124,20 @@ TEST_F(Outputs, BackgroundsAndExposure) {
         expect_result(render("quad.gltf", more), 0, "OK");
     };
     shot({"-o", "clear.exr", "--background", "transparent"});
-    EXPECT_EQ(middle(*read_picture(folder_ / "clear.exr")), (std::vector<float>{0, 0, 0, 0}));
+    EXPECT_EQ(centre(*read_image_file(folder_ / "clear.exr")), (std::vector<float>{0, 0, 0, 0}));
     shot({"-o", "color.exr", "-o", "plain.png", "--background", "0.5,0.25,2", "--view", "Raw"});
-    EXPECT_EQ(middle(*read_picture(folder_ / "color.exr")),
+    EXPECT_EQ(centre(*read_image_file(folder_ / "color.exr")),
               (std::vector<float>{0.5f, 0.25f, 2, 1}));
     shot({"-o", "bright.png", "--background", "0.125,0.25,0", "--view", "Raw", "--exposure", "+1"});
-    EXPECT_NEAR(middle(*read_picture(folder_ / "plain.png"))[0], 0.5f, 0.003f);
-    EXPECT_NEAR(middle(*read_picture(folder_ / "bright.png"))[0], 0.25f, 0.003f);
+    EXPECT_NEAR(centre(*read_image_file(folder_ / "plain.png"))[0], 0.5f, 0.003f);
+    EXPECT_NEAR(centre(*read_image_file(folder_ / "bright.png"))[0], 0.25f, 0.003f);
 }
 
 TEST_F(Outputs, ACropHasTheSamePixels) {
     expect_result(render("box.gltf", {"-o", "whole.exr", "--float"}), 0, "OK");
     expect_result(render("box.gltf", {"-o", "part.exr", "--float", "--crop", "5,3,9,7"}), 0, "OK");
-    const auto whole = read_picture(folder_ / "whole.exr");
-    const auto part = read_picture(folder_ / "part.exr");
+    const auto whole = read_image_file(folder_ / "whole.exr");
+    const auto part = read_image_file(folder_ / "part.exr");
     ASSERT_TRUE(whole && part);
     EXPECT_EQ(part->spec.full_width, 24);
     EXPECT_EQ(part->spec.full_height, 16);
@@ -165,8 +164,8 @@ TEST_F(Outputs, ACropInAPngLiesInTheWholeImage) {
         };
         shot({"-o", "whole.png"});
         shot({"-o", "part.png", "--crop", "5,3,9,7"});
-        const auto whole = read_picture(folder_ / "whole.png");
-        const auto part = read_picture(folder_ / "part.png");
+        const auto whole = read_image_file(folder_ / "whole.png");
+        const auto part = read_image_file(folder_ / "part.png");
         ASSERT_TRUE(whole && part);
         ASSERT_EQ(part->pixels.size(), whole->pixels.size());
         const size_t channels = part->channels.size();

@@ -1,4 +1,4 @@
-// tests/cli/reports_test.cpp - progress lines, statistics, info, and what quiet means.
+// tests/cli/reports_test.cpp - progress lines, statistics, info, and what --quiet leaves.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include <nlohmann/json.hpp>

@@ -41,13 +41,13 @@ protected:
         folder_.write("slide.gltf", sliding_box());
     }
     std::vector<float> pixels(const std::string& name) const {
-        const auto picture = read_picture(folder_ / name);
-        EXPECT_TRUE(picture) << name;
-        return picture ? picture->pixels : std::vector<float>();
+        const auto image = read_image_file(folder_ / name);
+        EXPECT_TRUE(image) << name;
+        return image ? image->pixels : std::vector<float>();
     }
 };
 
-/// The mean over the shutter's time lies between; what stands still is the same to the last bit.
+/// The mean over the shutter interval lies between; static pixels are equal to the last bit.
 TEST_F(Sequence, AShutterBlursWhatMoves) {
     const auto at = [&](const std::vector<std::string>& options, const char* file) {
         std::vector<std::string> more = {"--spp", "64", "--time", "0", "-o", file};
@@ -83,7 +83,7 @@ TEST_F(Sequence, AMovedBoxIsSeenElsewhere) {
     EXPECT_NEAR(pixels("rest.exr")[row + 12], 5, 0.01) << "as stored: in the middle";
 }
 
-TEST_F(Sequence, FramesAreEqualToSinglePictures) {
+TEST_F(Sequence, FramesAreEqualToSingleImages) {
     expect_result(render("slide.gltf",
                          {"--frames", "1-3", "--fps", "2", "-o", "f.##.exr", "--stats", "s.json"}),
                   0,
@@ -93,7 +93,7 @@ TEST_F(Sequence, FramesAreEqualToSinglePictures) {
         const std::string file = "f.0" + std::to_string(frame) + ".exr";
         expect_result(render("slide.gltf", {"--time", times[frame - 1], "-o", "one.exr"}), 0, "OK");
         EXPECT_EQ(pixels(file), pixels("one.exr")) << file;
-        EXPECT_EQ(read_picture(folder_ / file)->spec.get_string_attribute("timeSeconds"),
+        EXPECT_EQ(read_image_file(folder_ / file)->spec.get_string_attribute("timeSeconds"),
                   times[frame - 1]);
     }
     EXPECT_NE(pixels("f.01.exr"), pixels("f.03.exr"));

@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/stroke_scenes.h"
+#include "support/points_lines_scenes.h"
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
@@ -47,9 +47,9 @@ TEST(CheckScene, ThinLinesAreWithinTheBudgetAndDoNotShadowThemselves) {
     EXPECT_EQ(checked.spawned.self_hits, 0U);
 }
 
-/// A fence of lines whose pieces are 400 times as long as thick, so that Embree finds them beside
-/// where they are by up to a hundredth of their radius, another one for each ray: what shading
-/// starts there must begin further out than that.
+/// A fence of lines whose segments are 400 times as long as thick: Embree's hits are off by up to a
+/// hundredth of the radius, differently for each ray, and shading must start its rays further out
+/// than that.
 TEST(CheckSpawned, WhatShadingStartsOnThinLinesLeavesThem) {
     Scene scene = empty_scene({});
     constexpr int lines = 100;
@@ -117,13 +117,13 @@ TEST(CheckScene, ReplaysOneRay) {
     EXPECT_THAT(*text, testing::Not(HasSubstr("miss")));
 }
 
-TEST(CheckScene, ThePictureShowsTheWorstVerdict) {
-    ScreenVerdicts screen{2, 1, {static_cast<int8_t>(Finding::false_hit), 0}, {1, 1}};
-    const Picture picture = screen_picture(screen);
-    EXPECT_EQ(picture.pixels.at(0), 1.0F);
-    EXPECT_EQ(picture.pixels.at(1), 0.0F);
-    EXPECT_EQ(picture.pixels.at(3), picture.pixels.at(4));
+TEST(CheckScene, TheImageShowsTheWorstVerdict) {
+    ScreenVerdicts screen{2, 1, {static_cast<int8_t>(Verdict::false_hit), 0}, {1, 1}};
+    const OutputImage image = screen_image(screen);
+    EXPECT_EQ(image.pixels.at(0), 1.0F);
+    EXPECT_EQ(image.pixels.at(1), 0.0F);
+    EXPECT_EQ(image.pixels.at(3), image.pixels.at(4));
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

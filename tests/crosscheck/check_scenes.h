@@ -1,4 +1,4 @@
-// tests/crosscheck/check_scenes.h - small scenes that cross-checks are tried on.
+// tests/crosscheck/check_scenes.h - small scenes for cross-checks.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -43,7 +43,7 @@ inline Camera front_camera() {
     return look_at({0.2F, 0.3F, 5}, {0, 0, 0}, 0.8F, 64, 36);
 }
 
-inline RaySetOptions few_rays(uint64_t count) {
+inline crosscheck::RaySetOptions few_rays(uint64_t count) {
     return {front_camera(), 64, 36, count, 0};
 }
 

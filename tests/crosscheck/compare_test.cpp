@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
@@ -19,7 +19,7 @@ class CompareAnswers : public testing::Test {
 protected:
     /// Down on the square from z = 4, where one ulp is that of 4.
     TrueRay down(double x, double y) const { return {{x, y, 4}, {0, 0, -1}}; }
-    Finding verdict(const TrueRay& ray, const Answer& got) const {
+    Verdict verdict(const TrueRay& ray, const Answer& got) const {
         return compare(truth_, ray, answer_of(truth_.nearest(ray)), got).verdict;
     }
     double ulp(const TrueRay& ray) const { return truth_.rounding_m(ray, lower, 4); }
@@ -29,42 +29,42 @@ protected:
 };
 
 TEST_F(CompareAnswers, AnUlpIsThatOfTheLargestNumberOnTheWay) {
-    // Origin and way add up to 8.
+    // Origin and distance add up to 8.
     EXPECT_DOUBLE_EQ(ulp(down(0, 0)), 8.0 / 8388608);
 }
 
 TEST_F(CompareAnswers, TheTruthAgreesWithItself) {
     const TrueRay ray = down(0.5, -0.5);
     EXPECT_EQ(truth_.nearest(ray).item, lower);
-    EXPECT_EQ(verdict(ray, {4, lower}), Finding::agree);
-    EXPECT_EQ(verdict(down(3, 0), {}), Finding::agree);
+    EXPECT_EQ(verdict(ray, {4, lower}), Verdict::agree);
+    EXPECT_EQ(verdict(down(3, 0), {}), Verdict::agree);
 }
 
 TEST_F(CompareAnswers, DepthAgreesWithinFourUlp) {
     const TrueRay ray = down(0.5, -0.5);
-    EXPECT_EQ(verdict(ray, {4 + 3.9 * ulp(ray), lower}), Finding::agree);
-    // A ray that begins a few ulp later has it too; one that begins twenty later has not.
-    EXPECT_EQ(verdict(ray, {4 + 20 * ulp(ray), lower}), Finding::depth);
-    EXPECT_EQ(verdict(ray, {4 - 20 * ulp(ray), lower}), Finding::depth);
+    EXPECT_EQ(verdict(ray, {4 + 3.9 * ulp(ray), lower}), Verdict::agree);
+    // A ray that begins a few ulp later has it, too; one that begins twenty later does not.
+    EXPECT_EQ(verdict(ray, {4 + 20 * ulp(ray), lower}), Verdict::depth);
+    EXPECT_EQ(verdict(ray, {4 - 20 * ulp(ray), lower}), Verdict::depth);
 }
 
 TEST_F(CompareAnswers, ANeighbourAtTheCommonEdgeIsNoMismatch) {
     const double beside = 3 * ulp(down(0, 0));
-    EXPECT_EQ(verdict(down(0.25 + beside, 0.25), {4, upper}), Finding::equal_depth);
-    EXPECT_EQ(verdict(down(0.25 - beside, 0.25), {4, lower}), Finding::equal_depth);
+    EXPECT_EQ(verdict(down(0.25 + beside, 0.25), {4, upper}), Verdict::equal_depth);
+    EXPECT_EQ(verdict(down(0.25 - beside, 0.25), {4, lower}), Verdict::equal_depth);
 }
 
 TEST_F(CompareAnswers, ANeighbourIsNotThereFarFromTheEdge) {
-    EXPECT_EQ(verdict(down(0.5, -0.5), {4, upper}), Finding::item);
-    EXPECT_EQ(verdict(down(-0.5, 0.5), {4, lower}), Finding::item);
-    EXPECT_EQ(verdict(down(0.25 + 40 * ulp(down(0, 0)), 0.25), {4, upper}), Finding::item);
+    EXPECT_EQ(verdict(down(0.5, -0.5), {4, upper}), Verdict::item);
+    EXPECT_EQ(verdict(down(-0.5, 0.5), {4, lower}), Verdict::item);
+    EXPECT_EQ(verdict(down(0.25 + 40 * ulp(down(0, 0)), 0.25), {4, upper}), Verdict::item);
 }
 
 TEST_F(CompareAnswers, WhatDoesNotExistIsNotThere) {
     for (const Item& item : {Item{-1, 0, 2}, Item{-1, 1, 0}, Item{0, 0, 0}, Item{-2, 0, 0}}) {
         EXPECT_FALSE(truth_.has(item));
-        EXPECT_EQ(verdict(down(0.5, -0.5), {4, item}), Finding::item);
-        EXPECT_EQ(verdict(down(5, 0), {4, item}), Finding::item);
+        EXPECT_EQ(verdict(down(0.5, -0.5), {4, item}), Verdict::item);
+        EXPECT_EQ(verdict(down(5, 0), {4, item}), Verdict::item);
     }
     EXPECT_TRUE(truth_.has(lower) && truth_.has(upper));
 }
@@ -83,10 +83,10 @@ TEST(CompareCoplanar, SurfacesInOnePlaceAreEachThere) {
     const Item whole{-1, 0, 0};
     const Item half{-1, 1, 0};
     ASSERT_TRUE(truth.has(half));
-    EXPECT_LE(verdict(-0.5, whole), Finding::equal_depth);
-    EXPECT_LE(verdict(-0.5, half), Finding::equal_depth);
-    EXPECT_EQ(verdict(0.5, whole), Finding::agree);
-    EXPECT_EQ(verdict(0.5, half), Finding::item);
+    EXPECT_LE(verdict(-0.5, whole), Verdict::equal_depth);
+    EXPECT_LE(verdict(-0.5, half), Verdict::equal_depth);
+    EXPECT_EQ(verdict(0.5, whole), Verdict::agree);
+    EXPECT_EQ(verdict(0.5, half), Verdict::item);
 }
 
 /// The weights of the corners, and the cross product of two edges.
@@ -123,30 +123,30 @@ TEST(CheckPlace, OfATriangleInAnInstance) {
 
 TEST_F(CompareAnswers, AtTheOuterEdgeHitAndMissAreBothRight) {
     const TrueRay inside = down(1 - 3 * ulp(down(0, 0)), 0.25);
-    EXPECT_EQ(verdict(inside, {}), Finding::edge);
+    EXPECT_EQ(verdict(inside, {}), Verdict::edge);
     const TrueRay outside = down(1 + 3 * ulp(down(0, 0)), 0.25);
-    EXPECT_EQ(verdict(outside, {4, lower}), Finding::edge);
+    EXPECT_EQ(verdict(outside, {4, lower}), Verdict::edge);
 }
 
 TEST_F(CompareAnswers, FurtherFromTheEdgeOnlyOneIs) {
     const TrueRay inside = down(1 - 12 * ulp(down(0, 0)), 0.25);
-    EXPECT_EQ(verdict(inside, {}), Finding::missed);
+    EXPECT_EQ(verdict(inside, {}), Verdict::missed);
     const TrueRay outside = down(1 + 40 * ulp(down(0, 0)), 0.25);
-    EXPECT_EQ(verdict(outside, {4, lower}), Finding::false_hit);
+    EXPECT_EQ(verdict(outside, {4, lower}), Verdict::false_hit);
 }
 
 TEST_F(CompareAnswers, AMissAtACommonEdgeIsACrack) {
     const TrueRay ray = down(0.25, 0.25 + ulp(down(0, 0)));
-    EXPECT_EQ(verdict(ray, {}), Finding::crack);
-    EXPECT_EQ(verdict(down(0.25, 0.3), {}), Finding::missed);
+    EXPECT_EQ(verdict(ray, {}), Verdict::crack);
+    EXPECT_EQ(verdict(down(0.25, 0.3), {}), Verdict::missed);
 }
 
 TEST_F(CompareAnswers, OcclusionKnowsNoDepth) {
     const TrueRay ray = down(0.5, -0.5);
     Answer any;
     any.any = true;
-    EXPECT_EQ(verdict(ray, any), Finding::agree);
-    EXPECT_EQ(verdict(down(3, 0), any), Finding::false_hit);
+    EXPECT_EQ(verdict(ray, any), Verdict::agree);
+    EXPECT_EQ(verdict(down(3, 0), any), Verdict::false_hit);
 }
 
 TEST_F(CompareAnswers, OcclusionOfARayAlongATriangleIsChance) {
@@ -155,23 +155,23 @@ TEST_F(CompareAnswers, OcclusionOfARayAlongATriangleIsChance) {
     const double height = ulp(down(0, 0)) / 4;
     const TrueRay along{{-3, 0.2, height}, {1, 0.05, 0}};
     EXPECT_FALSE(truth_.nearest(along).found());
-    EXPECT_EQ(verdict(along, any), Finding::crack);
-    EXPECT_EQ(verdict({{-3, 0.2, 100 * height}, {1, 0.05, 0}}, any), Finding::false_hit);
+    EXPECT_EQ(verdict(along, any), Verdict::crack);
+    EXPECT_EQ(verdict({{-3, 0.2, 100 * height}, {1, 0.05, 0}}, any), Verdict::false_hit);
 }
 
 TEST_F(CompareAnswers, InATrianglesPlaneNothingTiesAHitToTheTriangle) {
     const double height = ulp(down(0, 0)) / 4;
     const auto beside = [&](double z) { return TrueRay{{-3, 5, z}, {1, 0.05, 0}}; };
-    EXPECT_EQ(verdict(beside(height), {3, lower}), Finding::edge_on);
-    EXPECT_EQ(verdict(beside(400 * height), {3, lower}), Finding::false_hit);
+    EXPECT_EQ(verdict(beside(height), {3, lower}), Verdict::edge_on);
+    EXPECT_EQ(verdict(beside(400 * height), {3, lower}), Verdict::false_hit);
     // Across the plane the third side decides: it has passed the corner by a fifth of the edge.
     const TrueRay across{{1.4, -1, 4}, {0, 0, -1}};
-    EXPECT_EQ(verdict(across, {4, lower}), Finding::false_hit);
+    EXPECT_EQ(verdict(across, {4, lower}), Verdict::false_hit);
 }
 
 TEST(CompareOcclusion, ARingSeenEdgeOnIsNotOnlyItsHole) {
     Scene scene = empty_scene({});
-    ShapeRow ring = make_shape(ShapeKind::disk, 0.45F, 0.18F);
+    ShapeRecord ring = make_shape(ShapeKind::disk, 0.45F, 0.18F);
     add_shape(scene, ring, 0);
     const TrueScene truth(scene);
     const Item item = truth.item(0);
@@ -181,9 +181,9 @@ TEST(CompareOcclusion, ARingSeenEdgeOnIsNotOnlyItsHole) {
         TrueRay along{{-4.3, 0, 0.05}, {1, 0, 0}};
         along.origin.y = ulps * truth.rounding_m(along, item, 4.3);
         ASSERT_FALSE(truth.nearest(along).found());
-        EXPECT_EQ(compare(truth, along, {}, any).verdict, Finding::crack);
+        EXPECT_EQ(compare(truth, along, {}, any).verdict, Verdict::crack);
         along.origin.y *= 20;
-        EXPECT_EQ(compare(truth, along, {}, any).verdict, Finding::false_hit);
+        EXPECT_EQ(compare(truth, along, {}, any).verdict, Verdict::false_hit);
     }
 }
 
@@ -195,4 +195,4 @@ TEST_F(CompareAnswers, EdgeDistanceOfAMismatchIsReported) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

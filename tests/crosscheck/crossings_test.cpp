@@ -9,15 +9,15 @@
 
 #include "support/shape_scenes.h"
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
 
-ShapeRow quadric(const float (&k)[10]) {
-    ShapeRow row = make_shape(ShapeKind::quadric, 0.5F, 0.5F, 0.5F);
-    std::copy(std::begin(k), std::end(k), std::begin(row.k));
-    return row;
+ShapeRecord quadric(const float (&k)[10]) {
+    ShapeRecord record = make_shape(ShapeKind::quadric, 0.5F, 0.5F, 0.5F);
+    std::copy(std::begin(k), std::end(k), std::begin(record.k));
+    return record;
 }
 
 void expect_crossings(const Crossings& found, const std::vector<double>& expected) {
@@ -39,30 +39,30 @@ TEST(Crossings, OfSolidsAlongTheirAxes) {
 }
 
 TEST(Crossings, ATouchIsTwoInOnePlace) {
-    const ShapeRow sphere = make_shape(ShapeKind::sphere, 2);
+    const ShapeRecord sphere = make_shape(ShapeKind::sphere, 2);
     expect_crossings(cross_shape(sphere, {{2, 0, 5}, {0, 0, -1}}), {5, 5});
     expect_crossings(cross_shape(sphere, {{2 + 1e-12, 0, 5}, {0, 0, -1}}), {});
-    const ShapeRow cylinder = make_shape(ShapeKind::frustum, 1, 0.5F, 0.5F);
+    const ShapeRecord cylinder = make_shape(ShapeKind::frustum, 1, 0.5F, 0.5F);
     expect_crossings(cross_shape(cylinder, {{0.5, 0.25, 5}, {0, 0, -1}}), {5, 5});
     expect_crossings(cross_shape(cylinder, {{0.75, 0, 0}, {0, 1, 0}}), {});
 }
 
 TEST(Crossings, OfQuadricsAlongRulingsThereAreNone) {
-    const ShapeRow pipe = quadric({1, 1, 0, 0, 0, 0, 0, 0, 0, -0.09F});
+    const ShapeRecord pipe = quadric({1, 1, 0, 0, 0, 0, 0, 0, 0, -0.09F});
     expect_crossings(cross_shape(pipe, {{0.1, 0.2, 3}, {0, 0, -1}}), {});
     expect_crossings(cross_shape(pipe, {{0.5, 0.2, 3}, {0, 0, -1}}), {});
     const double half = std::sqrt(static_cast<double>(0.09F));
     expect_crossings(cross_shape(pipe, {{-3, 0, 0.2}, {1, 0, 0}}), {3 - half, 3 + half});
-    const ShapeRow plane = quadric({0, 0, 0, 0, 0, 0, 0.5F, -0.5F, 0, 0.125F});
+    const ShapeRecord plane = quadric({0, 0, 0, 0, 0, 0, 0.5F, -0.5F, 0, 0.125F});
     expect_crossings(cross_shape(plane, {{0.25, 0, 0}, {1, 1, 0}}), {});
     expect_crossings(cross_shape(plane, {{0, -3, 0}, {0, 1, 0}}), {3.25});
     // In the surface: the saddle y = x^2 - z^2 holds the line x = z, y = 0.
-    const ShapeRow saddle = quadric({1, 0, -1, 0, 0, 0, 0, -1, 0, 0});
+    const ShapeRecord saddle = quadric({1, 0, -1, 0, 0, 0, 0, -1, 0, 0});
     expect_crossings(cross_shape(saddle, {{0, 0, 0}, {1, 0, 1}}), {});
 }
 
 TEST(Crossings, OfAPlaneSquaredAndOfAConesPoint) {
-    const ShapeRow squared = quadric({1, 1, 0, 2, 0, 0, 0, 0, 0, 0});
+    const ShapeRecord squared = quadric({1, 1, 0, 2, 0, 0, 0, 0, 0, 0});
     for (uint64_t i = 0; i < 2000; ++i) {
         RandomStream random(i);
         const double x = random.between(-0.4, 0.4);
@@ -72,19 +72,19 @@ TEST(Crossings, OfAPlaneSquaredAndOfAConesPoint) {
         expect_crossings(cross_shape(squared, {place - way * 3.0, way}), {3, 3});
     }
     // (z + 0.05)^2 in single precision is no square, or two planes.
-    const ShapeRow beside = quadric({0, 0, 1, 0, 0, 0, 0, 0, 0.1F, 0.0025F});
+    const ShapeRecord beside = quadric({0, 0, 1, 0, 0, 0, 0, 0, 0.1F, 0.0025F});
     const double level = static_cast<double>(0.05F);
     expect_crossings(cross_shape(beside, {{0.1, 0.2, 3}, {0, 0, -1}}), {3 + level, 3 + level});
-    const ShapeRow cone = quadric({1, -1, 1, 0, 0, 0, 0, 0, 0, 0});
+    const ShapeRecord cone = quadric({1, -1, 1, 0, 0, 0, 0, 0, 0, 0});
     expect_crossings(cross_shape(cone, {{3, 0, 0}, {-1, 0, 0}}), {3, 3});
     expect_crossings(cross_shape(cone, {{0, 3, 0}, {0, -1, 0}}), {3, 3});
 }
 
-TEST(Crossings, OfTheHullOfTwoBalls) {
+TEST(Crossings, OfTheHullOfTwoSpheres) {
     const Vec3d middle[2] = {{0, 0, 0}, {0, 0, 4}};
     expect_crossings(cross_hull(middle, {1, 1}, {{5, 0, 2}, {-1, 0, 0}}), {4, 6});
     expect_crossings(cross_hull(middle, {1, 2}, {{0, 0, 9}, {0, 0, -1}}), {3, 10});
-    // One ball holds the other.
+    // One sphere holds the other.
     expect_crossings(cross_hull({{0, 0, 0}, {0, 0, 1}}, {3, 1}, {{0, 9, 0}, {0, -1, 0}}), {6, 12});
 }
 
@@ -112,4 +112,4 @@ TEST(Crossings, NoLineGoesBetweenNeighbours) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

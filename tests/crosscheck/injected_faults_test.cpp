@@ -1,4 +1,4 @@
-// tests/crosscheck/injected_faults_test.cpp - answers of Embree, spoilt in every way, are faults.
+// tests/crosscheck/injected_faults_test.cpp - wrong answers of Embree, of every kind, are detected.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/budget.h"
 #include "crosscheck/check_scenes.h"
@@ -6,7 +6,7 @@
 #include <bit>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
@@ -14,7 +14,7 @@ using namespace test;
 /// Spoils the answer to one ray.
 using Spoil = std::function<void(const TrueRay&, Answer&)>;
 
-/// One in so many rays, by its direction alone.
+/// Hits a fraction of the rays, by their direction alone.
 bool is_chosen(const TrueRay& ray, uint64_t every) {
     uint64_t hash = 0;
     for (const double c : {ray.direction.x, ray.direction.y, ray.direction.z})
@@ -64,7 +64,7 @@ protected:
         truths_.is_truth = true;
     }
 
-    /// What is said about Embree's answers, spoilt.
+    /// Verdicts on Embree's spoilt answers.
     PairFigures figures(bool occlusion, uint64_t every, const Spoil& spoil) {
         const Kernel kernel = make_kernel(kernels_, {"robust 16", 16, occlusion});
         return compare_kernel(truth_, batch_, spoilt(kernel, every, spoil), {&truths_}, {})[0];
@@ -99,18 +99,18 @@ TEST_F(InjectedFaults, NothingSpoiltIsWithinTheBudget) {
 
 TEST_F(InjectedFaults, TheNameOfAnotherItemIsSeen) {
     const PairFigures neighbour =
-        figures(false, 100, [](const TrueRay&, Answer& answer) { answer.item.row ^= 1; });
-    EXPECT_GT(neighbour.total().of(Finding::item), 100U);
+        figures(false, 100, [](const TrueRay&, Answer& answer) { answer.item.element ^= 1; });
+    EXPECT_GT(neighbour.total().of(Verdict::item), 100U);
     EXPECT_THAT(faults(neighbour), testing::Not(testing::IsEmpty()));
     const PairFigures first =
-        figures(false, 100, [](const TrueRay&, Answer& answer) { answer.item.row = 0; });
-    EXPECT_GT(first.total().of(Finding::item), 100U);
-    // No such row, no such primitive, no such instance.
+        figures(false, 100, [](const TrueRay&, Answer& answer) { answer.item.element = 0; });
+    EXPECT_GT(first.total().of(Verdict::item), 100U);
+    // A triangle, a primitive, an instance that do not exist.
     for (const Item& item : {Item{-1, 0, 100000}, Item{-1, 77, 0}, Item{9, 0, 0}, Item{0, 0, 0}}) {
         const PairFigures none = figures(false, 1000, [&](const TrueRay&, Answer& answer) {
             if (answer.found()) answer.item = item;
         });
-        EXPECT_GT(none.total().of(Finding::item), 10U);
+        EXPECT_GT(none.total().of(Verdict::item), 10U);
     }
 }
 
@@ -128,10 +128,10 @@ TEST_F(InjectedFaults, PlacesAndNormalsOfElsewhereAreSeen) {
     };
     for (const Spoil& spoil : {Spoil(spoil_uv), Spoil(spoil_ng), Spoil(swap_uv)}) {
         const PairFigures all = figures(false, 1, spoil);
-        EXPECT_GT(all.total().of(Finding::place), 1000U);
+        EXPECT_GT(all.total().of(Verdict::place), 1000U);
         EXPECT_THAT(faults(all), testing::Not(testing::IsEmpty()));
     }
-    EXPECT_GT(figures(false, 1000, spoil_uv).total().of(Finding::place), 5U);
+    EXPECT_GT(figures(false, 1000, spoil_uv).total().of(Verdict::place), 5U);
 }
 
 TEST_F(InjectedFaults, WrongDepthsAndMissesAreSeen) {
@@ -143,10 +143,10 @@ TEST_F(InjectedFaults, WrongDepthsAndMissesAreSeen) {
     }
     const PairFigures missed =
         figures(false, 1000, [](const TrueRay&, Answer& answer) { answer = {}; });
-    EXPECT_GT(missed.total().of(Finding::missed), 5U);
+    EXPECT_GT(missed.total().of(Verdict::missed), 5U);
 }
 
-/// As callbacks of shapes would be wrong: in their depth, or in the boxes that they name.
+/// Errors as a shape's callback would make them: in depth, or in its bounds.
 TEST_F(InjectedFaults, ShapesAtWrongDepthsAndInBoxesTooSmallAreSeen) {
     const auto is_shape = [&](const Answer& answer) {
         return answer.found() && !truth_.is_triangle(answer.item);
@@ -154,7 +154,7 @@ TEST_F(InjectedFaults, ShapesAtWrongDepthsAndInBoxesTooSmallAreSeen) {
     const PairFigures deep = figures(false, 100, [&](const TrueRay&, Answer& answer) {
         if (is_shape(answer)) answer.t *= 1 + 1e-5;
     });
-    EXPECT_GT(deep.total().of(Finding::depth), 10U);
+    EXPECT_GT(deep.total().of(Verdict::depth), 10U);
     const PairFigures cut = figures(false, 1, [&](const TrueRay& ray, Answer& answer) {
         if (!is_shape(answer) || answer.item.instance >= 0) return;
         if (std::abs(ray.origin.x + ray.direction.x * answer.t) > 0.97 * 0.7) answer = {};
@@ -167,15 +167,15 @@ TEST_F(InjectedFaults, ShapesAtWrongDepthsAndInBoxesTooSmallAreSeen) {
 TEST_F(InjectedFaults, FalseOcclusionAndFalseLightAreSeen) {
     const PairFigures dark =
         figures(true, 1000, [](const TrueRay&, Answer& answer) { answer.any = true; });
-    EXPECT_GT(dark.total().of(Finding::false_hit), 0U);
+    EXPECT_GT(dark.total().of(Verdict::false_hit), 0U);
     EXPECT_THAT(faults(dark), testing::Not(testing::IsEmpty()));
     const PairFigures light =
         figures(true, 1000, [](const TrueRay&, Answer& answer) { answer.any = false; });
-    EXPECT_GT(light.total().of(Finding::missed), 0U);
+    EXPECT_GT(light.total().of(Verdict::missed), 0U);
     EXPECT_THAT(faults(light), testing::Not(testing::IsEmpty()));
 }
 
-/// In a closed room every endless ray is occluded: those that end before the wall are not.
+/// In a closed room every unbounded ray is occluded; rays that end before the wall are not.
 TEST(InjectedOcclusion, IsSeenInAClosedRoom) {
     const Scene scene = closed_cube();
     const TrueScene truth(scene);
@@ -195,11 +195,11 @@ TEST(InjectedOcclusion, IsSeenInAClosedRoom) {
                       true};
     const PairFigures pair = compare_kernel(truth, batch, dark, {&truths}, {})[0];
     const Tally& camera = pair.groups[static_cast<size_t>(RayGroup::camera)];
-    EXPECT_GT(camera.of(Finding::false_hit), camera.rays / 5);
-    EXPECT_LT(camera.of(Finding::false_hit), camera.rays / 3);
+    EXPECT_GT(camera.of(Verdict::false_hit), camera.rays / 5);
+    EXPECT_LT(camera.of(Verdict::false_hit), camera.rays / 3);
 }
 
-/// The whole check, with faults in every kernel: at the least of them it is outside of the budget.
+/// The whole check, with faults in every kernel: even the smallest exceeds the budget.
 TEST(InjectedFault, OfEveryKindPutsTheWholeCheckOutsideOfTheBudget) {
     const Scene scene = mixed_scene();
     const auto faults_with = [&](uint64_t every, const Spoil& spoil) {
@@ -211,9 +211,10 @@ TEST(InjectedFault, OfEveryKindPutsTheWholeCheckOutsideOfTheBudget) {
         return checked ? checked->faults.size() : 0;
     };
     EXPECT_EQ(faults_with(1, [](const TrueRay&, Answer&) {}), 0U);
-    EXPECT_GT(faults_with(1000, [](const TrueRay&, Answer& answer) { answer.item.row ^= 1; }), 0U);
+    EXPECT_GT(faults_with(1000, [](const TrueRay&, Answer& answer) { answer.item.element ^= 1; }),
+              0U);
     EXPECT_GT(faults_with(1, [](const TrueRay&, Answer& answer) { answer.place.u = 0.1; }), 0U);
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

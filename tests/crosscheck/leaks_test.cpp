@@ -1,4 +1,4 @@
-// tests/crosscheck/leaks_test.cpp - closed parts, points inside of them, and rays that get out.
+// tests/crosscheck/leaks_test.cpp - closed meshes and shapes, points inside of them, and leaks.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/leaks.h"
 
@@ -6,22 +6,22 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
 
-TEST(ClosedParts, ACubeIsClosedAndAnOpenOneIsNot) {
-    EXPECT_EQ(find_closed_parts(closed_cube(), 8).found, 1U);
+TEST(ClosedComponents, ACubeIsClosedAndAnOpenOneIsNot) {
+    EXPECT_EQ(find_closed_components(closed_cube(), 8).found, 1U);
     Scene open = closed_cube();
     open.primitives[0].triangle_count = 11;
-    EXPECT_EQ(find_closed_parts(open, 8).found, 0U);
+    EXPECT_EQ(find_closed_components(open, 8).found, 0U);
     Scene turned = closed_cube();  // one triangle the wrong way round: no side is outside
     std::swap(turned.indices[0], turned.indices[1]);
-    EXPECT_EQ(find_closed_parts(turned, 8).found, 0U);
+    EXPECT_EQ(find_closed_components(turned, 8).found, 0U);
 }
 
-TEST(ClosedParts, VerticesAreOneWhereTheyCoincide) {
+TEST(ClosedComponents, VerticesAreOneWhereTheyCoincide) {
     Scene split = closed_cube();  // three vertices a triangle
     LargeArray<float> positions;
     for (size_t i = 0; i < 36; ++i) {
@@ -31,17 +31,17 @@ TEST(ClosedParts, VerticesAreOneWhereTheyCoincide) {
     }
     split.positions = positions;
     pad_tables(split);
-    const ClosedParts parts = find_closed_parts(split, 8);
-    ASSERT_EQ(parts.found, 1U);
-    EXPECT_EQ(parts.parts[0].items, 12U);
+    const ClosedComponents closed = find_closed_components(split, 8);
+    ASSERT_EQ(closed.found, 1U);
+    EXPECT_EQ(closed.components[0].items, 12U);
 }
 
-TEST(ClosedParts, SolidShapesAreClosed) {
+TEST(ClosedComponents, SolidShapesAreClosed) {
     Scene scene = empty_scene({});
     add_shape(scene, make_shape(ShapeKind::sphere, 1), 0);
     add_shape(scene, make_shape(ShapeKind::disk, 1, 0), 0);
     add_shape(scene, make_shape(ShapeKind::box, 1, 1, 1), 0, Affined{});
-    EXPECT_EQ(find_closed_parts(scene, 8).found, 2U);
+    EXPECT_EQ(find_closed_components(scene, 8).found, 2U);
 }
 
 TEST(Leaks, PointsInsideAreInside) {
@@ -54,9 +54,9 @@ TEST(Leaks, PointsInsideAreInside) {
 }
 
 TEST(Leaks, NoneFromAClosedCube) {
-    const auto report = count_leaks(find_closed_parts(closed_cube(), 8), 200000, 0);
+    const auto report = count_leaks(find_closed_components(closed_cube(), 8), 200000, 0);
     ASSERT_TRUE(report.has_value());
-    EXPECT_EQ(report->parts_used, 1U);
+    EXPECT_EQ(report->components_used, 1U);
     ASSERT_EQ(report->kernels.size(), 3U);
     EXPECT_EQ(report->kernels[0].by_aim[0].rays, 200000U);
     EXPECT_EQ(report->kernels[0].by_aim[2].rays, 20000U);
@@ -65,17 +65,17 @@ TEST(Leaks, NoneFromAClosedCube) {
 }
 
 TEST(Leaks, AHoleIsFound) {
-    ClosedParts parts = find_closed_parts(closed_cube(), 8);
-    const TrueScene whole(parts.parts[0].scene);
+    ClosedComponents closed = find_closed_components(closed_cube(), 8);
+    const TrueScene whole(closed.components[0].scene);
     const std::vector<Vec3d> inside = points_inside(whole, 4, 0);
     ASSERT_FALSE(inside.empty());
-    // A cube that lost a triangle after it was found: its points inside are where parity is odd.
-    parts.parts[0].scene.primitives[0].triangle_count = 11;
-    const auto report = count_leaks(parts, 20000, 0);
+    // A cube that lost a triangle after it was found: inside is where parity is odd.
+    closed.components[0].scene.primitives[0].triangle_count = 11;
+    const auto report = count_leaks(closed, 20000, 0);
     ASSERT_TRUE(report.has_value());
     EXPECT_GT(report->kernels.at(0).by_aim[0].leaks, 100U);
     EXPECT_TRUE(report->kernels.at(0).first.has_value());
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
@@ -93,4 +93,4 @@ TEST(SideTest, AcrossAnEdgeTheBoundIsAFewUlp) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

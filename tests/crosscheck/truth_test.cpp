@@ -10,10 +10,10 @@
 
 #include <gtest/gtest.h>
 
-#include "support/stroke_scenes.h"
+#include "support/points_lines_scenes.h"
 #include <cmath>
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
@@ -39,21 +39,21 @@ TEST(TrueScene, HitsBothSidesOfASphere) {
     EXPECT_EQ(count, 2);
 }
 
-TEST(TrueScene, DistanceFromAPieceIsThatFromTheNearestOfItsBalls) {
-    ShapeRow row = make_shape(ShapeKind::capsule, 1.5F, 0.75F, 0.25F);
+TEST(TrueScene, DistanceFromASegmentIsThatFromTheNearestOfItsSpheres) {
+    ShapeRecord record = make_shape(ShapeKind::capsule, 1.5F, 0.75F, 0.25F);
     const SegmentFrame<double> frame = frame_of<double>({{1, 1, 1}, {1, 1, 4}, 0.75, 0.25});
     for (uint64_t i = 0; i < 1000; ++i) {
         RandomStream random(i);
         const Vec3d place{random.between(-2, 2), random.between(-3, 3), random.between(-2, 2)};
         const Vec3d world = frame.centre + out_of_frame(frame, place);
         EXPECT_NEAR(side_of_hull({{1, 1, 1}, {1, 1, 4}}, {0.75, 0.25}, world),
-                    side_of_shape(row, place),
+                    side_of_shape(record, place),
                     1e-9);
     }
 }
 
-/// A right angle of two pieces, their radius 0.1: one body, as Embree has it.
-TEST(TrueScene, ALineHasNoWallsWhereItsPiecesMeet) {
+/// A right angle of two segments of radius 0.1: one solid, as in Embree.
+TEST(TrueScene, ALineHasNoBoundaryWhereItsSegmentsMeet) {
     Scene scene = empty_scene({});
     add_strip(scene, {{{-1, 0, 0}}, {{0, 0, 0}}, {{0, 1, 0}}}, 0.1F);
     add_strip(scene, {{{5, 0, 0}}, {{6, 0, 0}}}, 0.1F);
@@ -61,14 +61,14 @@ TEST(TrueScene, ALineHasNoWallsWhereItsPiecesMeet) {
     const TrueScene truth(scene);
     EXPECT_NEAR(truth.nearest({{-0.5, 0, 0}, {1, 0, 0}}).t, 0.6, 1e-7);
     EXPECT_NEAR(truth.nearest({{0, 0.5, 0}, {0, -1, 0}}).t, 0.6, 1e-7);
-    // Through the corner from one piece to the other: only the way out is there.
+    // Through the corner from one segment to the other: there is only the exit.
     const TrueRay round_corner{{-0.05, 0.02, 0}, normalize(Vec3d{0.1, 0.5, 0})};
     EXPECT_EQ(truth.nearest(round_corner).item, (Item{-1, 0, 1}));
     EXPECT_NEAR(truth.nearest({{5.5, 0, 0}, {1, 0, 0}}).t, 0.4, 1e-7);
     EXPECT_EQ(truth.nearest({{5.95, 0.05, 0}, {0, 1, 0}}).item, (Item{-1, 1, 0}));
 }
 
-/// The sums of docs/crosscheck.md for a piece of length 1 and radius 0.05, seen from across.
+/// The sums of docs/crosscheck.md for a segment of length 1 and radius 0.05, seen from across.
 TEST(TrueScene, AnUlpOfALineIsAQuarterOfWhatItsTestMayBeOff) {
     Scene scene = empty_scene({});
     add_strip(scene, {{{0, 0, 0}}, {{0, 1, 0}}}, 0.05F);
@@ -108,7 +108,7 @@ TEST(TrueScene, FindsPlanesWithoutEnd) {
     const TrueScene truth(scene);
     const TrueHit hit = truth.nearest({{1e9, 4, 0}, {0, -0.5, 1}});
     EXPECT_DOUBLE_EQ(hit.t, 8);
-    EXPECT_TRUE(truth.is_endless(hit.item));
+    EXPECT_TRUE(truth.is_infinite(hit.item));
 }
 
 TEST(TrueScene, TheTreeLeavesNothingOut) {
@@ -187,4 +187,4 @@ TEST(TrueScene, NumbersEveryInstancesItems) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// tests/crosscheck/twins_test.cpp - meshes of shapes lie on them, and meet rays where they do.
+// tests/crosscheck/twins_test.cpp - meshes of shapes lie on them and have the same hits.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/twins.h"
 
@@ -9,36 +9,36 @@
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
 
 constexpr uint64_t ray_count = 9216;  // each group of rays once
 
-ShapeRow moved(ShapeRow row) {
-    row.centre[0] = 0.5F;
-    row.centre[1] = -2;
-    row.centre[2] = 0.25F;
-    return row;
+ShapeRecord moved(ShapeRecord record) {
+    record.centre[0] = 0.5F;
+    record.centre[1] = -2;
+    record.centre[2] = 0.25F;
+    return record;
 }
 
 /// x^2 / 4 + y^2 + z^2 / 2 = 1 in a box that cuts it at x = 1.
-ShapeRow cut_ellipsoid() {
-    ShapeRow row = make_shape(ShapeKind::quadric, 1, 1.2F, 1.6F);
-    row.k[0] = 0.25F;
-    row.k[1] = 1;
-    row.k[2] = 0.5F;
-    row.k[9] = -1;
-    return row;
+ShapeRecord cut_ellipsoid() {
+    ShapeRecord record = make_shape(ShapeKind::quadric, 1, 1.2F, 1.6F);
+    record.k[0] = 0.25F;
+    record.k[1] = 1;
+    record.k[2] = 0.5F;
+    record.k[9] = -1;
+    return record;
 }
 
-ShapeRow saddle() {
-    ShapeRow row = make_shape(ShapeKind::quadric_from_above, 1, 0.8F, 1);
-    row.k[0] = 1;
-    row.k[2] = -1;
-    row.k[7] = -1.5F;
-    return row;
+ShapeRecord saddle() {
+    ShapeRecord record = make_shape(ShapeKind::quadric_from_above, 1, 0.8F, 1);
+    record.k[0] = 1;
+    record.k[2] = -1;
+    record.k[7] = -1.5F;
+    return record;
 }
 
 double area_of(const ShapeMesh& mesh) {
@@ -48,7 +48,7 @@ double area_of(const ShapeMesh& mesh) {
     return sum;
 }
 
-std::vector<ShapeRow> all_kinds() {
+std::vector<ShapeRecord> all_kinds() {
     return {make_shape(ShapeKind::sphere, 1.5F),
             moved(make_shape(ShapeKind::box, 1, 2, 0.5F)),
             moved(make_shape(ShapeKind::frustum, 1, 0.75F, 0.25F)),
@@ -60,7 +60,7 @@ std::vector<ShapeRow> all_kinds() {
 }
 
 TEST(Tessellation, AreasAreThoseOfTheShapes) {
-    const std::vector<ShapeRow> shapes = all_kinds();
+    const std::vector<ShapeRecord> shapes = all_kinds();
     const double slant = std::hypot(2, 0.5);
     const double expected[] = {4 * pi_d * 1.5 * 1.5,
                                8 * (1 * 2 + 2 * 0.5 + 1 * 0.5),
@@ -72,23 +72,23 @@ TEST(Tessellation, AreasAreThoseOfTheShapes) {
 }
 
 TEST(Tessellation, VerticesLieOnTheSurface) {
-    for (const ShapeRow& row : all_kinds()) {
-        const ShapeMesh mesh = tessellate(row);
-        ASSERT_FALSE(mesh.triangles.empty()) << row.kind;
+    for (const ShapeRecord& record : all_kinds()) {
+        const ShapeMesh mesh = tessellate(record);
+        ASSERT_FALSE(mesh.triangles.empty()) << record.kind;
         double worst = 0;
         for (size_t i = 0; i < mesh.triangles.size(); i += 97) {
             for (const Vec3d& p : mesh.triangles[i])
-                worst = std::max(worst, std::abs(side_of_shape(row, p)));
+                worst = std::max(worst, std::abs(side_of_shape(record, p)));
         }
-        const bool open = row.kind == static_cast<int32_t>(ShapeKind::plane) ||
-                          row.kind == static_cast<int32_t>(ShapeKind::disk);
-        EXPECT_LT(worst, open ? 1e-15 : 1e-7) << row.kind;
-        EXPECT_LT(mesh.error_m, 1e-3) << row.kind;
+        const bool open = record.kind == static_cast<int32_t>(ShapeKind::plane) ||
+                          record.kind == static_cast<int32_t>(ShapeKind::disk);
+        EXPECT_LT(worst, open ? 1e-15 : 1e-7) << record.kind;
+        EXPECT_LT(mesh.error_m, 1e-3) << record.kind;
     }
 }
 
 TEST(Tessellation, WhatAGridCannotShowHasNoMesh) {
-    ShapeRow cone = make_shape(ShapeKind::quadric, 1, 1, 1);
+    ShapeRecord cone = make_shape(ShapeKind::quadric, 1, 1, 1);
     cone.k[0] = cone.k[2] = 1;
     cone.k[1] = -1;
     EXPECT_TRUE(tessellate(cone).triangles.empty());
@@ -97,8 +97,8 @@ TEST(Tessellation, WhatAGridCannotShowHasNoMesh) {
 
 TEST(Twins, RaysMeetThemWhereTheyMeetTheShapes) {
     Scene scene = empty_scene({});
-    for (const ShapeRow& row : all_kinds())
-        add_shape(scene, row, 0);
+    for (const ShapeRecord& record : all_kinds())
+        add_shape(scene, record, 0);
     add_shape(scene, make_shape(ShapeKind::sphere, 1.5F), 0);
     const auto report = check_twins(scene, ray_count * all_kinds().size(), "");
     ASSERT_TRUE(report);
@@ -110,14 +110,14 @@ TEST(Twins, RaysMeetThemWhereTheyMeetTheShapes) {
 }
 
 TEST(Twins, AWrongShapeIsSeen) {
-    const ShapeRow row = make_shape(ShapeKind::capsule, 1, 0.75F, 0.25F);
-    const ShapeRow other = make_shape(ShapeKind::capsule, 1, 0.75F, 0.251F);
-    const auto right = compare_with_mesh(row, tessellate(row), ray_count, "");
-    const auto wrong = compare_with_mesh(other, tessellate(row), ray_count, "");
+    const ShapeRecord record = make_shape(ShapeKind::capsule, 1, 0.75F, 0.25F);
+    const ShapeRecord other = make_shape(ShapeKind::capsule, 1, 0.75F, 0.251F);
+    const auto right = compare_with_mesh(record, tessellate(record), ray_count, "");
+    const auto wrong = compare_with_mesh(other, tessellate(record), ray_count, "");
     ASSERT_TRUE(right && wrong);
     EXPECT_EQ(right->total().unexplained(), 0U);
     EXPECT_GT(wrong->total().unexplained(), 100U);
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

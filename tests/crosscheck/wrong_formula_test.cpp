@@ -1,4 +1,4 @@
-// tests/crosscheck/wrong_formula_test.cpp - the instrument must fail loudly when somebody is wrong.
+// tests/crosscheck/wrong_formula_test.cpp - cross-checks must fail loudly when a kernel is wrong.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/budget.h"
 #include "crosscheck/check_scenes.h"
@@ -6,14 +6,14 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::crosscheck {
 namespace {
 
 using namespace test;
 
 constexpr uint64_t ray_count = 9216;  // each group of rays once
 
-/// What a check says of a kernel that is right but for `spoil`.
+/// Verdicts on a kernel that is right except for `spoil`.
 template <typename Spoil>
 CheckedScene check_spoilt(const Scene& scene, const Spoil& spoil) {
     const TrueScene truth(scene);
@@ -44,15 +44,15 @@ TEST(WrongFormula, DepthOffByAHundredThousandthIsAFault) {
         check_spoilt(closed_cube(), [](Answer& answer) { answer.t *= 1.00001; });
     ASSERT_FALSE(checked.faults.empty());
     EXPECT_NE(checked.faults[0].find("4 ulp do not explain"), std::string::npos);
-    EXPECT_GT(checked.pairs.at(0).total().of(Finding::depth), 0U);
+    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::depth), 0U);
 }
 
 TEST(WrongFormula, AMissingTriangleIsAFault) {
     const CheckedScene checked = check_spoilt(closed_cube(), [](Answer& answer) {
-        if (answer.item.row == 7) answer = {};
+        if (answer.item.element == 7) answer = {};
     });
     EXPECT_FALSE(checked.faults.empty());
-    EXPECT_GT(checked.pairs.at(0).total().of(Finding::missed), 0U);
+    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::missed), 0U);
 }
 
 TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
@@ -68,20 +68,20 @@ TEST(WrongFormula, ASphereOfTheWrongSizeIsAFault) {
     truths.is_truth = true;
     CheckedScene checked;
     checked.pairs = compare_kernel(truth, batches_of(rays)[0], truth_kernel(wrong), {&truths}, {});
-    EXPECT_GT(checked.pairs.at(0).total().of(Finding::depth), 0U);
+    EXPECT_GT(checked.pairs.at(0).total().of(Verdict::depth), 0U);
     EXPECT_FALSE(faults_of(checked).empty());
 }
 
 TEST(WrongFormula, TheWorstDifferencesCanBeReplayed) {
     const CheckedScene checked = check_spoilt(closed_cube(), [](Answer& answer) {
-        if (answer.item.row == 7) answer = {};
+        if (answer.item.element == 7) answer = {};
     });
     const PairFigures& pair = checked.pairs.at(0);
-    ASSERT_EQ(pair.worst.size(), most_worst);
+    ASSERT_EQ(pair.worst.size(), max_worst);
     const Scene cube = closed_cube();
     const TrueScene truth(cube);
     for (const Difference& difference : pair.worst)
-        EXPECT_EQ(truth.nearest(difference.ray).item.row, 7);
+        EXPECT_EQ(truth.nearest(difference.ray).item.element, 7);
 }
 
 TEST(RayBatches, HoldEveryRayOnceAndNoMoreThanMemoryAllows) {
@@ -114,7 +114,7 @@ TEST(RayBatches, TogetherSayWhatOneDoes) {
     const PairFigures whole = figures(batches_of(rays)[0]);
     PairFigures parts = figures({rays, 0, 5});
     parts.add(figures({rays, 5, rays.chunks() - 5}));
-    EXPECT_GT(whole.total().of(Finding::missed), 0U);
+    EXPECT_GT(whole.total().of(Verdict::missed), 0U);
     EXPECT_EQ(parts.total().rays, rays.count());
     EXPECT_EQ(parts.total().counts, whole.total().counts);
     ASSERT_EQ(parts.worst.size(), whole.worst.size());
@@ -141,8 +141,8 @@ TEST(WrongFormula, SaysTheSameOfASecondKernelWithTheSameAnswers) {
     const PairFigures first = off_by(1.00001);
     const PairFigures right = off_by(1);
     const PairFigures again = off_by(1.00001);
-    EXPECT_GT(first.total().of(Finding::depth), 0U);
-    EXPECT_EQ(right.total().of(Finding::agree), ray_count);
+    EXPECT_GT(first.total().of(Verdict::depth), 0U);
+    EXPECT_EQ(right.total().of(Verdict::agree), ray_count);
     EXPECT_EQ(again.total().counts, first.total().counts);
     ASSERT_EQ(again.worst.size(), first.worst.size());
     for (size_t i = 0; i < first.worst.size(); ++i)
@@ -172,4 +172,4 @@ TEST(Budget, AllowsWhatChanceMakesOfAMillionth) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::crosscheck

@@ -1,4 +1,4 @@
-// tests/explain/explain_pixel_test.cpp - the report of a pixel beside the picture and by hand.
+// tests/explain/explain_pixel_test.cpp - the report of a pixel against the image and by hand.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/explain_pixel.h"
 
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/points_lines_scenes.h"
 #include "support/shape_scenes.h"
-#include "support/stroke_scenes.h"
 #include "support/xml_text.h"
 #include <gmock/gmock.h>
 
@@ -46,7 +46,7 @@ Scene full_scene() {
     std::fill_n(lamp.emission, 3, 4.0F);
     builder.quad({-0.5F, 3, -1}, {1, 0, 0}, {0, 0, 1}, builder.material(lamp));
     Scene scene = builder.take();
-    ShapeRow ball = make_shape(ShapeKind::sphere, 0.7F);
+    ShapeRecord ball = make_shape(ShapeKind::sphere, 0.7F);
     ball.centre[0] = 1.2F;
     ball.centre[1] = 0.7F;
     add_shape(scene, ball, white);
@@ -82,7 +82,7 @@ PixelReport explain(const PixelTask& task) {
     return *report;
 }
 
-Film picture(const PreparedScene& scene, const Camera& camera, Integrator integrator) {
+Film image(const PreparedScene& scene, const Camera& camera, Integrator integrator) {
     RenderOptions options;
     options.width = side;
     options.height = side;
@@ -96,7 +96,7 @@ Film picture(const PreparedScene& scene, const Camera& camera, Integrator integr
 TEST(ExplainPixel, TheSumIsThePixelOfRayCastingBitForBit) {
     const PreparedScene scene = prepare(full_scene());
     const Camera camera = look_at({0.5F, 2, 6}, {0, 0.6F, 0}, 0.7F, side, side);
-    const Film film = picture(scene, camera, Integrator::raycast);
+    const Film film = image(scene, camera, Integrator::raycast);
     int lit = 0;
     int shadowed = 0;
     for (int i = 0; i < side * side; ++i) {
@@ -104,7 +104,7 @@ TEST(ExplainPixel, TheSumIsThePixelOfRayCastingBitForBit) {
         float sum[3] = {report.renderer.unshadowed.x,
                         report.renderer.unshadowed.y,
                         report.renderer.unshadowed.z};
-        for (const LightShare& light : report.lights) {
+        for (const LightContribution& light : report.lights) {
             sum[0] += light.noted.arrived.x;
             sum[1] += light.noted.arrived.y;
             sum[2] += light.noted.arrived.z;
@@ -166,7 +166,7 @@ TEST(ExplainPixel, ByHand) {
     EXPECT_NEAR(length(report.seen->place - Vec3d{0, 0, 1}), 0, 1e-15);
     EXPECT_NEAR(length(report.seen->normal - Vec3d{0, 0, 1}), 0, 1e-6);
     ASSERT_EQ(report.lights.size(), 1U);
-    const LightShare& light = report.lights[0];
+    const LightContribution& light = report.lights[0];
     EXPECT_EQ(light.name, "light 0 'Bulb', point");
     EXPECT_NEAR(light.irradiance.x, 2, 1e-12);
     EXPECT_NEAR(light.cosine, std::sqrt(0.5), 1e-6);
@@ -198,9 +198,9 @@ TEST(ExplainPixel, BacksOfSingleSidedFacesArePassed) {
     EXPECT_FALSE(report.disagrees);
 }
 
-/// The middle of the picture looks exactly along the edge of a square: single precision sees it,
-/// double precision with the eye's last bit does not, or the reverse. Told is what the picture has.
-TEST(ExplainPixel, WhereRoundingDecidesThePictureIsExplained) {
+/// The centre of the image looks exactly along a square's edge: single precision sees it, double
+/// precision with the eye's last bit does not, or the reverse. The report follows the image.
+TEST(ExplainPixel, WhereRoundingDecidesTheImageIsExplained) {
     int decided = 0;
     for (int i = 0; i < 200; ++i) {
         SceneBuilder builder;
@@ -233,7 +233,7 @@ TEST(ExplainPixel, OfManyObjectsThoseNearTheRayAreListed) {
     const PreparedScene scene = prepare(builder.take());
     const Camera camera = look_at({0.2F, 0.1F, 4}, {0, 0, 0}, 0.3F, side, side);
     PixelTask task = task_for(scene, camera, 12, 12);
-    task.most_objects = 3;
+    task.max_objects = 3;
     const PixelReport report = explain(task);
     EXPECT_EQ(report.objects.size(), 3U);
     EXPECT_EQ(report.objects[0].fate, Fate::seen);

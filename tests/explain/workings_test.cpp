@@ -22,7 +22,7 @@ double value_of(const Working& working, const std::string& name) {
 }
 
 TEST(Workings, SphereByHand) {
-    const ShapeRow ball = make_shape(ShapeKind::sphere, 1);
+    const ShapeRecord ball = make_shape(ShapeKind::sphere, 1);
     const Working met = work_out_shape(ball, {{0, 0, 5}, {0, 0, -1}});
     EXPECT_EQ(value_of(met, "a"), 1);
     EXPECT_EQ(value_of(met, "b"), -5);
@@ -51,7 +51,7 @@ TEST(Workings, TriangleByHand) {
 }
 
 TEST(Workings, ARayAlongARulingMeetsNothingButWhatLiesAcross) {
-    ShapeRow pipe = make_shape(ShapeKind::quadric, 2, 2, 2);  // x^2 + z^2 = 1, open
+    ShapeRecord pipe = make_shape(ShapeKind::quadric, 2, 2, 2);  // x^2 + z^2 = 1, open
     pipe.k[0] = pipe.k[2] = 1;
     pipe.k[9] = -1;
     const Working along = work_out_shape(pipe, {{0.5, 5, 0}, {0, -1, 0}});
@@ -59,56 +59,56 @@ TEST(Workings, ARayAlongARulingMeetsNothingButWhatLiesAcross) {
     EXPECT_EQ(value_of(along, "b"), 0);
     EXPECT_TRUE(along.t.empty());
     EXPECT_EQ(along.missed, "the ray runs along the surface: nothing depends on t");
-    const ShapeRow can = make_shape(ShapeKind::frustum, 2, 1, 1);
+    const ShapeRecord can = make_shape(ShapeKind::frustum, 2, 1, 1);
     EXPECT_EQ(work_out_shape(can, {{0.5, 5, 0}, {0, -1, 0}}).t, (std::vector<double>{3, 7}));
     EXPECT_TRUE(work_out_shape(can, {{1.5, 5, 0}, {0, -1, 0}}).t.empty());
-    const ShapeRow floor = make_shape(ShapeKind::plane, unbounded, unbounded);
+    const ShapeRecord floor = make_shape(ShapeKind::plane, unbounded, unbounded);
     EXPECT_EQ(work_out_shape(floor, {{0, 1, 0}, {1, 0, 0}}).missed,
               "R_d . n = 0: the ray runs along it");
 }
 
 /// Closed shapes and a quadric without a box that would cut it.
-std::vector<ShapeRow> closed_shapes() {
-    std::vector<ShapeRow> rows = {make_shape(ShapeKind::sphere, 0.9F),
-                                  make_shape(ShapeKind::box, 0.5F, 0.9F, 0.7F),
-                                  make_shape(ShapeKind::frustum, 0.8F, 0.6F, 0.6F),
-                                  make_shape(ShapeKind::frustum, 0.8F, 0.9F, 0),
-                                  make_shape(ShapeKind::frustum, 0.8F, 0.3F, 0.7F),
-                                  make_shape(ShapeKind::capsule, 0.5F, 0.4F, 0.4F),
-                                  make_shape(ShapeKind::capsule, 0.5F, 0.5F, 0.2F),
-                                  make_shape(ShapeKind::quadric, 2, 2, 2)};
+std::vector<ShapeRecord> closed_shapes() {
+    std::vector<ShapeRecord> records = {make_shape(ShapeKind::sphere, 0.9F),
+                                        make_shape(ShapeKind::box, 0.5F, 0.9F, 0.7F),
+                                        make_shape(ShapeKind::frustum, 0.8F, 0.6F, 0.6F),
+                                        make_shape(ShapeKind::frustum, 0.8F, 0.9F, 0),
+                                        make_shape(ShapeKind::frustum, 0.8F, 0.3F, 0.7F),
+                                        make_shape(ShapeKind::capsule, 0.5F, 0.4F, 0.4F),
+                                        make_shape(ShapeKind::capsule, 0.5F, 0.5F, 0.2F),
+                                        make_shape(ShapeKind::quadric, 2, 2, 2)};
     const float egg[10] = {1, 2, 3, 0.3F, -0.2F, 0.1F, 0.2F, -0.1F, 0.3F, -0.8F};
-    std::copy_n(egg, 10, rows.back().k);
-    for (ShapeRow& row : rows) {
-        row.centre[0] = 0.25F;
-        row.centre[2] = -0.5F;
+    std::copy_n(egg, 10, records.back().k);
+    for (ShapeRecord& record : records) {
+        record.centre[0] = 0.25F;
+        record.centre[2] = -0.5F;
     }
-    return rows;
+    return records;
 }
 
-/// What is worked out lies where the shape's own definition changes its sign, and nothing is left
-/// out: along the ray, the sign changes nowhere else.
+/// Worked-out hits lie where the shape's own definition changes its sign, and none is missing:
+/// elsewhere along the ray the sign does not change.
 TEST(Workings, RootsAreWhereTheDefinitionChangesItsSign) {
     size_t met = 0;
-    for (const ShapeRow& row : closed_shapes()) {
+    for (const ShapeRecord& record : closed_shapes()) {
         for (uint64_t i = 0; i < 400; ++i) {
-            RandomStream random(i);
+            crosscheck::RandomStream random(i);
             const Vec3d from = random.direction() * 4.0;
             const Vec3d to = random.direction() * 1.1;
-            const TrueRay ray{from, to - from};
-            const Working working = work_out_shape(row, ray);
+            const crosscheck::TrueRay ray{from, to - from};
+            const Working working = work_out_shape(record, ray);
             const auto inside = [&](double t) {
-                return side_of_shape(row, ray.origin + ray.direction * t) < 0;
+                return crosscheck::side_of_shape(record, ray.origin + ray.direction * t) < 0;
             };
             ASSERT_EQ(working.t.empty(), !working.missed.empty());
-            ASSERT_EQ(working.t.size() % 2, 0U) << row.kind;
+            ASSERT_EQ(working.t.size() % 2, 0U) << record.kind;
             bool now = false;
             double before = 0;
             for (const double t : working.t) {
                 for (int k = 1; k < 20; ++k) {
                     const double share = before + (t - before) * k / 20;
                     if (t - before > 1e-5) {
-                        ASSERT_EQ(inside(share), now) << row.kind << " " << i;
+                        ASSERT_EQ(inside(share), now) << record.kind << " " << i;
                     }
                 }
                 now = !now;
@@ -116,7 +116,7 @@ TEST(Workings, RootsAreWhereTheDefinitionChangesItsSign) {
                 ++met;
             }
             for (int k = 1; k < 40; ++k)
-                ASSERT_EQ(inside(before + k * 0.05 + 1e-6), now) << row.kind << " " << i;
+                ASSERT_EQ(inside(before + k * 0.05 + 1e-6), now) << record.kind << " " << i;
         }
     }
     EXPECT_GT(met, 2000U);

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 /// A document with one buffer, one view and accessors over it.
@@ -203,4 +203,4 @@ TEST(Accessors, ShorterBuffersAreErrors) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

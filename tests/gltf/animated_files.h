@@ -1,4 +1,4 @@
-// tests/gltf/animated_files.h - small glTF assets that move.
+// tests/gltf/animated_files.h - small animated glTF assets.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura::testing_gltf {
+namespace obscura::gltf::test {
 
 /// Values over time, and what they change.
 struct Movement {
@@ -51,4 +51,4 @@ inline Loaded load_at(const json& tree, double time_s, const char* choice = null
     return load_tree(tree, options);
 }
 
-}  // namespace obscura::testing_gltf
+}  // namespace obscura::gltf::test

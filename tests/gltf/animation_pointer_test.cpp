@@ -1,35 +1,35 @@
-// tests/gltf/animation_pointer_test.cpp - pointers of KHR_animation_pointer, and what they set.
+// tests/gltf/animation_pointer_test.cpp - pointers of KHR_animation_pointer and their targets.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/animation_pointer.h"
 
 #include "gltf/animated_files.h"
+#include "gltf/images.h"
 #include "gltf/parse/material_factors.h"
-#include "gltf/pictures.h"
 
 #include <gtest/gtest.h>
 
 #include "support/text_files.h"
 #include <cstring>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 constexpr const char* ies_file =
     "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 3 1 2 0 0 0\n1 1 10\n"
     "0 90\n0 90 180\n100 10\n100 40\n100 20\n";
 
-/// What names textures gets one; numbers are those that let the others be seen.
+/// Names of textures get one; numbers are such that other numbers have an effect.
 json full_material(bool glossy) {
     json out = json::parse(R"({"emissiveFactor": [0.5, 0.5, 0.5], "alphaMode": "MASK"})");
     json& extensions = out["extensions"];
-    for (const MaterialRow& row : material_rows) {
-        const bool is_glossy = (row.object.extensions & extension_specular_glossiness) != 0;
-        if (is_glossy != glossy && row.object.extensions != 0) continue;
-        const std::string object = std::string("/") + row.object.place;
-        if (row.numbers == nullptr) {
-            const std::string place = (object == "/" ? "" : object) + "/" + row.key;
+    for (const MaterialEntry& entry : material_entries) {
+        const bool is_glossy = (entry.object.extensions & extension_specular_glossiness) != 0;
+        if (is_glossy != glossy && entry.object.extensions != 0) continue;
+        const std::string object = std::string("/") + entry.object.place;
+        if (entry.numbers == nullptr) {
+            const std::string place = (object == "/" ? "" : object) + "/" + entry.key;
             out[json::json_pointer(place)] = {{"index", 0}};
         }
     }
@@ -39,7 +39,7 @@ json full_material(bool glossy) {
     return out;
 }
 
-/// An asset that has a bit of everything that can be animated.
+/// An asset with one of everything that can be animated.
 AssetBuilder full_asset() {
     AssetBuilder builder = triangle_builder();
     json& tree = builder.tree;
@@ -102,10 +102,10 @@ Loaded load_lit(const json& tree, std::optional<double> time_s) {
 }
 
 template <typename T>
-void add_bytes(const std::vector<T>& rows, std::vector<double>& out) {
-    for (const T& row : rows) {
+void add_bytes(const std::vector<T>& entries, std::vector<double>& out) {
+    for (const T& entry : entries) {
         std::array<uint32_t, sizeof(T) / 4> words;
-        std::memcpy(words.data(), &row, sizeof(T));
+        std::memcpy(words.data(), &entry, sizeof(T));
         out.insert(out.end(), words.begin(), words.end());
     }
 }
@@ -140,7 +140,7 @@ std::string replaced(std::string text, const std::string& part, const std::strin
     return at == std::string::npos ? text : text.replace(at, part.size(), by);
 }
 
-/// Something that the document has at a pattern.
+/// The members of the document that match a pattern.
 std::string pointer_of(const std::string& pattern, const json& tree) {
     if (pattern.find("EXT_lights_ies") != std::string::npos) return replaced(pattern, "*", "8");
     if (pattern.find("pbrSpecularGlossiness") != std::string::npos) {
@@ -175,7 +175,7 @@ const char* type_of(const std::string& pointer, size_t width) {
     return pointer.find("/weights") != std::string::npos ? "SCALAR" : types[width];
 }
 
-/// What the JSON has at the pointer once the value is there.
+/// The JSON at the pointer once the value is set.
 json written(const std::string& pointer, size_t width, double value) {
     if (pointer.find("visible") != std::string::npos) return value != 0;
     if (pointer.find("blades") != std::string::npos) return static_cast<int>(value);
@@ -190,7 +190,7 @@ Document document_of(const json& tree) {
     return document ? std::move(*document) : Document{};
 }
 
-/// The scene with the pointer animated is the one that a file with the value itself gives.
+/// Animating the pointer gives the same scene as a file with the value.
 void expect_arrival(const AssetBuilder& base, const std::string& pointer, size_t width) {
     SCOPED_TRACE(pointer);
     const double value = value_for(pointer);
@@ -217,7 +217,7 @@ void expect_arrival(const AssetBuilder& base, const std::string& pointer, size_t
     const std::vector<double> arrived = seen_numbers(*got.scene);
     const std::vector<double> wanted = seen_numbers(*expected.scene);
     ASSERT_EQ(arrived.size(), wanted.size());
-    // What an animation moves is read in its node's own space.
+    // Geometry moved by an animation is read in its node's own space.
     const bool moves = pointer.rfind("/nodes", 0) == 0 || pointer.rfind("/meshes", 0) == 0;
     for (size_t i = 0; i < wanted.size(); ++i) {
         if (arrived[i] == wanted[i]) continue;
@@ -280,13 +280,13 @@ TEST(AnimationPointer, EveryTextureHasATransform) {
     const json tree = tree_of(full_asset());
     const Document document = document_of(tree);
     size_t textures = 0;
-    for (size_t i = 0; i < material_rows.size(); ++i) {
-        const MaterialRow& row = material_rows[i];
-        if (row.numbers != nullptr) continue;
-        const bool glossy = (row.object.extensions & extension_specular_glossiness) != 0;
-        const std::string object = row.object.place;
+    for (size_t i = 0; i < material_entries.size(); ++i) {
+        const MaterialEntry& entry = material_entries[i];
+        if (entry.numbers != nullptr) continue;
+        const bool glossy = (entry.object.extensions & extension_specular_glossiness) != 0;
+        const std::string object = entry.object.place;
         const std::string pointer = std::string("/materials/") + (glossy ? "1/" : "0/") + object +
-                                    (object.empty() ? "" : "/") + row.key +
+                                    (object.empty() ? "" : "/") + entry.key +
                                     "/extensions/KHR_texture_transform/offset/1";
         const auto found = find_property(document, pointer);
         ASSERT_TRUE(found) << pointer;
@@ -361,7 +361,7 @@ TEST(AnimationPointer, ValuesAreHeldToTheirRanges) {
         float value;
         const char* id;
     };
-    const Bad rows[] = {
+    const Bad entries[] = {
         {"/cameras/0/perspective/aspectRatio", 0, "E-CAM-ASPECT"},
         {"/cameras/2/perspective/aspectRatio", 0, "E-CAM-ASPECT"},
         {"/cameras/0/perspective/zfar", 0.25F, "E-CAM-CLIP"},
@@ -374,10 +374,10 @@ TEST(AnimationPointer, ValuesAreHeldToTheirRanges) {
         {"/cameras/0/extensions/OBSCURA_camera/lens/blades", 5.5F, "E-JSON-TYPE"},
         {"/cameras/0/extensions/OBSCURA_camera/far", 0.25F, "E-CAM-VALUE"},
     };
-    for (const Bad& row : rows) {
-        const Loaded loaded = load_with(row.pointer, row.value);
-        EXPECT_EQ(loaded.id(), row.id) << row.pointer;
-        EXPECT_TRUE(loaded.text().find(std::string("#") + row.pointer) != std::string::npos)
+    for (const Bad& entry : entries) {
+        const Loaded loaded = load_with(entry.pointer, entry.value);
+        EXPECT_EQ(loaded.id(), entry.id) << entry.pointer;
+        EXPECT_TRUE(loaded.text().find(std::string("#") + entry.pointer) != std::string::npos)
             << loaded.text();
     }
 }
@@ -441,4 +441,4 @@ TEST(AnimationPointer, AQuaternionMustKeepALength) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/animation_test.cpp - values between keyframes against closed forms in double.
+// tests/gltf/animation_test.cpp - interpolated keyframes against closed forms in double.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/animation.h"
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 using testing::DoubleNear;
@@ -75,7 +75,7 @@ TEST(Sample, CubicSplineIsTheCubicThroughItsTangents) {
     EXPECT_EQ(sample(keys, 9)[0], f(3));
 }
 
-/// A turn about a unit axis.
+/// A rotation about a unit axis.
 std::array<double, 4> about(const std::array<double, 3>& axis, double angle) {
     const double s = std::sin(0.5 * angle);
     return {axis[0] * s, axis[1] * s, axis[2] * s, std::cos(0.5 * angle)};
@@ -84,10 +84,10 @@ std::array<double, 4> about(const std::array<double, 3>& axis, double angle) {
 TEST(Slerp, TurnsAtAConstantRate) {
     const std::array<double, 3> axis = {2.0 / 7, 3.0 / 7, -6.0 / 7};
     for (const double angle : {1e-9, 1e-5, 0.01, 1.0, 3.0}) {
-        for (const double share : {0.0, 0.1, 0.5, 0.75, 1.0}) {
-            const auto got = slerp(about(axis, 0.4), about(axis, 0.4 + angle), share);
-            EXPECT_THAT(got, Pointwise(DoubleNear(1e-15), about(axis, 0.4 + share * angle)))
-                << angle << " " << share;
+        for (const double fraction : {0.0, 0.1, 0.5, 0.75, 1.0}) {
+            const auto got = slerp(about(axis, 0.4), about(axis, 0.4 + angle), fraction);
+            EXPECT_THAT(got, Pointwise(DoubleNear(1e-15), about(axis, 0.4 + fraction * angle)))
+                << angle << " " << fraction;
         }
     }
 }
@@ -114,4 +114,4 @@ TEST(Sample, QuaternionsAreTurnedAndUnit) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/asset_files.h"
 
-#include "gltf/pictures.h"
+#include "gltf/images.h"
 
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using testing::ElementsAre;
 
 TEST(AssetFiles, EveryNamedFileCountsOnce) {
@@ -38,4 +38,4 @@ TEST(AssetFiles, WhatCannotBeReadIsAFileAlone) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/buffers_test.cpp - where buffers come from, and arithmetic that cannot overflow.
+// tests/gltf/buffers_test.cpp - sources of buffers, and arithmetic that cannot overflow.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/decode/buffers.h"
 
@@ -8,10 +8,10 @@
 
 #include "support/random.h"
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 /// The same answer in 128 bits, where nothing overflows.
 std::optional<uint64_t> exact_extent(const ElementRange& range, uint64_t total) {
@@ -109,4 +109,4 @@ TEST(Buffers, BadFilesAreErrors) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

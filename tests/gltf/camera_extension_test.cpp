@@ -1,4 +1,4 @@
-// tests/gltf/camera_extension_test.cpp - OBSCURA_camera: what is read, and what the schema says.
+// tests/gltf/camera_extension_test.cpp - OBSCURA_camera: the reader against the schema.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/camera_extension.h"
 
@@ -10,7 +10,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 using nlohmann::json;
@@ -65,7 +65,7 @@ json schema() {
 bool reads(const json& extension) {
     JsonFault fault;
     fault.file = "test";
-    read_camera_extension(ValueReader(testing_gltf::value_of(extension), "", fault));
+    read_camera_extension(ValueReader(test::value_of(extension), "", fault));
     return !fault.error;
 }
 
@@ -83,7 +83,7 @@ TEST(CameraExtension, TheExampleAssetsFollowTheSchema) {
     EXPECT_GE(count, 10);
 }
 
-/// What the schema refuses, the reader refuses, and the other way round.
+/// The reader refuses exactly what the schema refuses.
 TEST(CameraExtension, ReaderAndSchemaAgree) {
     const json rules = schema();
     const std::vector<std::pair<const char*, bool>> cases = {
@@ -120,8 +120,7 @@ TEST(CameraExtension, ModelsAreMeantByWhatIsThere) {
     const auto model = [](const char* text) {
         JsonFault fault;
         const json extension = json::parse(text);
-        return read_camera_extension(ValueReader(testing_gltf::value_of(extension), "", fault))
-            .model;
+        return read_camera_extension(ValueReader(test::value_of(extension), "", fault)).model;
     };
     EXPECT_EQ(model("{}"), std::nullopt);
     EXPECT_EQ(model(R"({"lens": {"fstop": 2}})"), CameraModel::thin_lens);
@@ -132,4 +131,4 @@ TEST(CameraExtension, ModelsAreMeantByWhatIsThere) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

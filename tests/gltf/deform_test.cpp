@@ -9,10 +9,10 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using testing::FloatNear;
 using testing::Pointwise;
 using F = std::vector<float>;
@@ -22,8 +22,8 @@ F positions_of(const Loaded& loaded) {
     return {loaded.scene->positions.begin(), loaded.scene->positions.begin() + 9};
 }
 
-/// A triangle on two joints: vertex 0 hangs on the first, 1 on the second, 2 half on each. The
-/// second joint is bound at (1, 0, 0) and has turned by 90 degrees about z.
+/// A triangle on two joints: vertex 0 moves with the first, 1 with the second, 2 with half of each.
+/// The second joint is bound at (1, 0, 0) and rotated by 90 degrees about z.
 AssetBuilder skinned_triangle(const std::vector<float>& weights = {1,
                                                                    0,
                                                                    0,
@@ -144,22 +144,22 @@ TEST(Skin, BrokenSkinsAreRefused) {
 }
 
 /// Each vertex by its own matrix: shear and scale for the normal, a mirror for the winding.
-TEST(SkinPart, NormalsGoByTheInverseTransposeAndMirrorsTurnTriangles) {
-    MeshPart part;
-    part.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    part.normals = {0, 0.6F, 0.8F, 0, 0, 1, 0, 0, 1};
-    part.tangents = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
-    part.indices = {0, 1, 2};
+TEST(SkinPrimitive, NormalsGoByTheInverseTransposeAndMirrorsTurnTriangles) {
+    MeshPrimitive primitive;
+    primitive.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    primitive.normals = {0, 0.6F, 0.8F, 0, 0, 1, 0, 0, 1};
+    primitive.tangents = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1};
+    primitive.indices = {0, 1, 2};
     const Affined wide = {{{-2, 0, 0, 0}, {0, 4, 0, 0}, {0, 0, 1, 5}}};
     const VertexJoints joints{1, {0, 0, 0}, {1, 1, 1}};
-    skin_part(joints, std::span(&wide, 1), part);
-    EXPECT_TRUE(part.in_world);
-    EXPECT_EQ(part.positions, (F{0, 0, 5, -2, 0, 5, 0, 4, 5}));
+    skin_primitive(joints, std::span(&wide, 1), primitive);
+    EXPECT_TRUE(primitive.in_world);
+    EXPECT_EQ(primitive.positions, (F{0, 0, 5, -2, 0, 5, 0, 4, 5}));
     const double length = std::hypot(0.15, 0.8);
-    EXPECT_NEAR(part.normals[1], 0.15 / length, 1e-7);
-    EXPECT_NEAR(part.normals[2], 0.8 / length, 1e-7);
-    EXPECT_EQ(F(part.tangents.begin(), part.tangents.begin() + 4), (F{-1, 0, 0, -1}));
-    EXPECT_EQ(part.indices, (std::vector<uint32_t>{0, 2, 1}));
+    EXPECT_NEAR(primitive.normals[1], 0.15 / length, 1e-7);
+    EXPECT_NEAR(primitive.normals[2], 0.8 / length, 1e-7);
+    EXPECT_EQ(F(primitive.tangents.begin(), primitive.tangents.begin() + 4), (F{-1, 0, 0, -1}));
+    EXPECT_EQ(primitive.indices, (std::vector<uint32_t>{0, 2, 1}));
 }
 
 /// A triangle with two targets: the first moves vertex 1 by a sparse accessor, the second all.
@@ -276,4 +276,4 @@ TEST(Morph, EveryPoseHasTheSameLayout) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 /// The triangle, each of its views compressed, above a buffer that has no data.
 json compressed_triangle(const std::string& extension) {
@@ -53,7 +53,7 @@ TEST(DocumentMeshopt, AssetsWithoutFallbackAreTheUncompressedOnes) {
     }
 }
 
-/// What the fallback's file holds does not matter: nobody opens it.
+/// The content of the fallback's file does not matter: it is never opened.
 TEST(DocumentMeshopt, FallbackFilesAreNotRead) {
     json tree = compressed_triangle("EXT_meshopt_compression");
     tree["buffers"][1]["uri"] = "absent.bin";
@@ -99,4 +99,4 @@ TEST(DocumentMeshopt, WrongLayoutsAreErrorsWithTheirPlace) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

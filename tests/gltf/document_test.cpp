@@ -1,4 +1,4 @@
-// tests/gltf/document_test.cpp - a table of broken assets: what each is refused with (B, C, E, G).
+// tests/gltf/document_test.cpp - a table of broken assets and the error of each (B, C, E, G).
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/document.h"
 
@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 /// A sound asset (see sound_asset) with some values replaced.
 struct Fault {
@@ -334,4 +334,4 @@ INSTANTIATE_TEST_SUITE_P(Oddities, OddAsset, testing::ValuesIn(oddities), [](con
 });
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/draco_mesh_test.cpp - Draco-compressed primitives become what was compressed.
+// tests/gltf/draco_mesh_test.cpp - Draco-compressed primitives decode to the original.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/decode/draco_mesh.h"
 
@@ -12,10 +12,10 @@
 #include <draco/compression/encode.h>
 #include <set>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 constexpr int side = 9;  ///< vertices along an edge of the wavy sheet
 
@@ -186,7 +186,7 @@ TEST(DracoMesh, HoldsTheUncompressedMesh) {
     }
 }
 
-/// Draco keeps triangles; the strip that they were in the original has as many indices as it likes.
+/// Draco stores triangles; the original strip may have any number of indices.
 TEST(DracoMesh, StripsAreListsOfTriangles) {
     const Sheet sheet = make_sheet();
     json tree = draco_asset(encode_sheet(sheet, draco::MESH_EDGEBREAKER_ENCODING),
@@ -197,7 +197,7 @@ TEST(DracoMesh, StripsAreListsOfTriangles) {
     EXPECT_EQ(loaded.scene->info.triangles_in_world, sheet.triangles.size());
 }
 
-/// What the compressed data lack is read as usual.
+/// Attributes that the compressed data lack are read as usual.
 TEST(DracoMesh, AttributesBesideTheCompressedOnesAreRead) {
     const Sheet sheet = make_sheet();
     const Encoded encoded = encode_sheet(sheet, draco::MESH_SEQUENTIAL_ENCODING);
@@ -278,7 +278,7 @@ TEST(DracoMesh, CorruptDataAreErrors) {
     }
 }
 
-/// A few bytes may not ask for gigabytes, even where the accessors agree.
+/// A few bytes must not allocate gigabytes, even where the accessors agree.
 TEST(DracoMesh, MoreTrianglesThanBytesCanHoldAreRefused) {
     std::string data("DRACO\x02\x02\x01\x01\0\0", 11);
     data += std::string("\0\x80\x80\x80\x20\x80\x80\x80\x20", 9);  // 2^26 vertices and triangles
@@ -287,7 +287,7 @@ TEST(DracoMesh, MoreTrianglesThanBytesCanHoldAreRefused) {
     EXPECT_EQ(loaded.code(), 77);
 }
 
-/// The most regular mesh that there is stays far from that limit.
+/// The most regular possible mesh stays far from that limit.
 TEST(DracoMesh, FlatGridsAreNotRefused) {
     constexpr int large = 400;
     Sheet sheet = make_sheet(large);
@@ -304,4 +304,4 @@ TEST(DracoMesh, FlatGridsAreNotRefused) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

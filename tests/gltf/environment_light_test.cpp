@@ -1,9 +1,9 @@
-// tests/gltf/environment_light_test.cpp - EXT_lights_image_based from a file into the world.
+// tests/gltf/environment_light_test.cpp - EXT_lights_image_based from a file to the environment.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials/environment_light.h"
 
 #include "gltf/animated_files.h"
-#include "gltf/pictures.h"
+#include "gltf/images.h"
 #include "light/environment_table.h"
 
 #include <gtest/gtest.h>
@@ -11,10 +11,10 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using testing::HasSubstr;
 
 /// An RGBA PNG of one colour.
@@ -22,7 +22,7 @@ std::string colored_png(unsigned side, const std::vector<unsigned>& rgba) {
     std::vector<unsigned> row;
     for (unsigned x = 0; x < side; ++x)
         row.insert(row.end(), rgba.begin(), rgba.end());
-    const auto bytes = testing_pictures::PngBuilder(side, side, 8, 6)
+    const auto bytes = testing_images::PngBuilder(side, side, 8, 6)
                            .finish(std::vector<std::vector<unsigned>>(side, row));
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -36,10 +36,10 @@ AssetBuilder lit_asset(const json& light) {
         builder.tree["images"].push_back({{"bufferView", view}, {"mimeType", "image/png"}});
         faces.push_back(face);
     }
-    json row = light;
-    if (!row.contains("specularImages")) row["specularImages"] = {faces};
-    if (!row.contains("specularImageSize")) row["specularImageSize"] = 4;
-    builder.tree["extensions"]["EXT_lights_image_based"]["lights"] = {row};
+    json stored = light;
+    if (!stored.contains("specularImages")) stored["specularImages"] = {faces};
+    if (!stored.contains("specularImageSize")) stored["specularImageSize"] = 4;
+    builder.tree["extensions"]["EXT_lights_image_based"]["lights"] = {stored};
     builder.tree["scenes"][0]["extensions"]["EXT_lights_image_based"]["light"] = 0;
     builder.tree["extensionsRequired"] = {"EXT_lights_image_based"};
     builder.tree["extensionsUsed"] = {"EXT_lights_image_based"};
@@ -146,4 +146,4 @@ TEST(EnvironmentLight, FaultsHaveAPlace) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/extensions_test.cpp - what is said about extensions that are not understood.
+// tests/gltf/extensions_test.cpp - warnings and errors about unsupported extensions.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/extensions.h"
 
@@ -8,10 +8,10 @@
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 size_t count_of(const std::string& text, const std::string& part) {
     size_t out = 0;
@@ -83,9 +83,9 @@ TEST(Extensions, UsesAreFoundWhereverTheyAre) {
 TEST(Extensions, SupportedOnesAreSilent) {
     json tree = triangle_asset();
     size_t supported = 0;
-    for (const ExtensionRow& row : extension_table()) {
-        if (!row.supported) continue;
-        tree["extensionsRequired"].push_back(std::string(row.name));
+    for (const ExtensionEntry& entry : extension_table()) {
+        if (!entry.supported) continue;
+        tree["extensionsRequired"].push_back(std::string(entry.name));
         ++supported;
     }
     const Loaded loaded = load_tree(tree);
@@ -98,14 +98,14 @@ TEST(Extensions, SupportedOnesAreSilent) {
 
 TEST(Extensions, TheTableNamesEachOnce) {
     std::vector<std::string_view> names;
-    for (const ExtensionRow& row : extension_table()) {
-        names.push_back(row.name);
-        EXPECT_EQ(row.supported, row.without.empty()) << row.name;
-        EXPECT_TRUE(row.verdict == Verdict::honoured || !row.note.empty()) << row.name;
+    for (const ExtensionEntry& entry : extension_table()) {
+        names.push_back(entry.name);
+        EXPECT_EQ(entry.supported, entry.without.empty()) << entry.name;
+        EXPECT_TRUE(entry.verdict == Verdict::honoured || !entry.note.empty()) << entry.name;
     }
     std::sort(names.begin(), names.end());
     EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

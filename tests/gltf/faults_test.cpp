@@ -8,10 +8,10 @@
 #include <cmath>
 #include <functional>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 /// A skin of one joint whose inverse bind matrix begins with a number.
 void add_skin(AssetBuilder& builder, float first) {
@@ -221,7 +221,7 @@ TEST(Faults, NoMemoryIsAnErrorOfItsOwn) {
     const TempFolder folder;
     std::ofstream(folder.path() / "scene.gltf") << builder.finished().dump();
     Log log(Verbosity::quiet);
-    const test::MemoryLimit limit(50000);
+    const obscura::test::MemoryLimit limit(50000);
     const Result<Scene> scene = load_gltf(folder.path() / "scene.gltf", {}, log);
     ASSERT_FALSE(scene);
     EXPECT_EQ(scene.error().id, "E-MEMORY") << scene.error().message;
@@ -239,4 +239,4 @@ TEST(Faults, OfFiles) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

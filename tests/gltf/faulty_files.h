@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gltf/pictures.h"
+#include "gltf/images.h"
 
-namespace obscura::testing_gltf {
+namespace obscura::gltf::test {
 
 inline LoadOptions lenient_options() {
     LoadOptions options;
@@ -12,7 +12,7 @@ inline LoadOptions lenient_options() {
     return options;
 }
 
-/// What lenient loading gave, and what it lacks.
+/// The result of lenient loading, and what it lacks.
 struct LenientlyLoaded : Loaded {
     Degraded lost;
 };
@@ -57,4 +57,4 @@ inline void set_first_float(AssetBuilder& builder, size_t accessor, float value)
     builder.bytes.replace(at, 4, raw(std::vector<float>{value}));
 }
 
-}  // namespace obscura::testing_gltf
+}  // namespace obscura::gltf::test

@@ -3,19 +3,19 @@
 #include "gltf/parse/finish_material.h"
 
 #include "gltf/gltf_files.h"
-#include "gltf/pictures.h"
+#include "gltf/images.h"
 #include "scene/media.h"
 
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
-/// The triangle with one material that has these extensions; texture 0 is a picture.
+/// The triangle with one material that has these extensions; texture 0 is an image.
 Loaded load_with(const json& extensions) {
     json tree = triangle_asset();
     tree["materials"][0]["extensions"] = extensions;
@@ -54,7 +54,7 @@ TEST(MaterialExtensions, EmptyOnesMeanTheirDefaults) {
     EXPECT_EQ(all.anisotropy, 0.0F);
     EXPECT_EQ(all.iridescence, 0.0F);
     EXPECT_EQ(all.iridescence_ior, 1.3F);
-    EXPECT_THAT(all.film_thickness_nm, testing::ElementsAre(100.0F, 400.0F));
+    EXPECT_THAT(all.thin_film_thickness_nm, testing::ElementsAre(100.0F, 400.0F));
     EXPECT_EQ(all.transmission, 0.0F);
     EXPECT_THAT(all.attenuation, testing::Each(0.0F));
     EXPECT_EQ(all.medium, 0);
@@ -90,11 +90,11 @@ TEST(MaterialExtensions, TexturesHaveTheColourSpaceOfTheirSlot) {
                                      {"KHR_materials_sheen", {{"sheenColorTexture", texture}}}});
     ASSERT_TRUE(loaded.scene) << loaded.text();
     const MaterialLayers& layers = loaded.scene->layers.at(0);
-    const auto row = [&](const TextureSlot& slot) {
-        return loaded.scene->textures.rows.at(static_cast<size_t>(slot.texture));
+    const auto record = [&](const TextureSlot& slot) {
+        return loaded.scene->textures.records.at(static_cast<size_t>(slot.texture));
     };
-    EXPECT_EQ(row(layers.clearcoat_texture).sampler & sampler_srgb, 0U);
-    EXPECT_NE(row(layers.sheen_color_texture).sampler & sampler_srgb, 0U);
+    EXPECT_EQ(record(layers.clearcoat_texture).sampler & sampler_srgb, 0U);
+    EXPECT_NE(record(layers.sheen_color_texture).sampler & sampler_srgb, 0U);
     EXPECT_EQ(layers.iridescence_texture.texture, -1);
 }
 
@@ -106,7 +106,7 @@ TEST(MaterialExtensions, NumbersOutOfRangeAreClampedWithAWarning) {
     EXPECT_THAT(loaded.warnings, testing::HasSubstr("transmissionFactor"));
 }
 
-TEST(Media, TheDenserBodyHasTheGreaterNumber) {
+TEST(Media, TheDenserMediumHasTheGreaterNumber) {
     Scene scene;
     for (const float ior : {1.5F, 1.33F, 2.4F, 1.0F}) {
         MaterialLayers layers;
@@ -124,4 +124,4 @@ TEST(Media, TheDenserBodyHasTheGreaterNumber) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

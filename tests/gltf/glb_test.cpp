@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 struct BadFile {
     const char* name;
@@ -164,4 +164,4 @@ TEST(Glb, JsonPaddedWithZerosIsRead) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-namespace obscura::testing_gltf {
+namespace obscura::gltf::test {
 
 using nlohmann::json;
 
@@ -198,4 +198,4 @@ inline std::vector<float> attribute_of(const Scene& scene,
     return {begin, begin + width};
 }
 
-}  // namespace obscura::testing_gltf
+}  // namespace obscura::gltf::test

@@ -1,4 +1,4 @@
-// tests/gltf/instancing_test.cpp - EXT_mesh_gpu_instancing places a mesh once for each row.
+// tests/gltf/instancing_test.cpp - EXT_mesh_gpu_instancing places a mesh once for each element.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/instancing.h"
 
@@ -8,10 +8,10 @@
 
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 constexpr const char* name = "EXT_mesh_gpu_instancing";
 
@@ -38,7 +38,7 @@ void expect_near(const std::vector<float>& got, const std::vector<float>& expect
 }
 
 /// Scale, then rotation, then translation, then the node's own transform.
-TEST(Instancing, EachRowIsAnInstance) {
+TEST(Instancing, EachElementIsAnInstance) {
     const float half = std::sqrt(0.5f);
     const std::vector<float> turns = {0, 0, 0, 1, 0, 0, half, half};  // none, 90 degrees about Z
     std::vector<int8_t> bytes;
@@ -73,7 +73,7 @@ TEST(Instancing, EachRowIsAnInstance) {
     }
 }
 
-TEST(Instancing, OneRowLiesInTheWorldAndSharesWithPlainNodes) {
+TEST(Instancing, OneElementLiesInTheWorldAndSharesWithPlainNodes) {
     AssetBuilder builder = triangle_builder();
     const int t = builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 5});
     json tree = builder.finished();
@@ -105,7 +105,7 @@ TEST(Instancing, OnlyTheMeshIsRepeated) {
     EXPECT_EQ(loaded.scene->cameras.size(), 1U);
 }
 
-TEST(Instancing, BadRowsAreErrors) {
+TEST(Instancing, BadElementsAreErrors) {
     AssetBuilder builder = triangle_builder();
     const int two = builder.add_accessor("VEC3", 5126, std::vector<float>{0, 0, 5, 0, 0, 6});
     const int one = builder.add_accessor("VEC3", 5126, std::vector<float>{1, 1, 1});
@@ -140,8 +140,8 @@ TEST(Instancing, CountsWithoutDataAreLimited) {  // F14
     EXPECT_EQ(loaded.id(), "E-LIMIT-INSTANCES");
 }
 
-/// A row whose scale is zero is nothing to see; the others are drawn.
-TEST(Instancing, FlatRowsAreLeftOut) {
+/// An instance whose scale is zero is nothing to see; the others are drawn.
+TEST(Instancing, FlatInstancesAreLeftOut) {
     AssetBuilder builder = triangle_builder();
     const int s = builder.add_accessor("VEC3", 5126, std::vector<float>{1, 1, 1, 0, 0, 0, 2, 2, 2});
     json tree = builder.finished();
@@ -153,4 +153,4 @@ TEST(Instancing, FlatRowsAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/light_profiles_test.cpp - EXT_lights_ies from a file into the world.
+// tests/gltf/light_profiles_test.cpp - EXT_lights_ies from a file to lights of the scene.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials/light_profiles.h"
 
@@ -10,10 +10,10 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using testing::ElementsAre;
 using testing::FloatNear;
 using testing::HasSubstr;
@@ -145,4 +145,4 @@ TEST(LightProfiles, FaultsHaveAPlace) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/lights_cameras_test.cpp - lights and cameras in the world.
+// tests/gltf/lights_cameras_test.cpp - transforms of lights and cameras.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials/lights_cameras.h"
 
@@ -9,10 +9,10 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using testing::ElementsAre;
 using testing::FloatNear;
 
@@ -140,4 +140,4 @@ TEST(Cameras, ArePlacedWithoutScale) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

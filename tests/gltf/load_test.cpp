@@ -1,4 +1,4 @@
-// tests/gltf/load_test.cpp - whole files: which scene, what is told, what cannot be opened.
+// tests/gltf/load_test.cpp - whole files: the chosen scene, messages, files that cannot be opened.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/load.h"
 
@@ -8,10 +8,10 @@
 
 #include <sys/stat.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 TEST(Load, FilesThatAreNotThere) {  // A2, A3
     const TempFolder folder;
@@ -152,4 +152,4 @@ TEST(Load, DamagedFilesNeverCrash) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

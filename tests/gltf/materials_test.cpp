@@ -1,21 +1,21 @@
-// tests/gltf/materials_test.cpp - factors, flags, texture slots and the rows they become.
+// tests/gltf/materials_test.cpp - factors, flags, texture slots and the resulting materials.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials/materials.h"
 
 #include "gltf/gltf_files.h"
-#include "gltf/pictures.h"
+#include "gltf/images.h"
 
 #include <gtest/gtest.h>
 
 #include <gmock/gmock.h>
 #include <numbers>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
-/// The triangle with one material; texture 0 is a picture of 2 x 2.
+/// The triangle with one material; texture 0 is an image of 2 x 2.
 json textured_triangle(const json& material) {
     json tree = triangle_asset();
     tree["materials"][0] = material;
@@ -185,7 +185,7 @@ TEST(Materials, MissingUvSetsMakeReducedCopies) {  // F5
     EXPECT_TRUE(loaded.warns("absent: emissiveTexture (TEXCOORD_1)")) << loaded.warnings;
 }
 
-TEST(Materials, PrimitivesWithoutOneTakeRowZero) {
+TEST(Materials, PrimitivesWithoutOneTakeRecordZero) {
     json tree = textured_triangle(base_texture());
     tree["meshes"][0]["primitives"][0].erase("material");
     const Loaded loaded = load_tree(tree);
@@ -199,4 +199,4 @@ TEST(Materials, PrimitivesWithoutOneTakeRowZero) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using testing::FloatNear;
 using testing::Pointwise;
 using F = std::vector<float>;
@@ -102,17 +102,17 @@ TEST(Meshes, AMirrorTurnsTriangleAndHandednessRound) {  // E7
         EXPECT_GT(winding_normal(scene, 0)[2] * normal[2], 0) << scale;
         EXPECT_EQ(normal[2], scale[2].get<float>()) << scale;
     }
-    MeshPart part;
-    part.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
-    part.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1};
-    part.tangents = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1};
-    part.indices = {0, 1, 2};
+    MeshPrimitive primitive;
+    primitive.positions = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    primitive.normals = {0, 0, 1, 0, 0, 1, 0, 0, 1};
+    primitive.tangents = {1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, -1};
+    primitive.indices = {0, 1, 2};
     Affined mirror;
     mirror.m[0][0] = -3;
-    ASSERT_TRUE(bake_part(part, mirror));
-    EXPECT_EQ(part.indices, (std::vector<uint32_t>{0, 2, 1}));
-    EXPECT_EQ(part.normals, (F{0, 0, 1, 0, 0, 1, 0, 0, 1}));
-    EXPECT_EQ(part.tangents, (F{-1, 0, 0, -1, -1, 0, 0, -1, -1, 0, 0, 1}));
+    ASSERT_TRUE(bake_primitive(primitive, mirror));
+    EXPECT_EQ(primitive.indices, (std::vector<uint32_t>{0, 2, 1}));
+    EXPECT_EQ(primitive.normals, (F{0, 0, 1, 0, 0, 1, 0, 0, 1}));
+    EXPECT_EQ(primitive.tangents, (F{-1, 0, 0, -1, -1, 0, 0, -1, -1, 0, 0, 1}));
 }
 
 TEST(Meshes, SeveralUsesBecomeInstances) {
@@ -168,8 +168,8 @@ TEST(Meshes, NodesThatLeaveNoAreaAreSkippedAndNamed) {  // E6
     EXPECT_TRUE(loaded.warns("not drawn: Line")) << loaded.warnings;
 }
 
-/// A slanting triangle is pressed into the plane z = 5, beside two instances of it. What one axis
-/// mirrors there turns round, as anything does that is seen from its other side.
+/// A slanting triangle is flattened into the plane z = 5, beside two instances of it. An axis that
+/// mirrors reverses it, as happens to anything seen from its other side.
 TEST(Meshes, NodesThatFlattenAreDrawn) {
     for (const float x : {1.0f, -1.0f}) {
         AssetBuilder builder = triangle_builder();
@@ -236,4 +236,4 @@ TEST(Meshes, LimitsAreThoseOf32Bits) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

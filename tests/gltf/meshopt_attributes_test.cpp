@@ -10,12 +10,12 @@
 #include <bit>
 #include <cstring>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
-/// An encoder that takes every way there is, by chance: no good compression, but all of the format.
+/// An encoder that chooses modes at random: it compresses badly, but covers the whole format.
 class Encoder {
 public:
     Encoder(std::string data, size_t stride, uint64_t seed)
@@ -195,4 +195,4 @@ TEST(MeshoptAttributes, CorruptDataAreRefusedOrDecodedButNeverMore) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

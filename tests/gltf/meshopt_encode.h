@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura::testing_gltf {
+namespace obscura::gltf::test {
 
 inline std::string encode_attributes(const std::string& data, size_t stride) {
     const size_t count = data.size() / stride;
@@ -37,4 +37,4 @@ inline std::string encode_sequence(const std::vector<uint32_t>& indices) {
         indices, room, [](auto... given) { return meshopt_encodeIndexSequence(given...); });
 }
 
-}  // namespace obscura::testing_gltf
+}  // namespace obscura::gltf::test

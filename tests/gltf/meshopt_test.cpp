@@ -1,4 +1,4 @@
-// tests/gltf/meshopt_test.cpp - compressed buffer views become what was compressed, or an error.
+// tests/gltf/meshopt_test.cpp - compressed buffer views decode to the original, or to an error.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/decode/meshopt.h"
 
@@ -12,10 +12,10 @@
 #include <cmath>
 #include <meshoptimizer.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 /// One compressed view and nothing else.
 struct OneView {
@@ -283,13 +283,13 @@ TEST(Meshopt, CountsThatTheDataCannotHoldAreErrorsBeforeMemoryIsAsked) {
     const Result<Bytes> bytes = OneView{data, {0, 0, 0, 12, 1ULL << 40}}.decode();
     ASSERT_FALSE(bytes);
     EXPECT_EQ(bytes.error().id, "E-MESHOPT-DATA");
-    const std::string large((most_decoded_bytes >> 10) + 1024, '\0');
+    const std::string large((max_decoded_bytes >> 10) + 1024, '\0');
     const Result<Bytes> huge =
-        OneView{large, {0, 0, 0, 256, (most_decoded_bytes >> 8) + 1}}.decode();
+        OneView{large, {0, 0, 0, 256, (max_decoded_bytes >> 8) + 1}}.decode();
     ASSERT_FALSE(huge);
     EXPECT_EQ(huge.error().id, "E-LIMIT-DECODED");
     EXPECT_EQ(static_cast<int>(huge.error().code), 77);
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -10,10 +10,10 @@
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 Affined scaling(double x, double y, double z) {
     Affined out;
@@ -233,4 +233,4 @@ TEST(NodeGraph, OnlyTheFinestLevelOfDetailIsDrawn) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

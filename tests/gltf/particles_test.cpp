@@ -1,4 +1,4 @@
-// tests/gltf/particles_test.cpp - the order of spheres in blocks, and that it is kept over poses.
+// tests/gltf/particles_test.cpp - the order of spheres in blocks, and that poses keep it.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/particles.h"
 
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 std::vector<float> random_places(size_t count, uint64_t seed) {
@@ -81,4 +81,4 @@ TEST(SphereOrders, AreFoundAgainInTheNextPose) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

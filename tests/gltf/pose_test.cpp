@@ -3,17 +3,17 @@
 #include "gltf/pose.h"
 
 #include "gltf/animated_files.h"
-#include "gltf/pictures.h"
+#include "gltf/images.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using testing::FloatNear;
 using testing::Pointwise;
 using F = std::vector<float>;
@@ -222,7 +222,7 @@ struct BadAnimation {
 };
 
 TEST(Pose, BrokenAnimationsAreRefused) {
-    const BadAnimation rows[] = {
+    const BadAnimation entries[] = {
         {{node_target(0, "translation"), {1, 0}, "VEC3", {0, 0, 0, 1, 1, 1}}, "E-ANIM-TIMES"},
         {{node_target(0, "translation"), {0, NAN}, "VEC3", {0, 0, 0, 1, 1, 1}}, "E-ANIM-TIMES"},
         {{node_target(0, "rotation"), {0}, "VEC4", {0, INFINITY, 0, 1}}, "E-ANIM-VALUE"},
@@ -233,11 +233,11 @@ TEST(Pose, BrokenAnimationsAreRefused) {
         {{node_target(0, "scale"), {0}, "VEC3", {1, 1, 1}, "BOUNCE"}, "E-ANIM-MODE"},
         {{node_target(9, "scale"), {0}, "VEC3", {1, 1, 1}}, "E-DOC-INDEX"},
     };
-    for (const BadAnimation& row : rows) {
+    for (const BadAnimation& entry : entries) {
         AssetBuilder builder = triangle_builder();
-        add_animation(builder, "Bad", {row.movement});
+        add_animation(builder, "Bad", {entry.movement});
         const Loaded loaded = load_at(builder.finished(), 0);
-        EXPECT_EQ(loaded.id(), row.id) << loaded.text();
+        EXPECT_EQ(loaded.id(), entry.id) << loaded.text();
         EXPECT_EQ(loaded.code(), 65);
     }
     AssetBuilder builder = moving_triangle();
@@ -245,7 +245,7 @@ TEST(Pose, BrokenAnimationsAreRefused) {
     EXPECT_EQ(load_at(builder.finished(), 0).id(), "E-ANIM-INPUT");
 }
 
-/// Images are decoded once: what one scene leaves, the next one uses; equal times, equal scenes.
+/// Images are decoded once: each scene reuses those of the last; equal times, equal scenes.
 TEST(PosedAsset, GivesScenesInAnyOrder) {
     AssetBuilder builder = pointed_asset();
     add_animation(
@@ -281,7 +281,7 @@ Result<Scene> scene_while_open(AssetBuilder& builder) {
     return asset->scene_between({0.5, 1.0}, true, log);
 }
 
-/// While a shutter is open the triangle slides by a quarter of its way: nine poses of it are kept.
+/// While the shutter is open the triangle slides by a quarter of its path: nine poses are kept.
 TEST(PosedAsset, KeepsWhatMovesWhileAShutterIsOpen) {
     AssetBuilder builder = pointed_asset();
     add_animation(
@@ -301,7 +301,7 @@ TEST(PosedAsset, KeepsWhatMovesWhileAShutterIsOpen) {
     EXPECT_FALSE(scene->materials.empty());
 }
 
-/// So are the nine poses of what bends, vertex by vertex, and of a lamp.
+/// So are the nine poses of a deformed mesh, vertex by vertex, and of a lamp.
 TEST(PosedAsset, KeepsWhatBendsWhileAShutterIsOpen) {
     AssetBuilder builder = pointed_asset();
     const int target = builder.add_accessor("VEC3", 5126, F{0, 0, 0, 1, 0, 0, 0, 0, 0});
@@ -349,8 +349,8 @@ TEST(Pose, PointersReachLightProfiles) {
     ASSERT_EQ(loaded.scene->lights.size(), 1U);
     const float* got = loaded.scene->lights[0].intensity;
     EXPECT_EQ(F(got, got + 3), (F{1, 1.5F, 2})) << "twice (0.5, 0.75, 1)";
-    EXPECT_EQ(loaded.scene->still_primitive_count, 1) << "the lamp's node does not move";
+    EXPECT_EQ(loaded.scene->static_primitive_count, 1) << "the lamp's node does not move";
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/preflight_test.cpp - what tinygltf gets to see, and what it never does.
+// tests/gltf/preflight_test.cpp - what tinygltf gets to read, and what it must never see.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/preflight.h"
 
@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 using nlohmann::json;
 
-/// A tree that was checked, with what the document got of it.
+/// A checked tree, with the document made so far.
 struct Checked {
     explicit Checked(const char* text) : tree(json::parse(text)) {
         Log log(Verbosity::quiet);
@@ -165,4 +165,4 @@ TEST(Preflight, FaultsHaveTheirPlaces) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

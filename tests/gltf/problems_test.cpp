@@ -1,4 +1,4 @@
-// tests/gltf/problems_test.cpp - what would change the picture is refused whole, or made do with.
+// tests/gltf/problems_test.cpp - faulty assets are refused whole, or loaded with warnings.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/problems.h"
 
@@ -9,10 +9,10 @@
 
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 /// Ids and places of all problems, in order.
 std::vector<std::string> listed(const Loaded& loaded) {
@@ -127,9 +127,9 @@ TEST(Problems, ABrokenImageIsMagentaAsColorAndAbsentAsData) {
         EXPECT_EQ(material.metallic_roughness_texture.texture, -1);
         ASSERT_GE(material.base_color_texture.texture, 0);
         const auto texture = static_cast<size_t>(material.base_color_texture.texture);
-        const TextureRow& row = loaded.scene->textures.rows[texture];
-        for (int level = 0; level < row.levels; ++level) {
-            const auto at = static_cast<size_t>(row.level_offset[level]);
+        const TextureRecord& record = loaded.scene->textures.records[texture];
+        for (int level = 0; level < record.levels; ++level) {
+            const auto at = static_cast<size_t>(record.level_offset[level]);
             EXPECT_EQ(loaded.scene->textures.texels[at], 0xFFFF00FFU);
         }
         EXPECT_EQ(loaded.lost.textures, 1U);
@@ -182,4 +182,4 @@ TEST(Problems, WhatEndsLoadingComesLast) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/report_test.cpp - the report tells what becomes of each part's wishes, and docs too.
+// tests/gltf/report_test.cpp - the report of every part's features, and the docs.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/report.h"
 
@@ -9,20 +9,20 @@
 #include <fstream>
 #include <set>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 std::vector<std::string> lines_of_report(const json& tree) {
     const Loaded loaded = load_tree(tree);
     EXPECT_TRUE(loaded.scene) << loaded.text();
     std::vector<std::string> out;
     if (!loaded.scene) return out;
-    for (const ReportRow& row : loaded.scene->info.report) {
-        out.push_back(row.place + ": " + row.feature + " " +
-                      std::string(verdict_name(row.verdict)) +
-                      (row.note.empty() ? "" : " (" + row.note + ")"));
+    for (const ReportEntry& entry : loaded.scene->info.report) {
+        out.push_back(entry.place + ": " + entry.feature + " " +
+                      std::string(verdict_name(entry.verdict)) +
+                      (entry.note.empty() ? "" : " (" + entry.note + ")"));
     }
     return out;
 }
@@ -65,8 +65,8 @@ TEST(Report, ExtensionsInsidePartsAreFound) {
     EXPECT_TRUE(lines_of_report(triangle_asset()).empty());
 }
 
-/// Each row's own function must find its feature in a part that has all of them, and none in an
-/// empty one, but for those that the part itself is.
+/// Each entry's function must find its feature in a part that has all features, and none in an
+/// empty part, except for features that the part itself is.
 TEST(Report, EveryFeatureCanBeFound) {
     const json primitive = {{"mode", 0},
                             {"attributes", {{"POSITION", 0}, {"COLOR_0", 0}}},
@@ -82,21 +82,21 @@ TEST(Report, EveryFeatureCanBeFound) {
         {"emissiveTexture", json::object()},
         {"occlusionTexture", json::object()},
         {"sparse", json::object()}};
-    for (const FeatureRow& row : feature_table()) {
+    for (const FeatureEntry& entry : feature_table()) {
         json with = part;
-        if (row.name.rfind("alphaMode ", 0) == 0) with["alphaMode"] = row.name.substr(10);
-        EXPECT_TRUE(row.is_used(with)) << row.name;
-        const bool always = row.name == "camera" || row.name == "animation";
-        EXPECT_EQ(row.is_used(json::object()), always) << row.name;
-        EXPECT_TRUE(row.verdict != Verdict::ignored || !row.note.empty()) << row.name;
+        if (entry.name.rfind("alphaMode ", 0) == 0) with["alphaMode"] = entry.name.substr(10);
+        EXPECT_TRUE(entry.is_used(with)) << entry.name;
+        const bool always = entry.name == "camera" || entry.name == "animation";
+        EXPECT_EQ(entry.is_used(json::object()), always) << entry.name;
+        EXPECT_TRUE(entry.verdict != Verdict::ignored || !entry.note.empty()) << entry.name;
     }
 }
 
-/// The line that docs/gltf.md must have for a row.
-std::string documented(const ExtensionRow& row) {
-    const Verdict verdict = row.supported ? row.verdict : Verdict::ignored;
-    const std::string note(row.supported ? row.note : row.without);
-    return "| " + std::string(row.name) + " | " + std::string(verdict_name(verdict)) + " | " +
+/// The line of docs/gltf.md for an entry.
+std::string documented(const ExtensionEntry& entry) {
+    const Verdict verdict = entry.supported ? entry.verdict : Verdict::ignored;
+    const std::string note(entry.supported ? entry.note : entry.without);
+    return "| " + std::string(entry.name) + " | " + std::string(verdict_name(verdict)) + " | " +
            note + (note.empty() ? "|" : " |");
 }
 
@@ -105,16 +105,17 @@ TEST(Report, TheDocumentationHoldsTheTable) {
     ASSERT_TRUE(file);
     std::set<std::string> lines;
     for (std::string line; std::getline(file, line);) {
-        const bool row = line.find(" | honoured |") != std::string::npos ||
-                         line.find(" | approximated |") != std::string::npos ||
-                         line.find(" | ignored |") != std::string::npos;
-        if (row) lines.insert(line);
+        const bool entry = line.find(" | honoured |") != std::string::npos ||
+                           line.find(" | approximated |") != std::string::npos ||
+                           line.find(" | ignored |") != std::string::npos;
+        if (entry) lines.insert(line);
     }
-    for (const ExtensionRow& row : extension_table())
-        EXPECT_EQ(lines.erase(documented(row)), 1U) << "docs/gltf.md lacks: " << documented(row);
+    for (const ExtensionEntry& entry : extension_table())
+        EXPECT_EQ(lines.erase(documented(entry)), 1U)
+            << "docs/gltf.md lacks: " << documented(entry);
     for (const std::string& line : lines)
         ADD_FAILURE() << "docs/gltf.md says what the table does not: " << line;
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// tests/gltf/sequence_test.cpp - what the poses of one asset have in common is read only once.
+// tests/gltf/sequence_test.cpp - geometry shared by the poses of one asset is read only once.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/animated_files.h"
 #include "gltf/load.h"
@@ -8,10 +8,10 @@
 #include <cstring>
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using F = std::vector<float>;
 
 json mesh_primitive(const AssetBuilder& builder) {
@@ -41,9 +41,9 @@ AssetBuilder sliding_asset() {
     return builder;
 }
 
-template <typename Row>
-std::string bytes_of(const std::vector<Row>& rows) {
-    return {reinterpret_cast<const char*>(rows.data()), rows.size() * sizeof(Row)};
+template <typename Record>
+std::string bytes_of(const std::vector<Record>& records) {
+    return {reinterpret_cast<const char*>(records.data()), records.size() * sizeof(Record)};
 }
 
 void expect_equal(const Scene& a, const Scene& b) {
@@ -55,7 +55,7 @@ void expect_equal(const Scene& a, const Scene& b) {
     EXPECT_EQ(bytes_of(a.materials), bytes_of(b.materials));
     EXPECT_EQ(a.spheres.size(), b.spheres.size());
     EXPECT_EQ(a.world_primitive_count, b.world_primitive_count);
-    EXPECT_EQ(a.still_primitive_count, b.still_primitive_count);
+    EXPECT_EQ(a.static_primitive_count, b.static_primitive_count);
     EXPECT_EQ(bytes_of(a.motion.instances), bytes_of(b.motion.instances));
     EXPECT_EQ(a.motion.positions, b.motion.positions);
     EXPECT_EQ(a.bounds.low.x, b.bounds.low.x);
@@ -107,7 +107,7 @@ TEST(Sequence, WhatAnAnimatedNodeMovesIsOneMeshInItsSpace) {
     const Loaded loaded = load_at(sliding_asset().finished(), 0.5);
     ASSERT_TRUE(loaded.scene) << loaded.text();
     const Scene& scene = *loaded.scene;
-    EXPECT_EQ(scene.still_primitive_count, 1);
+    EXPECT_EQ(scene.static_primitive_count, 1);
     EXPECT_EQ(scene.world_primitive_count, 1);
     ASSERT_EQ(scene.meshes.size(), 2U);
     EXPECT_EQ(scene.meshes[0].first_primitive, 1);
@@ -119,7 +119,8 @@ TEST(Sequence, WhatAnAnimatedNodeMovesIsOneMeshInItsSpace) {
     EXPECT_EQ(scene.instances[0].world_from_object.m[0][3], 1.0F);
     EXPECT_EQ(scene.instances[1].world_from_object.m[0][3], 1.0F) << "of mesh 3";
     EXPECT_EQ(scene.instances[2].world_from_object.m[2][3], 7.0F);
-    EXPECT_EQ(position_of(scene, scene.indices[6]), (F{0, 5, 0})) << "in the mover's space";
+    EXPECT_EQ(position_of(scene, scene.indices[6]), (F{0, 5, 0}))
+        << "in the space of the dynamic group";
     EXPECT_EQ(scene.info.triangles_in_world, 5U);
     EXPECT_EQ(scene.bounds.high.x, 3.0F);
     EXPECT_EQ(scene.bounds.high.y, 6.0F) << "vertex by vertex, as if it lay in the world";
@@ -129,7 +130,7 @@ TEST(Sequence, WithoutAnimationAllIsAsBefore) {
     const Loaded loaded = load_at(sliding_asset().finished(), 0.5, "none");
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_EQ(loaded.scene->world_primitive_count, 3);
-    EXPECT_EQ(loaded.scene->still_primitive_count, 0);
+    EXPECT_EQ(loaded.scene->static_primitive_count, 0);
     EXPECT_EQ(loaded.scene->meshes.size(), 1U);
     EXPECT_EQ(loaded.scene->meshes[0].stamp, 0U);
 }
@@ -138,17 +139,17 @@ TEST(Sequence, GeometryThatNoTimeChangesIsReadOnce) {
     OpenAsset open(sliding_asset().finished());
     Scene first = open.at(0.5);
     const float* positions = first.positions.data();
-    const GeometryStamp still = first.still_stamp;
+    const GeometryStamp still = first.static_stamp;
     const GeometryStamp mesh = first.meshes[0].stamp;
     EXPECT_NE(still, 0U);
     EXPECT_NE(mesh, 0U);
     open.asset->take_back(std::move(first));
     Scene second = open.at(1.0);
     EXPECT_EQ(second.positions.data(), positions);
-    EXPECT_EQ(second.still_stamp, still);
+    EXPECT_EQ(second.static_stamp, still);
     EXPECT_EQ(second.meshes[0].stamp, mesh);
     const Scene third = open.at(1.5);
-    EXPECT_NE(third.still_stamp, still) << "the scene was not given back";
+    EXPECT_NE(third.static_stamp, still) << "the scene was not given back";
     expect_equal(third, *load_at(sliding_asset().finished(), 1.5).scene);
 }
 
@@ -160,7 +161,7 @@ TEST(Sequence, EveryPoseEqualsThatPoseAlone) {
     expect_sequence(points.finished());
 }
 
-/// Morph targets bend a triangle: it alone is read for each pose.
+/// Morph targets deform a triangle: it alone is read for each pose.
 TEST(Sequence, WhatBendsIsReadAgain) {
     AssetBuilder builder = sliding_asset();
     const int target = builder.add_accessor("VEC3", 5126, F{0, 0, 0, 1, 0, 0, 0, 0, 0});
@@ -175,12 +176,12 @@ TEST(Sequence, WhatBendsIsReadAgain) {
     const json tree = builder.finished();
     expect_sequence(tree);
     const Loaded loaded = load_at(tree, 1.0);
-    EXPECT_EQ(loaded.scene->still_primitive_count, 1);
+    EXPECT_EQ(loaded.scene->static_primitive_count, 1);
     EXPECT_EQ(loaded.scene->world_primitive_count, 2);
     EXPECT_EQ(loaded.scene->primitives[1].node, 5);
 }
 
-/// A node that comes and goes takes its instance with it, and leaves the geometry where it is.
+/// A node that appears and vanishes takes its instance along and leaves the geometry in place.
 TEST(Sequence, HiddenNodesKeepTheirGeometry) {
     AssetBuilder builder = sliding_asset();
     builder.tree["extensionsUsed"] = {"KHR_node_visibility", "KHR_animation_pointer"};
@@ -214,7 +215,7 @@ TEST(Sequence, NodesMayGrowFromNothing) {
     EXPECT_EQ(load_at(tree, 1).scene->instances.size(), 3U);
 }
 
-/// Along one axis alone it is flat for a while, and drawn all the same.
+/// A node flattened along one axis for a while is drawn all the same.
 TEST(Sequence, NodesMayGrowFromAPlane) {
     AssetBuilder builder = sliding_asset();
     builder.tree["animations"].clear();
@@ -226,7 +227,7 @@ TEST(Sequence, NodesMayGrowFromAPlane) {
     EXPECT_EQ(flat.scene->info.triangles_in_world, load_at(tree, 1).scene->info.triangles_in_world);
 }
 
-/// Points on a sliding node are an instance only while a shutter is open; it starts where they are.
+/// Points on a sliding node are an instance only while a shutter is open, and start in place.
 TEST(Sequence, PointsMoveWithTheirNodeWhileAShutterIsOpen) {
     AssetBuilder builder = sliding_asset();
     builder.tree["meshes"][2]["primitives"][0]["mode"] = 0;
@@ -235,8 +236,8 @@ TEST(Sequence, PointsMoveWithTheirNodeWhileAShutterIsOpen) {
     ASSERT_TRUE(scene);
     ASSERT_EQ(scene->meshes.size(), 3U);
     const Instance& points = scene->instances.back();
-    const auto row = static_cast<size_t>(scene->meshes[2].first_primitive);
-    EXPECT_EQ(scene->primitives[row].geometry, static_cast<int32_t>(GeometryKind::spheres));
+    const auto index = static_cast<size_t>(scene->meshes[2].first_primitive);
+    EXPECT_EQ(scene->primitives[index].geometry, static_cast<int32_t>(GeometryKind::spheres));
     EXPECT_EQ(points.mesh, 2);
     EXPECT_EQ(bytes_of(std::vector{points.world_from_object}), bytes_of(std::vector{Affinef{}}));
     ASSERT_TRUE(moves(points));
@@ -264,8 +265,8 @@ std::vector<float> places(const Scene& scene) {
     return out;
 }
 
-/// Every instance of points is carried along: where a turning node's rows are at the opening, they
-/// are in the mesh; where they are later, the instance's motion tells.
+/// Every instance of points moves along: its mesh holds the positions at shutter open, its motion
+/// gives the later ones.
 TEST(Sequence, InstancedPointsAndLinesMoveWithTheirNode) {
     for (const int mode : {0, 1}) {
         AssetBuilder builder = sliding_asset();
@@ -287,7 +288,7 @@ TEST(Sequence, InstancedPointsAndLinesMoveWithTheirNode) {
         ASSERT_TRUE(moves(scene->instances.back()));
         const auto last = static_cast<size_t>(scene->instances.back().motion) + 8;
         EXPECT_FLOAT_EQ(scene->motion.instances[last].m[0][3], 1.0F);
-        // At one time alone they lie in the world: the same places.
+        // At a single time they lie in world space, at the same positions.
         const Loaded alone = load_at(tree, 0.5);
         EXPECT_EQ(places(*scene), places(*alone.scene));
         EXPECT_EQ(places(*scene).size(), mode == 0 ? 27U : 18U);
@@ -295,4 +296,4 @@ TEST(Sequence, InstancedPointsAndLinesMoveWithTheirNode) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

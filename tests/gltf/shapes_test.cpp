@@ -1,4 +1,4 @@
-// tests/gltf/shapes_test.cpp - analytic shapes in glTF: what loads, and what is refused.
+// tests/gltf/shapes_test.cpp - analytic shapes in glTF: loading and refusals.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/shapes.h"
 
@@ -8,10 +8,10 @@
 
 #include <gmock/gmock.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 using testing::HasSubstr;
 
 /// An asset with one shape and one node that draws it.
@@ -104,10 +104,10 @@ TEST(Shapes, QuadricsAreCentredOnTheirBox) {
         load_shape({{"type", "quadric"},
                     {"quadric", {{"coefficients", k}, {"min", {2, -1, -1}}, {"max", {4, 1, 1}}}}});
     ASSERT_TRUE(loaded.scene) << loaded.text();
-    const ShapeRow& row = loaded.scene->shapes[0];
-    EXPECT_FLOAT_EQ(row.centre[0], 3);
-    EXPECT_NEAR(row.k[6] / row.k[0], 0, 1e-6);
-    EXPECT_NEAR(row.k[9] / row.k[0], -1, 1e-6);
+    const ShapeRecord& record = loaded.scene->shapes[0];
+    EXPECT_FLOAT_EQ(record.centre[0], 3);
+    EXPECT_NEAR(record.k[6] / record.k[0], 0, 1e-6);
+    EXPECT_NEAR(record.k[9] / record.k[0], -1, 1e-6);
 }
 
 TEST(Shapes, ACapsuleInsideItsOwnSphereIsThatSphere) {
@@ -115,9 +115,9 @@ TEST(Shapes, ACapsuleInsideItsOwnSphereIsThatSphere) {
         load_shape({{"type", "capsule"},
                     {"capsule", {{"height", 0.5}, {"radiusTop", 2}, {"radiusBottom", 0.1}}}});
     ASSERT_TRUE(loaded.scene) << loaded.text();
-    const ShapeRow& row = loaded.scene->shapes[0];
-    EXPECT_EQ(row.kind, static_cast<int32_t>(ShapeKind::sphere));
-    EXPECT_FLOAT_EQ(row.centre[1], 0.25F);
+    const ShapeRecord& record = loaded.scene->shapes[0];
+    EXPECT_EQ(record.kind, static_cast<int32_t>(ShapeKind::sphere));
+    EXPECT_FLOAT_EQ(record.centre[1], 0.25F);
 }
 
 TEST(Shapes, ParticlesFillBlocks) {
@@ -221,4 +221,4 @@ TEST(Shapes, NodesMustNameOneShapeThatExists) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,25 +1,25 @@
-// tests/gltf/specular_glossiness_test.cpp - what becomes of specular-glossiness materials.
+// tests/gltf/specular_glossiness_test.cpp - specular-glossiness materials become metal-roughness.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/specular_glossiness.h"
 
 #include "gltf/gltf_files.h"
-#include "gltf/pictures.h"
+#include "gltf/images.h"
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
-/// A picture of one texel as a data URI.
+/// An image of one texel as a data URI.
 std::string texel_uri(unsigned r, unsigned g, unsigned b, unsigned a) {
-    const auto bytes = testing_pictures::PngBuilder(1, 1, 8, 6).finish({{r, g, b, a}});
+    const auto bytes = testing_images::PngBuilder(1, 1, 8, 6).finish({{r, g, b, a}});
     return "data:image/png;base64," +
            base64({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-/// The triangle with one material; its two pictures are textures 0 and 1.
+/// The triangle with one material; its two images are textures 0 and 1.
 Loaded load_with(const json& extension, const json& more = json::object()) {
     json tree = triangle_asset();
     tree["materials"][0] = more;
@@ -67,8 +67,8 @@ TEST(SpecularGlossiness, TexturesBecomeColourAndRoughness) {
     const Scene& scene = *loaded.scene;
     const auto texel = [&](const TextureSlot& slot) {
         EXPECT_GE(slot.texture, 0);
-        const TextureRow& row = scene.textures.rows.at(static_cast<size_t>(slot.texture));
-        return scene.textures.texels.at(static_cast<size_t>(row.level_offset[0]));
+        const TextureRecord& record = scene.textures.records.at(static_cast<size_t>(slot.texture));
+        return scene.textures.texels.at(static_cast<size_t>(record.level_offset[0]));
     };
     const Material& m = scene.materials.at(1);
     EXPECT_EQ(texel(m.base_color_texture), 0xFF1E140AU);
@@ -103,4 +103,4 @@ TEST(SpecularGlossiness, RoughnessIsOneMinusGlossiness) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

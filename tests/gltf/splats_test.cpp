@@ -1,4 +1,4 @@
-// tests/gltf/splats_test.cpp - Gaussian splats from files: attributes, places, and what is wrong.
+// tests/gltf/splats_test.cpp - Gaussian splats from files: attributes, placements, faults.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/splats.h"
 
@@ -9,10 +9,10 @@
 #include <cmath>
 #include <map>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 constexpr float harmonic_0 = 0.28209479F;
 
@@ -63,8 +63,8 @@ struct Stored {
     double opacity;
 };
 
-Stored stored(const SplatField& field, size_t row) {
-    const float* at = &field.blocks[row / splat_block * splat_block_floats + row % splat_block];
+Stored stored(const SplatField& field, size_t index) {
+    const float* at = &field.blocks[index / splat_block * splat_block_floats + index % splat_block];
     const auto number = [&](size_t column) {
         return static_cast<double>(at[column * splat_block]);
     };
@@ -76,13 +76,13 @@ Stored stored(const SplatField& field, size_t row) {
     return out;
 }
 
-/// The row of the splat whose mean is nearest to a place.
-size_t row_at(const SplatField& field, const Vec3d& place) {
+/// The index of the splat whose mean is nearest to a position.
+size_t index_at(const SplatField& field, const Vec3d& place) {
     size_t best = 0;
-    for (size_t row = 0; row < field.boxes.size() * splat_block; ++row) {
-        const Stored splat = stored(field, row);
+    for (size_t index = 0; index < field.boxes.size() * splat_block; ++index) {
+        const Stored splat = stored(field, index);
         const bool nearer = length(splat.mean - place) < length(stored(field, best).mean - place);
-        if (splat.opacity > 0 && (stored(field, best).opacity == 0 || nearer)) best = row;
+        if (splat.opacity > 0 && (stored(field, best).opacity == 0 || nearer)) best = index;
     }
     return best;
 }
@@ -94,7 +94,7 @@ Scene scene_of(const SplatFile& file) {
     return loaded.scene ? std::move(*loaded.scene) : Scene{};
 }
 
-/// Standard deviations away from the middle.
+/// Distance from the centre in standard deviations.
 double distance_in(const Stored& splat, const Vec3d& place) {
     return length(transform_vector(splat.ball_from_world, place - splat.mean));
 }
@@ -107,16 +107,16 @@ TEST(Splats, HaveTheirAttributes) {
     EXPECT_EQ(field.groups[0].count, 2);
     EXPECT_TRUE(field.groups[0].linear);
     EXPECT_EQ(scene.info.splats_in_world, 2U);
-    const Stored first = stored(field, row_at(field, {1, 2, 3}));
+    const Stored first = stored(field, index_at(field, {1, 2, 3}));
     EXPECT_EQ(first.opacity, 0.75);
     EXPECT_NEAR(distance_in(first, {2, 2, 3}), 1, 1e-6);
     EXPECT_NEAR(distance_in(first, {1, 4, 3}), 1, 1e-6);
     EXPECT_NEAR(distance_in(first, {1, 2, 6}), 1, 1e-6);
-    const Stored second = stored(field, row_at(field, {-4, 0, 0}));
+    const Stored second = stored(field, index_at(field, {-4, 0, 0}));
     EXPECT_NEAR(distance_in(second, {-4, 0.5, 0}), 1, 1e-6);
     EXPECT_NEAR(distance_in(second, {-3, 0, 0}), 1, 1e-6);
     EXPECT_NEAR(distance_in(second, {-4, 0, 0.125}), 1, 1e-6);
-    const Vec3f color = splat_color(field, row_at(field, {1, 2, 3}), {0, 0, 1});
+    const Vec3f color = splat_color(field, index_at(field, {1, 2, 3}), {0, 0, 1});
     EXPECT_NEAR(color.x, 0.5, 1e-6);
     EXPECT_NEAR(color.y, 0.5F + harmonic_0, 1e-6);
     EXPECT_NEAR(color.z, 0.5F - harmonic_0, 1e-6);
@@ -155,16 +155,16 @@ TEST(Splats, HarmonicsOfEveryDegree) {
             sum += std::sqrt((2 * l + 1) / (4 * pi_d));
             by_number += l * std::sqrt((2 * l + 1) / (4 * pi_d));
         }
-        const Vec3f first = splat_color(field, row_at(field, {1, 2, 3}), {0, 0, 7});
+        const Vec3f first = splat_color(field, index_at(field, {1, 2, 3}), {0, 0, 7});
         EXPECT_NEAR(first.x, 0.5 + 0.5 * sum, 2e-3);
-        const Vec3f second = splat_color(field, row_at(field, {-4, 0, 0}), {0, 0, 1});
+        const Vec3f second = splat_color(field, index_at(field, {-4, 0, 0}), {0, 0, 1});
         EXPECT_NEAR(second.y, 0.5 + 2 * static_cast<double>(harmonic_0) + by_number, 2e-3);
         EXPECT_NEAR(second.z, std::max(0.0, 0.5 + 2 * static_cast<double>(harmonic_0) - sum), 2e-3)
             << "not below 0";
     }
 }
 
-/// Nodes turn, stretch and mirror them; places share their colours.
+/// Nodes rotate, stretch and mirror splats; placements share their colours.
 TEST(Splats, FollowTheirNodes) {
     SplatFile file;
     file.add_degree(1);
@@ -181,14 +181,14 @@ TEST(Splats, FollowTheirNodes) {
     EXPECT_EQ(field.colors.size(), 6U);
     EXPECT_EQ(loaded.scene->info.splats_in_world, 4U);
     // (x, y, z) is at (10 - x, -z, 2 y).
-    const size_t row = row_at(field, {9, -3, 4});
-    const Stored splat = stored(field, row);
+    const size_t index = index_at(field, {9, -3, 4});
+    const Stored splat = stored(field, index);
     EXPECT_NEAR(length(splat.mean - Vec3d{9, -3, 4}), 0, 1e-5);
     EXPECT_NEAR(distance_in(splat, {8, -3, 4}), 1, 1e-5);
     EXPECT_NEAR(distance_in(splat, {9, -6, 4}), 1, 1e-5);
     EXPECT_NEAR(distance_in(splat, {9, -3, 8}), 1, 1e-5);
-    const Vec3f own = splat_color(field, row_at(field, {1, 2, 3}), {1, 2, -3});
-    const Vec3f placed = splat_color(field, row, {-1, 3, 4});
+    const Vec3f own = splat_color(field, index_at(field, {1, 2, 3}), {1, 2, -3});
+    const Vec3f placed = splat_color(field, index, {-1, 3, 4});
     EXPECT_NEAR(placed.x, own.x, 1e-5);
 }
 
@@ -199,17 +199,17 @@ TEST(Splats, NegativeScalesAreLogarithms) {
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_TRUE(loaded.warns("logarithms"));
     const SplatField& field = loaded.scene->splats;
-    EXPECT_NEAR(distance_in(stored(field, row_at(field, {1, 2, 3})), {1, 4, 3}), 1, 1e-5);
+    EXPECT_NEAR(distance_in(stored(field, index_at(field, {1, 2, 3})), {1, 4, 3}), 1, 1e-5);
 }
 
 TEST(Splats, FlatOnesKeepSomeThickness) {
     SplatFile file;
     file.attributes["SCALE"] = {1, 1, 0, 0, 0, 0};
     const Scene scene = scene_of(file);
-    const Stored flat = stored(scene.splats, row_at(scene.splats, {1, 2, 3}));
+    const Stored flat = stored(scene.splats, index_at(scene.splats, {1, 2, 3}));
     EXPECT_NEAR(distance_in(flat, {1, 2, 3.00001}), 1, 0.01);
     EXPECT_NEAR(distance_in(flat, {2, 2, 3}), 1, 1e-5);
-    EXPECT_EQ(row_at(scene.splats, {-4, 0, 0}), row_at(scene.splats, {1, 2, 3}))
+    EXPECT_EQ(index_at(scene.splats, {-4, 0, 0}), index_at(scene.splats, {1, 2, 3}))
         << "one without any extent is not seen";
 }
 
@@ -229,7 +229,7 @@ TEST(Splats, IntegersAreWhatTheExtensionAllows) {
     const Loaded loaded = load_tree(builder.finished());
     ASSERT_TRUE(loaded.scene) << loaded.text();
     const SplatField& field = loaded.scene->splats;
-    EXPECT_NEAR(distance_in(stored(field, row_at(field, {1, 2, 3})), {1, 4, 3}), 1, 1e-5);
+    EXPECT_NEAR(distance_in(stored(field, index_at(field, {1, 2, 3})), {1, 4, 3}), 1, 1e-5);
 }
 
 TEST(Splats, MissingAttributesAreNamed) {
@@ -307,7 +307,7 @@ TEST(Splats, CompressedOnesArePoints) {
     EXPECT_EQ(loaded.scene->info.points_in_world, 2U);
 }
 
-/// 20,000 splats in 30,000 places.
+/// 20,000 splats in 30,000 placements.
 TEST(Splats, ThereIsALimit) {
     constexpr size_t count = 20000;
     constexpr size_t places = 30000;
@@ -328,4 +328,4 @@ TEST(Splats, ThereIsALimit) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

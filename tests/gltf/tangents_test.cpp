@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 using Vec = std::array<double, 3>;
@@ -80,11 +80,11 @@ void add_quad(Model& model, double x0, double x1, double u0, double u1) {
     model.triangle(a, c, d);
 }
 
-TEST(Tangents, UprightPictureOnAPlaneHasTangentXAndBitangentUp) {
+TEST(Tangents, UprightImageOnAPlaneHasTangentXAndBitangentUp) {
     Model model;
     add_quad(model, 0, 1, 0, 1);
     const std::vector<float> tangents = model.tangents();
-    // cross(+z, +x) * 1 = +y, where the picture's upper edge (v = 0) is.
+    // cross(+z, +x) * 1 = +y, where the image's upper edge (v = 0) is.
     for (size_t corner = 0; corner < 6; ++corner)
         expect_tangent(tangents, corner, {1, 0, 0}, 1);
 }
@@ -238,13 +238,13 @@ TEST(Tangents, FacesWithoutAreaCopyAndDoNotDisturb) {
 }
 
 TEST(Tangents, OppositeDirectionsAroundAVertexDoNotAverage) {
-    // A fan of four faces in which the picture turns by 180 degrees more than the surface.
+    // A fan of four faces in which the image rotates by 180 degrees more than the surface.
     constexpr double degree = std::numbers::pi / 180;
-    constexpr double surface[] = {0, 60, 90, 120, 180}, picture[] = {0, 60, 180, 300, 360};
+    constexpr double surface[] = {0, 60, 90, 120, 180}, image[] = {0, 60, 180, 300, 360};
     Model model;
     const uint32_t o = model.add({0, 0, 0}, up_z, 0, 0);
     for (int i = 0; i < 5; ++i) {
-        const double a = surface[i] * degree, b = picture[i] * degree;
+        const double a = surface[i] * degree, b = image[i] * degree;
         model.add({std::cos(a), std::sin(a), 0}, up_z, std::cos(b), -std::sin(b));
     }
     Vec sum = {0, 0, 0};  // of the first three faces, each times its angle
@@ -257,7 +257,7 @@ TEST(Tangents, OppositeDirectionsAroundAVertexDoNotAverage) {
     }
     const double size = std::sqrt(dot_of(sum, sum));
     const std::vector<float> tangents = model.tangents();
-    // The fourth face says -x, the opposite of the first, which therefore does not listen to it.
+    // The fourth face says -x, the opposite of the first, which therefore ignores it.
     expect_tangent(tangents, 0, {sum[0] / size, sum[1] / size, 0}, 1);
     expect_tangent(tangents, 9, {-sum[0] / size, sum[1] / size, 0}, 1);
     expect_tangent(tangents, 11, {-1, 0, 0}, 1);
@@ -308,4 +308,4 @@ TEST(Tangents, NothingInNothingOut) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,16 +1,16 @@
-// tests/gltf/textures_test.cpp - images in the arena: shared, twice, missing, broken, too large.
+// tests/gltf/textures_test.cpp - images in the arena: shared, doubled, missing, broken, too large.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials/textures.h"
 
 #include "gltf/gltf_files.h"
-#include "gltf/pictures.h"
+#include "gltf/images.h"
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 /// The triangle with a material; images and textures are the caller's.
 json textured(const json& material) {
@@ -36,17 +36,17 @@ TEST(Textures, TexelsAndMipsLieInTheArena) {
     const Loaded loaded = load_image({{"uri", png_uri(4, 2)}, {"name", "Label"}});
     ASSERT_TRUE(loaded.scene) << loaded.text();
     const TextureArena& arena = loaded.scene->textures;
-    ASSERT_EQ(arena.rows.size(), 1U);
-    const TextureRow& row = arena.rows[0];
-    EXPECT_EQ(row.width, 4);
-    EXPECT_EQ(row.height, 2);
-    EXPECT_EQ(row.levels, 3);
-    EXPECT_EQ(row.level_offset[1], 8);
-    EXPECT_EQ(row.level_offset[2], 10);
+    ASSERT_EQ(arena.records.size(), 1U);
+    const TextureRecord& record = arena.records[0];
+    EXPECT_EQ(record.width, 4);
+    EXPECT_EQ(record.height, 2);
+    EXPECT_EQ(record.levels, 3);
+    EXPECT_EQ(record.level_offset[1], 8);
+    EXPECT_EQ(record.level_offset[2], 10);
     EXPECT_EQ(arena.texels.size(), 11U);
     EXPECT_EQ(arena.texels[6], 0xFF4D0A14U);  // x 2, y 1
     EXPECT_EQ(arena.texels[10] >> 16, 0xFF4DU);
-    EXPECT_EQ(row.sampler,
+    EXPECT_EQ(record.sampler,
               pack_sampler(Wrap::repeat, Wrap::repeat, false, false, MipMode::linear, true));
     const ImageInfo& info = loaded.scene->info.images[0];
     EXPECT_EQ(info.name, "Label");
@@ -56,13 +56,13 @@ TEST(Textures, TexelsAndMipsLieInTheArena) {
     EXPECT_FALSE(info.used_as_data);
 }
 
-/// A row of 16-bit greys, each one code apart, as normals or heights have them.
+/// A line of 16-bit greys, each one code apart, as normals or heights have them.
 TEST(Textures, SixteenBitsStay) {
     constexpr unsigned count = 2001;
     std::vector<unsigned> bytes;
     for (unsigned i = 0; i < count; ++i)
         bytes.insert(bytes.end(), {(30000 + i) >> 8, (30000 + i) & 255U});
-    const auto png = testing_pictures::PngBuilder(count, 1, 16, 0).finish({bytes});
+    const auto png = testing_images::PngBuilder(count, 1, 16, 0).finish({bytes});
     json tree = textured({{"normalTexture", {{"index", 0}}}});
     tree["textures"][0]["source"] = 0;
     tree["images"][0]["uri"] =
@@ -70,16 +70,16 @@ TEST(Textures, SixteenBitsStay) {
     const Loaded loaded = load_tree(tree);
     ASSERT_TRUE(loaded.scene) << loaded.text();
     const TextureArena& arena = loaded.scene->textures;
-    const TextureRow& row = arena.rows.at(0);
-    ASSERT_NE(row.low_plane, 0);
+    const TextureRecord& record = arena.records.at(0);
+    ASSERT_NE(record.low_plane, 0);
     EXPECT_EQ(arena.texels.size(), 2 * mip_chain_texels(count, 1));
     EXPECT_TRUE(view_of(arena).wide);
-    const auto first = static_cast<size_t>(row.level_offset[0]);
+    const auto first = static_cast<size_t>(record.level_offset[0]);
     for (unsigned i = 0; i < count; ++i) {
-        ASSERT_NEAR(texel_channel(arena, row, first + i, 1), (30000 + i) / 65535.0, 1e-7);
+        ASSERT_NEAR(texel_channel(arena, record, first + i, 1), (30000 + i) / 65535.0, 1e-7);
     }
-    const auto last = static_cast<size_t>(row.level_offset[row.levels - 1]);
-    EXPECT_NEAR(texel_channel(arena, row, last, 0), 31000 / 65535.0, 1e-4) << "the mean";
+    const auto last = static_cast<size_t>(record.level_offset[record.levels - 1]);
+    EXPECT_NEAR(texel_channel(arena, record, last, 0), 31000 / 65535.0, 1e-4) << "the mean";
     EXPECT_EQ(loaded.scene->info.images[0].bits, 16);
 }
 
@@ -106,12 +106,12 @@ TEST(Textures, InfoOnlyMeasures) {
     const Loaded loaded = load_image({{"uri", png_uri(4, 2)}}, options);
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_TRUE(loaded.scene->textures.texels.empty());
-    EXPECT_EQ(loaded.scene->textures.rows.size(), 1U);
+    EXPECT_EQ(loaded.scene->textures.records.size(), 1U);
     EXPECT_EQ(loaded.scene->info.images[0].height, 2);
     EXPECT_EQ(loaded.scene->indices.size(), 3U + 1);
 }
 
-/// One image: colour with two samplers and data with one. Texels exist twice, rows three times.
+/// One image: colour with two samplers and data with one. Texels exist twice, records three times.
 TEST(Textures, ColorAndDataAreStoredApartAndSamplersShare) {  // D18
     json tree = textured(json::parse(R"({
         "pbrMetallicRoughness": {"baseColorTexture": {"index": 0},
@@ -125,20 +125,20 @@ TEST(Textures, ColorAndDataAreStoredApartAndSamplersShare) {  // D18
     const Scene& scene = *loaded.scene;
     const Material& material = scene.materials[1];
     EXPECT_EQ(scene.textures.texels.size(), 2U * 21);
-    ASSERT_EQ(scene.textures.rows.size(), 3U);
-    const auto row = [&](const TextureSlot& slot) {
-        return scene.textures.rows[static_cast<size_t>(slot.texture)];
+    ASSERT_EQ(scene.textures.records.size(), 3U);
+    const auto record = [&](const TextureSlot& slot) {
+        return scene.textures.records[static_cast<size_t>(slot.texture)];
     };
-    const TextureRow base = row(material.base_color_texture);
-    const TextureRow emissive = row(material.emissive_texture);
-    const TextureRow data = row(material.normal_texture);
+    const TextureRecord base = record(material.base_color_texture);
+    const TextureRecord emissive = record(material.emissive_texture);
+    const TextureRecord data = record(material.normal_texture);
     EXPECT_EQ(material.normal_texture.texture, material.metallic_roughness_texture.texture);
     EXPECT_EQ(base.level_offset[0], emissive.level_offset[0]);
     EXPECT_NE(base.level_offset[0], data.level_offset[0]);
     EXPECT_NE(base.sampler, emissive.sampler);
     EXPECT_EQ(base.sampler & sampler_srgb, sampler_srgb);
     EXPECT_EQ(data.sampler & sampler_srgb, 0U);
-    // The same picture, but averages differ: linear light against plain numbers.
+    // The same image, but averages differ: linear light against plain numbers.
     EXPECT_EQ(scene.textures.texels[static_cast<size_t>(base.level_offset[0]) + 5],
               scene.textures.texels[static_cast<size_t>(data.level_offset[0]) + 5]);
     EXPECT_NE(scene.textures.texels[static_cast<size_t>(base.level_offset[2])],
@@ -172,7 +172,7 @@ TEST(Textures, SamplersOfEveryKind) {
         tree["textures"][0]["sampler"] = 0;
         const Loaded loaded = load_tree(tree);
         ASSERT_TRUE(loaded.scene) << loaded.text();
-        EXPECT_EQ(loaded.scene->textures.rows[0].sampler, c.packed) << c.sampler;
+        EXPECT_EQ(loaded.scene->textures.records[0].sampler, c.packed) << c.sampler;
     }
 }
 
@@ -292,11 +292,10 @@ TEST(Textures, WrongMediaTypesWarn) {  // D5
 /// the headers alone.
 TEST(Textures, TooManyTexelsAreRefusedUnread) {  // D6, D7
     // Black and white, so that a file of 100 kB could hold it.
-    const testing_pictures::ByteVector start =
-        testing_pictures::PngBuilder(22000, 22000, 1, 0)
-            .chunk("IDAT", testing_pictures::ByteVector(100000))
-            .chunk("IEND", testing_pictures::ByteVector())
-            .so_far();
+    const testing_images::ByteVector start = testing_images::PngBuilder(22000, 22000, 1, 0)
+                                                 .chunk("IDAT", testing_images::ByteVector(100000))
+                                                 .chunk("IEND", testing_images::ByteVector())
+                                                 .so_far();
     const std::string uri = "data:image/png;base64," +
                             base64({reinterpret_cast<const char*>(start.data()), start.size()});
     json tree = textured(json::parse(R"({
@@ -322,7 +321,7 @@ TEST(Textures, WebpIsPreferred) {
     EXPECT_EQ(loaded.scene->info.images[1].format, "webp");
     EXPECT_TRUE(loaded.scene->info.images[1].used_as_color);
     EXPECT_FALSE(loaded.scene->info.images[0].used_as_color);
-    EXPECT_EQ(loaded.scene->textures.rows[0].width, 1);
+    EXPECT_EQ(loaded.scene->textures.records[0].width, 1);
 }
 
 TEST(Textures, Ktx2IsPreferredAndNeedsNoFallback) {  // F11
@@ -336,14 +335,14 @@ TEST(Textures, Ktx2IsPreferredAndNeedsNoFallback) {  // F11
     ASSERT_TRUE(with.scene) << with.text();
     EXPECT_EQ(with.scene->info.images[2].format, "ktx2");
     EXPECT_FALSE(with.scene->info.images[0].used_as_color);
-    EXPECT_EQ(with.scene->textures.rows.at(0).width, 4);
+    EXPECT_EQ(with.scene->textures.records.at(0).width, 4);
 
     tree["textures"][0].erase("source");
     tree["extensionsUsed"] = {"KHR_texture_basisu", "EXT_texture_webp"};
     tree["extensionsRequired"] = {"KHR_texture_basisu"};
     const Loaded without = load_tree(tree);
     ASSERT_TRUE(without.scene) << without.text();
-    EXPECT_EQ(without.scene->textures.rows.at(0).width, 4);
+    EXPECT_EQ(without.scene->textures.records.at(0).width, 4);
     EXPECT_TRUE(without.warnings.empty()) << without.warnings;
 }
 
@@ -352,10 +351,10 @@ TEST(Textures, Ktx2LevelsAreTakenAndMissingOnesMade) {
         const Loaded loaded = load_image({{"uri", ktx2_uri(ktx2_greys(8, stored))}});
         ASSERT_TRUE(loaded.scene) << loaded.text();
         const TextureArena& arena = loaded.scene->textures;
-        ASSERT_EQ(arena.rows.at(0).levels, 4);
+        ASSERT_EQ(arena.records.at(0).levels, 4);
         for (unsigned level = 0; level < 4; ++level) {
             const unsigned grey = 10 * (std::min(level, stored - 1) + 1);
-            const auto at = static_cast<size_t>(arena.rows[0].level_offset[level]);
+            const auto at = static_cast<size_t>(arena.records[0].level_offset[level]);
             EXPECT_EQ(arena.texels.at(at), 0xFF000000U | grey * 0x010101U) << level;
         }
     }
@@ -378,7 +377,7 @@ TEST(Textures, Ktx2ThatIsNotWhatTheMaterialReadsWarns) {
     EXPECT_FALSE(color.warns("says that it is sRGB")) << color.warnings;
 }
 
-TEST(Textures, Ktx2ThatIsNotAPictureIsRefused) {
+TEST(Textures, Ktx2ThatIsNotAnImageIsRefused) {
     auto cube = ktx2_greys(1, 1);
     cube.faces = 6;
     const Loaded loaded = load_image({{"uri", ktx2_uri(cube)}});
@@ -387,4 +386,4 @@ TEST(Textures, Ktx2ThatIsNotAPictureIsRefused) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -10,11 +10,11 @@
 #include <string>
 #include <sys/stat.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 using namespace std::string_view_literals;
-using testing_gltf::base64;
+using test::base64;
 
 std::string as_text(const Bytes& bytes) {
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
@@ -26,7 +26,7 @@ std::string decoded(std::string_view text) {
     return fault.empty() ? as_text(out) : "FAULT " + fault;
 }
 
-/// What reading a URI inside a folder gives: the content, or "id code".
+/// The result of reading a URI inside a folder: the content, or "id code".
 std::string read(const std::filesystem::path& folder, std::string_view uri) {
     const Result<UriBytes> bytes = read_uri(uri, {folder, "w"}, {});
     if (bytes) return as_text(bytes->bytes);
@@ -175,4 +175,4 @@ TEST(Uri, LongUrisAreShortenedInMessages) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

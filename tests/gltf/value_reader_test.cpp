@@ -1,4 +1,4 @@
-// tests/gltf/value_reader_test.cpp - what tinygltf's values cannot hold is read all the same.
+// tests/gltf/value_reader_test.cpp - values that tinygltf's Value drops are read all the same.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/value_reader.h"
 
@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 using nlohmann::json;
-using testing_gltf::value_of;
+using test::value_of;
 
-/// What a reader says of the member "x"; empty: nothing.
+/// A reader's fault about the member "x"; empty: none.
 template <typename Read>
 std::string fault_of(const char* text, const Read& read) {
     JsonFault fault;
@@ -66,4 +66,4 @@ TEST(ValueReader, IntegersBeyond32BitsAreNotWrapped) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

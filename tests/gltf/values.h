@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace obscura::testing_gltf {
+namespace obscura::gltf::test {
 
 /// An extension's object as a reader of the asset would see it.
 inline tinygltf::Value value_of(nlohmann::json object) {
@@ -18,4 +18,4 @@ inline tinygltf::Value value_of(nlohmann::json object) {
     return read_model(tree, "").value().extensions.at("X");
 }
 
-}  // namespace obscura::testing_gltf
+}  // namespace obscura::gltf::test

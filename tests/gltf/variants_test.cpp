@@ -1,4 +1,4 @@
-// tests/gltf/variants_test.cpp - KHR_materials_variants: the chosen look and no other.
+// tests/gltf/variants_test.cpp - KHR_materials_variants: only the chosen variant applies.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/variants.h"
 
@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 constexpr const char* name = "KHR_materials_variants";
 
@@ -73,4 +73,4 @@ TEST(Variants, NumbersOutOfRangeAreErrors) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -6,10 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
-using namespace testing_gltf;
+using namespace test;
 
 TEST(Xmp, TheAssetsPacketIsKept) {
     json tree = triangle_asset();
@@ -47,4 +47,4 @@ TEST(Xmp, LongPacketsAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -12,7 +12,7 @@
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 TEST(BasisLzCodebooks, EndpointsAreDifferencesThatWrapAround) {
     BitWriter out;
@@ -202,7 +202,7 @@ TEST_F(BasisLzSlice, NumbersBeyondTheTablesAreRefused) {
     EXPECT_EQ(read(1, 1), "");
 }
 
-TEST_F(BasisLzSlice, EndlessNumbersAreRefused) {
+TEST_F(BasisLzSlice, UnboundedNumbersAreRefused) {
     predictions(256);
     for (int i = 0; i < 20; ++i)
         out_.put(0xFFFFFFFFU, 32);

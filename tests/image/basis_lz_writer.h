@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura::testing_pictures {
+namespace obscura::testing_images {
 
 /// A symbol of a code whose 2^bits words are all `bits` long and count upwards.
 inline void put_flat(BitWriter& out, uint32_t symbol, int bits) {
@@ -41,4 +41,4 @@ inline void put_chunked(BitWriter& out, uint32_t value, int chunk) {
     out.put(value, chunk + 1);
 }
 
-}  // namespace obscura::testing_pictures
+}  // namespace obscura::testing_images

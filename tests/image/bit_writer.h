@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace obscura::testing_pictures {
+namespace obscura::testing_images {
 
 class BitWriter {
 public:
@@ -36,4 +36,4 @@ private:
     size_t bits_ = 0;
 };
 
-}  // namespace obscura::testing_pictures
+}  // namespace obscura::testing_images

@@ -1,4 +1,4 @@
-// tests/image/cube_environment_test.cpp - cubes against functions of direction that are known.
+// tests/image/cube_environment_test.cpp - cube maps against known functions of direction.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/cube_environment.h"
 
@@ -76,7 +76,7 @@ TEST(CubeEnvironment, KnownDirectionsComeBack) {
     }
 }
 
-/// What an eye sees that looks along an axis in the world of glTF: right-handed, +Y up.
+/// The view of an eye along an axis in the world of glTF: right-handed, +Y up.
 TEST(CubeEnvironment, FacesAreWhatTheEyeSees) {
     const struct {
         Vec3d ahead, up;
@@ -178,21 +178,21 @@ TEST(CubeEnvironment, AlphaOfAPngDivides) {
     const auto texel = [](uint32_t r, uint32_t g, uint32_t b, uint32_t a) {
         return r | g << 8 | b << 16 | a << 24;
     };
-    ImageRgba8 picture{2, 2, {}, "png"};
-    picture.texels = {texel(255, 128, 0, 255),
-                      texel(255, 128, 0, 51),
-                      texel(255, 128, 0, 1),
-                      texel(255, 128, 0, 0)};
+    ImageRgba8 image{2, 2, {}, "png"};
+    image.texels = {texel(255, 128, 0, 255),
+                    texel(255, 128, 0, 51),
+                    texel(255, 128, 0, 1),
+                    texel(255, 128, 0, 0)};
     const float grey = linear_from_srgb(128.0F / 255.0F);
-    ImageRgb32f light = light_from_picture(picture);
+    ImageRgb32f light = light_from_image(image);
     const float factors[] = {1, 5, 255, 255};
     for (size_t i = 0; i < 4; ++i) {
         EXPECT_FLOAT_EQ(light.pixels[3 * i], factors[i]);
         EXPECT_FLOAT_EQ(light.pixels[3 * i + 1], factors[i] * grey);
         EXPECT_EQ(light.pixels[3 * i + 2], 0);
     }
-    picture.format = "jpeg";
-    light = light_from_picture(picture);
+    image.format = "jpeg";
+    light = light_from_image(image);
     EXPECT_FLOAT_EQ(light.pixels[9], 1);
 }
 

@@ -3,7 +3,7 @@
 #include "image/decode.h"
 
 #include "base/parallel.h"
-#include "image/test_pictures.h"
+#include "image/test_images.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 uint32_t rgba(unsigned r, unsigned g, unsigned b, unsigned a = 255) {
     return r | g << 8 | b << 16 | a << 24;
@@ -160,7 +160,7 @@ TEST(DecodePng, GammaAndChromaticitiesChangeNothing) {
               (std::vector{rgba(10, 100, 200, 128)}));
 }
 
-TEST(DecodePng, AnAnimationGivesItsStillPictureAndAWarning) {
+TEST(DecodePng, AnAnimationGivesItsStillImageAndAWarning) {
     const ByteVector png =
         PngBuilder(1, 1, 8, 0).chunk("acTL", {0, 0, 0, 2, 0, 0, 0, 0}).finish({{42}});
     Log log(Verbosity::quiet);
@@ -171,7 +171,7 @@ TEST(DecodePng, AnAnimationGivesItsStillPictureAndAWarning) {
     EXPECT_NE(log.warnings()[0].find("first frame"), std::string::npos);
 }
 
-TEST(DecodePng, OnePixelAndVeryWidePicturesWork) {
+TEST(DecodePng, OnePixelAndVeryWideImagesWork) {
     EXPECT_EQ(decoded(png_pattern(1, 1, 3)).texels.size(), 1U);
     EXPECT_EQ(decoded(png_pattern(65535, 1, 1)).texels.size(), 65535U);
     EXPECT_EQ(decoded(png_pattern(1, 65535, 1)).texels.size(), 65535U);
@@ -325,7 +325,7 @@ std::vector<std::pair<std::string, ByteVector>> one_of_each() {
             {"lossless webp", webp_pattern(97, 61, true)}};
 }
 
-TEST(DecodeImage, CutOffPicturesAre67WhereverTheyEnd) {
+TEST(DecodeImage, CutOffImagesAre67WhereverTheyEnd) {
     for (const auto& [name, whole] : one_of_each()) {
         for (size_t tenth = 0; tenth < 10; ++tenth) {
             ByteVector cut = whole;
@@ -348,7 +348,7 @@ TEST(DecodeImage, EveryShortHeaderIsAnErrorAndNeverACrash) {
     }
 }
 
-TEST(DecodeImage, DamagedPicturesDecodeOrFailCleanly) {
+TEST(DecodeImage, DamagedImagesDecodeOrFailCleanly) {
     std::mt19937 random(7);
     for (const auto& [name, whole] : one_of_each()) {
         for (int round = 0; round < 200; ++round) {
@@ -378,15 +378,15 @@ TEST(DecodeImage, ADamagedPngChecksumIs67) {
 
 TEST(DecodeImage, ManyAtOnceGiveTheSameTexels) {
     const ThreadLimit limit(4);
-    const auto pictures = one_of_each();
+    const auto images = one_of_each();
     std::vector<std::vector<uint32_t>> expected;
-    for (const auto& [name, bytes] : pictures)
+    for (const auto& [name, bytes] : images)
         expected.push_back(row_of(bytes));
     std::atomic<int> wrong{0};
     parallel_for(200, [&](size_t i) {
-        const size_t which = i % pictures.size();
+        const size_t which = i % images.size();
         Log log(Verbosity::quiet);
-        const Result<ImageRgba8> image = decode_image(pictures[which].second, "parallel", log);
+        const Result<ImageRgba8> image = decode_image(images[which].second, "parallel", log);
         if (!image || image->texels != expected[which]) ++wrong;
     });
     EXPECT_EQ(wrong, 0);

@@ -4,7 +4,7 @@
 
 #include "base/setting_names.h"
 #include "image/pbr_neutral.h"
-#include "image/test_pictures.h"
+#include "image/test_images.h"
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ double srgb_code(double linear) {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
-class Display : public testing_pictures::FolderTest {
+class Display : public testing_images::FolderTest {
 protected:
     void SetUp() override {
         FolderTest::SetUp();
@@ -283,7 +283,7 @@ std::string circle_config(const std::string& out, const std::string& parts) {
            out + "\n" + parts;
 }
 
-/// OpenColorIO would follow these for ever, until the stack is full.
+/// OpenColorIO would follow these forever, until the stack overflows.
 TEST_F(Display, ReferencesInACircleAre78AndNamed) {
     const std::string look = "looks:\n  - !<Look> {name: soft, process_space: ";
     const std::string plain_look = look + "lin}\n";
@@ -318,7 +318,7 @@ TEST_F(Display, ReferencesInACircleAre78AndNamed) {
     }
 }
 
-/// Not a circle, but as deep as a stack can bear, or as long as no memory can hold.
+/// Not a cycle, but too deep for a stack, or too long for memory.
 TEST_F(Display, TowersOfReferencesAre78) {
     for (const bool doubles : {false, true}) {
         std::string tower;

@@ -1,7 +1,7 @@
 // tests/image/environment_test.cpp - environments of every format, whole, odd and broken.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/decode.h"
-#include "image/test_pictures.h"
+#include "image/test_images.h"
 
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
@@ -19,7 +19,7 @@
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 /// Float values that half holds exactly, all different: (pixel + channel / 4).
 std::vector<float> ramp(int width, int height, int channels) {
@@ -95,7 +95,7 @@ TEST_F(Environment, ExrTiled) {
         ramp(64, 32, 3));
 }
 
-/// OpenEXR would make room for them before it has read anything.
+/// OpenEXR would allocate them before it has read anything.
 TEST_F(Environment, ExrTilesBeyondAllSizesAre67) {
     const std::filesystem::path file =
         write_exr({"R", "G", "B"}, ramp(64, 32, 3), OIIO::TypeDesc::HALF, 64, 16);
@@ -194,7 +194,7 @@ TEST_F(Environment, RadianceHdr) {
     }
 }
 
-TEST_F(Environment, EightBitPicturesAreDecodedFromSrgb) {
+TEST_F(Environment, EightBitImagesAreDecodedFromSrgb) {
     const std::filesystem::path file = folder_ / "env.png";
     write_bytes(file, PngBuilder(2, 1, 8, 2).finish({{0, 10, 188, 255, 11, 128}}));
     const ImageRgb32f image = read(file);

@@ -11,7 +11,7 @@
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 constexpr uint8_t rfc_lengths[] = {3, 3, 3, 3, 3, 2, 4, 4};  // of A to H
 

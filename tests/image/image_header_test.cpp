@@ -1,16 +1,16 @@
-// tests/image/image_header_test.cpp - sizes and formats are read, and refused, before decoding.
+// tests/image/image_header_test.cpp - size and format are read, and checked, before decoding.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/image_header.h"
 
 #include "image/decode.h"
-#include "image/test_pictures.h"
+#include "image/test_images.h"
 
 #include <gtest/gtest.h>
 
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 /// The error of the header, which decoding must report too.
 Error error_of(const ByteVector& bytes) {
@@ -25,13 +25,13 @@ Error error_of(const ByteVector& bytes) {
 }
 
 TEST(ImageHeader, SizeIsReadFromEveryFormat) {
-    const std::pair<ImageFormat, ByteVector> pictures[] = {
+    const std::pair<ImageFormat, ByteVector> images[] = {
         {ImageFormat::png, png_pattern(97, 61, 4)},
         {ImageFormat::jpeg, jpeg_pattern(97, 61, 3)},
         {ImageFormat::jpeg, jpeg_pattern(97, 61, 1, true)},
         {ImageFormat::webp, webp_pattern(97, 61, false)},
         {ImageFormat::webp, webp_pattern(97, 61, true)}};
-    for (const auto& [format, bytes] : pictures) {
+    for (const auto& [format, bytes] : images) {
         const Result<ImageHeader> header = read_image_header(bytes, "test");
         ASSERT_TRUE(header) << header.error().message;
         EXPECT_EQ(header->format, format);
@@ -122,7 +122,7 @@ TEST(ImageHeader, HeadersThatPromiseTooMuchAre77WithoutAllocating) {
     EXPECT_EQ(error_of(jpeg).id, "E-IMG-LIMIT");
 }
 
-TEST(ImageHeader, FewBytesThatPromiseALargePictureAre67) {
+TEST(ImageHeader, FewBytesThatPromiseALargeImageAre67) {
     EXPECT_EQ(error_of(PngBuilder(20000, 20000, 8, 6).finish({{0}})).id, "E-IMG-CORRUPT");
     ByteVector jpeg;
     append(jpeg, {0xFF, 0xD8, 0xFF, 0xC0, 0, 11, 8, 0x40, 0, 0x40, 0, 1, 1, 0x11, 0});

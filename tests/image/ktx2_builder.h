@@ -10,14 +10,14 @@
 #include <utility>
 #include <vector>
 
-namespace obscura::testing_pictures {
+namespace obscura::testing_images {
 
 inline void append_little_endian(ByteVector& out, uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i, value >>= 8)
         append(out, {static_cast<unsigned>(value & 0xFF)});
 }
 
-/// What a file says; the defaults are one opaque texel of R8G8B8A8_UNORM without levels.
+/// A file's contents; the defaults are one opaque texel of R8G8B8A8_UNORM without levels.
 struct Ktx2Parts {
     uint32_t format = 37;
     uint32_t width = 1;
@@ -106,4 +106,4 @@ inline ByteVector ktx2_file(const Ktx2Parts& parts) {
     return out;
 }
 
-}  // namespace obscura::testing_pictures
+}  // namespace obscura::testing_images

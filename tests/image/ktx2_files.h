@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace obscura::testing_pictures {
+namespace obscura::testing_images {
 
 inline ByteVector from_hex(std::string_view text) {
     ByteVector bytes;
@@ -77,4 +77,4 @@ constexpr std::string_view ktx2_uastc_zstd =
     "3038BB1705017928EDE8F1CD529E55494488888888BE3C2869A96B8265DC451091C80BA267DCC510FA916816F530"
     "207D7EA5657123F14CDB3AD1197980689951CD4A2089E4E6B506004078C640CACC7E03DE1B4086D9A618";
 
-}  // namespace obscura::testing_pictures
+}  // namespace obscura::testing_images

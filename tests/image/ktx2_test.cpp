@@ -14,7 +14,7 @@
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 Result<ImageRgba8> read(const ByteVector& bytes, Log& log) {
     return decode_image(bytes, "scene.gltf#/images/3", log, Extent::stored);
@@ -41,7 +41,7 @@ std::string id_of(const ByteVector& bytes) {
     return std::to_string(static_cast<int>(error.code)) + " " + error.id;
 }
 
-/// A picture of one texel, `channels` bytes.
+/// An image of one texel, `channels` bytes.
 Ktx2Parts plain(uint32_t format, std::initializer_list<unsigned> texel) {
     Ktx2Parts parts;
     parts.format = format;
@@ -68,7 +68,7 @@ ByteVector with_zstd(const ByteVector& bytes) {
     return out;
 }
 
-/// The picture that the three files were made from, outside its noisy lower right quarter.
+/// The image that the three files were made from, outside its noisy lower right quarter.
 double mean_difference(const ImageRgba8& image, bool has_alpha) {
     double sum = 0;
     int count = 0;
@@ -159,7 +159,7 @@ TEST(Ktx2, ChannelsOfUastc) {
     EXPECT_EQ(id_of(ktx2_file(uastc(1))), "69 E-IMG-FEATURE");
 }
 
-/// The file's two slices are grey alpha and colour; told to be red and green they are read so.
+/// The file's two slices are grey alpha and colour; declared as red and green they are read so.
 TEST(Ktx2, ChannelsOfEtc1s) {
     ByteVector bytes = from_hex(ktx2_etc1s_rgba);
     const std::vector<uint32_t> rgba = decoded(bytes).texels;
@@ -276,7 +276,7 @@ TEST(Ktx2, ABlockOfNoModeIsRefused) {
     EXPECT_EQ(id_of(ktx2_file(parts)), "67 E-IMG-CORRUPT");
 }
 
-/// Cut off anywhere, or with a byte changed: an error or a picture, and nothing worse.
+/// Cut off anywhere, or with a byte changed: an error or an image, never a crash.
 TEST(Ktx2, DamageIsFoundOrHarmless) {
     Ktx2Parts parts = plain(37, {1, 2, 3, 4});
     parts.key_values = {{"KTXorientation", "rd"}};

@@ -1,7 +1,7 @@
-// tests/image/memory_test.cpp - images that there is no memory for are errors, not crashes.
+// tests/image/memory_test.cpp - images too large for memory are errors, not crashes.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/decode.h"
-#include "image/test_pictures.h"
+#include "image/test_images.h"
 #include "image/write.h"
 
 #include <gtest/gtest.h>
@@ -12,35 +12,35 @@
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 using test::MemoryLimit;
 
 class ImageMemory : public FolderTest {};
 
 /// Values that do not compress.
-Picture noisy_picture(int side) {
+OutputImage noisy_image(int side) {
     const size_t count = static_cast<size_t>(side) * static_cast<size_t>(side);
-    Picture picture{side, side, {"R", "G", "B"}, {}};
+    OutputImage image{side, side, {"R", "G", "B"}, {}};
     Pcg32 random(1);
     for (size_t i = 0; i < 3 * count; ++i)
-        picture.pixels.push_back(random.next_float());
-    return picture;
+        image.pixels.push_back(random.next_float());
+    return image;
 }
 
 TEST_F(ImageMemory, ReadingAndWritingFailWithAnId) {
     const std::filesystem::path file = folder_ / "noise.exr";
-    Picture picture = noisy_picture(256);
+    OutputImage image = noisy_image(256);
     {
         const MemoryLimit limit(100000);
-        const auto written = write_picture(file, picture, {}, ExrDepth::float32, nullptr);
+        const auto written = write_image_file(file, image, {}, ExrDepth::float32, nullptr);
         ASSERT_FALSE(written);
         EXPECT_EQ(written.error().id, "E-OUT-MEMORY");
         EXPECT_EQ(written.error().code, ExitCode::out_of_memory);
     }
     EXPECT_FALSE(std::filesystem::exists(file));
-    picture.height = 128;
-    picture.pixels.resize(size_t{3} * 256 * 128);
-    ASSERT_TRUE(write_picture(file, picture, {}, ExrDepth::float32, nullptr));
+    image.height = 128;
+    image.pixels.resize(size_t{3} * 256 * 128);
+    ASSERT_TRUE(write_image_file(file, image, {}, ExrDepth::float32, nullptr));
     Log log(Verbosity::quiet);
     {
         const MemoryLimit limit(300000);

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace obscura::testing_pictures {
+namespace obscura::testing_images {
 
 using ByteVector = std::vector<std::byte>;
 
@@ -94,4 +94,4 @@ private:
     ByteVector png_;
 };
 
-}  // namespace obscura::testing_pictures
+}  // namespace obscura::testing_images

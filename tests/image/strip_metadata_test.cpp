@@ -3,14 +3,14 @@
 #include "image/strip_metadata.h"
 
 #include "image/decode.h"
-#include "image/test_pictures.h"
+#include "image/test_images.h"
 
 #include <gtest/gtest.h>
 
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 bool contains(const ByteVector& bytes, std::string_view text) {
     const std::string_view all(reinterpret_cast<const char*>(bytes.data()), bytes.size());

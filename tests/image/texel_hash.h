@@ -1,11 +1,11 @@
-// tests/image/texel_hash.h - one number for many texels, to compare with another program's.
+// tests/image/texel_hash.h - a hash of many texels, to compare with another program's.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <cstdint>
 #include <span>
 
-namespace obscura::testing_pictures {
+namespace obscura::testing_images {
 
 /// FNV-1a in 64 bits over the bytes of texels, R first; `seed`: the hash of those before.
 inline uint64_t texel_hash(std::span<const uint32_t> texels,
@@ -18,4 +18,4 @@ inline uint64_t texel_hash(std::span<const uint32_t> texels,
     return hash;
 }
 
-}  // namespace obscura::testing_pictures
+}  // namespace obscura::testing_images

@@ -1,4 +1,4 @@
-// tests/image/uastc_encoder.h - UASTC stated again, by its printed tables: blocks and texels.
+// tests/image/uastc_encoder.h - UASTC by its printed tables, independently: blocks and texels.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,9 +13,9 @@
 #include <string_view>
 #include <vector>
 
-namespace obscura::testing_pictures {
+namespace obscura::testing_images {
 
-struct UastcModeRow {
+struct UastcModeEntry {
     std::string_view code;  ///< lowest bit last
     int hint_bits;
     size_t colors;  ///< channels of an endpoint: 2 is luminance and alpha
@@ -28,25 +28,26 @@ struct UastcModeRow {
 };
 
 constexpr size_t uastc_solid_mode = 8;
-constexpr std::array<UastcModeRow, 19> uastc_mode_rows = {{{"0001", 15, 3, 1, 1, 3, 6, 4, 1},
-                                                           {"110101", 15, 3, 1, 1, 1, 8, 2, 1},
-                                                           {"11101", 15, 3, 2, 1, 1, 4, 3, 30},
-                                                           {"00011", 15, 3, 3, 1, 3, 2, 2, 11},
-                                                           {"10011", 15, 3, 2, 1, 5, 3, 2, 30},
-                                                           {"01011", 15, 3, 1, 1, 1, 8, 3, 1},
-                                                           {"11011", 15, 3, 1, 2, 5, 5, 2, 1},
-                                                           {"00111", 15, 3, 2, 1, 5, 3, 2, 19},
-                                                           {"10111", 0, 4, 1, 1, 1, 8, 0, 1},
-                                                           {"01111", 23, 4, 2, 1, 1, 4, 2, 30},
-                                                           {"010", 17, 4, 1, 1, 3, 4, 4, 1},
-                                                           {"00", 17, 4, 1, 2, 3, 4, 2, 1},
-                                                           {"110", 17, 4, 1, 1, 3, 6, 3, 1},
-                                                           {"11111", 23, 4, 1, 2, 1, 8, 1, 1},
-                                                           {"01101", 23, 4, 1, 1, 1, 8, 2, 1},
-                                                           {"0000101", 23, 2, 1, 1, 1, 8, 4, 1},
-                                                           {"010101", 23, 2, 2, 1, 1, 8, 2, 30},
-                                                           {"100101", 23, 2, 1, 2, 1, 8, 2, 1},
-                                                           {"1001", 15, 3, 1, 1, 1, 5, 5, 1}}};
+constexpr std::array<UastcModeEntry, 19> uastc_mode_entries = {
+    {{"0001", 15, 3, 1, 1, 3, 6, 4, 1},
+     {"110101", 15, 3, 1, 1, 1, 8, 2, 1},
+     {"11101", 15, 3, 2, 1, 1, 4, 3, 30},
+     {"00011", 15, 3, 3, 1, 3, 2, 2, 11},
+     {"10011", 15, 3, 2, 1, 5, 3, 2, 30},
+     {"01011", 15, 3, 1, 1, 1, 8, 3, 1},
+     {"11011", 15, 3, 1, 2, 5, 5, 2, 1},
+     {"00111", 15, 3, 2, 1, 5, 3, 2, 19},
+     {"10111", 0, 4, 1, 1, 1, 8, 0, 1},
+     {"01111", 23, 4, 2, 1, 1, 4, 2, 30},
+     {"010", 17, 4, 1, 1, 3, 4, 4, 1},
+     {"00", 17, 4, 1, 2, 3, 4, 2, 1},
+     {"110", 17, 4, 1, 1, 3, 6, 3, 1},
+     {"11111", 23, 4, 1, 2, 1, 8, 1, 1},
+     {"01101", 23, 4, 1, 1, 1, 8, 2, 1},
+     {"0000101", 23, 2, 1, 1, 1, 8, 4, 1},
+     {"010101", 23, 2, 2, 1, 1, 8, 2, 30},
+     {"100101", 23, 2, 1, 2, 1, 8, 2, 1},
+     {"1001", 15, 3, 1, 1, 1, 5, 5, 1}}};
 
 /// Texels of the second subset as bits, the first texel lowest: modes 2, 4, 9, 16.
 constexpr std::array<uint16_t, 30> uastc_masks_two = {
@@ -90,12 +91,12 @@ inline size_t uastc_subset(size_t mode, size_t pattern, size_t texel) {
         const uint32_t mask = uastc_masks_three[pattern] >> texel;
         return (mask & 1U) != 0 ? 1 : (mask >> 16 & 1U) != 0 ? 2 : 0;
     }
-    if (uastc_mode_rows[mode].subsets == 1) return 0;
+    if (uastc_mode_entries[mode].subsets == 1) return 0;
     const uint32_t mask = mode == 7 ? uastc_masks_two_of_mode_7[pattern] : uastc_masks_two[pattern];
     return mask >> texel & 1U;
 }
 
-/// Everything that a block says, before it is packed.
+/// The contents of a block before it is packed.
 struct UastcNumbers {
     size_t mode = 0;
     size_t pattern = 0;
@@ -115,27 +116,27 @@ inline bool uastc_is_anchor(const UastcNumbers& numbers, size_t texel) {
 }
 
 inline std::vector<std::byte> uastc_block(const UastcNumbers& numbers) {
-    const UastcModeRow& row = uastc_mode_rows[numbers.mode];
+    const UastcModeEntry& entry = uastc_mode_entries[numbers.mode];
     BitWriter out;
-    out.put_code(std::string(row.code.rbegin(), row.code.rend()));
-    out.put(0x5A5A5A, row.hint_bits);
-    if (row.patterns > 1) out.put(numbers.pattern, numbers.mode == 3 ? 4 : 5);
-    if (row.planes == 2 && row.colors > 2) out.put(numbers.apart, 2);
-    const size_t group = row.base == 3 ? 5 : 3;
-    for (size_t first = 0; row.base > 1 && first < numbers.digits.size(); first += group) {
+    out.put_code(std::string(entry.code.rbegin(), entry.code.rend()));
+    out.put(0x5A5A5A, entry.hint_bits);
+    if (entry.patterns > 1) out.put(numbers.pattern, numbers.mode == 3 ? 4 : 5);
+    if (entry.planes == 2 && entry.colors > 2) out.put(numbers.apart, 2);
+    const size_t group = entry.base == 3 ? 5 : 3;
+    for (size_t first = 0; entry.base > 1 && first < numbers.digits.size(); first += group) {
         const size_t count = std::min(group, numbers.digits.size() - first);
         uint64_t packed = 0, combinations = 1;
         for (size_t i = 0; i < count; ++i) {
             packed += combinations * numbers.digits[first + i];
-            combinations *= static_cast<uint64_t>(row.base);
+            combinations *= static_cast<uint64_t>(entry.base);
         }
         out.put(packed, static_cast<int>(std::ceil(std::log2(combinations))));
     }
     for (const uint32_t low : numbers.low_bits)
-        out.put(low, row.bits);
+        out.put(low, entry.bits);
     for (size_t i = 0; i < 16; ++i) {
-        for (size_t plane = 0; plane < static_cast<size_t>(row.planes); ++plane) {
-            const int stored = row.weight_bits - (uastc_is_anchor(numbers, i) ? 1 : 0);
+        for (size_t plane = 0; plane < static_cast<size_t>(entry.planes); ++plane) {
+            const int stored = entry.weight_bits - (uastc_is_anchor(numbers, i) ? 1 : 0);
             out.put(numbers.weights[i][plane], stored);
         }
     }
@@ -145,7 +146,7 @@ inline std::vector<std::byte> uastc_block(const UastcNumbers& numbers) {
 }
 
 /// An endpoint on 0..255, by the bit patterns of ASTC's table: a is the lowest stored bit.
-inline uint32_t astc_endpoint(const UastcModeRow& row, uint32_t digit, uint32_t low) {
+inline uint32_t astc_endpoint(const UastcModeEntry& entry, uint32_t digit, uint32_t low) {
     struct Parameters {
         int base;
         int bits;
@@ -161,11 +162,11 @@ inline uint32_t astc_endpoint(const UastcModeRow& row, uint32_t digit, uint32_t 
                                            {1, 5, "edcbaedc", 0},
                                            {1, 8, "hgfedcba", 0}};
     for (const Parameters& parameters : table) {
-        if (parameters.base != row.base || parameters.bits != row.bits) continue;
+        if (parameters.base != entry.base || parameters.bits != entry.bits) continue;
         uint32_t b = 0;
         for (const char bit : parameters.b)
             b = b << 1 | (bit == '0' ? 0 : low >> (bit - 'a') & 1U);
-        if (row.base == 1) return b;
+        if (entry.base == 1) return b;
         const uint32_t a = (low & 1U) != 0 ? 0x1FF : 0;
         return (a & 0x80U) | (((digit * parameters.c + b) ^ a) >> 2);
     }
@@ -190,21 +191,21 @@ inline uint32_t uastc_expected(const UastcNumbers& numbers,
                                size_t texel,
                                size_t channel,
                                bool srgb) {
-    const UastcModeRow& row = uastc_mode_rows[numbers.mode];
-    const size_t stored = row.colors > 2 ? channel : channel / 3;  // luminance, alpha
-    if (stored >= row.colors) return 255;
+    const UastcModeEntry& entry = uastc_mode_entries[numbers.mode];
+    const size_t stored = entry.colors > 2 ? channel : channel / 3;  // luminance, alpha
+    if (stored >= entry.colors) return 255;
     const size_t subset = uastc_subset(numbers.mode, numbers.pattern, texel);
-    const size_t at = 2 * (subset * row.colors + stored);
+    const size_t at = 2 * (subset * entry.colors + stored);
     double ends[2];
     for (size_t i = 0; i < 2; ++i) {
-        const uint32_t digit = row.base > 1 ? numbers.digits[at + i] : 0;
-        const double end = astc_endpoint(row, digit, numbers.low_bits[at + i]);
+        const uint32_t digit = entry.base > 1 ? numbers.digits[at + i] : 0;
+        const double end = astc_endpoint(entry, digit, numbers.low_bits[at + i]);
         ends[i] = srgb && channel < 3 ? 256 * end + 128 : 257 * end;
     }
-    const size_t plane = row.planes == 2 && channel == numbers.apart ? 1 : 0;
-    const double weight = astc_weight(row.weight_bits, numbers.weights[texel][plane]);
+    const size_t plane = entry.planes == 2 && channel == numbers.apart ? 1 : 0;
+    const double weight = astc_weight(entry.weight_bits, numbers.weights[texel][plane]);
     const double mixed = std::floor((ends[0] * (64 - weight) + ends[1] * weight + 32) / 64);
     return static_cast<uint32_t>(mixed / 256);
 }
 
-}  // namespace obscura::testing_pictures
+}  // namespace obscura::testing_images

@@ -14,7 +14,7 @@
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 using Block = std::span<const std::byte, uastc_block_bytes>;
 
@@ -37,16 +37,16 @@ private:
 
 /// A block of random bits, with the mode's code and a pattern that exists.
 std::array<std::byte, uastc_block_bytes> random_block(size_t mode, SplitMix& random) {
-    const UastcModeRow& row = uastc_mode_rows[mode];
+    const UastcModeEntry& entry = uastc_mode_entries[mode];
     uint64_t low = random.next();
     const uint64_t high = random.next();
-    const int code_bits = static_cast<int>(row.code.size());
-    low = low >> code_bits << code_bits | std::stoull(std::string(row.code), nullptr, 2);
-    if (row.patterns > 1) {
-        const int at = code_bits + row.hint_bits;
+    const int code_bits = static_cast<int>(entry.code.size());
+    low = low >> code_bits << code_bits | std::stoull(std::string(entry.code), nullptr, 2);
+    if (entry.patterns > 1) {
+        const int at = code_bits + entry.hint_bits;
         const uint64_t mask = (mode == 3 ? 15ULL : 31ULL) << at;
         const uint64_t pattern = (low & mask) >> at;
-        low = (low & ~mask) | pattern % row.patterns << at;
+        low = (low & ~mask) | pattern % entry.patterns << at;
     }
     std::array<std::byte, uastc_block_bytes> bytes = {};
     for (size_t i = 0; i < 8; ++i) {
@@ -100,18 +100,19 @@ uint32_t below(uint32_t end, SplitMix& random) {
 }
 
 UastcNumbers random_numbers(size_t mode, SplitMix& random) {
-    const UastcModeRow& row = uastc_mode_rows[mode];
+    const UastcModeEntry& entry = uastc_mode_entries[mode];
     UastcNumbers numbers;
     numbers.mode = mode;
-    numbers.pattern = random.next() % row.patterns;
-    if (row.planes == 2 && row.colors > 2) numbers.apart = random.next() % 4;
-    const size_t values = 2 * row.colors * row.subsets;
+    numbers.pattern = random.next() % entry.patterns;
+    if (entry.planes == 2 && entry.colors > 2) numbers.apart = random.next() % 4;
+    const size_t values = 2 * entry.colors * entry.subsets;
     for (size_t i = 0; i < values; ++i) {
-        if (row.base > 1) numbers.digits.push_back(below(static_cast<uint32_t>(row.base), random));
-        numbers.low_bits.push_back(below(1U << row.bits, random));
+        if (entry.base > 1)
+            numbers.digits.push_back(below(static_cast<uint32_t>(entry.base), random));
+        numbers.low_bits.push_back(below(1U << entry.bits, random));
     }
     for (size_t i = 0; i < 16; ++i) {
-        const int bits = row.weight_bits - (uastc_is_anchor(numbers, i) ? 1 : 0);
+        const int bits = entry.weight_bits - (uastc_is_anchor(numbers, i) ? 1 : 0);
         for (uint32_t& weight : numbers.weights[i])
             weight = below(1U << bits, random);
     }
@@ -120,7 +121,7 @@ UastcNumbers random_numbers(size_t mode, SplitMix& random) {
 
 TEST(Uastc, EveryModeFollowsAstcsFormulas) {
     SplitMix random(1);
-    for (size_t mode = 0; mode < uastc_mode_rows.size(); ++mode) {
+    for (size_t mode = 0; mode < uastc_mode_entries.size(); ++mode) {
         if (mode == uastc_solid_mode) continue;
         for (int repeat = 0; repeat < 100; ++repeat) {
             const UastcNumbers numbers = random_numbers(mode, random);
@@ -174,11 +175,11 @@ TEST(Uastc, WhatDoesNotExistIsRefused) {
     bytes[0] = std::byte{0b1000101};  // reserved
     EXPECT_FALSE(decode_uastc_block(bytes, false, texels));
     for (const size_t mode : {2U, 3U, 4U, 7U, 9U, 16U}) {
-        const UastcModeRow& row = uastc_mode_rows[mode];
+        const UastcModeEntry& entry = uastc_mode_entries[mode];
         BitWriter out;
-        out.put_code(std::string(row.code.rbegin(), row.code.rend()));
-        out.put(0, row.hint_bits);
-        out.put(row.patterns, mode == 3 ? 4 : 5);
+        out.put_code(std::string(entry.code.rbegin(), entry.code.rend()));
+        out.put(0, entry.hint_bits);
+        out.put(entry.patterns, mode == 3 ? 4 : 5);
         std::vector<std::byte> block = out.bytes();
         block.resize(uastc_block_bytes);
         EXPECT_FALSE(decode_uastc_block(Block(block), false, texels)) << mode;

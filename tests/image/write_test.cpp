@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "image/decode.h"
-#include "image/test_pictures.h"
+#include "image/test_images.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
@@ -25,24 +25,24 @@
 namespace obscura {
 namespace {
 
-using namespace testing_pictures;
+using namespace testing_images;
 
 /// Values that half holds exactly, some above 1 and some negative.
-Picture picture_of(int width, int height, std::vector<std::string> channels) {
-    Picture picture{width, height, std::move(channels), {}};
+OutputImage image_of(int width, int height, std::vector<std::string> channels) {
+    OutputImage image{width, height, std::move(channels), {}};
     const size_t count = static_cast<size_t>(width) * static_cast<size_t>(height);
-    for (size_t i = 0; i < count * picture.channels.size(); ++i) {
-        picture.pixels.push_back(static_cast<float>(i % 2000) / 64 - 1);
+    for (size_t i = 0; i < count * image.channels.size(); ++i) {
+        image.pixels.push_back(static_cast<float>(i % 2000) / 64 - 1);
     }
-    return picture;
+    return image;
 }
 
-Picture one_pixel(std::vector<std::string> channels, UnsetArray<float> values) {
-    return Picture{1, 1, std::move(channels), std::move(values)};
+OutputImage one_pixel(std::vector<std::string> channels, UnsetArray<float> values) {
+    return OutputImage{1, 1, std::move(channels), std::move(values)};
 }
 
-PictureMetadata full_metadata() {
-    PictureMetadata metadata;
+ImageMetadata full_metadata() {
+    ImageMetadata metadata;
     metadata.software = "Obscura 0.1.0";
     metadata.asset = "Helmet.glb";
     metadata.copyright = "2016, someone";
@@ -79,21 +79,21 @@ std::string text_of(const Imf::Header& header, const char* name) {
     return attribute ? attribute->value() : "(no " + std::string(name) + ")";
 }
 
-class WritePicture : public FolderTest {
+class WriteImage : public FolderTest {
 protected:
     void write(const std::string& name,
-               const Picture& picture,
-               const PictureMetadata& metadata = full_metadata(),
+               const OutputImage& image,
+               const ImageMetadata& metadata = full_metadata(),
                ExrDepth depth = ExrDepth::half,
                const DisplayTransform* display = nullptr) {
         const Result<void> written =
-            write_picture(folder_ / name, picture, metadata, depth, display);
+            write_image_file(folder_ / name, image, metadata, depth, display);
         ASSERT_TRUE(written) << written.error().message;
     }
 
-    Error error_of(const std::filesystem::path& file, const Picture& picture) {
+    Error error_of(const std::filesystem::path& file, const OutputImage& image) {
         const Result<void> written =
-            write_picture(file, picture, full_metadata(), ExrDepth::half, nullptr);
+            write_image_file(file, image, full_metadata(), ExrDepth::half, nullptr);
         EXPECT_FALSE(written) << file;
         return written ? Error{} : written.error();
     }
@@ -114,10 +114,10 @@ protected:
     Log log_{Verbosity::quiet};
 };
 
-TEST_F(WritePicture, ExrKeepsEveryValueInBothDepths) {
-    const Picture picture = picture_of(37, 21, {"R", "G", "B", "A"});
+TEST_F(WriteImage, ExrKeepsEveryValueInBothDepths) {
+    const OutputImage image = image_of(37, 21, {"R", "G", "B", "A"});
     for (const ExrDepth depth : {ExrDepth::half, ExrDepth::float32}) {
-        write("out.exr", picture, full_metadata(), depth);
+        write("out.exr", image, full_metadata(), depth);
         Imf::InputFile file((folder_ / "out.exr").c_str());
         const Imf::Header& header = file.header();
         EXPECT_EQ(header.compression(), Imf::ZIP_COMPRESSION);
@@ -127,18 +127,18 @@ TEST_F(WritePicture, ExrKeepsEveryValueInBothDepths) {
         const auto channels = channels_of(file);
         ASSERT_EQ(channels.size(), 4U);
         for (size_t c = 0; c < 4; ++c) {
-            const std::string& name = picture.channels[c];
+            const std::string& name = image.channels[c];
             EXPECT_EQ(header.channels().findChannel(name)->type, type);
             for (size_t i = 0; i < channels.at(name).size(); ++i) {
-                ASSERT_EQ(channels.at(name)[i], picture.pixels[4 * i + c]) << name << " " << i;
+                ASSERT_EQ(channels.at(name)[i], image.pixels[4 * i + c]) << name << " " << i;
             }
         }
     }
 }
 
-TEST_F(WritePicture, ExrTellsWhereItComesFrom) {
-    const PictureMetadata metadata = full_metadata();
-    write("out.exr", picture_of(4, 4, {"R", "G", "B", "A"}), metadata);
+TEST_F(WriteImage, ExrTellsWhereItComesFrom) {
+    const ImageMetadata metadata = full_metadata();
+    write("out.exr", image_of(4, 4, {"R", "G", "B", "A"}), metadata);
     const Imf::InputFile file((folder_ / "out.exr").c_str());
     const Imf::Header& header = file.header();
     EXPECT_EQ(text_of(header, "Software"), "Obscura 0.1.0");
@@ -162,34 +162,32 @@ TEST_F(WritePicture, ExrTellsWhereItComesFrom) {
     }
 }
 
-TEST_F(WritePicture, DataAreNotCalledColour) {
-    PictureMetadata metadata;
+TEST_F(WriteImage, DataAreNotCalledColour) {
+    ImageMetadata metadata;
     metadata.is_color = false;
-    write("data.exr",
-          picture_of(4, 4, {"Z", "N.X", "N.Y", "N.Z", "id"}),
-          metadata,
-          ExrDepth::float32);
+    write(
+        "data.exr", image_of(4, 4, {"Z", "N.X", "N.Y", "N.Z", "id"}), metadata, ExrDepth::float32);
     Imf::InputFile file((folder_ / "data.exr").c_str());
     EXPECT_EQ(text_of(file.header(), "colorInteropID"), "data");
     EXPECT_FALSE(Imf::hasChromaticities(file.header()));
     EXPECT_EQ(file.header().findTypedAttribute<Imf::StringAttribute>("copyright"), nullptr);
     const auto channels = channels_of(file);
     EXPECT_EQ(channels.size(), 5U);
-    EXPECT_EQ(channels.at("N.Y")[1], picture_of(4, 4, {"Z", "N.X", "N.Y", "N.Z", "id"}).pixels[7]);
+    EXPECT_EQ(channels.at("N.Y")[1], image_of(4, 4, {"Z", "N.X", "N.Y", "N.Z", "id"}).pixels[7]);
 }
 
-TEST_F(WritePicture, HalfIsFiniteAndFloatKeepsEverything) {
+TEST_F(WriteImage, HalfIsFiniteAndFloatKeepsEverything) {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    const Picture picture = one_pixel({"R", "G", "B", "A"}, {1e6f, -infinity, nan, 65519.9f});
-    write("half.exr", picture);
+    const OutputImage image = one_pixel({"R", "G", "B", "A"}, {1e6f, -infinity, nan, 65519.9f});
+    write("half.exr", image);
     Imf::InputFile half_file((folder_ / "half.exr").c_str());
     auto values = channels_of(half_file);
     EXPECT_EQ(values["R"][0], 65504);
     EXPECT_EQ(values["G"][0], -65504);
     EXPECT_EQ(values["B"][0], 0);
     EXPECT_EQ(values["A"][0], 65504);
-    write("float.exr", picture, full_metadata(), ExrDepth::float32);
+    write("float.exr", image, full_metadata(), ExrDepth::float32);
     Imf::InputFile float_file((folder_ / "float.exr").c_str());
     values = channels_of(float_file);
     EXPECT_EQ(values["R"][0], 1e6f);
@@ -197,14 +195,14 @@ TEST_F(WritePicture, HalfIsFiniteAndFloatKeepsEverything) {
     EXPECT_TRUE(std::isnan(values["B"][0]));
 }
 
-TEST_F(WritePicture, AnyNumberOfThreadsWritesTheSameBytes) {
-    const Picture picture = picture_of(1024, 700, {"R", "G", "B", "A"});
+TEST_F(WriteImage, AnyNumberOfThreadsWritesTheSameBytes) {
+    const OutputImage image = image_of(1024, 700, {"R", "G", "B", "A"});
     const DisplayTransform display = display_of("ACES 1.0 SDR");
     for (const char* name : {"out.exr", "out.png", "out.jpg"}) {
         std::vector<ByteVector> files;
         for (const int threads : {1, 2, 7}) {
             const ThreadLimit limit(threads);
-            write(name, picture, full_metadata(), ExrDepth::half, &display);
+            write(name, image, full_metadata(), ExrDepth::half, &display);
             files.push_back(read_bytes(folder_ / name));
         }
         EXPECT_TRUE(files[0] == files[1]) << name;
@@ -212,11 +210,11 @@ TEST_F(WritePicture, AnyNumberOfThreadsWritesTheSameBytes) {
     }
 }
 
-TEST_F(WritePicture, PngHasStraightAlphaAndDisplayColour) {
-    const Picture picture{
+TEST_F(WriteImage, PngHasStraightAlphaAndDisplayColour) {
+    const OutputImage image{
         3, 1, {"R", "G", "B", "A"}, {0.25f, 0.1f, 0.05f, 0.5f, 1, 0.5f, 0, 1, 0.3f, 0.3f, 0.3f, 0}};
     const DisplayTransform display = display_of("Un-tone-mapped");
-    write("out.png", picture, full_metadata(), ExrDepth::half, &display);
+    write("out.png", image, full_metadata(), ExrDepth::half, &display);
     const auto code = [](double linear) {
         return static_cast<uint32_t>(
             std::lround(255 * (linear <= 0.0031308 ? 12.92 * linear
@@ -229,14 +227,14 @@ TEST_F(WritePicture, PngHasStraightAlphaAndDisplayColour) {
     EXPECT_EQ(found[2], 0U);
 }
 
-TEST_F(WritePicture, JpegLiesOverBlack) {
-    Picture picture{16, 16, {"R", "G", "B", "A"}, {}};
+TEST_F(WriteImage, JpegLiesOverBlack) {
+    OutputImage image{16, 16, {"R", "G", "B", "A"}, {}};
     for (int i = 0; i < 256; ++i) {
-        picture.pixels.insert(picture.pixels.end(), {0.25f, 0.5f, 0, 0.5f});
+        image.pixels.insert(image.pixels.end(), {0.25f, 0.5f, 0, 0.5f});
     }
     const DisplayTransform display = display_of("Raw");
     for (const char* name : {"out.jpg", "out.JPEG"}) {
-        write(name, picture, full_metadata(), ExrDepth::half, &display);
+        write(name, image, full_metadata(), ExrDepth::half, &display);
         for (const uint32_t texel : texels(name)) {
             EXPECT_NEAR(texel & 0xFF, 64, 2);
             EXPECT_NEAR(texel >> 8 & 0xFF, 128, 2);
@@ -245,24 +243,24 @@ TEST_F(WritePicture, JpegLiesOverBlack) {
     }
 }
 
-TEST_F(WritePicture, CodesAreRoundedAndClamped) {
-    Picture picture{256, 1, {"R", "G", "B"}, {}};
+TEST_F(WriteImage, CodesAreRoundedAndClamped) {
+    OutputImage image{256, 1, {"R", "G", "B"}, {}};
     for (int i = 0; i < 256; ++i) {
         const float code = static_cast<float>(i);
-        picture.pixels.insert(picture.pixels.end(),
-                              {code / 255, (code + 0.49f) / 255, (code - 0.49f) / 255});
+        image.pixels.insert(image.pixels.end(),
+                            {code / 255, (code + 0.49f) / 255, (code - 0.49f) / 255});
     }
-    picture.pixels[0] = -5;
-    picture.pixels[1] = std::numeric_limits<float>::quiet_NaN();
-    picture.pixels[3 * 255] = 7;
-    write("out.png", picture);
+    image.pixels[0] = -5;
+    image.pixels[1] = std::numeric_limits<float>::quiet_NaN();
+    image.pixels[3 * 255] = 7;
+    write("out.png", image);
     const std::vector<uint32_t> found = texels("out.png");
     for (uint32_t i = 0; i < 256; ++i)
         ASSERT_EQ(found[i], i | i << 8 | i << 16 | 0xFF000000U);
 }
 
-TEST_F(WritePicture, DataInAPngIgnoreTheDisplay) {
-    PictureMetadata metadata;
+TEST_F(WriteImage, DataInAPngIgnoreTheDisplay) {
+    ImageMetadata metadata;
     metadata.is_color = false;
     const DisplayTransform display = display_of("ACES 1.0 SDR");
     write("z.png", one_pixel({"Z"}, {0.5f}), metadata, ExrDepth::half, &display);
@@ -275,30 +273,30 @@ TEST_F(WritePicture, DataInAPngIgnoreTheDisplay) {
     EXPECT_EQ(texels("n.png"), std::vector{0xFFFF6633U});
 }
 
-TEST_F(WritePicture, OtherExtensionsAndChannelCountsAre64) {
-    const Picture picture = picture_of(2, 2, {"R", "G", "B"});
+TEST_F(WriteImage, OtherExtensionsAndChannelCountsAre64) {
+    const OutputImage image = image_of(2, 2, {"R", "G", "B"});
     for (const char* name : {"out.tiff", "out", "out.", ".exr", "exr", "out.exr.bak"}) {
         for (const Error& error :
-             {error_of(folder_ / name, picture), check_output(folder_ / name).error()}) {
+             {error_of(folder_ / name, image), check_output(folder_ / name).error()}) {
             EXPECT_EQ(error.code, ExitCode::usage) << name;
             EXPECT_EQ(error.id, "E-OUT-FORMAT");
             EXPECT_NE(error.message.find(".exr, .png, .jpg"), std::string::npos);
         }
     }
-    EXPECT_EQ(error_of(folder_ / "two.png", picture_of(2, 2, {"u", "v"})).id, "E-OUT-FORMAT");
-    EXPECT_EQ(error_of(folder_ / "five.jpg", picture_of(2, 2, {"a", "b", "c", "d", "e"})).id,
+    EXPECT_EQ(error_of(folder_ / "two.png", image_of(2, 2, {"u", "v"})).id, "E-OUT-FORMAT");
+    EXPECT_EQ(error_of(folder_ / "five.jpg", image_of(2, 2, {"a", "b", "c", "d", "e"})).id,
               "E-OUT-FORMAT");
     EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
-TEST_F(WritePicture, ImpossibleTargetsAre73FromBothSides) {
+TEST_F(WriteImage, ImpossibleTargetsAre73FromBothSides) {
     std::filesystem::create_directory(folder_ / "folder.exr");
-    const Picture picture = picture_of(2, 2, {"R", "G", "B"});
+    const OutputImage image = image_of(2, 2, {"R", "G", "B"});
     for (const std::filesystem::path& file : {folder_ / "absent" / "out.exr",
                                               folder_ / "folder.exr",
                                               folder_ / (std::string(300, 'n') + ".png"),
                                               std::filesystem::path("/proc/out.jpg")}) {
-        for (const Error& error : {error_of(file, picture), check_output(file).error()}) {
+        for (const Error& error : {error_of(file, image), check_output(file).error()}) {
             EXPECT_EQ(error.code, ExitCode::cannot_create) << file;
             EXPECT_EQ(error.id, "E-OUT-CREATE");
             EXPECT_EQ(error.where, file.string());
@@ -306,39 +304,40 @@ TEST_F(WritePicture, ImpossibleTargetsAre73FromBothSides) {
     }
 }
 
-TEST_F(WritePicture, CheckOutputAcceptsWhatCanBeWrittenAndLeavesNothing) {
+TEST_F(WriteImage, CheckOutputAcceptsWhatCanBeWrittenAndLeavesNothing) {
     for (const char* name : {"out.exr", "OUT.EXR", "a b.png", "x.jpg", "x.jpeg"}) {
         EXPECT_TRUE(check_output(folder_ / name)) << name;
     }
     EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
-TEST_F(WritePicture, AContradictoryPictureIs70) {
-    Picture short_of_pixels = picture_of(4, 4, {"R", "G", "B"});
+TEST_F(WriteImage, AContradictoryImageIs70) {
+    OutputImage short_of_pixels = image_of(4, 4, {"R", "G", "B"});
     short_of_pixels.pixels.pop_back();
-    for (const Picture& picture : {short_of_pixels, Picture{}, Picture{-1, -1, {"R"}, {1.0f}}}) {
-        const Error error = error_of(folder_ / "out.exr", picture);
+    for (const OutputImage& image :
+         {short_of_pixels, OutputImage{}, OutputImage{-1, -1, {"R"}, {1.0f}}}) {
+        const Error error = error_of(folder_ / "out.exr", image);
         EXPECT_EQ(error.code, ExitCode::internal);
         EXPECT_EQ(error.id, "E-OUT-ENCODE");
     }
     EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
-TEST_F(WritePicture, AFullDiskIs74AndTheOldPictureSurvives) {
+TEST_F(WriteImage, AFullDiskIs74AndTheOldImageSurvives) {
     const DisplayTransform display = display_of("Raw");
-    Picture large = picture_of(400, 400, {"R", "G", "B", "A"});
+    OutputImage large = image_of(400, 400, {"R", "G", "B", "A"});
     for (size_t i = 0; i < large.pixels.size(); ++i) {  // must not compress well
         large.pixels[i] = static_cast<float>(i * 2654435761U % 65521U) / 65521;
     }
     for (const char* name : {"out.exr", "out.png", "out.jpg"}) {
-        write(name, picture_of(2, 2, {"R", "G", "B"}));
+        write(name, image_of(2, 2, {"R", "G", "B"}));
         const ByteVector before = read_bytes(folder_ / name);
         rlimit limits = {};
         getrlimit(RLIMIT_FSIZE, &limits);
         const rlimit low{8192, limits.rlim_max};
         setrlimit(RLIMIT_FSIZE, &low);
         const Result<void> written =
-            write_picture(folder_ / name, large, full_metadata(), ExrDepth::half, &display);
+            write_image_file(folder_ / name, large, full_metadata(), ExrDepth::half, &display);
         setrlimit(RLIMIT_FSIZE, &limits);
         ASSERT_FALSE(written) << name;
         EXPECT_EQ(written.error().code, ExitCode::io_error);

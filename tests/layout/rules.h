@@ -1,4 +1,4 @@
-// tests/layout/rules.h - the house rules that a machine can check: who includes what, and how long.
+// tests/layout/rules.h - the machine-checked house rules: who includes what, and how long.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,7 +16,7 @@ inline constexpr size_t max_function_lines = 60;
 inline constexpr size_t max_columns = 100;
 inline constexpr size_t max_parameters = 5;
 
-/// The rooms in the order of the corridor: each may include itself and those before it.
+/// The rooms in order of data flow: each may include itself and those before it.
 inline constexpr std::array<std::string_view, 17> rooms{"base",
                                                         "math",
                                                         "shape",
@@ -65,7 +65,7 @@ inline constexpr std::array<Owner, 21> owners{
      {"obscura/", "session"},
      {"fmt/", "image session crosscheck explain bench app"}}};
 
-/// Headers that other rooms may include, of rooms so large that they have an inside.
+/// Public headers of rooms so large that they have an inside.
 struct PublicHeaders {
     std::string_view room;
     std::string_view headers;  ///< separated by spaces; relative to the room
@@ -81,12 +81,12 @@ inline constexpr std::array<PublicHeaders, 4> public_headers{
       "asset_files.h machine.h measure_load.h measure_view.h report.h report_json.h "
       "report_svg.h report_table.h compare.h"}}};
 
-/// What is known to break a rule and waits to be mended: "file: what". To be emptied, not filled.
+/// Known breaches of a rule, to be mended: "file: what". To be emptied, not filled.
 inline constexpr std::array<std::string_view, 2> not_yet_mended{
     "gltf/parse/model.cpp: `bool keep_image`",  // tinygltf calls it so
-    "surface/texture_row.h: `constexpr uint32_t pack_sampler`"};
+    "surface/texture_record.h: `constexpr uint32_t pack_sampler`"};
 
-/// What the operating system and the C library bring along: everybody's.
+/// Headers of the operating system and the C library: every room may include them.
 inline constexpr std::array<std::string_view, 15> system_headers{"dirent.h",
                                                                  "errno.h",
                                                                  "fcntl.h",
@@ -139,7 +139,7 @@ inline std::optional<std::string> check_quoted(const Include& include, std::stri
         return join({"\"", include.path, "\" does not begin with a room: write \"room/file.h\""});
     }
     if (*theirs <= room_number(room).value_or(0)) return check_public(include, room);
-    return join({room, " may not include ", other, ": that room is further down the corridor"});
+    return join({room, " may not include ", other, ": that room comes later"});
 }
 
 inline std::optional<std::string> check_angled(const Include& include, std::string_view room) {

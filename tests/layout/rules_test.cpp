@@ -58,7 +58,7 @@ TEST(LayoutIncludes, LibrariesStayInTheirRoom) {
     EXPECT_THAT(check_includes("base/parallel.cpp", "#include <tbb/parallel_for.h>\n"), IsEmpty());
     EXPECT_THAT(check_includes("render/tiles.cpp", "#include <tbb/parallel_for.h>\n"),
                 ElementsAre(HasSubstr("belongs to base, not to render")));
-    EXPECT_THAT(check_includes("stages/walk.cpp", "#include <embree4/rtcore.h>\n"),
+    EXPECT_THAT(check_includes("stages/wavefront.cpp", "#include <embree4/rtcore.h>\n"),
                 ElementsAre(HasSubstr("belongs to accel")));
     EXPECT_THAT(check_includes("surface/bsdf.h", "#include <xsimd/xsimd.hpp>\n"),
                 ElementsAre(HasSubstr("belongs to math")));
@@ -176,7 +176,7 @@ TEST(LayoutSizes, TypesNamespacesAndTablesMayBeLong) {
                                    "struct S : Base<int> {\n",
                                    "template <typename T> struct alignas(16) S {\n",
                                    "const std::array<int, size(3)> table = {\n",
-                                   "constexpr Row table[] = {\n"}) {
+                                   "constexpr Entry table[] = {\n"}) {
         EXPECT_THAT(check_sizes("a.cpp", head + rows + "};\n"), IsEmpty()) << head;
     }
 }

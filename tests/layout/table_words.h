@@ -7,8 +7,8 @@
 
 namespace obscura::layout {
 
-/// Refuses a literal number where a table's word is meant: row.integer(3), read3(row, 8), words(4).
-/// Elements of a named member are fine: row.number<&Record::size>(2).
+/// Refuses a literal number where a table's word is meant: record.integer(3), read3(record, 8),
+/// words(4). Elements of a named member are fine: record.number<&Record::size>(2).
 inline Problems check_table_words(std::string_view file, std::string_view text) {
     static const std::regex by_number(
         R"((\.(one_integer|varying_integer|integer|number|four_numbers)\s*\(\s*[0-9])"
@@ -24,7 +24,7 @@ inline Problems check_table_words(std::string_view file, std::string_view text) 
                                    {"`",
                                     found.str(),
                                     "`: read a table's member by its name, as in ",
-                                    "row.number<&Material::roughness>()"}));
+                                    "record.number<&Material::roughness>()"}));
     }
     return problems;
 }

@@ -31,7 +31,7 @@ std::vector<double> shares_of(const std::vector<CdfEntry>& table) {
     return cdf_probabilities(std::span<const CdfEntry>(table));
 }
 
-/// Smallest share of the random numbers that an index can have.
+/// Smallest fraction of the random numbers that an index can have.
 constexpr double grain = 0x1p-32;
 
 double sum_of(const std::vector<double>& values) {
@@ -82,7 +82,7 @@ TEST(CdfTable, TheFaintestEntryIsStillReached) {
         EXPECT_GE(got[i], grain) << i;
 }
 
-/// The steps that faint indices need must not be taken from a brighter neighbour.
+/// Faint indices must not take the steps that they need from a brighter neighbour.
 TEST(CdfTable, TheRimOfASunKeepsItsShare) {
     std::vector<double> weights(1000, 1.0);
     weights[500] = 1e6;
@@ -138,7 +138,7 @@ TEST(CdfTable, IndicesAreDrawnByTheirShares) {
     EXPECT_FALSE(wrong.passes(0.01)) << wrong;
 }
 
-/// Sampler and cdf_probabilities agree to the single random number, at every border.
+/// Sampler and cdf_probabilities agree to the single random number at every boundary.
 TEST(CdfTable, ProbabilitiesCountEveryRandomNumber) {
     const std::vector<CdfEntry> table = table_for(random_weights(7, 5));
     const auto index_of = [&](uint32_t random) {
@@ -146,7 +146,7 @@ TEST(CdfTable, ProbabilitiesCountEveryRandomNumber) {
     };
     std::vector<double> counted(7, 0.0);
     uint64_t begin = 0;
-    while (begin < 0x100000000U) {  // the runs of equal index, each end found by halving
+    while (begin < 0x100000000U) {  // runs of equal index, each end found by bisection
         const int32_t index = index_of(static_cast<uint32_t>(begin));
         uint64_t step = uint64_t{1} << 32;
         uint64_t last = begin;

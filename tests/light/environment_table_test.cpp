@@ -78,7 +78,7 @@ TEST(EnvironmentTable, EstimatorFindsTheWholeMap) {
     }
 }
 
-/// The pixel of a sample is one of the four that a look-up mixes there, with the same density.
+/// A sample's pixel is one of the four that a look-up mixes there, with the same density.
 TEST(EnvironmentTable, SamplesAgreeWithLookUps) {
     for (const TestMap& map : maps()) {
         const EnvironmentTable table = table_of(map, 33);
@@ -99,7 +99,7 @@ TEST(EnvironmentTable, SamplesAgreeWithLookUps) {
     }
 }
 
-/// Random numbers from a grid: each pixel of a cell gets its weight's share of them.
+/// Random numbers from a grid: each pixel of a cell gets a fraction equal to its weight.
 TEST(EnvironmentTable, OnePixelOfACellIsDrawnByItsWeight) {
     constexpr uint32_t side = 256;
     const EnvironmentTable table = table_of(maps()[0], 33);

@@ -22,7 +22,7 @@ Vec3<F> as(const Vec3d& v) {
     return {static_cast<F>(v.x), static_cast<F>(v.y), static_cast<F>(v.z)};
 }
 
-/// The formula of the design, in double and pixel by pixel, written apart from the code.
+/// The formula of the design, in double and pixel by pixel, independent of the code.
 Vec3d reference_radiance(const TestMap& map, const Vec3d& d) {
     const double u = std::atan2(d.z, d.x) / (2 * pi_d) + 0.5;
     const double v = std::acos(std::clamp(d.y, -1.0, 1.0)) / pi_d;

@@ -31,7 +31,7 @@ LightProfile uneven_profile() {
     return profile;
 }
 
-/// Aimed down, the zero axis along +X: as EXT_lights_ies has it after a turn of -90 degrees about
+/// Aimed down, the zero axis along +X: as in EXT_lights_ies after a rotation of -90 degrees about
 /// X.
 ProfileAxes<double> lamp_axes() {
     return {{0, -1, 0}, {1, 0, 0}};
@@ -113,18 +113,18 @@ TEST(LightProfile, LumensAreTheIntegralOverAllDirections) {
 
     const LightProfile profile = uneven_profile();
     double sum = 0;
-    constexpr int rows = 720;
+    constexpr int records = 720;
     constexpr int columns = 720;
     const LightProfileTable table = pack_light_profiles({&profile, 1});
-    for (int y = 0; y < rows; ++y) {
+    for (int y = 0; y < records; ++y) {
         for (int x = 0; x < columns; ++x) {
-            const double polar = 180.0 * (y + 0.5) / rows;
+            const double polar = 180.0 * (y + 0.5) / records;
             const Vec3d d = lamp_direction(polar, 360.0 * (x + 0.5) / columns);
             sum +=
                 profile_candela<double>(table.view(), 0, lamp_axes(), d) * std::sin(polar * degree);
         }
     }
-    sum *= pi_d / rows * 2 * pi_d / columns;
+    sum *= pi_d / records * 2 * pi_d / columns;
     EXPECT_NEAR(profile_lumens(profile) / sum, 1, 1e-5);
 }
 
@@ -152,7 +152,7 @@ TEST(LightProfile, StaysFiniteAtTheLampAndOnItsAxis) {
         const auto s = sample_punctual<float>(&lamp, 0, from, table.view());
         EXPECT_TRUE(std::isfinite(s.irradiance.x) && s.irradiance.x >= 0);
     }
-    EXPECT_EQ(LightProfileTable().view().rows, nullptr);
+    EXPECT_EQ(LightProfileTable().view().records, nullptr);
 }
 
 }  // namespace

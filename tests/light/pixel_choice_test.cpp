@@ -1,4 +1,4 @@
-// tests/light/pixel_choice_test.cpp - drawing a pixel: probabilities, places, odd maps, lanes.
+// tests/light/pixel_choice_test.cpp - drawing a pixel: probabilities, positions, odd maps, lanes.
 // SPDX-License-Identifier: Apache-2.0
 #include "light/pixel_choice.h"
 
@@ -12,7 +12,7 @@
 namespace obscura {
 namespace {
 
-/// A map's weights with its tables, and the probabilities that they tell.
+/// A map's weights with its tables, and the resulting probabilities.
 struct Choice {
     int width, height;
     std::vector<double> weights, told;
@@ -75,7 +75,7 @@ TEST(PixelChoice, ProbabilitiesFollowTheWeights) {
     }
 }
 
-/// One pixel outshines all others by far: they are still found, and told right.
+/// One pixel outshines all others by far: they are still drawn, with the right probability.
 TEST(PixelChoice, TheFaintestPixelIsStillReached) {
     std::vector<double> weights(64 * 40, 1.0);
     weights[1000] = 1e12;
@@ -95,7 +95,7 @@ TEST(PixelChoice, BlackMapsDrawPixelsOfTheMap) {
     }
 }
 
-/// Pixels, and within a pixel sixteen equal parts of what is left of both numbers.
+/// Draws pixels, and within a pixel sixteen equal parts of what is left of both numbers.
 TEST(PixelChoice, PixelAndRemainderAreIndependentAndRight) {
     constexpr int samples = 2000000;
     const Choice choice = random_choice(21, 13, 6);
@@ -144,8 +144,8 @@ TEST(PixelChoice, BordersLeadToPixelsThatAreThere) {
     }
 }
 
-/// Neighbouring numbers stay together: equal parts of the first number lead to compact parts of an
-/// even map.
+/// Neighbouring numbers stay together: equal intervals of the first number lead to compact regions
+/// of an even map.
 TEST(PixelChoice, EqualPartsOfTheNumbersAreCompact) {
     constexpr uint32_t parts = 64;  // of 32 x 16 pixels each, were they rectangles
     const Choice choice(256, 128, std::vector<double>(256 * 128, 1.0));

@@ -6,23 +6,23 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include "support/random.h"
 #include <span>
 
 namespace obscura::test {
 
-/// Random ones of the lights at random places within 2 m of the origin's planes.
+/// Random choices of the lights, at random positions within 2 m of the origin's planes.
 ///
-/// In   tolerance: of the irradiance, against one more than itself
+/// In   tolerance: of the irradiance, relative to one plus its size
 inline void expect_lanes_agree(std::span<const PunctualLight> lights,
                                const LightProfileView& profiles,
                                double tolerance) {
     constexpr int rounds = 500;
     Pcg32 random(3);
     for (int round = 0; round < rounds; ++round) {
-        LaneRow<int32_t> index;
-        std::array<LaneRow<float>, 3> from;
+        LaneArray<int32_t> index;
+        std::array<LaneArray<float>, 3> from;
         for (size_t i = 0; i < index.size(); ++i) {
             index[i] = static_cast<int32_t>(random.next_uint() % lights.size());
             for (auto& number : from)
@@ -39,9 +39,9 @@ inline void expect_lanes_agree(std::span<const PunctualLight> lights,
                 lights.data(), index[i], {place.x, place.y, place.z}, profiles);
             const auto f = sample_punctual<float>(lights.data(), index[i], place, profiles);
             const double room = tolerance * (1 + d.irradiance.x);
-            EXPECT_NEAR(row_of(lanes.irradiance.x)[i], d.irradiance.x, room);
+            EXPECT_NEAR(lane_array(lanes.irradiance.x)[i], d.irradiance.x, room);
             EXPECT_NEAR(f.irradiance.x, d.irradiance.x, room);
-            EXPECT_NEAR(row_of(lanes.direction.y)[i], d.direction.y, 1e-6);
+            EXPECT_NEAR(lane_array(lanes.direction.y)[i], d.direction.y, 1e-6);
         }
     }
 }

@@ -19,7 +19,7 @@ PunctualLight point_light() {
     return light;
 }
 
-/// As the extension defines it, from the two cone angles.
+/// The extension's definition, from the two cone angles.
 PunctualLight spot_light(double inner_rad, double outer_rad) {
     PunctualLight light = point_light();
     light.type = static_cast<int32_t>(PunctualType::spot);

@@ -1,10 +1,10 @@
-// tests/math/exact_test.cpp - sums and products keep what rounding takes away.
+// tests/math/exact_test.cpp - exact sums and products keep what rounding discards.
 // SPDX-License-Identifier: Apache-2.0
 #include "math/exact.h"
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include "support/random.h"
 #include <cmath>
 

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include "support/random.h"
 #include <cmath>
 #include <limits>
@@ -22,7 +22,7 @@ using test::make_lanes;
 using test::make_mask;
 using test::same_number;
 
-/// Numbers on which implementations like to differ.
+/// Numbers on which implementations tend to differ.
 const std::vector<float>& odd_floats() {
     constexpr float infinity = std::numeric_limits<float>::infinity();
     static const std::vector<float> values = {
@@ -345,7 +345,7 @@ TEST(Lanes, GatherReadsEachLanesOwnEntry) {
 TEST(Lanes, PackerKeepsOrderForEveryMask) {
     const Lanes a = make_lanes([](int i) { return 100.0F + static_cast<float>(i); });
     for (uint32_t bits = 0; bits < 1U << lane_count; ++bits) {
-        const auto packed = test::row_of(Packer(make_mask(bits))(a));
+        const auto packed = test::lane_array(Packer(make_mask(bits))(a));
         size_t next = 0;
         for (int i = 0; i < lane_count; ++i) {
             if ((bits >> i & 1U) == 0) continue;

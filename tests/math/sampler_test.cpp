@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/chi_square.h"
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include <cmath>
 #include <set>
 #include <vector>
@@ -90,7 +90,7 @@ TEST(Sampler, EachSampleIsUniformOverThePixels) {
     }
 }
 
-/// Two numbers that ought to have nothing to do with each other, as one point.
+/// Two numbers that should be independent, as one point.
 template <typename First, typename Second>
 void expect_independent(const First& first, const Second& second, const char* what) {
     constexpr int count = 1 << 17;
@@ -130,7 +130,7 @@ TEST(Sampler, DifferentPixelsAreIndependent) {
 }
 
 TEST(Sampler, SamplesOfDifferentPairsMixWithinAPixel) {
-    // Points made of two pairs' first numbers: shuffles that were alike would draw lines.
+    // Points from two pairs' first numbers: equal shuffles would draw lines.
     constexpr uint32_t samples = 1024;
     constexpr double cells = 64;
     double worst = 0;
@@ -166,8 +166,8 @@ TEST(Sampler, SeedPixelAndPairAllMatter) {
     EXPECT_EQ(values.size(), 100U);
 }
 
-TEST(Sampler, NoSeedIsAnotherSeedsPictureMoved) {
-    // Averages of pictures with seeds 0, 1, 2 ... would have correlated neighbours.
+TEST(Sampler, NoSeedIsAnotherSeedsImageMoved) {
+    // Averages of images with seeds 0, 1, 2 ... would have correlated neighbours.
     std::set<uint32_t> keys;
     for (uint32_t seed = 0; seed < 16; ++seed) {
         for (uint32_t x = 0; x < 64; ++x) {

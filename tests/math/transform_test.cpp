@@ -1,10 +1,10 @@
-// tests/math/transform_test.cpp - affine maps, their inverses, and what they do to normals.
+// tests/math/transform_test.cpp - affine maps, their inverses, and their effect on normals.
 // SPDX-License-Identifier: Apache-2.0
 #include "math/transform.h"
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include "support/random.h"
 #include <cmath>
 
@@ -33,8 +33,8 @@ Affined turn(int axis, double angle) {
     return a;
 }
 
-/// Turn, uneven scale (mirrored half of the time), turn, move. The product of scales goes to
-/// `volume`.
+/// Rotation, uneven scale (mirrored half of the time), rotation, translation. The product of scales
+/// goes to `volume`.
 Affined random_affine(Pcg32& random, double& volume) {
     Affined scale;
     volume = 1;

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include "support/random.h"
 #include <cmath>
 #include <vector>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/enclosed_lights.h"
 
-#include "support/wall_scenes.h"
+#include "support/thin_wall_scenes.h"
 #include <gmock/gmock.h>
 #include <optional>
 
@@ -96,7 +96,7 @@ TEST(EnclosedLights, BulbsOfGlassAndHolesLetLightOut) {
 TEST(EnclosedLights, ARoomThatHoldsTheCameraEnclosesNothing) {
     const Fixture room{.material = two_sided(), .radius = 9, .inward = true};
     EXPECT_THAT(enclosing_nodes(lamp_in(room)), IsEmpty());
-    // No floor in the way: all of the lamp's light ends at the room.
+    // Without a floor in the way all of the lamp's light stays inside the room.
     SceneBuilder builder;
     builder.sphere({0, 1, 0}, 9, 12, builder.material(two_sided()), true);
     Scene bare = builder.take();
@@ -105,7 +105,7 @@ TEST(EnclosedLights, ARoomThatHoldsTheCameraEnclosesNothing) {
     EXPECT_THAT(enclosing_nodes(Scene(bare), {0, 1, 20}), ElementsAre(0));
 }
 
-/// Through its single-sided near wall the camera sees what the lamp lights.
+/// Through its single-sided near wall the camera sees the surfaces that the lamp lights.
 TEST(EnclosedLights, RoomsSeenFromOutsideEncloseNothing) {
     const Fixture room{.radius = 0.5f, .inward = true};
     EXPECT_THAT(enclosing_nodes(lamp_in(room)), IsEmpty());

@@ -1,4 +1,4 @@
-// tests/render/film_rows_test.cpp - sample rows come to their pixels, however the film is written.
+// tests/render/film_rows_test.cpp - sample columns reach their pixels, however the film is written.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/film_rows.h"
 
@@ -26,7 +26,7 @@ struct Tile {
             }
         }
     }
-    /// Leaves the first ones out, as where a tile is rendered in parts.
+    /// Leaves out the first ones, as when a tile is rendered in parts.
     Tile from(size_t first) const {
         Tile rest = *this;
         rest.x.erase(rest.x.begin(), rest.x.begin() + static_cast<std::ptrdiff_t>(first));
@@ -44,7 +44,7 @@ void expect_written(int width, int height, size_t channels, const Tile& tile) {
         for (size_t i = 0; i < tile.x.size(); ++i)
             columns[c].push_back(static_cast<float>(4 * i + c));
     }
-    const SampleRows samples{
+    const SampleColumns samples{
         columns[0].data(), columns[1].data(), columns[2].data(), columns[3].data()};
     write_film(samples, tile.pixels(), film);
     for (size_t i = 0; i < tile.x.size(); ++i) {

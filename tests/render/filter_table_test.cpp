@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/filter_table.h"
 
-#include "stages/doors.h"
+#include "stages/path_state.h"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +75,7 @@ TEST_P(FilterTable, EntriesLieWhereTheClosedFormPutsThem) {
     }
 }
 
-/// As the camera stage reads it: linearly between entries.
+/// Reads as the camera stage does: linearly between entries.
 TEST_P(FilterTable, ItsHistogramIsTheFilter) {
     ASSERT_EQ(table_.size(), last + 1);
     constexpr int bins = 60;
@@ -95,7 +95,7 @@ TEST_P(FilterTable, ItsHistogramIsTheFilter) {
         const double low = radius * (2.0 * bin / bins - 1);
         const double high = radius * (2.0 * (bin + 1) / bins - 1);
         const double expected = GetParam().cdf(high) - GetParam().cdf(low);
-        // Within an entry the density is level; entries are wide in the tails only.
+        // Within an entry the density is constant; entries are wide only in the tails.
         const bool tail = std::max(-low, high) > 0.6 * radius;
         const double bound = tail ? 1e-3 : 0.02 * expected;
         EXPECT_NEAR(share[static_cast<size_t>(bin)], expected, bound) << "from " << low;

@@ -1,4 +1,4 @@
-// tests/render/integrators_test.cpp - every integrator delivers the channels that its row names.
+// tests/render/integrators_test.cpp - every integrator delivers the channels that its entry names.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/integrators.h"
 
@@ -10,23 +10,23 @@ namespace obscura::test {
 namespace {
 
 TEST(Integrators, FilmsHaveTheirChannels) {
-    for (const IntegratorRow& row : integrator_rows) {
+    for (const IntegratorEntry& entry : integrator_entries) {
         SceneBuilder builder;
         builder.quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, builder.material({}));
         RenderOptions options;
         options.width = 20;
         options.height = 12;
         options.samples_per_pixel = 2;
-        options.integrator = row.value;
+        options.integrator = entry.value;
         const Camera camera = look_at({0, 0, 3}, {0, 0, 0}, 0.5f, 20, 12);
         const RenderResult result = render_scene(builder.take(), {}, camera, options);
-        EXPECT_EQ(result.film.channels, film_channels(row.value)) << row.name;
-        EXPECT_EQ(result.film.pixels.size(), 20 * 12 * result.film.channels.size()) << row.name;
+        EXPECT_EQ(result.film.channels, film_channels(entry.value)) << entry.name;
+        EXPECT_EQ(result.film.pixels.size(), 20 * 12 * result.film.channels.size()) << entry.name;
         EXPECT_EQ(result.counters.paths, 20U * 12U * static_cast<unsigned>(samples_taken(options)))
-            << row.name;
-        const bool has_uv = row.value == Integrator::uv;  // this quad has none
+            << entry.name;
+        const bool has_uv = entry.value == Integrator::uv;  // this quad has none
         for (const float value : result.film.pixels) {
-            ASSERT_TRUE(std::isfinite(value)) << row.name;
+            ASSERT_TRUE(std::isfinite(value)) << entry.name;
             ASSERT_TRUE(!has_uv || value == 0);
         }
     }

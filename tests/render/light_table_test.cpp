@@ -1,4 +1,4 @@
-// tests/render/light_table_test.cpp - which lights there are and how often each is chosen.
+// tests/render/light_table_test.cpp - the lights of a scene and how often each is chosen.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/light_table.h"
 
@@ -37,11 +37,11 @@ TEST(LightTable, CoatIsItsFactorTimesTheMeanOfItsTexture) {
     scene.layers[0].clearcoat = 0.5F;
     EXPECT_EQ(mean_coat(scene, material), 0.5F);
     scene.layers[0].clearcoat_texture.texture = 0;
-    TextureRow row;
-    row.width = 2;
-    row.levels = 2;
-    row.level_offset[1] = 2;
-    scene.textures.rows = {row};
+    TextureRecord record;
+    record.width = 2;
+    record.levels = 2;
+    record.level_offset[1] = 2;
+    scene.textures.records = {record};
     scene.textures.texels = {0xFF0000FFU, 0xFF000001U, 0xFF000080U};
     EXPECT_FLOAT_EQ(mean_coat(scene, material), 0.5F * 128 / 255);
 }
@@ -55,9 +55,9 @@ double chosen(const LightTable& table, size_t first, size_t count) {
 void expect_whole(const LightTable& table) {
     EXPECT_NEAR(chosen(table, 0, table.select_pdf.size()), 1.0, 1e-6);
     for (size_t i = 0; i < table.triangles.size(); ++i) {
-        const TriangleLight& row = table.triangles[i];
+        const TriangleLight& record = table.triangles[i];
         const float select = table.select_pdf[table.punctual.size() + i];
-        EXPECT_NEAR(row.pdf_area * row.area, select, 1e-6f * select) << "triangle " << i;
+        EXPECT_NEAR(record.pdf_area * record.area, select, 1e-6f * select) << "triangle " << i;
     }
 }
 
@@ -121,7 +121,7 @@ TEST(LightTable, TwiceThePowerIsTwiceTheProbability) {
     expect_whole(table);
 }
 
-/// Shares of punctual lights, triangles and the environment, for these brightnesses.
+/// Probabilities of punctual lights, triangles and the environment, for these brightnesses.
 std::vector<double> shares_of_kinds(float bulbs, float lamps, float around) {
     SceneBuilder builder;
     add_lamp(builder, 1, 1, lamp(lamps));
@@ -158,28 +158,27 @@ TEST(LightTable, DimLampsAreRaisedInProportionUpToAFifth) {
     EXPECT_LT(dim, 0.2);
 }
 
-constexpr int picture_side = 64;
+constexpr int image_side = 64;
 
 /// A texture whose texels are white from column `first_white` on and black before, with its mips.
-int32_t add_picture(Scene& scene, int first_white) {
+int32_t add_image(Scene& scene, int first_white) {
     TextureArena& arena = scene.textures;
-    TextureRow row;
-    row.width = row.height = picture_side;
-    row.levels = mip_level_count(picture_side, picture_side);
-    row.sampler = pack_sampler(Wrap::clamp, Wrap::clamp, false, false, MipMode::linear, true);
+    TextureRecord record;
+    record.width = record.height = image_side;
+    record.levels = mip_level_count(image_side, image_side);
+    record.sampler = pack_sampler(Wrap::clamp, Wrap::clamp, false, false, MipMode::linear, true);
     size_t at = arena.texels.size();
-    for (int level = 0; level < row.levels; ++level) {
-        row.level_offset[level] = static_cast<int32_t>(at);
-        at +=
-            static_cast<size_t>(picture_side >> level) * static_cast<size_t>(picture_side >> level);
+    for (int level = 0; level < record.levels; ++level) {
+        record.level_offset[level] = static_cast<int32_t>(at);
+        at += static_cast<size_t>(image_side >> level) * static_cast<size_t>(image_side >> level);
     }
     arena.texels.resize(at);
-    uint32_t* const base = &arena.texels[static_cast<size_t>(row.level_offset[0])];
-    for (int i = 0; i < picture_side * picture_side; ++i)
-        base[i] = i % picture_side >= first_white ? 0xFFFFFFFFU : 0xFF000000U;
-    build_mip_chain(base, picture_side, picture_side, true);
-    arena.rows.push_back(row);
-    return static_cast<int32_t>(arena.rows.size()) - 1;
+    uint32_t* const base = &arena.texels[static_cast<size_t>(record.level_offset[0])];
+    for (int i = 0; i < image_side * image_side; ++i)
+        base[i] = i % image_side >= first_white ? 0xFFFFFFFFU : 0xFF000000U;
+    build_mip_chain(base, image_side, image_side, true);
+    arena.records.push_back(record);
+    return static_cast<int32_t>(arena.records.size()) - 1;
 }
 
 /// Gives a square of SceneBuilder the texture coordinates of the unit square.
@@ -192,10 +191,10 @@ void add_uv(Scene& scene, size_t primitive) {
 
 TEST(LightTable, AHalfBlackTextureHalvesThePower) {
     SceneBuilder builder;
-    const int first_white[] = {0, picture_side / 2, picture_side};
+    const int first_white[] = {0, image_side / 2, image_side};
     for (const int column : first_white) {
         Material m = lamp(5);
-        m.emissive_texture.texture = add_picture(builder.scene(), column);
+        m.emissive_texture.texture = add_image(builder.scene(), column);
         add_lamp(builder, 1 + static_cast<float>(column), 1, m);
     }
     Scene scene = builder.take();
@@ -229,7 +228,7 @@ Scene placed_thrice() {
     return scene;
 }
 
-TEST(LightTable, EveryInstanceHasRowsOfItsOwn) {
+TEST(LightTable, EveryInstanceHasRecordsOfItsOwn) {
     Scene scene = placed_thrice();
     const LightTable table = make_light_table(scene, nullptr);
     ASSERT_EQ(table.triangles.size(), 6U);
@@ -241,12 +240,12 @@ TEST(LightTable, EveryInstanceHasRowsOfItsOwn) {
     const float corner_y[] = {1, 2, 1};
     const float area[] = {0.5f, 2, 0.5f};
     for (size_t i = 0; i < 6; ++i) {
-        const TriangleLight& row = table.triangles[i];
-        EXPECT_EQ(row.p0[0], corner_x[i / 2]) << i;
-        EXPECT_EQ(row.p0[1], corner_y[i / 2]) << i;
-        EXPECT_NEAR(row.area, area[i / 2], 1e-6f) << i;
-        const Vec3f front =
-            cross(Vec3f{row.e1[0], row.e1[1], row.e1[2]}, Vec3f{row.e2[0], row.e2[1], row.e2[2]});
+        const TriangleLight& record = table.triangles[i];
+        EXPECT_EQ(record.p0[0], corner_x[i / 2]) << i;
+        EXPECT_EQ(record.p0[1], corner_y[i / 2]) << i;
+        EXPECT_NEAR(record.area, area[i / 2], 1e-6f) << i;
+        const Vec3f front = cross(Vec3f{record.e1[0], record.e1[1], record.e1[2]},
+                                  Vec3f{record.e2[0], record.e2[1], record.e2[2]});
         EXPECT_LT(front.y, 0.0f) << i << ": mirrors keep the front";
     }
     EXPECT_NEAR(chosen(table, 2, 2), 4 * chosen(table, 0, 2), 1e-5);
@@ -254,7 +253,7 @@ TEST(LightTable, EveryInstanceHasRowsOfItsOwn) {
     expect_whole(table);
 }
 
-TEST(LightTable, RowsFollowTheTrianglesOfWorldPrimitives) {
+TEST(LightTable, RecordsFollowTheTrianglesOfWorldPrimitives) {
     SceneBuilder builder;
     add_lamp(builder, 1, 1, lamp(0));
     add_lamp(builder, 2, 1, lamp(1));

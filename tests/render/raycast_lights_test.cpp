@@ -1,4 +1,4 @@
-// tests/render/raycast_lights_test.cpp - what raycast makes of lamps and environments.
+// tests/render/raycast_lights_test.cpp - lamps and environments in ray casting.
 // SPDX-License-Identifier: Apache-2.0
 #include "render/raycast_lights.h"
 
@@ -60,11 +60,11 @@ TEST(RaycastLights, IrradianceOfSmoothSkiesIsExact) {
 }
 
 TEST(RaycastLights, LampsAreNeverBrighterThanTheirSurface) {
-    // At a flat lamp of radiance L the irradiance is pi L at most, and so it is at its middle.
+    // The irradiance of a flat lamp of radiance L is at most pi L, as at the lamp's centre.
     CentreLight light;
     std::fill_n(light.intensity, 3, 10.0f * 4.0f);
     light.flat = 1;
-    light.least_squared = static_cast<float>(4.0 / pi_d);
+    light.min_distance_squared = static_cast<float>(4.0 / pi_d);
     const auto near = sample_centre_light<double>(&light, 0, Vec3d{0, 1e-4, 0});
     EXPECT_NEAR(near.irradiance.x, 10 * pi_d, 1e-4);
     const auto far = sample_centre_light<double>(&light, 0, Vec3d{0, 20, 0});
@@ -96,7 +96,7 @@ TEST(RaycastLights, AHeadlightOnlyWhereThereIsNoOtherLight) {
     EXPECT_EQ(lights_of(5, false, {}).centres.size(), 1U);
     EXPECT_FALSE(lights_of(0, false, constant_environment(1)).headlight);
     EXPECT_TRUE(lights_of(0, false, constant_environment(1)).ambient);
-    // Who asks for a black sky gets a black picture.
+    // A black sky that was asked for gives a black image.
     EXPECT_FALSE(lights_of(0, false, constant_environment(0)).headlight);
 }
 

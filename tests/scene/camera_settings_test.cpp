@@ -46,22 +46,22 @@ TEST(CameraSettings, TextsSayWhatIsThere) {
     EXPECT_EQ(texts[1].second, "equisolid");
 }
 
-TEST(CameraSettingTable, EverySettingHasOneRow) {
+TEST(CameraSettingTable, EverySettingHasOneEntry) {
     std::set<std::string> reports;
     std::set<std::string> keys;
     CameraSettings all;
     size_t bytes = sizeof(all.model);
-    for_each_camera_setting([&](const auto& row) {
-        auto& member = all.*row.member;
-        EXPECT_FALSE(member.has_value()) << row.info.name << ": another row has that member";
+    for_each_camera_setting([&](const auto& entry) {
+        auto& member = all.*entry.member;
+        EXPECT_FALSE(member.has_value()) << entry.info.name << ": another row has that member";
         member.emplace();
         bytes += sizeof(member);
-        const std::string place =
-            std::string(row.info.section) + "/" + (row.info.key ? row.info.key : row.info.name);
+        const std::string place = std::string(entry.info.section) + "/" +
+                                  (entry.info.key ? entry.info.key : entry.info.name);
         EXPECT_TRUE(keys.insert(place).second) << place;
-        const std::string report = row.info.report;
+        const std::string report = entry.info.report;
         EXPECT_TRUE(report.empty() || reports.insert(report).second) << report;
-        EXPECT_LE(row.info.range.low, row.info.range.high) << row.info.name;
+        EXPECT_LE(entry.info.range.low, entry.info.range.high) << entry.info.name;
     });
     EXPECT_LE(sizeof(CameraSettings) - bytes, 4 * sizeof(int)) << "a member has no row";
 }

@@ -1,4 +1,4 @@
-// tests/scene/coincident_instances_test.cpp - copies on one spot are found among other instances.
+// tests/scene/coincident_instances_test.cpp - coinciding copies are found among other instances.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/coincident_instances.h"
 
@@ -24,12 +24,12 @@ std::vector<int32_t> nodes_of(const std::vector<Instance>& instances) {
 
 TEST(CoincidentInstances, AFewStayAsTheyAre) {
     Scene scene;
-    for (uint32_t i = 0; i < most_copies; ++i)
+    for (uint32_t i = 0; i < max_copies; ++i)
         scene.instances.push_back(at(7));
     EXPECT_TRUE(leave_out_copies(scene).empty());
-    EXPECT_EQ(scene.instances.size(), most_copies);
+    EXPECT_EQ(scene.instances.size(), max_copies);
     scene.instances.push_back(at(7));
-    EXPECT_EQ(leave_out_copies(scene).size(), most_copies);
+    EXPECT_EQ(leave_out_copies(scene).size(), max_copies);
     EXPECT_EQ(scene.instances.size(), 1U);
 }
 
@@ -51,7 +51,7 @@ TEST(CoincidentInstances, TheFirstOfEachCrowdStaysInItsPlace) {
         EXPECT_EQ(kept[i], static_cast<int32_t>(i) - 2);
 }
 
-/// What is in one place now may part while the shutter is open.
+/// Instances in one position now may separate while the shutter is open.
 TEST(CoincidentInstances, CopiesMoveAlike) {
     Scene scene;
     scene.motion.steps = 2;

@@ -1,4 +1,4 @@
-// tests/scene/edge_scale_test.cpp - scenes of ordinary size are left alone, others brought near.
+// tests/scene/edge_scale_test.cpp - scenes of ordinary size are left alone, others are scaled.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/edge_scale.h"
 

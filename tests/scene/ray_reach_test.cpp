@@ -11,7 +11,7 @@
 namespace obscura {
 namespace {
 
-/// What Embree's assertions accept at most, in any space.
+/// Largest value that Embree's assertions accept, in any space.
 constexpr double embree_limit = 1.844e18;
 
 Affinef map_of(double x, double y, double z, double tx = 0, double ty = 0, double tz = 0) {
@@ -35,7 +35,7 @@ Affinef turned(double angle, double scale = 1) {
     return out;
 }
 
-/// A scene of one instance that is at these places in turn while the shutter is open.
+/// A scene of one instance that is at these positions in turn while the shutter is open.
 Scene scene_of(const std::vector<Affinef>& places) {
     Scene scene;
     scene.meshes = {{0, 0}};
@@ -65,7 +65,7 @@ TEST(RayReach, ScalesWithTheInstance) {
     }
     EXPECT_EQ(reach_of({map_of(1e6, 1e6, 1e6)}).origin, largest_component);
     EXPECT_LT(reach_of({map_of(1e-3, 1, 1)}).origin, 1e-3F * largest_component);
-    // A translation takes its share.
+    // A translation uses up a part of it.
     EXPECT_NEAR(reach_of({map_of(1, 1, 1, 0, 1e18)}).origin, 0.95e0 * 1.8e18 - 1e18, 1e16);
     EXPECT_EQ(reach_of({map_of(1, 1, 1, 1.8e18)}).origin, 0.0F);
 }
@@ -89,12 +89,12 @@ TEST(RayReach, WhatSinglePrecisionCannotInvertHasNone) {
     }
 }
 
-/// Between two times every entry goes straight: half a turn passes through a line.
+/// Between two times every entry is linear: half a turn passes through a line.
 TEST(RayReach, OfMotionIsThatOfItsWorstMoment) {
     EXPECT_EQ(reach_of({turned(0), turned(std::numbers::pi)}).origin, 0.0F);
     EXPECT_EQ(reach_of({turned(0.3), turned(0.3 + std::numbers::pi)}).origin, 0.0F);
     EXPECT_EQ(reach_of({map_of(1, 1, 1), map_of(1, 1, -1)}).origin, 0.0F);
-    // 150 degrees: the smallest scale on the way is cos(75 degrees).
+    // 150 degrees: the smallest scale in between is cos(75 degrees).
     const float reach = reach_of({turned(0), turned(std::numbers::pi * 150 / 180)}).origin;
     EXPECT_GT(reach, 0.01F * largest_component);
     EXPECT_LT(reach, 0.26F * largest_component);
@@ -157,7 +157,7 @@ TEST(RayReach, UnreachedInstancesAreLeftOutOrHalted) {
     EXPECT_TRUE(leave_out_unreached(scene).left_out.empty());
     EXPECT_EQ(scene.instances.size(), 1U);
 
-    // The same small one counts beside a small world, but not beside a large one.
+    // The same small instance counts beside a small world, but not beside a large one.
     scene = scene_of({map_of(1e-12, 1e-12, 1e-12)});
     EXPECT_TRUE(leave_out_unreached(scene).left_out.empty());
     scene.bounds.high.x = 1e12F;

@@ -1,16 +1,16 @@
-// tests/scene/split_curves_test.cpp - lines get a point where they pass a plane; radii are set.
+// tests/scene/split_curves_test.cpp - lines get a point where they cross a plane; radii are set.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/split_curves.h"
 
-#include "scene/stroke_radii.h"
+#include "scene/points_lines_radii.h"
 
 #include <gtest/gtest.h>
 
 namespace obscura {
 namespace {
 
-/// A strip from x = -1 over 3 to 4, behind it a single piece from 10 to 11; red, the
-/// normal and u are the x.
+/// A strip from x = -1 over 3 to 4, then a single segment from 10 to 11; red, the normal and u are
+/// the x.
 Scene two_lines() {
     Scene scene;
     for (const float x : {-1.0F, 3.0F, 4.0F, 10.0F, 11.0F}) {
@@ -41,7 +41,7 @@ float red_of(const Scene& scene, const Primitive& primitive, uint32_t point) {
         .attributes[static_cast<size_t>(primitive.color_base + static_cast<int32_t>(point) * 4)];
 }
 
-TEST(SplitCurves, APieceThatPassesThePlaneBecomesTwo) {
+TEST(SplitCurves, ASegmentThatPassesThePlaneBecomesTwo) {
     Scene scene = two_lines();
     split_curves(scene, [](const Vec3d& p) { return p.x; });
     EXPECT_EQ(scene.curve_segments, (std::vector<uint32_t>{0, 1, 2, 4}));
@@ -52,8 +52,8 @@ TEST(SplitCurves, APieceThatPassesThePlaneBecomesTwo) {
     EXPECT_EQ(scene.primitives[1].triangle_count, 1);
     for (const Primitive& primitive : scene.primitives) {
         for (int32_t i = 0; i < primitive.triangle_count; ++i) {
-            const auto row = static_cast<size_t>(primitive.first_triangle + i);
-            const uint32_t from = scene.curve_segments[row];
+            const auto index = static_cast<size_t>(primitive.first_triangle + i);
+            const uint32_t from = scene.curve_segments[index];
             EXPECT_EQ(red_of(scene, primitive, from), scene.curve_points[size_t{from} * 4]);
             EXPECT_EQ(red_of(scene, primitive, from + 1), scene.curve_points[size_t{from} * 4 + 4]);
             const auto normal =
@@ -75,11 +75,11 @@ TEST(SplitCurves, LinesOnOneSideStay) {
     EXPECT_EQ(scene.primitives[1].color_base, 0);
 }
 
-TEST(SplitCurves, LongThinPiecesBecomeShortOnes) {
+TEST(SplitCurves, LongThinSegmentsBecomeShortOnes) {
     Scene scene = two_lines();
     for (size_t point = 0; point < 5; ++point)
         scene.curve_points[point * 4 + 3] = 0.00501F;
-    scene.curve_points[7] = 0.00701F;  // the first piece is 4 long: 798 of its least radii
+    scene.curve_points[7] = 0.00701F;  // the first segment is 4 long: 798 of its least radii
     split_long_curves(scene);
     EXPECT_EQ(scene.curve_segments, (std::vector<uint32_t>{0, 1, 2, 4}));
     EXPECT_EQ(scene.curve_points[4], 1.0F);
@@ -91,7 +91,7 @@ TEST(SplitCurves, LongThinPiecesBecomeShortOnes) {
     EXPECT_EQ(scene.curve_segments.size(), 4 * 64U);
 }
 
-TEST(StrokeRadii, ShapesKeepTheirs) {
+TEST(PointsLinesRadii, ShapesKeepTheirs) {
     Scene scene = two_lines();
     scene.spheres.assign(2 * sphere_block_floats, 7.0F);
     for (const bool shape : {true, false}) {
@@ -102,17 +102,17 @@ TEST(StrokeRadii, ShapesKeepTheirs) {
         if (shape) primitive.tangent_base = 0;
         scene.primitives.push_back(primitive);
     }
-    set_stroke_radii(
+    set_points_lines_radii(
         scene, [](const Vec3d& p) { return p.y; }, [](const Vec3d& p) { return p.x; });
     EXPECT_EQ(scene.curve_points[7], 3.0F);
     EXPECT_EQ(scene.curve_points[3], 1e-18F) << "never 0 or less";
     scene.spheres[sphere_word(size_t{1}) + sphere_block] = 2.5F;
-    set_stroke_radii(
+    set_points_lines_radii(
         scene, [](const Vec3d& p) { return p.y; }, [](const Vec3d& p) { return p.x; });
     EXPECT_EQ(scene.spheres[sphere_word(size_t{1}) + 3 * sphere_block], 7.0F);
     EXPECT_EQ(scene.spheres[sphere_word(size_t{sphere_block}) + 3 * sphere_block], 7.0F);
     scene.spheres[sphere_word(size_t{sphere_block} + 1) + sphere_block] = 2.5F;
-    set_stroke_radii(
+    set_points_lines_radii(
         scene, [](const Vec3d& p) { return p.y; }, [](const Vec3d& p) { return p.x; });
     EXPECT_EQ(scene.spheres[sphere_word(size_t{sphere_block} + 1) + 3 * sphere_block], 2.5F);
     EXPECT_EQ(scene.spheres[sphere_word(size_t{sphere_block} + 2) + 3 * sphere_block], 7.0F);

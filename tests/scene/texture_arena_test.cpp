@@ -32,7 +32,7 @@ double code_of(double linear) {
            (linear <= 0.0031308 ? linear * 12.92 : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
 }
 
-/// Length that [index, index + 1) * source / size shares with source texel i.
+/// Overlap of [index, index + 1) * source / size with source texel i.
 double overlap(int i, int index, int source, int size) {
     const double low = static_cast<double>(index) * source / size;
     const double high = static_cast<double>(index + 1) * source / size;

@@ -1,4 +1,4 @@
-// tests/scene/thin_walls_test.cpp - which materials may let light pass straight.
+// tests/scene/thin_walls_test.cpp - which materials may let light pass straight through.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/thin_walls.h"
 
@@ -26,9 +26,9 @@ bool may_pass(const std::function<void(Scene&)>& change) {
 
 /// One texture of the texels' greens.
 void set_roughness_texture(Scene& scene, const std::vector<uint32_t>& greens) {
-    TextureRow row;
-    row.width = static_cast<int32_t>(greens.size());
-    scene.textures.rows = {row};
+    TextureRecord record;
+    record.width = static_cast<int32_t>(greens.size());
+    scene.textures.records = {record};
     for (const uint32_t green : greens)
         scene.textures.texels.push_back(0xFFFF00FFU | green << 8);
     scene.materials[0].metallic_roughness_texture.texture = 0;

@@ -143,7 +143,7 @@ TEST_F(Scripts, GalleryFailsWhenAModelCrashesOrHangs) {
     EXPECT_THAT(page(), HasSubstr("class=\"model hung\""));
 }
 
-TEST_F(Scripts, GalleryDropsPicturesOfAnEarlierRun) {
+TEST_F(Scripts, GalleryDropsImagesOfAnEarlierRun) {
     write_program("obscura", fake_obscura);
     write("models/1.glb", "bad");
     write("out/0001.png", "old");

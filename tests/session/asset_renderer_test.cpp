@@ -39,12 +39,12 @@ TEST(AssetRenderer, TheCameraIsChosenOnceThoughItIsFocused) {
     EXPECT_EQ(chosen, 1);
     EXPECT_EQ(focused, 1);
 
-    // What is sharp is as far away as the pixel shows.
+    // The focus distance is that of the pixel's hit.
     RenderRequest depth = request;
     depth.options.integrator = Integrator::depth;
-    const Result<FinishedPicture> picture = renderer->render(depth, *camera, {}, log);
-    ASSERT_TRUE(picture);
-    const float seen = picture->picture.pixels[12 * 32 + 16];
+    const Result<FinishedImage> image = renderer->render(depth, *camera, {}, log);
+    ASSERT_TRUE(image);
+    const float seen = image->image.pixels[12 * 32 + 16];
     EXPECT_NEAR(1 / camera->camera.thin_lens.inverse_focus, seen, 1e-4F * seen);
 }
 

@@ -1,4 +1,4 @@
-// tests/session/camera_build_test.cpp - from settings to cameras: angles, openings, circles, turns.
+// tests/session/camera_build_test.cpp - settings become cameras: angles, openings, circles, turns.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/camera_build.h"
 
@@ -12,12 +12,12 @@
 namespace obscura {
 namespace {
 
-constexpr PictureSize size = {600, 400};
+constexpr ImageSize size = {600, 400};
 
-Camera build(CameraModel model, const CameraSettings& settings, PictureSize picture = size) {
+Camera build(CameraModel model, const CameraSettings& settings, ImageSize image = size) {
     CameraBasis basis;
     basis.tan_half_yfov = 0.4;
-    const Result<Camera> camera = make_camera(basis, model, settings, picture);
+    const Result<Camera> camera = make_camera(basis, model, settings, image);
     EXPECT_TRUE(camera) << camera.error().message;
     return camera ? *camera : Camera{};
 }
@@ -38,7 +38,7 @@ TEST(CameraBuild, ARealLensHasItsFilmWhereTheFocusIs) {
 }
 
 /// The circle of confusion in pixels, by the formula on the film and by the one of docs/cameras.md.
-TEST(CameraBuild, TheFilmsMillimetresAndThePicturesPixelsAgree) {
+TEST(CameraBuild, TheFilmsMillimetresAndTheImagesPixelsAgree) {
     CameraSettings s;
     s.focal_length_m = 0.085;
     s.sensor_m = {{0.036, 0.024}};
@@ -67,14 +67,14 @@ TEST(CameraBuild, WithoutAFocalLengthTheAngleHasTheOneOfSmallFilm) {
 TEST(CameraBuild, IntrinsicsPutPointsOnTheirPixels) {
     CameraSettings s;
     s.intrinsics = Intrinsics{1200, 800, 900, 950, 580, 430};
-    for (const PictureSize picture : {PictureSize{1200, 800}, PictureSize{600, 400}}) {
-        const Camera camera = build(CameraModel::pinhole, s, picture);
-        const double scale = picture.width_px / 1200.0;
+    for (const ImageSize image : {ImageSize{1200, 800}, ImageSize{600, 400}}) {
+        const Camera camera = build(CameraModel::pinhole, s, image);
+        const double scale = image.width_px / 1200.0;
         for (const Vec3d& p : {Vec3d{0.2, -0.1, 2}, Vec3d{-1, 0.8, 3}, Vec3d{0, 0, 1}}) {
             const auto film = project(camera, {p.x, -p.y, -p.z});
             ASSERT_TRUE(film);
-            EXPECT_NEAR(film->x * picture.width_px, scale * (900 * p.x / p.z + 580), 1e-4);
-            EXPECT_NEAR(film->y * picture.height_px, scale * (950 * p.y / p.z + 430), 1e-4);
+            EXPECT_NEAR(film->x * image.width_px, scale * (900 * p.x / p.z + 580), 1e-4);
+            EXPECT_NEAR(film->y * image.height_px, scale * (950 * p.y / p.z + 430), 1e-4);
         }
     }
 }

@@ -1,4 +1,4 @@
-// tests/session/camera_choice_test.cpp - which camera is taken, and what the options do to it.
+// tests/session/camera_choice_test.cpp - which camera is chosen, and how the options change it.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/camera_choice.h"
 
@@ -115,7 +115,7 @@ TEST(CameraChoice, FovReplacesTheVerticalAngle) {
     EXPECT_NEAR(camera.pinhole.tan_half_yfov, std::tan(0.5), 1e-6);
 }
 
-TEST(CameraChoice, AModelKeepsWhatIsSeenAtTheScenesMiddle) {
+TEST(CameraChoice, AModelKeepsWhatIsSeenAtTheScenesCentre) {
     const Scene scene = scene_with({perspective("A", 0, 0)});
     const Camera parallel = choose(scene, {.model = CameraModel::orthographic})->camera;
     EXPECT_EQ(parallel.model, CameraModel::orthographic);

@@ -1,4 +1,4 @@
-// tests/session/framing_test.cpp - automatic views hold the whole asset, at every scale and shape.
+// tests/session/framing_test.cpp - automatic views show the whole asset, at every scale and shape.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/framing.h"
 
@@ -25,7 +25,7 @@ std::vector<Vec3d> corners(const Bounds& bounds) {
     return out;
 }
 
-/// Largest share of the half frame that a corner reaches; 2 when one is behind the camera.
+/// Largest fraction of the half frame that a corner reaches; 2 when one is behind the camera.
 double reach(const Bounds& bounds, const Framing& framing, double aspect, bool perspective) {
     const Result<Affined> world_from_camera = look_at(framing.view);
     EXPECT_TRUE(world_from_camera);

@@ -1,4 +1,4 @@
-// tests/session/library_test.cpp - the library as a program that embeds it sees it.
+// tests/session/library_test.cpp - the library, used as by a program that embeds it.
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenEXR/ImfThreading.h>
 #include <OpenImageIO/imageio.h>
@@ -174,7 +174,7 @@ TEST(Library, ExceptionsOfCallbacksAreErrorsAndTheAssetGoesOn) {
               fresh_image(file, small_view()).pixels);
 }
 
-/// Whatever was rendered of an asset before, an image is the one that a fresh asset gives.
+/// An image equals that of a fresh asset, whatever was rendered of its asset before.
 TEST(Library, ImagesDoNotDependOnEarlierOnes) {
     const std::string file = assets + "motion/motion.glb";
     View still = small_view();

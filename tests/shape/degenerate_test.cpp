@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 
 namespace obscura {
 namespace {
@@ -25,15 +25,15 @@ struct Met {
     Roots<Lanes> lanes;
 };
 
-Met meet(const ShapeRow& row, const ShapeRay<float>& ray) {
+Met meet(const ShapeRecord& record, const ShapeRay<float>& ray) {
     const auto wide = [](const Vec3f& v) { return Vec3<Lanes>{v.x, v.y, v.z}; };
-    return {intersect_shape<float>(row, ray),
-            intersect_shape<double>(row, ray_cast_to<double>(ray)),
-            intersect_shape<Lanes>(row, ShapeRay<Lanes>{wide(ray.origin), wide(ray.direction)})};
+    return {intersect_shape<float>(record, ray),
+            intersect_shape<double>(record, ray_cast_to<double>(ray)),
+            intersect_shape<Lanes>(record, ShapeRay<Lanes>{wide(ray.origin), wide(ray.direction)})};
 }
 
-void expect_missed(const ShapeRow& row, const ShapeRay<float>& ray) {
-    const Met met = meet(row, ray);
+void expect_missed(const ShapeRecord& record, const ShapeRay<float>& ray) {
+    const Met met = meet(record, ray);
     for (int k = 0; k < 2; ++k) {
         ASSERT_FALSE(met.single.hit[k]) << met.single.t[k];
         ASSERT_FALSE(met.exact.hit[k]) << met.exact.t[k];
@@ -47,17 +47,17 @@ float in_box(Pcg32& random) {
 
 TEST(Degenerate, LinesAlongRulingsMeetNothing) {
     for (const auto* k : {&open_cylinder, &parabolic_cylinder, &hyperbolic_cylinder}) {
-        const ShapeRow row = quadric_row(*k, 0.5F, 0.5F, 0.5F);
+        const ShapeRecord record = quadric_record(*k, 0.5F, 0.5F, 0.5F);
         Pcg32 random(41);
         for (int i = 0; i < 2000; ++i) {
             const float x = in_box(random);
             const Vec3f origin{x, in_box(random), 4 * random.next_float() - 2};
-            if (std::abs(implicit_value(row, {origin.x, origin.y, 0})) < 1e-6) continue;
+            if (std::abs(implicit_value(record, {origin.x, origin.y, 0})) < 1e-6) continue;
             const Vec3f along{0, 0, random.next_float() < 0.5F ? -1.0F : 2.0F};
-            ASSERT_NO_FATAL_FAILURE(expect_missed(row, {origin, along}));
-            // Nearly so: the place where it meets the surface is far outside of the box.
+            ASSERT_NO_FATAL_FAILURE(expect_missed(record, {origin, along}));
+            // Nearly so: the line meets the surface far outside of the box.
             const Vec3f nearly{1e-9F * x, 1e-10F, along.z};
-            ASSERT_NO_FATAL_FAILURE(expect_missed(row, {origin, nearly}));
+            ASSERT_NO_FATAL_FAILURE(expect_missed(record, {origin, nearly}));
         }
     }
 }
@@ -65,15 +65,15 @@ TEST(Degenerate, LinesAlongRulingsMeetNothing) {
 /// (1, 1, 0) and (0, 1, 2) are exactly along the first plane, and their products are exact.
 TEST(Degenerate, LinesAlongAPlaneMeetNothingAndOthersMeetItOnce) {
     const float exact_plane[10] = {0, 0, 0, 0, 0, 0, 0.5F, -0.5F, 0.25F, 0.125F};
-    const ShapeRow row = quadric_row(exact_plane, 0.5F, 0.5F, 0.5F);
-    const ShapeRow slanted = quadric_row(slanted_plane, 0.5F, 0.5F, 0.5F);
+    const ShapeRecord record = quadric_record(exact_plane, 0.5F, 0.5F, 0.5F);
+    const ShapeRecord slanted = quadric_record(slanted_plane, 0.5F, 0.5F, 0.5F);
     Pcg32 random(42);
     int met_once = 0;
     for (int i = 0; i < 2000; ++i) {
         const Vec3f origin{in_box(random), in_box(random), in_box(random)};
         const Vec3f along = i % 2 == 0 ? Vec3f{1, 1, 0} : Vec3f{0, 1, 2};
-        if (std::abs(implicit_value(row, {origin.x, origin.y, origin.z})) < 1e-6) continue;
-        ASSERT_NO_FATAL_FAILURE(expect_missed(row, {origin, along}));
+        if (std::abs(implicit_value(record, {origin.x, origin.y, origin.z})) < 1e-6) continue;
+        ASSERT_NO_FATAL_FAILURE(expect_missed(record, {origin, along}));
         const Vec3f across{in_box(random), in_box(random), in_box(random)};
         const Met met = meet(slanted, {origin, across});
         // n . (o + t d) + c = 0
@@ -95,7 +95,7 @@ TEST(Degenerate, LinesAlongAPlaneMeetNothingAndOthersMeetItOnce) {
 
 /// The plane n . p = 0 squared: every line that crosses it inside of the box meets it, once, from
 /// its front.
-void expect_whole(const ShapeRow& row, const Vec3d& n, float distance) {
+void expect_whole(const ShapeRecord& record, const Vec3d& n, float distance) {
     Pcg32 random(43);
     int count = 0;
     for (int i = 0; i < 4000; ++i) {
@@ -111,13 +111,14 @@ void expect_whole(const ShapeRow& row, const Vec3d& n, float distance) {
             way};
         const Vec3d o{ray.origin.x, ray.origin.y, ray.origin.z};
         const double t = -dot(o, n) / dot(d, n);
-        const Met met = meet(row, ray);
+        const Met met = meet(record, ray);
         ++count;
         ASSERT_TRUE(met.single.hit[0] && met.exact.hit[0] && all(met.lanes.hit[0])) << i;
         ASSERT_NEAR(met.single.t[0], t, 1e-6 * (1 + 10 * std::abs(t))) << i;
         ASSERT_NEAR(lane(met.lanes.t[0], 0), t, 1e-6 * (1 + 10 * std::abs(t))) << i;
         ASSERT_NEAR(met.exact.t[0], t, 1e-12 * (1 + std::abs(t))) << i;
-        ASSERT_EQ(is_front<float>(row, ray, met.single.t[0], 0), row.k[0] + row.k[2] > 0) << i;
+        ASSERT_EQ(is_front<float>(record, ray, met.single.t[0], 0), record.k[0] + record.k[2] > 0)
+            << i;
     }
     ASSERT_GT(count, 1000);
 }
@@ -125,8 +126,8 @@ void expect_whole(const ShapeRow& row, const Vec3d& n, float distance) {
 TEST(Degenerate, APlaneSquaredIsOneWholeSurface) {
     for (const float distance : {0.0F, 3.0F, 1000.0F}) {
         for (const float sign : {1.0F, -1.0F}) {
-            ShapeRow level = quadric_row(plane_squared, 0.5F, 0.5F, 0.5F);
-            ShapeRow slanted = quadric_row(slanted_plane_squared, 0.5F, 0.5F, 0.5F);
+            ShapeRecord level = quadric_record(plane_squared, 0.5F, 0.5F, 0.5F);
+            ShapeRecord slanted = quadric_record(slanted_plane_squared, 0.5F, 0.5F, 0.5F);
             for (float& k : level.k)
                 k *= sign;
             for (float& k : slanted.k)
@@ -138,14 +139,14 @@ TEST(Degenerate, APlaneSquaredIsOneWholeSurface) {
 }
 
 /// (z + d)^2 in single precision has no roots, or two, by its coefficients' rounding.
-TEST(Degenerate, APlaneSquaredBesideTheMiddleIsWholeToo) {
+TEST(Degenerate, APlaneSquaredBesideTheCentreIsWholeToo) {
     Pcg32 random(47);
     for (int i = 0; i < 2000; ++i) {
         const float d = in_box(random);
         const float k[10] = {0, 0, 1, 0, 0, 0, 0, 0, 2 * d, d * d};
-        const ShapeRow row = quadric_row(k, 0.5F, 0.5F, 0.5F);
+        const ShapeRecord record = quadric_record(k, 0.5F, 0.5F, 0.5F);
         const Vec3f way{0.2F * in_box(random), 0.2F * in_box(random), -1};
-        const Roots<float> roots = intersect_shape<float>(row, ShapeRay<float>{{0, 0, 1}, way});
+        const Roots<float> roots = intersect_shape<float>(record, ShapeRay<float>{{0, 0, 1}, way});
         ASSERT_TRUE(roots.hit[0]) << d;
         ASSERT_NEAR(roots.t[0], 1 + d, 5e-7) << d;
     }
@@ -153,13 +154,13 @@ TEST(Degenerate, APlaneSquaredBesideTheMiddleIsWholeToo) {
 
 TEST(Degenerate, ThePlaneSquaredHasItsPlanesNormal) {
     for (const Vec3f& place : {Vec3f{0.1F, 0.2F, 0}, Vec3f{-0.3F, 0.2F, 1e-7F}}) {
-        const ShapeRow level = quadric_row(plane_squared, 0.5F, 0.5F, 0.5F);
+        const ShapeRecord level = quadric_record(plane_squared, 0.5F, 0.5F, 0.5F);
         const SurfacePoint<float> on =
             surface_of_shape<float>(level.kind, UniformShape<float>(level), place);
         EXPECT_FLOAT_EQ(on.normal.z, 1);
         EXPECT_NEAR(length(on.position - place), 0, 1e-6);
     }
-    const ShapeRow slanted = quadric_row(slanted_plane_squared, 0.5F, 0.5F, 0.5F);
+    const ShapeRecord slanted = quadric_record(slanted_plane_squared, 0.5F, 0.5F, 0.5F);
     const SurfacePoint<float> on = surface_of_shape<float>(
         slanted.kind, UniformShape<float>(slanted), Vec3f{0.3F, -0.3F, 0.1F});
     EXPECT_FLOAT_EQ(on.normal.x, std::sqrt(0.5F));
@@ -170,12 +171,12 @@ TEST(Degenerate, ThePlaneSquaredHasItsPlanesNormal) {
 /// middle.
 TEST(Degenerate, PlanesCloseTogetherAreTwo) {
     const float k[10] = {1, 0, 0, 0, 0, 0, 0, 0, 0, -1e-8F};
-    const ShapeRow row = quadric_row(k, 0.5F, 0.5F, 0.5F);
+    const ShapeRecord record = quadric_record(k, 0.5F, 0.5F, 0.5F);
     Pcg32 random(44);
     for (int i = 0; i < 1000; ++i) {
         const Vec3f origin{-0.45F, in_box(random), in_box(random)};
         const ShapeRay<float> ray{origin, {1, 0.1F * in_box(random), 0.1F * in_box(random)}};
-        const Roots<float> roots = intersect_shape<float>(row, ray);
+        const Roots<float> roots = intersect_shape<float>(record, ray);
         ASSERT_TRUE(roots.hit[0] && roots.hit[1]);
         ASSERT_NEAR(roots.t[0], 0.45F - 1e-4F, 3e-7F);
         ASSERT_NEAR(roots.t[1], 0.45F + 1e-4F, 3e-7F);
@@ -183,8 +184,8 @@ TEST(Degenerate, PlanesCloseTogetherAreTwo) {
 }
 
 TEST(Degenerate, SolidsAlongTheirAxis) {
-    const ShapeRow cylinder = shape_row(ShapeKind::frustum, 0.7F, 0.5F, 0.5F);
-    const ShapeRow capsule = shape_row(ShapeKind::capsule, 0.6F, 0.4F, 0.4F);
+    const ShapeRecord cylinder = shape_record(ShapeKind::frustum, 0.7F, 0.5F, 0.5F);
+    const ShapeRecord capsule = shape_record(ShapeKind::capsule, 0.6F, 0.4F, 0.4F);
     Pcg32 random(45);
     for (int i = 0; i < 2000; ++i) {
         const float x = 2 * in_box(random);
@@ -208,10 +209,10 @@ TEST(Degenerate, SolidsAlongTheirAxis) {
     }
 }
 
-/// Parallel to the ruling of a cone from (1, -1, 0) to its point, (0, 1, 0): what is inside by
+/// Parallel to the ruling of a cone from (1, -1, 0) to its apex, (0, 1, 0): the inside is found by
 /// steps.
 TEST(Degenerate, AConeAlongItsRulings) {
-    const ShapeRow cone = shape_row(ShapeKind::frustum, 1, 1, 0);
+    const ShapeRecord cone = shape_record(ShapeKind::frustum, 1, 1, 0);
     Pcg32 random(46);
     int hits = 0;
     int misses = 0;

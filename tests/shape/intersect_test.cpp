@@ -1,11 +1,11 @@
-// tests/shape/intersect_test.cpp - rays against every shape: truth in double, then float and lanes.
+// tests/shape/intersect_test.cpp - rays against every shape: in double, then float and lanes.
 // SPDX-License-Identifier: Apache-2.0
 #include "shape/shape_truth.h"
 #include "shape/triangle.h"
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 
 namespace obscura {
 namespace {
@@ -20,13 +20,13 @@ Vec3d at(const ShapeRay<double>& ray, double t) {
 
 /// The double formulas against the shapes' definitions.
 void expect_roots_on_surface(const NamedShape& shape, const ShapeRay<double>& ray) {
-    const Roots<double> roots = intersect_shape<double>(shape.row, ray);
+    const Roots<double> roots = intersect_shape<double>(shape.record, ray);
     const double size = 1.0 + length(ray.origin);
     for (int i = 0; i < 2; ++i) {
         if (!roots.hit[i]) continue;
         const Vec3d p = at(ray, roots.t[i]);
-        ASSERT_NEAR(implicit_value(shape.row, p), 0.0, 2e-8 * size) << shape.name;
-        ASSERT_TRUE(within_limits(shape.row, p, 1e-9 * size)) << shape.name;
+        ASSERT_NEAR(implicit_value(shape.record, p), 0.0, 2e-8 * size) << shape.name;
+        ASSERT_TRUE(within_limits(shape.record, p, 1e-9 * size)) << shape.name;
     }
     ASSERT_FALSE(roots.hit[0] && roots.hit[1] && roots.t[0] > roots.t[1]) << shape.name;
 }
@@ -35,7 +35,7 @@ TEST(Shapes, RootsInDoubleLieOnTheSurface) {
     for (const NamedShape& shape : sample_shapes()) {
         Pcg32 random(11);
         for (int i = 0; i < 3000; ++i) {
-            const ShapeRay<float> ray = random_ray(shape.row, distances[i % 3], random);
+            const ShapeRay<float> ray = random_ray(shape.record, distances[i % 3], random);
             ASSERT_NO_FATAL_FAILURE(expect_roots_on_surface(shape, ray_cast_to<double>(ray)));
         }
     }
@@ -46,16 +46,16 @@ TEST(Shapes, NoRootIsForgotten) {
     for (const NamedShape& shape : sample_shapes()) {
         Pcg32 random(12);
         for (int i = 0; i < 400; ++i) {
-            const ShapeRay<float> narrow = random_ray(shape.row, distances[i % 2], random);
+            const ShapeRay<float> narrow = random_ray(shape.record, distances[i % 2], random);
             const ShapeRay<double> ray = ray_cast_to<double>(narrow);
-            const Roots<double> roots = intersect_shape<double>(shape.row, ray);
+            const Roots<double> roots = intersect_shape<double>(shape.record, ray);
             const double step = 0.02 / length(ray.direction);
-            double before = implicit_value(shape.row, at(ray, -1e-4));
+            double before = implicit_value(shape.record, at(ray, -1e-4));
             for (double t = -1e-4 + step; t < 6.0 / length(ray.direction); t += step) {
-                const double after = implicit_value(shape.row, at(ray, t));
+                const double after = implicit_value(shape.record, at(ray, t));
                 const bool crossed = (before < 0) != (after < 0) &&
-                                     within_limits(shape.row, at(ray, t), -0.03) &&
-                                     within_limits(shape.row, at(ray, t - step), -0.03);
+                                     within_limits(shape.record, at(ray, t), -0.03) &&
+                                     within_limits(shape.record, at(ray, t - step), -0.03);
                 const auto near = [&](int k) {
                     return roots.hit[k] && roots.t[k] > t - 1.001 * step &&
                            roots.t[k] < t + 1e-3 * step;
@@ -67,8 +67,8 @@ TEST(Shapes, NoRootIsForgotten) {
     }
 }
 
-/// How well single precision agrees with double on one ray; `miss_slack`: lines that pass this near
-/// the outline (relative to the shape's size) may go either way.
+/// Agreement of single precision with double on one ray; `miss_slack`: lines that pass this close
+/// to the outline (relative to the shape's size) may go either way.
 struct Agreement {
     int rays = 0;
     int hits = 0;
@@ -90,19 +90,19 @@ void compare(const Roots<double>& truth, const Roots<float>& got, double length,
     }
 }
 
-Agreement compare_many(const ShapeRow& row, float distance, int count) {
+Agreement compare_many(const ShapeRecord& record, float distance, int count) {
     Pcg32 random(13);
     Agreement sum;
     for (int i = 0; i < count; ++i) {
-        const ShapeRay<float> ray = random_ray(row, distance, random);
-        const Roots<double> truth = intersect_shape<double>(row, ray_cast_to<double>(ray));
+        const ShapeRay<float> ray = random_ray(record, distance, random);
+        const Roots<double> truth = intersect_shape<double>(record, ray_cast_to<double>(ray));
         // Where a line only touches, t depends on the last bit; those are counted by the miss.
         if (truth.hit[0] && truth.t[0] < truth.t[1] &&
             (truth.t[1] - truth.t[0]) * static_cast<double>(length(ray.direction)) < 0.02) {
             continue;
         }
         compare(truth,
-                intersect_shape<float>(row, ray),
+                intersect_shape<float>(record, ray),
                 static_cast<double>(length(ray.direction)),
                 sum);
     }
@@ -112,7 +112,7 @@ Agreement compare_many(const ShapeRow& row, float distance, int count) {
 TEST(Shapes, SinglePrecisionAgreesWithDouble) {
     for (const NamedShape& shape : sample_shapes()) {
         for (const float distance : {0.0F, 3.0F, 1e3F, 1e6F}) {
-            const Agreement sum = compare_many(shape.row, distance, 20000);
+            const Agreement sum = compare_many(shape.record, distance, 20000);
             EXPECT_GT(sum.hits, sum.rays / 20) << shape.name << " from " << distance;
             EXPECT_LE(sum.differing, 4) << shape.name << " from " << distance;
             EXPECT_LT(sum.worst_t, 5e-5) << shape.name << " from " << distance;
@@ -126,7 +126,7 @@ TEST(Shapes, LanesSayWhatScalarsSay) {
         for (int i = 0; i < 500; ++i) {
             std::vector<ShapeRay<float>> rays;
             for (int k = 0; k < lane_count; ++k)
-                rays.push_back(random_ray(shape.row, distances[i % 3], random));
+                rays.push_back(random_ray(shape.record, distances[i % 3], random));
             const auto column = [&](const auto& member) {
                 return make_lanes([&](int k) { return member(rays[static_cast<size_t>(k)]); });
             };
@@ -137,10 +137,10 @@ TEST(Shapes, LanesSayWhatScalarsSay) {
                                       {column([](const R& r) { return r.direction.x; }),
                                        column([](const R& r) { return r.direction.y; }),
                                        column([](const R& r) { return r.direction.z; })}};
-            const Roots<Lanes> many = intersect_shape<Lanes>(shape.row, ray);
+            const Roots<Lanes> many = intersect_shape<Lanes>(shape.record, ray);
             for (int k = 0; k < lane_count; ++k) {
                 const Roots<float> one =
-                    intersect_shape<float>(shape.row, rays[static_cast<size_t>(k)]);
+                    intersect_shape<float>(shape.record, rays[static_cast<size_t>(k)]);
                 for (int root = 0; root < 2; ++root) {
                     if (!one.hit[root] || !lane(many.hit[root], k)) continue;
                     const float t = lane(many.t[root], k);
@@ -152,14 +152,14 @@ TEST(Shapes, LanesSayWhatScalarsSay) {
 }
 
 TEST(Sphere, FromAMillionRadiiAway) {
-    const ShapeRow row = shape_row(ShapeKind::sphere, 1, 0, 0);
+    const ShapeRecord record = shape_record(ShapeKind::sphere, 1, 0, 0);
     Pcg32 random(15);
     int hits = 0;
     for (int i = 0; i < 1000000; ++i) {
-        const ShapeRay<float> ray = random_ray(row, 1e6F, random);
+        const ShapeRay<float> ray = random_ray(record, 1e6F, random);
         const ShapeRay<double> wide = ray_cast_to<double>(ray);
-        const Roots<double> truth = intersect_shape<double>(row, wide);
-        const Roots<float> got = intersect_shape<float>(row, ray);
+        const Roots<double> truth = intersect_shape<double>(record, wide);
+        const Roots<float> got = intersect_shape<float>(record, ray);
         const double passes =
             length(exact_cross(wide.origin, wide.direction)) / length(wide.direction);
         ASSERT_TRUE(got.hit[0] || passes > 1 - 1e-5) << passes;
@@ -173,8 +173,8 @@ TEST(Sphere, FromAMillionRadiiAway) {
 }
 
 TEST(Sphere, FromInsideOneRootLiesAhead) {
-    const ShapeRow row = shape_row(ShapeKind::sphere, 2, 0, 0);
-    const Roots<float> roots = intersect_shape<float>(row, {{0.5F, 0, 0}, {1, 0, 0}});
+    const ShapeRecord record = shape_record(ShapeKind::sphere, 2, 0, 0);
+    const Roots<float> roots = intersect_shape<float>(record, {{0.5F, 0, 0}, {1, 0, 0}});
     EXPECT_FLOAT_EQ(roots.t[0], -2.5F);
     EXPECT_FLOAT_EQ(roots.t[1], 1.5F);
     const NearHit<float> ahead = nearest(roots, 0.0F, no_limit);

@@ -1,4 +1,4 @@
-// tests/shape/segment_test.cpp - a line's piece in any direction is the hull of its two spheres.
+// tests/shape/segment_test.cpp - a curve segment in any direction is the hull of its two spheres.
 // SPDX-License-Identifier: Apache-2.0
 #include "shape/segment.h"
 
@@ -17,8 +17,8 @@ Vec3d random_vector(Pcg32& random) {
     return {x, y, 2 * random.next_double() - 1};
 }
 
-/// Distance to the hull of two spheres, which is the union of those in between: the least distance
-/// to any of them, found by halving, for it is convex along the way.
+/// Distance to the hull of two spheres, the union of all spheres in between: the least distance to
+/// any of them, by bisection, because it is convex along the segment.
 double distance_to(const Segment<double>& s, const Vec3d& p) {
     const auto at = [&](double share) {
         const Vec3d centre = s.from + (s.to - s.from) * share;
@@ -81,12 +81,12 @@ TEST(Segment, FrameTurnsAndReturns) {
         const Vec3d x = out_of_frame(frame, Vec3d{1, 0, 0});
         const Vec3d y = out_of_frame(frame, Vec3d{0, 1, 0});
         EXPECT_NEAR(length(cross(x, y) - out_of_frame(frame, Vec3d{0, 0, 1})), 0, 1e-12);
-        EXPECT_NEAR(share_of_way(frame, 0.5 * frame.capsule.half_height), 0.75, 1e-12);
-        EXPECT_EQ(share_of_way(frame, -2 * frame.capsule.half_height), 0);
+        EXPECT_NEAR(fraction_along(frame, 0.5 * frame.capsule.half_height), 0.75, 1e-12);
+        EXPECT_EQ(fraction_along(frame, -2 * frame.capsule.half_height), 0);
     }
 }
 
-/// A sphere that holds the other is taken as smaller, so that a cone around both is left.
+/// A sphere that holds the other is shrunk, so that a cone around both is left.
 TEST(Segment, NeitherSphereHoldsTheOther) {
     const SegmentFrame<double> frame = frame_of<double>({{0, 0, 0}, {0, 0, 1}, 5, 1});
     EXPECT_LT(frame.capsule.bottom - frame.capsule.top, 2 * frame.capsule.half_height);

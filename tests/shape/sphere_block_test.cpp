@@ -1,4 +1,4 @@
-// tests/shape/sphere_block_test.cpp - one ray against sixteen spheres: as one after the other.
+// tests/shape/sphere_block_test.cpp - one ray against sixteen spheres equals one after the other.
 // SPDX-License-Identifier: Apache-2.0
 #include "shape/sphere_block.h"
 
@@ -42,7 +42,7 @@ void expect_nearest(const Block& block,
     const Span<float> limits{0.0F, no_limit};
     const BlockHit got = intersect_sphere_block(block.numbers, ray, limits, front_only);
     double nearest_t = 1e30;
-    double clearest = 1e30;  ///< how near the line comes to any outline
+    double clearest = 1e30;  ///< distance of the line to the closest outline
     const ShapeRay<double> wide = ray_cast_to<double>(ray);
     for (int i = 0; i < block.count; ++i) {
         const Sphere<double> sphere = block.sphere(i);
@@ -65,7 +65,7 @@ void expect_nearest(const Block& block,
 
 TEST(SphereBlock, FindsTheNearestOfAll) {
     Pcg32 random(31);
-    const ShapeRow aim = shape_row(ShapeKind::sphere, 1, 0, 0);
+    const ShapeRecord aim = shape_record(ShapeKind::sphere, 1, 0, 0);
     for (int i = 0; i < 20000; ++i) {
         const Block block = random_block(random, i % 3 == 0 ? 5 : sphere_block);
         const float distance = i % 4 == 0 ? 0.0F : i % 4 == 1 ? 1e5F : 4.0F;
@@ -74,7 +74,7 @@ TEST(SphereBlock, FindsTheNearestOfAll) {
     }
 }
 
-TEST(SphereBlock, WordsOfARowLieInItsBlock) {
+TEST(SphereBlock, WordsOfASphereLieInItsBlock) {
     EXPECT_EQ(sphere_word(0), 0);
     EXPECT_EQ(sphere_word(15), 15);
     EXPECT_EQ(sphere_word(16), sphere_block_floats);

@@ -34,7 +34,7 @@ Boxes random_boxes(Pcg32& random, int count) {
 }
 
 /// Where the ray enters and leaves a box.
-Span<double> way_through(Boxes& boxes, int i, const ShapeRay<float>& ray, double limit) {
+Span<double> span_inside(Boxes& boxes, int i, const ShapeRay<float>& ray, double limit) {
     Span<double> way{0, limit};
     const float origin[3] = {ray.origin.x, ray.origin.y, ray.origin.z};
     const float direction[3] = {ray.direction.x, ray.direction.y, ray.direction.z};
@@ -52,7 +52,7 @@ Span<double> way_through(Boxes& boxes, int i, const ShapeRay<float>& ray, double
 
 TEST(SphereCluster, NoBoxThatARayEntersIsPassedBy) {
     Pcg32 random(41);
-    const ShapeRow aim = shape_row(ShapeKind::sphere, 1, 0, 0);
+    const ShapeRecord aim = shape_record(ShapeKind::sphere, 1, 0, 0);
     int entered = 0;
     for (int k = 0; k < 20000; ++k) {
         Boxes boxes = random_boxes(random, k % 3 == 0 ? 5 : cluster_blocks);
@@ -61,7 +61,7 @@ TEST(SphereCluster, NoBoxThatARayEntersIsPassedBy) {
         const float limit = k % 2 == 0 ? no_limit : (distance + 1) / length(ray.direction);
         const BoxEntries entries = enter_boxes(boxes.numbers, ray, {0, limit});
         for (int i = 0; i < cluster_blocks; ++i) {
-            const Span<double> way = way_through(boxes, i, ray, static_cast<double>(limit));
+            const Span<double> way = span_inside(boxes, i, ray, static_cast<double>(limit));
             const bool there = k % 3 != 0 || i < 5;
             const bool enters = (entries.bits >> i & 1U) != 0;
             ASSERT_TRUE(enters || !there || way.low > way.high) << k << " " << i;
@@ -106,9 +106,9 @@ TEST(SphereCluster, BoxesHoldTheirBlocks) {
     std::vector<float> spheres(2 * sphere_block_floats, std::numeric_limits<float>::quiet_NaN());
     const float some[3][4] = {{0, 0, 0, 1}, {3, 0, -2, 0.5F}, {-7, 8, 9, 2}};
     for (size_t i = 0; i < 3; ++i) {
-        const size_t row = i < 2 ? i : sphere_block;
+        const size_t index = i < 2 ? i : sphere_block;
         for (size_t c = 0; c < 4; ++c)
-            spheres[sphere_word(row) + c * sphere_block] = some[i][c];
+            spheres[sphere_word(index) + c * sphere_block] = some[i][c];
     }
     Boxes boxes;
     fill_cluster_boxes(spheres.data(), 2, boxes.numbers);

@@ -11,7 +11,7 @@
 namespace obscura {
 namespace {
 
-/// A rotation and three standard deviations: ball_from_world is made of both.
+/// A rotation and three standard deviations, of which ball_from_world is made.
 struct Ellipsoid {
     Vec3d mean;
     std::array<Vec3d, 3> axes;  ///< unit
@@ -56,7 +56,7 @@ double squared_distance(const Ellipsoid& e, const Vec3d& at) {
     return sum;
 }
 
-/// Golden section between two places far on both sides.
+/// Golden section between two points far on both sides.
 SplatPassage<double> search(const Ellipsoid& e, const ShapeRay<double>& ray) {
     const auto value = [&](double t) {
         return squared_distance(e, ray.origin + ray.direction * t);
@@ -147,7 +147,7 @@ TEST(Splat, BlocksAreColumnsOfThem) {
     }
 }
 
-TEST(Splat, RowsThatAreNotThereTakeNothing) {
+TEST(Splat, SplatsThatAreNotThereTakeNothing) {
     const Splat<float> nothing{{0, 0, 0}, {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}, 0};
     EXPECT_EQ(pass_splat(nothing, {{0, 0, 5}, {0, 0, -1}}).alpha, 0);
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-/// The four columns of SampleRows, padded as doors.h asks.
+/// The four columns of SampleColumns, padded as path_state.h asks.
 class Samples {
 public:
     void add(float r, float g, float b, float a) {
@@ -20,7 +20,7 @@ public:
         for (size_t c = 0; c < 4; ++c)
             channel_[c].push_back(values[c]);
     }
-    SampleRows rows() {
+    SampleColumns columns() {
         for (std::vector<float>& column : padded_)
             column.clear();
         for (size_t c = 0; c < 4; ++c) {
@@ -77,7 +77,7 @@ TEST_P(Accumulate, WhatIsNotFiniteIsCountedAndAddsNothing) {
             samples.add(rgb[0], rgb[1], rgb[2], 1);
             samples.add(4, 5, 6, 0.5f);
             std::vector<PixelSum> sums = {{.block = {10, 20, 30, 40}}};
-            EXPECT_EQ(stages().accumulate(1, {0, 3}, samples.rows(), sums.data()), 1U)
+            EXPECT_EQ(stages().accumulate(1, {0, 3}, samples.columns(), sums.data()), 1U)
                 << bad << " in channel " << channel;
             EXPECT_EQ(sums_of(sums), (std::vector<float>{15, 27, 39, 41.5f}))
                 << bad << " in channel " << channel;
@@ -90,7 +90,7 @@ TEST_P(Accumulate, ChannelsThatAreHugeTogetherCountToo) {
     samples.add(0.4e30f, 0.4e30f, 0.4e30f, 1);
     samples.add(0.3e30f, 0.3e30f, 0.3e30f, 1);
     std::vector<PixelSum> sums(2);
-    EXPECT_EQ(stages().accumulate(2, {0, 1}, samples.rows(), sums.data()), 1U);
+    EXPECT_EQ(stages().accumulate(2, {0, 1}, samples.columns(), sums.data()), 1U);
     EXPECT_EQ(sums_of(sums), (std::vector<float>{0, 0, 0, 0, 0.3e30f, 0.3e30f, 0.3e30f, 1}));
 }
 
@@ -103,7 +103,7 @@ TEST_P(Accumulate, EveryBadSampleOfEveryPixelCounts) {
         samples.add(1, bad ? nan : 2.0f, 4, 1);
     }
     std::vector<PixelSum> sums(pixels);
-    EXPECT_EQ(stages().accumulate(pixels, {0, per_pixel}, samples.rows(), sums.data()), 20U);
+    EXPECT_EQ(stages().accumulate(pixels, {0, per_pixel}, samples.columns(), sums.data()), 20U);
     for (int pixel = 0; pixel < pixels; ++pixel) {
         const auto good = static_cast<float>(std::max(per_pixel - pixel, 0));
         const float(&sum)[4] = sums[static_cast<size_t>(pixel)].block;
@@ -120,7 +120,7 @@ TEST_P(Accumulate, SumsDoNotDependOnTheBatches) {
     Pcg32 random(3);
     Samples samples;
     for (size_t i = 0; i < pixels * per_pixel; ++i) {
-        // Over many decades: any other order of adding would round differently.
+        // Over many decades: any other order of sums would round differently.
         const float scale = std::exp2(between(random, -20, 20));
         const float red = scale * random.next_float();
         const float green = i % 17 == 3 ? infinity : scale * random.next_float();
@@ -128,7 +128,7 @@ TEST_P(Accumulate, SumsDoNotDependOnTheBatches) {
     }
     std::vector<PixelSum> whole(pixels);
     const SampleRange all{0, per_pixel};
-    const uint64_t bad = stages().accumulate(pixels, all, samples.rows(), whole.data());
+    const uint64_t bad = stages().accumulate(pixels, all, samples.columns(), whole.data());
     EXPECT_EQ(bad, 4U);
     for (const std::vector<size_t>& cuts : {std::vector<size_t>{1, 11},
                                             std::vector<size_t>{5, 7},
@@ -140,7 +140,7 @@ TEST_P(Accumulate, SumsDoNotDependOnTheBatches) {
         for (const size_t count : cuts) {
             Samples part = samples.part(pixels, first, count);
             const SampleRange range{static_cast<uint32_t>(first), static_cast<int>(count)};
-            bad_in_parts += stages().accumulate(pixels, range, part.rows(), sums.data());
+            bad_in_parts += stages().accumulate(pixels, range, part.columns(), sums.data());
             first += count;
         }
         EXPECT_EQ(sums_of(sums), sums_of(whole)) << cuts.size() << " batches";
@@ -148,16 +148,16 @@ TEST_P(Accumulate, SumsDoNotDependOnTheBatches) {
     }
 }
 
-/// Adds samples [0, count) of one pixel, all alike, in batches of a size.
+/// Adds samples [0, count) of one pixel, all equal, in batches of a size.
 PixelSum sum_of_constant(const StageTable& stages, float value, uint32_t count, uint32_t batch) {
     Samples samples;
     for (uint32_t i = 0; i < batch; ++i)
         samples.add(value, 0.5f * value, value, 1);
-    const SampleRows rows = samples.rows();
+    const SampleColumns columns = samples.columns();
     PixelSum sum;
     for (uint32_t first = 0; first < count; first += batch) {
         const uint32_t taken = std::min(batch, count - first);
-        stages.accumulate(1, {first, static_cast<int>(taken)}, rows, &sum);
+        stages.accumulate(1, {first, static_cast<int>(taken)}, columns, &sum);
     }
     return sum;
 }
@@ -187,7 +187,7 @@ TEST_P(Accumulate, LongSumsDoNotDependOnTheBatches) {
             for (uint32_t i = 0; i < taken; ++i)
                 samples.add(values[first + i], 0, 0, 1);
             const SampleRange range{first, static_cast<int>(taken)};
-            stages().accumulate(1, range, samples.rows(), &sum);
+            stages().accumulate(1, range, samples.columns(), &sum);
         }
         return sum.mean(0, count);
     };
@@ -207,7 +207,7 @@ TEST_P(Accumulate, FewSamplesAreAddedOneByOne) {
     }
 }
 
-TEST_P(Accumulate, OnlyUnoccludedShadowRowsArriveAtTheirSlots) {
+TEST_P(Accumulate, OnlyUnoccludedShadowRaysArriveAtTheirSlots) {
     for (int count = 0; count <= 33; ++count) {
         Samples samples;
         for (int slot = 0; slot < 40; ++slot)
@@ -215,28 +215,29 @@ TEST_P(Accumulate, OnlyUnoccludedShadowRowsArriveAtTheirSlots) {
         std::vector<float> r, g, b;
         std::vector<uint32_t> slots;
         std::vector<uint8_t> occluded;
-        for (int i = 0; i < count + 16; ++i) {  // what lies past the last row may be anything
-            const bool row = i < count;
-            r.push_back(row ? static_cast<float>(i + 1) : nan);
-            g.push_back(row ? 100.0f : nan);
-            b.push_back(row ? 0.25f : nan);
-            slots.push_back(row ? static_cast<uint32_t>(39 - i) : 0U);
-            occluded.push_back(row && i % 3 == 1 ? 1 : row && i % 5 == 2 ? 255 : 0);
+        for (int i = 0; i < count + 16; ++i) {  // what lies past the last entry may be anything
+            const bool exists = i < count;
+            r.push_back(exists ? static_cast<float>(i + 1) : nan);
+            g.push_back(exists ? 100.0f : nan);
+            b.push_back(exists ? 0.25f : nan);
+            slots.push_back(exists ? static_cast<uint32_t>(39 - i) : 0U);
+            occluded.push_back(exists && i % 3 == 1 ? 1 : exists && i % 5 == 2 ? 255 : 0);
         }
-        ShadowRows shadows{};
+        ShadowColumns shadows{};
         shadows.r = r.data();
         shadows.g = g.data();
         shadows.b = b.data();
         shadows.slot = slots.data();
-        const SampleRows rows = samples.rows();
-        stages().add_shadows(count, shadows, occluded.data(), rows);
+        const SampleColumns columns = samples.columns();
+        stages().add_shadows(count, shadows, occluded.data(), columns);
         for (int slot = 0; slot < 40; ++slot) {
             const int i = 39 - slot;
             const bool lit = i < count && i % 3 != 1 && i % 5 != 2;
-            EXPECT_EQ(rows.r[slot], lit ? 1 + static_cast<float>(i + 1) : 1) << count << " " << i;
-            EXPECT_EQ(rows.g[slot], lit ? 102.0f : 2.0f);
-            EXPECT_EQ(rows.b[slot], lit ? 3.25f : 3.0f);
-            EXPECT_EQ(rows.a[slot], 0.5f) << "light has no alpha";
+            EXPECT_EQ(columns.r[slot], lit ? 1 + static_cast<float>(i + 1) : 1)
+                << count << " " << i;
+            EXPECT_EQ(columns.g[slot], lit ? 102.0f : 2.0f);
+            EXPECT_EQ(columns.b[slot], lit ? 3.25f : 3.0f);
+            EXPECT_EQ(columns.a[slot], 0.5f) << "light has no alpha";
         }
     }
 }

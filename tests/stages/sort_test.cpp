@@ -1,8 +1,8 @@
-// tests/stages/sort_test.cpp - hits and misses are parted, and each keeps its own row.
+// tests/stages/sort_test.cpp - hits and misses are separated; each keeps its own path.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_scenes.h"
 #include "render/prepared_scene.h"
-#include "stages/walk.h"
+#include "stages/wavefront.h"
 
 #include <gtest/gtest.h>
 
@@ -12,14 +12,14 @@ namespace {
 constexpr float untouched = -5.0f;
 constexpr float background[4] = {0.125f, 0.25f, 0.5f, 0.75f};
 
-/// The squares that rows hit in turn. The last two are 1024 apart: sorting takes them as one.
+/// The squares that paths hit in turn. The last two are 1024 apart: sorting treats them as one.
 constexpr int surfaces[] = {0, 5, 1029};
 
 float blue_of(int surface) {
     return 2.0f + static_cast<float>(surface);
 }
 
-/// Squares that show their colours without light, and nothing around them.
+/// Unlit squares that show their colours, and nothing around them.
 PreparedScene unlit_squares(Isa isa) {
     SceneBuilder builder;
     for (int surface = 0; surface <= surfaces[2]; ++surface) {
@@ -38,12 +38,12 @@ PreparedScene unlit_squares(Isa isa) {
 
 class Sort : public testing::TestWithParam<Isa> {
 protected:
-    /// Shades rows of which those with is_hit hit a square; row i belongs to slot_of(i, count) and
-    /// has the throughput own_of(i).
+    /// Shades paths of which those with is_hit hit a square; path i belongs to slot_of(i, count)
+    /// and has the throughput own_of(i).
     void shade(const std::vector<bool>& is_hit, int bounce) {
         const int count = static_cast<int>(is_hit.size());
         for (int i = 0; i < count + 16; ++i)
-            write_row(i, count, i < count && is_hit[static_cast<size_t>(i)]);
+            write_path(i, count, i < count && is_hit[static_cast<size_t>(i)]);
         BatchSettings batch;
         std::copy_n(background, 4, batch.background);
         const ShadeCounts out = stage_table_for(GetParam())
@@ -63,7 +63,7 @@ protected:
 
     void expect_slots(const std::vector<bool>& is_hit, int bounce) const {
         const int count = static_cast<int>(is_hit.size());
-        const SampleRows& s = work_.samples;
+        const SampleColumns& s = work_.samples;
         for (int i = 0; i < count; ++i) {
             const int slot = slot_of(i, count);
             const float own = own_of(i);
@@ -83,8 +83,8 @@ protected:
     }
 
     int surface_count_ = 1;   ///< how many of `surfaces` are hit
-    bool ascending_ = false;  ///< row i belongs to slot i, as the camera makes them; else reversed
-    int dark_every_ = 0;      ///< every so many rows have no throughput; 0: all have
+    bool ascending_ = false;  ///< path i has sample index i, as from the camera; else reversed
+    int dark_every_ = 0;      ///< every so many paths have no throughput; 0: none has
 
 private:
     int slot_of(int i, int count) const { return ascending_ ? i : count - 1 - i; }
@@ -93,12 +93,12 @@ private:
         return dark_every_ > 0 && i % dark_every_ == 0 ? 0.0f : static_cast<float>(i + 1);
     }
 
-    /// Neighbouring rows hit different squares, in no order.
+    /// Neighbouring paths hit different squares, in no order.
     int surface_of(int i) const { return surfaces[i * 5 / 3 % surface_count_]; }
 
-    void write_row(int i, int count, bool hit) {
+    void write_path(int i, int count, bool hit) {
         const bool exists = i < count;
-        const PathRows& p = work_.paths[0];
+        const PathColumns& p = work_.paths[0];
         for (float* zero : {p.ox, p.oy, p.dx, p.dy, p.pdf, p.cone_width, p.cone_spread})
             zero[i] = 0;
         p.oz[i] = 3;
@@ -106,13 +106,13 @@ private:
         for (float* throughput : {p.tr, p.tg, p.tb})
             throughput[i] = own_of(i);
         p.slot[i] = exists ? static_cast<uint32_t>(slot_of(i, count)) : 0xFFFFFFFFU;
-        p.key[i] = p.sample[i] = p.path_key[i] = p.bodies[i] =
+        p.key[i] = p.sample[i] = p.path_key[i] = p.medium_stack[i] =
             static_cast<uint32_t>(i) * 0x9E3779B9U;
-        const HitRows& h = work_.hits;
+        const HitColumns& h = work_.hits;
         h.t[i] = hit ? 3.0f : std::nanf("");
         h.u[i] = h.v[i] = hit ? 0.25f : std::nanf("");
         h.instance[i] = hit ? -1 : -7;
-        // A row past the last one claims a hit that is out of every table's range.
+        // An entry past the last one claims a hit that is out of every table's range.
         h.primitive[i] = hit ? surface_of(i) : exists ? -1 : 0x7000000;
         h.triangle[i] = hit ? i % 2 : 0x7000000;
         const float clear = exists ? 0.0f : untouched;
@@ -147,7 +147,7 @@ TEST_P(Sort, HitsAreOpaqueAndMissesTakeTheBackground) {
     }
 }
 
-TEST_P(Sort, EachRowKeepsTheSurfaceThatItHits) {
+TEST_P(Sort, EachPathKeepsTheSurfaceThatItHits) {
     Pcg32 random(13);
     for (surface_count_ = 2; surface_count_ <= 3; ++surface_count_) {
         for (const size_t count : {1U, 15U, 16U, 100U, 4096U}) {
@@ -162,7 +162,7 @@ TEST_P(Sort, EachRowKeepsTheSurfaceThatItHits) {
     }
 }
 
-TEST_P(Sort, RowsInTheOrderOfTheirSlotsAreAddedTogether) {
+TEST_P(Sort, ShadowRaysInTheOrderOfTheirSlotsAreAddedTogether) {
     ascending_ = true;
     for (size_t count = 1; count <= 33; ++count) {
         for (const bool hits : {false, true}) {
@@ -172,8 +172,8 @@ TEST_P(Sort, RowsInTheOrderOfTheirSlotsAreAddedTogether) {
     }
 }
 
-TEST_P(Sort, RowsThatStayAndRowsThatMoveUpKeepTheirOwn) {
-    std::vector<bool> is_hit(107, true);  // of one surface: whole groups, then some misses
+TEST_P(Sort, PathsThatStayAndPathsThatMoveUpKeepTheirOwn) {
+    std::vector<bool> is_hit(107, true);  // on one surface: whole groups, then some misses
     std::fill_n(is_hit.begin() + 64, 3, false);
     for (const bool ascending : {false, true}) {
         for (const int bounce : {0, 1}) {

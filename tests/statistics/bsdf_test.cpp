@@ -1,4 +1,4 @@
-// tests/statistics/bsdf_test.cpp - the BRDF chooses directions with the density it claims.
+// tests/statistics/bsdf_test.cpp - the BRDF samples directions with the density it claims.
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/bsdf.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 #ifdef OBSCURA_DEBUG
 constexpr int sample_count = 50000;
-constexpr double wrong_factor = 1.15;  ///< a density this wrong is found with so many samples
+constexpr double wrong_factor = 1.15;  ///< so many samples detect a density this wrong
 #else
 constexpr int sample_count = 300000;
 constexpr double wrong_factor = 1.05;
@@ -40,7 +40,7 @@ BsdfSample<float> draw(const BsdfParams<float>& p, const Vec3d& wo, Pcg32& rando
     return sample_bsdf(p, narrow, Vec2f{x, y});
 }
 
-/// Samples in float against the density in double; `lie` bends the density to prove the test.
+/// Samples in float against the density in double; `lie` distorts the density to prove the test.
 ChiSquareOutcome compare(double metallic, double roughness, double cosine, double lie = 1) {
     const auto p = test::bsdf_of(base_color, metallic, roughness);
     const auto narrow = cast<float>(p);
@@ -62,7 +62,7 @@ ChiSquareOutcome compare(double metallic, double roughness, double cosine, doubl
          .samples = sample_count,
          .seed = static_cast<uint64_t>(1000 * roughness + 10 * cosine),
          .misses = true,
-         .quadrature = {.absolute = 1e-6, .relative = 3e-4, .largest = 1e-4, .least_depth = 2}});
+         .quadrature = {.absolute = 1e-6, .relative = 3e-4, .largest = 1e-4, .min_depth = 2}});
 }
 
 void expect_right(double metallic) {
@@ -91,7 +91,7 @@ TEST(BsdfStatistics, WrongDensityFails) {
     EXPECT_FALSE(compare(0.5, 0.8, 0.3, wrong_factor).passes(0.01));
 }
 
-/// Mean and standard error of sampled albedo, and the share of samples below the horizon.
+/// Mean and standard error of sampled albedo, and the fraction of samples below the horizon.
 struct SampledAlbedo {
     double mean, error, lost;
 };
@@ -127,7 +127,7 @@ TEST(BsdfStatistics, SampledAlbedoIsTheIntegral) {
                 const SampledAlbedo sampled = sampled_albedo(p, wo);
                 EXPECT_NEAR(sampled.mean, luminance(truth.albedo), 4 * sampled.error + 2e-4)
                     << metallic << ", " << roughness << ", " << cosine;
-                // The density lacks exactly what goes below the horizon.
+                // The density misses exactly the samples below the horizon.
                 const double deviation =
                     std::sqrt(sampled.lost * (1 - sampled.lost) / (sample_count / 2));
                 EXPECT_NEAR(1 - truth.pdf, sampled.lost, 4 * deviation + 5e-4)

@@ -101,7 +101,7 @@ TEST(ChiSquare, PIsUniformOverSeeds) {
             return Vec2<double>{x, random.next_double()};
         };
         ChiSquareOptions options{.x_bins = 10, .y_bins = 10, .samples = 5000, .seed = seed};
-        options.quadrature.least_depth = 0;
+        options.quadrature.min_depth = 0;
         const double p = chi_square_on_square(place, uniform, options).p_value;
         below_half += p < 0.5 ? 1 : 0;
         below_tenth += p < 0.1 ? 1 : 0;

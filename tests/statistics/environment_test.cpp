@@ -14,7 +14,7 @@ namespace {
 
 constexpr int test_count = 7;  ///< right densities below
 
-/// Samples in float, as a picture does; the density in double.
+/// Samples in float, as in rendering; the density in double.
 ChiSquareOutcome outcome_of(const EnvironmentView& sampled,
                             const EnvironmentView& claimed,
                             int axis,

@@ -38,7 +38,7 @@ ChiSquareOutcome compare(const LayeredParams<float>& p, const Vec3f& wo, double 
          .samples = sample_count,
          .seed = 7,
          .misses = true,
-         .quadrature = {.absolute = 1e-6, .relative = 3e-4, .largest = 1e-4, .least_depth = 2}});
+         .quadrature = {.absolute = 1e-6, .relative = 3e-4, .largest = 1e-4, .min_depth = 2}});
 }
 
 const Vec3f steep = normalize(Vec3f{0.3F, -0.2F, 0.9F});
@@ -86,7 +86,7 @@ TEST(LayerStatistics, MixturesThatMicrofacetsMake) {
     stained.solid = false;
     expect_right(stained, "half metal, half plastic");
     LayeredParams<float> bubble = clear_glass(0.2F, 1.3F);
-    bubble.film.strength = 1;
+    bubble.thin_film.strength = 1;
     bubble.coat = 0.5F;
     bubble.coat_alpha = 0.1F;
     expect_right(bubble, "coated film");

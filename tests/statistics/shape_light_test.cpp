@@ -36,11 +36,11 @@ ShapeLight flat_lamp(ShapeLightKind kind) {
 }
 
 template <typename F>
-ShapeLightRow<F> row_of_light(const ShapeLight& light) {
-    return read_shape_light(TableRow<F, ShapeLight>(&light, 0));
+ShapeLightRecord<F> record_of_light(const ShapeLight& light) {
+    return read_shape_light(TableRecord<F, ShapeLight>(&light, 0));
 }
 
-/// Where a direction meets a light, by the formulas for rays; nothing where it does not.
+/// Where a direction meets a light, by the ray formulas; nothing where it misses.
 std::optional<Vec3d> meet(const ShapeLight& light, const Vec3d& from, const Vec3d& direction) {
     const Vec3d centre{light.centre[0], light.centre[1], light.centre[2]};
     const ShapeRay<double> ray{from, direction};
@@ -64,7 +64,7 @@ double density(const ShapeLight& light, const Vec3d& from, const Vec3d& directio
     const Vec3d centre{light.centre[0], light.centre[1], light.centre[2]};
     const Vec3d normal = round ? normalize(*point - centre) : Vec3d{0, 1, 0};
     return shape_light_density(
-        row_of_light<double>(light), from, length(*point - from), -dot(normal, direction));
+        record_of_light<double>(light), from, length(*point - from), -dot(normal, direction));
 }
 
 void expect_right(const ShapeLight& light, const Vec3d& from, int axis = 1) {
@@ -73,10 +73,10 @@ void expect_right(const ShapeLight& light, const Vec3d& from, int axis = 1) {
     const auto sample = [&](Pcg32& random) -> std::optional<Vec3d> {
         const float x = random.next_float();
         const auto s =
-            sample_shape_light(row_of_light<float>(light), Vec2f{x, random.next_float()}, eye);
+            sample_shape_light(record_of_light<float>(light), Vec2f{x, random.next_float()}, eye);
         const Vec3d direction{s.direction.x, s.direction.y, s.direction.z};
         const double expected = density(light, from, direction);
-        // Directions on the outline may miss by rounding; the others carry the density itself.
+        // Directions on the outline may miss by rounding; the others have the claimed density.
         if (expected > 0) {
             EXPECT_NEAR(s.pdf / expected, 1, 2e-3);
         }
@@ -122,7 +122,7 @@ TEST(ShapeLightStatistics, WrongDensityFails) {
     const auto sample = [&](Pcg32& random) -> std::optional<Vec3d> {
         const double x = random.next_double();
         return sample_shape_light(
-                   row_of_light<double>(light), Vec2<double>{x, random.next_double()}, {0, 0, 0})
+                   record_of_light<double>(light), Vec2<double>{x, random.next_double()}, {0, 0, 0})
             .direction;
     };
     const auto pdf = [&](const Vec3d& d) { return density(light, {0.02, 0, 0}, d); };

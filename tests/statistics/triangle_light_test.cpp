@@ -38,7 +38,7 @@ TEST(TriangleLightStatistics, PointsAreUniformInArea) {
     EXPECT_FALSE(wrong.passes(0.01)) << wrong;
 }
 
-/// Density of a direction: where the ray from the origin meets the triangle, if it does.
+/// Density of a direction whose ray from the origin meets the triangle.
 double direction_pdf(const TriangleLight& light, const Vec3d& from, const Vec3d& direction) {
     const auto wide = [](const float* v) { return Vec3d{v[0], v[1], v[2]}; };
     const Vec3d e1 = wide(light.e1);
@@ -65,7 +65,7 @@ void expect_right(const Vec3d& from) {
             light,
             from,
             normalize(Vec3d{s.point.x - from.x, s.point.y - from.y, s.point.z - from.z}));
-        // A point on the edge may miss by rounding; the others must carry the density itself.
+        // A point on the edge may miss by rounding; the others must have the claimed density.
         if (expected > 0) {
             EXPECT_NEAR(s.pdf / expected, 1, 1e-3);
         }

@@ -37,14 +37,14 @@ inline double single_bounce(const Vec3d& wo, const Vec3d& wi, double alpha) {
     return a2 / (pi_d * d * d) / (1 + lambda(wo) + lambda(wi)) / (4 * wo.z * wi.z);
 }
 
-/// Tilt of a microfacet normal as the share `t` of GGX normals that are less tilted, then as
-/// 1 - sqrt(1 - t): steep ones, which grazing views see, are dense in it.
+/// Tilt of a microfacet normal as the fraction `t` of GGX normals that are less tilted, then as 1 -
+/// sqrt(1 - t), which is dense at the steep ones that grazing views see.
 inline double slope_from_unit(double x, double alpha) {
     const double steep = 1 - x;
     return alpha * std::sqrt(1 / (steep * steep) - 1);
 }
 
-/// Density, per solid angle, of directions mirrored at normals that are uniform in that number.
+/// Density, per solid angle, of directions mirrored at normals uniform in that number.
 inline double mirrored_density(const Vec3d& wo, const Vec3d& wi, double alpha) {
     const Vec3d h = normalize(wo + wi);
     const double slope = std::sqrt(h.x * h.x + h.y * h.y) / h.z;
@@ -52,9 +52,9 @@ inline double mirrored_density(const Vec3d& wo, const Vec3d& wi, double alpha) {
     return ggx_distribution(h, alpha) * h.z / (4 * dot(wo, h)) / (2 * steep);
 }
 
-/// Integrates over two grids, one that is dense where the specular lobe is and one for the diffuse;
-/// each point is weighted by its grid's share of both densities (the balance heuristic), so that
-/// the sum is right for any alpha and any angle. Uses nothing of sample_bsdf.
+/// Integrates over two grids, one dense at the specular lobe and one for the diffuse; each point is
+/// weighted by its grid's fraction of both densities (the balance heuristic), so that the sum is
+/// right for any alpha and any angle. Independent of sample_bsdf.
 inline AlbedoResult quadrature_albedo(const BsdfParams<double>& p, const Vec3d& wo) {
     constexpr int rows = 300;
     constexpr int columns = 160;

@@ -1,4 +1,4 @@
-// tests/support/chi_square.h - tests that a sampler makes its samples with the density it claims.
+// tests/support/chi_square.h - tests that a sampler draws samples with the density it claims.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -62,8 +62,8 @@ struct ChiSquareOutcome {
     double statistic = 0;
     int degrees = 0;
     double p_value = 0;
-    double expected_share = 0;  ///< integral of the density over all bins
-    std::string problem;        ///< what no statistic can excuse; then p_value is 0
+    double expected_fraction = 0;  ///< integral of the density over all bins
+    std::string problem;           ///< a failure that no statistic can excuse; then p_value is 0
 
     bool passes(double alpha) const { return problem.empty() && p_value > alpha; }
 };
@@ -71,7 +71,7 @@ struct ChiSquareOutcome {
 /// For test messages.
 inline std::ostream& operator<<(std::ostream& out, const ChiSquareOutcome& outcome) {
     return out << "chi-square " << outcome.statistic << ", degrees " << outcome.degrees << ", p "
-               << outcome.p_value << ", integral " << outcome.expected_share << ' '
+               << outcome.p_value << ", integral " << outcome.expected_fraction << ' '
                << outcome.problem;
 }
 
@@ -114,15 +114,15 @@ inline ChiSquareOutcome chi_square(const std::vector<double>& observed,
     return outcome;
 }
 
-/// Integral of f(x, y) over rectangles: a 3 x 3 Gauss-Legendre rule, halved on both sides until
-/// it settles. Follows jumps of the density (pixel borders) to 2^-depth of a bin, but a jump that
-/// only grazes a bin goes unseen: where jumps are large, let bins and borders run in parallel.
+/// Integral of f(x, y) over rectangles: a 3 x 3 Gauss-Legendre rule, halved on both sides until it
+/// converges. Resolves jumps of the density (pixel borders) to 2^-depth of a bin, but misses a jump
+/// that only grazes a bin: where jumps are large, align bins and borders.
 struct Quadrature {
     double absolute = 2e-7;
     double relative = 1e-4;
-    double largest = 1e-5;  ///< no part may hold more: a jump at its rim could go unseen
-    int least_depth = 3;    ///< finds features that are small against a bin
-    int most_depth = 9;
+    double largest = 1e-5;  ///< largest value of one rectangle: a jump at its rim could go unseen
+    int min_depth = 3;      ///< finds features that are small against a bin
+    int max_depth = 9;
 
     struct Box {
         double x0, x1, y0, y1;
@@ -164,7 +164,7 @@ private:
         const bool settled = std::abs(fine - coarse) <= absolute + relative * std::abs(fine) &&
                              std::abs(fine) <= largest;
         if (!std::isfinite(fine)) return fine;
-        if (depth >= most_depth || (settled && depth >= least_depth)) return fine;
+        if (depth >= max_depth || (settled && depth >= min_depth)) return fine;
         double sum = 0;
         for (int i = 0; i < 4; ++i)
             sum += refine(f, parts[i], values[i], depth + 1);
@@ -178,11 +178,11 @@ struct ChiSquareOptions {
     int samples = 1000000;
     uint64_t seed = 1;
     int axis = 2;         ///< of the polar angle: 0 x, 1 y, 2 z
-    bool misses = false;  ///< the sampler may return nothing; the density's rest is its share
+    bool misses = false;  ///< the sampler may return nothing, with the rest of the density
     Quadrature quadrature = {};
 };
 
-/// Common part: `sample` gives a place in the unit square (or nothing), `density` the expected
+/// Common part: `sample` gives a point in the unit square (or nothing), `density` the expected
 /// density there; both axes have bins of equal size.
 ///
 /// In      sample: std::optional<Vec2<double>>(Pcg32&); density: double(double x, double y)
@@ -231,7 +231,7 @@ ChiSquareOutcome chi_square_on_square(const Sample& sample,
         expected.pop_back();
     }
     ChiSquareOutcome outcome = chi_square(observed, expected);
-    outcome.expected_share = share;
+    outcome.expected_fraction = share;
     if (outside) outcome.problem += " samples outside of the domain or missing";
     if (!whole) outcome.problem += " the density does not integrate to 1";
     if (!outcome.problem.empty()) outcome.p_value = 0;

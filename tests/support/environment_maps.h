@@ -57,7 +57,7 @@ inline TestMap sky_map(int width, int height) {
     return map;
 }
 
-/// The table of a map that is known to be good.
+/// The table of a valid map.
 inline EnvironmentTable table_of(const TestMap& map, double rotation_deg = 0) {
     return EnvironmentTable::create(map.image(), 1.0, rotation_deg).value();
 }

@@ -1,4 +1,4 @@
-// tests/support/foreign_plugin.cpp - a library that tells when it is loaded into a process.
+// tests/support/foreign_plugin.cpp - a library that reports when a process loads it.
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdio>
 

@@ -24,11 +24,11 @@ inline LayeredParams<float> plain_layers(float alpha) {
     p.sheen_alpha = 1;
     p.coat_alpha = 1;
     p.coat_normal = {0, 0, 1};
-    p.film = {0, 1.3F, 400};
+    p.thin_film = {0, 1.3F, 400};
     return p;
 }
 
-/// A mirror-smooth white pane (eta 0) or body that lets everything through.
+/// A mirror-smooth white pane (eta 0) or solid that transmits everything.
 inline LayeredParams<float> clear_glass(float alpha, float eta) {
     LayeredParams<float> p = plain_layers(alpha);
     p.transmission = 1;
@@ -39,8 +39,8 @@ inline LayeredParams<float> clear_glass(float alpha, float eta) {
     return p;
 }
 
-/// All lobes in random shares; colours at most 1.
-inline LayeredParams<float> random_layers(Pcg32& random, float least_alpha) {
+/// All lobes with random weights; colours at most 1.
+inline LayeredParams<float> random_layers(Pcg32& random, float min_alpha) {
     const auto unit = [&] {
         const uint32_t kind = random.next_uint() % 5;
         return kind == 0 ? 0.0F : kind == 1 ? 1.0F : random.next_float();
@@ -50,7 +50,7 @@ inline LayeredParams<float> random_layers(Pcg32& random, float least_alpha) {
         const float green = unit();
         return Vec3f{red, green, unit()};
     };
-    const auto width = [&] { return std::max(square(unit()), least_alpha); };
+    const auto width = [&] { return std::max(square(unit()), min_alpha); };
     LayeredParams<float> p = plain_layers(width());
     p.alpha.x = std::max(p.alpha.x, width());
     p.base_color = color();
@@ -70,7 +70,7 @@ inline LayeredParams<float> random_layers(Pcg32& random, float least_alpha) {
     p.coat_alpha = width();
     const float lean = 0.2F * random.next_float();
     p.coat_normal = normalize(Vec3f{lean, -0.5F * lean, 1});
-    p.film = {unit(), 1 + unit(), 1000 * unit()};
+    p.thin_film = {unit(), 1 + unit(), 1000 * unit()};
     return p;
 }
 
@@ -97,7 +97,7 @@ LayeredParams<F> convert(const LayeredParams<float>& p) {
     out.coat = F(p.coat);
     out.coat_alpha = F(p.coat_alpha);
     out.coat_normal = convert<F>(p.coat_normal);
-    out.film = {F(p.film.strength), F(p.film.ior), F(p.film.thickness_nm)};
+    out.thin_film = {F(p.thin_film.strength), F(p.thin_film.ior), F(p.thin_film.thickness_nm)};
     return out;
 }
 

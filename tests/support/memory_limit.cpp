@@ -1,4 +1,4 @@
-// tests/support/memory_limit.cpp - what a test program allocates by instead of the library's way.
+// tests/support/memory_limit.cpp - a test program's allocator, in place of the library's.
 // SPDX-License-Identifier: Apache-2.0
 #include "support/memory_limit.h"
 

@@ -29,7 +29,7 @@ struct ProgramSetup {
     std::filesystem::path folder = std::filesystem::current_path();
     std::vector<std::string> environment;  ///< "NAME=value", added to ours
     std::function<void()> before_start;    ///< in the child: limits and the like
-    /// Called with everything on standard output so far and the process, whenever more comes.
+    /// Called with the process and all standard output so far, whenever more comes.
     std::function<void(const std::string&, pid_t)> on_output;
     double time_limit_s = 120;
 };
@@ -56,7 +56,7 @@ namespace run_program_detail {
     _exit(127);
 }
 
-/// Reads what is there; closes the descriptor and makes it -1 at its end.
+/// Reads available output; closes the descriptor and sets it to -1 at its end.
 inline bool drain(int& descriptor, std::string& text) {
     char buffer[4096];
     const ssize_t count = read(descriptor, buffer, sizeof buffer);

@@ -17,7 +17,7 @@ public:
         scene_.positions.clear();
     }
 
-    /// Adds a material and returns its row.
+    /// Adds a material and returns its index.
     int32_t material(const Material& m) {
         scene_.materials.push_back(m);
         scene_.material_numbers.push_back(static_cast<int32_t>(scene_.material_numbers.size()));
@@ -26,11 +26,11 @@ public:
     }
 
     /// A parallelogram with corners p, p + a, p + a + b, p + b; its front is cross(a, b).
-    void quad(const Vec3f& p, const Vec3f& a, const Vec3f& b, int32_t material_row) {
+    void quad(const Vec3f& p, const Vec3f& a, const Vec3f& b, int32_t material_record) {
         const uint32_t first = vertex_count();
         for (const Vec3f& v : {p, p + a, p + a + b, p + b})
             add_vertex(v);
-        begin(material_row);
+        begin(material_record);
         triangle(first, first + 1, first + 2);
         triangle(first, first + 2, first + 3);
         end();
@@ -41,7 +41,7 @@ public:
     void sphere(const Vec3f& centre,
                 float radius,
                 int rings,
-                int32_t material_row,
+                int32_t material_record,
                 bool inward = false,
                 bool flat = false) {
         const uint32_t first = vertex_count();
@@ -59,7 +59,7 @@ public:
                 normals.insert(normals.end(), {sign * n.x, sign * n.y, sign * n.z});
             }
         }
-        begin(material_row);
+        begin(material_record);
         if (!flat) {
             scene_.primitives.back().normal_base = static_cast<int32_t>(
                 static_cast<int64_t>(scene_.attributes.size()) - 3 * static_cast<int64_t>(first));
@@ -72,7 +72,7 @@ public:
             for (int c = 0; c < columns; ++c) {
                 uint32_t corner[4] = {at(r, c), at(r, c + 1), at(r + 1, c + 1), at(r + 1, c)};
                 if (inward) std::swap(corner[1], corner[3]);
-                // At the poles one half of the quad has no area: which one, the winding decides.
+                // At the poles one half of the quad has no area: the winding decides which one.
                 const bool first_pole = r == 0;
                 const bool last_pole = r + 1 == rings;
                 if (!(inward ? last_pole : first_pole)) triangle(corner[0], corner[1], corner[2]);
@@ -103,10 +103,10 @@ private:
     void add_vertex(const Vec3f& v) {
         scene_.positions.insert(scene_.positions.end(), {v.x, v.y, v.z});
     }
-    void begin(int32_t material_row) {
+    void begin(int32_t material_record) {
         Primitive primitive;
         primitive.first_triangle = static_cast<int32_t>(scene_.indices.size() / 3);
-        primitive.material = material_row;
+        primitive.material = material_record;
         primitive.node = static_cast<int32_t>(scene_.primitives.size());
         scene_.primitives.push_back(primitive);
     }

@@ -11,16 +11,16 @@
 
 namespace obscura::test {
 
-inline ShapeRow make_shape(ShapeKind kind, float a, float b = 0, float c = 0) {
-    ShapeRow row;
-    row.kind = static_cast<int32_t>(kind);
-    row.size[0] = a;
-    row.size[1] = b;
-    row.size[2] = c;
-    return row;
+inline ShapeRecord make_shape(ShapeKind kind, float a, float b = 0, float c = 0) {
+    ShapeRecord record;
+    record.kind = static_cast<int32_t>(kind);
+    record.size[0] = a;
+    record.size[1] = b;
+    record.size[2] = c;
+    return record;
 }
 
-inline Primitive shape_primitive(Scene& scene, const ShapeRow& row, int32_t material) {
+inline Primitive shape_primitive(Scene& scene, const ShapeRecord& record, int32_t material) {
     Primitive primitive;
     primitive.first_triangle = static_cast<int32_t>(scene.shapes.size());
     primitive.triangle_count = 1;
@@ -28,18 +28,18 @@ inline Primitive shape_primitive(Scene& scene, const ShapeRow& row, int32_t mate
     primitive.tangent_base = 0;
     primitive.uv_base[0] = 0;
     primitive.geometry = static_cast<int32_t>(GeometryKind::shapes);
-    scene.shapes.push_back(row);
+    scene.shapes.push_back(record);
     return primitive;
 }
 
 /// Adds a shape in world space to a scene that has no instances yet.
-inline void add_shape(Scene& scene, const ShapeRow& row, int32_t material) {
-    Primitive primitive = shape_primitive(scene, row, material);
+inline void add_shape(Scene& scene, const ShapeRecord& record, int32_t material) {
+    Primitive primitive = shape_primitive(scene, record, material);
     primitive.node = static_cast<int32_t>(scene.primitives.size());
     scene.primitives.push_back(primitive);
     ++scene.world_primitive_count;
-    const ShapeBox box = shape_bounds(row);
-    if (is_unbounded(row)) return;
+    const ShapeBox box = shape_bounds(record);
+    if (is_unbounded(record)) return;
     scene.bounds.low = {std::min(scene.bounds.low.x, box.low.x),
                         std::min(scene.bounds.low.y, box.low.y),
                         std::min(scene.bounds.low.z, box.low.z)};
@@ -47,14 +47,17 @@ inline void add_shape(Scene& scene, const ShapeRow& row, int32_t material) {
 }
 
 /// Adds a shape that an instance places; after all shapes in world space.
-inline void add_shape(Scene& scene, const ShapeRow& row, int32_t material, const Affined& placing) {
+inline void add_shape(Scene& scene,
+                      const ShapeRecord& record,
+                      int32_t material,
+                      const Affined& placing) {
     Instance instance;
     instance.world_from_object = affine_cast<float>(placing);
     instance.object_from_world =
         affine_cast<float>(inverse(affine_cast<double>(instance.world_from_object)));
     instance.mesh = static_cast<int32_t>(scene.meshes.size());
     instance.mirrored = determinant(placing) < 0 ? 1 : 0;
-    const Primitive primitive = shape_primitive(scene, row, material);
+    const Primitive primitive = shape_primitive(scene, record, material);
     scene.meshes.push_back({static_cast<int32_t>(scene.primitives.size()), 1});
     scene.primitives.push_back(primitive);
     scene.instances.push_back(instance);

@@ -31,7 +31,7 @@ inline std::string base64(std::string_view bytes) {
     return out;
 }
 
-/// A scene's mesh and the JSON that differs from scene to scene.
+/// A scene's mesh and the parts of the JSON that vary between scenes.
 struct SmallScene {
     std::vector<float> positions;          ///< 3 floats a vertex
     std::vector<uint32_t> indices;         ///< 3 a triangle

@@ -1,4 +1,4 @@
-// tests/support/splat_scenes.h - Gaussian splats in memory, and what they do to a ray, in double.
+// tests/support/splat_scenes.h - Gaussian splats in memory, and their effect on a ray in double.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -69,7 +69,7 @@ inline Affined ball(const Vec3d& centre, double sigma) {
     return out;
 }
 
-/// Where a line passes a splat nearest to its middle, by the covariance matrix.
+/// Where a line is closest to a splat's centre, by the covariance matrix.
 struct TruePassage {
     double t, squared;  ///< squared: distance in standard deviations
 };
@@ -92,7 +92,7 @@ inline TruePassage true_passage(const Affined& map, const Vec3d& origin, const V
     return {along / size, all - along * along / size};
 }
 
-/// What such a splat takes of light, cut off where KHR_gaussian_splatting's kernel ends.
+/// The light that such a splat absorbs, cut off where KHR_gaussian_splatting's kernel ends.
 inline double true_alpha(double opacity, double squared) {
     const double alpha = opacity * std::exp(-squared / 2);
     return squared <= 9 && alpha >= 1.0 / 255 ? alpha : 0;

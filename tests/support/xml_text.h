@@ -1,4 +1,4 @@
-// tests/support/xml_text.h - whether a document is well-formed, as far as ours go.
+// tests/support/xml_text.h - whether a document is well-formed, as far as ours need it.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/bsdf_albedo.h"
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include "support/random.h"
 #include <cmath>
 
@@ -97,8 +97,8 @@ TEST(Bsdf, AlbedoTableIsTheSpecularLobesIntegral) {
     }
 }
 
-/// Shares of white light that white facets send on after one bounce: published values, and one by
-/// another integration of the height-correlated form.
+/// Fractions of white light that white facets reflect after one bounce: published values, and one
+/// by another integration of the height-correlated form.
 TEST(Bsdf, MaskingIsHeightCorrelated) {
     const auto once = [](double cosine, double roughness) {
         return specular_albedo(cosine, roughness * roughness).mirror;
@@ -109,8 +109,8 @@ TEST(Bsdf, MaskingIsHeightCorrelated) {
     EXPECT_NEAR(once(0.2, 1.0), 0.6417, 0.001);  // separable masking: 0.513
 }
 
-/// Light that is caught by the facets meets them again: a coloured metal grows more colourful, by
-/// the geometric series of its mean reflectance.
+/// Light caught by the facets meets them again: a coloured metal grows more colourful, by the
+/// geometric series of its mean reflectance.
 TEST(Bsdf, CaughtLightIsColouredAtEachBounce) {
     const Vec3d color{0.9, 0.5, 0.1};
     const auto p = test::bsdf_of(color, 1.0, 1.0);
@@ -168,7 +168,7 @@ TEST(Bsdf, ReflectanceAtTheNormalIsWhatTheSpecificationSays) {
     const Vec3d up{0, 0, 1};
     const Vec3d color{0.9, 0.3, 0.6};
     const auto d_times_v = [](double alpha) { return 1 / (pi_d * alpha * alpha * 4); };
-    // What is caught at the facets, and comes back after another bounce, at normal incidence.
+    // Light caught at the facets that leaves after another bounce, at normal incidence.
     const auto gain = [](double alpha, double mean) {
         return 1 / (1 - mean * (1 - specular_albedo(1.0, alpha).mirror));
     };
@@ -186,8 +186,8 @@ TEST(Bsdf, ReflectanceAtTheNormalIsWhatTheSpecificationSays) {
 }
 
 TEST(Bsdf, SpecularLobesAreReciprocal) {
-    // But for the light of further bounces, which is counted at wo. The diffuse part is not: what
-    // the dielectric's specular lobe leaves over is taken at wo.
+    // Except for light of further bounces, which is counted at wo. The diffuse part is not
+    // reciprocal: it gets what the dielectric's specular lobe leaves over at wo.
     Pcg32 random(2);
     int compared = 0;
     for (int n = 0; n < random_cases / 5; ++n) {
@@ -230,7 +230,7 @@ void expect_sane(const BsdfSample<float>& s) {
     for (const float f : {s.at.value_cos.x, s.at.value_cos.y, s.at.value_cos.z}) {
         ASSERT_TRUE(std::isfinite(f)) << f;
         ASSERT_GE(f, 0.0F);
-        // No lobe is picked with less than a tenth of the probability that its light asks for.
+        // Every lobe is picked with at least a tenth of the probability that its light asks for.
         ASSERT_LE(f, 11.0F * s.at.pdf + 1e-30F);
     }
     ASSERT_TRUE(s.spread >= 0.0F && s.spread < 1.0F);

@@ -29,9 +29,9 @@ TEST(Harmonics, AreThoseOfTheDefinition) {
     for (int i = 0; i < 1000; ++i) {
         const Vec3d d = normalize(Vec3d{
             random.next_double() - 0.5, random.next_double() - 0.5, random.next_double() - 0.5});
-        double exact[most_harmonics];
+        double exact[max_harmonics];
         real_harmonics(d, exact);
-        float single[most_harmonics];
+        float single[max_harmonics];
         real_harmonics(
             Vec3f{static_cast<float>(d.x), static_cast<float>(d.y), static_cast<float>(d.z)},
             single);

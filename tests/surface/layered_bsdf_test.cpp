@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include "support/layered_materials.h"
 
 namespace obscura {
@@ -22,7 +22,7 @@ constexpr int random_cases = 1000000;
 constexpr int furnace_samples = 200000;
 #endif
 
-/// What a white sky gives, by sampling, with its standard error.
+/// The radiance under a white sky, by sampling, with its standard error.
 struct Furnace {
     Vec3d mean{0, 0, 0};
     double error = 0;
@@ -71,13 +71,13 @@ TEST(Layers, NoMixtureReflectsMoreThanArrives) {
         const LayeredParams<float> p = random_layers(random, 0.01F);
         const Vec3f wo = direction_above(random, 0.1F);
         const Furnace sky = white_furnace(p, wo);
-        // Tables are interpolated; a thin film's own albedo is taken at the normal's angle.
-        const double slack = p.film.strength > 0 ? 0.03 : 0.006;
+        // Tables are interpolated; a film's own albedo is taken at the normal's angle.
+        const double slack = p.thin_film.strength > 0 ? 0.03 : 0.006;
         EXPECT_LT(max_component(sky.mean), 1 + slack + 3 * sky.error) << n << ", " << wo.z;
     }
 }
 
-/// In   slack: of the tables that are interpolated
+/// In   slack: for the interpolated tables
 void expect_nothing_lost(const LayeredParams<float>& p, double slack, const char* what) {
     for (const float cosine : {1.0F, 0.7F, 0.3F}) {
         for (const float turn : {0.0F, 0.6F, 1.5F}) {
@@ -87,7 +87,7 @@ void expect_nothing_lost(const LayeredParams<float>& p, double slack, const char
             EXPECT_NEAR(sky.mean.y, 1, slack + 3 * sky.error)
                 << what << ", alpha " << p.alpha.x << " " << p.alpha.y << ", eta " << p.eta
                 << ", cosine " << cosine << ", turn " << turn;
-            if (p.alpha.x == p.alpha.y) break;  // every turn is alike
+            if (p.alpha.x == p.alpha.y) break;  // every rotation is alike
         }
     }
 }
@@ -119,7 +119,7 @@ TEST(Layers, ThinWallsLoseNothingAtAnyRoughness) {
     }
 }
 
-TEST(Layers, CoatedAndFilmedAndMixedSurfacesLoseNothing) {
+TEST(Layers, CoatedAndIridescentAndMixedSurfacesLoseNothing) {
     for (const float roughness : all_roughnesses) {
         LayeredParams<float> p = plain_layers(std::max(roughness * roughness, min_ggx_alpha));
         for (const float metallic : {0.0F, 0.5F, 1.0F}) {
@@ -132,7 +132,7 @@ TEST(Layers, CoatedAndFilmedAndMixedSurfacesLoseNothing) {
         p.alpha = {0.2F, 0.2F};
         expect_nothing_lost(p, 0.005, "under a coat");
         p.coat = 0;
-        p.film.strength = 1;  // over a white metal
+        p.thin_film.strength = 1;  // over a white metal
         expect_nothing_lost(p, 0.005, "filmed");
     }
 }
@@ -163,12 +163,12 @@ TEST(Layers, RoughGlassOfIndexOneIsNotThere) {
     const Vec3f wo = normalize(Vec3f{0.9F, 0.2F, 0.3F});
     LayeredWeights<float> weights = layered_weights(pane, wo);
     EXPECT_EQ(take_straight_light(pane, wo, weights).transmittance.y, 1.0F);
-    // Towards it, what goes through a body bends ever less.
-    LayeredParams<float> body = clear_glass(1, 1.002F);
+    // Towards it, light through a solid bends ever less.
+    LayeredParams<float> solid = clear_glass(1, 1.002F);
     Pcg32 random(31);
-    weights = layered_weights(body, wo);
+    weights = layered_weights(solid, wo);
     for (int n = 0; n < 2000; ++n) {
-        const auto sample = sample_layered(body, weights, wo, random_point(random));
+        const auto sample = sample_layered(solid, weights, wo, random_point(random));
         if (!(sample.at.pdf > 0) || sample.direction.z > 0) continue;
         ASSERT_LT(length(sample.direction + wo), 0.05F);
     }
@@ -181,8 +181,8 @@ TEST(Layers, WhiteLeavesLoseNothing) {
     EXPECT_NEAR(sky.mean.y, 1, 0.005);
 }
 
-/// From within a body the boundary reflects all that comes at a slant; the rest may pass diffusely.
-TEST(Layers, WhiteBodiesLoseNothingFromWithin) {
+/// From inside a solid the boundary reflects all slanting light; the rest may pass diffusely.
+TEST(Layers, WhiteSolidsLoseNothingFromWithin) {
     for (const float eta : {1 / 1.1F, 1 / 1.5F, 1 / 2.4F}) {
         for (const float alpha : {min_ggx_alpha, 0.09F, 0.5F}) {
             LayeredParams<float> p = plain_layers(alpha);
@@ -229,12 +229,12 @@ TEST(Layers, SheenIsTheIntegralOfItsTable) {
     }
 }
 
-/// Glass mixed with metal, tinted, under a film: everything that only microfacets do.
+/// Glass mixed with metal, tinted, under a film: all that only microfacets do.
 LayeredParams<float> stained_glass(float alpha, float eta) {
     LayeredParams<float> p = clear_glass(alpha, eta);
     p.base_color = {0.1F, 0.02F, 0.9F};
     p.metallic = 0.3F;
-    p.film.strength = 0.7F;
+    p.thin_film.strength = 0.7F;
     return p;
 }
 
@@ -318,7 +318,7 @@ TEST(Layers, StretchedHighlightsAreReciprocal) {
         LayeredParams<double> p = convert<double>(random_layers(random, 0.02F));
         p.coat = p.transmission = 0;
         p.diffuse_transmission = 1;  // no diffuse reflection: its share is taken at wo
-        p.film.strength = 0;
+        p.thin_film.strength = 0;
         p.sheen_color = {0, 0, 0};
         p.solid = false;
         p.metallic = n % 2 == 0 ? 0 : 1;
@@ -355,10 +355,10 @@ TEST(Layers, SmoothGlassFollowsSnell) {
 }
 
 TEST(ThinFilm, OfNoThicknessIsNoneAndOfSomeHasColours) {
-    EXPECT_EQ(film_presence(0.0F), 0.0F);
-    EXPECT_EQ(film_presence(100.0F), 1.0F);
-    EXPECT_LT(film_presence(1.0F), 0.01F);  // no jump
-    const Vec3f some = film_reflectance(1.0F, ThinFilm<float>{1, 1.8F, 300}, splat3(0.04F));
+    EXPECT_EQ(thin_film_presence(0.0F), 0.0F);
+    EXPECT_EQ(thin_film_presence(100.0F), 1.0F);
+    EXPECT_LT(thin_film_presence(1.0F), 0.01F);  // no jump
+    const Vec3f some = thin_film_reflectance(1.0F, ThinFilm<float>{1, 1.8F, 300}, splat3(0.04F));
     EXPECT_GT(max_component(some) - std::min({some.x, some.y, some.z}), 0.05F);
 }
 

@@ -39,8 +39,8 @@ TEST(HenyeyGreenstein, DirectionsAreUnitAndTurnByTheSampledCosine) {
     }
 }
 
-/// Means of both weights over all random numbers: the light that scatters before the surface, and
-/// what arrives at it.
+/// Means of both weights over all random numbers: light that scatters before the surface, and light
+/// that arrives at it.
 TEST(FreeFlight, WeightsMeanWhatBeerAndLambertSay) {
     const Vec3d extinction{0.4, 2.5, 0.0};
     const Vec3d albedo{0.5, 1.0, 1.0};

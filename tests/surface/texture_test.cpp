@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/texture.h"
 
-#include "surface/texture_pictures.h"
+#include "surface/texture_images.h"
 
 #include <gtest/gtest.h>
 
-#include "support/lane_rows.h"
+#include "support/lane_arrays.h"
 #include <array>
 #include <limits>
 #include <sys/mman.h>
@@ -22,22 +22,22 @@ constexpr uint32_t nearest_sampler(Wrap u, Wrap v) {
 TEST(Texture, NearestTakesTheTexelThatHoldsThePoint) {
     Pcg32 random(1);
     for_all_shapes([&](int width, int height, Wrap wrap_u, Wrap wrap_v) {
-        Pictures pictures(2);
-        const int32_t texture = pictures.add(width, height, nearest_sampler(wrap_u, wrap_v));
+        Images images(2);
+        const int32_t texture = images.add(width, height, nearest_sampler(wrap_u, wrap_v));
         for (int y = -3 * height; y < 4 * height; ++y) {
             for (int x = -3 * width; x < 4 * width; ++x) {
                 const Vec2f uv{(static_cast<float>(x) + 0.02F + 0.96F * random.next_float()) /
                                    static_cast<float>(width),
                                (static_cast<float>(y) + 0.02F + 0.96F * random.next_float()) /
                                    static_cast<float>(height)};
-                const Rgba8 expected = pictures.texel(texture, 0, x, y);
+                const Rgba8 expected = images.texel(texture, 0, x, y);
                 const Rgba8 one =
-                    widen(sample_texture_bilinear<float>(pictures.view(), texture, uv, 0.0F));
+                    widen(sample_texture_bilinear<float>(images.view(), texture, uv, 0.0F));
                 ASSERT_LT(difference(one, expected), 1e-6) << x << ", " << y;
-                ASSERT_LT(difference(lanes_bilinear(pictures, texture, uv, 0.0F), expected), 1e-6);
+                ASSERT_LT(difference(lanes_bilinear(images, texture, uv, 0.0F), expected), 1e-6);
                 const Vec3f any{random.next_float(), random.next_float(), random.next_float()};
-                const Rgba8 stochastic = widen(
-                    sample_texture_stochastic<float>(pictures.view(), texture, uv, 0.0F, any));
+                const Rgba8 stochastic =
+                    widen(sample_texture_stochastic<float>(images.view(), texture, uv, 0.0F, any));
                 ASSERT_LT(difference(stochastic, expected), 1e-6) << x << ", " << y;
             }
         }
@@ -47,17 +47,17 @@ TEST(Texture, NearestTakesTheTexelThatHoldsThePoint) {
 TEST(Texture, BilinearIsTheClosedForm) {
     Pcg32 random(3);
     for_all_shapes([&](int width, int height, Wrap wrap_u, Wrap wrap_v) {
-        Pictures pictures(4);
-        const int32_t texture = pictures.add(width, height, linear_sampler(wrap_u, wrap_v));
+        Images images(4);
+        const int32_t texture = images.add(width, height, linear_sampler(wrap_u, wrap_v));
         for (int n = 0; n < 500; ++n) {
             const Vec2f uv{7.0F * random.next_float() - 3.0F, 7.0F * random.next_float() - 3.0F};
-            const Rgba8 expected = pictures.bilinear(texture, 0, uv.x, uv.y);
+            const Rgba8 expected = images.bilinear(texture, 0, uv.x, uv.y);
             const Rgba8 one =
-                widen(sample_texture_bilinear<float>(pictures.view(), texture, uv, 0.0F));
+                widen(sample_texture_bilinear<float>(images.view(), texture, uv, 0.0F));
             ASSERT_LT(difference(one, expected), 5e-5) << uv.x << ", " << uv.y;
-            ASSERT_LT(difference(lanes_bilinear(pictures, texture, uv, 0.0F), expected), 5e-5);
+            ASSERT_LT(difference(lanes_bilinear(images, texture, uv, 0.0F), expected), 5e-5);
             const Rgba8 wide = widen(sample_texture_bilinear<double>(
-                pictures.view(), texture, Vec2<double>{uv.x, uv.y}, 0.0));
+                images.view(), texture, Vec2<double>{uv.x, uv.y}, 0.0));
             ASSERT_LT(difference(wide, expected), 1e-6);
         }
     });
@@ -65,15 +65,15 @@ TEST(Texture, BilinearIsTheClosedForm) {
 
 TEST(Texture, FarCoordinatesWrapLikeNearOnes) {
     for_all_shapes([&](int width, int height, Wrap wrap_u, Wrap wrap_v) {
-        Pictures pictures(5);
-        const int32_t texture = pictures.add(width, height, nearest_sampler(wrap_u, wrap_v));
+        Images images(5);
+        const int32_t texture = images.add(width, height, nearest_sampler(wrap_u, wrap_v));
         for (const float far : {1000.4140625F, -2000.5859375F, 65536.4140625F, -65537.5859375F}) {
             const Vec2f uv{far, -far};
-            const Rgba8 expected = pictures.nearest(texture, 0, uv.x, uv.y);
+            const Rgba8 expected = images.nearest(texture, 0, uv.x, uv.y);
             const Rgba8 one =
-                widen(sample_texture_bilinear<float>(pictures.view(), texture, uv, 0.0F));
+                widen(sample_texture_bilinear<float>(images.view(), texture, uv, 0.0F));
             EXPECT_LT(difference(one, expected), 1e-6) << far;
-            EXPECT_LT(difference(lanes_bilinear(pictures, texture, uv, 0.0F), expected), 1e-6);
+            EXPECT_LT(difference(lanes_bilinear(images, texture, uv, 0.0F), expected), 1e-6);
         }
     });
 }
@@ -103,12 +103,12 @@ TEST(Texture, NoCoordinateReadsOutsideOfTheTexture) {
         // Outside of the texture lie texels of 255: a texture of zeros must read as zero.
         std::vector<uint32_t> texels(static_cast<size_t>(width * height) + 2, 0U);
         texels.front() = texels.back() = 0xFFFFFFFFU;
-        TextureRow row;
-        row.width = width;
-        row.height = height;
-        row.sampler = linear_sampler(wrap_u, wrap_v);
-        row.level_offset[0] = 1;
-        const TextureView view{texels.data(), &row};
+        TextureRecord record;
+        record.width = width;
+        record.height = height;
+        record.sampler = linear_sampler(wrap_u, wrap_v);
+        record.level_offset[0] = 1;
+        const TextureView view{texels.data(), &record};
         for (const float u : strange) {
             for (const float v : strange) {
                 for (const float footprint : {0.0F, nan, infinity, 1e-3F}) {
@@ -148,14 +148,14 @@ TEST(Texture, SrgbCodesAreDecodedAndAlphaIsNot) {
     EXPECT_NEAR(lane(mixed.alpha, 0), 128 / 255.0, 1e-6);
 }
 
-/// Different textures, or one texture at places that are all inside or also at its edges.
+/// Different textures, or one texture at points all inside or also at its edges.
 TEST(Texture, LanesReadTheirOwnTexels) {
-    Pictures pictures(7);
+    Images images(7);
     for (int i = 0; i < lane_count; ++i) {
         const uint32_t srgb = i % 2 == 0 ? sampler_srgb : 0U;
         const Wrap wrap = all_wraps[i % 3];
         const MipMode mip = i % 4 == 3 ? MipMode::nearest : MipMode::none;
-        pictures.add(3 + i, 20 - i, linear_sampler(wrap, wrap, mip) | srgb);
+        images.add(3 + i, 20 - i, linear_sampler(wrap, wrap, mip) | srgb);
     }
     Pcg32 random(8);
     for (int n = 0; n < 200; ++n) {
@@ -165,10 +165,10 @@ TEST(Texture, LanesReadTheirOwnTexels) {
         const Vec2<Lanes> uv{make_lanes(coordinate), make_lanes(coordinate)};
         const float footprint = 0.1F * random.next_float();
         const Rgba<Lanes> many =
-            sample_texture_bilinear<Lanes>(pictures.view(), texture, uv, footprint);
+            sample_texture_bilinear<Lanes>(images.view(), texture, uv, footprint);
         for (int i = 0; i < lane_count; ++i) {
             const Rgba<float> one = sample_texture_bilinear<float>(
-                pictures.view(), lane(texture, i), {lane(uv.x, i), lane(uv.y, i)}, footprint);
+                images.view(), lane(texture, i), {lane(uv.x, i), lane(uv.y, i)}, footprint);
             const Rgba<float> same{lane(many.rgb, i), lane(many.alpha, i)};
             ASSERT_LT(difference(widen(one), widen(same)), 2e-5) << "lane " << i;
         }
@@ -176,24 +176,24 @@ TEST(Texture, LanesReadTheirOwnTexels) {
 }
 
 TEST(Texture, MipModesChooseTheirLevel) {
-    Pictures pictures(9);
+    Images images(9);
     for (const auto& size : sizes) {
         for (const MipMode mode : {MipMode::none, MipMode::nearest}) {
             const uint32_t sampler =
                 pack_sampler(Wrap::clamp, Wrap::clamp, true, true, mode, false);
-            const int32_t texture = pictures.add(size[0], size[1], sampler);
-            const TextureRow& row = pictures.row(texture);
+            const int32_t texture = images.add(size[0], size[1], sampler);
+            const TextureRecord& record = images.record(texture);
             for (double lod = -3.05; lod < 8; lod += 0.1) {
-                const float footprint = footprint_of(row, lod);
+                const float footprint = footprint_of(record, lod);
                 const int nearest =
-                    std::clamp(static_cast<int>(std::floor(lod + 0.5)), 0, row.levels - 1);
+                    std::clamp(static_cast<int>(std::floor(lod + 0.5)), 0, record.levels - 1);
                 const int level = mode == MipMode::none ? 0 : nearest;
                 const Vec2f uv{0.37F, 0.71F};
-                const Rgba8 expected = pictures.nearest(texture, level, uv.x, uv.y);
+                const Rgba8 expected = images.nearest(texture, level, uv.x, uv.y);
                 const Rgba8 got =
-                    widen(sample_texture_bilinear<float>(pictures.view(), texture, uv, footprint));
+                    widen(sample_texture_bilinear<float>(images.view(), texture, uv, footprint));
                 EXPECT_LT(difference(got, expected), 1e-6) << "lod " << lod;
-                const Rgba8 lanes = lanes_bilinear(pictures, texture, uv, footprint);
+                const Rgba8 lanes = lanes_bilinear(images, texture, uv, footprint);
                 EXPECT_LT(difference(lanes, expected), 1e-6) << "lod " << lod;
             }
         }
@@ -201,23 +201,23 @@ TEST(Texture, MipModesChooseTheirLevel) {
 }
 
 TEST(Texture, MagnificationAndMinificationHaveTheirOwnFilter) {
-    Pictures pictures(10);
+    Images images(10);
     const Vec2f uv{0.37F, 0.71F};
     for (const bool magnify_nearest : {false, true}) {
-        const int32_t texture = pictures.add(8,
-                                             8,
-                                             pack_sampler(Wrap::repeat,
-                                                          Wrap::repeat,
-                                                          magnify_nearest,
-                                                          !magnify_nearest,
-                                                          MipMode::none,
-                                                          false));
-        const Rgba8 point = pictures.nearest(texture, 0, uv.x, uv.y);
-        const Rgba8 smooth = pictures.bilinear(texture, 0, uv.x, uv.y);
+        const int32_t texture = images.add(8,
+                                           8,
+                                           pack_sampler(Wrap::repeat,
+                                                        Wrap::repeat,
+                                                        magnify_nearest,
+                                                        !magnify_nearest,
+                                                        MipMode::none,
+                                                        false));
+        const Rgba8 point = images.nearest(texture, 0, uv.x, uv.y);
+        const Rgba8 smooth = images.bilinear(texture, 0, uv.x, uv.y);
         ASSERT_GT(difference(point, smooth), 0.01);
         for (const double lod : {-2.0, -0.1, 0.1, 2.0}) {
             const Rgba8 got = widen(sample_texture_bilinear<float>(
-                pictures.view(), texture, uv, footprint_of(pictures.row(texture), lod)));
+                images.view(), texture, uv, footprint_of(images.record(texture), lod)));
             const bool nearest = lod > 0 ? !magnify_nearest : magnify_nearest;
             EXPECT_LT(difference(got, nearest ? point : smooth), 1e-5) << lod;
         }
@@ -226,7 +226,7 @@ TEST(Texture, MagnificationAndMinificationHaveTheirOwnFilter) {
 
 /// Mean of stochastic look-ups, in lanes, against the expected value: 4 standard errors.
 void expect_mean(
-    const Pictures& pictures, int32_t texture, Vec2f uv, float footprint, const Rgba8& expected) {
+    const Images& images, int32_t texture, Vec2f uv, float footprint, const Rgba8& expected) {
     Pcg32 random(11);
     constexpr int rounds = 8192 / lane_count;
     double sum[4] = {};
@@ -235,7 +235,7 @@ void expect_mean(
         const auto number = [&](int) { return random.next_float(); };
         const Vec3<Lanes> numbers{make_lanes(number), make_lanes(number), make_lanes(number)};
         const Rgba<Lanes> many = sample_texture_stochastic<Lanes>(
-            pictures.view(), LanesI(texture), {Lanes(uv.x), Lanes(uv.y)}, footprint, numbers);
+            images.view(), LanesI(texture), {Lanes(uv.x), Lanes(uv.y)}, footprint, numbers);
         for (int i = 0; i < lane_count; ++i) {
             const Rgba8 one = widen(Rgba<float>{lane(many.rgb, i), lane(many.alpha, i)});
             for (int c = 0; c < 4; ++c) {
@@ -256,12 +256,12 @@ void expect_mean(
 TEST(Texture, StochasticMeanIsBilinear) {
     Pcg32 random(12);
     for_all_shapes([&](int width, int height, Wrap wrap_u, Wrap wrap_v) {
-        Pictures pictures(13);
+        Images images(13);
         const int32_t texture =
-            pictures.add(width, height, linear_sampler(wrap_u, wrap_v) | sampler_srgb);
+            images.add(width, height, linear_sampler(wrap_u, wrap_v) | sampler_srgb);
         for (int n = 0; n < 3; ++n) {
             const Vec2f uv{3.0F * random.next_float() - 1.0F, 3.0F * random.next_float() - 1.0F};
-            expect_mean(pictures, texture, uv, 0.0F, pictures.bilinear(texture, 0, uv.x, uv.y));
+            expect_mean(images, texture, uv, 0.0F, images.bilinear(texture, 0, uv.x, uv.y));
         }
     });
 }
@@ -269,23 +269,23 @@ TEST(Texture, StochasticMeanIsBilinear) {
 TEST(Texture, StochasticMeanIsTrilinear) {
     Pcg32 random(14);
     for (const auto& size : sizes) {
-        Pictures pictures(15);
-        const int32_t texture = pictures.add(
+        Images images(15);
+        const int32_t texture = images.add(
             size[0], size[1], linear_sampler(Wrap::repeat, Wrap::mirror, MipMode::linear));
-        const TextureRow& row = pictures.row(texture);
+        const TextureRecord& record = images.record(texture);
         for (const double lod : {-1.0, 0.25, 0.7, 1.5, 2.9, 9.0}) {
             const Vec2f uv{random.next_float(), random.next_float()};
-            const double inside = std::clamp(lod, 0.0, row.levels - 1.0);
-            const int level = std::min(static_cast<int>(inside), row.levels - 1);
-            const int next = std::min(level + 1, row.levels - 1);
-            const Rgba8 fine = pictures.bilinear(texture, level, uv.x, uv.y);
-            const Rgba8 coarse = pictures.bilinear(texture, next, uv.x, uv.y);
+            const double inside = std::clamp(lod, 0.0, record.levels - 1.0);
+            const int level = std::min(static_cast<int>(inside), record.levels - 1);
+            const int next = std::min(level + 1, record.levels - 1);
+            const Rgba8 fine = images.bilinear(texture, level, uv.x, uv.y);
+            const Rgba8 coarse = images.bilinear(texture, next, uv.x, uv.y);
             Rgba8 expected{};
             for (int c = 0; c < 4; ++c) {
                 expected.channel[c] =
                     fine.channel[c] + (inside - level) * (coarse.channel[c] - fine.channel[c]);
             }
-            expect_mean(pictures, texture, uv, footprint_of(row, lod), expected);
+            expect_mean(images, texture, uv, footprint_of(record, lod), expected);
         }
     }
 }
@@ -316,14 +316,14 @@ private:
     uint32_t* texels_ = nullptr;
 };
 
-void expect_texel(const HugeArena& arena, const TextureRow& row, size_t x, size_t y) {
+void expect_texel(const HugeArena& arena, const TextureRecord& record, size_t x, size_t y) {
     const size_t at =
-        static_cast<size_t>(row.level_offset[0]) + y * static_cast<size_t>(row.width) + x;
+        static_cast<size_t>(record.level_offset[0]) + y * static_cast<size_t>(record.width) + x;
     ASSERT_LT(at, HugeArena::texel_count);
     arena.texels()[at] = 0xFF804020U;
-    const TextureView view{arena.texels(), &row};
-    const Vec2f uv{(static_cast<float>(x) + 0.5F) / static_cast<float>(row.width),
-                   (static_cast<float>(y) + 0.5F) / static_cast<float>(row.height)};
+    const TextureView view{arena.texels(), &record};
+    const Vec2f uv{(static_cast<float>(x) + 0.5F) / static_cast<float>(record.width),
+                   (static_cast<float>(y) + 0.5F) / static_cast<float>(record.height)};
     const Rgba8 expected{32 / 255.0, 64 / 255.0, 128 / 255.0, 1.0};
     const Rgba8 one = widen(sample_texture_bilinear<float>(view, 0, uv, 0.0F));
     EXPECT_LT(difference(one, expected), 1e-6) << x << ", " << y;
@@ -338,20 +338,20 @@ void expect_texel(const HugeArena& arena, const TextureRow& row, size_t x, size_
 TEST(Texture, TheLargestTextureIsReadToItsLastTexel) {
     const HugeArena arena;
     if (arena.texels() == nullptr) GTEST_SKIP() << "no 8 GB of address space";
-    TextureRow row;
-    row.width = 65536;
-    row.height = 32767;
-    row.levels = max_mip_levels;
-    row.sampler = nearest_sampler(Wrap::repeat, Wrap::clamp);
-    expect_texel(arena, row, 0, 0);
-    expect_texel(arena, row, 65535, 0);
-    expect_texel(arena, row, 65535, 32766);
-    expect_texel(arena, row, 12345, 32100);
-    row.width = 300;
-    row.height = 200;
-    row.level_offset[0] = static_cast<int32_t>(HugeArena::texel_count) - 300 * 200;
-    expect_texel(arena, row, 0, 0);
-    expect_texel(arena, row, 299, 199);
+    TextureRecord record;
+    record.width = 65536;
+    record.height = 32767;
+    record.levels = max_mip_levels;
+    record.sampler = nearest_sampler(Wrap::repeat, Wrap::clamp);
+    expect_texel(arena, record, 0, 0);
+    expect_texel(arena, record, 65535, 0);
+    expect_texel(arena, record, 65535, 32766);
+    expect_texel(arena, record, 12345, 32100);
+    record.width = 300;
+    record.height = 200;
+    record.level_offset[0] = static_cast<int32_t>(HugeArena::texel_count) - 300 * 200;
+    expect_texel(arena, record, 0, 0);
+    expect_texel(arena, record, 299, 199);
 }
 
 }  // namespace

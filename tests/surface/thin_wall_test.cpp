@@ -1,4 +1,4 @@
-// tests/surface/thin_wall_test.cpp - what passes straight is the limit of the blurred lobe.
+// tests/surface/thin_wall_test.cpp - straight transmission is the limit of the blurred lobe.
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/thin_wall.h"
 
@@ -13,7 +13,7 @@ using namespace test;
 
 constexpr double smooth = static_cast<double>(min_ggx_alpha);
 
-/// Light through the lobe that sample_layered draws: mean weight of what leaves behind.
+/// Light through the lobe that sample_layered draws: mean weight of transmitted samples.
 Vec3d through_by_sampling(const LayeredParams<double>& p, const Vec3d& wo) {
     Pcg32 random(3);
     const LayeredWeights<double> weights = layered_weights(p, wo);
@@ -54,18 +54,19 @@ TEST(ThinWall, StraightLightIsTheLimitOfTheLobe) {
     }
 }
 
-/// Nothing goes through twice, and the lobes that stay are sampled with what is left.
+/// Nothing is transmitted twice, and the other lobes are sampled with the rest.
 TEST(ThinWall, TheLobesThatStayShareTheRest) {
     Pcg32 random(8);
     for (int n = 0; n < 20000; ++n) {
         LayeredParams<double> p = convert<double>(random_layers(random, 0.1F));
-        const bool is_wall = n % 2 == 0;
-        if (is_wall) p.alpha = {smooth, smooth};
+        const bool is_thin_wall = n % 2 == 0;
+        if (is_thin_wall) p.alpha = {smooth, smooth};
         const Vec3d wo = normalize(convert<double>(direction_above(random, 0.05F)));
         const LayeredWeights<double> before = layered_weights(p, wo);
         LayeredWeights<double> after = before;
         const StraightLight<double> light = take_straight_light(p, wo, after);
-        const double rest = after.p_diffuse + after.p_behind + after.p_facet + after.p_coat;
+        const double rest =
+            after.p_diffuse + after.p_diffuse_transmission + after.p_facet + after.p_coat;
         ASSERT_NEAR(rest, 1 - light.probability, 1e-9) << n;
         ASSERT_GE(after.p_facet, 0) << n;
         const bool passes = max_component(light.transmittance) > 0;
@@ -76,7 +77,7 @@ TEST(ThinWall, TheLobesThatStayShareTheRest) {
     }
 }
 
-/// White sheen that reflects everything lets nothing through, and no path is sent that way.
+/// White sheen that reflects everything transmits nothing, and no path is sent that way.
 TEST(ThinWall, NothingPassesBelowFullSheen) {
     Pcg32 random(3);
     LayeredParams<double> p = convert<double>(random_layers(random, 0.1F));

@@ -1,4 +1,4 @@
-// tests/truth/alike_textures_test.cpp - textures looked up together give what each gives alone.
+// tests/truth/alike_textures_test.cpp - textures looked up together equal those looked up alone.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/alike_textures.h"
 
@@ -11,30 +11,30 @@
 namespace obscura::test {
 namespace {
 
-constexpr int picture_side = 16;
+constexpr int image_side = 16;
 
-/// Adds a picture of noise. `gap`: unused texels before its levels 1 and up.
+/// Adds an image of noise. `gap`: unused texels before its levels 1 and up.
 int32_t add_noise(TextureArena& arena, uint64_t seed, bool srgb, int32_t gap) {
     Pcg32 random(seed);
-    std::vector<uint32_t> texels(mip_chain_texels(picture_side, picture_side));
-    for (int i = 0; i < picture_side * picture_side; ++i)
+    std::vector<uint32_t> texels(mip_chain_texels(image_side, image_side));
+    for (int i = 0; i < image_side * image_side; ++i)
         texels[static_cast<size_t>(i)] = random.next_uint() | 0xFF000000U;
-    build_mip_chain(texels.data(), picture_side, picture_side, srgb);
-    TextureRow row;
-    row.width = row.height = picture_side;
-    row.levels = mip_level_count(picture_side, picture_side);
-    row.sampler = pack_sampler(Wrap::repeat, Wrap::mirror, false, false, MipMode::linear, srgb);
+    build_mip_chain(texels.data(), image_side, image_side, srgb);
+    TextureRecord record;
+    record.width = record.height = image_side;
+    record.levels = mip_level_count(image_side, image_side);
+    record.sampler = pack_sampler(Wrap::repeat, Wrap::mirror, false, false, MipMode::linear, srgb);
     auto at = static_cast<int32_t>(arena.texels.size());
-    const auto base_end = texels.begin() + picture_side * picture_side;
+    const auto base_end = texels.begin() + image_side * image_side;
     arena.texels.insert(arena.texels.end(), texels.begin(), base_end);
     arena.texels.insert(arena.texels.end(), static_cast<size_t>(gap), 0xFF00FF00U);
     arena.texels.insert(arena.texels.end(), base_end, texels.end());
-    for (int level = 0; level < row.levels; ++level) {
-        row.level_offset[level] = at + (level > 0 ? gap : 0);
-        at += (picture_side >> level) * (picture_side >> level);
+    for (int level = 0; level < record.levels; ++level) {
+        record.level_offset[level] = at + (level > 0 ? gap : 0);
+        at += (image_side >> level) * (image_side >> level);
     }
-    arena.rows.push_back(row);
-    return static_cast<int32_t>(arena.rows.size()) - 1;
+    arena.records.push_back(record);
+    return static_cast<int32_t>(arena.records.size()) - 1;
 }
 
 /// A slanted floor with base colour and roughness; with a gap the two are not alike.
@@ -56,7 +56,7 @@ Scene textured_floor(int32_t gap) {
     return scene;
 }
 
-UnsetArray<float> picture(int32_t gap) {
+UnsetArray<float> image(int32_t gap) {
     RenderOptions options;
     options.width = options.height = 48;
     options.samples_per_pixel = 4;
@@ -64,9 +64,9 @@ UnsetArray<float> picture(int32_t gap) {
     return render_scene(textured_floor(gap), {}, camera, options).film.pixels;
 }
 
-TEST(AlikeTextures, PicturesAreTheSameTogetherAndAlone) {
-    const UnsetArray<float> together = picture(0);
-    EXPECT_EQ(together, picture(5));
+TEST(AlikeTextures, ImagesAreTheSameTogetherAndAlone) {
+    const UnsetArray<float> together = image(0);
+    EXPECT_EQ(together, image(5));
     EXPECT_GT(*std::max_element(together.begin(), together.end()), 0.1f);
 }
 
@@ -81,7 +81,7 @@ TEST(AlikeTextures, SameLayoutAndCoordinatesAreMarked) {
     Scene moved = textured_floor(0);
     moved.materials[0].metallic_roughness_texture.uv_from_mesh[5] = 0.5f;
     Scene clamped = textured_floor(0);
-    clamped.textures.rows[1].sampler ^= 1U;
+    clamped.textures.records[1].sampler ^= 1U;
     Scene bare = textured_floor(0);
     bare.materials[0].base_color_texture.texture = -1;
     bare.materials[0].metallic_roughness_texture.texture = -1;

@@ -1,4 +1,4 @@
-// tests/truth/camera_test.cpp - pictures of small lights: where they lie, how they blur.
+// tests/truth/camera_test.cpp - images of small lights: positions and blur.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/lens_equation.h"
 #include "camera/project.h"
@@ -11,7 +11,7 @@
 namespace obscura::test {
 namespace {
 
-constexpr int picture_size = 64;
+constexpr int image_size = 64;
 
 Material lamp() {
     Material m;
@@ -23,25 +23,25 @@ Material lamp() {
 }
 
 /// A square lamp of the given width that faces the origin.
-void add_lamp(SceneBuilder& builder, int32_t row, const Vec3f& place, float width) {
+void add_lamp(SceneBuilder& builder, int32_t index, const Vec3f& place, float width) {
     const Vec3f back = normalize(place * -1.0f);
     const Vec3f hint = std::fabs(back.y) > 0.9f ? Vec3f{1, 0, 0} : Vec3f{0, 1, 0};
     const Vec3f right = normalize(cross(hint, back));
     const Vec3f up = cross(back, right);
-    builder.quad(place - (right + up) * (0.5f * width), right * width, up * width, row);
+    builder.quad(place - (right + up) * (0.5f * width), right * width, up * width, index);
 }
 
-Film picture_of(SceneBuilder builder, const Camera& camera, int width, int samples) {
+Film image_of(SceneBuilder builder, const Camera& camera, int width, int samples) {
     RenderOptions options;
     options.width = width;
-    options.height = picture_size;
+    options.height = image_size;
     options.samples_per_pixel = samples;
     options.integrator = Integrator::direct;
     options.background = BackgroundKind::transparent;
     return render_scene(builder.take(), {}, camera, options).film;
 }
 
-/// Where a film's light is, in pixels, and how far it spreads.
+/// The position of a film's light in pixels, and its spread.
 struct Spot {
     double sum = 0, x = 0, y = 0;
     double variance = 0;  ///< mean of both directions, px^2
@@ -71,7 +71,7 @@ Camera pinhole_of(double tan_half_yfov) {
     Camera camera;
     camera.pinhole.tan_half_yfov = static_cast<float>(tan_half_yfov);
     camera.pinhole.aspect = 1;
-    camera.pinhole.pixel_spread = 2 * camera.pinhole.tan_half_yfov / picture_size;
+    camera.pinhole.pixel_spread = 2 * camera.pinhole.tan_half_yfov / image_size;
     return camera;
 }
 
@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(Distances,
                          CircleOfConfusion,
                          testing::Values(0.5, 0.8, 1.1, 1.4, 1.7, 2.4, 3.0, 5.0, 12.0, 60.0));
 
-/// The film is as large as makes the patch 36 pixels wide; the light, one pixel.
+/// The film is so large that the patch is 36 pixels wide; the light, one pixel.
 TEST_P(CircleOfConfusion, OfAPointOfLightIsThatOfTheLensEquation) {
     const double distance = GetParam();
     const double expected = circle_of_confusion(opening_m, focal_m, focus_m, distance);
@@ -106,9 +106,9 @@ TEST_P(CircleOfConfusion, OfAPointOfLightIsThatOfTheLensEquation) {
              {0, 0, static_cast<float>(-distance)},
              static_cast<float>(width));
     const Spot spot =
-        measure(picture_of(std::move(builder), lens_of(pixel_m * picture_size), picture_size, 1024),
+        measure(image_of(std::move(builder), lens_of(pixel_m * image_size), image_size, 1024),
                 0,
-                picture_size);
+                image_size);
     // A disk of diameter c has the variance c^2 / 16; the square light and the pixels add theirs.
     const double variance = spot.variance - (light_px * light_px + 1) / 12;
     EXPECT_NEAR(4 * std::sqrt(variance) * pixel_m, expected, 0.02 * expected);
@@ -119,13 +119,12 @@ TEST(ThinLens, WhatIsInFocusIsSharp) {
     const double pixel_m = 1e-5;
     const double width = 4 * pixel_m * focus_m / image_distance(focal_m, focus_m);
     add_lamp(builder, builder.material(lamp()), {0, 0, -2}, static_cast<float>(width));
-    const Film film =
-        picture_of(std::move(builder), lens_of(pixel_m * picture_size), picture_size, 64);
-    for (int y = 0; y < picture_size; ++y) {
-        for (int x = 0; x < picture_size; ++x) {
+    const Film film = image_of(std::move(builder), lens_of(pixel_m * image_size), image_size, 64);
+    for (int y = 0; y < image_size; ++y) {
+        for (int x = 0; x < image_size; ++x) {
             const bool inside = std::abs(x - 31.5) < 2 && std::abs(y - 31.5) < 2;
             const bool outside = std::abs(x - 31.5) > 3 || std::abs(y - 31.5) > 3;
-            const float alpha = film.pixels[4 * static_cast<size_t>(y * picture_size + x) + 3];
+            const float alpha = film.pixels[4 * static_cast<size_t>(y * image_size + x) + 3];
             if (inside) {
                 EXPECT_EQ(alpha, 1);
             }
@@ -136,7 +135,7 @@ TEST(ThinLens, WhatIsInFocusIsSharp) {
     }
 }
 
-TEST(ThinLens, RadiusZeroRendersThePinholesPictureBitForBit) {
+TEST(ThinLens, RadiusZeroRendersThePinholesImageBitForBit) {
     const auto scene = [] {
         SceneBuilder builder;
         Material white;
@@ -148,13 +147,13 @@ TEST(ThinLens, RadiusZeroRendersThePinholesPictureBitForBit) {
     lens.thin_lens.aperture.radius_m = 0;
     Camera pinhole = lens;
     pinhole.model = CameraModel::pinhole;
-    EXPECT_EQ(picture_of(scene(), lens, 96, 8).pixels, picture_of(scene(), pinhole, 96, 8).pixels);
+    EXPECT_EQ(image_of(scene(), lens, 96, 8).pixels, image_of(scene(), pinhole, 96, 8).pixels);
     Camera open = lens_of(0.03);
-    EXPECT_NE(picture_of(scene(), open, 96, 8).pixels, picture_of(scene(), pinhole, 96, 8).pixels);
+    EXPECT_NE(image_of(scene(), open, 96, 8).pixels, image_of(scene(), pinhole, 96, 8).pixels);
 }
 
-/// The middle of a lamp some pixels wide, in a large picture of which only its surroundings are
-/// rendered.
+/// The centre of a lamp some pixels wide, in a large image of which only the lamp's surroundings
+/// are rendered.
 Spot lamp_in_fisheye(const Camera& camera, const Vec3d& place, int size_px) {
     SceneBuilder builder;
     const Vec3f at{
@@ -191,10 +190,10 @@ TEST(Fisheye, LampsAreSeenWhereTheLawPutsThem) {
             const double radius = law == FisheyeLaw::equidistant ? theta
                                   : law == FisheyeLaw::equisolid ? 2 * std::sin(theta / 2)
                                                                  : 2 * std::tan(theta / 2);
-            const double from_middle =
+            const double from_centre =
                 radius / static_cast<double>(fisheye.largest_radius) * size_px / 2;
-            EXPECT_NEAR(spot.x, size_px / 2 + 0.8 * from_middle, 0.05);
-            EXPECT_NEAR(spot.y, size_px / 2 - 0.6 * from_middle, 0.05);
+            EXPECT_NEAR(spot.x, size_px / 2 + 0.8 * from_centre, 0.05);
+            EXPECT_NEAR(spot.y, size_px / 2 - 0.6 * from_centre, 0.05);
         }
     }
 }
@@ -212,14 +211,14 @@ TEST(Fisheye, OutsideTheCircleThereIsNothingAndNoRayIsRefused) {
     for (const bool sees_scene : {true, false}) {
         camera.far_m = sees_scene ? 0.0f : 1.0f;  // else the background is seen
         RenderOptions options;
-        options.width = options.height = picture_size;
+        options.width = options.height = image_size;
         options.samples_per_pixel = 4;
         const RenderResult result =
             render_scene(SceneBuilder(builder).take(), lighting, camera, options);
         EXPECT_EQ(result.counters.refused_rays, 0U);
         EXPECT_EQ(result.counters.nonfinite_samples, 0U);
         const auto alpha = [&](int x, int y) {
-            return result.film.pixels[4 * static_cast<size_t>(y * picture_size + x) + 3];
+            return result.film.pixels[4 * static_cast<size_t>(y * image_size + x) + 3];
         };
         EXPECT_EQ(alpha(0, 0), 0);
         EXPECT_EQ(result.film.pixels[0], 0);
@@ -254,30 +253,30 @@ TEST(Stereo, TheEyesSeeALampUnderTheirAngle) {
 }
 
 TEST(Clipping, HidesWhatIsTooNearOrTooFarAndKeepsDepths) {
-    const auto depth_at_middle = [](const Camera& camera) {
+    const auto depth_at_centre = [](const Camera& camera) {
         SceneBuilder builder;
-        const int32_t row = builder.material(lamp());
-        builder.quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, row);
-        builder.quad({-5, -5, -4}, {10, 0, 0}, {0, 10, 0}, row);
+        const int32_t index = builder.material(lamp());
+        builder.quad({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}, index);
+        builder.quad({-5, -5, -4}, {10, 0, 0}, {0, 10, 0}, index);
         RenderOptions options;
         options.width = options.height = 8;
         options.integrator = Integrator::depth;
         return render_scene(builder.take(), {}, camera, options).film.pixels[4 * 8 + 4];
     };
     Camera camera = pinhole_of(0.3);
-    EXPECT_NEAR(depth_at_middle(camera), 2, 1e-5);
+    EXPECT_NEAR(depth_at_centre(camera), 2, 1e-5);
     camera.near_m = 1;
-    EXPECT_NEAR(depth_at_middle(camera), 2, 1e-5);
+    EXPECT_NEAR(depth_at_centre(camera), 2, 1e-5);
     camera.near_m = 3;
-    EXPECT_NEAR(depth_at_middle(camera), 4, 1e-5);
+    EXPECT_NEAR(depth_at_centre(camera), 4, 1e-5);
     camera.far_m = 3.9f;
-    EXPECT_EQ(depth_at_middle(camera), 0);
+    EXPECT_EQ(depth_at_centre(camera), 0);
     camera.far_m = 4.1f;
-    EXPECT_NEAR(depth_at_middle(camera), 4, 1e-5);
+    EXPECT_NEAR(depth_at_centre(camera), 4, 1e-5);
 }
 
 /// Any tile size, with a lens, clipping and distortion, which lanes must not exchange.
-TEST(Cameras, TilesDoNotChangeThePicture) {
+TEST(Cameras, TilesDoNotChangeTheImage) {
     const auto shot = [](int tile_size) {
         SceneBuilder builder;
         Material white;

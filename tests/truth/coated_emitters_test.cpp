@@ -1,8 +1,8 @@
-// tests/truth/coated_emitters_test.cpp - light that comes from under a clear coat.
+// tests/truth/coated_emitters_test.cpp - emission below a clear coat.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "support/wall_scenes.h"
+#include "support/thin_wall_scenes.h"
 
 namespace obscura::test {
 namespace {
@@ -13,7 +13,7 @@ double passes(double coat, double cosine) {
 }
 
 /// Black, and sends out a radiance of 1 from its front.
-int32_t add_lamp(WallScene& scene, float coat) {
+int32_t add_lamp(ThinWallScene& scene, float coat) {
     Material lamp;
     lamp.metallic = 0;
     lamp.roughness = 1;
@@ -26,7 +26,7 @@ int32_t add_lamp(WallScene& scene, float coat) {
 
 /// A coated square, seen from above at an angle.
 double seen(float coat, double cosine) {
-    WallScene scene;
+    ThinWallScene scene;
     const auto up = static_cast<float>(std::sqrt(1 - cosine * cosine));
     const auto back = static_cast<float>(cosine);
     const Vec3f a{0.2f, 0, 0};
@@ -44,15 +44,15 @@ TEST(CoatedEmitters, AreDarkenedByTheCoatsFresnelReflectance) {
 }
 
 /// The floor under a square that faces it, at `place`.
-double lit(float coat, const Vec3f& place, float half, const WallView& view) {
-    WallScene scene;
+double lit(float coat, const Vec3f& place, float half, const ThinWallView& view) {
+    ThinWallScene scene;
     const Vec3f corner = place - Vec3f{half, 0, half};
     scene.builder.quad(corner, {2 * half, 0, 0}, {0, 0, 2 * half}, add_lamp(scene, coat));
     return floor_value(scene.take(), view);
 }
 
 TEST(CoatedEmitters, LightTheFloorThroughTheirCoat) {
-    WallView view;
+    ThinWallView view;
     view.samples = 64;
     view.strategies = sample_lights;
     for (const double cosine : {1.0, 0.5}) {
@@ -65,7 +65,7 @@ TEST(CoatedEmitters, LightTheFloorThroughTheirCoat) {
 }
 
 TEST(CoatedEmitters, LightSamplingAndBsdfSamplingAgree) {
-    WallView view;
+    ThinWallView view;
     view.samples = 1024;
     double share[3];
     for (int i = 0; i < 3; ++i) {

@@ -1,9 +1,9 @@
-// tests/truth/cutaway_test.cpp - what a camera looked through takes no light from what it sees.
+// tests/truth/cutaway_test.cpp - surfaces cut away for the camera do not shadow what it sees.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include "support/shape_scenes.h"
-#include "support/wall_scenes.h"
+#include "support/thin_wall_scenes.h"
 #include <functional>
 #include <string>
 
@@ -22,7 +22,7 @@ Material plaster(const Vec3f& color = {0.8f, 0.8f, 0.8f}) {
     return m;
 }
 
-/// How a scene is looked at.
+/// A camera and its settings.
 struct View {
     int bounces = 0;
     Integrator integrator = Integrator::path;
@@ -36,14 +36,14 @@ struct View {
 
 /// From high above the origin.
 Film from_above(Scene scene, const View& view) {
-    // How often a lamp is sampled and how often the sky follows from it: for equal pictures.
+    // How often a lamp is sampled, and hence the sky: for equal images.
     scene.bounds = {{-5, 0, -5}, {5, 5, 5}};
     RenderOptions options;
     options.width = options.height = size;
     options.samples_per_pixel = view.samples;
     options.max_bounces = view.bounces;
     options.ao_distance_m = 1;
-    options.tile_size = 8;  // several tiles a thread: what one leaves behind, the next may find
+    options.tile_size = 8;  // several tiles a thread: no state may be left from the tile before
     options.moving_camera = view.moving_camera;
     options.integrator = view.integrator;
     options.strategies = view.strategies;
@@ -74,25 +74,25 @@ void expect_equal(const Film& a, const Film& b, const std::string& what) {
         sum += static_cast<double>(b.pixels[i]);
     }
     EXPECT_EQ(different, 0U) << what;
-    EXPECT_GT(sum, 1) << what;  // a black picture would prove nothing
+    EXPECT_GT(sum, 1) << what;  // a black image would prove nothing
 }
 
 /// A roof over the floor that faces down: from above only its back is seen.
-void add_roof(WallScene& scene, float height, float half, int32_t row) {
-    scene.builder.quad({-half, height, -half}, {2 * half, 0, 0}, {0, 0, 2 * half}, row);
+void add_roof(ThinWallScene& scene, float height, float half, int32_t index) {
+    scene.builder.quad({-half, height, -half}, {2 * half, 0, 0}, {0, 0, 2 * half}, index);
 }
 
-Scene floor_with(const std::function<void(WallScene&)>& add) {
-    WallScene scene;
+Scene floor_with(const std::function<void(ThinWallScene&)>& add) {
+    ThinWallScene scene;
     scene.light(lamp_at({0.4f, 3, 0.2f}));
     add(scene);
     return scene.take();
 }
 
 TEST(Cutaway, ARoofThatTheCameraLooksThroughCastsNoShadow) {
-    const Scene open = floor_with([](WallScene&) {});
+    const Scene open = floor_with([](ThinWallScene&) {});
     const Scene roofed =
-        floor_with([](WallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
+        floor_with([](ThinWallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
     for (const bool parallel : {false, true}) {
         for (const int bounces : {0, 3}) {
             const View view{.bounces = bounces, .parallel = parallel};
@@ -108,13 +108,13 @@ TEST(Cutaway, ARoofThatTheCameraLooksThroughCastsNoShadow) {
 /// The roof as an instance, placed by `places` while the shutter is open.
 Scene with_instance(const std::vector<Affinef>& places) {
     Scene scene =
-        floor_with([](WallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
+        floor_with([](ThinWallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
     place_last(scene, places);
     return scene;
 }
 
 TEST(Cutaway, InstancesAreCutAwayToo) {
-    const Scene open = floor_with([](WallScene&) {});
+    const Scene open = floor_with([](ThinWallScene&) {});
     const View view{.bounces = 2};
     const Film expected = from_above(open, view);
     expect_equal(
@@ -135,10 +135,10 @@ TEST(Cutaway, AMovingRoofIsCutAwayAsFarAsItsOwnTimeGoes) {
         from_above(with_instance(moving), view), from_above(with_instance(far), view), "moving");
 }
 
-/// Every path has faces of its own: those that did not look through the roof find it solid.
+/// Each path has its own cut-away faces: to others the roof is solid.
 TEST(Cutaway, PathsBesideTheRoofAreInItsShadow) {
     const auto half_a_roof = [](uint32_t flags) {
-        return floor_with([&](WallScene& s) {
+        return floor_with([&](ThinWallScene& s) {
             Material m = plaster();
             m.flags |= flags;
             s.builder.quad({-5, 0.3f, -5}, {5, 0, 0}, {0, 0, 10}, s.builder.material(m));
@@ -147,7 +147,7 @@ TEST(Cutaway, PathsBesideTheRoofAreInItsShadow) {
     for (const int bounces : {0, 3}) {
         const View view{.bounces = bounces, .parallel = true};
         const Film cut = from_above(half_a_roof(0), view);
-        const Film open = from_above(floor_with([](WallScene&) {}), view);
+        const Film open = from_above(floor_with([](ThinWallScene&) {}), view);
         const Film solid = from_above(half_a_roof(material_double_sided), view);
         size_t shaded = 0;
         for (size_t i = 0; i < cut.pixels.size(); ++i) {
@@ -159,13 +159,13 @@ TEST(Cutaway, PathsBesideTheRoofAreInItsShadow) {
     }
 }
 
-/// The roof's plane passes between the places that the eye has: each path goes by its own.
+/// The roof's plane lies between the eye's positions: each path has its own.
 TEST(Cutaway, EachPathHasItsOwnEye) {
     const auto build = [](bool roofed) {
-        return floor_with([&](WallScene& s) {
+        return floor_with([&](ThinWallScene& s) {
             // Standing, its front away from x = 0: looked through by rays from the left alone.
-            const int32_t row = s.builder.material(plaster());
-            if (roofed) s.builder.quad({0, 0.05f, -9}, {0, 9, 0}, {0, 0, 18}, row);
+            const int32_t index = s.builder.material(plaster());
+            if (roofed) s.builder.quad({0, 0.05f, -9}, {0, 9, 0}, {0, 0, 18}, index);
         });
     };
     // The camera goes past the plane of the wall.
@@ -189,20 +189,21 @@ TEST(Cutaway, EachPathHasItsOwnEye) {
 TEST(Cutaway, LensesLookThroughToo) {
     const View view{.lens_radius_m = 0.5f};
     const Scene roofed =
-        floor_with([](WallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
-    expect_equal(from_above(roofed, view), from_above(floor_with([](WallScene&) {}), view), "lens");
+        floor_with([](ThinWallScene& s) { add_roof(s, 0.3f, 5, s.builder.material(plaster())); });
+    expect_equal(
+        from_above(roofed, view), from_above(floor_with([](ThinWallScene&) {}), view), "lens");
 }
 
-/// What a plane without end hides was not looked through: a slanting sheet that faces down gives
-/// the same shadow whether it ends at the plane or goes on below.
-TEST(Cutaway, BacksBehindPlanesWithoutEndStay) {
+/// An infinite plane cuts off what is behind it: a slanting sheet that faces down gives the same
+/// shadow whether it ends at the plane or continues below.
+TEST(Cutaway, BacksBehindInfinitePlanesStay) {
     const auto build = [](bool goes_on) {
         SceneBuilder builder;
-        const int32_t row = builder.material(plaster());
+        const int32_t index = builder.material(plaster());
         const float low = goes_on ? -1.0f : 0.0f;
-        builder.quad({5, low, -0.5f * low}, {-10, 0, 0}, {0, 0.2f - low, 0.5f * low - 0.1f}, row);
+        builder.quad({5, low, -0.5f * low}, {-10, 0, 0}, {0, 0.2f - low, 0.5f * low - 0.1f}, index);
         Scene scene = builder.take();
-        add_shape(scene, make_shape(ShapeKind::plane, unbounded, unbounded), row);
+        add_shape(scene, make_shape(ShapeKind::plane, unbounded, unbounded), index);
         PunctualLight sun = slanting_sun();  // the shadow falls on what lies over the lower part
         sun.direction[0] = 0;
         sun.direction[1] = -0.6f;
@@ -224,9 +225,9 @@ TEST(Cutaway, BacksBehindPlanesWithoutEndStay) {
 }
 
 TEST(Cutaway, ARoofOverTheCameraGivesShadow) {
-    const Scene lit = floor_with([](WallScene&) {});
+    const Scene lit = floor_with([](ThinWallScene&) {});
     const Scene shaded =
-        floor_with([](WallScene& s) { add_roof(s, 25, 200, s.builder.material(plaster())); });
+        floor_with([](ThinWallScene& s) { add_roof(s, 25, 200, s.builder.material(plaster())); });
     const View view;
     EXPECT_LT(film_mean(from_above(shaded, view)).value,
               0.5 * film_mean(from_above(lit, view)).value);
@@ -282,7 +283,7 @@ TEST(Cutaway, WhatSendsOutLightStaysAndItsLightCountsOnce) {
 
 TEST(Cutaway, ShadowRaysGoOnThroughPanesAboveTheRoof) {
     const auto build = [](bool roof) {
-        return floor_with([&](WallScene& s) {
+        return floor_with([&](ThinWallScene& s) {
             // On edge to the camera, and between the lamp and half of the floor.
             s.builder.quad({0.3f, 0.35f, 5},
                            {0, 2.5f, 0},

@@ -1,4 +1,4 @@
-// tests/truth/emitters_test.cpp - what stands between a lamp and a floor, and which lamps count.
+// tests/truth/emitters_test.cpp - occluders between a lamp and a floor, and the choice of lamps.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace obscura::test {
 namespace {
 
-constexpr int picture_size = 32;
+constexpr int image_size = 32;
 
 Material black_material() {
     Material m;
@@ -39,9 +39,9 @@ void add_ceiling(SceneBuilder& builder, float y, float half, const Material& m) 
 
 Mean floor_radiance(SceneBuilder builder) {
     RenderOptions options;
-    options.width = options.height = picture_size;
+    options.width = options.height = image_size;
     options.samples_per_pixel = 256;
-    const Camera camera = look_at({0, 1, 1.5f}, {0, 0, 0}, 0.2f, picture_size, picture_size);
+    const Camera camera = look_at({0, 1, 1.5f}, {0, 0, 0}, 0.2f, image_size, image_size);
     return film_mean(render_scene(builder.take(), {}, camera, options).film);
 }
 
@@ -91,9 +91,9 @@ double occlusion_under_a_lid(bool bent) {
     RenderOptions options;
     options.integrator = Integrator::ao;
     options.ao_distance_m = 0.5;
-    options.width = options.height = picture_size;
+    options.width = options.height = image_size;
     options.samples_per_pixel = 64;
-    const Camera camera = look_at({0, 0.015f, 0.02f}, {0, 0, 0}, 0.2f, picture_size, picture_size);
+    const Camera camera = look_at({0, 0.015f, 0.02f}, {0, 0, 0}, 0.2f, image_size, image_size);
     return film_mean(render_scene(builder.take(), {}, camera, options).film).value;
 }
 

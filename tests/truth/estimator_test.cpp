@@ -63,7 +63,7 @@ TEST(Strategies, LightSamplingBsdfSamplingAndBothAgree) {
     options.samples_per_pixel = 1024;
 #endif
     options.max_bounces = 3;
-    // Independent runs give the standard error of the picture's mean.
+    // Independent runs give the standard error of the image's mean.
     const auto measure = [&](int strategies) {
         options.strategies = strategies;
         constexpr int runs = 8;
@@ -158,7 +158,7 @@ TEST(InstructionSets, AgreeWithBaselineToRounding) {
             continue;
         }
         const Film other = with_isa(isa);
-        // The same random numbers: pixels differ where rounding sends a path another way.
+        // The same random numbers: pixels differ where rounding sends a path elsewhere.
         int different = 0;
         double sum = 0;
         double sum_baseline = 0;

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "support/arena_pictures.h"
+#include "support/arena_images.h"
 #include "support/scene_builder.h"
 #include "truth/reference.h"
 
 namespace obscura::test {
 namespace {
 
-constexpr int picture_side = 64;  ///< texels; squares of 8: from level 4 on all is grey
+constexpr int image_side = 64;  ///< texels; squares of 8: from level 4 on all is grey
 constexpr int film_side = 32;
 constexpr double deviation_of_grey = 0.02;
 
@@ -18,9 +18,9 @@ constexpr uint32_t white_texel = 0xFFFFFFFFU, black_texel = 0xFF000000U;
 /// A chequer board of black and white squares with its mip chain.
 TextureArena chequer_board(MipMode mip) {
     TextureArena arena;
-    add_picture(
+    add_image(
         arena,
-        picture_side,
+        image_side,
         pack_sampler(Wrap::repeat, Wrap::repeat, false, false, mip, true),
         [](int x, int y) { return ((x >> 3) + (y >> 3)) % 2 == 0 ? white_texel : black_texel; });
     return arena;
@@ -42,7 +42,7 @@ Scene chequered_floor(MipMode mip, float tiles_per_m) {
 }
 
 /// From an eye 1 m above the floor. The footprint is a square of the cone's width, stretched by the
-/// slant: tiles are so small that it covers a grey texel, and without the slant it would not.
+/// slant: tiles are so small that only the stretched one covers a grey texel.
 struct View {
     float distance_m, yfov_rad, tiles_per_m;
 };
@@ -89,7 +89,7 @@ constexpr int line_side = 512;  ///< texels: 16 for a pixel
 constexpr int line_pixel = 11;
 
 /// A white card that fills the film, with a black line over one column of pixels.
-Film line_picture(int samples) {
+Film line_image(int samples) {
     SceneBuilder builder;
     Material m;
     m.flags = material_unlit;
@@ -97,10 +97,10 @@ Film line_picture(int samples) {
     builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(m));
     Scene scene = builder.take();
     constexpr int texels = line_side / film_side;
-    add_picture(scene.textures,
-                line_side,
-                pack_sampler(Wrap::clamp, Wrap::clamp, false, false, MipMode::linear, true),
-                [](int x, int) { return x / texels == line_pixel ? black_texel : white_texel; });
+    add_image(scene.textures,
+              line_side,
+              pack_sampler(Wrap::clamp, Wrap::clamp, false, false, MipMode::linear, true),
+              [](int x, int) { return x / texels == line_pixel ? black_texel : white_texel; });
     scene.primitives[0].uv_base[0] = 0;
     scene.attributes = {0, 1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0};
     RenderOptions options;
@@ -128,13 +128,13 @@ TEST(Footprint, ALineOnePixelWideIsSharperTheMoreSamplesThereAre) {
     for (const auto& [samples, share] :
          {std::pair{1, 1.0}, {4, 0.5}, {16, 0.25}, {64, 0.125}, {1024, 0.125}}) {
         SCOPED_TRACE(testing::Message() << samples << " spp");
-        const Film film = line_picture(samples);
+        const Film film = line_image(samples);
         const double mixed = share / 8;
         const double error = 3 * 0.5 * std::sqrt(mixed / (samples * film_side));
         EXPECT_NEAR(column(film, line_pixel).mean, 2 * mixed, 2 * error);
         EXPECT_NEAR(column(film, line_pixel - 1).mean, 1 - mixed, 2 * error);
         EXPECT_NEAR(column(film, line_pixel + 1).mean, 1 - mixed, 2 * error);
-        // Nor is it noisier than independent samples of a whole pixel's footprint would be.
+        // It is also no noisier than independent samples of a whole pixel's footprint would be.
         EXPECT_LT(column(film, line_pixel).deviation, std::sqrt(0.25 * 0.75 / samples) + 0.05);
         EXPECT_EQ(column(film, line_pixel + 3).mean, 1);
     }

@@ -8,7 +8,7 @@
 namespace obscura::test {
 namespace {
 
-constexpr int picture_size = 32;
+constexpr int image_size = 32;
 #ifdef OBSCURA_DEBUG
 constexpr int samples = 64;
 constexpr double tolerance = 0.02;  // a sixteenth of the samples: four times the noise
@@ -17,15 +17,15 @@ constexpr int samples = 1024;
 constexpr double tolerance = 0.005;
 #endif
 
-RenderOptions small_picture() {
+RenderOptions small_image() {
     RenderOptions options;
-    options.width = picture_size;
-    options.height = picture_size;
+    options.width = image_size;
+    options.height = image_size;
     options.samples_per_pixel = samples;
     return options;
 }
 
-/// Half a percent. A noisier estimator does not widen it: three standard errors must fit in.
+/// Half a percent, even for noisier estimators: three standard errors must fit in.
 void expect_close(const Mean& mean, double expected) {
     ASSERT_LE(3.0 * mean.error, tolerance * expected) << "too few samples to tell";
     EXPECT_NEAR(mean.value, expected, tolerance * expected);
@@ -41,13 +41,13 @@ Material white(float metallic, float roughness) {
 /// A camera that sees a floor patch under `angle` from its normal, all pixels nearly alike.
 Camera slanted_camera(float angle) {
     const Vec3f eye{0, 1000 * std::cos(angle), 1000 * std::sin(angle)};
-    return look_at(eye, {0, 0, 0}, 4e-5f, picture_size, picture_size);
+    return look_at(eye, {0, 0, 0}, 4e-5f, image_size, image_size);
 }
 
 Scene floor_scene(const Material& m) {
     SceneBuilder builder;
-    const int32_t row = builder.material(m);
-    builder.quad({-100, 0, 100}, {200, 0, 0}, {0, 0, -200}, row);
+    const int32_t index = builder.material(m);
+    builder.quad({-100, 0, 100}, {200, 0, 0}, {0, 0, -200}, index);
     return builder.take();
 }
 
@@ -63,7 +63,7 @@ TEST_P(WhiteFurnace, ReflectsTheAlbedoOfItsBrdf) {
     LightingOptions lighting;
     lighting.environment = constant_environment(1.0f);
     const Mean mean = film_mean(
-        render_scene(floor_scene(m), lighting, slanted_camera(angle), small_picture()).film);
+        render_scene(floor_scene(m), lighting, slanted_camera(angle), small_image()).film);
     const Vec3d wo = polar_direction(std::cos(static_cast<double>(angle)), 0.0);
     const double albedo = reflected(exact_bsdf(m), wo, [](const Vec3d&) { return 1.0; });
     expect_close(mean, albedo);
@@ -89,8 +89,7 @@ TEST(WhiteFurnace, SmoothMirrorLosesNothing) {
     LightingOptions lighting;
     lighting.environment = constant_environment(1.0f);
     const Mean mean = film_mean(
-        render_scene(floor_scene(white(1, 0)), lighting, slanted_camera(0.5f), small_picture())
-            .film);
+        render_scene(floor_scene(white(1, 0)), lighting, slanted_camera(0.5f), small_image()).film);
     EXPECT_NEAR(mean.value, 1.0, 0.005);
 }
 
@@ -106,7 +105,7 @@ TEST(DirectionalLight, OnAPlaneIsBrdfTimesCosineTimesLux) {
         std::fill_n(sun.intensity, 3, 5.0f);
         scene.lights.push_back(sun);
         const Mean mean =
-            film_mean(render_scene(scene, {}, slanted_camera(0.4f), small_picture()).film);
+            film_mean(render_scene(scene, {}, slanted_camera(0.4f), small_image()).film);
         // The floor's normal is +Y: local frame (z, x, y).
         const auto local = [](const Vec3d& v) { return Vec3d{v.z, v.x, v.y}; };
         const Vec3d wo = local({0, std::cos(0.4f), std::sin(0.4f)});
@@ -122,8 +121,7 @@ TEST(PointLight, FallsOffWithTheSquareOfDistanceAndStopsAtItsRange) {
     std::fill_n(lamp.intensity, 3, 8.0f);
     lamp.range = 4.0f;
     scene.lights.push_back(lamp);
-    const Mean mean =
-        film_mean(render_scene(scene, {}, slanted_camera(0.3f), small_picture()).film);
+    const Mean mean = film_mean(render_scene(scene, {}, slanted_camera(0.3f), small_image()).film);
     const Vec3d wo = polar_direction(std::cos(static_cast<double>(0.3f)), 0.0);
     const double window = 1.0 - std::pow(2.0 / 4.0, 4);
     const double f = evaluate_bsdf(exact_bsdf(white(0, 1)), wo, {0, 0, 1}).value_cos.x;
@@ -139,7 +137,7 @@ TEST(EmissiveQuad, OnAFloorIsTheIntegralOverItsArea) {
     std::fill_n(lamp.base_color, 3, 0.0f);
     builder.quad({-100, 0, 100}, {200, 0, 0}, {0, 0, -200}, builder.material(ground));
     builder.quad({-0.5f, 1.5f, -1.0f}, {1, 0, 0}, {0, 0.3f, 0.8f}, builder.material(lamp));
-    RenderOptions options = small_picture();
+    RenderOptions options = small_image();
     options.integrator = Integrator::direct;
     const Mean mean =
         film_mean(render_scene(builder.take(), {}, slanted_camera(0.5f), options).film);
@@ -205,7 +203,7 @@ void check_closed_sphere(const Material& m, bool lamp_inside) {
         std::fill_n(lamp.intensity, 3, static_cast<float>(intensity));
         scene.lights.push_back(lamp);
     }
-    RenderOptions options = small_picture();
+    RenderOptions options = small_image();
     options.max_bounces = 60;
     // From the centre-plane towards +Z under 40 degrees to the wall's normal there.
     const double angle = 40.0 * pi_d / 180.0;
@@ -214,8 +212,7 @@ void check_closed_sphere(const Material& m, bool lamp_inside) {
                                    0,
                                    static_cast<float>(-0.5 * std::cos(angle))};
     const Mean mean = film_mean(
-        render_scene(scene, {}, look_at(eye, wall, 0.02f, picture_size, picture_size), options)
-            .film);
+        render_scene(scene, {}, look_at(eye, wall, 0.02f, image_size, image_size), options).film);
     const BsdfParams<double> p = exact_bsdf(m);
     const auto source = [&](double cosine) {
         double light = static_cast<double>(m.emission[0]);
@@ -256,10 +253,10 @@ TEST(AlphaBlend, LetsLightThroughInProportion) {
         Material ground = white(0, 1);
         ground.base_color[0] = 0.5f;
         builder.quad({-100, 0, 100}, {200, 0, 0}, {0, 0, -200}, builder.material(ground));
-        const int32_t row = builder.material(veil);
+        const int32_t index = builder.material(veil);
         for (int i = 0; i < layers; ++i) {
             // Above the floor, out of the camera's way: only shadow rays pass it.
-            builder.quad({-50, 1.0f + static_cast<float>(i), 50}, {100, 0, 0}, {0, 0, -100}, row);
+            builder.quad({-50, 1.0f + static_cast<float>(i), 50}, {100, 0, 0}, {0, 0, -100}, index);
         }
         Scene scene = builder.take();
         PunctualLight sun;
@@ -268,9 +265,9 @@ TEST(AlphaBlend, LetsLightThroughInProportion) {
         sun.direction[2] = 0;
         std::fill_n(sun.intensity, 3, 3.0f);
         scene.lights.push_back(sun);
-        RenderOptions options = small_picture();
+        RenderOptions options = small_image();
         options.integrator = Integrator::direct;
-        const Camera camera = look_at({0, 0.5f, 0}, {0, 0, 0}, 0.1f, picture_size, picture_size);
+        const Camera camera = look_at({0, 0.5f, 0}, {0, 0, 0}, 0.1f, image_size, image_size);
         const Mean mean = film_mean(render_scene(scene, {}, camera, options).film);
         const double f = evaluate_bsdf(exact_bsdf(ground), {0, 0, 1}, {0, 0, 1}).value_cos.x;
         expect_close(mean, 3.0 * f * std::pow(0.75, layers));
@@ -290,9 +287,9 @@ TEST(Environment, FollowsTheDocumentedOrientation) {
     for (const Vec3f& d : {Vec3f{1, 0, 0}, Vec3f{0, 0.2f, 1}, Vec3f{0.3f, -0.9f, -0.5f}}) {
         LightingOptions lighting;
         lighting.environment = map;
-        RenderOptions options = small_picture();
+        RenderOptions options = small_image();
         options.samples_per_pixel = 4;
-        const Camera camera = look_at({0, 0, 0}, d, 0.01f, picture_size, picture_size);
+        const Camera camera = look_at({0, 0, 0}, d, 0.01f, image_size, image_size);
         const Film film = render_scene(SceneBuilder().take(), lighting, camera, options).film;
         const Vec3f n = normalize(d);
         EXPECT_NEAR(film_mean(film, 0).value, std::atan2(n.z, n.x) / (2 * pi_d) + 0.5, 1e-3);

@@ -1,4 +1,4 @@
-// tests/truth/light_profiles_test.cpp - measured lamps against illuminances worked out by hand.
+// tests/truth/light_profiles_test.cpp - IES lamps against illuminances worked out by hand.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/camera_models.h"
 #include "render/light_table.h"
@@ -91,7 +91,7 @@ TEST(LightProfiles, RaycastMeetsTheIlluminanceInEveryPixel) {
     EXPECT_GT(brightest, 20);
 }
 
-/// With no bounces the path tracer sees the lamp alone; the faint one takes a share of the samples.
+/// Without bounces the path tracer sees the lamp alone; the faint one takes some of the samples.
 TEST(LightProfiles, ThePathTracerConvergesToTheSame) {
     for (const Vec3f& at : {Vec3f{0.7f, 0, 0.4f}, Vec3f{-0.9f, 0, -1.1f}}) {
         const Camera camera = look_at({at.x, 300, at.z}, at, 1e-5f, side, side);
@@ -108,7 +108,7 @@ TEST(LightProfiles, ThePathTracerConvergesToTheSame) {
     }
 }
 
-/// The weight by which a lamp is chosen is its light, not its strongest direction.
+/// A lamp is chosen by its total light, not by its strongest direction.
 TEST(LightProfiles, PowerDecidesHowOftenALampIsChosen) {
     Scene scene = lamp_scene(ground_material());
     std::fill_n(scene.lights[0].intensity, 3, 50.0f);

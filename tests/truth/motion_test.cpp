@@ -1,4 +1,4 @@
-// tests/truth/motion_test.cpp - what moves while the shutter is open leaves the right trail.
+// tests/truth/motion_test.cpp - motion while the shutter is open leaves the right blur.
 // SPDX-License-Identifier: Apache-2.0
 #include "scene/motion.h"
 
@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/points_lines_scenes.h"
 #include "support/scene_builder.h"
-#include "support/stroke_scenes.h"
 #include "truth/reference.h"
 
 namespace obscura::test {
@@ -42,7 +42,7 @@ Scene square_at(float x) {
     return builder.take();
 }
 
-/// Poses on the way of the square from x = -16 to 12: 28 m.
+/// Poses of the square on its path from x = -16 to 12: 28 m.
 std::vector<Scene> poses_of(int steps, const std::function<Scene(float)>& at) {
     std::vector<Scene> poses;
     for (int s = 0; s < steps; ++s)
@@ -79,7 +79,7 @@ std::vector<double> profile(Scene scene, const std::vector<Affined>& moving_came
     return means;
 }
 
-/// How long the square covers a place, as a share of the time that the shutter is open.
+/// Fraction of the open shutter's time in which the square covers a point.
 double covered(double x) {
     const double begin = std::clamp((x - square_m + 16) / 28, 0.0, 1.0);
     const double end = std::clamp((x + 16) / 28, 0.0, 1.0);
@@ -129,7 +129,7 @@ void place_at(float x, Scene& scene) {
     scene.instances.push_back(placing);
 }
 
-/// Where a chord of a disk or ball is seen end on: the share of a column's height that is covered.
+/// The fraction of a column's height covered by a disk or ball whose chord is seen end on.
 double covered_by_disk(double x, double radius) {
     return std::abs(x) < radius ? 2 * std::sqrt(radius * radius - x * x) / height : 0;
 }
@@ -155,7 +155,7 @@ void expect_trail_of_disk(const std::vector<double>& seen, double radius) {
 
 constexpr float ball_m = 2;
 
-/// Points, particles and shapes move as instances; what the camera sees of a ball is a disk.
+/// Points, particles and shapes move as instances; the camera sees a ball as a disk.
 TEST(Motion, SoDoMovingPointsParticlesAndShapes) {
     const auto empty = [] {
         SceneBuilder builder;
@@ -185,7 +185,7 @@ TEST(Motion, SoDoMovingPointsParticlesAndShapes) {
     expect_trail_of_disk(profile(joined(poses_of(2, shape_at))), double{ball_m});
 }
 
-/// An upright line that crosses the whole picture is a square of its diameter's width.
+/// An upright line that crosses the whole image is a square of its diameter's width.
 TEST(Motion, SoDoesAMovingLine) {
     const auto line_at = [](float x) {
         SceneBuilder builder;
@@ -198,7 +198,7 @@ TEST(Motion, SoDoesAMovingLine) {
     expect_trail(profile(joined(poses_of(3, line_at))));
 }
 
-/// A camera that moves to the left sees what a still one sees of things that move to the right.
+/// A camera that moves to the left sees a still scene as a still one sees a scene moving right.
 TEST(Motion, SoDoesAMovingCamera) {
     std::vector<Affined> placings(3);
     for (size_t s = 0; s < placings.size(); ++s) {
@@ -315,7 +315,7 @@ Scene tile_at(float x, bool instanced) {
     return scene;
 }
 
-/// With the help of light sampling the picture is the same as without, with less noise.
+/// With the help of light sampling the image is the same as without, with less noise.
 TEST(Motion, MovingEmittersAreSampledWhereTheyAre) {
     for (const bool instanced : {true, false}) {
         const auto scene = [&] {

@@ -1,8 +1,8 @@
-// tests/truth/normal_maps_test.cpp - normal maps from afar reflect what their normals do.
+// tests/truth/normal_maps_test.cpp - normal maps from afar reflect as the mean of their normals.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "support/arena_pictures.h"
+#include "support/arena_images.h"
 #include "support/random.h"
 #include "support/scene_builder.h"
 #include "truth/reference.h"
@@ -73,10 +73,10 @@ Scene plate_under_a_lamp(const Material& plate) {
                  {0, -2 * lamp_half_m, 0},
                  builder.material(lamp));
     Scene scene = builder.take();
-    add_picture(scene.textures,
-                map_side,
-                pack_sampler(Wrap::repeat, Wrap::repeat, false, false, MipMode::linear, false),
-                code_at);
+    add_image(scene.textures,
+              map_side,
+              pack_sampler(Wrap::repeat, Wrap::repeat, false, false, MipMode::linear, false),
+              code_at);
     Primitive& primitive = scene.primitives[0];
     primitive.uv_base[0] = 0;
     primitive.tangent_base = 8;
@@ -99,7 +99,7 @@ Mean seen_from_above(Scene scene, int pixels) {
     return film_mean(render_scene(std::move(scene), {}, camera, options).film);
 }
 
-/// By quadrature over the lamp of what each of the map's normals reflects.
+/// By quadrature over the lamp of the reflection at each of the map's normals.
 double expected_radiance(const Material& m) {
     std::array<double, normal_codes.size()> share{};
     for (int y = 0; y < map_side; ++y) {

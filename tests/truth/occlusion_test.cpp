@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "support/arena_pictures.h"
+#include "support/arena_images.h"
 #include "support/scene_builder.h"
 #include "truth/reference.h"
 
 namespace obscura::test {
 namespace {
 
-constexpr int picture_size = 16;
+constexpr int image_size = 16;
 constexpr uint32_t texel_code = 51;  ///< a fifth
 constexpr float strength = 0.5f;
 constexpr double occlusion = 1 + 0.5 * (51 / 255.0 - 1);
@@ -29,10 +29,10 @@ void add_plate(SceneBuilder& builder, float y, Material m, bool occluded) {
 
 Scene finish(SceneBuilder& builder) {
     Scene scene = builder.take();
-    add_picture(scene.textures,
-                2,
-                pack_sampler(Wrap::repeat, Wrap::repeat, false, false, MipMode::linear, false),
-                [](int, int) { return texel_code | 0xFFFFFF00U; });
+    add_image(scene.textures,
+              2,
+              pack_sampler(Wrap::repeat, Wrap::repeat, false, false, MipMode::linear, false),
+              [](int, int) { return texel_code | 0xFFFFFF00U; });
     scene.attributes.assign(12, 0.0f);
     return scene;
 }
@@ -64,11 +64,11 @@ double plate(const Lit& lit, bool occluded) {
     LightingOptions lighting;
     lighting.environment = constant_environment(lit.environment ? 1.0f : 0.0f);
     RenderOptions options;
-    options.width = options.height = picture_size;
+    options.width = options.height = image_size;
     options.samples_per_pixel = 256;
     options.strategies = lit.strategies;
     options.integrator = lit.integrator;
-    const Camera camera = look_at({0, 1, 1.5f}, {0, 0, 0}, 0.2f, picture_size, picture_size);
+    const Camera camera = look_at({0, 1, 1.5f}, {0, 0, 0}, 0.2f, image_size, image_size);
     return film_mean(render_scene(finish(builder), lighting, camera, options).film).value;
 }
 
@@ -107,16 +107,16 @@ TEST(Occlusion, IsThatOfTheSurfaceThatTheLightComesTo) {
         LightingOptions lighting;
         lighting.environment = constant_environment(1);
         RenderOptions options;
-        options.width = options.height = picture_size;
+        options.width = options.height = image_size;
         options.samples_per_pixel = 1024;
-        const Camera camera = look_at({0, 0.5f, 0.4f}, {0, 3, 0}, 0.2f, picture_size, picture_size);
+        const Camera camera = look_at({0, 0.5f, 0.4f}, {0, 3, 0}, 0.2f, image_size, image_size);
         return film_mean(render_scene(finish(builder), lighting, camera, options).film).value;
     };
     const double plain = ceiling_seen_from_below(false, false);
     const double floor = ceiling_seen_from_below(true, false);
     const double ceiling = ceiling_seen_from_below(false, true);
     const double both = ceiling_seen_from_below(true, true);
-    // What is lost by both is lost by each: no path is dimmed twice by the same light.
+    // Losses by both are not counted twice: no path is dimmed twice by the same light.
     EXPECT_LT(floor, plain - 0.02);
     EXPECT_LT(ceiling, plain - 0.02);
     EXPECT_NEAR(plain - both, (plain - floor) + (plain - ceiling), 0.004);

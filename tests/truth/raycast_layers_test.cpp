@@ -1,17 +1,17 @@
-// tests/truth/raycast_layers_test.cpp - ray casting of materials with layers, against formulas.
+// tests/truth/raycast_layers_test.cpp - ray casting of layered materials, against formulas.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
-#include "truth/body_scene.h"
+#include "truth/dielectric_scene.h"
 
 namespace obscura::test {
 namespace {
 
 /// A floor of 8 m, the fronts above, of one material.
 Scene layered_floor(float color, const MaterialLayers& layers) {
-    BodyScene bodies;
-    bodies.builder.quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, bodies.add(layers));
-    Scene scene = bodies.take();
+    DielectricScene solids;
+    solids.builder.quad({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}, solids.add(layers));
+    Scene scene = solids.take();
     std::fill_n(scene.materials[0].base_color, 3, color);
     scene.materials[0].roughness = 1;
     return scene;
@@ -20,7 +20,7 @@ Scene layered_floor(float color, const MaterialLayers& layers) {
 /// From far away; all rays are parallel, but for a millionth.
 Film seen(Scene scene, const Vec3d& towards_eye, Integrator integrator, float sky = 0) {
     RenderOptions options;
-    options.width = options.height = picture_size;
+    options.width = options.height = image_size;
     options.integrator = integrator;
     options.samples_per_pixel = 256;
     LightingOptions lighting;
@@ -28,11 +28,11 @@ Film seen(Scene scene, const Vec3d& towards_eye, Integrator integrator, float sk
     const Vec3d place = towards_eye * 1000.0;
     const Vec3f eye{
         static_cast<float>(place.x), static_cast<float>(place.y), static_cast<float>(place.z)};
-    const Camera camera = look_at(eye, {0, 0, 0}, 1e-5f, picture_size, picture_size);
+    const Camera camera = look_at(eye, {0, 0, 0}, 1e-5f, image_size, image_size);
     return render_scene(std::move(scene), lighting, camera, options).film;
 }
 
-/// A sun of so many lux on what faces it, in the plane z = 0.
+/// A sun of so many lux on surfaces that face it, in the plane z = 0.
 PunctualLight sun(double angle, float lux) {
     PunctualLight light;
     light.type = static_cast<int32_t>(PunctualType::directional);
@@ -110,7 +110,7 @@ TEST(RaycastLayers, AConstantSkyIsReflectedAsPathsFindIt) {
             const Scene scene = layered_floor(0.7f, all[i]);
             const Mean path = film_mean(seen(scene, towards_eye, Integrator::path, 1.5f));
             const Mean cast = film_mean(seen(scene, towards_eye, Integrator::raycast, 1.5f));
-            // A film's reflectance is taken at the surface's own angle, not at its facets'.
+            // A thin film's reflectance is taken at the surface's own angle, not at its facets'.
             const double room = all[i].iridescence > 0 ? 0.04 : 0.02;
             EXPECT_NEAR(cast.value, path.value, room * path.value + 4 * path.error)
                 << i << " " << towards_eye.y;
@@ -119,7 +119,7 @@ TEST(RaycastLayers, AConstantSkyIsReflectedAsPathsFindIt) {
 }
 
 TEST(RaycastLayers, NoPixelHasAWavelengthOfItsOwn) {
-    MaterialLayers glass = body(1.7f, {0, 0, 0});
+    MaterialLayers glass = dielectric(1.7f, {0, 0, 0});
     Scene scene = layered_floor(1, glass);
     scene.materials[0].roughness = 0.5f;
     scene.lights.push_back(sun(0, 20));

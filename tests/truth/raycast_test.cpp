@@ -56,7 +56,7 @@ Vec3d floor_local(const Vec3d& v) {
     return {v.z, v.x, v.y};
 }
 
-/// Where the middle of a pixel looks at the floor y = 0.
+/// Where a pixel's centre looks at the floor y = 0.
 Vec3d floor_point(const Camera& camera, int x, int y) {
     const ClosedRay ray = closed_ray(camera, {x, y, side, side});
     return ray.origin + ray.direction * (-ray.origin.y / ray.direction.y);
@@ -74,7 +74,7 @@ double lit(const Material& m, const Vec3d& eye, const Vec3d& at, const Vec3d& li
 TEST(Raycast, FloorUnderAPointLightAndItsHardShadow) {
     const Material ground = rough(0.8f);
     SceneBuilder builder = floor_builder(ground);
-    // A roof of 1 m x 0.8 m, 1 m above the floor and outside the picture; the light is at 3 m, so
+    // A roof of 1 m x 0.8 m, 1 m above the floor and outside the image; the light is at 3 m, so
     // its shadow is larger by 3 / 2 and moved away from the light.
     const Vec3f light{0.5f, 3, -0.25f};
     builder.quad({-0.5f, 1, 0.4f}, {1, 0, 0}, {0, 0, -0.8f}, builder.material(rough(0.1f)));
@@ -87,7 +87,7 @@ TEST(Raycast, FloorUnderAPointLightAndItsHardShadow) {
     for (int i = 0; i < side * side; ++i) {
         const Vec3d at = floor_point(camera, i % side, i / side);
         ASSERT_TRUE(at.z > -4 && at.z < 3) << "the picture is full of floor";
-        // The way to the light passes the roof's height after a third.
+        // The shadow ray passes the roof's height after a third.
         const Vec3d pierced = at + (Vec3d{0.5, 3, -0.25} - at) * (1.0 / 3);
         const double inside = std::min(0.5 - std::fabs(pierced.x), 0.4 - std::fabs(pierced.z));
         if (std::fabs(inside) < 1e-5) continue;
@@ -124,7 +124,7 @@ TEST(Raycast, WithoutSpecularReflectionItIsLambertsLaw) {
 }
 
 TEST(Raycast, NothingButTheSceneDecides) {
-    const auto picture = [](int spp, uint64_t seed, int tile, PixelFilter filter) {
+    const auto image = [](int spp, uint64_t seed, int tile, PixelFilter filter) {
         SceneBuilder builder = floor_builder(rough(0.5f));
         builder.sphere({0, 1, 0}, 1, 20, builder.material(rough(0.9f)));
         builder.quad({1, 3, 0}, {0.5f, 0, 0}, {0, 0, 0.5f}, builder.material(lamp(20)));
@@ -138,8 +138,8 @@ TEST(Raycast, NothingButTheSceneDecides) {
         const Camera camera = look_at({0, 2, 7}, {0, 1, 0}, 0.6f, side, side);
         return render_scene(std::move(scene), {}, camera, options).film.pixels;
     };
-    const auto one = picture(1, 0, 16, PixelFilter::box);
-    EXPECT_EQ(one, picture(64, 9, 5, PixelFilter::gaussian));
+    const auto one = image(1, 0, 16, PixelFilter::box);
+    EXPECT_EQ(one, image(64, 9, 5, PixelFilter::gaussian));
     EXPECT_GT(*std::max_element(one.begin(), one.end()), 0.1f);
 }
 
@@ -164,7 +164,7 @@ double under_lamp(const Scene& scene) {
     return film_mean(render_scene(scene, {}, camera, raycast_options()).film).value;
 }
 
-TEST(Raycast, LampsShineFromTheirMiddle) {
+TEST(Raycast, LampsShineFromTheirCentre) {
     const Material ground = rough(0.8f);
     const double distance = 3;
     const auto expected = [&](double intensity) {
@@ -188,9 +188,9 @@ TEST(Raycast, LampsShineFromTheirMiddle) {
     Scene shape = floor_builder(ground).take();
     shape.materials.push_back(lamp(10));
     shape.material_numbers.push_back(1);
-    ShapeRow row = make_shape(ShapeKind::sphere, 0.25f);
-    row.centre[1] = 3;
-    add_shape(shape, row, 1);
+    ShapeRecord record = make_shape(ShapeKind::sphere, 0.25f);
+    record.centre[1] = 3;
+    add_shape(shape, record, 1);
     EXPECT_NEAR(under_lamp(shape), expected(10 * disk), 1e-4);
 }
 
@@ -210,13 +210,13 @@ TEST(Raycast, NoSceneIsBlack) {
         render_scene(floor_builder(rough(0.8f)).take(), {}, camera, raycast_options()).film;
     EXPECT_GT(film_mean(studio).value, 0.1);
 
-    // A glowing box has no row in the light table: then there is a light at the eye.
+    // A glowing box is not in the light table: then there is a light at the eye.
     Scene scene = floor_builder(rough(0.8f)).take();
     scene.materials.push_back(lamp(10));
     scene.material_numbers.push_back(1);
-    ShapeRow row = make_shape(ShapeKind::box, 0.1f, 0.1f, 0.1f);
-    row.centre[1] = -5;
-    add_shape(scene, row, 1);
+    ShapeRecord record = make_shape(ShapeKind::box, 0.1f, 0.1f, 0.1f);
+    record.centre[1] = -5;
+    add_shape(scene, record, 1);
     const Camera above = look_at({0, 500, 0}, {0, 0, 0}, 1e-4f, side, side);
     const Film head = render_scene(std::move(scene), {}, above, raycast_options()).film;
     const double facing = evaluate_bsdf(exact_bsdf(rough(0.8f)), {0, 0, 1}, {0, 0, 1}).value_cos.x;

@@ -1,4 +1,4 @@
-// tests/truth/reference.h - radiances that are known: quadratures of the BRDF in double precision.
+// tests/truth/reference.h - known radiances: quadratures of the BRDF in double precision.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -26,8 +26,8 @@ inline Vec3d polar_direction(double cos_theta, double phi) {
 }
 
 /// Integral over the hemisphere of value_cos(wo, wi) * incoming(wi), red channel, by two regular
-/// grids: one dense where the specular lobe is, one uniform in cosine. Each point counts by its
-/// grid's share of the two densities, so that each grid only sees what it resolves.
+/// grids: one dense at the specular lobe, one uniform in cosine. Each point is weighted by its
+/// grid's fraction of the two densities, so that each grid only counts what it resolves.
 inline double reflected(const BsdfParams<double>& p,
                         const Vec3d& wo,
                         const std::function<double(const Vec3d&)>& incoming) {

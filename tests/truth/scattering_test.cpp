@@ -1,18 +1,18 @@
-// tests/truth/scattering_test.cpp - light that bodies scatter, against walks in double precision.
+// tests/truth/scattering_test.cpp - subsurface scattering against random walks in double precision.
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/scattering.h"
 
 #include <gtest/gtest.h>
 
 #include "support/random.h"
-#include "truth/body_scene.h"
+#include "truth/dielectric_scene.h"
 
 namespace obscura::test {
 namespace {
 
-/// A body that bends nothing, so that a walk begins and ends where its surface is.
+/// A medium without refraction, so that a random walk begins and ends where its surface is.
 MaterialLayers cloud(const Vec3f& extinction, const Vec3f& albedo, float anisotropy) {
-    MaterialLayers layers = body(1.0f, extinction);
+    MaterialLayers layers = dielectric(1.0f, extinction);
     layers.scatter_albedo[0] = albedo.x;
     layers.scatter_albedo[1] = albedo.y;
     layers.scatter_albedo[2] = albedo.z;
@@ -21,9 +21,9 @@ MaterialLayers cloud(const Vec3f& extinction, const Vec3f& albedo, float anisotr
 }
 
 std::array<Mean, 3> seen_sphere(const MaterialLayers& layers) {
-    BodyScene scene;
-    const int32_t row = scene.add(layers);
-    scene.builder.sphere({0, 0, 0}, 1, 96, row);
+    DielectricScene scene;
+    const int32_t index = scene.add(layers);
+    scene.builder.sphere({0, 0, 0}, 1, 96, index);
     return means_from_front(scene.take(), {.samples = 1024});
 }
 
@@ -36,7 +36,7 @@ void expect_mean(const Mean& seen, double expected) {
 }
 
 /// Where a ray from inside the unit sphere leaves it.
-double way_out(const Vec3d& p, const Vec3d& d) {
+double distance_to_boundary(const Vec3d& p, const Vec3d& d) {
     const double b = dot(p, d);
     return -b + std::sqrt(std::max(0.0, b * b - dot(p, p) + 1));
 }
@@ -58,8 +58,8 @@ Vec3d turned(const Vec3d& d, double g, Pcg32& random) {
     }
 }
 
-/// Share of the walks along the axis of the unit sphere that are not absorbed: what it shows of a
-/// white sky.
+/// Fraction of the random walks along the unit sphere's axis that are not absorbed: its radiance
+/// under a white sky.
 double escaping(double extinction, double albedo, double g) {
     constexpr int walks = 200000;
     Pcg32 random(7);
@@ -69,7 +69,7 @@ double escaping(double extinction, double albedo, double g) {
         Vec3d d{0, 0, -1};
         for (;;) {
             const double flight = -std::log(uniform(random)) / extinction;
-            if (flight >= way_out(p, d)) {
+            if (flight >= distance_to_boundary(p, d)) {
                 ++out;
                 break;
             }
@@ -92,7 +92,7 @@ TEST(Scattering, WhatAbsorbsNothingVanishesUnderAWhiteSky) {
     }
 }
 
-TEST(Scattering, SpheresShowWhatWalksInDoublePrecisionFind) {
+TEST(Scattering, SpheresShowWhatRandomWalksInDoublePrecisionFind) {
     const Vec3f extinction{0.5f, 2.0f, 8.0f};
     const Vec3f albedo{0.9f, 0.7f, 0.95f};
     for (const float g : {-0.6f, 0.0f, 0.8f}) {
@@ -113,7 +113,7 @@ TEST(Scattering, ChannelsDoNotMix) {
     expect_mean(seen[2], 1);
 }
 
-/// A smooth surface above: what is reflected inside walks on.
+/// With a smooth surface, light reflected inside continues its random walk.
 TEST(Scattering, GlassAroundLosesNothing) {
     MaterialLayers milk = cloud({3.0f, 3.0f, 3.0f}, {1, 1, 1}, 0.0f);
     milk.ior = 1.5f;
@@ -121,7 +121,7 @@ TEST(Scattering, GlassAroundLosesNothing) {
 }
 
 /// Light that enters and leaves diffusely, as in skin and wax, meets the boundary on its way out.
-TEST(Scattering, DiffuseBodiesLoseAndGainNothing) {
+TEST(Scattering, DiffuseSolidsLoseAndGainNothing) {
     for (const float share : {0.5f, 1.0f}) {
         SCOPED_TRACE(share);
         MaterialLayers wax = cloud({3.0f, 3.0f, 3.0f}, {1, 1, 1}, 0.0f);

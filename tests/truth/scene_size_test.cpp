@@ -1,4 +1,4 @@
-// tests/truth/scene_size_test.cpp - scenes of any size give the same picture.
+// tests/truth/scene_size_test.cpp - scenes of any size give the same image.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@ Mean seen(float size) {
     grey.roughness = 0.5f;
     std::fill_n(grey.base_color, 3, 0.5f);
     SceneBuilder builder;
-    const int32_t row = builder.material(grey);
-    builder.quad({-size, 0, size}, {2 * size, 0, 0}, {0, 0, -2 * size}, row);
-    builder.sphere({0, 0.4f * size, 0}, 0.4f * size, 8, row);
+    const int32_t index = builder.material(grey);
+    builder.quad({-size, 0, size}, {2 * size, 0, 0}, {0, 0, -2 * size}, index);
+    builder.sphere({0, 0.4f * size, 0}, 0.4f * size, 8, index);
     RenderOptions options;
     options.width = options.height = 32;
     options.samples_per_pixel = 16;

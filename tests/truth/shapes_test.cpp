@@ -1,4 +1,4 @@
-// tests/truth/shapes_test.cpp - analytic shapes in pictures: known radiances and tessellated twins.
+// tests/truth/shapes_test.cpp - rendered analytic shapes: known radiances and tessellated twins.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace obscura::test {
 namespace {
 
-RenderOptions picture(int samples, int strategies = 3) {
+RenderOptions image(int samples, int strategies = 3) {
     RenderOptions options;
     options.width = 32;
     options.height = 32;
@@ -46,7 +46,7 @@ Affined columns(const Vec3d& x, const Vec3d& y, const Vec3d& z, const Vec3d& t) 
 
 /// A lamp above a floor, which a far camera sees in one point.
 struct LampCase {
-    ShapeRow shape;
+    ShapeRecord shape;
     Affined world;
     const char* name;
 };
@@ -58,7 +58,7 @@ std::vector<LampCase> lamps() {
     const Affined down = columns(x, -up, -z, {0.5, 1, 0.2});
     const Affined high = columns(x, -up, -z, {0, 30, 0});
     const Affined behind = columns(x, -up, -z, {0.5, 1, -0.6});
-    const ShapeRow moved_sphere =
+    const ShapeRecord moved_sphere =
         scaled_and_moved(make_shape(ShapeKind::sphere, 1), 1, {0.5, 2, -1.1});
     const Affined mirrored = columns(x, -up, z, {0.5, 1, 0.2});
     const Affined sheared = columns(x, -up, z + x * 0.5, {0.5, 1, 0.2});
@@ -97,7 +97,7 @@ TEST(ShapeLights, LightAFloorAsTheIntegralOverThem) {
     for (const LampCase& lamp_case : lamps()) {
         const bool far = lamp_case.world.m[1][3] > 10;
         for (const int strategies : {1, 2, 3}) {
-            // What has no row in the light table is found by the BSDF alone, as far lamps hardly
+            // Lights outside of the light table are found by the BSDF alone, as far lamps hardly
             // are.
             const bool unsampled = lamp_case.shape.kind == static_cast<int32_t>(ShapeKind::box);
             if ((far && strategies == 2) || (unsampled && strategies == 1)) continue;
@@ -111,7 +111,7 @@ TEST(ShapeLights, LightAFloorAsTheIntegralOverThem) {
                 add_shape(scene, lamp_case.shape, light, lamp_case.world);
             }
             const Mean mean =
-                film_mean(render_scene(scene, {}, camera, picture(512, strategies)).film);
+                film_mean(render_scene(scene, {}, camera, image(512, strategies)).film);
             const double expected = 10 * expected_radiance(lamp_case, ground);
             EXPECT_NEAR(mean.value, expected, 0.01 * expected + 3 * mean.error)
                 << lamp_case.name << ", strategies " << strategies;
@@ -122,11 +122,11 @@ TEST(ShapeLights, LightAFloorAsTheIntegralOverThem) {
 /// The same sphere as a shape and as a fine mesh, on a floor, under a bright sky.
 Scene sphere_scene(bool mesh, const Material& material) {
     SceneBuilder builder;
-    const int32_t row = builder.material(material);
+    const int32_t index = builder.material(material);
     builder.quad({-3, -1, 3}, {6, 0, 0}, {0, 0, -6}, builder.material(rough(0.5F)));
-    if (mesh) builder.sphere({0, 0, 0}, 1, 200, row);
+    if (mesh) builder.sphere({0, 0, 0}, 1, 200, index);
     Scene scene = builder.take();
-    if (!mesh) add_shape(scene, make_shape(ShapeKind::sphere, 1), row);
+    if (!mesh) add_shape(scene, make_shape(ShapeKind::sphere, 1), index);
     return scene;
 }
 
@@ -136,19 +136,18 @@ TEST(ShapeTwins, SphereLooksLikeItsFineMesh) {
     lighting.environment = constant_environment(1.0F);
     Material glossy = rough(0.7F);
     glossy.roughness = 0.3F;
-    const Film shape =
-        render_scene(sphere_scene(false, glossy), lighting, camera, picture(256)).film;
-    const Film mesh = render_scene(sphere_scene(true, glossy), lighting, camera, picture(256)).film;
+    const Film shape = render_scene(sphere_scene(false, glossy), lighting, camera, image(256)).film;
+    const Film mesh = render_scene(sphere_scene(true, glossy), lighting, camera, image(256)).film;
     EXPECT_NEAR(film_mean(shape).value, film_mean(mesh).value, 0.003);
     for (size_t i = 0; i < shape.pixels.size(); ++i)
         ASSERT_NEAR(shape.pixels[i], mesh.pixels[i], 0.08F) << i;
 }
 
-TEST(ShapeTwins, QuantitiesAreThoseOfAFineMesh) {
+TEST(ShapeTwins, AovsAreThoseOfAFineMesh) {
     const Camera camera = look_at({0, 1, 5}, {0, 0, 0}, 0.6F, 32, 32);
     for (const Integrator integrator :
          {Integrator::normal, Integrator::depth, Integrator::albedo}) {
-        RenderOptions options = picture(1);
+        RenderOptions options = image(1);
         options.integrator = integrator;
         const Film shape = render_scene(sphere_scene(false, rough(0.7F)), {}, camera, options).film;
         const Film mesh = render_scene(sphere_scene(true, rough(0.7F)), {}, camera, options).film;
@@ -162,7 +161,7 @@ TEST(ShapeTwins, QuantitiesAreThoseOfAFineMesh) {
 TEST(ShapeTwins, StretchedAndMirroredInstancesAreEllipsoids) {
     // A sphere by an instance, and the quadric that it becomes, in world space.
     const Affined stretch = columns({1.5, 0, 0}, {0, -0.5, 0}, {0, 0, 0.75}, {0.2, 0.1, 0});
-    ShapeRow quadric = make_shape(ShapeKind::quadric, 2, 2, 2);
+    ShapeRecord quadric = make_shape(ShapeKind::quadric, 2, 2, 2);
     quadric.centre[0] = 0.2F;
     quadric.centre[1] = 0.1F;
     quadric.k[0] = 1 / 2.25F;
@@ -170,7 +169,7 @@ TEST(ShapeTwins, StretchedAndMirroredInstancesAreEllipsoids) {
     quadric.k[2] = 1 / 0.5625F;
     quadric.k[9] = -1;
     const Camera camera = look_at({0, 2, 5}, {0, 0, 0}, 0.7F, 32, 32);
-    RenderOptions options = picture(1);
+    RenderOptions options = image(1);
     options.integrator = Integrator::normal;
     Scene one = empty_scene(rough(0.5F));
     add_shape(one, make_shape(ShapeKind::sphere, 1), 0, stretch);
@@ -194,7 +193,7 @@ TEST(ShapeFurnace, AWhiteSphereVanishesInAWhiteSky) {
     LightingOptions lighting;
     lighting.environment = constant_environment(1.0F);
     const Camera camera = look_at({0, 0, 5}, {0, 0, 0}, 0.6F, 32, 32);
-    const Mean mean = film_mean(render_scene(scene, lighting, camera, picture(64)).film);
+    const Mean mean = film_mean(render_scene(scene, lighting, camera, image(64)).film);
     EXPECT_NEAR(mean.value, 1.0, 0.005);
 }
 
@@ -209,8 +208,8 @@ TEST(ShapeFurnace, InsideAGlowingBallEverythingGlows) {
     SceneBuilder builder;
     builder.material(m);
     builder.sphere({0, 0, 0}, 2, 100, 0);
-    const Mean shape = film_mean(render_scene(scene, {}, camera, picture(256)).film);
-    const Mean mesh = film_mean(render_scene(builder.take(), {}, camera, picture(256)).film);
+    const Mean shape = film_mean(render_scene(scene, {}, camera, image(256)).film);
+    const Mean mesh = film_mean(render_scene(builder.take(), {}, camera, image(256)).film);
     EXPECT_NEAR(shape.value, mesh.value, 0.003 * mesh.value + 3 * (shape.error + mesh.error));
     EXPECT_GT(shape.value, 1.0);
 }
@@ -224,16 +223,16 @@ TEST(ShapeShadows, RaysFromAShapeNeverMeetItsOwnSurface) {
                 Scene scene = empty_scene(rough(1.0F));
                 const Affined far = columns(
                     {1, 0, 0}, {0, 1.5, 0}, {0, 0, 1}, {0, 0, -8.0 * static_cast<double>(size)});
-                const ShapeRow row = make_shape(kind, size, size, 0.7F * size);
-                if (moved) add_shape(scene, row, 0, far);
-                if (!moved) add_shape(scene, row, 0);
+                const ShapeRecord record = make_shape(kind, size, size, 0.7F * size);
+                if (moved) add_shape(scene, record, 0, far);
+                if (!moved) add_shape(scene, record, 0);
                 PunctualLight sun;
                 sun.type = static_cast<int32_t>(PunctualType::directional);
                 std::fill_n(sun.intensity, 3, 3.0F);
                 scene.lights.push_back(sun);
                 const Vec3f target{0, 0, moved ? -8 * size : 0};
                 const Camera camera = look_at({0, 0, 6 * size}, target, 0.1F, 32, 32);
-                RenderOptions options = picture(1);
+                RenderOptions options = image(1);
                 options.max_bounces = 0;
                 const Film film = render_scene(scene, {}, camera, options).film;
                 for (size_t i = 0; i < film.pixels.size(); i += 4)

@@ -1,9 +1,9 @@
-// tests/truth/shared_faces_test.cpp - bodies whose faces lie in the same place, as exporters write.
+// tests/truth/shared_faces_test.cpp - solids with coincident faces, as exporters write them.
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
 #include "support/shape_scenes.h"
-#include "truth/body_scene.h"
+#include "truth/dielectric_scene.h"
 #include <cstring>
 
 namespace obscura::test {
@@ -14,7 +14,7 @@ struct Layer {
     double ior, sigma, thickness;
 };
 
-/// What a part of the stack does with light from its front and from behind.
+/// Reflection and transmission of a stack of layers, from its front and from behind.
 struct Part {
     double reflects, reflects_behind, passes;
 };
@@ -26,8 +26,8 @@ Part on_top(const Part& a, const Part& b) {
             a.passes * b.passes * between};
 }
 
-/// What a stack in air shows of a white sky on both sides: boundaries and fillings are added up one
-/// after the other. Source  van de Hulst, "Multiple Light Scattering", 1980, ch. 4 (adding)
+/// The radiance of a stack in air with a white sky on both sides: boundaries and fillings are added
+/// one after the other. Source  van de Hulst, "Multiple Light Scattering", 1980, ch. 4 (adding)
 double stack(const std::vector<Layer>& layers) {
     Part all{0, 0, 1};
     double before = 1;
@@ -51,8 +51,8 @@ constexpr Vec3f liquid_sigma{0.0f, 0.4f, 0.7f};
 
 enum class First { glass, liquid };
 
-/// 1 m of glass and 2 m of liquid in contact. From either side as much passes, but not as much
-/// comes back.
+/// 1 m of glass and 2 m of liquid in contact. Transmission is equal from both sides, reflection is
+/// not.
 Vec3d slabs_seen(First nearer) {
     const auto channel = [&](float in_glass, float in_liquid) {
         const Layer glass{double(glass_ior), double(in_glass), 1};
@@ -64,7 +64,7 @@ Vec3d slabs_seen(First nearer) {
             channel(glass_sigma.z, liquid_sigma.z)};
 }
 
-/// How a scene is placed in the world.
+/// A scene's placement in the world.
 struct Placing {
     float size = 1;
     Vec3f turn_axis{0, 1, 0};
@@ -136,7 +136,7 @@ void place(Scene& scene, const Placing& placing) {
                     placing.move + Vec3f{reach, reach, reach}};
 }
 
-/// How a scene is looked at, before it is placed.
+/// A camera and its settings, before they are placed.
 struct Look {
     Vec3f eye{0, 0, 1000};
     float yfov_rad = 1e-5f;
@@ -147,14 +147,14 @@ struct Look {
 Film film_of(Scene scene, const Look& look, const Placing& placing = {}) {
     place(scene, placing);
     RenderOptions options;
-    options.width = options.height = picture_size;
+    options.width = options.height = image_size;
     options.samples_per_pixel = look.samples;
     options.max_bounces = 256;  // of light caught in clear glass; hidden boundaries count, too
     options.tile_size = look.tile_size;
     LightingOptions lighting;
     lighting.environment = constant_environment(1);
     const Camera camera =
-        look_at(placing(look.eye), placing({0, 0, 0}), look.yfov_rad, picture_size, picture_size);
+        look_at(placing(look.eye), placing({0, 0, 0}), look.yfov_rad, image_size, image_size);
     return render_scene(std::move(scene), lighting, camera, options).film;
 }
 
@@ -169,7 +169,7 @@ void expect_near(const std::array<Mean, 3>& got, const Vec3d& truth, double tole
     EXPECT_NEAR(got[2].value, truth.z, tolerance);
 }
 
-/// Pictures that differ by chance alone: their pixels' differences have no mean.
+/// Images that differ by chance alone: the mean of their pixels' differences is zero.
 void expect_alike(const Film& got, const Film& wanted) {
     Film difference = got;
     for (size_t i = 0; i < difference.pixels.size(); ++i)
@@ -183,9 +183,9 @@ void expect_alike(const Film& got, const Film& wanted) {
 
 /// 1 m of glass on 2 m of liquid, whose face lies `gap` behind the glass's.
 Scene slabs(First first, float gap = 0) {
-    BodyScene scene;
-    const int32_t glass = scene.add(body(glass_ior, glass_sigma));
-    const int32_t liquid = scene.add(body(liquid_ior, liquid_sigma));
+    DielectricScene scene;
+    const int32_t glass = scene.add(dielectric(glass_ior, glass_sigma));
+    const int32_t liquid = scene.add(dielectric(liquid_ior, liquid_sigma));
     const auto add_glass = [&] { scene.box({-9, -9, -1}, {9, 9, 0}, glass); };
     if (first == First::glass) add_glass();
     scene.box({-9, -9, -3}, {9, 9, -1 - gap}, liquid);
@@ -212,18 +212,18 @@ TEST(SharedFaces, SlabsOfAnySizeAnywhere) {
     }
 }
 
-/// What rounding leaves between faces that were meant to be in the same place.
+/// Gaps that rounding leaves between faces meant to coincide.
 TEST(SharedFaces, GapsAndOverlapsOfRoundingAreContact) {
     for (const float gap : {-3e-7f, -1e-7f, 1e-7f, 3e-7f})
         expect_near(means(slabs(First::liquid, gap)), slabs_seen(First::glass), 0.004);
 }
 
 TEST(SharedFaces, AnalyticSlabs) {
-    BodyScene builder;
-    const int32_t glass = builder.add(body(glass_ior, glass_sigma));
-    const int32_t liquid = builder.add(body(liquid_ior, liquid_sigma));
+    DielectricScene builder;
+    const int32_t glass = builder.add(dielectric(glass_ior, glass_sigma));
+    const int32_t liquid = builder.add(dielectric(liquid_ior, liquid_sigma));
     Scene scene = builder.take();
-    ShapeRow box = make_shape(ShapeKind::box, 9, 9, 0.5f);
+    ShapeRecord box = make_shape(ShapeKind::box, 9, 9, 0.5f);
     box.centre[2] = -0.5f;
     add_shape(scene, box, glass);
     box.size[2] = 1;
@@ -233,10 +233,10 @@ TEST(SharedFaces, AnalyticSlabs) {
     expect_near(means(scene, {.eye = {0, 0, -1000}}), slabs_seen(First::liquid), 0.004);
 }
 
-/// Two bodies of one material in contact are one body.
-TEST(SharedFaces, BodiesOfOneMaterialInContact) {
-    BodyScene scene;
-    const int32_t glass = scene.add(body(glass_ior, glass_sigma));
+/// Two solids of one material in contact are one solid.
+TEST(SharedFaces, SolidsOfOneMaterialInContact) {
+    DielectricScene scene;
+    const int32_t glass = scene.add(dielectric(glass_ior, glass_sigma));
     scene.box({-9, -9, -1}, {9, 9, 0}, glass);
     scene.box({-9, -9, -3}, {9, 9, -1}, glass);
     const auto whole = [](float sigma) { return stack({{1.5, double(sigma), 3}}); };
@@ -247,10 +247,10 @@ TEST(SharedFaces, BodiesOfOneMaterialInContact) {
 
 /// The camera is in the liquid, 500 m behind glass and air.
 TEST(SharedFaces, CamerasInsideKnowWhereTheyAre) {
-    BodyScene scene;
+    DielectricScene scene;
     const Vec3f thin{1e-3f, 2e-3f, 4e-3f};
-    const int32_t glass = scene.add(body(glass_ior, {}));
-    const int32_t liquid = scene.add(body(1.0f, thin));
+    const int32_t glass = scene.add(dielectric(glass_ior, {}));
+    const int32_t liquid = scene.add(dielectric(1.0f, thin));
     scene.box({-9000, -9000, -1000}, {9000, 9000, 500}, glass);
     scene.box({-9000, -9000, 500}, {9000, 9000, 20000}, liquid);
     const double r = square(0.5 / 2.5);
@@ -266,9 +266,9 @@ TEST(SharedFaces, CamerasInsideKnowWhereTheyAre) {
 
 /// A hollow box of glass, full of liquid that reaches `overlap` into the glass.
 Scene full_box(float overlap) {
-    BodyScene scene;
-    const int32_t glass = scene.add(body(glass_ior, glass_sigma));
-    const int32_t liquid = scene.add(body(liquid_ior, liquid_sigma));
+    DielectricScene scene;
+    const int32_t glass = scene.add(dielectric(glass_ior, glass_sigma));
+    const int32_t liquid = scene.add(dielectric(liquid_ior, liquid_sigma));
     const float in = 0.75f + overlap;
     scene.box({-in, -in, -in}, {in, in, in}, liquid);
     scene.box({-1, -1, -1}, {1, 1, 1}, glass);
@@ -284,9 +284,9 @@ TEST(SharedFaces, FullBoxesFromAllSides) {
 
 /// A shell of glass, full of liquid that is `scale` times as large as the room for it.
 Scene full_shell(float scale, bool flat) {
-    BodyScene scene;
-    const int32_t glass = scene.add(body(glass_ior, glass_sigma));
-    const int32_t liquid = scene.add(body(liquid_ior, liquid_sigma));
+    DielectricScene scene;
+    const int32_t glass = scene.add(dielectric(glass_ior, glass_sigma));
+    const int32_t liquid = scene.add(dielectric(liquid_ior, liquid_sigma));
     scene.builder.sphere({0, 0, 0}, 1, 12, glass, false, flat);
     scene.builder.sphere({0, 0, 0}, 0.75f, 12, glass, true, flat);
     scene.builder.sphere({0, 0, 0}, 0.75f * scale, 12, liquid, false, flat);
@@ -311,13 +311,13 @@ TEST(SharedFaces, FullShellsOfAnySizeAnywhere) {
     }
 }
 
-/// A ball of liquid where a ball of glass is: the denser one fills the place, and nothing is seen
-/// of the other.
+/// A ball of liquid where a ball of glass is: the denser one is the dominant medium, and hides the
+/// other.
 TEST(SharedFaces, OfBallsInTheSamePlaceTheDenserOneIsSeen) {
     const auto balls = [](bool both, bool analytic) {
-        BodyScene builder;
-        const int32_t glass = builder.add(body(glass_ior, glass_sigma));
-        const int32_t liquid = builder.add(body(liquid_ior, liquid_sigma));
+        DielectricScene builder;
+        const int32_t glass = builder.add(dielectric(glass_ior, glass_sigma));
+        const int32_t liquid = builder.add(dielectric(liquid_ior, liquid_sigma));
         if (!analytic) {
             if (both) builder.builder.sphere({0, 0, 0}, 1, 12, liquid);
             builder.builder.sphere({0, 0, 0}, 1, 12, glass);
@@ -333,7 +333,7 @@ TEST(SharedFaces, OfBallsInTheSamePlaceTheDenserOneIsSeen) {
         expect_alike(film_of(balls(true, analytic), look), film_of(balls(false, analytic), look));
 }
 
-/// Which face Embree names first depends on the rays that go together.
+/// Which face Embree reports first depends on the packet's other rays.
 TEST(SharedFaces, BitsDoNotDependOnTiles) {
     const auto bits = [](const Scene& scene, int tile) {
         return film_of(scene, {{1, 2, 4}, 0.45f, 8, tile}).pixels;

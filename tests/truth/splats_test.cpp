@@ -1,4 +1,4 @@
-// tests/truth/splats_test.cpp - Gaussian splats in pictures: seen, before and behind, as shadows.
+// tests/truth/splats_test.cpp - rendered Gaussian splats: seen, before and behind, as shadows.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
 
@@ -34,7 +34,7 @@ double channel_at(const Film& film, int x, int y, size_t channel) {
     return static_cast<double>(film.pixels[pixel * film.channels.size() + channel]);
 }
 
-/// Ray through a place of a pixel.
+/// Ray through a point of a pixel.
 Vec3d direction_through(const Camera& camera, double x, double y) {
     const double tangent = static_cast<double>(camera.pinhole.tan_half_yfov);
     return normalize(Vec3d{(2 * x / side - 1) * tangent, (1 - 2 * y / side) * tangent, -1});

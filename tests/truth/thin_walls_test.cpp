@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/shape_scenes.h"
-#include "support/wall_scenes.h"
+#include "support/thin_wall_scenes.h"
 #include <cstring>
 
 namespace obscura::test {
@@ -18,7 +18,7 @@ constexpr int many_samples = 1024;
 #endif
 
 /// Mean and standard error of the mean over independent runs.
-Mean repeated(const Scene& scene, WallView view) {
+Mean repeated(const Scene& scene, ThinWallView view) {
     constexpr int runs = 8;
     double sum = 0;
     double squares = 0;
@@ -32,9 +32,9 @@ Mean repeated(const Scene& scene, WallView view) {
     return {mean, std::sqrt(std::max(0.0, squares / runs - mean * mean) / (runs - 1))};
 }
 
-/// Light sampling, rays that bounce, and both together must find the same light. Light sampling
-/// alone does not find what the panes mirror: it is asked where nothing bounces off them.
-void expect_strategies_agree(const Scene& scene, WallView view, double most_error) {
+/// Light sampling, BSDF sampling, and both together must find the same light. Light sampling alone
+/// misses the panes' mirror images, so it is tested without bounces.
+void expect_strategies_agree(const Scene& scene, ThinWallView view, double max_error) {
     view.strategies = sample_lights | sample_bsdfs;
     const Mean both = repeated(scene, view);
     EXPECT_GT(both.value, 0.001);
@@ -44,13 +44,13 @@ void expect_strategies_agree(const Scene& scene, WallView view, double most_erro
         const Mean one = repeated(scene, view);
         const double sigma = std::sqrt(both.error * both.error + one.error * one.error);
         EXPECT_NEAR(one.value, both.value, 3.5 * sigma) << "strategy " << strategies;
-        EXPECT_LT(sigma, most_error * both.value) << "too noisy to tell anything";
+        EXPECT_LT(sigma, max_error * both.value) << "too noisy to tell anything";
     }
 }
 
 /// A floor under two panes, the upper one tinted.
-WallScene two_panes() {
-    WallScene scene;
+ThinWallScene two_panes() {
+    ThinWallScene scene;
     scene.pane(1, scene.add(glass_material(), glass_layers()));
     Material tinted = glass_material();
     tinted.base_color[0] = 0.6f;
@@ -75,14 +75,14 @@ LightingOptions sky_with_sun() {
 }
 
 TEST(ThinWalls, UnderAnEvenSkyTheFloorGetsTheIntegral) {
-    WallScene scene;
+    ThinWallScene scene;
     scene.pane(1, scene.add(glass_material(), glass_layers()), 1e4f);
     const Scene built = scene.take();
     const double expected = reflected(exact_bsdf(built.materials[0]),
                                       {0, 0, 1},
                                       [](const Vec3d& wi) { return pane_lets_pass(wi.z); });
     for (const int strategies : {1, 2, 3}) {
-        const WallView view{
+        const ThinWallView view{
             .samples = many_samples, .strategies = strategies, .lighting = even_sky()};
         const Mean seen = film_mean(floor_film(built, view));
         EXPECT_NEAR(seen.value, expected, 4 * seen.error + 5e-4) << strategies;
@@ -91,17 +91,17 @@ TEST(ThinWalls, UnderAnEvenSkyTheFloorGetsTheIntegral) {
 
 TEST(ThinWalls, SkiesAreFoundByLightSamplingAndByBouncesAlike) {
     for (const int bounces : {0, 1, 4}) {
-        const WallView view{.samples = many_samples / 4, .bounces = bounces};
-        WallView sky = view;
+        const ThinWallView view{.samples = many_samples / 4, .bounces = bounces};
+        ThinWallView sky = view;
         sky.lighting = even_sky();
         expect_strategies_agree(two_panes().take(), sky, 0.01);
-        WallView sun = view;
+        ThinWallView sun = view;
         sun.lighting = sky_with_sun();
         expect_strategies_agree(two_panes().take(), sun, 0.2);
     }
 }
 
-/// What a bounced ray meets has the density of the whole way since the floor.
+/// A bounced ray's hit has the density of the whole distance since the floor.
 TEST(ThinWalls, LampsAreFoundByLightSamplingAndByBouncesAlike) {
     Material lamp;
     lamp.metallic = 0;
@@ -109,15 +109,15 @@ TEST(ThinWalls, LampsAreFoundByLightSamplingAndByBouncesAlike) {
     std::fill_n(lamp.emission, 3, 5.0f);
     lamp.flags = material_double_sided;
     for (const int bounces : {0, 3}) {
-        const WallView view{.samples = many_samples / 2, .bounces = bounces};
-        WallScene square = two_panes();
+        const ThinWallView view{.samples = many_samples / 2, .bounces = bounces};
+        ThinWallScene square = two_panes();
         square.pane(2, square.builder.material(lamp), 0.5f);
         expect_strategies_agree(square.take(), view, 0.02);
-        WallScene round = two_panes();
-        const int32_t row = round.builder.material(lamp);
+        ThinWallScene round = two_panes();
+        const int32_t index = round.builder.material(lamp);
         Scene scene = round.take();
-        ShapeRow ball = make_shape(ShapeKind::sphere, 0.5f);
-        add_shape(scene, ball, row, raised(2.5));
+        ShapeRecord ball = make_shape(ShapeKind::sphere, 0.5f);
+        add_shape(scene, ball, index, raised(2.5));
         expect_strategies_agree(scene, view, 0.02);
     }
 }
@@ -125,7 +125,7 @@ TEST(ThinWalls, LampsAreFoundByLightSamplingAndByBouncesAlike) {
 /// With the sun a pixel wide, light sampling alone is nearly free of noise.
 TEST(ThinWalls, ASmallSunIsAsBrightAsThePaneLetsPass) {
     const auto seen = [](bool covered) {
-        WallScene scene;
+        ThinWallScene scene;
         if (covered) scene.pane(1, scene.add(glass_material(), glass_layers()), 1e4f);
         LightingOptions lighting = sky_with_sun();
         for (float& v : lighting.environment->pixels)
@@ -138,16 +138,16 @@ TEST(ThinWalls, ASmallSunIsAsBrightAsThePaneLetsPass) {
 
 /// The camera sees the sky through a grey pane, and the same sky mirrored in it.
 TEST(ThinWalls, CamerasSeeStraightThrough) {
-    WallScene scene;
+    ThinWallScene scene;
     Material grey = glass_material();
     std::fill_n(grey.base_color, 3, 0.5f);
     scene.pane(1, scene.add(grey, glass_layers()), 1e4f);
     RenderOptions options;
-    options.width = options.height = wall_picture_size;
+    options.width = options.height = thin_wall_image_size;
     options.samples_per_pixel = many_samples;
     options.max_bounces = 0;
     const Camera up =
-        look_at({0, 0.5f, 0}, {0.6f, 1.3f, 0}, 1e-4f, wall_picture_size, wall_picture_size);
+        look_at({0, 0.5f, 0}, {0.6f, 1.3f, 0}, 1e-4f, thin_wall_image_size, thin_wall_image_size);
     const Mean seen = film_mean(render_scene(scene.take(), even_sky(), up, options).film);
     const double expected = 1 - 0.5 * pane_lets_pass(0.8);
     EXPECT_NEAR(seen.value, expected, 4 * seen.error + 1e-3);
@@ -155,16 +155,16 @@ TEST(ThinWalls, CamerasSeeStraightThrough) {
 
 /// A white floor within a colourless bulb, under an even sky: everything comes back.
 TEST(ThinWalls, NothingIsLostInABulb) {
-    WallScene scene;
+    ThinWallScene scene;
     scene.builder.sphere({0, 0, 0}, 4, 24, scene.add(glass_material(), glass_layers()));
-    const WallView view{.samples = many_samples, .bounces = 64, .lighting = even_sky()};
+    const ThinWallView view{.samples = many_samples, .bounces = 64, .lighting = even_sky()};
     const Mean seen = film_mean(floor_film(scene.take(), view));
     EXPECT_NEAR(seen.value, 1, 4 * seen.error + 4e-3);
 }
 
 UnsetArray<float> pixels_with(int threads, int tile_size) {
     const ThreadLimit limit(threads);
-    WallScene scene = two_panes();
+    ThinWallScene scene = two_panes();
     scene.light(lamp_at({1, 4, 1}));
     RenderOptions options;
     options.width = 50;

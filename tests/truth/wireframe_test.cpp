@@ -1,4 +1,4 @@
-// tests/truth/wireframe_test.cpp - lines as wide as asked for, measured on pictures.
+// tests/truth/wireframe_test.cpp - lines of the requested width, measured on images.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/camera_models.h"
 
@@ -23,7 +23,7 @@ Film wires(const Scene& scene, const Camera& camera, double line_px, int tile = 
     return render_scene(scene, {}, camera, options).film;
 }
 
-/// Sum of one row: how many pixels of it lines cover.
+/// Sum of one image row: the number of its pixels covered by lines.
 double covered(const Film& film, int row, int first = 0, int last = width) {
     double sum = 0;
     for (int x = first; x < last; ++x)
@@ -68,11 +68,11 @@ TEST(Wireframe, ADiagonalIsAsWideAsAsked) {
 }
 
 TEST(Wireframe, LinesAreAsWideInEveryCamera) {
-    // Two sheets that meet in the plane x = 0, which is the picture's middle column for all.
+    // Two sheets that meet in the plane x = 0, which is the image's middle column for all.
     SceneBuilder builder;
-    const int32_t row = builder.material(double_sided());
-    builder.quad({-4, -9, -3}, {4, 0, 0}, {0, 18, 0}, row);
-    builder.quad({0, -9, -3}, {4, 0, 0}, {0, 18, 0}, row);
+    const int32_t index = builder.material(double_sided());
+    builder.quad({-4, -9, -3}, {4, 0, 0}, {0, 18, 0}, index);
+    builder.quad({0, -9, -3}, {4, 0, 0}, {0, 18, 0}, index);
     const Scene scene = builder.take();
     for (NamedCamera& named : all_cameras()) {
         const Camera& c = named.camera;
@@ -88,8 +88,8 @@ TEST(Wireframe, LinesAreAsWideInEveryCamera) {
         if (c.environment.half_eyes_m > 0) continue;  // no eye stands in the plane
         for (const double line_px : {1.0, 3.0}) {
             const Film film = wires(scene, named.camera, line_px);
-            // Off the middle row, for there diagonals pass. The widths are right to first order:
-            // the cube's pixels of 3 degrees show what is beyond.
+            // Off the central row, where diagonals pass. The widths are right to first order: the
+            // cube's pixels of 3 degrees show the rest.
             const double sum = covered(film, middle_row + 2, column - 3, column + 3);
             EXPECT_NEAR(sum, line_px, 0.008 * line_px) << named.name;
         }
@@ -98,7 +98,7 @@ TEST(Wireframe, LinesAreAsWideInEveryCamera) {
 
 TEST(Wireframe, ShapesShowEveryEighthOfTheirCoordinates) {
     Scene scene = empty_scene(double_sided());
-    ShapeRow plane = make_shape(ShapeKind::plane, 2, 2);
+    ShapeRecord plane = make_shape(ShapeKind::plane, 2, 2);
     add_shape(scene, plane, 0);
     Camera camera = look_at({0, 5, 0}, {0, 0, 0}, 0.5f, width, height);
     camera.model = CameraModel::orthographic;

@@ -1,4 +1,4 @@
-// base/json/json.cpp - the JSON values that reports are built of, and their text.
+// base/json/json.cpp - JSON values for reports, and their text.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json/json.h"
 

@@ -1,4 +1,4 @@
-// base/json/json.h - the JSON values that reports are built of, and their text.
+// base/json/json.h - JSON values for reports, and their text.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,7 +11,7 @@ namespace obscura {
 using Json = nlohmann::ordered_json;
 
 /// The document's text, indented by two spaces, with a line feed at its end; the same in every
-/// locale. Numbers read back as they were, NaN and infinity are null; control characters are
+/// locale. Numbers keep their exact values, NaN and infinity become null. Control characters are
 /// escaped, bytes that are not UTF-8 become U+FFFD.
 std::string json_document(const Json& json);
 

@@ -1,4 +1,4 @@
-// base/json/json_read.cpp - checked access to JSON objects as the parser makes them.
+// base/json/json_read.cpp - typed and checked access to nlohmann-json's values.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json/json_read.h"
 

@@ -1,4 +1,4 @@
-// base/json/json_read.h - checked access to JSON objects as the parser makes them.
+// base/json/json_read.h - typed and checked access to nlohmann-json's values.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

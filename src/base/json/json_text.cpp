@@ -1,4 +1,4 @@
-// base/json/json_text.cpp - JSON text becomes a tree, with limits and with positions in errors.
+// base/json/json_text.cpp - parses JSON text with limits, and with positions in errors.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json/json_text.h"
 
@@ -13,8 +13,8 @@ namespace {
 
 using nlohmann::json;
 
-/// Receives the parser's events and grows the tree; the stack of open containers is ours, so that
-/// depth costs no call stack.
+/// Builds the tree from the parser's events, with its own stack of open containers instead of
+/// recursion.
 class TreeBuilder {
 public:
     bool null() { return add(json()); }

@@ -1,4 +1,4 @@
-// base/json/json_text.h - JSON text becomes a tree, with limits and with positions in errors.
+// base/json/json_text.h - parses JSON text with limits, and with positions in errors.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

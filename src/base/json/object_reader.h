@@ -1,4 +1,4 @@
-// base/json/object_reader.h - typed and checked access to the objects of a tree of JSON values.
+// base/json/object_reader.h - typed and checked access to JSON objects, for any JSON library.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace obscura {
 
-/// The first fault of a whole document and where it was.
+/// The first fault of a whole document and its location.
 struct JsonFault {
     std::string file;  ///< as the user named it
     std::optional<Error> error;
@@ -27,12 +27,12 @@ enum class JsonKind { null, boolean, number, text, array, object };
 /// A key as a part of a JSON pointer: with "/" before it, ~ and / written ~0 and ~1 (RFC 6901).
 std::string json_pointer_part(std::string_view key);
 
-/// One JSON object with its place. Getters return the fallback when the member is absent; when it
-/// is wrong they record the fault (unless there is one already) and return the fallback too, so
-/// that readers go on without branching and the caller looks at the fault once.
+/// One JSON object with its location. Getters return the fallback when the member is absent. When
+/// it is wrong they also record the fault, unless there is one already: readers need no branches,
+/// and the caller checks for a fault once.
 ///
-/// `Tree` says what the values are and how they are looked into: `Value` and `Object` (a map from
-/// names to values), kind, boolean, number, text, array, object, and number_text for messages.
+/// `Tree` adapts a JSON library: `Value` and `Object` (a map from names to values), kind, boolean,
+/// number, text, array, object, and number_text for messages.
 template <typename Tree>
 class ObjectReader {
 public:
@@ -40,7 +40,7 @@ public:
     using Object = typename Tree::Object;
 
     ObjectReader(const Value& value, std::string pointer, JsonFault& fault);
-    /// Of the members themselves.
+    /// A reader of an object's members.
     static ObjectReader of(const Object& object, std::string pointer, JsonFault& fault) {
         return ObjectReader(&object, std::move(pointer), fault);
     }
@@ -55,7 +55,7 @@ public:
     uint64_t size(std::string_view key, uint64_t fallback) const;
     /// An integer below `count`; -1 when absent. `what` names the array for the message.
     int index(std::string_view key, size_t count, std::string_view what) const;
-    /// Exactly out.size() numbers; false when absent or wrong, then `out` is as before.
+    /// Exactly out.size() numbers; false, with `out` unchanged, when absent or wrong.
     bool numbers(std::string_view key, std::span<double> out) const;
     std::vector<int> indices(std::string_view key, size_t count, std::string_view what) const;
     /// An array of such arrays.
@@ -101,7 +101,7 @@ private:
     JsonFault* fault_;
 };
 
-/// The integer in a number; nothing when it is not one in [0, 2^53].
+/// The number as an integer; nothing unless it is one in [0, 2^53].
 inline std::optional<uint64_t> json_integer(double number) {
     constexpr double largest = 9007199254740992.0;  // 2^53
     if (!(number >= 0 && number <= largest) || number != std::floor(number)) return std::nullopt;

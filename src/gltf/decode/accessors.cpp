@@ -1,4 +1,4 @@
-// gltf/decode/accessors.cpp - accessors as flat arrays of float or uint32.
+// gltf/decode/accessors.cpp - reads accessors into flat arrays of float or uint32.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/decode/accessors.h"
 
@@ -7,11 +7,11 @@
 #include <limits>
 #include <numeric>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-/// Without a view there are no bytes that bound the count.
+/// Limit on accessors without a view, whose count no bytes bound.
 constexpr uint64_t largest_count_of_zeros = 1U << 24;
 
 uint64_t column_size(const GltfAccessor& accessor) {
@@ -48,7 +48,7 @@ T load(const std::byte* from) {
     return out;
 }
 
-/// glTF 2.0 section 3.11: how normalised integers become numbers.
+/// glTF 2.0 section 3.11: conversion of normalised integers.
 template <typename T, bool normalized>
 float to_float(T value) {
     if constexpr (!normalized || std::is_floating_point_v<T>) {
@@ -166,14 +166,14 @@ struct Replacements {
 Result<Replacements> read_replacements(const Document& document,
                                        const BufferStore& store,
                                        int accessor) {
-    const GltfAccessor& row = document.accessors[static_cast<size_t>(accessor)];
-    const GltfSparse& sparse = row.sparse;
+    const GltfAccessor& record = document.accessors[static_cast<size_t>(accessor)];
+    const GltfSparse& sparse = record.sparse;
     const uint64_t index_size = component_size(sparse.index_type);
     const auto indices = checked_span(view_bytes(document, store, sparse.index_view),
                                       packed_range(sparse.index_offset, sparse.count, index_size));
     const auto values =
         checked_span(view_bytes(document, store, sparse.value_view),
-                     packed_range(sparse.value_offset, sparse.count, element_size(row)));
+                     packed_range(sparse.value_offset, sparse.count, element_size(record)));
     if (!indices || !values) {
         return bad_accessor(document, accessor, "E-ACC-RANGE", "the sparse data leave their view");
     }
@@ -184,13 +184,13 @@ Result<Replacements> read_replacements(const Document& document,
     for (size_t i = 0; i < out.elements.size(); ++i) {
         out.elements[i] = load_unsigned(indices->data() + i * index_size, sparse.index_type);
         out.order[i] = static_cast<uint32_t>(i);
-        if (out.elements[i] >= row.count) {
+        if (out.elements[i] >= record.count) {
             return bad_accessor(document,
                                 accessor,
                                 "E-ACC-SPARSE",
                                 "sparse index " + std::to_string(i) + " is " +
                                     std::to_string(out.elements[i]) + ", but the count is " +
-                                    std::to_string(row.count));
+                                    std::to_string(record.count));
         }
     }
     if (!std::is_sorted(out.elements.begin(), out.elements.end())) {
@@ -300,71 +300,73 @@ Result<std::vector<float>> read_floats(const Document& document,
                                        int accessor,
                                        const ElementChoice& choice,
                                        std::span<const std::byte> packed) {
-    const GltfAccessor& row = document.accessors[static_cast<size_t>(accessor)];
-    const uint64_t count = choice.all ? row.count : choice.elements.size();
-    const bool has_data = row.view >= 0 || !packed.empty();
-    if (!has_data && row.count > largest_count_of_zeros) {
+    const GltfAccessor& record = document.accessors[static_cast<size_t>(accessor)];
+    const uint64_t count = choice.all ? record.count : choice.elements.size();
+    const bool has_data = record.view >= 0 || !packed.empty();
+    if (!has_data && record.count > largest_count_of_zeros) {
         return fail(ExitCode::refused,
                     "E-LIMIT-COUNT",
                     document.at("accessors", static_cast<size_t>(accessor)) + "/count",
-                    std::to_string(row.count) + " elements without data; accepted are " +
+                    std::to_string(record.count) + " elements without data; accepted are " +
                         std::to_string(largest_count_of_zeros));
     }
     std::vector<float> out;
     if (has_data) {
-        const ElementRange range = packed.empty() ? element_range(document, row)
-                                                  : packed_range(0, row.count, element_size(row));
+        const ElementRange range = packed.empty()
+                                       ? element_range(document, record)
+                                       : packed_range(0, record.count, element_size(record));
         const auto bytes =
-            checked_span(packed.empty() ? view_bytes(document, store, row.view) : packed, range);
+            checked_span(packed.empty() ? view_bytes(document, store, record.view) : packed, range);
         if (!bytes) {
             return bad_accessor(document, accessor, "E-ACC-RANGE", "the buffer has too few data");
         }
-        out.resize(count * component_count(row));
-        const Elements from{bytes->data(), range.stride, column_size(row), row.rows, row.columns};
-        convert(from, row, choice, out.data());
+        out.resize(count * component_count(record));
+        const Elements from{
+            bytes->data(), range.stride, column_size(record), record.rows, record.columns};
+        convert(from, record, choice, out.data());
     } else {
-        out.resize(count * component_count(row));
+        out.resize(count * component_count(record));
     }
-    if (row.sparse.count == 0) return out;
+    if (record.sparse.count == 0) return out;
     const Result<Replacements> replacements = read_replacements(document, store, accessor);
     if (!replacements) return fail(replacements.error());
-    apply_replacements(*replacements, row, choice, out);
+    apply_replacements(*replacements, record, choice, out);
     return out;
 }
 
 Result<std::vector<uint32_t>> read_indices(const Document& document,
                                            const BufferStore& store,
                                            int accessor) {
-    const GltfAccessor& row = document.accessors[static_cast<size_t>(accessor)];
-    const bool integers = row.component == ComponentType::uint8 ||
-                          row.component == ComponentType::uint16 ||
-                          row.component == ComponentType::uint32;
-    if (!integers || component_count(row) != 1 || row.normalized) {
+    const GltfAccessor& record = document.accessors[static_cast<size_t>(accessor)];
+    const bool integers = record.component == ComponentType::uint8 ||
+                          record.component == ComponentType::uint16 ||
+                          record.component == ComponentType::uint32;
+    if (!integers || component_count(record) != 1 || record.normalized) {
         return bad_accessor(document,
                             accessor,
                             "E-ACC-TYPE",
                             "vertex indices must be SCALAR, of 8, 16 or 32 unsigned bits, and not "
                             "normalized");
     }
-    std::vector<uint32_t> out(row.count);
-    if (row.view >= 0) {
-        const ElementRange range = element_range(document, row);
-        const auto bytes = checked_span(view_bytes(document, store, row.view), range);
+    std::vector<uint32_t> out(record.count);
+    if (record.view >= 0) {
+        const ElementRange range = element_range(document, record);
+        const auto bytes = checked_span(view_bytes(document, store, record.view), range);
         if (!bytes) {
             return bad_accessor(document, accessor, "E-ACC-RANGE", "the buffer has too few data");
         }
         for (size_t i = 0; i < out.size(); ++i)
-            out[i] = load_unsigned(bytes->data() + i * range.stride, row.component);
+            out[i] = load_unsigned(bytes->data() + i * range.stride, record.component);
     }
-    if (row.sparse.count == 0) return out;
+    if (record.sparse.count == 0) return out;
     const Result<Replacements> replacements = read_replacements(document, store, accessor);
     if (!replacements) return fail(replacements.error());
     for (size_t i = 0; i < replacements->elements.size(); ++i) {
         const std::byte* value =
-            replacements->values.data() + replacements->order[i] * element_size(row);
-        out[replacements->elements[i]] = load_unsigned(value, row.component);
+            replacements->values.data() + replacements->order[i] * element_size(record);
+        out[replacements->elements[i]] = load_unsigned(value, record.component);
     }
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

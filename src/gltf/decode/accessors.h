@@ -1,4 +1,4 @@
-// gltf/decode/accessors.h - accessors as flat arrays of float or uint32.
+// gltf/decode/accessors.h - reads accessors into flat arrays of float or uint32.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Bytes of one element; columns of matrices start at multiples of 4.
 uint64_t element_size(const GltfAccessor& accessor);
@@ -23,24 +23,23 @@ std::string accessor_problem(const Document& document, const GltfAccessor& acces
 
 bool accessor_is_misaligned(const Document& document, const GltfAccessor& accessor);
 
-/// False when a sparse accessor's indices do not increase, which glTF forbids; they are read all
-/// the same, the last of equal ones counts.
+/// False when a sparse accessor's indices do not increase, which glTF forbids. They are read
+/// anyway; of equal indices the last one counts.
 bool sparse_indices_increase(const Document& document, const BufferStore& store, int accessor);
 
 /// Which elements of an accessor are read.
 struct ElementChoice {
     bool all = true;
-    std::span<const uint32_t> elements = {};  ///< unless all: each below the count
+    std::span<const uint32_t> elements = {};  ///< when not `all`: each below the count
 };
 
 /// Reads elements as floats, component by component; normalised integers become [0,1] or [-1,1].
 ///
-/// In      packed: elements that stand for those of the accessor's view, as decompression made
-/// them;
-///         empty: the view's are read
+/// In      packed: decompressed elements, read in place of the accessor's view; empty: the view's
+///         elements are read
 /// Out     component_count floats an element
 /// Errors  65 E-ACC-SPARSE a sparse index is not below the count, E-ACC-RANGE data are missing;
-///         77 E-LIMIT-COUNT too many elements that no data stand for
+///         77 E-LIMIT-COUNT too many elements without data
 Result<std::vector<float>> read_floats(const Document& document,
                                        const BufferStore& store,
                                        int accessor,
@@ -54,4 +53,4 @@ Result<std::vector<uint32_t>> read_indices(const Document& document,
                                            const BufferStore& store,
                                            int accessor);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/decode/buffers.cpp - the bytes behind a document's buffers, and the only way to touch them.
+// gltf/decode/buffers.cpp - loads a document's buffers; bounds-checked access to their bytes.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/decode/buffers.h"
 
@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -66,7 +66,7 @@ Result<std::span<const std::byte>> bytes_without_uri(const Document& document,
                 "the buffer has no uri, and there is no binary chunk of a GLB for it");
 }
 
-/// True for buffers that only uncompressed copies of compressed views lie in.
+/// True for buffers that hold nothing but uncompressed copies of compressed views.
 std::vector<char> find_placeholders(const Document& document) {
     enum : char { unused, copies, data };
     std::vector<char> uses(document.buffers.size(), unused);
@@ -137,13 +137,13 @@ std::optional<std::span<const std::byte>> checked_span(std::span<const std::byte
 std::span<const std::byte> view_bytes(const Document& document,
                                       const BufferStore& store,
                                       int view) {
-    const GltfBufferView& row = document.views[static_cast<size_t>(view)];
-    if (row.meshopt.buffer >= 0) {
+    const GltfBufferView& record = document.views[static_cast<size_t>(view)];
+    if (record.meshopt.buffer >= 0) {
         const size_t index = static_cast<size_t>(view);
         return index < store.decoded.size() ? store.decoded[index] : std::span<const std::byte>();
     }
-    const std::span<const std::byte> buffer = store.buffers[static_cast<size_t>(row.buffer)];
-    const auto bytes = checked_span(buffer, {row.byte_offset, 1, row.byte_length, 1});
+    const std::span<const std::byte> buffer = store.buffers[static_cast<size_t>(record.buffer)];
+    const auto bytes = checked_span(buffer, {record.byte_offset, 1, record.byte_length, 1});
     return bytes.value_or(std::span<const std::byte>());
 }
 
@@ -166,4 +166,4 @@ void release_geometry(const Document& document, BufferStore& store) {
     store.decoded = std::move(decoded);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/decode/buffers.h - the bytes behind a document's buffers, and the only way to touch them.
+// gltf/decode/buffers.h - loads a document's buffers; bounds-checked access to their bytes.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// The bytes of every buffer. Buffers from files and data URIs are owned; a GLB's chunk belongs to
 /// the caller.
@@ -27,11 +27,11 @@ struct BufferSources {
     std::optional<std::span<const std::byte>> glb_binary;
 };
 
-/// Loads every buffer that something is read from. One that only holds (or would hold) the
-/// uncompressed copy of meshopt-compressed views stays empty.
+/// Loads every buffer that is read. One that holds (or would hold) only uncompressed copies of
+/// meshopt-compressed views stays empty.
 ///
-/// Errors  65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED; the first buffer's, with
-///         those of all others in Error::also
+/// Errors  65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED: the first error, with all
+///         others in Error::also
 Result<BufferStore> load_buffers(const Document& document, const BufferSources& sources, Log& log);
 
 /// A run of equally spaced elements in a block of bytes.
@@ -42,19 +42,18 @@ struct ElementRange {
     uint64_t element_size = 0;
 };
 
-/// Bytes that a range reaches from its offset: (count - 1) * stride + element_size. Nothing when
-/// that overflows or the range ends behind `total`. A count of 0 reaches nothing and fits where
-/// its offset does.
+/// Length of a range from its offset: (count - 1) * stride + element_size. Nothing when that
+/// overflows or the range ends behind `total`. A count of 0 has length 0; only its offset must fit.
 std::optional<uint64_t> range_extent(const ElementRange& range, uint64_t total);
 
 /// The bytes of a range, if all of them exist.
 std::optional<std::span<const std::byte>> checked_span(std::span<const std::byte> bytes,
                                                        const ElementRange& range);
 
-/// Frees the buffers that no image lies in, once the geometry has been read.
+/// Frees the buffers that hold no images, once the geometry has been read.
 void release_geometry(const Document& document, BufferStore& store);
 
 /// The bytes of a buffer view, decompressed; empty when its buffer has no data.
 std::span<const std::byte> view_bytes(const Document& document, const BufferStore& store, int view);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

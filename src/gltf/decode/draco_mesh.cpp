@@ -12,12 +12,12 @@
 #include <optional>
 #include <string_view>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-/// Regular meshes take less than a bit a triangle; beyond this a few bytes only ask for memory.
-constexpr uint64_t most_triangles_per_byte = 1U << 12;
+/// Regular meshes take less than a bit a triangle; a higher count is a bid for memory.
+constexpr uint64_t max_triangles_per_byte = 1U << 12;
 constexpr uint64_t triangles_always_allowed = 1U << 16;
 
 /// Decodes one primitive.
@@ -37,8 +37,8 @@ struct DracoReader {
     }
 };
 
-/// The number of triangles, from the front of the data: the decoder would make room for as many as
-/// are written there. Nothing: the data end before it.
+/// Reads the triangle count at the head of the data, before the decoder allocates that many.
+/// Nothing when the data end before it.
 std::optional<uint32_t> declared_triangles(draco::DecoderBuffer buffer,
                                            const draco::DracoHeader& header) {
     if ((header.flags & METADATA_FLAG_MASK) != 0) {
@@ -80,12 +80,12 @@ Result<void> check_header(const DracoReader& reader, std::span<const std::byte> 
                           std::to_string(count));
     }
     if (*triangles > triangles_always_allowed &&
-        *triangles / most_triangles_per_byte > bytes.size()) {
+        *triangles / max_triangles_per_byte > bytes.size()) {
         return fail(ExitCode::refused,
                     "E-LIMIT-DECODED",
                     reader.where,
                     std::to_string(*triangles) + " triangles in " + std::to_string(bytes.size()) +
-                        " bytes; accepted are " + std::to_string(most_triangles_per_byte) +
+                        " bytes; accepted are " + std::to_string(max_triangles_per_byte) +
                         " a byte");
     }
     return {};
@@ -234,4 +234,4 @@ Result<DracoMesh> decode_draco(const DracoSources& sources,
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// What one compressed block held.
+/// The decoded contents of one compressed primitive.
 struct DracoMesh {
     /// Elements as their accessor describes them, without gaps.
     struct Attribute {
@@ -34,11 +34,11 @@ struct DracoSources {
 ///
 /// In      where: the primitive, for messages
 /// Errors  65 E-DRACO-DATA the data are corrupt, or disagree with the accessors' counts and types;
-///         69 E-DRACO-VERSION not bitstream 2.2; 77 E-LIMIT-DECODED more triangles than so few
-///         bytes are allowed to hold
+///         69 E-DRACO-VERSION not bitstream 2.2; 77 E-LIMIT-DECODED too many triangles for so few
+///         bytes
 /// Source  KHR_draco_mesh_compression; "Draco 3D Data Compression Technology", bitstream 2.2
 Result<DracoMesh> decode_draco(const DracoSources& sources,
                                const GltfPrimitive& primitive,
                                const std::string& where);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -15,18 +15,18 @@ constexpr uint64_t largest_image_file = 1U << 30;
 }  // namespace
 
 Result<EncodedImage> load_encoded(const ImageSources& sources, size_t image) {
-    const GltfImage& row = sources.document.images[image];
+    const GltfImage& record = sources.document.images[image];
     const std::string where = sources.document.at("images", image);
     EncodedImage out;
-    out.mime = row.mime;
-    if (!row.uri) {
-        out.bytes = view_bytes(sources.document, sources.buffers, row.view);
+    out.mime = record.mime;
+    if (!record.uri) {
+        out.bytes = view_bytes(sources.document, sources.buffers, record.view);
         return out;
     }
     const UriContext context{sources.folder, where + "/uri"};
-    Result<UriBytes> read = read_uri(*row.uri, context, {largest_image_file, UINT64_MAX});
+    Result<UriBytes> read = read_uri(*record.uri, context, {largest_image_file, UINT64_MAX});
     if (!read) return fail(std::move(read.error()));
-    if (is_data_uri(*row.uri)) {
+    if (is_data_uri(*record.uri)) {
         if (read->mime.rfind("image/", 0) != 0) {
             return fail(ExitCode::bad_data,
                         "E-URI-DATA",
@@ -42,4 +42,4 @@ Result<EncodedImage> load_encoded(const ImageSources& sources, size_t image) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

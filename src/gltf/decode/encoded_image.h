@@ -8,7 +8,7 @@
 #include <span>
 #include <string>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Where an asset's images come from.
 struct ImageSources {
@@ -28,4 +28,4 @@ struct EncodedImage {
 /// Errors  67 E-RES-MISSING; 65 E-URI-DATA; 77 E-URI-REFUSED, E-LIMIT-FILE
 Result<EncodedImage> load_encoded(const ImageSources& sources, size_t image);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

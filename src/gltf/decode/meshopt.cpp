@@ -12,13 +12,13 @@
 #include <limits>
 #include <meshoptimizer.h>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-/// Bytes that one compressed byte can at most become, so that no memory is asked for in vain. Of
-/// attributes a block of 256 elements takes at least a quarter of a byte for each byte of an
-/// element; a triangle takes a byte, and so does an index.
+/// Most bytes that one compressed byte can decode to; larger claims are refused before memory is
+/// allocated. A block of 256 attribute elements takes at least a quarter of a byte for each byte of
+/// an element; a triangle takes a byte, and so does an index.
 uint64_t largest_growth(MeshoptMode mode) {
     switch (mode) {
         case MeshoptMode::attributes:
@@ -39,7 +39,7 @@ tl::unexpected<Error> bad_data(const Document& document, size_t view, std::strin
     return fail(ExitCode::bad_data, "E-MESHOPT-DATA", where_of(document, view), std::move(message));
 }
 
-/// How data of the attribute codec's version 1 begin.
+/// First byte of data in version 1 of the attribute codec.
 constexpr std::byte attributes_v1{0xa1};
 
 /// The library's codes for the three modes; 0 is success.
@@ -147,7 +147,7 @@ Result<Bytes> decode_view(const Document& document, const BufferStore& store, si
     return out;
 }
 
-/// Declared sizes against what the data can hold and what may be asked for, before any is.
+/// Checks declared sizes against the data and the limit, before anything is allocated.
 Result<void> check_sizes(const Document& document, const std::vector<size_t>& views) {
     uint64_t total = 0;
     for (const size_t view : views) {
@@ -159,12 +159,12 @@ Result<void> check_sizes(const Document& document, const std::vector<size_t>& vi
                             std::to_string(meshopt.byte_length) + " compressed bytes cannot hold " +
                                 std::to_string(size));
         }
-        if (__builtin_add_overflow(total, size, &total) || total > most_decoded_bytes) {
+        if (__builtin_add_overflow(total, size, &total) || total > max_decoded_bytes) {
             return fail(ExitCode::refused,
                         "E-LIMIT-DECODED",
                         where_of(document, view),
                         "the compressed views become more than " +
-                            std::to_string(most_decoded_bytes >> 20) + " MiB");
+                            std::to_string(max_decoded_bytes >> 20) + " MiB");
         }
     }
     return {};
@@ -192,4 +192,4 @@ Result<void> decode_meshopt(const Document& document, BufferStore& store) {
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

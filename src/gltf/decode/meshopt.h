@@ -4,18 +4,17 @@
 
 #include "gltf/decode/buffers.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Fills BufferStore::decoded, all views at once on all cores; afterwards view_bytes gives what the
 /// views hold.
 ///
-/// Errors  65 E-MESHOPT-DATA the data are corrupt or too few for their count; 69 E-MESHOPT-VERSION
-/// a
-///         codec that is not known; 77 E-LIMIT-DECODED more than most_decoded_bytes
+/// Errors  65 E-MESHOPT-DATA the data are corrupt or too few for their count;
+///         69 E-MESHOPT-VERSION an unknown codec; 77 E-LIMIT-DECODED more than max_decoded_bytes
 /// Source  glTF extensions EXT_meshopt_compression and KHR_meshopt_compression, appendices A and B
 Result<void> decode_meshopt(const Document& document, BufferStore& store);
 
-/// What all compressed data of an asset may become.
-inline constexpr uint64_t most_decoded_bytes = 1ULL << 33;
+/// Limit on the decoded bytes of all compressed data of an asset.
+inline constexpr uint64_t max_decoded_bytes = 1ULL << 33;
 
-}  // namespace obscura
+}  // namespace obscura::gltf

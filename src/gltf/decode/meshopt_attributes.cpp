@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -16,7 +16,7 @@ constexpr size_t group_size = 16;
 constexpr size_t largest_block = 256;
 constexpr size_t shortest_tail = 24;
 
-/// Bytes from the front, as many as there are.
+/// Reads bytes from the front, with bounds checks.
 class ByteReader {
 public:
     explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -61,7 +61,7 @@ bool read_group(ByteReader& reader, unsigned bits, uint8_t* deltas) {
     return true;
 }
 
-/// Two bits of a row of them.
+/// Reads one two-bit field of a packed array.
 unsigned two_bits(const uint8_t* packed, size_t index) {
     return static_cast<unsigned>(packed[index / 4]) >> (index % 4 * 2) & 3U;
 }
@@ -118,7 +118,7 @@ bool mode_is_known(uint8_t mode) {
     return mode == 0 || mode == 1 || (mode & 15) == 2;
 }
 
-/// What a stream ends with: the element before the first one, and each channel's mode.
+/// The tail of a stream: the element before the first one, and each channel's mode.
 struct Tail {
     const uint8_t* element;
     const uint8_t* modes;
@@ -187,4 +187,4 @@ bool decode_attributes_v1(std::span<const std::byte> from,
     return decoder.reader.is_empty();
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

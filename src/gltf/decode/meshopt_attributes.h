@@ -6,7 +6,7 @@
 
 #include <span>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Elements of equal size.
 struct ElementLayout {
@@ -21,4 +21,4 @@ struct ElementLayout {
 /// Source  glTF extension KHR_meshopt_compression, appendix A, "Mode 0: attributes"
 bool decode_attributes_v1(std::span<const std::byte> from, const ElementLayout& layout, Bytes& out);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

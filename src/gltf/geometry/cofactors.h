@@ -1,10 +1,10 @@
-// gltf/geometry/cofactors.h - the matrix that moves normals.
+// gltf/geometry/cofactors.h - the matrix that transforms normals.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "math/transform.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Adjugate transposed: determinant times the inverse transpose, without a division.
 inline Affined cofactors(const Affined& a) {
@@ -22,4 +22,4 @@ inline Affined cofactors(const Affined& a) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

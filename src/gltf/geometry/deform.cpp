@@ -1,4 +1,4 @@
-// gltf/geometry/deform.cpp - bends a primitive: morph targets first, then its skin.
+// gltf/geometry/deform.cpp - deforms a primitive: morph targets first, then its skin.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/deform.h"
 
@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -34,7 +34,7 @@ struct MorphSource {
     const AttributeRule& rule;
 };
 
-Result<void> morph_attribute(PartReader& reader,
+Result<void> morph_attribute(PrimitiveReader& reader,
                              std::span<const double> weights,
                              const MorphSource& from,
                              size_t value_width,
@@ -49,15 +49,17 @@ Result<void> morph_attribute(PartReader& reader,
         const Result<std::vector<float>> read = read_attribute(reader, accessor, -1, from.rule);
         if (!read) return fail(read.error());
         if (sum.sums.empty()) sum.sums.assign(values.begin(), values.end());
-        const GltfAccessor& row = reader.document.accessors[static_cast<size_t>(accessor)];
-        sum.add(weights[i], *read, static_cast<size_t>(row.rows));
+        const GltfAccessor& record = reader.document.accessors[static_cast<size_t>(accessor)];
+        sum.add(weights[i], *read, static_cast<size_t>(record.rows));
     }
     for (size_t i = 0; i < sum.sums.size(); ++i)
         values[i] = static_cast<float>(sum.sums[i]);
     return {};
 }
 
-Result<void> morph(PartReader& reader, std::span<const double> weights, MeshPart& part) {
+Result<void> morph(PrimitiveReader& reader,
+                   std::span<const double> weights,
+                   MeshPrimitive& primitive) {
     using Attributes = const GltfAttributes&;
     const auto run = [&](const MorphSource& from, size_t width, std::vector<float>& values) {
         return morph_attribute(reader, weights, from, width, values);
@@ -65,36 +67,38 @@ Result<void> morph(PartReader& reader, std::span<const double> weights, MeshPart
     Result<void> done =
         run({[](Attributes a, size_t) { return a.position; }, 0, target_position_rule},
             3,
-            part.positions);
+            primitive.positions);
     if (done) {
         done = run({[](Attributes a, size_t) { return a.normal; }, 0, target_normal_rule},
                    3,
-                   part.normals);
+                   primitive.normals);
     }
     if (done) {
         done = run({[](Attributes a, size_t) { return a.tangent; }, 0, target_tangent_rule},
                    4,
-                   part.tangents);
+                   primitive.tangents);
     }
     if (done) {
-        done = run(
-            {[](Attributes a, size_t) { return a.color; }, 0, target_color_rule}, 4, part.colors);
+        done = run({[](Attributes a, size_t) { return a.color; }, 0, target_color_rule},
+                   4,
+                   primitive.colors);
     }
-    for (size_t set = 0; set < part.uvs.size() && done; ++set) {
+    for (size_t set = 0; set < primitive.uvs.size() && done; ++set) {
         done = run({[](Attributes a, size_t s) { return a.uv[s]; }, set, target_uv_rule},
                    2,
-                   part.uvs[set]);
+                   primitive.uvs[set]);
     }
     const auto has_color = [](Attributes target) { return target.color >= 0; };
     const std::vector<GltfAttributes>& targets = reader.primitive().targets;
     if (std::any_of(targets.begin(), targets.end(), has_color)) {
-        for (float& color : part.colors)  // glTF 2.0, section 3.7.2.2; what is no number becomes 0
+        // glTF 2.0, section 3.7.2.2; what is no number becomes 0
+        for (float& color : primitive.colors)
             color = color > 0 ? std::min(color, 1.0F) : 0.0F;
     }
     return done;
 }
 
-/// Brings one vertex's weights to a sum of 1; false: they were not good.
+/// Scales one vertex's weights to a sum of 1; false when they were wrong.
 bool normalize_weights(std::span<float> weights) {
     constexpr double slack = 0.01;  // what 8-bit weights and careless exporters leave
     double sum = 0;
@@ -116,23 +120,23 @@ bool normalize_weights(std::span<float> weights) {
 }
 
 /// The sets of JOINTS_n and WEIGHTS_n side by side.
-Result<VertexJoints> read_joints(PartReader& reader, size_t vertices) {
-    const GltfPrimitive& primitive = reader.primitive();
-    const GltfAttributes& ids = primitive.draco_ids;
+Result<VertexJoints> read_joints(PrimitiveReader& reader, size_t vertices) {
+    const GltfPrimitive& source = reader.primitive();
+    const GltfAttributes& ids = source.draco_ids;
     const auto id_of = [](const std::vector<int>& numbers, size_t set) {
         return set < numbers.size() ? numbers[set] : -1;
     };
     VertexJoints out;
-    const size_t sets = std::min(primitive.joints.size(), primitive.weights.size());
+    const size_t sets = std::min(source.joints.size(), source.weights.size());
     out.influences = sets * joints_in_set;
     out.joints.resize(vertices * out.influences);
     out.weights.resize(vertices * out.influences);
     for (size_t set = 0; set < sets; ++set) {
         const Result<std::vector<float>> joints =
-            read_attribute(reader, primitive.joints[set], id_of(ids.joints, set), joints_rule);
+            read_attribute(reader, source.joints[set], id_of(ids.joints, set), joints_rule);
         if (!joints) return fail(joints.error());
         const Result<std::vector<float>> weights =
-            read_attribute(reader, primitive.weights[set], id_of(ids.weights, set), weights_rule);
+            read_attribute(reader, source.weights[set], id_of(ids.weights, set), weights_rule);
         if (!weights) return fail(weights.error());
         if (joints->empty() || weights->empty()) continue;
         for (size_t vertex = 0; vertex < vertices; ++vertex) {
@@ -146,7 +150,7 @@ Result<VertexJoints> read_joints(PartReader& reader, size_t vertices) {
     return out;
 }
 
-Result<void> check_joints(PartReader& reader, size_t joint_count, VertexJoints& joints) {
+Result<void> check_joints(PrimitiveReader& reader, size_t joint_count, VertexJoints& joints) {
     const size_t vertices = joints.weights.size() / joints.influences;
     for (size_t vertex = 0; vertex < vertices; ++vertex) {
         const size_t first = vertex * joints.influences;
@@ -163,18 +167,20 @@ Result<void> check_joints(PartReader& reader, size_t joint_count, VertexJoints& 
     return {};
 }
 
-Result<void> skin(PartReader& reader, std::span<const Affined> world_from_bind, MeshPart& part) {
-    const GltfPrimitive& primitive = reader.primitive();
-    if (primitive.joints.empty() || primitive.weights.empty() || primitive.joints[0] < 0 ||
-        primitive.weights[0] < 0) {
-        part.issues |= issue_bit(MeshIssue::no_joints);
+Result<void> skin(PrimitiveReader& reader,
+                  std::span<const Affined> world_from_bind,
+                  MeshPrimitive& primitive) {
+    const GltfPrimitive& source = reader.primitive();
+    if (source.joints.empty() || source.weights.empty() || source.joints[0] < 0 ||
+        source.weights[0] < 0) {
+        primitive.issues |= issue_bit(MeshIssue::no_joints);
         return {};
     }
-    Result<VertexJoints> joints = read_joints(reader, part.positions.size() / 3);
+    Result<VertexJoints> joints = read_joints(reader, primitive.positions.size() / 3);
     if (!joints) return fail(std::move(joints.error()));
     const Result<void> checked = check_joints(reader, world_from_bind.size(), *joints);
     if (!checked) return checked;
-    skin_part(*joints, world_from_bind, part);
+    skin_primitive(*joints, world_from_bind, primitive);
     return {};
 }
 
@@ -200,7 +206,7 @@ void store(const Vec3d& v, float* out) {
     out[2] = static_cast<float>(v.z);
 }
 
-/// Turns a direction in place; one that the matrix squashes becomes 0.
+/// Transforms a direction in place; one that the matrix flattens becomes 0.
 void turn(const Affined& map, double sign, float* v) {
     const Vec3d turned = transform_vector(map, Vec3d{v[0], v[1], v[2]});
     const double length = std::hypot(turned.x, turned.y, turned.z);
@@ -221,35 +227,40 @@ void MorphSum::add(double weight, std::span<const float> differences, size_t dif
     }
 }
 
-void skin_part(const VertexJoints& from, std::span<const Affined> world_from_bind, MeshPart& part) {
-    const size_t vertices = part.positions.size() / 3;
+void skin_primitive(const VertexJoints& from,
+                    std::span<const Affined> world_from_bind,
+                    MeshPrimitive& primitive) {
+    const size_t vertices = primitive.positions.size() / 3;
     size_t mirrored = 0;
     for (size_t vertex = 0; vertex < vertices; ++vertex) {
         const Affined world = mean_matrix(from, vertex, world_from_bind);
         const double sign = determinant(world) < 0 ? -1 : 1;
         mirrored += sign < 0 ? 1U : 0U;
-        float* p = &part.positions[3 * vertex];
+        float* p = &primitive.positions[3 * vertex];
         store(transform_point(world, Vec3d{p[0], p[1], p[2]}), p);
-        if (!part.normals.empty()) turn(cofactors(world), sign, &part.normals[3 * vertex]);
-        if (part.tangents.empty()) continue;
-        turn(world, 1, &part.tangents[4 * vertex]);
-        part.tangents[4 * vertex + 3] *= static_cast<float>(sign);
+        if (!primitive.normals.empty())
+            turn(cofactors(world), sign, &primitive.normals[3 * vertex]);
+        if (primitive.tangents.empty()) continue;
+        turn(world, 1, &primitive.tangents[4 * vertex]);
+        primitive.tangents[4 * vertex + 3] *= static_cast<float>(sign);
     }
-    part.in_world = true;
+    primitive.in_world = true;
     if (2 * mirrored <= vertices) return;
-    for (size_t i = 0; i < part.indices.size(); i += 3)
-        std::swap(part.indices[i + 1], part.indices[i + 2]);
+    for (size_t i = 0; i < primitive.indices.size(); i += 3)
+        std::swap(primitive.indices[i + 1], primitive.indices[i + 2]);
 }
 
-Result<void> deform_part(PartReader& reader, const PartPose& pose, MeshPart& part) {
+Result<void> deform_primitive(PrimitiveReader& reader,
+                              const PrimitivePose& pose,
+                              MeshPrimitive& primitive) {
     const bool morphs = !reader.primitive().targets.empty();
     const bool has_skin = !pose.world_from_bind.empty();
     if (!morphs && !has_skin) return {};
-    part.keeps_layout = true;
+    primitive.is_deformed = true;
     Result<void> done;
-    if (morphs) done = morph(reader, pose.weights, part);
-    if (done && has_skin) done = skin(reader, pose.world_from_bind, part);
+    if (morphs) done = morph(reader, pose.weights, primitive);
+    if (done && has_skin) done = skin(reader, pose.world_from_bind, primitive);
     return done;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,16 +1,16 @@
-// gltf/geometry/deform.h - bends a primitive: morph targets first, then its skin.
+// gltf/geometry/deform.h - deforms a primitive: morph targets first, then its skin.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gltf/geometry/part_reader.h"
+#include "gltf/geometry/primitive_reader.h"
 
 #include <span>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// Adds weight * difference to values, both in runs of so many numbers a vertex; numbers of a value
-/// that its difference lacks stay (a tangent's handedness).
+/// Adds weight * difference to values. Components that a difference lacks (a tangent's handedness)
+/// are kept.
 struct MorphSum {
     std::vector<double> sums;
     size_t value_width = 3;
@@ -26,15 +26,19 @@ struct VertexJoints {
 };
 
 /// Moves every vertex by the mean of its joints' matrices: positions by it, normals by its inverse
-/// transpose, tangents along. Where most vertices are mirrored, the triangles turn round.
+/// transpose, tangents along. Where most vertices are mirrored, the winding is reversed.
 ///
 /// Source  glTF 2.0, section 3.7.3.3
-void skin_part(const VertexJoints& from, std::span<const Affined> world_from_bind, MeshPart& part);
+void skin_primitive(const VertexJoints& from,
+                    std::span<const Affined> world_from_bind,
+                    MeshPrimitive& primitive);
 
 /// Reads what bends a primitive and bends it; positions may end up anywhere. Only targets whose
 /// weight is not 0 are read.
 ///
-/// Errors  65 E-SKIN-JOINT a vertex hangs on a joint that the skin has not; those of read_attribute
-Result<void> deform_part(PartReader& reader, const PartPose& pose, MeshPart& part);
+/// Errors  65 E-SKIN-JOINT a vertex names a joint that the skin lacks; those of read_attribute
+Result<void> deform_primitive(PrimitiveReader& reader,
+                              const PrimitivePose& pose,
+                              MeshPrimitive& primitive);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

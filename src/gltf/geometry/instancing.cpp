@@ -4,13 +4,13 @@
 
 #include "gltf/parse/trs.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
 constexpr const char* instancing_name = "EXT_mesh_gpu_instancing";
 
-/// Reads the number of one attribute's accessor and checks what it is made of.
+/// Reads one attribute's accessor index and checks that accessor's type.
 int read_transform_accessor(const DocumentReading& reading,
                             const ValueReader& attributes,
                             const char* name) {
@@ -87,16 +87,16 @@ private:
 
 Result<void> add_instances(const Document& document,
                            const BufferStore& buffers,
-                           const PlacedNode& place,
+                           const PlacedNode& placed_node,
                            std::vector<PlacedNode>& out) {
-    const size_t index = static_cast<size_t>(place.node);
+    const size_t index = static_cast<size_t>(placed_node.node);
     const GltfInstancing& instancing = document.nodes[index].instancing;
     const uint64_t count = instance_count(document, instancing);
-    if (count > most_instances || out.size() > most_instances - count) {
+    if (count > max_instances || out.size() > max_instances - count) {
         return fail(ExitCode::refused,
                     "E-LIMIT-INSTANCES",
                     document.at("nodes", index),
-                    "the nodes place more than " + std::to_string(most_instances) + " meshes");
+                    "the nodes place more than " + std::to_string(max_instances) + " meshes");
     }
     TransformReader reader;
     const Result<void> done = reader.read(document, buffers, instancing);
@@ -110,9 +110,9 @@ Result<void> add_instances(const Document& document,
                         document.at("nodes", index),
                         "the rotation of instance " + std::to_string(i) + " has no length");
         }
-        out.push_back(place);
+        out.push_back(placed_node);
         out.back().node_from_mesh = node_from_instance;
-        out.back().world_from_node = compose(place.world_from_node, node_from_instance);
+        out.back().world_from_node = compose(placed_node.world_from_node, node_from_instance);
     }
     return {};
 }
@@ -150,17 +150,17 @@ Result<std::vector<PlacedNode>> expand_instances(const Document& document,
                                                  const std::vector<PlacedNode>& placed) {
     std::vector<PlacedNode> out;
     out.reserve(placed.size());
-    for (const PlacedNode& place : placed) {
-        const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
-        if (node.mesh < 0 || !place.may_show) continue;
+    for (const PlacedNode& placed_node : placed) {
+        const GltfNode& node = document.nodes[static_cast<size_t>(placed_node.node)];
+        if (node.mesh < 0 || !placed_node.may_show) continue;
         if (!is_instanced(node.instancing)) {
-            out.push_back(place);
+            out.push_back(placed_node);
             continue;
         }
-        const Result<void> done = add_instances(document, buffers, place, out);
+        const Result<void> done = add_instances(document, buffers, placed_node, out);
         if (!done) return fail(done.error());
     }
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

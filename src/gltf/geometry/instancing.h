@@ -8,22 +8,21 @@
 
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// What all nodes together may place.
-inline constexpr uint64_t most_instances = 1U << 26;
+/// Limit on the instances of all nodes together.
+inline constexpr uint64_t max_instances = 1U << 26;
 
-/// Reads the extension's object of a node; attributes of other names (_ID) say nothing about a
-/// picture.
+/// Reads the extension's object of a node; other attributes (_ID) do not affect the image.
 ///
 /// Errors  faults of the reader: 65 E-NODE-INSTANCING counts that differ, types that are not
 /// allowed
 GltfInstancing read_instancing(const DocumentReading& reading, const ModelElement& node);
 
-/// False where the node's mesh stands once, where the node is.
+/// False when the node places its mesh once, at its own transform.
 bool is_instanced(const GltfInstancing& instancing);
 
-/// The places of meshes: as `placed`, with a row for each instance instead of one for its node.
+/// The transforms of meshes: `placed`, with one entry per instance in place of the node's entry.
 ///
 /// Errors  65 E-NODE-INSTANCING a rotation without length; 77 E-LIMIT-INSTANCES; as read_floats
 /// Source  glTF extension EXT_mesh_gpu_instancing
@@ -31,4 +30,4 @@ Result<std::vector<PlacedNode>> expand_instances(const Document& document,
                                                  const BufferStore& buffers,
                                                  const std::vector<PlacedNode>& placed);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

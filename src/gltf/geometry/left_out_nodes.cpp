@@ -1,4 +1,4 @@
-// gltf/geometry/left_out_nodes.cpp - placings of meshes that are not drawn, with a warning.
+// gltf/geometry/left_out_nodes.cpp - leaves out or stops instances that rays cannot enter.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/left_out_nodes.h"
 
@@ -7,11 +7,11 @@
 #include "scene/coincident_instances.h"
 #include "scene/ray_reach.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-/// The nodes that place instances. What hangs on animated nodes knows its own nodes only.
+/// Names the nodes of instances. An instance on an animated node may lack one.
 std::string node_names(const Document& document,
                        const Scene& scene,
                        const std::vector<Instance>& instances) {
@@ -50,4 +50,4 @@ void leave_out_nodes(const Document& document, Scene& scene, Log& log) {
     }
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

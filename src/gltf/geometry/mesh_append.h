@@ -1,17 +1,17 @@
-// gltf/geometry/mesh_append.h - moves a primitive to the world, into the scene's arrays.
+// gltf/geometry/mesh_append.h - transforms a primitive and appends it to the scene's arrays.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gltf/geometry/mesh_part.h"
+#include "gltf/geometry/mesh_primitive.h"
 #include "scene/scene.h"
 
 #include <string>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// Moves a part to another space: positions by the matrix, normals by its inverse transpose,
-/// tangents along; a mirror turns triangles round. False: a position is no longer in range.
-bool bake_part(MeshPart& part, const Affined& world_from_mesh);
+/// Moves a primitive to another space: positions by the matrix, normals by its inverse transpose,
+/// tangents along; a mirror reverses the winding. False: a position is no longer in range.
+bool bake_primitive(MeshPrimitive& primitive, const Affined& world_from_mesh);
 
 /// Sizes of a scene's arrays, in elements.
 struct ArraySizes {
@@ -20,12 +20,14 @@ struct ArraySizes {
     size_t attribute_floats = 0;
 };
 
-/// The limit of 32-bit numbers that such arrays break ("E-LIMIT-VERTICES"); nullptr: none.
+/// Id of the 32-bit limit that the arrays exceed ("E-LIMIT-VERTICES"); nullptr: none.
 const char* broken_limit(const ArraySizes& sizes);
 
-/// Adds a part behind the scene's arrays as a Primitive; material and node are the caller's.
+/// Appends a primitive to the scene's arrays; the caller sets material and node.
 ///
 /// Errors  77 E-LIMIT-*
-Result<Primitive> append_part(Scene& scene, const MeshPart& part, const std::string& where);
+Result<Primitive> append_primitive(Scene& scene,
+                                   const MeshPrimitive& primitive,
+                                   const std::string& where);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

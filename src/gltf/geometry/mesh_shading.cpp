@@ -1,4 +1,4 @@
-// gltf/geometry/mesh_shading.cpp - a primitive's normals and tangents: checked or made.
+// gltf/geometry/mesh_shading.cpp - checks a primitive's normals and tangents, or makes them.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/mesh_shading.h"
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -23,10 +23,10 @@ void store3(std::vector<float>& values, size_t index, const Vec3d& v) {
 }
 
 /// Twice the area as a vector; positions up to 1e18 do not overflow in double.
-Vec3d triangle_normal(const MeshPart& part, size_t triangle) {
-    const Vec3d a = load3(part.positions, part.indices[3 * triangle]);
-    const Vec3d b = load3(part.positions, part.indices[3 * triangle + 1]);
-    const Vec3d c = load3(part.positions, part.indices[3 * triangle + 2]);
+Vec3d triangle_normal(const MeshPrimitive& primitive, size_t triangle) {
+    const Vec3d a = load3(primitive.positions, primitive.indices[3 * triangle]);
+    const Vec3d b = load3(primitive.positions, primitive.indices[3 * triangle + 1]);
+    const Vec3d c = load3(primitive.positions, primitive.indices[3 * triangle + 2]);
     return cross(b - a, c - a);
 }
 
@@ -37,7 +37,7 @@ Vec3d unit_or_z(const Vec3d& v) {
     return v * (1.0 / length);
 }
 
-/// Makes normals unit; returns which vertices have none that can be used.
+/// Makes normals unit; returns the vertices without a usable normal.
 std::vector<char> normalize_normals(std::vector<float>& normals) {
     std::vector<char> bad(normals.size() / 3, 0);
     for (size_t i = 0; i < bad.size(); ++i) {
@@ -50,31 +50,31 @@ std::vector<char> normalize_normals(std::vector<float>& normals) {
 }
 
 /// Gives bad normals the area-weighted mean of the triangles around.
-void repair_normals(MeshPart& part) {
-    const std::vector<char> bad = normalize_normals(part.normals);
+void repair_normals(MeshPrimitive& primitive) {
+    const std::vector<char> bad = normalize_normals(primitive.normals);
     const auto is_bad = [&](uint32_t vertex) { return bad[vertex] != 0; };
-    if (std::none_of(part.indices.begin(), part.indices.end(), is_bad)) return;
-    part.issues |= issue_bit(MeshIssue::bad_normals);
-    std::vector<double> sums(part.normals.size(), 0.0);
-    for (size_t corner = 0; corner < part.indices.size(); ++corner) {
-        const size_t vertex = part.indices[corner];
+    if (std::none_of(primitive.indices.begin(), primitive.indices.end(), is_bad)) return;
+    primitive.issues |= issue_bit(MeshIssue::bad_normals);
+    std::vector<double> sums(primitive.normals.size(), 0.0);
+    for (size_t corner = 0; corner < primitive.indices.size(); ++corner) {
+        const size_t vertex = primitive.indices[corner];
         if (bad[vertex] == 0) continue;
-        const Vec3d n = triangle_normal(part, corner / 3);
+        const Vec3d n = triangle_normal(primitive, corner / 3);
         sums[3 * vertex] += n.x;
         sums[3 * vertex + 1] += n.y;
         sums[3 * vertex + 2] += n.z;
     }
     for (size_t i = 0; i < bad.size(); ++i) {
         if (bad[i] == 0) continue;
-        store3(part.normals, i, unit_or_z({sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]}));
+        store3(primitive.normals, i, unit_or_z({sums[3 * i], sums[3 * i + 1], sums[3 * i + 2]}));
     }
 }
 
 /// Makes given tangents unit, w 1 or -1; false when one that is used has no length.
-bool normalize_tangents(MeshPart& part) {
-    std::vector<char> bad(part.tangents.size() / 4, 0);
+bool normalize_tangents(MeshPrimitive& primitive) {
+    std::vector<char> bad(primitive.tangents.size() / 4, 0);
     for (size_t i = 0; i < bad.size(); ++i) {
-        float* t = &part.tangents[4 * i];
+        float* t = &primitive.tangents[4 * i];
         const double length = std::hypot(t[0], t[1], t[2]);
         bad[i] = !(length > 1e-12) || !std::isfinite(length);
         for (int axis = 0; axis < 3; ++axis) {
@@ -83,7 +83,7 @@ bool normalize_tangents(MeshPart& part) {
         t[3] = t[3] < 0 ? -1.0f : 1.0f;
     }
     const auto is_bad = [&](uint32_t vertex) { return bad[vertex] != 0; };
-    return std::none_of(part.indices.begin(), part.indices.end(), is_bad);
+    return std::none_of(primitive.indices.begin(), primitive.indices.end(), is_bad);
 }
 
 void append_copy(std::vector<float>& values, size_t vertex, size_t width) {
@@ -93,78 +93,78 @@ void append_copy(std::vector<float>& values, size_t vertex, size_t width) {
 }
 
 /// Doubles a vertex with all its attributes but the tangent.
-uint32_t append_vertex(MeshPart& part, size_t vertex) {
-    append_copy(part.positions, vertex, 3);
-    append_copy(part.normals, vertex, 3);
-    append_copy(part.colors, vertex, 4);
-    for (std::vector<float>& set : part.uvs)
+uint32_t append_vertex(MeshPrimitive& primitive, size_t vertex) {
+    append_copy(primitive.positions, vertex, 3);
+    append_copy(primitive.normals, vertex, 3);
+    append_copy(primitive.colors, vertex, 4);
+    for (std::vector<float>& set : primitive.uvs)
         append_copy(set, vertex, 2);
-    return static_cast<uint32_t>(part.positions.size() / 3 - 1);
+    return static_cast<uint32_t>(primitive.positions.size() / 3 - 1);
 }
 
 /// Gives every corner its own vertex.
-void unweld(MeshPart& part) {
+void unweld(MeshPrimitive& primitive) {
     const auto spread = [&](std::vector<float>& values, size_t width) {
         if (values.empty()) return;
         std::vector<float> out;
-        out.reserve(part.indices.size() * width);
-        for (const uint32_t vertex : part.indices) {
+        out.reserve(primitive.indices.size() * width);
+        for (const uint32_t vertex : primitive.indices) {
             const float* from = &values[vertex * width];
             out.insert(out.end(), from, from + width);
         }
         values = std::move(out);
     };
-    spread(part.positions, 3);
-    spread(part.normals, 3);
-    spread(part.colors, 4);
-    for (std::vector<float>& set : part.uvs)
+    spread(primitive.positions, 3);
+    spread(primitive.normals, 3);
+    spread(primitive.colors, 4);
+    for (std::vector<float>& set : primitive.uvs)
         spread(set, 2);
-    for (size_t i = 0; i < part.indices.size(); ++i)
-        part.indices[i] = static_cast<uint32_t>(i);
+    for (size_t i = 0; i < primitive.indices.size(); ++i)
+        primitive.indices[i] = static_cast<uint32_t>(i);
 }
 
 /// Gives every triangle its own normal.
-void make_flat(MeshPart& part) {
-    unweld(part);
-    part.normals.resize(part.positions.size());
-    for (size_t i = 0; i < part.indices.size(); ++i) {
-        store3(part.normals, i, unit_or_z(triangle_normal(part, i / 3)));
+void make_flat(MeshPrimitive& primitive) {
+    unweld(primitive);
+    primitive.normals.resize(primitive.positions.size());
+    for (size_t i = 0; i < primitive.indices.size(); ++i) {
+        store3(primitive.normals, i, unit_or_z(triangle_normal(primitive, i / 3)));
     }
 }
 
 /// Turns tangents of corners into tangents of vertices: a vertex whose corners disagree is doubled.
-void weld_tangents(MeshPart& part, const std::vector<float>& corners) {
+void weld_tangents(MeshPrimitive& primitive, const std::vector<float>& corners) {
     constexpr uint32_t none = UINT32_MAX;
     constexpr int longest_search = 64;  // beyond it, vertices are doubled without looking
-    const size_t vertices = part.positions.size() / 3;
+    const size_t vertices = primitive.positions.size() / 3;
     std::vector<uint32_t> next(vertices, none);  // other copies of the same vertex
     std::vector<char> taken(vertices, 0);
-    part.tangents.assign(vertices * 4, 0.0f);
-    for (size_t corner = 0; corner < part.indices.size(); ++corner) {
+    primitive.tangents.assign(vertices * 4, 0.0f);
+    for (size_t corner = 0; corner < primitive.indices.size(); ++corner) {
         const float* tangent = &corners[4 * corner];
         const auto agrees = [&](uint32_t vertex) {
             return taken[vertex] == 0 ||
-                   std::equal(tangent, tangent + 4, &part.tangents[4 * vertex]);
+                   std::equal(tangent, tangent + 4, &primitive.tangents[4 * vertex]);
         };
-        const uint32_t first = part.indices[corner];
+        const uint32_t first = primitive.indices[corner];
         uint32_t vertex = first;
         for (int i = 0; vertex != none && !agrees(vertex) && i < longest_search; ++i) {
             vertex = next[vertex];
         }
         if (vertex == none || !agrees(vertex)) {
-            vertex = append_vertex(part, first);
-            part.tangents.resize(part.tangents.size() + 4);
+            vertex = append_vertex(primitive, first);
+            primitive.tangents.resize(primitive.tangents.size() + 4);
             next.push_back(next[first]);
             taken.push_back(0);
             next[first] = vertex;
         }
         taken[vertex] = 1;
-        std::copy(tangent, tangent + 4, &part.tangents[4 * static_cast<size_t>(vertex)]);
-        part.indices[corner] = vertex;
+        std::copy(tangent, tangent + 4, &primitive.tangents[4 * static_cast<size_t>(vertex)]);
+        primitive.indices[corner] = vertex;
     }
 }
 
-/// The UVs through the texture's transform: tangents follow the picture as it lies on the surface.
+/// The UVs through the texture's transform: tangents follow the image as it lies on the surface.
 std::vector<float> transformed_uvs(const std::vector<float>& uvs, const TextureSlot& slot) {
     std::vector<float> out(uvs.size());
     const float* m = slot.uv_from_mesh;
@@ -177,31 +177,31 @@ std::vector<float> transformed_uvs(const std::vector<float>& uvs, const TextureS
 
 }  // namespace
 
-void finish_shading(MeshPart& part, const MaterialNeeds& needs) {
-    if (!part.normals.empty()) repair_normals(part);
+void finish_shading(MeshPrimitive& primitive, const MaterialNeeds& needs) {
+    if (!primitive.normals.empty()) repair_normals(primitive);
     if (!needs.tangents) {
-        part.tangents.clear();
+        primitive.tangents.clear();
         return;
     }
-    if (!part.tangents.empty()) {
-        if (normalize_tangents(part)) return;
-        part.issues |= issue_bit(MeshIssue::bad_tangents);
+    if (!primitive.tangents.empty()) {
+        if (normalize_tangents(primitive)) return;
+        primitive.issues |= issue_bit(MeshIssue::bad_tangents);
     }
     const auto uv_set = static_cast<size_t>(needs.normal_map.uv_set);
-    if (part.uvs[uv_set].empty()) {  // nothing says which way they would point
-        part.tangents.clear();
+    if (primitive.uvs[uv_set].empty()) {  // nothing says which way they would point
+        primitive.tangents.clear();
         return;
     }
-    if (part.normals.empty()) make_flat(part);
-    const std::vector<float> uvs = transformed_uvs(part.uvs[uv_set], needs.normal_map);
-    const TangentMesh mesh{part.positions, part.normals, uvs, part.indices};
+    if (primitive.normals.empty()) make_flat(primitive);
+    const std::vector<float> uvs = transformed_uvs(primitive.uvs[uv_set], needs.normal_map);
+    const TangentMesh mesh{primitive.positions, primitive.normals, uvs, primitive.indices};
     std::vector<float> corners = make_tangents(mesh);
-    if (!part.keeps_layout) {
-        weld_tangents(part, corners);
+    if (!primitive.is_deformed) {
+        weld_tangents(primitive, corners);
         return;
     }
-    unweld(part);  // which corners may share a vertex would change from pose to pose
-    part.tangents = std::move(corners);
+    unweld(primitive);  // which corners may share a vertex would change from pose to pose
+    primitive.tangents = std::move(corners);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/geometry/mesh_uses.cpp - which nodes show a mesh, and in which shape.
+// gltf/geometry/mesh_uses.cpp - groups the nodes that show a mesh by its deformed shape.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/mesh_uses.h"
 
@@ -6,11 +6,11 @@
 #include <map>
 #include <tuple>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-/// What tells two shapes of a mesh apart: mesh, node that bends it alone (-1: none), weights.
+/// Identifies a shape of a mesh: mesh, the node that alone deforms it (-1: none), weights.
 using ShapeKey = std::tuple<int, int, std::vector<double>>;
 
 /// The weights that a node gives its mesh.
@@ -20,8 +20,8 @@ std::vector<double> weights_of(const Document& document, const GltfNode& node) {
     return node.weights.empty() ? mesh.weights : node.weights;
 }
 
-/// Whether the shape of a placed mesh is another one at other times. A skin that moves counts as
-/// bending, and so does a skinned mesh that comes and goes: nothing of it is in a mover's space.
+/// Whether the shape of a placed mesh changes over time. A moving skin counts, and so does a
+/// skinned mesh that appears or vanishes: it never lies in a dynamic group's space.
 bool bends(const Document& document, const PlacedNode& place, const std::vector<char>& moving) {
     const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
     const bool own_weights = !node.weights.empty();
@@ -31,7 +31,7 @@ bool bends(const Document& document, const PlacedNode& place, const std::vector<
     if (node.skin < 0) return false;
     const std::vector<int>& joints = document.skins[static_cast<size_t>(node.skin)].joints;
     const auto moves = [&](int joint) { return moving[static_cast<size_t>(joint)] != 0; };
-    return place.mover >= 0 || std::any_of(joints.begin(), joints.end(), moves);
+    return place.dynamic_group >= 0 || std::any_of(joints.begin(), joints.end(), moves);
 }
 
 }  // namespace
@@ -46,30 +46,32 @@ MeshUses find_mesh_uses(const Document& document, const std::vector<PlacedNode>&
         const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
         if (node.mesh < 0 || !place.may_show) continue;
         const bool flat = node.skin < 0 && is_flattening(place.world_from_node);
-        if (node.skin < 0 && place.mover < 0 && !flat && is_singular(place.world_from_node)) {
+        if (node.skin < 0 && place.dynamic_group < 0 && !flat &&
+            is_singular(place.world_from_node)) {
             out.shrunk_nodes.push_back(node_label(document, place.node));
             continue;
         }
         const bool thin = node.skin < 0 && !flat && is_nearly_flat(place.world_from_node);
-        // No instance can be flat: the mesh is read again where its node squashes it.
-        const bool is_bent = bends(document, place, moving) || ((flat || thin) && place.mover >= 0);
+        // Instances cannot be flat: a mesh is read again for a node that flattens it.
+        const bool is_bent =
+            bends(document, place, moving) || ((flat || thin) && place.dynamic_group >= 0);
         if (is_bent && !place.visible) continue;
         std::vector<double> weights = weights_of(document, node);
         if (flat) out.flat_nodes.push_back(node_label(document, place.node));
         if (flat || thin) {
-            const auto row = static_cast<int>(i);
-            out.uses.push_back({node.mesh, -1, std::move(weights), is_bent, {row}});
+            const auto index = static_cast<int>(i);
+            out.uses.push_back({node.mesh, -1, std::move(weights), is_bent, {index}});
             continue;
         }
-        // Nodes that bend on their own share no shape, though at some time they may look alike.
+        // Nodes that deform their mesh share no shape, even if shapes agree at some time.
         const int own = node.skin >= 0 || node.bends ? place.node : -1;
         const auto [entry, is_new] = known.try_emplace({node.mesh, own, weights}, out.uses.size());
         if (is_new) out.uses.push_back({node.mesh, node.skin, std::move(weights), is_bent, {}});
         MeshUse& use = out.uses[entry->second];
-        // Instances of a skinned node would all lie in the same place.
+        // All instances of a skinned node would coincide.
         if (node.skin < 0 || use.placed.empty()) use.placed.push_back(static_cast<int>(i));
     }
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/meshes.h"
 
-#include "gltf/geometry/block_reader.h"
+#include "gltf/geometry/batch_reader.h"
 #include "gltf/geometry/skins.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -25,7 +25,7 @@ public:
           problems_(problems),
           scene_(scene),
           log_(log),
-          reader_(block_sources_, materials, problems, scene, log) {}
+          reader_(batch_sources_, materials, problems, scene, log) {}
 
     Result<void> build();
 
@@ -42,15 +42,18 @@ private:
 
     void find_uses();
     void drop_uses(int skin, const Error& error);
-    size_t take_stored(const std::vector<MeshBlock>& blocks);
-    void reserve(const std::vector<MeshBlock>& blocks, size_t first);
-    Result<std::vector<GeometryBlock>> read(const std::vector<MeshBlock>& blocks);
-    void add_world(const std::vector<MeshBlock>& blocks, const std::vector<GeometryBlock>& parts);
-    void add_mesh(const MeshBlock& block, const GeometryBlock& part);
-    void add_instance(const MeshBlock& block, const GeometryBlock& part, const PlacedNode& place);
-    bool place_of(const MeshBlock& block, const PlacedNode& place, Affined& out);
-    bool grow_bounds(const MeshBlock& block, const GeometryBlock& part, const Affined& world);
-    void store(const std::vector<MeshBlock>& blocks, std::vector<GeometryBlock>& parts);
+    size_t take_stored(const std::vector<MeshBatch>& batches);
+    void reserve(const std::vector<MeshBatch>& batches, size_t first);
+    Result<std::vector<GeometryBatch>> read(const std::vector<MeshBatch>& batches);
+    void add_world(const std::vector<MeshBatch>& batches,
+                   const std::vector<GeometryBatch>& geometries);
+    void add_mesh(const MeshBatch& batch, const GeometryBatch& geometry);
+    void add_instance(const MeshBatch& batch,
+                      const GeometryBatch& geometry,
+                      const PlacedNode& place);
+    bool place_of(const MeshBatch& batch, const PlacedNode& place, Affined& out);
+    bool grow_bounds(const MeshBatch& batch, const GeometryBatch& geometry, const Affined& world);
+    void store(const std::vector<MeshBatch>& batches, std::vector<GeometryBatch>& geometries);
     void warn();
 
     const MeshSources& sources_;
@@ -60,10 +63,10 @@ private:
     std::vector<MeshUse> uses_;                ///< in the order they are met
     std::vector<std::vector<Affined>> skins_;  ///< matrices; empty: no mesh that is drawn has it
     std::vector<Affined> world_from_node_;     ///< of all nodes, where anything asks for it
-    std::vector<Affined> no_movers_;
-    BlockSources block_sources_{
-        sources_, skins_, sources_.store != nullptr ? sources_.store->mover_from_node : no_movers_};
-    BlockReader reader_;
+    std::vector<Affined> no_groups_;
+    BatchSources batch_sources_{
+        sources_, skins_, sources_.store != nullptr ? sources_.store->group_from_node : no_groups_};
+    BatchReader reader_;
     NameList flat_nodes_, shrunk_nodes_;
 };
 
@@ -92,8 +95,8 @@ void MeshBuilder::find_uses() {
     for (const std::string& name : found.shrunk_nodes)
         shrunk_nodes_.add(name);
     skins_.resize(document().skins.size());
-    if (sources_.store != nullptr && sources_.store->mover_from_node.empty()) {
-        sources_.store->mover_from_node = mover_transforms(document());
+    if (sources_.store != nullptr && sources_.store->group_from_node.empty()) {
+        sources_.store->group_from_node = group_transforms(document());
     }
     for (size_t i = 0; i < skins_.size(); ++i) {
         const int skin = static_cast<int>(i);
@@ -106,38 +109,38 @@ void MeshBuilder::find_uses() {
     }
 }
 
-/// Takes over the arrays of an earlier pose as far as their blocks are wanted again; returns how
-/// many blocks that are.
-size_t MeshBuilder::take_stored(const std::vector<MeshBlock>& blocks) {
+/// Reuses the arrays of an earlier pose up to the first batch that differs; returns how many
+/// batches that are.
+size_t MeshBuilder::take_stored(const std::vector<MeshBatch>& batches) {
     GeometryStore* store = sources_.store;
     if (store == nullptr) return 0;
     size_t count = 0;
-    while (!store->positions.empty() && count < store->blocks.size() && count < blocks.size() &&
-           reader_.is_same(store->blocks[count], blocks[count])) {
+    while (!store->positions.empty() && count < store->batches.size() && count < batches.size() &&
+           reader_.is_same(store->batches[count], batches[count])) {
         ++count;
     }
-    store->blocks.resize(count);
+    store->batches.resize(count);
     if (count == 0) return 0;
-    const StillSizes& still = store->still();
+    const StaticSizes& static_sizes = store->static_sizes();
     scene_.positions = std::move(store->positions);
     scene_.indices = std::move(store->indices);
     scene_.attributes = std::move(store->attributes);
-    scene_.positions.resize(still.positions);
-    scene_.indices.resize(still.indices);
-    scene_.attributes.resize(still.attributes);
+    scene_.positions.resize(static_sizes.positions);
+    scene_.indices.resize(static_sizes.indices);
+    scene_.attributes.resize(static_sizes.attributes);
     return count;
 }
 
-/// Room for what blocks will add, as far as the accessors' counts tell.
-void MeshBuilder::reserve(const std::vector<MeshBlock>& blocks, size_t first) {
+/// Reserves memory for the batches, by the accessors' counts.
+void MeshBuilder::reserve(const std::vector<MeshBatch>& batches, size_t first) {
     size_t vertices = 0;
     size_t corners = 0;
     size_t floats = 0;
-    for (size_t i = first; i < blocks.size(); ++i) {
-        for (const PartJob& job : blocks[i].jobs) {
-            const GltfMesh& mesh = document().meshes[static_cast<size_t>(job.name.mesh)];
+    for (size_t i = first; i < batches.size(); ++i) {
+        for (const PrimitiveTask& task : batches[i].tasks) {
+            const GltfMesh& mesh = document().meshes[static_cast<size_t>(task.name.mesh)];
             const GltfPrimitive& primitive =
-                mesh.primitives[static_cast<size_t>(job.name.primitive)];
+                mesh.primitives[static_cast<size_t>(task.name.primitive)];
             if (primitive.position < 0) continue;
             const size_t triangles = primitive_triangles(document(), primitive);
             const size_t count = std::min(
@@ -156,65 +159,65 @@ void MeshBuilder::reserve(const std::vector<MeshBlock>& blocks, size_t first) {
     scene_.attributes.reserve(std::min(most, scene_.attributes.size() + floats + 4));
 }
 
-Result<std::vector<GeometryBlock>> MeshBuilder::read(const std::vector<MeshBlock>& blocks) {
-    std::vector<GeometryBlock> parts;
-    const size_t kept = take_stored(blocks);
-    reserve(blocks, kept);
-    for (size_t i = 0; i < blocks.size(); ++i) {
+Result<std::vector<GeometryBatch>> MeshBuilder::read(const std::vector<MeshBatch>& batches) {
+    std::vector<GeometryBatch> geometries;
+    const size_t kept = take_stored(batches);
+    reserve(batches, kept);
+    for (size_t i = 0; i < batches.size(); ++i) {
         if (i < kept) {
-            parts.push_back(std::move(sources_.store->blocks[i]));
-            reader_.use_again(parts.back());
+            geometries.push_back(std::move(sources_.store->batches[i]));
+            reader_.use_again(geometries.back());
             continue;
         }
-        Result<GeometryBlock> part = reader_.read(blocks[i]);
-        if (!part) return fail(std::move(part.error()));
-        parts.push_back(std::move(*part));
+        Result<GeometryBatch> geometry = reader_.read(batches[i]);
+        if (!geometry) return fail(std::move(geometry.error()));
+        geometries.push_back(std::move(*geometry));
     }
-    return parts;
+    return geometries;
 }
 
-/// What lies in the world comes first.
-void MeshBuilder::add_world(const std::vector<MeshBlock>& blocks,
-                            const std::vector<GeometryBlock>& parts) {
-    for (size_t i = 0; i < blocks.size(); ++i) {
-        if (blocks[i].space != BlockSpace::world) continue;
-        const std::vector<Primitive>& rows = parts[i].primitives;
-        scene_.primitives.insert(scene_.primitives.end(), rows.begin(), rows.end());
-        scene_.info.triangles_in_world += parts[i].triangles;
-        scene_.bounds.low = -max3(-scene_.bounds.low, -parts[i].box.low);
-        scene_.bounds.high = max3(scene_.bounds.high, parts[i].box.high);
-        if (!blocks[i].keeps) continue;
-        scene_.still_primitive_count = static_cast<int32_t>(rows.size());
-        scene_.still_stamp = parts[i].stamp;
+/// World-space geometry comes first.
+void MeshBuilder::add_world(const std::vector<MeshBatch>& batches,
+                            const std::vector<GeometryBatch>& geometries) {
+    for (size_t i = 0; i < batches.size(); ++i) {
+        if (batches[i].space != BatchSpace::world) continue;
+        const std::vector<Primitive>& primitives = geometries[i].primitives;
+        scene_.primitives.insert(scene_.primitives.end(), primitives.begin(), primitives.end());
+        scene_.info.triangles_in_world += geometries[i].triangles;
+        scene_.bounds.low = -max3(-scene_.bounds.low, -geometries[i].box.low);
+        scene_.bounds.high = max3(scene_.bounds.high, geometries[i].box.high);
+        if (!batches[i].is_static) continue;
+        scene_.static_primitive_count = static_cast<int32_t>(primitives.size());
+        scene_.static_stamp = geometries[i].stamp;
     }
     scene_.world_primitive_count = static_cast<int32_t>(scene_.primitives.size());
 }
 
-/// Where the block's space lies; false: it is not seen now.
-bool MeshBuilder::place_of(const MeshBlock& block, const PlacedNode& place, Affined& out) {
+/// World transform of the batch's space; false: it is not visible now.
+bool MeshBuilder::place_of(const MeshBatch& batch, const PlacedNode& place, Affined& out) {
     if (!place.visible) return false;
-    if (block.space == BlockSpace::mesh) {
+    if (batch.space == BatchSpace::mesh) {
         out = place.world_from_node;
     } else {
-        out = world_from_node()[static_cast<size_t>(place.mover)];
+        out = world_from_node()[static_cast<size_t>(place.dynamic_group)];
     }
-    if (place.mover >= 0 && is_singular(out)) {
-        const int node = block.space == BlockSpace::mesh ? place.node : place.mover;
+    if (place.dynamic_group >= 0 && is_singular(out)) {
+        const int node = batch.space == BatchSpace::mesh ? place.node : place.dynamic_group;
         shrunk_nodes_.add(node_label(document(), node));
         return false;
     }
-    if (block.space != BlockSpace::anchored_mover) return true;
-    const Affined& anchor = (*sources_.anchors)[static_cast<size_t>(place.mover)];
+    if (batch.space != BatchSpace::anchored_group) return true;
+    const Affined& anchor = (*sources_.anchors)[static_cast<size_t>(place.dynamic_group)];
     if (is_singular(anchor)) return false;
     const bool is_there = std::equal(&anchor.m[0][0], &anchor.m[0][0] + 12, &out.m[0][0]);
     out = is_there ? Affined{} : compose(out, inverse(anchor));
     return true;
 }
 
-/// Makes the scene's bounds hold an instance; false: it reaches too far. What is placed once counts
-/// vertex by vertex, as if it lay in the world.
-bool MeshBuilder::grow_bounds(const MeshBlock& block,
-                              const GeometryBlock& part,
+/// Extends the scene's bounds by an instance; false: it is out of range. What is placed once counts
+/// vertex by vertex, as in world space.
+bool MeshBuilder::grow_bounds(const MeshBatch& batch,
+                              const GeometryBatch& geometry,
                               const Affined& world) {
     Bounds all = scene_.bounds;
     bool in_range = true;
@@ -223,14 +226,14 @@ bool MeshBuilder::grow_bounds(const MeshBlock& block,
         in_range = in_range && max_component(abs(moved)) <= farthest_position;
         grow(all, moved);
     };
-    if (block.space == BlockSpace::mover) {
-        const size_t end = part.end.indices;
-        for (size_t i = end - 3 * part.triangles; i < end; ++i) {
+    if (batch.space == BatchSpace::dynamic_group) {
+        const size_t end = geometry.end.indices;
+        for (size_t i = end - 3 * geometry.triangles; i < end; ++i) {
             const float* p = &scene_.positions[3 * static_cast<size_t>(scene_.indices[i])];
             add({p[0], p[1], p[2]});
         }
     } else {
-        const Bounds& box = part.box;
+        const Bounds& box = geometry.box;
         for (int corner = 0; corner < 8; ++corner) {
             add({(corner & 1) != 0 ? box.high.x : box.low.x,
                  (corner & 2) != 0 ? box.high.y : box.low.y,
@@ -241,12 +244,12 @@ bool MeshBuilder::grow_bounds(const MeshBlock& block,
     return in_range;
 }
 
-void MeshBuilder::add_instance(const MeshBlock& block,
-                               const GeometryBlock& part,
+void MeshBuilder::add_instance(const MeshBatch& batch,
+                               const GeometryBatch& geometry,
                                const PlacedNode& place) {
     Affined world;
-    if (!place_of(block, place, world)) return;
-    const bool own_mesh = block.space == BlockSpace::mesh;
+    if (!place_of(batch, place, world)) return;
+    const bool own_mesh = batch.space == BatchSpace::mesh;
     Instance instance;
     instance.world_from_object = affine_cast<float>(world);
     instance.object_from_world = affine_cast<float>(inverse(world));
@@ -260,38 +263,39 @@ void MeshBuilder::add_instance(const MeshBlock& block,
                        std::isfinite(instance.object_from_world.m[r][c]);
         }
     }
-    if (!in_range || !grow_bounds(block, part, world)) {
-        const int node = own_mesh ? place.node : place.mover;
+    if (!in_range || !grow_bounds(batch, geometry, world)) {
+        const int node = own_mesh ? place.node : place.dynamic_group;
         problems_.add({ExitCode::bad_data,
                        "E-NODE-RANGE",
                        document().at("nodes", static_cast<size_t>(node)),
                        "the node moves vertices of its mesh beyond 1e18, or its scale is beyond "
                        "what single precision can invert"},
-                      {Loss::primitive, "the mesh is not drawn there", part.primitives.size()});
+                      {Loss::primitive, "the mesh is not drawn there", geometry.primitives.size()});
         return;
     }
     scene_.instances.push_back(instance);
-    scene_.info.triangles_in_world += part.triangles;
+    scene_.info.triangles_in_world += geometry.triangles;
 }
 
-void MeshBuilder::add_mesh(const MeshBlock& block, const GeometryBlock& part) {
-    if (part.primitives.empty()) return;
+void MeshBuilder::add_mesh(const MeshBatch& batch, const GeometryBatch& geometry) {
+    if (geometry.primitives.empty()) return;
     scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()),
-                             static_cast<int32_t>(part.primitives.size()),
-                             part.stamp});
+                             static_cast<int32_t>(geometry.primitives.size()),
+                             geometry.stamp});
     scene_.primitives.insert(
-        scene_.primitives.end(), part.primitives.begin(), part.primitives.end());
-    for (const int index : block.placed)
-        add_instance(block, part, placed(index));
+        scene_.primitives.end(), geometry.primitives.begin(), geometry.primitives.end());
+    for (const int index : batch.placed)
+        add_instance(batch, geometry, placed(index));
 }
 
-void MeshBuilder::store(const std::vector<MeshBlock>& blocks, std::vector<GeometryBlock>& parts) {
+void MeshBuilder::store(const std::vector<MeshBatch>& batches,
+                        std::vector<GeometryBatch>& geometries) {
     if (sources_.store == nullptr) return;
     size_t kept = 0;
-    while (kept < blocks.size() && blocks[kept].keeps)
+    while (kept < batches.size() && batches[kept].is_static)
         ++kept;
-    parts.resize(kept);
-    sources_.store->blocks = std::move(parts);
+    geometries.resize(kept);
+    sources_.store->batches = std::move(geometries);
 }
 
 void MeshBuilder::warn() {
@@ -319,17 +323,17 @@ Result<void> MeshBuilder::build() {
     const MeshPlan plan = plan_meshes(document(),
                                       uses_,
                                       sources_.placed,
-                                      block_sources_.mover_from_node,
+                                      batch_sources_.group_from_node,
                                       {sources_.store != nullptr, sources_.anchors != nullptr});
     for (const std::string& name : plan.shrunk_nodes)
         shrunk_nodes_.add(name);
-    Result<std::vector<GeometryBlock>> parts = read(plan.blocks);
-    if (!parts) return fail(std::move(parts.error()));
-    add_world(plan.blocks, *parts);
-    for (size_t i = 0; i < plan.blocks.size(); ++i) {
-        if (plan.blocks[i].space != BlockSpace::world) add_mesh(plan.blocks[i], (*parts)[i]);
+    Result<std::vector<GeometryBatch>> geometries = read(plan.batches);
+    if (!geometries) return fail(std::move(geometries.error()));
+    add_world(plan.batches, *geometries);
+    for (size_t i = 0; i < plan.batches.size(); ++i) {
+        if (plan.batches[i].space != BatchSpace::world) add_mesh(plan.batches[i], (*geometries)[i]);
     }
-    store(plan.blocks, *parts);
+    store(plan.batches, *geometries);
     pad_tables(scene_);
     warn();
     return {};
@@ -345,4 +349,4 @@ Result<void> add_meshes(const MeshSources& sources,
     return MeshBuilder(sources, materials, problems, scene, log).build();
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <span>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -44,8 +44,8 @@ size_t split_in_two(const std::vector<float>& positions, std::span<uint32_t> ord
     return half;
 }
 
-/// Splits until each part fills one block: boxes around them get smaller than along any curve. All
-/// parts of a size are split at the same time.
+/// Splits until each half fills one block: their boxes are smaller than along any space-filling
+/// curve. Ranges of one size are split in parallel.
 std::vector<uint32_t> block_order(const std::vector<float>& positions) {
     std::vector<uint32_t> order(positions.size() / 3);
     std::iota(order.begin(), order.end(), 0U);
@@ -138,14 +138,14 @@ Result<ParticleRange> append_particles(const ParticleSources& sources,
                     where,
                     "there are no spheres; 1 or more are expected");
     }
-    if (count > most_spheres - scene.spheres.size() / 4) {
+    if (count > max_spheres - scene.spheres.size() / 4) {
         return fail(
             ExitCode::refused, "E-LIMIT-SPHERES", where, "at most 2^29 spheres are accepted");
     }
     Result<std::vector<float>> positions =
         read_floats(document, sources.buffers, shape.positions, {});
     if (!positions) return fail(std::move(positions.error()));
-    Result<std::vector<float>> radii = std::vector<float>(1, shape.row.size[0]);
+    Result<std::vector<float>> radii = std::vector<float>(1, shape.record.size[0]);
     if (shape.radii >= 0) radii = read_floats(document, sources.buffers, shape.radii, {});
     if (!radii) return fail(std::move(radii.error()));
     const std::string problem = find_problem(*positions, *radii);
@@ -171,4 +171,4 @@ ShapeBox primitive_box(const Scene& scene, const Primitive& primitive) {
     return all;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

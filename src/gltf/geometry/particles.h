@@ -5,15 +5,15 @@
 #include "gltf/decode/accessors.h"
 #include "scene/scene.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// Orders of spheres from one pose for the next: positions that come again need no sorting.
+/// Keeps the order of spheres from pose to pose: equal positions are sorted once.
 class SphereOrders {
 public:
-    /// What is not asked for between two calls is forgotten.
+    /// Forgets orders that were not asked for since the last call.
     void begin_pose();
 
-    /// The order in which neighbours among the spheres share blocks.
+    /// An order in which neighbouring spheres share blocks.
     ///
     /// In   positions: 3 numbers a sphere
     const std::vector<uint32_t>& order_of(const std::vector<float>& positions);
@@ -36,10 +36,10 @@ struct ParticleSources {
 struct ParticleRange {
     int32_t first = 0;
     int32_t count = 0;
-    std::vector<uint32_t> order = {};  ///< which one of the input each row holds
+    std::vector<uint32_t> order = {};  ///< index in the input of each sphere
 };
 
-inline constexpr size_t most_spheres = size_t{1} << 29;  ///< their words have 31-bit numbers
+inline constexpr size_t max_spheres = size_t{1} << 29;  ///< their words have 31-bit numbers
 
 /// Appends spheres to Scene::spheres in an order in which blocks are small boxes.
 ///
@@ -62,4 +62,4 @@ Result<ParticleRange> append_particles(const ParticleSources& sources,
 /// The box around a primitive of shapes or particles, in its own space.
 ShapeBox primitive_box(const Scene& scene, const Primitive& primitive);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

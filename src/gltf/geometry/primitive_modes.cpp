@@ -1,10 +1,10 @@
-// gltf/geometry/primitive_modes.cpp - vertices in order become points, lines, triangles.
+// gltf/geometry/primitive_modes.cpp - turns vertices in order into points, lines, triangles.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/primitive_modes.h"
 
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -53,4 +53,4 @@ ElementList element_list(std::vector<uint32_t> order, int mode) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

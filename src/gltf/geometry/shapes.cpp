@@ -10,13 +10,13 @@
 #include <map>
 #include <optional>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
 constexpr double farthest_position = 1e18;
 
-/// A uniform scale and a move; nothing when the map turns, mirrors or stretches.
+/// A uniform scale and a translation; nothing when the map rotates, mirrors or stretches.
 std::optional<double> uniform_scale(const Affined& map) {
     const double s = map.m[0][0];
     double off = 0;
@@ -55,7 +55,7 @@ private:
     Result<int32_t> instanced_mesh(const PlacedNode& place);
     Result<void> add_instance(const PlacedNode& place);
     Result<void> grow_bounds(const PlacedNode& place, const ShapeBox& box);
-    void count(const GltfShape& shape, int32_t rows);
+    void count(const GltfShape& shape, int32_t added);
     void report(const Error& error) {
         problems_.add(error, {Loss::primitive, "the shape is not drawn"});
     }
@@ -65,39 +65,40 @@ private:
     Problems& problems_;
     Scene& scene_;
     Log& log_;
-    std::map<int32_t, int32_t> double_sided_;           ///< material rows made double-sided
+    std::map<int32_t, int32_t> double_sided_;           ///< material records made double-sided
     std::map<std::pair<int, int>, int32_t> instanced_;  ///< mesh of (shape, material)
-    std::map<int32_t, ShapeBox> mesh_boxes_;            ///< by mesh row
+    std::map<int32_t, ShapeBox> mesh_boxes_;            ///< by mesh index
 };
 
 int32_t ShapeBuilder::choose_material(int material, bool double_sided) {
-    const MaterialChoice choice = material_row(materials_, material, 1U);
+    const MaterialChoice choice = material_record(materials_, material, 1U);
     if (choice.is_new) {
         log_.warn(document().at("materials", static_cast<size_t>(material)),
                   lost_slots_text(materials_, choice) + "; on shapes the factors alone count");
     }
-    const int32_t row = choice.row;
-    const auto index = static_cast<size_t>(row);
-    if (!double_sided || (materials_.rows[index].flags & material_double_sided) != 0) return row;
+    const int32_t chosen = choice.index;
+    const auto index = static_cast<size_t>(chosen);
+    if (!double_sided || (materials_.records[index].flags & material_double_sided) != 0)
+        return chosen;
     const auto [entry, is_new] =
-        double_sided_.try_emplace(row, static_cast<int32_t>(materials_.rows.size()));
+        double_sided_.try_emplace(chosen, static_cast<int32_t>(materials_.records.size()));
     if (is_new) {
-        Material copy = materials_.rows[index];
+        Material copy = materials_.records[index];
         copy.flags |= material_double_sided;
-        const int added = add_copy(materials_, row, copy, materials_.layers[index]);
+        const int added = add_copy(materials_, chosen, copy, materials_.layers[index]);
         materials_.used[static_cast<size_t>(added)] = 1;
     }
     return entry->second;
 }
 
-void ShapeBuilder::count(const GltfShape& counted, int32_t rows) {
+void ShapeBuilder::count(const GltfShape& counted, int32_t added) {
     std::vector<NamedCount>& list = scene_.info.shapes;
     const auto found = std::find_if(
         list.begin(), list.end(), [&](const NamedCount& c) { return c.name == counted.type; });
     if (found == list.end()) {
-        list.push_back({counted.type, static_cast<size_t>(rows)});
+        list.push_back({counted.type, static_cast<size_t>(added)});
     } else {
-        found->count += static_cast<size_t>(rows);
+        found->count += static_cast<size_t>(added);
     }
 }
 
@@ -129,12 +130,12 @@ Result<Primitive> ShapeBuilder::make_primitive(const PlacedNode& place, const Af
     }
     out.first_triangle = static_cast<int32_t>(scene_.shapes.size());
     out.triangle_count = 1;
-    ShapeRow row = own.row;
+    ShapeRecord record = own.record;
     if (baked != nullptr) {
         const auto& m = baked->m;
-        row = scaled_and_moved(row, m[0][0], {m[0][3], m[1][3], m[2][3]});
+        record = scaled_and_moved(record, m[0][0], {m[0][3], m[1][3], m[2][3]});
     }
-    scene_.shapes.push_back(row);
+    scene_.shapes.push_back(record);
     return out;
 }
 
@@ -165,7 +166,7 @@ Result<void> ShapeBuilder::grow_bounds(const PlacedNode& place, const ShapeBox& 
 
 Result<Primitive> ShapeBuilder::make_world_primitive(const PlacedNode& place) {
     const GltfShape& own = shape(node(place).shape);
-    const Result<void> grown = grow_bounds(place, shape_bounds(own.row));
+    const Result<void> grown = grow_bounds(place, shape_bounds(own.record));
     if (!grown) return fail(grown.error());
     Result<Primitive> primitive = make_primitive(place, &place.world_from_node);
     if (!primitive) return primitive;
@@ -197,24 +198,24 @@ Result<int32_t> ShapeBuilder::instanced_mesh(const PlacedNode& place) {
     if (known != instanced_.end()) return known->second;
     const Result<Primitive> primitive = make_primitive(place, nullptr);
     if (!primitive) return fail(primitive.error());
-    const auto row = static_cast<int32_t>(scene_.meshes.size());
+    const auto index = static_cast<int32_t>(scene_.meshes.size());
     scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()), 1});
     scene_.primitives.push_back(*primitive);
-    mesh_boxes_[row] = primitive_box(scene_, *primitive);
-    instanced_[key] = row;
-    return row;
+    mesh_boxes_[index] = primitive_box(scene_, *primitive);
+    instanced_[key] = index;
+    return index;
 }
 
 Result<void> ShapeBuilder::add_instance(const PlacedNode& place) {
-    const Result<int32_t> row = instanced_mesh(place);
-    if (!row) return fail(row.error());
-    const Result<void> grown = grow_bounds(place, mesh_boxes_[*row]);
+    const Result<int32_t> index = instanced_mesh(place);
+    if (!index) return fail(index.error());
+    const Result<void> grown = grow_bounds(place, mesh_boxes_[*index]);
     if (!grown) return grown;
-    const Mesh& mesh = scene_.meshes[static_cast<size_t>(*row)];
+    const Mesh& mesh = scene_.meshes[static_cast<size_t>(*index)];
     Instance instance;
     instance.world_from_object = affine_cast<float>(place.world_from_node);
     instance.object_from_world = affine_cast<float>(inverse(place.world_from_node));
-    instance.mesh = *row;
+    instance.mesh = *index;
     instance.node = place.node;
     instance.mirrored = determinant(place.world_from_node) < 0 ? 1 : 0;
     scene_.instances.push_back(instance);
@@ -235,7 +236,8 @@ void ShapeBuilder::build() {
             continue;
         }
         const bool single = shape(index).positions < 0;
-        const bool stays = single && place.mover < 0 && uniform_scale(place.world_from_node);
+        const bool stays =
+            single && place.dynamic_group < 0 && uniform_scale(place.world_from_node);
         (stays ? world : moved).push_back(&place);
     }
     if (!flat.empty()) {
@@ -260,4 +262,4 @@ void add_shapes(const MeshSources& sources,
     ShapeBuilder(sources, materials, problems, scene, log).build();
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

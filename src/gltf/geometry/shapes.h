@@ -4,10 +4,10 @@
 
 #include "gltf/geometry/meshes.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// Adds what OBSCURA_shape and KHR_implicit_shapes place, behind add_meshes. A shape that its node
-/// only moves and scales alike on all axes lies in world space; the others are instances.
+/// Appends the shapes of OBSCURA_shape and KHR_implicit_shapes, after add_meshes. A shape whose
+/// node only translates and scales uniformly lies in world space; others are instances.
 ///
 /// Out     problems: E-SHAPE-SPHERES a particle's position is not finite or its radius not above
 ///         0, E-NODE-RANGE; 77 E-LIMIT-SPHERES more than 2^29; as read_floats
@@ -17,4 +17,4 @@ void add_shapes(const MeshSources& sources,
                 Scene& scene,
                 Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

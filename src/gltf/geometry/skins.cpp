@@ -1,10 +1,10 @@
-// gltf/geometry/skins.cpp - the matrices by which joints move the vertices that hang on them.
+// gltf/geometry/skins.cpp - the joint matrices of a skin: world space from bind pose.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/skins.h"
 
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -28,14 +28,14 @@ Result<std::vector<Affined>> skin_matrices(const Document& document,
                                            const BufferStore& buffers,
                                            const std::vector<Affined>& world_from_node,
                                            int skin) {
-    const GltfSkin& row = document.skins[static_cast<size_t>(skin)];
+    const GltfSkin& record = document.skins[static_cast<size_t>(skin)];
     std::vector<Affined> out;
-    out.reserve(row.joints.size());
-    for (const int joint : row.joints)
+    out.reserve(record.joints.size());
+    for (const int joint : record.joints)
         out.push_back(world_from_node[static_cast<size_t>(joint)]);
-    if (row.inverse_bind_matrices < 0) return out;
+    if (record.inverse_bind_matrices < 0) return out;
     const Result<std::vector<float>> matrices =
-        read_floats(document, buffers, row.inverse_bind_matrices, {});
+        read_floats(document, buffers, record.inverse_bind_matrices, {});
     if (!matrices) return fail(matrices.error());
     for (size_t i = 0; i < out.size(); ++i) {
         Affined joint_from_bind;
@@ -50,4 +50,4 @@ Result<std::vector<Affined>> skin_matrices(const Document& document,
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/geometry/skins.h - the matrices by which joints move the vertices that hang on them.
+// gltf/geometry/skins.h - the joint matrices of a skin: world space from bind pose.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,7 +6,7 @@
 
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// For each joint of a skin: the world from the pose that the mesh was bound in.
 ///
@@ -17,4 +17,4 @@ Result<std::vector<Affined>> skin_matrices(const Document& document,
                                            const std::vector<Affined>& world_from_node,
                                            int skin);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

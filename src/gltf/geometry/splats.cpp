@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "gltf/geometry/particles.h"
-#include "gltf/geometry/splat_part.h"
+#include "gltf/geometry/splat_primitive.h"
 #include "gltf/parse/list_text.h"
 #include "gltf/parse/trs.h"
 
@@ -12,45 +12,45 @@
 #include <cmath>
 #include <map>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-constexpr size_t most_splats = size_t{1} << 29;
+constexpr size_t max_splats = size_t{1} << 29;
 constexpr double farthest_position = 1e18;
 
-/// Flatter than this, a splat is told apart from a disc by nobody, and single precision sees it.
-constexpr double least_flatness = 1e-5;
+/// Least ratio of axes: it looks like a disc, and single precision still resolves it.
+constexpr double min_flatness = 1e-5;
 
-using Places = std::vector<const PlacedNode*>;
+using PlacedNodes = std::vector<const PlacedNode*>;
 
 /// The nodes that show each primitive of splats, in the order of the scene.
-std::map<std::pair<int, int>, Places> find_places(const MeshSources& sources) {
-    std::map<std::pair<int, int>, Places> out;
-    for (const PlacedNode& place : sources.placed) {
-        const int mesh = sources.document.nodes[static_cast<size_t>(place.node)].mesh;
-        if (mesh < 0 || !place.visible) continue;
+std::map<std::pair<int, int>, PlacedNodes> find_placed_nodes(const MeshSources& sources) {
+    std::map<std::pair<int, int>, PlacedNodes> out;
+    for (const PlacedNode& placed_node : sources.placed) {
+        const int mesh = sources.document.nodes[static_cast<size_t>(placed_node.node)].mesh;
+        if (mesh < 0 || !placed_node.visible) continue;
         const auto& primitives = sources.document.meshes[static_cast<size_t>(mesh)].primitives;
         for (size_t i = 0; i < primitives.size(); ++i) {
-            if (primitives[i].is_splats) out[{mesh, static_cast<int>(i)}].push_back(&place);
+            if (primitives[i].is_splats) out[{mesh, static_cast<int>(i)}].push_back(&placed_node);
         }
     }
     return out;
 }
 
-Affined mesh_from_ball(const SplatPart& part, uint32_t splat) {
+Affined mesh_from_ball(const SplatPrimitive& primitive, uint32_t splat) {
     const auto three = [&](const std::vector<float>& values) {
         const float* at = &values[3 * size_t{splat}];
         return std::array<double, 3>{at[0], at[1], at[2]};
     };
-    const float* at = &part.rotations[4 * size_t{splat}];
+    const float* at = &primitive.rotations[4 * size_t{splat}];
     std::array<double, 4> rotation = {at[0], at[1], at[2], at[3]};
     normalize_quaternion(rotation);
-    std::array<double, 3> scale = three(part.scales);
-    const double least = least_flatness * std::max({scale[0], scale[1], scale[2]});
+    std::array<double, 3> scale = three(primitive.scales);
+    const double least = min_flatness * std::max({scale[0], scale[1], scale[2]});
     for (double& s : scale)
         s = std::max(s, least);
-    return affine_from_trs(three(part.positions), rotation, scale);
+    return affine_from_trs(three(primitive.positions), rotation, scale);
 }
 
 /// Adds primitives of splats one after the other.
@@ -59,35 +59,37 @@ public:
     SplatBuilder(const MeshSources& sources, Problems& problems, Scene& scene, Log& log)
         : sources_(sources), problems_(problems), scene_(scene), log_(log) {}
 
-    Result<void> add(PartName name, const Places& places);
+    Result<void> add(PrimitiveName name, const PlacedNodes& placed_nodes);
     void warn();
 
 private:
-    std::string where(PartName name) const {
+    std::string where(PrimitiveName name) const {
         return sources_.document.at("meshes", static_cast<size_t>(name.mesh)) + "/primitives/" +
                std::to_string(name.primitive);
     }
-    void add_colors(const SplatPart& part, const std::vector<uint32_t>& order, bool linear);
-    bool add_place(const SplatPart& part,
-                   const std::vector<uint32_t>& order,
-                   const PlacedNode& place);
-    bool grow_bounds(const SplatPart& part, const Affined& world);
+    void add_colors(const SplatPrimitive& primitive,
+                    const std::vector<uint32_t>& order,
+                    bool linear);
+    bool add_placed_node(const SplatPrimitive& primitive,
+                         const std::vector<uint32_t>& order,
+                         const PlacedNode& placed_node);
+    bool grow_bounds(const SplatPrimitive& primitive, const Affined& world);
 
     const MeshSources& sources_;
     Problems& problems_;
     Scene& scene_;
     Log& log_;
-    SplatGroup group_;  ///< what the places of a primitive have in common
+    SplatGroup group_;  ///< shared by all placements of a primitive
     NameList shrunk_, logarithms_;
 };
 
 /// The colours of a primitive, in the order of its splats in their blocks.
-void SplatBuilder::add_colors(const SplatPart& part,
+void SplatBuilder::add_colors(const SplatPrimitive& primitive,
                               const std::vector<uint32_t>& order,
                               bool linear) {
     SplatField& field = scene_.splats;
     group_ = {};
-    group_.degree = part.degree;
+    group_.degree = primitive.degree;
     group_.linear = linear;
     group_.first_color = field.colors.size();
     group_.first_harmonic = field.harmonics.size();
@@ -95,13 +97,14 @@ void SplatBuilder::add_colors(const SplatPart& part,
     constexpr float middle = 0.5f;
     for (const uint32_t splat : order) {
         for (size_t c = 0; c < 3; ++c)
-            field.colors.push_back(part.harmonics[0][3 * size_t{splat} + c] * harmonic_0 + middle);
+            field.colors.push_back(primitive.harmonics[0][3 * size_t{splat} + c] * harmonic_0 +
+                                   middle);
     }
-    const auto count = static_cast<size_t>(directional_harmonics(part.degree));
+    const auto count = static_cast<size_t>(directional_harmonics(primitive.degree));
     float largest = 0;
     for (size_t i = 1; i <= count; ++i) {
         for (const uint32_t splat : order) {
-            const float* at = &part.harmonics[i][3 * size_t{splat}];
+            const float* at = &primitive.harmonics[i][3 * size_t{splat}];
             largest = std::max({largest, std::abs(at[0]), std::abs(at[1]), std::abs(at[2])});
         }
     }
@@ -112,22 +115,21 @@ void SplatBuilder::add_colors(const SplatPart& part,
     constexpr float most = 32767;
     group_.harmonic_step = largest / most;
     field.harmonics.resize(group_.first_harmonic + 3 * count * order.size());
-    parallel_for(order.size(), [&](size_t row) {
-        int16_t* to = &field.harmonics[group_.first_harmonic + 3 * count * row];
+    parallel_for(order.size(), [&](size_t index) {
+        int16_t* to = &field.harmonics[group_.first_harmonic + 3 * count * index];
         for (size_t i = 1; i <= count; ++i) {
-            const float* at = &part.harmonics[i][3 * size_t{order[row]}];
+            const float* at = &primitive.harmonics[i][3 * size_t{order[index]}];
             for (size_t c = 0; c < 3; ++c)
                 *to++ = static_cast<int16_t>(std::lround(at[c] / largest * most));
         }
     });
 }
 
-/// Makes the scene's bounds hold the splats up to one standard deviation; false: they reach too
-/// far.
-bool SplatBuilder::grow_bounds(const SplatPart& part, const Affined& world) {
+/// Extends the scene's bounds by the splats up to one standard deviation; false: out of range.
+bool SplatBuilder::grow_bounds(const SplatPrimitive& primitive, const Affined& world) {
     Bounds all = scene_.bounds;
-    for (const uint32_t splat : part.good) {
-        const Affined map = compose(world, mesh_from_ball(part, splat));
+    for (const uint32_t splat : primitive.good) {
+        const Affined map = compose(world, mesh_from_ball(primitive, splat));
         float low[3];
         float high[3];
         for (int r = 0; r < 3; ++r) {
@@ -145,14 +147,14 @@ bool SplatBuilder::grow_bounds(const SplatPart& part, const Affined& world) {
 }
 
 /// False: the node moves splats too far.
-bool SplatBuilder::add_place(const SplatPart& part,
-                             const std::vector<uint32_t>& order,
-                             const PlacedNode& place) {
-    const Affined& world = place.world_from_node;
-    if (!grow_bounds(part, world)) return false;
+bool SplatBuilder::add_placed_node(const SplatPrimitive& primitive,
+                                   const std::vector<uint32_t>& order,
+                                   const PlacedNode& placed_node) {
+    const Affined& world = placed_node.world_from_node;
+    if (!grow_bounds(primitive, world)) return false;
     SplatField& field = scene_.splats;
     SplatGroup group = group_;
-    group.node = place.node;
+    group.node = placed_node.node;
     group.count = static_cast<int32_t>(order.size());
     group.first = static_cast<int32_t>(field.boxes.size() * splat_block);
     group.object_from_world = affine_cast<float>(inverse(world));
@@ -165,8 +167,8 @@ bool SplatBuilder::add_place(const SplatPart& part,
     parallel_for(blocks, [&](size_t block) {
         const size_t end = std::min(order.size(), (block + 1) * splat_block);
         for (size_t i = block * splat_block; i < end; ++i) {
-            store_splat(compose(world, mesh_from_ball(part, order[i])),
-                        part.opacities[order[i]],
+            store_splat(compose(world, mesh_from_ball(primitive, order[i])),
+                        primitive.opacities[order[i]],
                         first_block * splat_block + i,
                         field);
         }
@@ -175,31 +177,31 @@ bool SplatBuilder::add_place(const SplatPart& part,
     return true;
 }
 
-Result<void> SplatBuilder::add(PartName name, const Places& places) {
+Result<void> SplatBuilder::add(PrimitiveName name, const PlacedNodes& placed_nodes) {
     const Document& document = sources_.document;
-    const Result<SplatPart> part = read_splat_part(document, sources_.buffers, name);
-    if (!part) {
-        problems_.add(part.error(), {Loss::primitive, "the primitive is not drawn"});
+    const Result<SplatPrimitive> primitive = read_splat_primitive(document, sources_.buffers, name);
+    if (!primitive) {
+        problems_.add(primitive.error(), {Loss::primitive, "the primitive is not drawn"});
         return {};
     }
-    if (part->fault) {
-        const size_t dropped = part->fault->dropped;
-        problems_.add(part->fault->error,
+    if (primitive->fault) {
+        const size_t dropped = primitive->fault->dropped;
+        problems_.add(primitive->fault->error,
                       {Loss::triangle, std::to_string(dropped) + " splats are left out", dropped});
     }
-    const size_t count = part->good.size();
-    if (count * places.size() > most_splats - scene_.splats.boxes.size() * splat_block) {
+    const size_t count = primitive->good.size();
+    if (count * placed_nodes.size() > max_splats - scene_.splats.boxes.size() * splat_block) {
         return fail(
             ExitCode::refused, "E-LIMIT-SPLATS", where(name), "at most 2^29 splats are accepted");
     }
     if (count == 0) return {};
-    if (part->scales_were_logarithms) {
+    if (primitive->scales_were_logarithms) {
         logarithms_.add(document.meshes[static_cast<size_t>(name.mesh)].name);
     }
     std::vector<float> positions;
     positions.reserve(3 * count);
-    for (const uint32_t splat : part->good) {
-        const float* at = &part->positions[3 * size_t{splat}];
+    for (const uint32_t splat : primitive->good) {
+        const float* at = &primitive->positions[3 * size_t{splat}];
         positions.insert(positions.end(), at, at + 3);
     }
     SphereOrders own;
@@ -207,17 +209,17 @@ Result<void> SplatBuilder::add(PartName name, const Places& places) {
     std::vector<uint32_t> order =
         (store != nullptr ? store->sphere_orders : own).order_of(positions);
     for (uint32_t& splat : order)
-        splat = part->good[splat];
-    const GltfPrimitive& primitive = document.meshes[static_cast<size_t>(name.mesh)]
-                                         .primitives[static_cast<size_t>(name.primitive)];
-    add_colors(*part, order, primitive.splats_are_linear);
-    for (const PlacedNode* place : places) {
-        if (is_singular(place->world_from_node)) {
-            shrunk_.add(node_label(document, place->node));
-        } else if (!add_place(*part, order, *place)) {
+        splat = primitive->good[splat];
+    const GltfPrimitive& source = document.meshes[static_cast<size_t>(name.mesh)]
+                                      .primitives[static_cast<size_t>(name.primitive)];
+    add_colors(*primitive, order, source.splats_are_linear);
+    for (const PlacedNode* placed_node : placed_nodes) {
+        if (is_singular(placed_node->world_from_node)) {
+            shrunk_.add(node_label(document, placed_node->node));
+        } else if (!add_placed_node(*primitive, order, *placed_node)) {
             problems_.add({ExitCode::bad_data,
                            "E-NODE-RANGE",
-                           document.at("nodes", static_cast<size_t>(place->node)),
+                           document.at("nodes", static_cast<size_t>(placed_node->node)),
                            "the node moves Gaussian splats of its mesh beyond 1e18"},
                           {Loss::primitive, "they are not drawn there"});
         }
@@ -244,12 +246,12 @@ void SplatBuilder::warn() {
 
 Result<void> add_splats(const MeshSources& sources, Problems& problems, Scene& scene, Log& log) {
     SplatBuilder builder(sources, problems, scene, log);
-    for (const auto& [primitive, places] : find_places(sources)) {
-        const Result<void> done = builder.add({primitive.first, primitive.second}, places);
+    for (const auto& [primitive, placed_nodes] : find_placed_nodes(sources)) {
+        const Result<void> done = builder.add({primitive.first, primitive.second}, placed_nodes);
         if (!done) return done;
     }
     builder.warn();
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

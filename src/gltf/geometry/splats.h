@@ -4,14 +4,14 @@
 
 #include "gltf/geometry/meshes.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// Fills Scene::splats, its bounds and counts. Nodes may turn, stretch and mirror splats; morph
+/// Fills Scene::splats, its bounds and counts. Nodes may rotate, stretch and mirror splats; morph
 /// targets and skins do not move them.
 ///
-/// Out     problems: for each primitive what read_splat_part finds; E-NODE-RANGE a node moves
+/// Out     problems: for each primitive what read_splat_primitive finds; E-NODE-RANGE a node moves
 ///         splats beyond 1e18
 /// Errors  77 E-LIMIT-SPLATS
 Result<void> add_splats(const MeshSources& sources, Problems& problems, Scene& scene, Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

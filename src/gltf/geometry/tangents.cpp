@@ -10,7 +10,7 @@
 #include <cfloat>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 namespace {
 
 constexpr uint32_t nothing = UINT32_MAX;
@@ -290,8 +290,8 @@ Vec3d any_tangent(const Vec3d& normal) {
 /// Sums what the corners say, weighted by their angles, and writes it for each of them.
 void write_group(const Group& group, const Vec3d& normal, bool turned, float* tangents) {
     // A pairwise comparison would take too long around the rare vertex of very many faces.
-    constexpr size_t most_compared = 512;
-    const bool compare = group.members.size() <= most_compared && !surely_agree(group);
+    constexpr size_t max_compared = 512;
+    const bool compare = group.members.size() <= max_compared && !surely_agree(group);
     Vec3d tangent{0.0, 0.0, 0.0};
     for (size_t m = 0; m < group.members.size(); ++m) {
         if (m == 0 || compare) {
@@ -352,4 +352,4 @@ std::vector<float> make_tangents(const TangentMesh& mesh) {
     return tangents;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

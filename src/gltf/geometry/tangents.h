@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// A triangle list. Every index is below the number of vertices; all vertex arrays agree in length.
 struct TangentMesh {
@@ -20,7 +20,7 @@ struct TangentMesh {
 ///
 /// Out     4 floats a corner: a unit vector orthogonal to the corner's normal, and w = 1 or -1 such
 ///         that the bitangent is cross(normal, tangent) * w and points towards decreasing v, which
-///         is up in the picture (glTF counts v downwards, MikkTSpace upwards). Corners of equal
+///         is up in the image (glTF counts v downwards, MikkTSpace upwards). Corners of equal
 ///         position, normal and UV may still differ, where a mirrored texture meets itself.
 /// Errors  none: corners without a direction in the UVs get the X axis, else Y, laid into the
 ///         normal's plane, and w = -1
@@ -28,4 +28,4 @@ struct TangentMesh {
 ///         rules at http://www.mikktspace.com; glTF 2.0 section 3.7.2.1 asks for them
 std::vector<float> make_tangents(const TangentMesh& mesh);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/materials/environment_light.cpp - an image-based light becomes the environment.
+// gltf/materials/environment_light.cpp - an image-based light becomes the environment map.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials/environment_light.h"
 
@@ -10,17 +10,17 @@
 #include <array>
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
 Result<ImageRgb32f> load_face(const ImageSources& sources, size_t image, Log& log) {
     const Result<EncodedImage> encoded = load_encoded(sources, image);
     if (!encoded) return fail(encoded.error());
-    const Result<ImageRgba8> picture =
+    const Result<ImageRgba8> decoded =
         decode_image(encoded->bytes, sources.document.at("images", image), log);
-    if (!picture) return fail(picture.error());
-    return light_from_picture(*picture);
+    if (!decoded) return fail(decoded.error());
+    return light_from_image(*decoded);
 }
 
 /// The inverse of a unit quaternion's rotation.
@@ -31,13 +31,13 @@ Affined inverse_rotation(const std::array<double, 4>& q) {
 Result<std::shared_ptr<const ImageRgb32f>> load_map(const ImageSources& sources,
                                                     size_t light,
                                                     Log& log) {
-    const GltfEnvironment& row = sources.document.environments[light];
+    const GltfEnvironment& record = sources.document.environments[light];
     const std::string where =
         sources.document.at("extensions/EXT_lights_image_based/lights", light);
     CubeFaces faces;
     std::array<Result<void>, 6> done;
     parallel_for(faces.size(), [&](size_t i) {
-        Result<ImageRgb32f> face = load_face(sources, static_cast<size_t>(row.images[i]), log);
+        Result<ImageRgb32f> face = load_face(sources, static_cast<size_t>(record.images[i]), log);
         if (face) {
             faces[i] = std::move(*face);
         } else {
@@ -47,16 +47,16 @@ Result<std::shared_ptr<const ImageRgb32f>> load_map(const ImageSources& sources,
     for (const Result<void>& face : done) {
         if (!face) return fail(face.error());
     }
-    if (row.side != static_cast<uint64_t>(faces[0].width)) {
+    if (record.side != static_cast<uint64_t>(faces[0].width)) {
         log.warn(where,
-                 "specularImageSize is " + std::to_string(row.side) + ", but the images are " +
+                 "specularImageSize is " + std::to_string(record.side) + ", but the images are " +
                      std::to_string(faces[0].width) + " wide; the images count");
     }
-    Result<ImageRgb32f> map =
-        environment_from_cube(faces, inverse_rotation(row.rotation), where + "/specularImages/0");
+    Result<ImageRgb32f> map = environment_from_cube(
+        faces, inverse_rotation(record.rotation), where + "/specularImages/0");
     if (!map) return fail(std::move(map.error()));
     for (float& value : map->pixels)
-        value *= static_cast<float>(row.intensity);
+        value *= static_cast<float>(record.intensity);
     return std::make_shared<const ImageRgb32f>(std::move(*map));
 }
 
@@ -67,13 +67,13 @@ Result<void> add_environment_light(
     const Document& document = sources.document;
     const int light = scene < 0 ? -1 : document.scenes[static_cast<size_t>(scene)].environment;
     if (light < 0) return {};
-    const auto row = static_cast<size_t>(light);
-    out.info.environment = document.environments[row].name;
+    const auto index = static_cast<size_t>(light);
+    out.info.environment = document.environments[index].name;
     if (sources.measure_only) return {};
-    const GltfEnvironment& from = document.environments[row];
+    const GltfEnvironment& from = document.environments[index];
     if (store.map == nullptr || store.intensity != from.intensity ||
         store.rotation != from.rotation) {
-        auto loaded = load_map(sources, row, log);
+        auto loaded = load_map(sources, index, log);
         if (!loaded) return fail(std::move(loaded.error()));
         store = {std::move(*loaded), from.intensity, from.rotation};
     }
@@ -81,4 +81,4 @@ Result<void> add_environment_light(
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

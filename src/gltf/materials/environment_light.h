@@ -1,4 +1,4 @@
-// gltf/materials/environment_light.h - an image-based light becomes the environment.
+// gltf/materials/environment_light.h - an image-based light becomes the environment map.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 
 #include <memory>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// The map of an earlier pose, for poses whose light is the same.
 struct EnvironmentStore {
@@ -17,12 +17,12 @@ struct EnvironmentStore {
 };
 
 /// Fills Scene::environment and its name in Scene::info. The six faces of the finest level of
-/// EXT_lights_image_based are resampled, turned and multiplied as the light says. The prefiltered
-/// levels and the irradiance are what a path tracer finds out by itself.
+/// EXT_lights_image_based are resampled, rotated and scaled as the light says. The prefiltered
+/// levels and the irradiance are ignored: a path tracer needs neither.
 ///
 /// In      scene: in Document::scenes, -1: none; store: empty, or of an earlier pose
 /// Errors  those of load_encoded and decode_image; 65 E-ENV-FACES, 77 E-ENV-LIMIT
 Result<void> add_environment_light(
     const ImageSources& sources, int scene, EnvironmentStore& store, Scene& out, Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -58,4 +58,4 @@ Result<std::vector<LightProfile>> load_light_profiles(const Document& document,
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// By Document::profiles; those that no node uses stay empty and are not opened.
 ///
@@ -20,4 +20,4 @@ Result<std::vector<LightProfile>> load_light_profiles(const Document& document,
                                                       const std::filesystem::path& folder,
                                                       size_t max_numbers = size_t{1} << 28);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/materials/lights_cameras.cpp - lights and cameras take their place in the world.
+// gltf/materials/lights_cameras.cpp - places lights and cameras in world space.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials/lights_cameras.h"
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <optional>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -75,7 +75,7 @@ void set_cone(const GltfLight& light, PunctualLight& out) {
     out.spot_offset = static_cast<float>(-outer * scale);
 }
 
-/// Nothing when the node gives the light no place or direction.
+/// Nothing when the node's transform leaves the light no position or direction.
 std::optional<PunctualLight> place_light(const GltfLight& light, const Affined& world) {
     const std::optional<Vec3d> direction = unit(transform_vector(world, Vec3d{0, 0, -1}));
     const bool directed = light.type != GltfLightType::point;
@@ -136,7 +136,7 @@ std::optional<PunctualLight> place_profile(const GltfProfileUse& use,
     return out;
 }
 
-/// What stands in a node becomes lights of the scene.
+/// Adds the lights of a node to the scene.
 void add_lights(const Document& document, const PlacedNode& place, Scene& scene, Log& log) {
     const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
     const auto add = [&](const std::optional<PunctualLight>& light, const std::string& name) {
@@ -177,4 +177,4 @@ Result<void> add_lights_and_cameras(const Document& document,
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/materials/lights_cameras.h - lights and cameras take their place in the world.
+// gltf/materials/lights_cameras.h - places lights and cameras in world space.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Fills Scene::lights (with Scene::info.light_names) and Scene::cameras. Scale does not change a
 /// light or a camera: cameras are placed by a rotation and a translation.
@@ -19,4 +19,4 @@ Result<void> add_lights_and_cameras(const Document& document,
                                     Scene& scene,
                                     Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::gltf {
 
-const std::array<SlotRow, slot_count> slot_rows = {{
+const std::array<SlotEntry, slot_count> slot_entries = {{
     {"baseColorTexture", true, &Material::base_color_texture, nullptr},
     {"metallicRoughnessTexture", false, &Material::metallic_roughness_texture, nullptr},
     {"normalTexture", false, &Material::normal_texture, nullptr},
@@ -23,7 +23,7 @@ const std::array<SlotRow, slot_count> slot_rows = {{
     {"sheenRoughnessTexture", false, nullptr, &MaterialLayers::sheen_roughness_texture},
     {"anisotropyTexture", false, nullptr, &MaterialLayers::anisotropy_texture},
     {"iridescenceTexture", false, nullptr, &MaterialLayers::iridescence_texture},
-    {"iridescenceThicknessTexture", false, nullptr, &MaterialLayers::film_thickness_texture},
+    {"iridescenceThicknessTexture", false, nullptr, &MaterialLayers::thin_film_thickness_texture},
     {"transmissionTexture", false, nullptr, &MaterialLayers::transmission_texture},
     {"diffuseTransmissionTexture", false, nullptr, &MaterialLayers::diffuse_transmission_texture},
     {"diffuseTransmissionColorTexture",
@@ -34,54 +34,57 @@ const std::array<SlotRow, slot_count> slot_rows = {{
 
 MaterialTable make_material_table(const Document& document) {
     MaterialTable table;
-    table.rows.emplace_back();
+    table.records.emplace_back();
     table.layers.emplace_back();
     table.layered.push_back(0);
     table.names.emplace_back("default material");
     table.numbers.push_back(-1);
     for (const GltfMaterial& material : document.materials) {
-        table.rows.push_back(material.values);
-        // What has no light sends out its base colour alone; points and lines become so later.
+        table.records.push_back(material.values);
+        // Unlit surfaces emit their base colour alone; points and lines become unlit later.
         const bool unlit = (material.values.flags & material_unlit) != 0;
-        if (unlit) std::fill_n(table.rows.back().emission, 3, 0.0f);
+        if (unlit) std::fill_n(table.records.back().emission, 3, 0.0f);
         table.layers.push_back(material.layers.value_or(MaterialLayers{}));
         table.layered.push_back(material.layers ? 1 : 0);
         table.names.push_back(material.name);
         table.numbers.push_back(static_cast<int32_t>(table.numbers.size()) - 1);
     }
-    table.used.assign(table.rows.size(), 0);
+    table.used.assign(table.records.size(), 0);
     return table;
 }
 
-int add_copy(MaterialTable& table, int row, const Material& values, const MaterialLayers& layers) {
-    const auto from = static_cast<size_t>(row);
-    table.rows.push_back(values);
+int add_copy(MaterialTable& table,
+             int index,
+             const Material& values,
+             const MaterialLayers& layers) {
+    const auto from = static_cast<size_t>(index);
+    table.records.push_back(values);
     table.layers.push_back(layers);
     table.layered.push_back(table.layered[from]);
     table.names.push_back(table.names[from]);
     table.numbers.push_back(table.numbers[from]);
     table.used.push_back(0);
-    return static_cast<int>(table.rows.size()) - 1;
+    return static_cast<int>(table.records.size()) - 1;
 }
 
-MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets) {
+MaterialChoice material_record(MaterialTable& table, int material, uint32_t uv_sets) {
     const size_t own = static_cast<size_t>(material) + 1;
     MaterialChoice choice{static_cast<int>(own)};
     uint32_t lost = 0;
     for (size_t i = 0; i < slot_count; ++i) {
-        const TextureSlot& slot = *slot_of(i, table.rows[own], table.layers[own]);
+        const TextureSlot& slot = *slot_of(i, table.records[own], table.layers[own]);
         if (slot.texture < 0 || (uv_sets >> slot.uv_set & 1U) != 0) continue;
         lost |= 1U << i;
-        choice.lost += std::string(choice.lost.empty() ? "" : ", ") + slot_rows[i].name +
+        choice.lost += std::string(choice.lost.empty() ? "" : ", ") + slot_entries[i].name +
                        " (TEXCOORD_" + std::to_string(slot.uv_set) + ")";
     }
     if (lost != 0) {
         const auto [entry, is_new] =
-            table.reduced.try_emplace({material, lost}, static_cast<int>(table.rows.size()));
-        choice.row = entry->second;
+            table.reduced.try_emplace({material, lost}, static_cast<int>(table.records.size()));
+        choice.index = entry->second;
         choice.is_new = is_new;
         if (is_new) {
-            Material copy = table.rows[own];
+            Material copy = table.records[own];
             MaterialLayers layers = table.layers[own];
             for (size_t i = 0; i < slot_count; ++i) {
                 if ((lost >> i & 1U) != 0) *slot_of(i, copy, layers) = TextureSlot{};
@@ -89,50 +92,52 @@ MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets
             add_copy(table, static_cast<int>(own), copy, layers);
         }
     }
-    table.used[static_cast<size_t>(choice.row)] = 1;
+    table.used[static_cast<size_t>(choice.index)] = 1;
     return choice;
 }
 
-MaterialChoice stroke_material_row(MaterialTable& table, int material, const StrokeLook& look) {
-    MaterialChoice choice = material_row(table, material, look.uv_sets);
-    const auto plain = static_cast<size_t>(choice.row);
-    if ((table.rows[plain].flags & material_unlit) != 0) return choice;
-    const auto [entry, is_new] = table.strokes.try_emplace({choice.row, look.has_normals},
-                                                           static_cast<int>(table.rows.size()));
+MaterialChoice points_lines_material_record(MaterialTable& table,
+                                            int material,
+                                            const PointsLinesShading& shading) {
+    MaterialChoice choice = material_record(table, material, shading.uv_sets);
+    const auto plain = static_cast<size_t>(choice.index);
+    if ((table.records[plain].flags & material_unlit) != 0) return choice;
+    const auto [entry, is_new] = table.points_lines.try_emplace(
+        {choice.index, shading.has_normals}, static_cast<int>(table.records.size()));
     if (is_new) {
-        Material values = table.rows[plain];
+        Material values = table.records[plain];
         MaterialLayers layers = table.layers[plain];
         values.normal_texture = {};  // there are no tangents
-        if (look.has_normals) {
+        if (shading.has_normals) {
             values.flags |= material_double_sided;
             layers.medium = 0;
         } else {
             values.flags |= material_unlit;
             values.metallic_roughness_texture = {};
         }
-        const int row = add_copy(table, choice.row, values, layers);
-        if (!look.has_normals) table.layered[static_cast<size_t>(row)] = 0;
+        const int index = add_copy(table, choice.index, values, layers);
+        if (!shading.has_normals) table.layered[static_cast<size_t>(index)] = 0;
     }
-    choice.row = entry->second;
-    table.used[static_cast<size_t>(choice.row)] = 1;
+    choice.index = entry->second;
+    table.used[static_cast<size_t>(choice.index)] = 1;
     return choice;
 }
 
 std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice) {
-    return "the material \"" + table.names[static_cast<size_t>(choice.row)] +
+    return "the material \"" + table.names[static_cast<size_t>(choice.index)] +
            "\" needs texture coordinates that are absent: " + choice.lost;
 }
 
 void move_materials(MaterialTable& table, Scene& scene) {
-    for (size_t row = 0; row < table.rows.size(); ++row) {
-        if (table.layered[row] == 0) continue;
-        table.rows[row].layers = static_cast<int32_t>(scene.layers.size());
-        scene.layers.push_back(table.layers[row]);
+    for (size_t index = 0; index < table.records.size(); ++index) {
+        if (table.layered[index] == 0) continue;
+        table.records[index].layers = static_cast<int32_t>(scene.layers.size());
+        scene.layers.push_back(table.layers[index]);
     }
     number_media(scene);
-    scene.materials = std::move(table.rows);
+    scene.materials = std::move(table.records);
     scene.material_names = std::move(table.names);
     scene.material_numbers = std::move(table.numbers);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// A texture slot of Material (core) or of MaterialLayers (layer).
-struct SlotRow {
+struct SlotEntry {
     const char* name;  ///< in glTF
     bool color;        ///< texels are sRGB-encoded colours, else data
     TextureSlot Material::*core;
@@ -24,61 +24,62 @@ struct SlotRow {
 
 /// All slots, in one order everywhere. To add a slot: append it here and in its struct.
 inline constexpr size_t slot_count = core_slot_count + layer_slot_count;
-extern const std::array<SlotRow, slot_count> slot_rows;
+extern const std::array<SlotEntry, slot_count> slot_entries;
 
-template <typename CoreRow, typename LayerRow>
-auto* slot_of(size_t slot, CoreRow& material, LayerRow& layers) {
-    const SlotRow& row = slot_rows[slot];
-    return row.core != nullptr ? &(material.*row.core) : &(layers.*row.layer);
+template <typename Core, typename Layers>
+auto* slot_of(size_t slot, Core& material, Layers& layers) {
+    const SlotEntry& entry = slot_entries[slot];
+    return entry.core != nullptr ? &(material.*entry.core) : &(layers.*entry.layer);
 }
 
-/// Rows as in Scene::materials while meshes are read; slots still hold glTF texture numbers.
+/// The future Scene::materials while meshes are read; slots still hold glTF texture numbers.
 struct MaterialTable {
-    std::vector<Material> rows;
-    std::vector<MaterialLayers> layers;  ///< one a row; defaults where it has none
+    std::vector<Material> records;
+    std::vector<MaterialLayers> layers;  ///< one each; defaults where it has none
     std::vector<char> layered;           ///< whether it has any
     std::vector<std::string> names;
     std::vector<int32_t> numbers;  ///< in glTF, -1: the default material
     std::vector<char> used;        ///< by a primitive that is drawn
-    /// Row of (glTF material, bit mask of the slots taken away).
+    /// Material of (glTF material, bit mask of the slots taken away).
     std::map<std::pair<int, uint32_t>, int> reduced;
-    /// Row of (row, whether it is lit) of points and lines.
-    std::map<std::pair<int, bool>, int> strokes;
+    /// Material of (material, whether it is lit) of points and lines.
+    std::map<std::pair<int, bool>, int> points_lines;
 };
 
-/// Row 0 is the default material, row m + 1 is glTF material m.
+/// Material 0 is the default material, material m + 1 is glTF material m.
 MaterialTable make_material_table(const Document& document);
 
-/// A primitive's row of the material table.
+/// The material chosen for a primitive.
 struct MaterialChoice {
-    int row = 0;
+    int index = 0;
     std::string lost = {};  ///< "baseColorTexture (TEXCOORD_1)": slots taken away; mostly empty
     bool is_new = false;    ///< the first time that they are taken away
 };
 
-/// The row for a primitive that has `uv_sets` (bit n: TEXCOORD_n); -1 is no material. Slots whose
-/// set is absent are taken away.
-MaterialChoice material_row(MaterialTable& table, int material, uint32_t uv_sets);
+/// The material for a primitive that has `uv_sets` (bit n: TEXCOORD_n); -1 is no material. Slots
+/// whose set is absent are taken away.
+MaterialChoice material_record(MaterialTable& table, int material, uint32_t uv_sets);
 
-/// Adds a row that is like another one in all but its values, and returns it. It is not used yet.
-int add_copy(MaterialTable& table, int row, const Material& values, const MaterialLayers& layers);
+/// Adds a copy of a material with other values, not in use yet; returns its index.
+int add_copy(MaterialTable& table, int index, const Material& values, const MaterialLayers& layers);
 
-/// What of points or lines decides how their material is seen.
-struct StrokeLook {
+/// Properties of points or lines on which their material depends.
+struct PointsLinesShading {
     bool has_normals = false;
     uint32_t uv_sets = 0;  ///< bit n: TEXCOORD_n
 };
 
-/// The row for points or lines. Without normals they are not lit: their radiance is base colour
-/// plus emission. With normals they are pieces of surface, without an inside, that are alike on
-/// both sides.
+/// The material for points or lines. Without normals they are unlit: their radiance is base colour
+/// plus emission. With normals they are double-sided pieces of surface without an inside.
 /// Source  glTF 2.0, Point and Line Materials
-MaterialChoice stroke_material_row(MaterialTable& table, int material, const StrokeLook& look);
+MaterialChoice points_lines_material_record(MaterialTable& table,
+                                            int material,
+                                            const PointsLinesShading& shading);
 
 /// "the material "Glass" needs ...", for messages about slots that were taken away.
 std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice);
 
-/// Hands rows and names over to the scene, and layers to those rows that have any.
+/// Moves materials and names into the scene, and the layers of those that have any.
 void move_materials(MaterialTable& table, Scene& scene);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

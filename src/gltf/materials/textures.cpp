@@ -13,11 +13,11 @@
 #include <optional>
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-constexpr size_t most_texels = (1U << 31) - 1;
+constexpr size_t max_texels = (1U << 31) - 1;
 constexpr uint32_t magenta = 0xFFFF00FF;  // RGBA8: no surface looks like it by chance
 
 class TextureBuilder {
@@ -55,7 +55,7 @@ private:
     void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
     void warn_wrong_encoding(size_t image, ImageEncoding encoding) const;
     Result<void> lay_out();
-    int row_for(const TextureSlot& slot, bool srgb);
+    int record_of(const TextureSlot& slot, bool srgb);
     void resolve_slots();
     Result<void> decode(size_t image);
     void fill_broken(size_t image);
@@ -67,7 +67,7 @@ private:
     Scene& scene_;
     Log& log_;
     std::vector<ImageState> images_;
-    std::map<std::pair<int, uint32_t>, int> rows_;  ///< (image, packed sampler) -> arena row
+    std::map<std::pair<int, uint32_t>, int> records_;  ///< (image, packed sampler) -> arena record
 };
 
 Wrap wrap_of(int mode) {
@@ -88,7 +88,7 @@ uint32_t packed_sampler(const GltfSampler& sampler, bool srgb) {
                         srgb);
 }
 
-/// Who uses which image: drawn materials decide what is decoded, all materials what is told.
+/// Which materials use an image: drawn ones decide what is decoded, all what is reported.
 void TextureBuilder::find_uses() {
     images_.resize(document().images.size());
     scene_.info.images.resize(document().images.size());
@@ -96,20 +96,21 @@ void TextureBuilder::find_uses() {
         scene_.info.images[i].name = document().images[i].name;
         images_[i].glossiness = document().images[i].glossiness;
     }
-    for (size_t row = 0; row < materials_.rows.size(); ++row) {
+    for (size_t material = 0; material < materials_.records.size(); ++material) {
         for (size_t i = 0; i < slot_count; ++i) {
-            const TextureSlot& slot = *slot_of(i, materials_.rows[row], materials_.layers[row]);
+            const TextureSlot& slot =
+                *slot_of(i, materials_.records[material], materials_.layers[material]);
             if (slot.texture < 0) continue;
             const size_t image = static_cast<size_t>(texture(slot.texture).image);
-            const bool color = slot_rows[i].color;
+            const bool color = slot_entries[i].color;
             ImageInfo& info = scene_.info.images[image];
             (color ? info.used_as_color : info.used_as_data) = true;
-            if (materials_.used[row] != 0) images_[image].uses[color ? 1 : 0].used = true;
+            if (materials_.used[material] != 0) images_[image].uses[color ? 1 : 0].used = true;
         }
     }
 }
 
-/// The format that a file's name promises; "" where it promises none.
+/// The format that a file's name suggests; "" where it suggests none.
 std::string format_of_name(const GltfImage& image) {
     if (!image.uri || is_data_uri(*image.uri)) return {};
     std::string ending = std::filesystem::path(*image.uri).extension().string();
@@ -208,7 +209,7 @@ Result<void> TextureBuilder::lay_out() {
             if (!use.used) continue;
             use.base = total;
             total += arena_texels(images_[i]);
-            if (total <= most_texels) continue;
+            if (total <= max_texels) continue;
             return fail(ExitCode::refused,
                         "E-LIMIT-TEXELS",
                         place(i),
@@ -220,46 +221,47 @@ Result<void> TextureBuilder::lay_out() {
     return {};
 }
 
-int TextureBuilder::row_for(const TextureSlot& slot, bool srgb) {
+int TextureBuilder::record_of(const TextureSlot& slot, bool srgb) {
     const GltfTexture& from = texture(slot.texture);
     const GltfSampler sampler =
         from.sampler < 0 ? GltfSampler{} : document().samplers[static_cast<size_t>(from.sampler)];
     const uint32_t packed = packed_sampler(sampler, srgb);
-    std::vector<TextureRow>& rows = scene_.textures.rows;
+    std::vector<TextureRecord>& records = scene_.textures.records;
     const auto [entry, is_new] =
-        rows_.try_emplace({from.image, packed}, static_cast<int>(rows.size()));
+        records_.try_emplace({from.image, packed}, static_cast<int>(records.size()));
     if (!is_new) return entry->second;
 
     const ImageState& image = images_[static_cast<size_t>(from.image)];
-    TextureRow row;
-    row.width = image.width;
-    row.height = image.height;
-    row.levels = mip_level_count(image.width, image.height);
-    row.sampler = packed;
+    TextureRecord record;
+    record.width = image.width;
+    record.height = image.height;
+    record.levels = mip_level_count(image.width, image.height);
+    record.sampler = packed;
     if (image.wide) {
-        row.low_plane = static_cast<int32_t>(mip_chain_texels(image.width, image.height));
+        record.low_plane = static_cast<int32_t>(mip_chain_texels(image.width, image.height));
     }
     size_t offset = image.uses[srgb ? 1 : 0].base;
-    for (int level = 0; level < row.levels; ++level) {
-        row.level_offset[level] = static_cast<int32_t>(offset);
+    for (int level = 0; level < record.levels; ++level) {
+        record.level_offset[level] = static_cast<int32_t>(offset);
         offset += static_cast<size_t>(std::max(1, image.width >> level)) *
                   static_cast<size_t>(std::max(1, image.height >> level));
     }
-    rows.push_back(row);
+    records.push_back(record);
     return entry->second;
 }
 
 void TextureBuilder::resolve_slots() {
-    for (size_t row = 0; row < materials_.rows.size(); ++row) {
+    for (size_t material = 0; material < materials_.records.size(); ++material) {
         for (size_t i = 0; i < slot_count; ++i) {
-            TextureSlot& slot = *slot_of(i, materials_.rows[row], materials_.layers[row]);
-            if (materials_.used[row] == 0) slot = TextureSlot{};
+            TextureSlot& slot =
+                *slot_of(i, materials_.records[material], materials_.layers[material]);
+            if (materials_.used[material] == 0) slot = TextureSlot{};
             if (slot.texture < 0) continue;
             const auto image = static_cast<size_t>(texture(slot.texture).image);
-            if (images_[image].broken && !slot_rows[i].color) {
+            if (images_[image].broken && !slot_entries[i].color) {
                 slot = TextureSlot{};
             } else {
-                slot.texture = row_for(slot, slot_rows[i].color);
+                slot.texture = record_of(slot, slot_entries[i].color);
             }
         }
     }
@@ -323,8 +325,8 @@ void TextureBuilder::decode_all() {
     }
 }
 
-/// What an earlier scene has left is taken over, if it has all that this one needs; what that one
-/// needed is decoded again beside the rest, else two scenes could take turns in decoding.
+/// Reuses an earlier scene's texels if it has all images that this one needs. Otherwise images of
+/// both are decoded, lest two scenes keep displacing each other's.
 bool TextureBuilder::take_stored() {
     TextureStore& store = sources_.store;
     if (store.images.empty() || store.images.size() != images_.size()) return false;
@@ -377,4 +379,4 @@ Result<void> add_textures(const TextureSources& sources,
     return TextureBuilder(sources, materials, problems, scene, log).build();
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

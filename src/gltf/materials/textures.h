@@ -8,7 +8,7 @@
 
 #include <filesystem>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// One image as colour (1) or as data (0).
 struct ImageUse {
@@ -27,7 +27,7 @@ struct ImageState {
     bool used() const { return uses[0].used || uses[1].used; }
 };
 
-/// Decoded images, on their way from one scene of an asset to the next.
+/// Decoded images, kept from one scene of an asset to the next.
 struct TextureStore {
     std::vector<ImageState> images;  ///< empty: nothing was decoded yet
     std::vector<ImageInfo> infos;
@@ -40,13 +40,13 @@ struct TextureSources {
     const BufferStore& buffers;
     std::filesystem::path folder;  ///< the asset's
     TextureStore& store;           ///< images that it holds are not decoded again
-    bool measure_only = false;     ///< rows are made, texels are not decoded
+    bool measure_only = false;     ///< records are made, texels are not decoded
 };
 
 /// Fills Scene::textures and Scene::info.images, and turns the texture numbers in the slots of used
-/// materials into rows of the arena; slots of unused materials become empty.
+/// materials into records of the arena; slots of unused materials become empty.
 ///
-/// An image that is used as colour and as data is stored twice, with different mip chains. Rows
+/// An image that is used as colour and as data is stored twice, with different mip chains. Records
 /// that differ only in their sampler share texels.
 ///
 /// Out     problems: for each image that a drawn material uses 67 E-RES-MISSING, E-IMG-*;
@@ -60,4 +60,4 @@ Result<void> add_textures(const TextureSources& sources,
                           Scene& scene,
                           Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,28 +1,28 @@
-// gltf/parse/animation_pointer.cpp - what a pointer of KHR_animation_pointer names and sets.
+// gltf/parse/animation_pointer.cpp - resolves and writes what KHR_animation_pointer names.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/animation_pointer.h"
 
 #include "gltf/parse/camera_extension.h"
-#include "gltf/parse/light_camera_rows.h"
+#include "gltf/parse/light_camera_entries.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string_view>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
 /// Properties of nodes that are not in tables of their own. To animate one more of a material, a
-/// light or a camera, add its row to the table by which it is read.
-struct NodeRow {
+/// light or a camera, add its entry to the table by which it is read.
+struct NodeEntry {
     const char* place;
     ChannelPath path;
     size_t width;  ///< 0: as many as there are weights
     bool in_use = true;
 };
 
-constexpr NodeRow node_rows[] = {
+constexpr NodeEntry node_entries[] = {
     {"translation", ChannelPath::translation, 3},
     {"rotation", ChannelPath::rotation, 4},
     {"scale", ChannelPath::scale, 3},
@@ -41,26 +41,26 @@ constexpr const char* environments_place = "/extensions/EXT_lights_image_based/l
 
 /// A number as JSON pointers write it; -1: it is none.
 int index_of(std::string_view text) {
-    constexpr size_t most_digits = 9;
-    const bool digits = !text.empty() && text.size() <= most_digits &&
+    constexpr size_t max_digits = 9;
+    const bool digits = !text.empty() && text.size() <= max_digits &&
                         text.find_first_not_of("0123456789") == std::string_view::npos;
     return digits ? std::stoi(std::string(text)) : -1;
 }
 
-/// Takes a beginning away; false: the text has another one.
+/// Removes a prefix; false: the text begins otherwise.
 bool take(std::string_view& text, std::string_view beginning) {
     if (text.substr(0, beginning.size()) != beginning) return false;
     text.remove_prefix(beginning.size());
     return true;
 }
 
-/// A pointer's part behind an array's element, and which element that is.
+/// An element of an array, and the pointer's path below it.
 struct Below {
     int index;
     std::string_view place;
 };
 
-/// Nothing: the pointer does not lead into that array, or beyond its end.
+/// Nothing when the pointer leads elsewhere or beyond the array's end.
 std::optional<Below> below(std::string_view pointer, std::string_view array, size_t count) {
     if (!take(pointer, array)) return std::nullopt;
     const size_t slash = pointer.find('/');
@@ -70,15 +70,15 @@ std::optional<Below> below(std::string_view pointer, std::string_view array, siz
     return Below{index, pointer.substr(slash + 1)};
 }
 
-/// How far a place agrees with a row's: it, an element of it, or nothing.
+/// How a path matches an entry's: as a whole, by one element, or not at all.
 struct Match {
     bool found = false;
     int element = -1;
 };
 
-/// In      width: numbers that the row has; 0: any
-Match match(std::string_view place, std::string_view row, size_t width) {
-    if (!take(place, row)) return {};
+/// In      width: numbers that the entry has; 0: any
+Match match(std::string_view place, std::string_view entry, size_t width) {
+    if (!take(place, entry)) return {};
     if (place.empty()) return {true, -1};
     if (width == 1 || !take(place, "/")) return {};
     const int element = index_of(place);
@@ -95,35 +95,35 @@ PointedProperty property_of(ChannelPath path, int target, const Match& matched, 
     return out;
 }
 
-/// Looks for a place in a table of an object's numbers.
+/// Finds a path in a table of an object's numbers.
 template <typename T>
-std::optional<PointedProperty> find_row(std::span<const NumberRow<T>> rows,
-                                        ChannelPath path,
-                                        int target,
-                                        std::string_view place) {
+std::optional<PointedProperty> find_entry(std::span<const NumberEntry<T>> entries,
+                                          ChannelPath path,
+                                          int target,
+                                          std::string_view place) {
     T object;
-    for (size_t i = 0; i < rows.size(); ++i) {
-        const size_t width = rows[i].numbers(object).size();
-        const Match matched = match(place, rows[i].place, width);
+    for (size_t i = 0; i < entries.size(); ++i) {
+        const size_t width = entries[i].numbers(object).size();
+        const Match matched = match(place, entries[i].place, width);
         if (!matched.found) continue;
         PointedProperty out = property_of(path, target, matched, width);
-        out.property.row = static_cast<int>(i);
+        out.property.entry = static_cast<int>(i);
         return out;
     }
     return std::nullopt;
 }
 
 std::optional<PointedProperty> find_in_node(const Below& node) {
-    for (const NodeRow& row : node_rows) {
-        const Match matched = match(node.place, row.place, row.width);
+    for (const NodeEntry& entry : node_entries) {
+        const Match matched = match(node.place, entry.place, entry.width);
         if (!matched.found) continue;
-        PointedProperty out = property_of(row.path, node.index, matched, row.width);
-        out.in_use = row.in_use;
+        PointedProperty out = property_of(entry.path, node.index, matched, entry.width);
+        out.in_use = entry.in_use;
         return out;
     }
     std::string_view place = node.place;
     if (!take(place, profile_place)) return std::nullopt;
-    return find_row(profile_rows, ChannelPath::profile, node.index, place);
+    return find_entry(profile_entries, ChannelPath::profile, node.index, place);
 }
 
 std::optional<PointedProperty> find_in_mesh(const Below& mesh) {
@@ -137,14 +137,14 @@ std::optional<PointedProperty> find_in_environment(const Below& light) {
     if (matched.found) {
         return property_of(ChannelPath::environment_rotation, light.index, matched, 4);
     }
-    return find_row(environment_rows, ChannelPath::environment, light.index, light.place);
+    return find_entry(environment_entries, ChannelPath::environment, light.index, light.place);
 }
 
 std::optional<PointedProperty> find_in_light(const Below& below, const GltfLight& light) {
     if (light.type != GltfLightType::spot && below.place.substr(0, 5) == "spot/") {
         return std::nullopt;
     }
-    return find_row(light_rows, ChannelPath::light, below.index, below.place);
+    return find_entry(light_entries, ChannelPath::light, below.index, below.place);
 }
 
 /// A number of OBSCURA_camera that the file gives; of a list only the elements.
@@ -155,56 +155,56 @@ std::optional<PointedProperty> find_lens_number(const Below& camera, CameraSetti
     }
     std::string_view place = camera.place;
     if (!take(place, camera_place)) return std::nullopt;
-    for (size_t i = 0; i < lens_rows.size(); ++i) {
-        const size_t width = lens_rows[i].numbers(settings).size();
-        if (width == 0 || lens_rows[i].info.key == nullptr) continue;
-        const Match matched = match(place, lens_place(lens_rows[i].info), width);
+    for (size_t i = 0; i < lens_entries.size(); ++i) {
+        const size_t width = lens_entries[i].numbers(settings).size();
+        if (width == 0 || lens_entries[i].info.key == nullptr) continue;
+        const Match matched = match(place, lens_place(lens_entries[i].info), width);
         if (!matched.found || (width > 1 && matched.element < 0)) continue;
         PointedProperty out = property_of(ChannelPath::lens, camera.index, matched, 1);
-        out.property.row = static_cast<int>(i);
+        out.property.entry = static_cast<int>(i);
         return out;
     }
     return std::nullopt;
 }
 
 std::optional<PointedProperty> find_in_camera(const Below& below, const GltfCamera& camera) {
-    const auto rows = camera.orthographic ? orthographic_rows : perspective_rows;
-    const auto out = find_row(rows, ChannelPath::camera, below.index, below.place);
+    const auto entries = camera.orthographic ? orthographic_entries : perspective_entries;
+    const auto out = find_entry(entries, ChannelPath::camera, below.index, below.place);
     return out ? out : find_lens_number(below, camera.settings);
 }
 
-std::string place_of(const MaterialRow& row) {
-    const std::string object = row.object.place;
-    return object + (object.empty() ? "" : "/") + row.key;
+std::string place_of(const MaterialEntry& entry) {
+    const std::string object = entry.object.place;
+    return object + (object.empty() ? "" : "/") + entry.key;
 }
 
-/// A number of KHR_texture_transform of the texture that a row names.
-std::optional<PointedProperty> find_transform(const Below& material, size_t texture_row) {
+/// A number of KHR_texture_transform of the texture that an entry names.
+std::optional<PointedProperty> find_transform(const Below& material, size_t texture_entry) {
     std::string_view place = material.place;
-    if (!take(place, place_of(material_rows[texture_row])) || !take(place, transform_place)) {
+    if (!take(place, place_of(material_entries[texture_entry])) || !take(place, transform_place)) {
         return std::nullopt;
     }
-    auto out = find_row(transform_rows, ChannelPath::texture_transform, material.index, place);
-    if (out) out->property.texture = static_cast<int>(texture_row);
+    auto out = find_entry(transform_entries, ChannelPath::texture_transform, material.index, place);
+    if (out) out->property.texture = static_cast<int>(texture_entry);
     return out;
 }
 
 std::optional<PointedProperty> find_in_material(const Below& material,
                                                 const MaterialFactors& factors) {
     MaterialFactors any;
-    for (size_t i = 0; i < material_rows.size(); ++i) {
-        const MaterialRow& row = material_rows[i];
-        if (row.texture != nullptr && !(factors.*row.texture).given) continue;
-        if (row.numbers == nullptr) {
+    for (size_t i = 0; i < material_entries.size(); ++i) {
+        const MaterialEntry& entry = material_entries[i];
+        if (entry.texture != nullptr && !(factors.*entry.texture).given) continue;
+        if (entry.numbers == nullptr) {
             const std::optional<PointedProperty> out = find_transform(material, i);
             if (out) return out;
             continue;
         }
-        const size_t width = row.numbers(any).size();
-        const Match matched = match(material.place, place_of(row), width);
+        const size_t width = entry.numbers(any).size();
+        const Match matched = match(material.place, place_of(entry), width);
         if (!matched.found) continue;
         PointedProperty out = property_of(ChannelPath::material, material.index, matched, width);
-        out.property.row = static_cast<int>(i);
+        out.property.entry = static_cast<int>(i);
         return out;
     }
     return std::nullopt;
@@ -215,9 +215,9 @@ T& at(std::vector<T>& array, int index) {
     return array[static_cast<size_t>(index)];
 }
 
-template <typename Rows>
-const auto& at(const Rows& rows, int index) {
-    return rows[static_cast<size_t>(index)];
+template <typename Entries>
+const auto& at(const Entries& entries, int index) {
+    return entries[static_cast<size_t>(index)];
 }
 
 void write(const AnimatedProperty& property,
@@ -242,15 +242,16 @@ void set_in_material(const AnimatedProperty& property,
                      std::span<const double> value,
                      MaterialFactors& factors) {
     const bool transforms = property.path == ChannelPath::texture_transform;
-    const MaterialRow& row = at(material_rows, transforms ? property.texture : property.row);
-    factors.extensions |= row.object.extensions;
+    const MaterialEntry& entry =
+        at(material_entries, transforms ? property.texture : property.entry);
+    factors.extensions |= entry.object.extensions;
     if (!transforms) {
-        write(property, value, row.limits, row.numbers(factors));
+        write(property, value, entry.limits, entry.numbers(factors));
         return;
     }
-    TextureFactors& texture = factors.*row.texture;
+    TextureFactors& texture = factors.*entry.texture;
     texture.transformed = true;
-    const NumberRow<TextureFactors>& number = at(transform_rows, property.row);
+    const NumberEntry<TextureFactors>& number = at(transform_entries, property.entry);
     write(property, value, number.limits, number.numbers(texture));
 }
 
@@ -270,13 +271,13 @@ tl::unexpected<Error> bad_lens(const Document& document,
 Result<void> set_lens_number(const AnimatedProperty& property,
                              std::span<const double> value,
                              Document& document) {
-    const LensRow& row = at(lens_rows, property.row);
-    const auto wrong = lens_fault(row.info, value);
+    const LensEntry& entry = at(lens_entries, property.entry);
+    const auto wrong = lens_fault(entry.info, value);
     if (wrong) {
-        const std::string place = camera_place + lens_place(row.info);
+        const std::string place = camera_place + lens_place(entry.info);
         return bad_lens(document, property.target, place, {camera_value_id, *wrong});
     }
-    write(property, value, {}, row.numbers(at(document.cameras, property.target).settings));
+    write(property, value, {}, entry.numbers(at(document.cameras, property.target).settings));
     return {};
 }
 
@@ -293,12 +294,12 @@ Result<void> set_blades(int camera, double value, Document& document) {
 }
 
 template <typename T>
-void set_row(std::span<const NumberRow<T>> rows,
-             const AnimatedProperty& property,
-             std::span<const double> value,
-             T& object) {
-    const NumberRow<T>& row = at(rows, property.row);
-    write(property, value, row.limits, row.numbers(object));
+void set_entry(std::span<const NumberEntry<T>> entries,
+               const AnimatedProperty& property,
+               std::span<const double> value,
+               T& object) {
+    const NumberEntry<T>& entry = at(entries, property.entry);
+    write(property, value, entry.limits, entry.numbers(object));
 }
 
 }  // namespace
@@ -327,25 +328,25 @@ std::optional<PointedProperty> find_property(const Document& document, const std
 
 std::vector<std::string> property_patterns() {
     std::vector<std::string> out;
-    const auto add_rows = [&](const std::string& object, const auto& rows) {
-        for (const auto& row : rows)
-            out.push_back(object + row.place);
+    const auto add_entries = [&](const std::string& object, const auto& entries) {
+        for (const auto& entry : entries)
+            out.push_back(object + entry.place);
     };
-    add_rows("/nodes/*/", node_rows);
-    add_rows(std::string("/nodes/*/") + profile_place, profile_rows);
+    add_entries("/nodes/*/", node_entries);
+    add_entries(std::string("/nodes/*/") + profile_place, profile_entries);
     out.emplace_back("/meshes/*/weights");
-    for (const MaterialRow& row : material_rows) {
-        if (row.numbers != nullptr) out.push_back("/materials/*/" + place_of(row));
+    for (const MaterialEntry& entry : material_entries) {
+        if (entry.numbers != nullptr) out.push_back("/materials/*/" + place_of(entry));
     }
-    add_rows(std::string("/materials/*/TEXTURE") + transform_place, transform_rows);
-    add_rows(std::string(lights_place) + "*/", light_rows);
-    add_rows(std::string(environments_place) + "*/", environment_rows);
+    add_entries(std::string("/materials/*/TEXTURE") + transform_place, transform_entries);
+    add_entries(std::string(lights_place) + "*/", light_entries);
+    add_entries(std::string(environments_place) + "*/", environment_entries);
     out.push_back(std::string(environments_place) + "*/rotation");
-    add_rows("/cameras/*/", perspective_rows);
-    add_rows("/cameras/*/", orthographic_rows);
-    for (const LensRow& row : lens_rows) {
-        if (row.is_real && row.info.key != nullptr) {
-            out.push_back("/cameras/*/" + (camera_place + lens_place(row.info)));
+    add_entries("/cameras/*/", perspective_entries);
+    add_entries("/cameras/*/", orthographic_entries);
+    for (const LensEntry& entry : lens_entries) {
+        if (entry.is_real && entry.info.key != nullptr) {
+            out.push_back("/cameras/*/" + (camera_place + lens_place(entry.info)));
         }
     }
     out.push_back(std::string("/cameras/*/") + blades_place);
@@ -367,10 +368,10 @@ Result<void> set_property(const AnimatedProperty& property,
         case ChannelPath::visible:
             break;
         case ChannelPath::profile:
-            set_row(profile_rows, property, value, at(document.nodes, target).ies);
+            set_entry(profile_entries, property, value, at(document.nodes, target).ies);
             break;
         case ChannelPath::environment:
-            set_row(environment_rows, property, value, at(document.environments, target));
+            set_entry(environment_entries, property, value, at(document.environments, target));
             break;
         case ChannelPath::environment_rotation:
             write(property, value, {}, at(document.environments, target).rotation);
@@ -380,15 +381,15 @@ Result<void> set_property(const AnimatedProperty& property,
             set_in_material(property, value, at(document.material_factors, target));
             break;
         case ChannelPath::light:
-            set_row(light_rows, property, value, at(document.lights, target));
+            set_entry(light_entries, property, value, at(document.lights, target));
             finish_range(at(document.lights, target));
             break;
         case ChannelPath::camera: {
             GltfCamera& camera = at(document.cameras, target);
-            set_row(camera.orthographic ? orthographic_rows : perspective_rows,
-                    property,
-                    value,
-                    camera);
+            set_entry(camera.orthographic ? orthographic_entries : perspective_entries,
+                      property,
+                      value,
+                      camera);
             break;
         }
         case ChannelPath::lens:
@@ -399,4 +400,4 @@ Result<void> set_property(const AnimatedProperty& property,
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -5,7 +5,7 @@
 #include "base/json/json_text.h"
 #include "gltf/parse/glb.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -45,10 +45,10 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path,
     }
     std::string_view text(reinterpret_cast<const char*>(all.data()), all.size());
     if (is_glb(all)) {
-        const Result<GlbParts> parts = split_glb(all, where, log);
-        if (!parts) return fail(parts.error());
-        text = parts->json;
-        asset.glb_binary = parts->binary;
+        const Result<GlbChunks> chunks = split_glb(all, where, log);
+        if (!chunks) return fail(chunks.error());
+        text = chunks->json;
+        asset.glb_binary = chunks->binary;
     }
     Result<nlohmann::json> tree = parse_json_text(text, where, log);
     if (!tree) return fail(std::move(tree.error()));
@@ -59,4 +59,4 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path,
     return asset;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -9,7 +9,7 @@
 #include <optional>
 #include <span>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// An asset's file taken apart, with its JSON already read.
 struct OpenedAsset {
@@ -25,4 +25,4 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path,
                                Log& log,
                                bool occlusion);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -82,17 +82,17 @@ void read_section(const ValueReader& object,
                   const std::vector<std::string>& own,
                   CameraSettings& out) {
     std::vector<std::string> keys = own;
-    for_each_camera_setting([&](const auto& row) {
-        if (row.info.key && row.info.section == section) keys.emplace_back(row.info.key);
+    for_each_camera_setting([&](const auto& entry) {
+        if (entry.info.key && entry.info.section == section) keys.emplace_back(entry.info.key);
     });
     refuse_other_keys(object, keys);
-    for_each_camera_setting([&](const auto& row) {
-        using T = typename std::remove_cvref_t<decltype(out.*row.member)>::value_type;
-        if (!row.info.key || row.info.section != section) return;
+    for_each_camera_setting([&](const auto& entry) {
+        using T = typename std::remove_cvref_t<decltype(out.*entry.member)>::value_type;
+        if (!entry.info.key || entry.info.section != section) return;
         if constexpr (std::is_enum_v<T>) {
-            read_choice(object, row.info.key, row.choices, out.*row.member);
+            read_choice(object, entry.info.key, entry.choices, out.*entry.member);
         } else if constexpr (!std::is_same_v<T, std::string> && !std::is_same_v<T, Intrinsics>) {
-            read_value(object, row.info, out.*row.member);
+            read_value(object, entry.info, out.*entry.member);
         }
     });
 }
@@ -102,34 +102,35 @@ constexpr bool is_real = std::is_same_v<T, double>;
 template <size_t N>
 constexpr bool is_real<std::array<double, N>> = true;
 
-template <size_t row>
-constexpr auto member_of = std::get<row>(camera_setting_table).member;
+template <size_t entry>
+constexpr auto member_of = std::get<entry>(camera_setting_table).member;
 
-template <size_t row>
+template <size_t entry>
 using MemberType =
-    typename std::remove_cvref_t<decltype(CameraSettings{}.*member_of<row>)>::value_type;
+    typename std::remove_cvref_t<decltype(CameraSettings{}.*member_of<entry>)>::value_type;
 
-template <size_t row>
+template <size_t entry>
 std::span<double> said_numbers(CameraSettings& settings) {
-    auto& value = settings.*member_of<row>;
-    if constexpr (is_real<MemberType<row>>) {
+    auto& value = settings.*member_of<entry>;
+    if constexpr (is_real<MemberType<entry>>) {
         if (value) return span_of(*value);
     }
     return {};
 }
 
-template <size_t... row>
-constexpr auto rows_of(std::index_sequence<row...>) {
-    return std::array{LensRow{
-        std::get<row>(camera_setting_table).info, is_real<MemberType<row>>, said_numbers<row>}...};
+template <size_t... entry>
+constexpr auto entries_of(std::index_sequence<entry...>) {
+    return std::array{LensEntry{std::get<entry>(camera_setting_table).info,
+                                is_real<MemberType<entry>>,
+                                said_numbers<entry>}...};
 }
 
-constexpr size_t row_count = std::tuple_size_v<decltype(camera_setting_table)>;
-constexpr auto rows = rows_of(std::make_index_sequence<row_count>());
+constexpr size_t entry_count = std::tuple_size_v<decltype(camera_setting_table)>;
+constexpr auto entries = entries_of(std::make_index_sequence<entry_count>());
 
 }  // namespace
 
-const std::span<const LensRow> lens_rows = rows;
+const std::span<const LensEntry> lens_entries = entries;
 
 std::string lens_place(const CameraSettingInfo& info) {
     const std::string section = info.section;
@@ -184,4 +185,4 @@ CameraSettings read_camera_extension(const ValueReader& object) {
     return out;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

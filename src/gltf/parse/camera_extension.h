@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gltf/parse/number_row.h"
+#include "gltf/parse/number_entry.h"
 #include "gltf/parse/value_reader.h"
 #include "scene/camera_setting_table.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 inline constexpr const char* camera_extension_name = "OBSCURA_camera";
 
@@ -18,19 +18,19 @@ CameraSettings read_camera_extension(const ValueReader& object);
 
 inline constexpr const char* camera_value_id = "E-CAM-VALUE";
 
-/// A row of camera_setting_table, of which animations want the real numbers.
-struct LensRow {
+/// An entry of camera_setting_table, of which animations want the real numbers.
+struct LensEntry {
     CameraSettingInfo info;  ///< numbers outside its range are a fault
     bool is_real;            ///< a real number, or a list of them
-    /// The numbers in settings; empty where they are not said, or are none.
+    /// The numbers in settings; empty where they are absent or not numbers.
     std::span<double> (*numbers)(CameraSettings& settings);
 };
 
-extern const std::span<const LensRow> lens_rows;
+extern const std::span<const LensEntry> lens_entries;
 
-/// Where the extension's object has a setting, as in a JSON pointer: "lens/fstop".
+/// Path of a setting in the extension's object, as in a JSON pointer: "lens/fstop".
 std::string lens_place(const CameraSettingInfo& info);
-/// What is expected in place of numbers outside their range; nothing: they are good.
+/// The range to name in a fault of numbers outside it; nothing: they are good.
 std::optional<std::string> lens_fault(const CameraSettingInfo& info,
                                       std::span<const double> numbers);
 /// The same of an integer.
@@ -38,4 +38,4 @@ std::optional<std::string> count_fault(const CameraSettingInfo& info, double cou
 /// The same of `far`, which must lie behind `near`.
 std::optional<std::string> clipping_fault(const CameraSettings& settings);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/parse/document.cpp - a glTF file as plain structs, every index checked.
+// gltf/parse/document.cpp - reads a glTF file into plain structs, every index checked.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/document.h"
 
@@ -21,7 +21,7 @@
 #include <cstdlib>
 #include <limits>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -44,7 +44,7 @@ Version parse_version(const std::string& text) {
     return {std::atoi(major.c_str()), std::atoi(minor.c_str())};
 }
 
-/// Checked first: what another version says is not for us to judge.
+/// Checked first: in another version everything else may differ.
 Result<void> check_version(const JsonReader& root, const Document& document) {
     root.require("asset");
     const JsonReader asset = root.child("asset");
@@ -79,7 +79,7 @@ void warn_places(const DocumentReading& reading,
     reading.log.warn(reading.document.file, text + list_text(places));
 }
 
-void read_parts(DocumentReading& reading) {
+void read_top_level_arrays(DocumentReading& reading) {
     read_buffers(reading);
     read_views(reading);
     read_accessors(reading);
@@ -120,7 +120,7 @@ void tell(const DocumentReading& reading, Problems& problems) {
     }
 }
 
-/// What the tree says as a whole, and what has no place in tinygltf's model.
+/// Members of the asset as a whole, and those that tinygltf's model lacks.
 Result<void> read_tree(nlohmann::json& tree, bool lenient, Document& document, Log& log) {
     JsonFault fault;
     fault.file = document.file;
@@ -133,7 +133,7 @@ Result<void> read_tree(nlohmann::json& tree, bool lenient, Document& document, L
     }
     if (fault.error) return fail(std::move(*fault.error));
     document.report = make_report(tree);
-    JsonFault of_xmp = fault;  // the least of what may be wrong: it is told last
+    JsonFault of_xmp = fault;  // the least important fault, reported last
     document.xmp = read_xmp(JsonReader(tree, "", of_xmp), tree);
     check_tree(tree, document, log, fault);
     if (fault.error) return fail(std::move(*fault.error));
@@ -142,6 +142,19 @@ Result<void> read_tree(nlohmann::json& tree, bool lenient, Document& document, L
 }
 
 }  // namespace
+
+size_t component_size(ComponentType type) {
+    switch (type) {
+        case ComponentType::int8:
+        case ComponentType::uint8:
+            return 1;
+        case ComponentType::int16:
+        case ComponentType::uint16:
+            return 2;
+        default:
+            return 4;
+    }
+}
 
 Result<Document> read_document(
     nlohmann::json tree, const std::string& file, Problems& problems, Log& log, bool occlusion) {
@@ -164,7 +177,7 @@ Result<Document> read_document(
                             .fault = fault,
                             .nodes = tree,
                             .node_count = tree["nodes"].size()};
-    read_parts(reading);
+    read_top_level_arrays(reading);
     if (fault.error) return fail(std::move(*fault.error));
     tell(reading, problems);
     const Result<void> graph = check_node_graph(document);
@@ -179,4 +192,4 @@ Result<Document> read_document(
     return document;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -10,7 +10,7 @@
 #include "math/transform.h"
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
-#include "shape/shape_row.h"
+#include "shape/shape_record.h"
 #include "surface/harmonics.h"
 #include "surface/material_layers.h"
 
@@ -22,7 +22,7 @@
 #include <string_view>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 enum class ComponentType : uint16_t {
     int8 = 5120,
@@ -86,8 +86,8 @@ struct GltfAccessor {
     std::array<double, 3> high = {};
 };
 
-/// What lamps and surfaces send out at most, in nits, candela or lux: with a mirror's narrowest
-/// lobe or a lamp's shortest distance it makes products that single precision still holds.
+/// Upper limit on emission, in nits, candela or lux: times a mirror's narrowest lobe, or at a
+/// lamp's shortest distance, single precision still holds the product.
 inline constexpr double brightest = 1e20;
 
 struct GltfImage {
@@ -95,7 +95,7 @@ struct GltfImage {
     std::optional<std::string> uri;
     int view = -1;
     std::string mime;
-    /// Of a copy that holds roughness: what the glossiness is multiplied by, and whose copy it is.
+    /// Of a copy that holds roughness: the factor of the glossiness, and the image that was copied.
     double glossiness = 0;
     int glossiness_of = -1;
 };
@@ -125,7 +125,7 @@ struct GltfSplatAttributes {
     int scale = -1;
     int opacity = -1;
     /// SH_DEGREE_l_COEF_n at l^2 + n
-    std::array<int, most_harmonics> harmonics = {
+    std::array<int, max_harmonics> harmonics = {
         -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
 };
 
@@ -171,8 +171,8 @@ struct GltfMesh {
 /// A shape of OBSCURA_shape or KHR_implicit_shapes.
 struct GltfShape {
     std::string type;
-    bool known = false;  ///< false: a type that nobody may draw
-    ShapeRow row;        ///< for particles only the common radius, size[0]
+    bool known = false;  ///< false: an unknown type, which no node may draw
+    ShapeRecord record;  ///< for particles only the common radius, size[0]
     int positions = -1;  ///< accessors of particles
     int radii = -1;      ///< -1: all have the common radius
     bool double_sided = false;
@@ -256,7 +256,7 @@ struct GltfEnvironment {
     double intensity = 1;
     std::array<double, 4> rotation = {0, 0, 0, 1};  ///< unit
     std::array<int, 6> images = {};                 ///< of mip level 0: +X, -X, +Y, -Y, +Z, -Z
-    uint64_t side = 0;                              ///< that they say to have
+    uint64_t side = 0;                              ///< as the file declares it
 };
 
 struct Document {
@@ -287,7 +287,7 @@ struct Document {
     std::vector<std::string> variants;  ///< KHR_materials_variants: names
     std::string xmp;                    ///< the asset's XMP packet as JSON text
     std::vector<ExtensionInfo> extensions;
-    std::vector<ReportRow> report;
+    std::vector<ReportEntry> report;
     bool keeps_uv = false;         ///< LoadOptions::keeps_uv
     bool reads_occlusion = false;  ///< LoadOptions::occlusion
 
@@ -301,8 +301,8 @@ struct Document {
 /// Reads and checks a whole asset: types, ranges, indices, version, required extensions, the node
 /// graph. Says once what is ignored. Accessors without elements go to `problems` (E-ACC-COUNT).
 ///
-/// The tree is checked and set right (gltf/parse/preflight.h), tinygltf makes its model of it
-/// (gltf/parse/model.h), and the document is made of the model.
+/// The tree is checked and repaired (gltf/parse/preflight.h), tinygltf makes its model from it
+/// (gltf/parse/model.h), and the document is made from the model.
 ///
 /// In      occlusion: LoadOptions::occlusion
 /// Errors  65 E-JSON-TYPE, E-DOC-*, E-NODE-*; 69 E-VERSION, and E-EXT-REQUIRED unless lenient
@@ -312,4 +312,4 @@ Result<Document> read_document(nlohmann::json tree,
                                Log& log,
                                bool occlusion = false);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// A node's transform in parts; the quaternion (x, y, z, w) is unit.
 struct GltfTrs {
@@ -60,11 +60,11 @@ struct AnimatedProperty {
     ChannelPath path = ChannelPath::translation;
     int target = -1;   ///< number of the node, mesh, material, light or camera
     int element = -1;  ///< the one number of a list, or the one weight, that changes; -1: all
-    int row = -1;      ///< in the table of numbers that the path's objects have
-    int texture = -1;  ///< of texture_transform: row of the texture in material_rows
+    int entry = -1;    ///< in the table of numbers that the path's objects have
+    int texture = -1;  ///< of texture_transform: entry of the texture in material_entries
 };
 
-/// Whose values turn along the shortest arc.
+/// True for rotations, which follow the shortest arc.
 inline bool is_quaternion(const AnimatedProperty& property) {
     return property.element < 0 && (property.path == ChannelPath::rotation ||
                                     property.path == ChannelPath::environment_rotation);
@@ -82,4 +82,4 @@ struct GltfAnimation {
     std::vector<GltfChannel> channels;  ///< those that can be played
 };
 
-}  // namespace obscura
+}  // namespace obscura::gltf

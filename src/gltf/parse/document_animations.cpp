@@ -5,7 +5,7 @@
 #include "gltf/parse/animation_pointer.h"
 #include "gltf/parse/list_text.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -259,4 +259,4 @@ void read_animations(DocumentReading& reading) {
     reader.warn();
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

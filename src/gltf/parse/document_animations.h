@@ -4,9 +4,9 @@
 
 #include "gltf/parse/document_reading.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 void read_skins(DocumentReading& reading);
 void read_animations(DocumentReading& reading);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -87,19 +87,6 @@ void read_accessor(DocumentReading& reading,
 
 }  // namespace
 
-size_t component_size(ComponentType type) {
-    switch (type) {
-        case ComponentType::int8:
-        case ComponentType::uint8:
-            return 1;
-        case ComponentType::int16:
-        case ComponentType::uint16:
-            return 2;
-        default:
-            return 4;
-    }
-}
-
 void read_buffers(DocumentReading& reading) {
     for (size_t i = 0; i < reading.model.buffers.size(); ++i)
         reading.document.buffers[i].name = reading.model.buffers[i].name;
@@ -138,4 +125,4 @@ void read_accessors(DocumentReading& reading) {
                  });
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -4,11 +4,11 @@
 
 #include "gltf/parse/document_reading.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// The buffers' URIs and lengths are in the document already.
 void read_buffers(DocumentReading& reading);
 void read_views(DocumentReading& reading);
 void read_accessors(DocumentReading& reading);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/document_lights.h"
 
-#include "gltf/parse/light_camera_rows.h"
+#include "gltf/parse/light_camera_entries.h"
 #include "gltf/parse/trs.h"
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -19,8 +19,8 @@ GltfEnvironment read_environment(DocumentReading& reading, const ValueReader& li
     GltfEnvironment out;
     out.name = light.text("name");
     if (out.name.empty()) out.name = "image-based light " + std::to_string(index);
-    for (const NumberRow<GltfEnvironment>& row : environment_rows)
-        clamped_numbers(reading, light, row.place, row.numbers(out), row.limits);
+    for (const NumberEntry<GltfEnvironment>& entry : environment_entries)
+        clamped_numbers(reading, light, entry.place, entry.numbers(out), entry.limits);
     light.numbers("rotation", out.rotation);
     if (!normalize_quaternion(out.rotation)) {
         light.fault("rotation", "E-LIGHT-ROTATION", "the quaternion has no length");
@@ -72,8 +72,8 @@ GltfProfileUse read_node_profile(DocumentReading& reading, const ModelElement& n
     const ValueReader use = node.extension(ies_name);
     use.require("light");
     out.profile = use.index("light", reading.document.profiles.size(), "light profile");
-    for (const NumberRow<GltfProfileUse>& row : profile_rows)
-        clamped_numbers(reading, use, row.place, row.numbers(out), row.limits);
+    for (const NumberEntry<GltfProfileUse>& entry : profile_entries)
+        clamped_numbers(reading, use, entry.place, entry.numbers(out), entry.limits);
     return out;
 }
 
@@ -86,4 +86,4 @@ void read_environments(DocumentReading& reading) {
         });
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

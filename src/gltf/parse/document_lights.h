@@ -4,10 +4,10 @@
 
 #include "gltf/parse/document_reading.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 void read_light_profiles(DocumentReading& reading);
 GltfProfileUse read_node_profile(DocumentReading& reading, const ModelElement& node);
 void read_environments(DocumentReading& reading);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

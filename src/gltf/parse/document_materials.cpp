@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <optional>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -19,8 +19,8 @@ void read_texture_transform(DocumentReading& reading,
     out.transformed = info.has_extension(name);
     if (!out.transformed) return;
     const ValueReader object = info.extension(name);
-    for (const NumberRow<TextureFactors>& row : transform_rows)
-        clamped_numbers(reading, object, row.place, row.numbers(out), row.limits);
+    for (const NumberEntry<TextureFactors>& entry : transform_entries)
+        clamped_numbers(reading, object, entry.place, entry.numbers(out), entry.limits);
     if (object.has("texCoord")) uv_set = object.size("texCoord", 0);
 }
 
@@ -61,7 +61,7 @@ uint32_t read_flags(DocumentReading& reading, const ValueReader& object) {
     return flags;
 }
 
-/// The object of a material in which rows lie; nothing: its extension is absent.
+/// The object of a material that holds the entries; nothing: its extension is absent.
 std::optional<ValueReader> find_object(const ValueReader& material, const MaterialObject& object) {
     constexpr std::string_view extensions = "extensions/";
     const std::string_view place = object.place;
@@ -71,24 +71,25 @@ std::optional<ValueReader> find_object(const ValueReader& material, const Materi
     return material.has_extension(name) ? std::optional(material.extension(name)) : std::nullopt;
 }
 
-void read_row(DocumentReading& reading,
-              const ValueReader& object,
-              const MaterialRow& row,
-              MaterialFactors& out) {
-    const std::string_view key = row.key;
-    if (row.numbers == nullptr) {
-        TextureFactors& texture = out.*row.texture;
+void read_entry(DocumentReading& reading,
+                const ValueReader& object,
+                const MaterialEntry& entry,
+                MaterialFactors& out) {
+    const std::string_view key = entry.key;
+    if (entry.numbers == nullptr) {
+        TextureFactors& texture = out.*entry.texture;
         texture.given = object.has(key);
         if (texture.given) read_texture_info(reading, object.child(key), texture);
         return;
     }
-    clamped_numbers(reading, object, key, row.numbers(out), row.limits);
+    clamped_numbers(reading, object, key, entry.numbers(out), entry.limits);
 }
 
-/// False: the row is not looked at, whatever the file has there.
-bool is_wanted(const DocumentReading& reading, const MaterialRow& row, bool unlit) {
-    if (row.texture == &MaterialFactors::occlusion_texture) return reading.document.reads_occlusion;
-    return !unlit || (row.object.extensions & extension_specular_glossiness) == 0;
+/// False: the entry is skipped, whatever the file has there.
+bool is_wanted(const DocumentReading& reading, const MaterialEntry& entry, bool unlit) {
+    if (entry.texture == &MaterialFactors::occlusion_texture)
+        return reading.document.reads_occlusion;
+    return !unlit || (entry.object.extensions & extension_specular_glossiness) == 0;
 }
 
 MaterialFactors read_material_factors(DocumentReading& reading, const ValueReader& material) {
@@ -97,18 +98,18 @@ MaterialFactors read_material_factors(DocumentReading& reading, const ValueReade
     out.occlusion_texture.given = material.has("occlusionTexture");
     const MaterialObject* latest = nullptr;
     std::optional<ValueReader> object;
-    for (const MaterialRow& row : material_rows) {
-        if (latest != &row.object) object = find_object(material, row.object);
-        latest = &row.object;
-        if (!object || !is_wanted(reading, row, unlit)) continue;
-        out.extensions |= row.object.extensions;
-        read_row(reading, *object, row, out);
+    for (const MaterialEntry& entry : material_entries) {
+        if (latest != &entry.object) object = find_object(material, entry.object);
+        latest = &entry.object;
+        if (!object || !is_wanted(reading, entry, unlit)) continue;
+        out.extensions |= entry.object.extensions;
+        read_entry(reading, *object, entry, out);
     }
     out.flags = read_flags(reading, material);
     return out;
 }
 
-// The members of glTF's own are read by the same functions as those of extensions: as values.
+// Core members are read as values, by the same functions as members of extensions.
 
 using tinygltf::Value;
 
@@ -218,4 +219,4 @@ void read_materials(DocumentReading& reading) {
     each_element(reading, "materials", reading.model.materials, read);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

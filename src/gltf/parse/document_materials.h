@@ -4,7 +4,7 @@
 
 #include "gltf/parse/document_reading.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// The images' URIs and views are in the document already.
 void read_images(DocumentReading& reading);
@@ -12,4 +12,4 @@ void read_samplers(DocumentReading& reading);
 void read_textures(DocumentReading& reading);
 void read_materials(DocumentReading& reading);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

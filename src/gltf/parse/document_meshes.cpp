@@ -5,7 +5,7 @@
 #include "gltf/parse/document_splats.h"
 #include "gltf/parse/variants.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -19,12 +19,12 @@ int uv_set_of(const std::string& attribute) {
     return set < max_uv_sets ? set : -1;
 }
 
-/// The place of "JOINTS_3" in the list of such sets; nullptr: the name is another one.
+/// Where "JOINTS_3" is kept in the list of such sets; nullptr: the name is another one.
 int* set_slot(std::vector<int>& sets, const std::string& name, std::string_view prefix) {
-    constexpr size_t most_digits = 3;
+    constexpr size_t max_digits = 3;
     if (name.rfind(prefix, 0) != 0) return nullptr;
     const std::string digits = name.substr(prefix.size());
-    if (digits.empty() || digits.size() > most_digits ||
+    if (digits.empty() || digits.size() > max_digits ||
         digits.find_first_not_of("0123456789") != std::string::npos) {
         return nullptr;
     }
@@ -132,4 +132,4 @@ void read_meshes(DocumentReading& reading) {
     each_element(reading, "meshes", reading.model.meshes, read);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

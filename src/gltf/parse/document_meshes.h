@@ -4,8 +4,8 @@
 
 #include "gltf/parse/document_reading.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 void read_meshes(DocumentReading& reading);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,8 +1,8 @@
-// gltf/parse/document_meshopt.cpp - what a buffer view says of its meshopt data.
+// gltf/parse/document_meshopt.cpp - reads the meshopt compression extension of a buffer view.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/document_meshopt.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -114,4 +114,4 @@ void read_view_meshopt(const DocumentReading& reading,
     }
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -6,13 +6,13 @@
 #include "gltf/parse/camera_extension.h"
 #include "gltf/parse/document_lights.h"
 #include "gltf/parse/document_shapes.h"
-#include "gltf/parse/light_camera_rows.h"
+#include "gltf/parse/light_camera_entries.h"
 #include "gltf/parse/model.h"
 #include "gltf/parse/trs.h"
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -113,8 +113,9 @@ GltfLight read_light(DocumentReading& reading,
         out.outer_cone_rad = light.spot.outerConeAngle;
         out.inner_cone_rad = light.spot.innerConeAngle;
     }
-    for (const NumberRow<GltfLight>& row : light_rows)
-        clamp_numbers(reading, place.pointer() + "/" + row.place, row.numbers(out), row.limits);
+    for (const NumberEntry<GltfLight>& entry : light_entries)
+        clamp_numbers(
+            reading, place.pointer() + "/" + entry.place, entry.numbers(out), entry.limits);
     if (spot && out.inner_cone_rad >= out.outer_cone_rad) {
         reading.log.warn(reading.document.at(place.pointer() + "/spot"),
                          "innerConeAngle must be smaller than outerConeAngle; the cone gets a "
@@ -123,7 +124,7 @@ GltfLight read_light(DocumentReading& reading,
     return out;
 }
 
-/// What extensions say about a node as a whole.
+/// Reads the extensions of a node.
 void read_node_extensions(DocumentReading& reading, const ModelElement& node, GltfNode& out) {
     if (node.has_extension(punctual_name)) {
         const size_t light_count = reading.document.lights.size();
@@ -200,4 +201,4 @@ void read_lights(DocumentReading& reading) {
                  });
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

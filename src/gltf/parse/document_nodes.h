@@ -4,11 +4,11 @@
 
 #include "gltf/parse/document_reading.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 void read_nodes(DocumentReading& reading);
 void read_scenes(DocumentReading& reading);
 void read_cameras(DocumentReading& reading);
 void read_lights(DocumentReading& reading);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

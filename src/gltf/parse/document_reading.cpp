@@ -1,8 +1,8 @@
-// gltf/parse/document_reading.cpp - what the readers of a document's parts share.
+// gltf/parse/document_reading.cpp - helpers that the readers of a document share.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/document_reading.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 std::string name_or(const std::string& name, const char* what, size_t index) {
     return name.empty() ? std::string(what) + " " + std::to_string(index) : name;
@@ -42,4 +42,4 @@ void clamped_numbers(DocumentReading& reading,
     clamp_numbers(reading, object.pointer() + "/" + std::string(place), out, limits);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

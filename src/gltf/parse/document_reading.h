@@ -1,12 +1,12 @@
-// gltf/parse/document_reading.h - what the readers of a document's parts share.
+// gltf/parse/document_reading.h - helpers that the readers of a document share.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "gltf/parse/document.h"
-#include "gltf/parse/number_row.h"
+#include "gltf/parse/number_entry.h"
 #include "gltf/parse/value_reader.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// The model, which gltf/parse/preflight.h has checked, and the document that is made of it. Faults
 /// go to `fault`; readers go on without branching.
@@ -62,4 +62,4 @@ void clamped_numbers(DocumentReading& reading,
                      std::span<double> out,
                      const NumberLimits& limits);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -32,7 +32,7 @@ float read_size(const ValueReader& object, const char* key, double fallback, boo
 }
 
 void read_sphere_shape(const ValueReader& object, GltfShape& out) {
-    out.row.size[0] = read_size(object, "radius", 0.5, false);
+    out.record.size[0] = read_size(object, "radius", 0.5, false);
 }
 
 void read_box_shape(const ValueReader& object, GltfShape& out) {
@@ -43,16 +43,16 @@ void read_box_shape(const ValueReader& object, GltfShape& out) {
             object.fault("size", "E-SHAPE-SIZE", "three sizes above 0, to 1e15 metres, are wanted");
             return;
         }
-        out.row.size[i] = static_cast<float>(0.5 * size[i]);
+        out.record.size[i] = static_cast<float>(0.5 * size[i]);
     }
 }
 
 /// Cylinders and capsules: KHR_implicit_shapes, which forbids that both radii are 0.
 void read_tube(const ValueReader& object, GltfShape& out) {
-    out.row.size[0] = 0.5f * read_size(object, "height", 0.5, false);
-    out.row.size[1] = read_size(object, "radiusBottom", 0.25, true);
-    out.row.size[2] = read_size(object, "radiusTop", 0.25, true);
-    if (out.row.size[1] <= 0 && out.row.size[2] <= 0) {
+    out.record.size[0] = 0.5f * read_size(object, "height", 0.5, false);
+    out.record.size[1] = read_size(object, "radiusBottom", 0.25, true);
+    out.record.size[2] = read_size(object, "radiusTop", 0.25, true);
+    if (out.record.size[1] <= 0 && out.record.size[2] <= 0) {
         object.fault(
             "radiusTop", "E-SHAPE-SIZE", "one of radiusTop and radiusBottom must be above 0");
     }
@@ -60,40 +60,40 @@ void read_tube(const ValueReader& object, GltfShape& out) {
 
 void read_capsule_shape(const ValueReader& object, GltfShape& out) {
     read_tube(object, out);
-    const float half = out.row.size[0];
-    const float bottom = out.row.size[1];
-    const float top = out.row.size[2];
+    const float half = out.record.size[0];
+    const float bottom = out.record.size[1];
+    const float top = out.record.size[2];
     if (std::abs(top - bottom) < 1.999f * half) return;
     // One sphere holds the other.
-    out.row = {};
-    out.row.size[0] = std::max(bottom, top);
-    out.row.centre[1] = top > bottom ? half : -half;
+    out.record = {};
+    out.record.size[0] = std::max(bottom, top);
+    out.record.centre[1] = top > bottom ? half : -half;
 }
 
 void read_cone_shape(const ValueReader& object, GltfShape& out) {
-    out.row.size[0] = 0.5f * read_size(object, "height", 0.5, false);
-    out.row.size[1] = read_size(object, "radius", 0.25, false);
-    out.row.size[2] = 0;
+    out.record.size[0] = 0.5f * read_size(object, "height", 0.5, false);
+    out.record.size[1] = read_size(object, "radius", 0.25, false);
+    out.record.size[2] = 0;
 }
 
 void read_plane_shape(const ValueReader& object, GltfShape& out) {
     const auto half = [&](const char* key) {
         return object.has(key) ? 0.5f * read_size(object, key, 1, false) : unbounded;
     };
-    out.row.size[0] = half("sizeX");
-    out.row.size[1] = half("sizeZ");
+    out.record.size[0] = half("sizeX");
+    out.record.size[1] = half("sizeZ");
     out.double_sided = object.boolean("doubleSided", false);
 }
 
 void read_disk_shape(const ValueReader& object, GltfShape& out) {
-    out.row.size[0] = read_size(object, "radius", 0.5, false);
-    out.row.size[1] = read_size(object, "innerRadius", 0, true);
-    if (out.row.size[1] >= out.row.size[0]) {
+    out.record.size[0] = read_size(object, "radius", 0.5, false);
+    out.record.size[1] = read_size(object, "innerRadius", 0, true);
+    if (out.record.size[1] >= out.record.size[0]) {
         object.fault("innerRadius", "E-SHAPE-SIZE", "innerRadius must be smaller than radius");
     }
 }
 
-/// The same surface with numbers relative to the middle of its box, and of a size near 1.
+/// Moves a quadric's origin to the centre of its box.
 void recentre_quadric(std::array<double, 10>& k, const Vec3d& m) {
     const auto [a, b, c, d, e, f, g, h, i, j] = k;
     k[6] = g + 2 * a * m.x + d * m.y + e * m.z;
@@ -118,8 +118,8 @@ void read_quadric_shape(const ValueReader& object, GltfShape& out) {
             object.fault("max", "E-SHAPE-SIZE", "max must be above min on every axis, within 1e15");
             return;
         }
-        out.row.centre[i] = static_cast<float>(0.5 * (low[i] + high[i]));
-        out.row.size[i] = static_cast<float>(half);
+        out.record.centre[i] = static_cast<float>(0.5 * (low[i] + high[i]));
+        out.record.size[i] = static_cast<float>(half);
     }
     const auto largest = [](auto first, auto last) {
         double most = 0;
@@ -136,12 +136,12 @@ void read_quadric_shape(const ValueReader& object, GltfShape& out) {
     }
     for (double& number : k)
         number /= scale;
-    recentre_quadric(k, {out.row.centre[0], out.row.centre[1], out.row.centre[2]});
+    recentre_quadric(k, {out.record.centre[0], out.record.centre[1], out.record.centre[2]});
     for (size_t i = 0; i < 10; ++i)
-        out.row.k[i] = static_cast<float>(k[i]);
+        out.record.k[i] = static_cast<float>(k[i]);
     const std::string projection = object.text("projection", "around");
     if (projection == "above") {
-        out.row.kind = static_cast<int32_t>(ShapeKind::quadric_from_above);
+        out.record.kind = static_cast<int32_t>(ShapeKind::quadric_from_above);
     } else if (projection != "around") {
         object.fault("projection", "E-SHAPE-PROJECTION", "accepted are around and above");
     }
@@ -152,7 +152,7 @@ void read_spheres_shape(DocumentReading& reading, const ValueReader& object, Glt
     object.require("positions");
     out.positions = object.index("positions", accessors, "accessor");
     out.radii = object.index("radii", accessors, "accessor");
-    out.row.size[0] = read_size(object, "radius", 0.5, false);
+    out.record.size[0] = read_size(object, "radius", 0.5, false);
     const auto check = [&](const char* key, int accessor, int rows) {
         if (accessor < 0) return;
         const GltfAccessor& a = reading.document.accessors[static_cast<size_t>(accessor)];
@@ -204,7 +204,7 @@ GltfShape read_shape(DocumentReading& reading, const ValueReader& shape, bool kh
         names.emplace_back(type.name);
         if (out.type != type.name) continue;
         check_other_members(shape, out.type);
-        out.row.kind = static_cast<int32_t>(type.kind);
+        out.record.kind = static_cast<int32_t>(type.kind);
         out.known = true;
         if (type.read != nullptr) {
             type.read(shape.child(type.name), out);
@@ -267,4 +267,4 @@ void read_node_shape(const DocumentReading& reading, const ModelElement& node, G
     }
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

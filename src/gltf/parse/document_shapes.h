@@ -4,9 +4,9 @@
 
 #include "gltf/parse/document_reading.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 void read_shapes(DocumentReading& reading);
 void read_node_shape(const DocumentReading& reading, const ModelElement& node, GltfNode& out);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,10 +1,10 @@
-// gltf/parse/document_splats.cpp - reads what makes Gaussian splats of a primitive's points.
+// gltf/parse/document_splats.cpp - reads KHR_gaussian_splatting of a primitive.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/document_splats.h"
 
 #include "gltf/geometry/primitive_modes.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -12,7 +12,7 @@ constexpr std::string_view prefix = "KHR_gaussian_splatting:";
 
 /// The number behind "SH_DEGREE_2_COEF_" for every name that there is: l^2 + n; -1: another name.
 int harmonic_of(std::string_view name) {
-    for (int degree = 0; degree * degree < most_harmonics; ++degree) {
+    for (int degree = 0; degree * degree < max_harmonics; ++degree) {
         for (int n = 0; n <= 2 * degree; ++n) {
             if (name == splat_harmonic_name(degree, n)) return degree * degree + n;
         }
@@ -56,4 +56,4 @@ void read_splats(const ModelElement& primitive, GltfPrimitive& out) {
     out.splats_are_linear = splats.text("colorSpace") == "lin_rec709_display";
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/parse/extensions.cpp - which extensions are understood, and what is said about the others.
+// gltf/parse/extensions.cpp - the table of supported extensions, and warnings about others.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/extensions.h"
 
@@ -9,64 +9,65 @@
 #include <array>
 #include <map>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
 using nlohmann::json;
 
-constexpr std::array extension_rows = {
-    ExtensionRow{"EXT_lights_ies", true, ""},
-    ExtensionRow{"EXT_lights_image_based",
-                 true,
-                 "",
-                 "the finest level is the environment; --env takes its place"},
-    ExtensionRow{"EXT_mesh_gpu_instancing", true, ""},
-    ExtensionRow{"EXT_meshopt_compression", true, ""},
-    ExtensionRow{"EXT_texture_webp", true, "", "the WebP image is preferred"},
-    ExtensionRow{"KHR_animation_pointer", true, "", "played by --time and --frames"},
-    ExtensionRow{"KHR_draco_mesh_compression", true, ""},
-    ExtensionRow{"KHR_gaussian_splatting",
-                 true,
-                 "",
-                 "plain attributes; compressed splats are drawn as points"},
-    ExtensionRow{"KHR_implicit_shapes", true, "", "drawn where a node's OBSCURA_shape names one"},
-    ExtensionRow{"KHR_interactivity", true, "", "a still picture has none", Verdict::ignored},
-    ExtensionRow{"KHR_lights_punctual", true, ""},
-    ExtensionRow{"KHR_materials_anisotropy", true, ""},
-    ExtensionRow{"KHR_materials_clearcoat", true, ""},
-    ExtensionRow{"KHR_materials_diffuse_transmission", true, ""},
-    ExtensionRow{"KHR_materials_dispersion", true, ""},
-    ExtensionRow{"KHR_materials_emissive_strength", true, ""},
-    ExtensionRow{"KHR_materials_ior", true, ""},
-    ExtensionRow{"KHR_materials_iridescence", true, ""},
-    ExtensionRow{"KHR_materials_pbrSpecularGlossiness", true, ""},
-    ExtensionRow{"KHR_materials_sheen", true, ""},
-    ExtensionRow{"KHR_materials_specular", true, ""},
-    ExtensionRow{"KHR_materials_transmission", true, ""},
-    ExtensionRow{"KHR_materials_unlit", true, ""},
-    ExtensionRow{"KHR_materials_variants", true, "", "chosen by --variant"},
-    ExtensionRow{"KHR_materials_volume",
-                 true,
-                 "",
-                 "absorption follows the rays' real way, not the thickness texture"},
-    ExtensionRow{"KHR_materials_volume_scatter",
-                 true,
-                 "",
-                 "light walks at random inside bodies; a thin wall scatters nothing"},
-    ExtensionRow{"KHR_mesh_quantization", true, ""},
-    ExtensionRow{"KHR_meshopt_compression", true, ""},
-    ExtensionRow{"KHR_node_hoverability", true, "", "a still picture has none", Verdict::ignored},
-    ExtensionRow{"KHR_node_selectability", true, "", "a still picture has none", Verdict::ignored},
-    ExtensionRow{"KHR_node_visibility", true, ""},
-    ExtensionRow{
+constexpr std::array extension_entries = {
+    ExtensionEntry{"EXT_lights_ies", true, ""},
+    ExtensionEntry{"EXT_lights_image_based",
+                   true,
+                   "",
+                   "the finest level is the environment; --env takes its place"},
+    ExtensionEntry{"EXT_mesh_gpu_instancing", true, ""},
+    ExtensionEntry{"EXT_meshopt_compression", true, ""},
+    ExtensionEntry{"EXT_texture_webp", true, "", "the WebP image is preferred"},
+    ExtensionEntry{"KHR_animation_pointer", true, "", "played by --time and --frames"},
+    ExtensionEntry{"KHR_draco_mesh_compression", true, ""},
+    ExtensionEntry{"KHR_gaussian_splatting",
+                   true,
+                   "",
+                   "plain attributes; compressed splats are drawn as points"},
+    ExtensionEntry{"KHR_implicit_shapes", true, "", "drawn where a node's OBSCURA_shape names one"},
+    ExtensionEntry{"KHR_interactivity", true, "", "a still picture has none", Verdict::ignored},
+    ExtensionEntry{"KHR_lights_punctual", true, ""},
+    ExtensionEntry{"KHR_materials_anisotropy", true, ""},
+    ExtensionEntry{"KHR_materials_clearcoat", true, ""},
+    ExtensionEntry{"KHR_materials_diffuse_transmission", true, ""},
+    ExtensionEntry{"KHR_materials_dispersion", true, ""},
+    ExtensionEntry{"KHR_materials_emissive_strength", true, ""},
+    ExtensionEntry{"KHR_materials_ior", true, ""},
+    ExtensionEntry{"KHR_materials_iridescence", true, ""},
+    ExtensionEntry{"KHR_materials_pbrSpecularGlossiness", true, ""},
+    ExtensionEntry{"KHR_materials_sheen", true, ""},
+    ExtensionEntry{"KHR_materials_specular", true, ""},
+    ExtensionEntry{"KHR_materials_transmission", true, ""},
+    ExtensionEntry{"KHR_materials_unlit", true, ""},
+    ExtensionEntry{"KHR_materials_variants", true, "", "chosen by --variant"},
+    ExtensionEntry{"KHR_materials_volume",
+                   true,
+                   "",
+                   "absorption follows the rays' real way, not the thickness texture"},
+    ExtensionEntry{"KHR_materials_volume_scatter",
+                   true,
+                   "",
+                   "light walks at random inside media; a thin wall scatters nothing"},
+    ExtensionEntry{"KHR_mesh_quantization", true, ""},
+    ExtensionEntry{"KHR_meshopt_compression", true, ""},
+    ExtensionEntry{"KHR_node_hoverability", true, "", "a still picture has none", Verdict::ignored},
+    ExtensionEntry{
+        "KHR_node_selectability", true, "", "a still picture has none", Verdict::ignored},
+    ExtensionEntry{"KHR_node_visibility", true, ""},
+    ExtensionEntry{
         "KHR_texture_basisu", true, "", "the KTX2 image is preferred, mip levels as stored"},
-    ExtensionRow{"KHR_texture_transform", true, "", "on every texture"},
-    ExtensionRow{"KHR_xmp", true, "", "the asset's packet goes into EXR headers"},
-    ExtensionRow{"KHR_xmp_json_ld", true, "", "the asset's packet goes into EXR headers"},
-    ExtensionRow{"MSFT_lod", true, "", "the finest level is drawn"},
-    ExtensionRow{"OBSCURA_camera", true, ""},
-    ExtensionRow{"OBSCURA_shape", true, ""},
+    ExtensionEntry{"KHR_texture_transform", true, "", "on every texture"},
+    ExtensionEntry{"KHR_xmp", true, "", "the asset's packet goes into EXR headers"},
+    ExtensionEntry{"KHR_xmp_json_ld", true, "", "the asset's packet goes into EXR headers"},
+    ExtensionEntry{"MSFT_lod", true, "", "the finest level is drawn"},
+    ExtensionEntry{"OBSCURA_camera", true, ""},
+    ExtensionEntry{"OBSCURA_shape", true, ""},
 };
 
 /// Where one extension occurs.
@@ -126,9 +127,9 @@ UseMap all_uses(const json& tree) {
 }
 
 void warn_ignored(const ExtensionInfo& info, const Uses& uses, const Document& document, Log& log) {
-    const ExtensionRow* row = find_extension(info.name);
+    const ExtensionEntry* entry = find_extension(info.name);
     std::string text = info.name + " is not supported";
-    if (row != nullptr) text += ": " + std::string(row->without);
+    if (entry != nullptr) text += ": " + std::string(entry->without);
     if (!uses.materials.empty()) text += "; materials: " + list_text(uses.materials);
     if (!uses.others.empty()) text += "; used by " + list_text(uses.others);
     if (info.required) text += "; the asset says that it cannot be drawn without";
@@ -141,14 +142,14 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
 
 }  // namespace
 
-std::span<const ExtensionRow> extension_table() {
-    return extension_rows;
+std::span<const ExtensionEntry> extension_table() {
+    return extension_entries;
 }
 
-const ExtensionRow* find_extension(std::string_view name) {
-    const auto is_it = [&](const ExtensionRow& row) { return row.name == name; };
-    const auto found = std::find_if(extension_rows.begin(), extension_rows.end(), is_it);
-    return found == extension_rows.end() ? nullptr : &*found;
+const ExtensionEntry* find_extension(std::string_view name) {
+    const auto is_it = [&](const ExtensionEntry& entry) { return entry.name == name; };
+    const auto found = std::find_if(extension_entries.begin(), extension_entries.end(), is_it);
+    return found == extension_entries.end() ? nullptr : &*found;
 }
 
 std::vector<std::string> extension_names(const json& object) {
@@ -190,11 +191,11 @@ Result<void> read_extensions(
 
     std::vector<std::string> missing;
     for (const std::string& name : names) {
-        const ExtensionRow* row = find_extension(name);
+        const ExtensionEntry* entry = find_extension(name);
         ExtensionInfo info;
         info.name = name;
         info.required = contains(required, name);
-        info.supported = row != nullptr && row->supported;
+        info.supported = entry != nullptr && entry->supported;
         info.materials = uses[name].materials;
         if (info.required && !info.supported) missing.push_back(name);
         document.extensions.push_back(std::move(info));
@@ -212,4 +213,4 @@ Result<void> read_extensions(
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

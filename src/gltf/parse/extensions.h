@@ -1,4 +1,4 @@
-// gltf/parse/extensions.h - which extensions are understood, and what is said about the others.
+// gltf/parse/extensions.h - the table of supported extensions, and warnings about others.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,22 +8,22 @@
 #include <span>
 #include <string_view>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// To support one more: set `supported` in the table in extensions.cpp, read it where its object is
 /// read, and change its line in docs/gltf.md, which a test compares. An extension that is not in
 /// the table is ignored like any other.
-struct ExtensionRow {
+struct ExtensionEntry {
     std::string_view name;
     bool supported;
-    std::string_view without;             ///< what a picture lacks when it is not supported
+    std::string_view without;             ///< what an image lacks when it is not supported
     std::string_view note = {};           ///< of a supported one: how, or why it changes nothing
     Verdict verdict = Verdict::honoured;  ///< of a supported one
 };
 
-std::span<const ExtensionRow> extension_table();
+std::span<const ExtensionEntry> extension_table();
 
-const ExtensionRow* find_extension(std::string_view name);  ///< nullptr: it is not in the table
+const ExtensionEntry* find_extension(std::string_view name);  ///< nullptr: it is not in the table
 
 /// The extension names anywhere inside an object but in `extras`, sorted, each once.
 std::vector<std::string> extension_names(const nlohmann::json& object);
@@ -35,4 +35,4 @@ std::vector<std::string> extension_names(const nlohmann::json& object);
 Result<void> read_extensions(
     const JsonReader& root, const nlohmann::json& tree, bool lenient, Document& document, Log& log);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

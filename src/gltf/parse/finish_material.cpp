@@ -1,4 +1,4 @@
-// gltf/parse/finish_material.cpp - what the numbers of glTF materials make.
+// gltf/parse/finish_material.cpp - makes a material's values from the numbers in the file.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/finish_material.h"
 
@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -58,13 +58,13 @@ void finish_surface(const MaterialFactors& from, MaterialLayers& out) {
 
     out.iridescence = single(from.iridescence);
     out.iridescence_ior = single(from.iridescence_ior);
-    out.film_thickness_nm[0] = single(from.iridescence_thickness_min_nm);
-    out.film_thickness_nm[1] = single(from.iridescence_thickness_max_nm);
+    out.thin_film_thickness_nm[0] = single(from.iridescence_thickness_min_nm);
+    out.thin_film_thickness_nm[1] = single(from.iridescence_thickness_max_nm);
     out.iridescence_texture = finish_slot(from.iridescence_texture);
-    out.film_thickness_texture = finish_slot(from.iridescence_thickness_texture);
+    out.thin_film_thickness_texture = finish_slot(from.iridescence_thickness_texture);
 }
 
-/// What lies over the surface.
+/// Coat, sheen and other layers above the base.
 void finish_coverings(const MaterialFactors& from, MaterialLayers& out) {
     out.clearcoat = single(from.clearcoat);
     out.clearcoat_roughness = single(from.clearcoat_roughness);
@@ -89,8 +89,8 @@ void finish_transmission(const MaterialFactors& from, MaterialLayers& out) {
     out.dispersion = single(from.dispersion);
 }
 
-/// A thickness above 0 says that the surface bounds a body; how thick it really is, the rays find
-/// out. Numbers of media are given once all materials are known.
+/// A thickness above 0 marks the boundary of a medium; the rays find the true thickness. Media are
+/// numbered once all materials are known.
 void finish_volume(const MaterialFactors& from, MaterialLayers& out) {
     constexpr double darkest = 1e-6;  // attenuationColor 0 would be opaque at any distance
     const bool lets_light_in = out.transmission > 0.0F || out.diffuse_transmission > 0.0F;
@@ -123,7 +123,7 @@ std::optional<MaterialLayers> finish_layers(const MaterialFactors& from) {
     return out;
 }
 
-/// Takes away what specular-glossiness materials have added.
+/// Removes the copies that specular-glossiness materials added.
 void drop_copies(Document& document) {
     const auto is_copy = [&](int image) {
         return image >= 0 && document.images[static_cast<size_t>(image)].glossiness_of >= 0;
@@ -156,7 +156,7 @@ GltfMaterial finish_material(const MaterialFactors& factors, Document& document)
     out.values = finish_core(factors, document.reads_occlusion);
     out.layers = finish_layers(factors);
     finish_specular_glossiness(factors, document, out);
-    // A body has an inside, and a camera in it must see where it ends.
+    // A solid has an inside, and a camera in it must see its far boundary.
     if (out.layers && out.layers->medium != 0) out.values.flags |= material_double_sided;
     return out;
 }
@@ -170,4 +170,4 @@ void finish_materials(Document& document) {
     }
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

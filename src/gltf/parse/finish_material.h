@@ -1,10 +1,10 @@
-// gltf/parse/finish_material.h - what the numbers of glTF materials make.
+// gltf/parse/finish_material.h - makes a material's values from the numbers in the file.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "gltf/parse/document.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Makes values and layers of one material. Where it is a specular-glossiness material with a
 /// texture, the document gets a copy of that texture for the roughness
@@ -20,4 +20,4 @@ TextureSlot finish_slot(const TextureFactors& factors);
 /// Makes all materials again from Document::material_factors, as if the file had these numbers.
 void finish_materials(Document& document);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

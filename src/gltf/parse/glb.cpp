@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -95,7 +95,7 @@ bool is_glb(std::span<const std::byte> bytes) {
     return bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
 }
 
-Result<GlbParts> split_glb(std::span<const std::byte> bytes, const std::string& where, Log& log) {
+Result<GlbChunks> split_glb(std::span<const std::byte> bytes, const std::string& where, Log& log) {
     const Result<size_t> length = read_header(bytes, where);
     if (!length) return fail(length.error());
     if (*length < bytes.size()) {
@@ -105,7 +105,7 @@ Result<GlbParts> split_glb(std::span<const std::byte> bytes, const std::string& 
     }
     const std::span<const std::byte> body = bytes.first(*length);
 
-    GlbParts out;
+    GlbChunks out;
     size_t number = 0;
     bool unaligned = false;
     for (size_t offset = header_size; offset < body.size(); ++number) {
@@ -163,4 +163,4 @@ std::string_view guess_foreign_format(std::span<const std::byte> bytes) {
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -11,10 +11,10 @@
 #include <string>
 #include <string_view>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// The parts of a .glb file, as views into its bytes.
-struct GlbParts {
+/// The chunks of a .glb file, as views into its bytes.
+struct GlbChunks {
     std::string_view json;
     std::optional<std::span<const std::byte>> binary;  ///< absent: there is no BIN chunk
 };
@@ -25,9 +25,9 @@ bool is_glb(std::span<const std::byte> bytes);
 /// a warning.
 ///
 /// Errors  65 E-GLB-* truncated, wrong lengths, wrong order of chunks; 69 E-VERSION
-Result<GlbParts> split_glb(std::span<const std::byte> bytes, const std::string& where, Log& log);
+Result<GlbChunks> split_glb(std::span<const std::byte> bytes, const std::string& where, Log& log);
 
 /// Says what a file that is neither GLB nor JSON looks like ("a ZIP archive"); empty: unknown.
 std::string_view guess_foreign_format(std::span<const std::byte> bytes);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -6,17 +6,18 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// "a, b, c and 7 more".
 inline std::string list_text(const std::vector<std::string>& names) {
-    constexpr size_t most = 8;
+    constexpr size_t max_count = 8;
     std::string out;
-    for (size_t i = 0; i < std::min(names.size(), most); ++i) {
+    for (size_t i = 0; i < std::min(names.size(), max_count); ++i) {
         if (i != 0) out += ", ";
         out += names[i];
     }
-    if (names.size() > most) out += " and " + std::to_string(names.size() - most) + " more";
+    if (names.size() > max_count)
+        out += " and " + std::to_string(names.size() - max_count) + " more";
     return out;
 }
 
@@ -33,4 +34,4 @@ private:
     std::vector<std::string> names_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,10 +1,10 @@
-// gltf/parse/material_factors.cpp - where a glTF material has its numbers and textures.
+// gltf/parse/material_factors.cpp - tables of where a glTF material has its numbers and textures.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/material_factors.h"
 
 #include "gltf/parse/document.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -13,23 +13,23 @@ using M = MaterialFactors;
 constexpr NumberLimits unit = {0, 1};
 
 template <auto member>
-constexpr MaterialRow number(const MaterialObject& object,
-                             const char* key,
-                             NumberLimits limits = unit) {
+constexpr MaterialEntry number(const MaterialObject& object,
+                               const char* key,
+                               NumberLimits limits = unit) {
     return {object, key, numbers_of<member, M>, limits, nullptr};
 }
 
-constexpr MaterialRow texture(const MaterialObject& object,
-                              const char* key,
-                              TextureFactors M::*member) {
+constexpr MaterialEntry texture(const MaterialObject& object,
+                                const char* key,
+                                TextureFactors M::*member) {
     return {object, key, nullptr, {}, member};
 }
 
 /// A number in a texture's object.
 template <auto member, auto texture_member>
-constexpr MaterialRow inside(const MaterialObject& object,
-                             const char* key,
-                             NumberLimits limits = unit) {
+constexpr MaterialEntry inside(const MaterialObject& object,
+                               const char* key,
+                               NumberLimits limits = unit) {
     return {object, key, numbers_of<member, M>, limits, texture_member};
 }
 
@@ -37,8 +37,8 @@ constexpr double largest = largest_material_factor;
 constexpr NumberLimits any_positive = {0, largest};
 constexpr NumberLimits normal_scales = {-1e4, 1e4};
 constexpr NumberLimits angles_rad = {-1e6, 1e6};
-constexpr NumberLimits film_nm = {0, 1e6};
-constexpr double most_forward = 0.999;  // beyond, light would never turn
+constexpr NumberLimits thin_film_nm = {0, 1e6};
+constexpr double max_anisotropy = 0.999;  // beyond, light would never turn
 
 constexpr MaterialObject material = {""};
 constexpr MaterialObject core = {"pbrMetallicRoughness"};
@@ -60,7 +60,7 @@ constexpr MaterialObject volume_scatter = {"extensions/KHR_materials_volume_scat
 constexpr MaterialObject glossy = {"extensions/KHR_materials_pbrSpecularGlossiness",
                                    extension_specular_glossiness};
 
-constexpr MaterialRow rows[] = {
+constexpr MaterialEntry entries[] = {
     number<&M::base_color>(core, "baseColorFactor"),
     number<&M::metallic>(core, "metallicFactor"),
     number<&M::roughness>(core, "roughnessFactor"),
@@ -94,8 +94,10 @@ constexpr MaterialRow rows[] = {
     number<&M::ior>(ior, "ior", {0, 100}),
     number<&M::iridescence>(iridescence, "iridescenceFactor"),
     number<&M::iridescence_ior>(iridescence, "iridescenceIor", {1, 100}),
-    number<&M::iridescence_thickness_min_nm>(iridescence, "iridescenceThicknessMinimum", film_nm),
-    number<&M::iridescence_thickness_max_nm>(iridescence, "iridescenceThicknessMaximum", film_nm),
+    number<&M::iridescence_thickness_min_nm>(
+        iridescence, "iridescenceThicknessMinimum", thin_film_nm),
+    number<&M::iridescence_thickness_max_nm>(
+        iridescence, "iridescenceThicknessMaximum", thin_film_nm),
     texture(iridescence, "iridescenceTexture", &M::iridescence_texture),
     texture(iridescence, "iridescenceThicknessTexture", &M::iridescence_thickness_texture),
     number<&M::sheen_color>(sheen, "sheenColorFactor"),
@@ -113,7 +115,7 @@ constexpr MaterialRow rows[] = {
     number<&M::attenuation_color>(volume, "attenuationColor"),
     number<&M::multiscatter_color>(volume_scatter, "multiscatterColor"),
     number<&M::scatter_anisotropy>(
-        volume_scatter, "scatterAnisotropy", {-most_forward, most_forward}),
+        volume_scatter, "scatterAnisotropy", {-max_anisotropy, max_anisotropy}),
     number<&M::diffuse>(glossy, "diffuseFactor"),
     number<&M::glossy_specular>(glossy, "specularFactor"),
     number<&M::glossiness>(glossy, "glossinessFactor"),
@@ -123,7 +125,7 @@ constexpr MaterialRow rows[] = {
 
 constexpr NumberLimits uv_limits = {-1e6, 1e6};
 
-constexpr NumberRow<TextureFactors> rows_of_textures[] = {
+constexpr NumberEntry<TextureFactors> texture_entries[] = {
     {"offset", numbers_of<&TextureFactors::offset>, uv_limits},
     {"scale", numbers_of<&TextureFactors::scale>, uv_limits},
     {"rotation", numbers_of<&TextureFactors::rotation>, uv_limits},
@@ -131,7 +133,7 @@ constexpr NumberRow<TextureFactors> rows_of_textures[] = {
 
 }  // namespace
 
-const std::span<const MaterialRow> material_rows = rows;
-const std::span<const NumberRow<TextureFactors>> transform_rows = rows_of_textures;
+const std::span<const MaterialEntry> material_entries = entries;
+const std::span<const NumberEntry<TextureFactors>> transform_entries = texture_entries;
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "gltf/parse/number_row.h"
+#include "gltf/parse/number_entry.h"
 #include "surface/material.h"
 
 #include <array>
 #include <cstdint>
 #include <span>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// A textureInfo with its KHR_texture_transform.
 struct TextureFactors {
@@ -105,16 +105,16 @@ struct MaterialFactors {
 
 /// An object of a glTF material.
 struct MaterialObject {
-    const char* place;        ///< from the material on, as in a JSON pointer; "": itself
-    uint32_t extensions = 0;  ///< MaterialExtension bits that its presence says
+    const char* place;        ///< from the material on, as in a JSON pointer; "": the material
+    uint32_t extensions = 0;  ///< MaterialExtension bits that its presence sets
 };
 
-/// One member of MaterialFactors and where a glTF material has it. Reading and animating both go
-/// by these rows.
+/// One member of MaterialFactors and where a glTF material has it. Reading and animating both use
+/// these entries.
 ///
-/// To add a number or a texture of a material: add its member above and its row to material_rows,
-/// and make something of it in gltf/parse/finish_material.cpp.
-struct MaterialRow {
+/// To add a number or a texture of a material: add its member above and its entry to
+/// material_entries, and use it in gltf/parse/finish_material.cpp.
+struct MaterialEntry {
     const MaterialObject& object;
     const char* key;  ///< of a number in a texture's object: "normalTexture/scale"
     std::span<double> (*numbers)(MaterialFactors&);  ///< nullptr: it is a texture
@@ -123,9 +123,9 @@ struct MaterialRow {
 };
 
 /// In the order in which they are read.
-extern const std::span<const MaterialRow> material_rows;
+extern const std::span<const MaterialEntry> material_entries;
 
 /// The numbers of KHR_texture_transform; places are in its object.
-extern const std::span<const NumberRow<TextureFactors>> transform_rows;
+extern const std::span<const NumberEntry<TextureFactors>> transform_entries;
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -1,4 +1,4 @@
-// gltf/parse/model.cpp - tinygltf makes its model of a checked tree.
+// gltf/parse/model.cpp - makes tinygltf's model from a checked JSON tree.
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -43,7 +43,7 @@ inline void JsonParse(nlohmann::json& tree, const char* /*text*/, unsigned int, 
 #include <iterator>
 #include <utility>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -140,4 +140,4 @@ Result<void> read_node_parts(json&& tree, const std::string& file, const VisitNo
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

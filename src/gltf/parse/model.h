@@ -1,4 +1,4 @@
-// gltf/parse/model.h - tinygltf makes its model of a checked tree.
+// gltf/parse/model.h - makes tinygltf's model from a checked JSON tree.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,10 +11,9 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// The data of buffers and images are not tinygltf's to read: the tree that it sees has this in
-/// their place.
+/// Stands in the tree for the data of buffers and images, which tinygltf must not read.
 inline constexpr const char* placeholder_uri = "data:application/octet-stream;base64,AA==";
 
 /// The number of a buffer view that is not one of the tree's, in an image and in an accessor
@@ -28,15 +27,15 @@ int placeholder_view(const nlohmann::json& tree);
 /// Errors  70 E-INTERNAL tinygltf refuses what the checks have passed
 Result<tinygltf::Model> read_model(nlohmann::json& tree, const std::string& file);
 
-/// Some nodes, and the number of the first one. False: no more are wanted.
+/// Takes some nodes and the number of the first one. False: no more are wanted.
 using VisitNodes = std::function<bool(const std::vector<tinygltf::Node>& nodes, size_t first)>;
 
-/// The nodes that read_model left, a few thousand at a time: there may be many, and neither their
-/// whole tree nor their whole model is kept beside what is made of them.
+/// Reads the nodes that read_model left, a few thousand at a time, so that memory never holds their
+/// whole tree or model beside the result.
 ///
 /// Errors  as read_model
 Result<void> read_node_parts(nlohmann::json&& tree,
                              const std::string& file,
                              const VisitNodes& visit);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

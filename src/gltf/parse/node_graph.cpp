@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -120,12 +120,12 @@ void walk_down(const Document& document, const Visit& visit) {
     }
 }
 
-std::vector<Affined> transforms(const Document& document, bool ends_at_movers) {
+std::vector<Affined> transforms(const Document& document, bool ends_at_groups) {
     std::vector<Affined> out(document.nodes.size());
     walk_down(document, [&](int parent, size_t i) {
         const GltfNode& node = document.nodes[i];
         const Affined above = parent < 0 ? Affined{} : out[static_cast<size_t>(parent)];
-        out[i] = ends_at_movers && node.moves ? Affined{} : compose(above, node.parent_from_node);
+        out[i] = ends_at_groups && node.moves ? Affined{} : compose(above, node.parent_from_node);
     });
     return out;
 }
@@ -136,7 +136,7 @@ std::vector<Affined> world_transforms(const Document& document) {
     return transforms(document, false);
 }
 
-std::vector<Affined> mover_transforms(const Document& document) {
+std::vector<Affined> group_transforms(const Document& document) {
     return transforms(document, true);
 }
 
@@ -185,7 +185,7 @@ std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& lo
             next.world_from_node = compose(next.world_from_node, node.parent_from_node);
             next.visible = next.visible && node.visible;
             next.may_show = next.may_show && (node.visible || node.moves);
-            if (node.moves) next.mover = next.node;
+            if (node.moves) next.dynamic_group = next.node;
             for (auto child = node.children.rbegin(); child != node.children.rend(); ++child) {
                 open.push_back(next);
                 open.back().node = *child;
@@ -240,4 +240,4 @@ bool is_nearly_flat(const Affined& transform) {
     return shortest > 0 && shortest < thinnest * longest && std::isfinite(longest);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// A node of the chosen scene, in depth-first order.
 struct PlacedNode {
@@ -16,7 +16,7 @@ struct PlacedNode {
     Affined node_from_mesh = {};  ///< of an instance; no time changes it
     bool visible = true;          ///< false: only its camera counts (KHR_node_visibility)
     bool may_show = true;         ///< at some time it is visible, as far as animations tell
-    int mover = -1;  ///< the nearest animated node, itself or above it; -1: it stands still
+    int dynamic_group = -1;  ///< the nearest animated node, itself or above it; -1: it is static
 };
 
 /// Every node has at most one parent and none is its own ancestor. Linear in the file's size.
@@ -31,11 +31,11 @@ std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& lo
 /// Where all nodes are in the world, whatever scene they are in.
 std::vector<Affined> world_transforms(const Document& document);
 
-/// Where all nodes are in the space of their PlacedNode::mover, which no time changes; in the world
-/// where they have none.
-std::vector<Affined> mover_transforms(const Document& document);
+/// Where all nodes are in the space of their PlacedNode::dynamic_group, which no time changes; in
+/// the world where they have none.
+std::vector<Affined> group_transforms(const Document& document);
 
-/// 1 for every node that has a mover.
+/// 1 for every node of a dynamic group.
 std::vector<char> moving_nodes(const Document& document);
 
 /// A node's name, else its number, for messages.
@@ -44,11 +44,11 @@ std::string node_label(const Document& document, int node);
 /// True when a transform squashes space to a plane, a line or a point, or is not finite.
 bool is_singular(const Affined& transform);
 
-/// True when it squashes space to a plane: what lies in it is still to be seen.
+/// True when it flattens space to a plane, in which geometry is still visible.
 bool is_flattening(const Affined& transform);
 
-/// True when one axis is scaled to next to nothing beside another: single precision holds the
-/// vertices that it moves, but not the rays that its inverse would move.
+/// True when one axis is scaled to almost nothing beside another: single precision holds the
+/// vertices, but not the rays that the inverse would move.
 bool is_nearly_flat(const Affined& transform);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

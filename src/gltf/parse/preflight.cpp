@@ -1,8 +1,8 @@
-// gltf/parse/preflight.cpp - what is checked and set right in the JSON before tinygltf sees it.
+// gltf/parse/preflight.cpp - checks and repairs the JSON before tinygltf sees it.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/preflight.h"
 
-#include "gltf/parse/light_camera_rows.h"
+#include "gltf/parse/light_camera_entries.h"
 #include "gltf/parse/model.h"
 #include "gltf/parse/tree_check.h"
 #include "gltf/parse/tree_rules.h"
@@ -11,7 +11,7 @@
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -334,4 +334,4 @@ void check_tree(json& tree, Document& document, Log& log, JsonFault& fault) {
     Preflight(tree, document, log, fault).check();
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

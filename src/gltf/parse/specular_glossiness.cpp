@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
-/// A texture whose image is a copy, as roughness, of the one that `texture` has.
+/// A texture whose image is a roughness copy of that of `texture`.
 int add_roughness_texture(Document& document, int texture, double factor) {
     GltfTexture copy = document.textures[static_cast<size_t>(texture)];
     const auto same = [&](const GltfImage& image) {
@@ -81,4 +81,4 @@ void roughness_from_glossiness(std::span<uint32_t> texels,
     }
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Puts the extension's material, where there is one and it is not unlit, in place of the core's: a
 /// dielectric whose reflectance at normal incidence is the specular colour, over the diffuse one.
@@ -27,4 +27,4 @@ void roughness_from_glossiness(std::span<uint32_t> texels,
                                std::span<uint32_t> low_bytes,
                                double factor);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

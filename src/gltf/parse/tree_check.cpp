@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -121,7 +121,7 @@ size_t count_for(const MemberRule& rule, const TreeCheck& check) {
     return check.counts[static_cast<size_t>(rule.array)];
 }
 
-/// Says what is wrong: the first in the rules' order, what is missing first.
+/// Reports what is wrong: missing members first, then in the rules' order.
 void find_fault(const json& object,
                 const ObjectRules& rules,
                 const TreePlace& place,
@@ -218,4 +218,4 @@ void check_object(json& object,
     if (!check.fault.error) check_extensions(object, rules, place, check);
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

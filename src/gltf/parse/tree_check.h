@@ -5,7 +5,7 @@
 #include "base/json/json_read.h"
 #include "gltf/parse/tree_rules.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Where an object is, without the cost of a text for those that are sound.
 struct TreePlace {
@@ -25,8 +25,8 @@ struct TreeCheck {
     JsonFault& fault;
 };
 
-/// Checks an object and the objects in it; what tinygltf would read otherwise than glTF says is
-/// brought into a form that it understands. Extensions that the rules do not name are taken out.
+/// Checks an object and the objects in it, and rewrites what tinygltf would read differently from
+/// glTF. Extensions that the rules do not name are removed.
 ///
 /// Errors  in the fault: those of JsonReader
 void check_object(nlohmann::json& object,
@@ -34,4 +34,4 @@ void check_object(nlohmann::json& object,
                   const TreePlace& place,
                   TreeCheck& check);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

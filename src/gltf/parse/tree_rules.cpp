@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/tree_rules.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -208,4 +208,4 @@ const ObjectRules channel_target_rules = {channel_target_members, channel_target
 const ObjectRules scene_rules = {scene_members, scene_extensions, true};
 const ObjectRules root_rules = {root_members, root_extensions, true};
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -6,7 +6,7 @@
 #include <span>
 #include <string_view>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// The arrays that indices point into.
 enum class TreeArray {
@@ -71,7 +71,7 @@ struct MemberRule {
     const ObjectRules* rules = nullptr;
 };
 
-/// To read one more member of glTF's own: its row in tree_rules.cpp. To read an extension: its
+/// To read one more member of glTF's own: its entry in tree_rules.cpp. To read an extension: its
 /// name with the object that has it.
 struct ObjectRules {
     std::span<const MemberRule> members;
@@ -101,4 +101,4 @@ extern const ObjectRules channel_target_rules;
 extern const ObjectRules scene_rules;
 extern const ObjectRules root_rules;  ///< what is no array, and the asset's own extensions
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Scale, then rotation, then translation: glTF 2.0 section 3.5.2. The quaternion (x, y, z, w) is
 /// unit.
@@ -42,4 +42,4 @@ inline bool normalize_quaternion(std::array<double, 4>& q) {
     return true;
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -6,7 +6,7 @@
 #include <array>
 #include <cctype>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -223,4 +223,4 @@ Result<UriBytes> read_uri(std::string_view uri,
     return UriBytes{std::move(file.bytes), {}, file.size};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

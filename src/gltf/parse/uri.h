@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-namespace obscura {
+namespace obscura::gltf {
 
 /// Where URIs are resolved and what is said about them.
 struct UriContext {
@@ -45,4 +45,4 @@ Result<UriBytes> read_uri(std::string_view uri,
                           const UriContext& context,
                           const ReadLimits& limits);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

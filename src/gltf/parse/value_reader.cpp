@@ -1,10 +1,10 @@
-// gltf/parse/value_reader.cpp - checked access to extensions, which tinygltf keeps as values.
+// gltf/parse/value_reader.cpp - checked reading of extensions from tinygltf's values.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/value_reader.h"
 
 #include <nlohmann/json.hpp>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -98,6 +98,8 @@ const ValueTree::Value* ValueTree::find(const Object& object, std::string_view k
     return found == object.end() ? nullptr : &found->second;
 }
 
-template class ObjectReader<ValueTree>;
+}  // namespace obscura::gltf
 
+namespace obscura {
+template class ObjectReader<gltf::ValueTree>;
 }  // namespace obscura

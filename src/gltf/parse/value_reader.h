@@ -1,4 +1,4 @@
-// gltf/parse/value_reader.h - checked access to extensions, which tinygltf keeps as values.
+// gltf/parse/value_reader.h - checked reading of extensions from tinygltf's values.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,10 +8,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// tinygltf's values leave out null and what is empty, and wrap integers beyond 32 bits. This
-/// writes such parts of a tree so that ValueReader reads them as they were.
+/// tinygltf's values drop null and empty members and wrap integers beyond 32 bits. This encodes
+/// such members so that ValueReader reads them as they were.
 void mark_for_values(nlohmann::json& tree);
 
 /// tinygltf's values, for ObjectReader; what mark_for_values has marked is understood.
@@ -31,7 +31,13 @@ struct ValueTree {
     static const Value* find(const Object& object, std::string_view key);
 };
 
-extern template class ObjectReader<ValueTree>;
+}  // namespace obscura::gltf
+
+namespace obscura {
+extern template class ObjectReader<gltf::ValueTree>;
+}  // namespace obscura
+
+namespace obscura::gltf {
 using ValueReader = ObjectReader<ValueTree>;
 
 /// An object of the model: its place, for faults, and its extensions.
@@ -62,4 +68,4 @@ private:
     JsonFault* fault_;
 };
 
-}  // namespace obscura
+}  // namespace obscura::gltf

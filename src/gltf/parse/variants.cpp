@@ -1,4 +1,4 @@
-// gltf/parse/variants.cpp - KHR_materials_variants: a material for each look.
+// gltf/parse/variants.cpp - KHR_materials_variants: sets of alternative materials.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/variants.h"
 
@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace obscura {
+namespace obscura::gltf {
 
 namespace {
 
@@ -40,10 +40,10 @@ void read_variant_materials(const DocumentReading& reading,
     extension.each("mappings", [&](const ValueReader& mapping, size_t) {
         mapping.require("material");
         mapping.require("variants");
-        GltfVariantMaterial row;
-        row.material = mapping.index("material", reading.model.materials.size(), "material");
-        row.variants = mapping.indices("variants", reading.document.variants.size(), "variant");
-        out.variants.push_back(std::move(row));
+        GltfVariantMaterial entry;
+        entry.material = mapping.index("material", reading.model.materials.size(), "material");
+        entry.variants = mapping.indices("variants", reading.document.variants.size(), "variant");
+        out.variants.push_back(std::move(entry));
     });
 }
 
@@ -67,4 +67,4 @@ Result<void> choose_variant(const std::string& name, Document& document) {
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

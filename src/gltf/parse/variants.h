@@ -1,4 +1,4 @@
-// gltf/parse/variants.h - KHR_materials_variants: a material for each look.
+// gltf/parse/variants.h - KHR_materials_variants: sets of alternative materials.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,9 +6,9 @@
 
 #include <string>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// Reads the names; before the meshes, whose mappings count on them.
+/// Reads the names; call it before the meshes, whose mappings refer to them.
 void read_variants(DocumentReading& reading);
 
 /// Reads which materials a primitive has in which variants.
@@ -21,4 +21,4 @@ void read_variant_materials(const DocumentReading& reading,
 /// Errors  64 E-VARIANT-UNKNOWN, listing the names
 Result<void> choose_variant(const std::string& name, Document& document);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/xmp.h"
 
-namespace obscura {
+namespace obscura::gltf {
 
 std::string read_xmp(const JsonReader& root, const nlohmann::json& tree) {
     const JsonReader asset = root.child("asset");
@@ -22,4 +22,4 @@ std::string read_xmp(const JsonReader& root, const nlohmann::json& tree) {
     return {};
 }
 
-}  // namespace obscura
+}  // namespace obscura::gltf

@@ -6,9 +6,9 @@
 
 #include <string>
 
-namespace obscura {
+namespace obscura::gltf {
 
-/// More than this is no description any more; it is left out of pictures.
+/// Longer packets are no description any more; images do not get them.
 inline constexpr size_t longest_xmp = 1U << 20;
 
 /// The packet that the object `asset` names, as JSON text; empty when it names none.
@@ -16,4 +16,4 @@ inline constexpr size_t longest_xmp = 1U << 20;
 /// Errors  faults of the reader: 65 E-DOC-INDEX
 std::string read_xmp(const JsonReader& root, const nlohmann::json& tree);
 
-}  // namespace obscura
+}  // namespace obscura::gltf

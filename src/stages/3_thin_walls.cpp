@@ -1,0 +1,48 @@
+// stages/3_thin_walls.cpp - paths that pass smooth thin walls without changing direction.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/3_thin_walls.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+PassedThinWalls pass_thin_walls(const ShadeColumns& columns,
+                                int at,
+                                const PathLanes& path,
+                                const ThinWallHit& hit,
+                                LayeredPoint& layers) {
+    const Lanes one(1.0f);
+    const Lanes zero(0.0f);
+    PassedThinWalls out{at, hit.scatters, one};
+    Mask passes(false);
+    if (hit.any_layers) {
+        const StraightLight<Lanes> light = take_straight(layers, hit.wo);
+        out.left = one - light.probability;
+        const Mask lets_pass =
+            hit.scatters & layers.layered & (max_component(light.transmittance) > zero);
+        const Lanes chance = hit.only_passes ? one : light.probability;
+        passes = lets_pass & (hit.choice < chance);
+        out.others = hit.scatters & (!passes);
+        if (any(passes)) {
+            PathLanes next = path;
+            next.origin = hit.transmitted_start;
+            next.throughput =
+                path.throughput * light.transmittance * (one / select(passes, chance, one));
+            next.cone_width = path.cone_width + path.cone_spread * hit.distance;
+            // Light sampling does not see through a medium's boundary: what lies on the
+            // transmitted side counts whole.
+            next.medium_stack = layers.boundary.transmitted_stack;
+            next.pdf = select(layers.boundary.matched, zero, path.pdf);
+            out.next = append_paths(columns.next, at, passes, next);
+        }
+    }
+    const Lanes path_length =
+        read_distance_since_scattering(columns, hit.scatters, path) + hit.distance;
+    store_by_slot(columns.distance_since_scattering,
+                  hit.scatters,
+                  path.slot,
+                  select(passes, path_length, zero));
+    return out;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

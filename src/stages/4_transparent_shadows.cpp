@@ -1,0 +1,108 @@
+// stages/4_transparent_shadows.cpp - stage 4: transparent shadow rays, through smooth thin walls.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/4_transparent_shadows.h"
+
+#include "math/sampler.h"
+#include "stages/3_surface.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+/// Rays shorter than this end at a light at a finite distance; see directional_distance_m.
+constexpr float farthest_lamp_m = 1e18f;
+
+/// A random position between texels and between mip levels. It is hashed: the pixel's Sobol points
+/// have none for thin walls.
+OBSCURA_INLINE Vec3<Lanes> texture_random(LanesU path_key, const ThinWallStep& step) {
+    if (!step.random) return splat3(Lanes(0.5f));
+    const uint32_t salt = hash_word((step.segment * 0x9E3779B9U + step.number) ^ 0x57414C4CU);
+    const LanesU x = hash_word(LanesU(path_key ^ LanesU(salt)));
+    const LanesU y = hash_word(LanesU(x + LanesU(0x9E3779B9U)));
+    return {unit_float<Lanes>(x),
+            unit_float<Lanes>(y),
+            unit_float<Lanes>((y << 16) | (x & LanesU(0xFFFFU)))};
+}
+
+/// A shadow ray as shading takes it. Light sampling reads the finest texels: it has no footprint.
+OBSCURA_INLINE PathLanes as_path(const ShadowLanes& ray) {
+    const Lanes zero(0.0f);
+    const LanesU none_yet(0U);
+    return {.origin = ray.origin,
+            .direction = ray.direction,
+            .throughput = ray.radiance,
+            .pdf = zero,
+            .cone_width = zero,
+            .cone_spread = zero,
+            .slot = ray.slot,
+            .key = none_yet,
+            .sample = none_yet,
+            .path_key = ray.path_key,
+            .medium_stack = none_yet};
+}
+
+/// The rest of a shadow ray, from `start` to its old end. It is aimed anew because the end is clear
+/// of the light by no more than the rounding error and must not move.
+OBSCURA_INLINE ShadowLanes restart_on_transmitted_side(const ShadowLanes& ray,
+                                                       const Vec3<Lanes>& start) {
+    const Mask has_end = ray.tfar < Lanes(farthest_lamp_m);
+    const Lanes reach = select(has_end, ray.tfar, Lanes(0.0f));
+    const Vec3<Lanes> way = ray.origin + ray.direction * reach - start;
+    const Lanes distance = length(way);
+    const Mask ahead = has_end & (distance > Lanes(0.0f));
+    ShadowLanes next = ray;
+    next.origin = start;
+    next.direction =
+        select(ahead, way * (Lanes(1.0f) / select(ahead, distance, Lanes(1.0f))), ray.direction);
+    next.tfar = select(has_end, distance, ray.tfar);
+    return next;
+}
+
+}  // namespace
+
+int take_waiting(int count, const uint8_t* occluded, const ShadowColumns& columns) {
+    uint16_t index[batch_size];
+    int waiting = 0;
+    for (int i = 0; i < count; ++i) {
+        if (occluded[i] == waits_at_thin_wall) index[waiting++] = static_cast<uint16_t>(i);
+    }
+    const auto column = [&](auto* words) { take_entries(index, waiting, words, words); };
+    ShadowColumns::for_each_column(column, columns);
+    return waiting;
+}
+
+int cross_thin_walls(const SceneView& scene,
+                     const ThinWallStep& step,
+                     int count_in,
+                     const ThinWallColumns& columns) {
+    const Filtering filtering = step.random ? Filtering::stochastic : Filtering::bilinear;
+    int out = 0;
+    for (int i = 0; i < count_in; i += lane_count) {
+        const Mask exists = lanes_in_range(i, count_in);
+        const ShadowLanes ray = load_shadows(columns.shadows, i);
+        const Mask met = exists & (load(columns.hits.primitive + i) >= LanesI(0));
+        const Mask arrives = exists & (!met);
+        if (any(arrives)) add_radiance(columns.samples, arrives, ray.slot, ray.radiance);
+        if (none(met)) continue;
+        HitLanes hit = hits_or_first(columns.hits, i, met);
+        if (columns.time != nullptr) {
+            hit.time = gather<Lanes>(columns.time, select(met, as_int(ray.slot), LanesI(0)));
+        }
+        ShadingPoint s = shading_point(
+            scene, hit, as_path(ray), {filtering, texture_random(ray.path_key, step)});
+        if (!s.any_layers) continue;
+        const StraightLight<Lanes> light =
+            take_straight(s.layers, to_local(s.frame, -ray.direction));
+        ShadowLanes next = restart_on_transmitted_side(ray, s.transmitted_start);
+        next.radiance = ray.radiance * light.transmittance;
+        const Mask passes = met & (!s.unlit) & (max_component(next.radiance) > Lanes(0.0f)) &
+                            s.layers.layered & (!s.layers.boundary.matched);
+        // In place: the entries written here have all been read.
+        out = append_shadows(columns.shadows, out, passes, next);
+    }
+    return out;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

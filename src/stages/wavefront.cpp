@@ -1,0 +1,417 @@
+// stages/wavefront.cpp - the wavefront loop: the only place that calls stages.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/wavefront.h"
+
+#include "base/stopwatch.h"
+#include "stages/shared_faces.h"
+#include "stages/wavefront_splats.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+/// The time of every sample, if something moves.
+const float* slot_times(const WavefrontInput& in, const Workspace& work) {
+    return moves(in.scene.motion) ? work.slot_time.data() : nullptr;
+}
+
+/// The times of rays, if something moves.
+const float* times_of(const WavefrontInput& in, const uint32_t* slot, int count, Workspace& work) {
+    if (!moves(in.scene.motion)) return nullptr;
+    for (int i = 0; i < count; ++i)
+        work.ray_time[static_cast<size_t>(i)] = work.slot_time[slot[i]];
+    return work.ray_time.data();
+}
+
+/// Stage 2: finds the hits of rays.
+void intersect_rays(const WavefrontInput& in,
+                    const RayColumns& rays,
+                    const HitColumns& hits,
+                    SeeThrough see_through,
+                    WavefrontCounters& c) {
+    const bool camera = see_through.segment == 0;
+    const int count = rays.count;
+    (camera ? c.camera_rays : c.bounce_rays) += static_cast<uint64_t>(count);
+    {
+        const SumOfTime time(camera ? c.seconds.intersect_camera : c.seconds.intersect_bounce);
+        const Coherence coherence = camera ? Coherence::coherent : Coherence::incoherent;
+        c.refused_rays +=
+            static_cast<uint64_t>(in.accel->intersect(rays, hits, coherence, see_through));
+    }
+    if (in.recorder != nullptr) in.recorder->add_hits(rays, hits, see_through);
+}
+
+/// Records by sample index the back faces that camera rays passed, and from where. Before shading,
+/// path i belongs to sample i.
+void note_passed_backs(const WavefrontInput& in, Workspace& work) {
+    const PathColumns& p = work.paths[0];
+    const bool parallel = in.batch.camera.model == CameraModel::orthographic;
+    for (const PassedBack& back : work.passed_backs) {
+        const auto i = static_cast<size_t>(back.index);
+        if (parallel) {
+            work.cut_faces[i] = {back.surface, {-p.dx[i], -p.dy[i], -p.dz[i], 0.0f}};
+        } else {
+            work.cut_faces[i] = {back.surface, {p.ox[i], p.oy[i], p.oz[i], 1.0f}};
+        }
+    }
+}
+
+void forget_passed_backs(Workspace& work) {
+    for (const PassedBack& back : work.passed_backs)
+        work.cut_faces[static_cast<size_t>(back.index)] = {};
+    work.passed_backs.clear();
+}
+
+/// The back faces that are cut away for all rays of a path but the first; null: none for any path.
+const Cutaway* cut_away(const uint32_t* slot, Workspace& work) {
+    if (work.passed_backs.empty()) return nullptr;
+    work.cutaway = {work.cut_faces.data(), slot};
+    return &work.cutaway;
+}
+
+/// Stage 2 for the paths of this bounce.
+void intersect(const WavefrontInput& in,
+               int count,
+               SeeThrough see_through,
+               Workspace& work,
+               WavefrontCounters& c) {
+    RayColumns rays = rays_of(work.paths[0], count);
+    if (see_through.segment == 0 && limits_rays(in.batch.camera)) {
+        rays.tfar = work.camera_length_m.data();
+    }
+    // Rays of AOVs have no sample index: ray i belongs to pixel i.
+    if (in.kind == WavefrontKind::aov || in.kind == WavefrontKind::wireframe) {
+        rays.time = slot_times(in, work);
+    } else {
+        rays.time = times_of(in, work.paths[0].slot, count, work);
+    }
+    intersect_rays(in, rays, work.hits, see_through, c);
+}
+
+/// Stage 2 inside scattering media: a random walk from scattering to scattering until the path
+/// reaches a surface. However many flights it takes, it counts as one bounce.
+void scatter_in_media(
+    const WavefrontInput& in, int count, int bounce, Workspace& work, WavefrontCounters& c) {
+    constexpr int max_flights = 4096;
+    const ScatterStart start{.paths = work.paths[0],
+                             .hits = work.hits,
+                             .random_walks = work.paths[1],
+                             .random_walk_hits = work.random_walk_hits,
+                             .path_index = work.random_walk_path.data()};
+    const ScatterColumns columns{.paths = work.paths[0],
+                                 .hits = work.hits,
+                                 .random_walks = work.paths[1],
+                                 .random_walk_hits = work.random_walk_hits,
+                                 .path_index = work.random_walk_path.data()};
+    SeeThrough see_through{.segment = 2U * static_cast<uint32_t>(bounce)};
+    int random_walks = 0;
+    {
+        const SumOfTime time(c.seconds.shade);
+        random_walks = in.stages->begin_scatter(in.scene, count, start);
+    }
+    for (int number = 0; random_walks > 0; ++number) {
+        {
+            const SumOfTime time(c.seconds.shade);
+            const Flight flight{bounce, number, number + 1 == max_flights};
+            random_walks = in.stages->scatter(in.scene, flight, random_walks, columns);
+        }
+        if (random_walks == 0) return;
+        RayColumns rays = rays_of(columns.random_walks, random_walks);
+        rays.time = times_of(in, columns.random_walks.slot, random_walks, work);
+        see_through.cutaway = cut_away(columns.random_walks.slot, work);
+        intersect_rays(in, rays, work.random_walk_hits, see_through, c);
+    }
+}
+
+/// Stage 2, where media touch and their faces may coincide. The second search starts from the face
+/// to shade, so that the result does not depend on which face Embree reported.
+void cross_shared_faces(const WavefrontInput& in,
+                        int count,
+                        SeeThrough see_through,
+                        Workspace& work) {
+    const float* time = slot_times(in, work);
+    see_through.passed_backs = nullptr;
+    work.shared_faces.assign(padded_batch_size, {});
+    SharedFaces* const found = work.shared_faces.data();
+    for (const SharedFaces* only :
+         {static_cast<const SharedFaces*>(nullptr), static_cast<const SharedFaces*>(found)}) {
+        const ProbeColumns columns{.paths = work.paths[0],
+                                   .hits = work.hits,
+                                   .time = time,
+                                   .shared = only,
+                                   .probes = work.shadows,
+                                   .path_index = work.random_walk_path.data()};
+        const int probes = in.stages->make_probes(in.scene, count, columns);
+        const CompanyQuery query{.accel = *in.accel,
+                                 .touching_media = in.scene.touching_media,
+                                 .see_through = see_through};
+        if (meet_company(query, probes, columns, work.hits, found) == 0) return;
+    }
+}
+
+/// Stage 4 for shadow rays that wait at thin walls: these need the nearest hit, wall after wall.
+void cross_thin_walls(
+    const WavefrontInput& in, int count, uint32_t segment, Workspace& work, WavefrontCounters& c) {
+    const bool raycast = in.kind == WavefrontKind::raycast;
+    const float* time = slot_times(in, work);
+    const ThinWallColumns columns{.shadows = work.shadows,
+                                  .hits = work.random_walk_hits,
+                                  .samples = work.samples,
+                                  .time = time};
+    int waiting = in.stages->take_waiting(count, work.occluded.data(), work.shadows);
+    for (uint32_t number = 0; waiting > 0 && number <= max_thin_walls; ++number) {
+        RayColumns rays = rays_of(work.shadows, waiting);
+        if (raycast) rays.key = nullptr;
+        rays.time = times_of(in, work.shadows.slot, waiting, work);
+        const SeeThrough see_through{.fixed_alpha = raycast,
+                                     .segment = segment,
+                                     .cutaway = cut_away(work.shadows.slot, work)};
+        c.shadow_rays += static_cast<uint64_t>(waiting);
+        {
+            const SumOfTime timing(c.seconds.shadow);
+            c.refused_rays += static_cast<uint64_t>(in.accel->intersect(
+                rays, work.random_walk_hits, Coherence::incoherent, see_through));
+        }
+        if (in.recorder != nullptr) in.recorder->add_shadow_hits(rays, columns.hits, see_through);
+        const SumOfTime timing(c.seconds.shade);
+        const ThinWallStep step{.segment = segment, .number = number, .random = !raycast};
+        waiting = in.stages->cross_thin_walls(in.scene, step, waiting, columns);
+    }
+}
+
+/// Marks the shadow rays that reached their light but met possible thin walls.
+void keep_waiting(int count, Workspace& work) {
+    for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+        if (work.thin_walls[i] != 0 && work.occluded[i] == 0) work.occluded[i] = waits_at_thin_wall;
+    }
+}
+
+/// Stage 4, and adds its light to the samples.
+void trace_shadows(
+    const WavefrontInput& in, int count, int bounce, Workspace& work, WavefrontCounters& c) {
+    const auto segment = 2U * static_cast<uint32_t>(bounce) + 1U;
+    const bool passes_thin_walls = in.scene.thin_walls && in.kind != WavefrontKind::ao;
+    RayColumns rays = rays_of(work.shadows, count);
+    if (in.kind == WavefrontKind::raycast) rays.key = nullptr;
+    rays.time = times_of(in, work.shadows.slot, count, work);
+    c.shadow_rays += static_cast<uint64_t>(count);
+    if (passes_thin_walls) work.thin_walls.assign(padded_batch_size, 0);
+    const ShadowQuery query{.segment = segment,
+                            .thin_walls = passes_thin_walls ? work.thin_walls.data() : nullptr,
+                            .cutaway = cut_away(work.shadows.slot, work)};
+    {
+        const SumOfTime time(c.seconds.shadow);
+        c.refused_rays += static_cast<uint64_t>(
+            in.accel->occluded(rays, work.occluded.data(), Coherence::incoherent, query));
+    }
+    if (in.recorder != nullptr) {
+        in.recorder->add_shadows(rays, work.occluded.data(), query);
+    }
+    if (passes_thin_walls) keep_waiting(count, work);
+    if (in.accel->has_splats() && in.kind != WavefrontKind::ao) dim_shadows(in, rays, work, c);
+    {
+        const SumOfTime time(c.seconds.accumulate);
+        in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
+    }
+    if (passes_thin_walls) cross_thin_walls(in, count, segment, work, c);
+}
+
+ShadeColumns shade_columns(const WavefrontInput& in, Workspace& work) {
+    return {.paths = work.paths[0],
+            .hits = work.hits,
+            .misses = work.misses,
+            .next = work.paths[1],
+            .shadows = work.shadows,
+            .samples = work.samples,
+            .time = slot_times(in, work),
+            .distance_since_scattering =
+                in.scene.thin_walls ? work.distance_since_scattering.data() : nullptr,
+            .occlusion = in.scene.occludes ? work.occlusion.data() : nullptr,
+            .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
+}
+
+RaycastColumns raycast_columns(const WavefrontInput& in, Workspace& work) {
+    return {.paths = work.paths[0],
+            .hits = work.hits,
+            .shadows = work.shadows,
+            .samples = work.samples,
+            .time = slot_times(in, work),
+            .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
+}
+
+void trace_paths(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
+    // One more segment than there are bounces: the last one only collects emitted light. It passes
+    // thin walls, as the shadow rays of the last bounce do.
+    const int segments = in.batch.max_bounces + 2 + (in.scene.thin_walls ? max_thin_walls : 0);
+    work.clear_slots(in.scene);
+    for (int bounce = 0; count > 0 && bounce < segments; ++bounce) {
+        SeeThrough see_through{.culls_back_faces = bounce == 0,
+                               .segment = 2U * static_cast<uint32_t>(bounce)};
+        if (bounce == 0) see_through.passed_backs = &work.passed_backs;
+        if (bounce > 0) see_through.cutaway = cut_away(work.paths[0].slot, work);
+        intersect(in, count, see_through, work, c);
+        if (bounce == 0) note_passed_backs(in, work);
+        if (in.scene.scatters) scatter_in_media(in, count, bounce, work, c);
+        if (in.scene.touching_media != nullptr) cross_shared_faces(in, count, see_through, work);
+        if (in.accel->has_splats()) pass_splats(in, count, bounce == 0, work, c);
+        ShadeCounts out;
+        {
+            const SumOfTime time(c.seconds.shade);
+            out = in.stages->shade(in.scene, in.batch, bounce, count, shade_columns(in, work));
+        }
+        if (out.shadow > 0) trace_shadows(in, out.shadow, bounce, work, c);
+        std::swap(work.paths[0], work.paths[1]);
+        count = out.next;
+    }
+}
+
+void trace_ao(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
+    const SeeThrough see_through{.culls_back_faces = true, .passed_backs = &work.passed_backs};
+    intersect(in, count, see_through, work, c);
+    note_passed_backs(in, work);
+    int shadows = 0;
+    {
+        const SumOfTime time(c.seconds.shade);
+        shadows = spawn_ambient_rays(in, count, work);
+    }
+    if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
+}
+
+/// Pairs hits with lights in as many steps as the shadow columns need. The lights of a sample are
+/// added in the same order however the steps are cut.
+void trace_raycast(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
+    const int max_lights = in.notes != nullptr ? 1 : batch_size / 16;
+    const SeeThrough see_through{
+        .culls_back_faces = true, .fixed_alpha = true, .passed_backs = &work.passed_backs};
+    intersect(in, count, see_through, work, c);
+    note_passed_backs(in, work);
+    if (in.accel->has_splats()) pass_splats(in, count, true, work, c);
+    int hits = 0;
+    {
+        if (in.notes != nullptr) in.notes->add_ray(work.paths[0], work.hits);
+        const SumOfTime time(c.seconds.shade);
+        hits = in.stages->begin_raycast(in.scene, in.batch, count, shade_columns(in, work));
+    }
+    const RaycastColumns columns = raycast_columns(in, work);
+    const int lights = in.scene.lights.punctual_count + in.scene.raycast.centre_count;
+    RaycastRange range;
+    for (range.first_light = 0; range.first_light == 0 || range.first_light < lights;
+         range.first_light += max_lights) {
+        range.lights = std::min(lights - range.first_light, max_lights);
+        const int max_hits = batch_size / std::max(range.lights, 1) / 16 * 16;
+        for (range.first_hit = 0; range.first_hit < hits; range.first_hit += max_hits) {
+            range.hits = std::min(hits - range.first_hit, max_hits);
+            int shadows = 0;
+            {
+                const SumOfTime time(c.seconds.shade);
+                shadows = in.stages->shade_raycast(in.scene, range, columns);
+            }
+            if (in.notes != nullptr) in.notes->add_offer(range, shadows, columns);
+            if (shadows > 0) trace_shadows(in, shadows, 0, work, c);
+            if (in.notes != nullptr) in.notes->add_arrival(work.occluded[0], columns);
+        }
+    }
+}
+
+/// Adds up the wireframe of every ray of the grid; see wireframe_side.
+void trace_wireframe(
+    const WavefrontInput& in, int pixels, Workspace& work, PixelSum* sums, WavefrontCounters& c) {
+    WavefrontInput one = in;
+    for (int i = 0; i < in.batch.samples; ++i) {
+        const int ray = static_cast<int>(in.batch.first_sample) + i;
+        const auto offset = [](int place) {
+            return (static_cast<float>(place) + 0.5f) / wireframe_side - 0.5f;
+        };
+        one.batch.film_offset_px[0] = offset(ray % wireframe_side);
+        one.batch.film_offset_px[1] = offset(ray / wireframe_side);
+        trace_aov(one, pixels, work, c);
+        const SumOfTime time(c.seconds.accumulate);
+        in.stages->accumulate(pixels, {static_cast<uint32_t>(ray), 1}, work.samples, sums);
+    }
+}
+
+float* camera_lengths(const WavefrontInput& in, Workspace& work) {
+    return limits_rays(in.batch.camera) ? work.camera_length_m.data() : nullptr;
+}
+
+/// Writes the counts of Accel::count_tests as samples.
+void count_heat(const WavefrontInput& in, int pixels, Workspace& work, WavefrontCounters& c) {
+    RayColumns rays = rays_of(work.paths[0], pixels);
+    rays.tfar = camera_lengths(in, work);
+    c.camera_rays += static_cast<uint64_t>(pixels);
+    const SumOfTime time(c.seconds.intersect_camera);
+    c.refused_rays += static_cast<uint64_t>(in.counting->count_tests(rays, work.samples.r));
+}
+
+}  // namespace
+
+int spawn_ambient_rays(const WavefrontInput& in, int count, Workspace& work) {
+    return in.stages->shade_ao(in.scene, in.batch, count, shade_columns(in, work));
+}
+
+void trace_batch(const WavefrontInput& in,
+                 int pixels,
+                 Workspace& work,
+                 PixelSum* sums,
+                 WavefrontCounters& counters) {
+    if (in.kind == WavefrontKind::wireframe)
+        return trace_wireframe(in, pixels, work, sums, counters);
+    const int count = pixels * in.batch.samples;
+    {
+        const SumOfTime time(counters.seconds.camera);
+        float* length_m = camera_lengths(in, work);
+        in.stages->camera(in.batch, count, work.paths[0], work.samples, length_m);
+        if (moves(in.scene.motion)) {
+            const bool centres = in.batch.through_centres;
+            in.stages->open_shutter(in.scene, centres, count, work.paths[0], work.slot_time.data());
+        }
+    }
+    counters.paths += static_cast<uint64_t>(count);
+    forget_passed_backs(work);
+    switch (in.kind) {
+        case WavefrontKind::path:
+            trace_paths(in, count, work, counters);
+            break;
+        case WavefrontKind::ao:
+            trace_ao(in, count, work, counters);
+            break;
+        case WavefrontKind::raycast:
+            trace_raycast(in, count, work, counters);
+            break;
+        case WavefrontKind::wireframe:
+        case WavefrontKind::aov:
+            break;
+    }
+    const SumOfTime time(counters.seconds.accumulate);
+    counters.nonfinite_samples += in.stages->accumulate(
+        pixels, {in.batch.first_sample, in.batch.samples}, work.samples, sums);
+}
+
+void trace_aov(const WavefrontInput& in, int pixels, Workspace& work, WavefrontCounters& counters) {
+    {
+        const SumOfTime time(counters.seconds.camera);
+        in.stages->centre_camera(in.batch, pixels, work.paths[0], camera_lengths(in, work));
+        if (moves(in.scene.motion)) {
+            in.stages->open_shutter(in.scene, true, pixels, work.paths[0], work.slot_time.data());
+        }
+    }
+    counters.paths += static_cast<uint64_t>(pixels);
+    if (in.aov == Aov::heat) return count_heat(in, pixels, work, counters);
+    intersect(in, pixels, {.culls_back_faces = true, .fixed_alpha = true}, work, counters);
+    const SumOfTime time(counters.seconds.shade);
+    in.stages->aov(in.scene,
+                   in.batch,
+                   in.aov,
+                   pixels,
+                   {.paths = work.paths[0],
+                    .hits = work.hits,
+                    .samples = work.samples,
+                    .time = slot_times(in, work)});
+    counters.nonfinite_samples += in.stages->clear_nonfinite(pixels, work.samples);
+}
+
+}  // namespace obscura

@@ -1,0 +1,131 @@
+// stages/wavefront.h - traces a batch of paths through the stages, bounce by bounce.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "accel/accel.h"
+#include "accel/ray_recording.h"
+#include "stages/raycast_notes.h"
+#include "stages/stage_seconds.h"
+#include "stages/stages.h"
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+namespace obscura {
+
+/// What the wavefront loop computes. To add an integrator: see render/render.h.
+enum class WavefrontKind { path, ao, raycast, wireframe, aov };
+
+/// A wireframe pixel is sampled by a grid of rays, this many a side, each for its own square.
+inline constexpr int wireframe_side = 4;
+inline constexpr int wireframe_rays = wireframe_side * wireframe_side;
+
+struct WavefrontCounters {
+    uint64_t paths = 0;
+    uint64_t camera_rays = 0;
+    uint64_t bounce_rays = 0;
+    uint64_t shadow_rays = 0;
+    uint64_t refused_rays = 0;
+    uint64_t nonfinite_samples = 0;
+    StageSeconds seconds;
+};
+
+/// Length of a batch's columns: stages read and write whole registers.
+inline constexpr size_t padded_batch_size = batch_size + 16;
+
+/// The columns of one batch, reused from batch to batch. One per thread.
+class Workspace {
+public:
+    Workspace();
+
+    /// Resets the state that samples keep from bounce to bounce.
+    void clear_slots(const SceneView& scene) {
+        if (scene.thin_walls) distance_since_scattering.assign(slot_time.size(), 0.0f);
+        if (scene.occludes) occlusion.assign(slot_time.size(), 1.0f);
+    }
+
+    PathColumns paths[2];
+    HitColumns hits;
+    HitColumns random_walk_hits;  ///< in scattering medium_stack, and of shadow rays at thin walls
+    std::vector<uint32_t> random_walk_path;
+    MissColumns misses;
+    ShadowColumns shadows;
+    SampleColumns samples;
+    std::vector<uint8_t> occluded;
+    std::vector<uint8_t> thin_walls;  ///< where there are thin walls; see Accel::occluded
+    std::vector<float> distance_since_scattering;  ///< likewise, by slot; see ShadeColumns
+    std::vector<float> occlusion;                  ///< where SceneView::occludes; see ShadeColumns
+    std::vector<SharedFaces> shared_faces;         ///< where media touch, by slot
+    std::vector<float> slot_time;                  ///< where something moves; see 1_shutter.h
+    std::vector<float> ray_time;                   ///< the same, by index of the rays to be asked
+    std::vector<PassedBack> passed_backs;          ///< of this batch's camera rays
+    std::vector<CutFaces> cut_faces;               ///< the same by slot, else nothing
+    Cutaway cutaway;                               ///< of the rays that are asked now
+    std::vector<float> splats[4];                  ///< as SplatColumns, by index
+    std::vector<float> ray_end;                    ///< of paths, where there are splats
+    std::vector<float> camera_length_m;  ///< how far camera rays may go; for cameras that say it
+
+private:
+    std::vector<std::byte> memory_;
+};
+
+/// The rays of paths; the caller sets their end and time.
+inline RayColumns rays_of(const PathView& p, int count) {
+    return {.ox = p.ox,
+            .oy = p.oy,
+            .oz = p.oz,
+            .dx = p.dx,
+            .dy = p.dy,
+            .dz = p.dz,
+            .tfar = nullptr,
+            .key = p.path_key,
+            .count = count};
+}
+
+inline RayColumns rays_of(const ShadowView& s, int count) {
+    return {.ox = s.ox,
+            .oy = s.oy,
+            .oz = s.oz,
+            .dx = s.dx,
+            .dy = s.dy,
+            .dz = s.dz,
+            .tfar = s.tfar,
+            .key = s.path_key,
+            .count = count};
+}
+
+/// The inputs of the wavefront loop.
+struct WavefrontInput {
+    const StageTable* stages;
+    const Accel* accel;
+    SceneView scene;
+    BatchSettings batch;
+    const Accel* counting = nullptr;  ///< for Aov::heat: see Accel::build_counting
+    WavefrontKind kind = WavefrontKind::path;
+    Aov aov = Aov::normal;            ///< of trace_aov
+    RayRecorder* recorder = nullptr;  ///< records every ray of this thread; null: no recording
+    RaycastNotes* notes = nullptr;    ///< for a raycast of one pixel; null: no notes
+};
+
+/// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_size) and adds them
+/// to the pixels' sums. For every kind but AOVs.
+void trace_batch(const WavefrontInput& in,
+                 int pixels,
+                 Workspace& work,
+                 PixelSum* sums,
+                 WavefrontCounters& counters);
+
+/// Writes one ambient occlusion ray for every hit, without tracing it.
+///
+/// In      work.paths[0], work.hits: `count` paths; they are overwritten
+/// Out     work.shadows. Returns how many.
+int spawn_ambient_rays(const WavefrontInput& in, int count, Workspace& work);
+
+/// Pixels in a batch of AOVs: their columns fit the nearest cache.
+inline constexpr int aov_batch_size = 1024;
+
+/// Writes in.aov at `pixels` <= batch_size pixel centres to work.samples, one entry each.
+void trace_aov(const WavefrontInput& in, int pixels, Workspace& work, WavefrontCounters& counters);
+
+}  // namespace obscura
