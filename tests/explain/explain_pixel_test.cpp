@@ -163,7 +163,7 @@ TEST(ExplainPixel, ByHand) {
     const PixelReport report = explain(task);
     ASSERT_TRUE(report.seen);
     EXPECT_EQ(report.objects.at(0).working.t, (std::vector<double>{4, 6}));
-    EXPECT_NEAR(length(report.seen->place - Vec3d{0, 0, 1}), 0, 1e-15);
+    EXPECT_NEAR(length(report.seen->position - Vec3d{0, 0, 1}), 0, 1e-15);
     EXPECT_NEAR(length(report.seen->normal - Vec3d{0, 0, 1}), 0, 1e-6);
     ASSERT_EQ(report.lights.size(), 1U);
     const LightContribution& light = report.lights[0];
@@ -220,7 +220,7 @@ TEST(ExplainPixel, WhereRoundingDecidesTheImageIsExplained) {
         ++decided;
         EXPECT_FALSE(report.objects.at(0).note.empty());
         if (report.seen) {
-            EXPECT_NEAR(length(report.seen->place), 0, 1e-5);
+            EXPECT_NEAR(length(report.seen->position), 0, 1e-5);
             EXPECT_NEAR(report.lights.at(0).distance_m, std::sqrt(9.25), 1e-5);
         }
     }

@@ -113,7 +113,7 @@ TEST(LightProfiles, TooManyNumbersAreRefused) {
     document.nodes[0].ies.profile = 0;
     document.nodes[1].ies.profile = 1;
     const Result<std::vector<LightProfile>> all = load_light_profiles(document, {}, "");
-    ASSERT_TRUE(all) << all.error().text;
+    ASSERT_TRUE(all) << all.error().message;
     const size_t numbers = 2 * (all->at(0).candela.size() + all->at(0).polar_deg.size());
     EXPECT_TRUE(load_light_profiles(document, {}, "", numbers));
     const Result<std::vector<LightProfile>> fewer =
