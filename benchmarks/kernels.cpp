@@ -46,7 +46,7 @@ OBSCURA_INLINE F sum3(const Vec3<F>& v) {
     return v.x + v.y + v.z;
 }
 
-/// Calls body(i) for the first entry of every group of F. Bodies store sums of what they compute,
+/// Calls body(i) for the first entry of every group of F. A body stores sums of what it computes,
 /// so that nothing is optimised away; one or two stores cost little beside the kernel.
 template <typename F, typename Body>
 OBSCURA_INLINE void for_groups(const Body& body) {

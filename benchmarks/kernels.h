@@ -10,8 +10,8 @@
 
 namespace obscura::benchmarks {
 
-/// Entries in every column: as many as a batch of the renderer has, so that the columns stay within
-/// a core's second-level cache.
+/// Entries in every column: a quarter of the renderer's batch, so that all columns stay within a
+/// core's second-level cache.
 inline constexpr int kernel_size = 1024;
 
 /// What kernels read and write: columns of kernel_size numbers, and the tables they gather from.

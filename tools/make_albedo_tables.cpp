@@ -17,8 +17,8 @@ namespace {
 constexpr double min_alpha = 1e-5;
 constexpr double min_cosine = 1e-4;
 
-/// Lobes are divided by these shares, so an interpolated one that is too low would make light. By
-/// so much they are, but for one in a hundred places; the tables keep clear of it.
+/// Lobes are divided by these shares, so an interpolated share that is too low would create light.
+/// The tables are raised by as much as interpolation is too low at all but one in a hundred points.
 constexpr double specular_headroom = 1.0012;
 constexpr double stretched_headroom = 1.0025;
 constexpr double glass_headroom = 1.001;

@@ -151,7 +151,7 @@ void add_scene(const Scene& scene, SceneHash& out) {
     out.add("primitives", scene.primitives);
     out.add("world_primitive_count", scene.world_primitive_count);
     out.add("still_primitive_count", scene.static_primitive_count);
-    for (const Mesh& mesh : scene.meshes) {  // but the stamp, which counts what was loaded before
+    for (const Mesh& mesh : scene.meshes) {  // all but the stamp, which depends on earlier loads
         out.add("mesh.first_primitive", mesh.first_primitive);
         out.add("mesh.primitive_count", mesh.primitive_count);
     }

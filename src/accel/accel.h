@@ -32,8 +32,8 @@ struct SeeThrough {
 /// Settings of a shadow query.
 struct ShadowQuery {
     uint32_t segment = 0;  ///< as in SeeThrough
-    /// Null, or 0 for every ray: possible thin walls (scene/thin_walls.h) do not occlude, but set
-    /// this to 1.
+    /// By ray, 0 at first: possible thin walls (scene/thin_walls.h) do not occlude a ray, but set
+    /// its entry to 1. Null: they occlude.
     uint8_t* thin_walls = nullptr;
     const Cutaway* cutaway = nullptr;  ///< null: all faces are there
 };

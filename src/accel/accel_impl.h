@@ -78,7 +78,7 @@ struct Accel::Impl {
     /// Geometry ids: world primitives, then instances, then `static_geometry` unless it is all
     /// there is.
     RTCScene top = nullptr;
-    BuiltGeometry static_geometry;      ///< of Scene::static_primitive_count; empty: has no scene
+    BuiltGeometry static_geometry;      ///< the static primitives; no scene if there are none
     std::vector<BuiltGeometry> meshes;  ///< as Scene::meshes
     SharedArrays arrays;
     bool has_instances = false;  ///< in `top`

@@ -145,7 +145,7 @@ void thin_wall_filter(const RTCFilterFunctionNArguments* args) {
     }
 }
 
-void open_thin_wall_filter(const RTCFilterFunctionNArguments* args) {
+void alpha_thin_wall_filter(const RTCFilterFunctionNArguments* args) {
     alpha_filter(args);
     thin_wall_filter(args);
 }

@@ -43,13 +43,13 @@ struct AlphaCandidate {
 /// The threshold: a hit counts if its alpha is at least this.
 float alpha_threshold(const AlphaGeometry& geometry,
                       const QueryContext& context,
-                      const AlphaCandidate& place);
+                      const AlphaCandidate& candidate);
 
 /// False if alpha lets a ray pass a triangle, point or curve segment. barycentric: weights of its
 /// second and third corner.
 bool is_opaque_there(const AlphaGeometry& geometry,
                      const QueryContext& context,
-                     const AlphaCandidate& place,
+                     const AlphaCandidate& candidate,
                      Vec2f barycentric);
 
 /// Embree filter for intersection and occlusion. A BLEND hit counts with probability alpha, decided
@@ -62,6 +62,6 @@ void alpha_filter(const RTCFilterFunctionNArguments* args);
 void thin_wall_filter(const RTCFilterFunctionNArguments* args);
 
 /// The same for primitives whose alpha is tested first.
-void open_thin_wall_filter(const RTCFilterFunctionNArguments* args);
+void alpha_thin_wall_filter(const RTCFilterFunctionNArguments* args);
 
 }  // namespace obscura

@@ -23,7 +23,7 @@ struct RayColumns {
     const float* time = nullptr;  ///< shutter time in [0, 1]; null: 0
 };
 
-/// The hit surface, as indices of the scene's tables.
+/// The hit surface, as indices of the records in the scene's tables.
 struct SceneRecords {
     int32_t instance = -1;
     int32_t primitive = -1;  ///< -1: nothing
@@ -53,8 +53,8 @@ struct CutFaces {
 
 /// The cut-away faces of a column of rays.
 struct Cutaway {
-    const CutFaces* faces = nullptr;  ///< by slot
-    const uint32_t* slot = nullptr;   ///< by index of the rays
+    const CutFaces* faces = nullptr;  ///< by sample index
+    const uint32_t* slot = nullptr;   ///< sample index of each ray
 
     const CutFaces& of(int index) const { return faces[slot[index]]; }
 };

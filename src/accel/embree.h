@@ -38,7 +38,7 @@ struct QueryContext {
     bool fixed_threshold = false;         ///< alpha BLEND counts as MASK at 0.5
     bool culls_back_faces = false;        ///< of single-sided analytic shapes
     bool passes_thin_walls = false;       ///< possible thin walls do not occlude
-    unsigned char* thin_walls = nullptr;  ///< then 1, by the ray's id, where it does; or null
+    unsigned char* thin_walls = nullptr;  ///< by ray id: set to 1 if the ray passes one
     std::vector<PassedBack>* passed_backs = nullptr;  ///< see SeeThrough
     const Cutaway* cutaway = nullptr;                 ///< likewise
     CrossingNotes* crossings = nullptr;  ///< records all, hits nothing; see accel/crossings.cpp

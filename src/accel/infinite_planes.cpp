@@ -1,4 +1,4 @@
-// accel/infinite_planes.cpp - infinite planes, which no BVH can hold, tested besides it.
+// accel/infinite_planes.cpp - infinite planes, which no BVH can hold: tested apart from it.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/infinite_planes.h"
 

@@ -21,7 +21,7 @@ void set_filters(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometr
     }
     if (kinds.thin_wall) {
         rtcSetGeometryOccludedFilterFunction(
-            geometry, kinds.alpha ? open_thin_wall_filter : thin_wall_filter);
+            geometry, kinds.alpha ? alpha_thin_wall_filter : thin_wall_filter);
     }
 }
 

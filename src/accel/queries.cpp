@@ -158,7 +158,7 @@ int Accel::occluded(const RayColumns& rays,
         for (int i = 0; asked.cutaway != nullptr && i < count; ++i) {
             const int index = first + i;
             if (valid.lane[i] == 0 || occluded[index] == 0) continue;
-            occluded[index] = is_hidden_beside_cutaway(*impl_, context, index, rays) ? 1 : 0;
+            occluded[index] = is_occluded_despite_cutaway(*impl_, context, index, rays) ? 1 : 0;
         }
         if (impl_->infinite_planes.empty()) continue;
         for (int i = 0; i < count; ++i) {

@@ -9,7 +9,7 @@ namespace obscura {
 
 namespace {
 
-Vec2f texture_place(const ShapeGeometry& geometry, const ShapeCandidate& candidate) {
+Vec2f texture_uv(const ShapeGeometry& geometry, const ShapeCandidate& candidate) {
     if (geometry.records != nullptr) {
         const ShapeRecord& record = geometry.records[candidate.index];
         return surface_of_shape<float>(record.kind, UniformShape<float>(record), candidate.position)
@@ -33,10 +33,10 @@ bool is_opaque_there(const ShapeGeometry& geometry,
     if (is_point_or_line(primitive)) {
         return is_opaque_there(open, context, {candidate.ray, candidate.instance, index}, {0, 0});
     }
-    const float alpha = material_alpha(open, material, texture_place(geometry, candidate));
+    const float alpha = material_alpha(open, material, texture_uv(geometry, candidate));
     // The two intersections with one shape are two decisions.
-    const auto place = index * 2U + static_cast<unsigned>(candidate.root);
-    return alpha >= alpha_threshold(open, context, {candidate.ray, candidate.instance, place});
+    const auto decision = index * 2U + static_cast<unsigned>(candidate.root);
+    return alpha >= alpha_threshold(open, context, {candidate.ray, candidate.instance, decision});
 }
 
 NearHit<float> intersect_infinite_plane(const InfinitePlane& plane,

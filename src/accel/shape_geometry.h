@@ -61,7 +61,7 @@ struct ShapeCallbacks {
     RTCOccludedFunctionN occluded;
 };
 
-/// An infinite plane, which no box can hold: tested besides the BVH.
+/// An infinite plane, which no box can hold: tested apart from the BVH.
 struct InfinitePlane {
     ShapeGeometry geometry;
     ShapeRecord record;

@@ -180,10 +180,10 @@ void pass_cutaway(const Accel::Impl& impl,
     ask_again(again, drop_cutaway, index, columns);
 }
 
-bool is_hidden_beside_cutaway(const Accel::Impl& impl,
-                              const QueryContext& context,
-                              int index,
-                              const RayColumns& rays) {
+bool is_occluded_despite_cutaway(const Accel::Impl& impl,
+                                 const QueryContext& context,
+                                 int index,
+                                 const RayColumns& rays) {
     if (!cuts(*context.cutaway, index)) return true;
     FaceContext again = face_context(impl, context, rays, index);
     Query query(again.common, false);

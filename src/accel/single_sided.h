@@ -65,9 +65,9 @@ void pass_cutaway(const Accel::Impl& impl,
 
 /// For an occluded ray: false if only faces cut away by context.cutaway lie in (0, tfar). Does not
 /// test infinite planes.
-bool is_hidden_beside_cutaway(const Accel::Impl& impl,
-                              const QueryContext& context,
-                              int index,
-                              const RayColumns& rays);
+bool is_occluded_despite_cutaway(const Accel::Impl& impl,
+                                 const QueryContext& context,
+                                 int index,
+                                 const RayColumns& rays);
 
 }  // namespace obscura

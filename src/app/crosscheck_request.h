@@ -32,7 +32,7 @@ struct CrosscheckRequest {
 /// Defaults of --size.
 inline constexpr const char* crosscheck_size = "640x360";
 
-/// "ox,oy,oz,dx,dy,dz" or with an end behind.
+/// "ox,oy,oz,dx,dy,dz", optionally followed by the ray's end in lengths of its direction.
 ///
 /// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE
 Result<crosscheck::TrueRay> parse_ray(const std::string& text, const std::string& option);

@@ -58,9 +58,9 @@ void append_meshes(const Scene& scene, std::string& text) {
     if (!shapes.empty()) text += title("shapes") + shapes + "\n";
     text += title("instances") + fmt::format("{}\n", scene.instances.size());
     if (info.points_in_world + info.line_segments_in_world > 0) {
-        text += title("strokes") + fmt::format("{} points, {} line segments\n",
-                                               info.points_in_world,
-                                               info.line_segments_in_world);
+        text += title("points, lines") + fmt::format("{} points, {} line segments\n",
+                                                     info.points_in_world,
+                                                     info.line_segments_in_world);
     }
     if (info.splats_in_world > 0)
         text += title("splats") + fmt::format("{}\n", info.splats_in_world);

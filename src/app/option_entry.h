@@ -19,7 +19,7 @@ using OptionText = std::optional<std::string>;
 struct OptionInfo {
     const char* name = "";      ///< "--size", "-o,--output"; without dashes it is positional
     const char* argument = "";  ///< stands for the value: "WxH"; "": a flag or positional
-    const char* help = "";  ///< in sentences; behind a colon at its end come the names of `reader`
+    const char* help = "";      ///< sentences; a colon at the end: the names of `reader` follow
     struct {
         double low = 0, high = 0;
     } range = {};               ///< of numbers, inclusive

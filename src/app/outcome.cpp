@@ -30,7 +30,7 @@ std::string one_word(const std::string& text) {
     return out.empty() ? "-" : out;
 }
 
-/// "ERROR where: message [E-ID]"; a summary of others has neither position nor id.
+/// "ERROR where: message [E-ID]"; a summary of several errors has neither `where` nor id.
 std::string error_line(const Error& error) {
     const std::string where = error.where.empty() ? "" : shown(error.where) + ": ";
     const std::string id = error.id.empty() ? "" : " [" + error.id + "]";

@@ -86,8 +86,8 @@ void Progress::begin() {
 }
 
 void Progress::update(double fraction) {
-    double known = share_.load(std::memory_order_relaxed);
-    while (fraction > known && !share_.compare_exchange_weak(known, fraction)) {
+    double known = fraction_.load(std::memory_order_relaxed);
+    while (fraction > known && !fraction_.compare_exchange_weak(known, fraction)) {
     }
 }
 
@@ -110,7 +110,7 @@ double Progress::seconds() const {
 }
 
 void Progress::show_now() {
-    const double fraction = share_.load(std::memory_order_relaxed);
+    const double fraction = fraction_.load(std::memory_order_relaxed);
     const double begin_s = begin_s_.load();
     if (style_ == Style::lines) {
         if (const std::optional<int> percent = pacer_.due(seconds(), fraction))

@@ -56,7 +56,7 @@ private:
     Style style_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::atomic<double> begin_s_{-1.0};  ///< since start_; negative before begin()
-    std::atomic<double> share_{0.0};
+    std::atomic<double> fraction_{0.0};
     ProgressPacer pacer_;  ///< used by one thread at a time
     std::mutex mutex_;
     std::condition_variable wake_;

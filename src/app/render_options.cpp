@@ -190,7 +190,7 @@ constexpr Entry camera[] = {
     {{.name = "--up", .argument = "X,Y,Z", .help = "Direction that is up in the picture",
       .fallback = "0,1,0"},
      text_at<&A::up>, parsed_at<parse_point, &R::camera, &C::up>},
-    {{.name = "--fov", .argument = "DEG",  // read_fov() knows of what camera it is
+    {{.name = "--fov", .argument = "DEG",  // its range depends on the model: read_fov()
       .help = "Vertical angle of view, 0.01 to 179; of a fisheye the whole circle's, up to 360",
       .fallback = "the camera's, or 35; 180"},
      text_at<&A::fov>},

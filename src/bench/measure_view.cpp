@@ -9,7 +9,7 @@ namespace obscura::bench {
 
 namespace {
 
-/// Replays of one kind of rays in one way: their times, and the hits of each.
+/// Replays of one kind of rays in one mode: their times, and the hits of each.
 struct ModeTimes {
     ReplayMode mode;
     std::vector<double> seconds;
@@ -44,10 +44,10 @@ public:
         }
     }
 
-    /// The way with the least median; null without such rays.
+    /// The mode with the least median time; null without such rays.
     const ModeTimes* best(RayKind kind) const {
         const std::vector<ModeTimes>& modes = modes_[static_cast<size_t>(kind)];
-        const auto median = [](const ModeTimes& w) { return spread_of(w.seconds).median; };
+        const auto median = [](const ModeTimes& m) { return spread_of(m.seconds).median; };
         const auto least = std::min_element(
             modes.begin(), modes.end(), [&](const ModeTimes& a, const ModeTimes& b) {
                 return median(a) < median(b);
@@ -55,7 +55,7 @@ public:
         return least->seconds.empty() ? nullptr : &*least;
     }
 
-    /// Seconds of the i-th replay of all kinds, each in its best way.
+    /// Seconds of the i-th replay of all kinds, each in its best mode.
     double seconds_of_run(size_t i) const {
         double sum = 0;
         for (size_t k = 0; k < ray_kinds; ++k) {

@@ -23,7 +23,7 @@ struct ViewTask {
 };
 
 /// Renders once to warm up and once to record the rays; then, `repeat` times, renders and traces
-/// the same rays on bare Embree, each kind in every way that suits it. The caller fills in name,
+/// the same rays on bare Embree, each kind in every mode that suits it. The caller fills in name,
 /// camera and coverage.
 ///
 /// Errors  75 E-STOPPED; 33 E-MEM

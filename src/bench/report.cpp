@@ -30,10 +30,10 @@ std::array<double, 5> stage_fractions(const ViewFigures& view) {
     double sum = 0;
     for (const Spread& stage : view.stage_s)
         sum += stage.median;
-    std::array<double, 5> shares = {};
-    for (size_t i = 0; sum > 0 && i < shares.size(); ++i)
-        shares[i] = view.stage_s[i].median / sum;
-    return shares;
+    std::array<double, 5> fractions = {};
+    for (size_t i = 0; sum > 0 && i < fractions.size(); ++i)
+        fractions[i] = view.stage_s[i].median / sum;
+    return fractions;
 }
 
 double outside_stages(const ViewFigures& view) {

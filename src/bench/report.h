@@ -77,7 +77,7 @@ struct KindFigures {
     uint64_t bare_hits = 0;                ///< likewise, in the replay
     uint64_t spared = 0;                   ///< rays that only the replay may find occluded
     ReplayMode mode = ReplayMode::single;  ///< the fastest
-    Spread bare_s;                         ///< asked in that mode
+    Spread bare_s;                         ///< time of the replay in that mode
     double render_s = 0;                   ///< wall-clock time of the stage that traces them
 };
 

@@ -75,10 +75,11 @@ Json memory_json(const MemoryFigures& m, size_t triangles) {
 }
 
 Json stages_json(const ViewFigures& view) {
-    const auto shares = stage_fractions(view);
+    const auto fractions = stage_fractions(view);
     Json out = Json::object();
-    for (size_t i = 0; i < shares.size(); ++i) {
-        out[stage_names()[i]] = {{"share", shares[i]}, {"thread_s", spread_json(view.stage_s[i])}};
+    for (size_t i = 0; i < fractions.size(); ++i) {
+        out[stage_names()[i]] = {{"share", fractions[i]},
+                                 {"thread_s", spread_json(view.stage_s[i])}};
     }
     return out;
 }

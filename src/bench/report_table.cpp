@@ -113,9 +113,9 @@ void add_view(const ViewFigures& view, std::string& out) {
                        per_second(view, c.paths) * 1e-6,
                        per_second(view, rays) * 1e-6);
     out += "    stages          ";
-    const auto shares = stage_fractions(view);
-    for (size_t i = 0; i < shares.size(); ++i)
-        out += fmt::format(" {} {:.1f} %", stage_names()[i], 100 * shares[i]);
+    const auto fractions = stage_fractions(view);
+    for (size_t i = 0; i < fractions.size(); ++i)
+        out += fmt::format(" {} {:.1f} %", stage_names()[i], 100 * fractions[i]);
     out += fmt::format("; outside {:.1f} %\n", 100 * outside_stages(view));
     add_kinds(view, out);
 }

@@ -22,7 +22,7 @@ struct TrueBox {
 
     void add(const Vec3d& p);
     void add(const TrueBox& other);
-    /// Room for rounding in double, a billion times more than is needed near the box.
+    /// Grown by 1e-9 of its largest coordinate: far more than rounding in double needs.
     TrueBox with_room() const;
 };
 

@@ -12,16 +12,16 @@ namespace obscura::crosscheck {
 namespace {
 
 using Corners = std::array<uint32_t, 3>;  ///< welded vertex numbers
-using Place = std::array<float, 3>;
+using Position = std::array<float, 3>;
 
-/// The triangles of primitives that share a space, with vertices that are one where they coincide.
+/// The triangles of primitives that share a space; coincident vertices are one.
 struct WeldedMesh {
-    std::vector<Place> places;
+    std::vector<Position> positions;
     std::vector<Corners> triangles;
 };
 
 WeldedMesh weld(const Scene& scene, int32_t first_primitive, int32_t count) {
-    std::vector<Place> corners;
+    std::vector<Position> corners;
     for (int32_t p = first_primitive; p < first_primitive + count; ++p) {
         const Primitive& primitive = scene.primitives[static_cast<size_t>(p)];
         if (!is_mesh(primitive)) continue;
@@ -32,15 +32,16 @@ WeldedMesh weld(const Scene& scene, int32_t first_primitive, int32_t count) {
         }
     }
     WeldedMesh mesh;
-    mesh.places = corners;
-    std::sort(mesh.places.begin(), mesh.places.end());
-    mesh.places.erase(std::unique(mesh.places.begin(), mesh.places.end()), mesh.places.end());
+    mesh.positions = corners;
+    std::sort(mesh.positions.begin(), mesh.positions.end());
+    mesh.positions.erase(std::unique(mesh.positions.begin(), mesh.positions.end()),
+                         mesh.positions.end());
     for (size_t i = 0; i + 2 < corners.size(); i += 3) {
         Corners triangle{};
         for (size_t k = 0; k < 3; ++k) {
             const auto at =
-                std::lower_bound(mesh.places.begin(), mesh.places.end(), corners[i + k]);
-            triangle[k] = static_cast<uint32_t>(at - mesh.places.begin());
+                std::lower_bound(mesh.positions.begin(), mesh.positions.end(), corners[i + k]);
+            triangle[k] = static_cast<uint32_t>(at - mesh.positions.begin());
         }
         const bool flat =
             triangle[0] == triangle[1] || triangle[1] == triangle[2] || triangle[2] == triangle[0];
@@ -70,7 +71,7 @@ private:
 
 /// The triangles of every closed cluster.
 std::vector<std::vector<Corners>> closed_clusters(const WeldedMesh& mesh) {
-    Clusters clusters(mesh.places.size());
+    Clusters clusters(mesh.positions.size());
     for (const Corners& t : mesh.triangles) {
         clusters.join(t[0], t[1]);
         clusters.join(t[1], t[2]);
@@ -85,7 +86,7 @@ std::vector<std::vector<Corners>> closed_clusters(const WeldedMesh& mesh) {
         }
     }
     std::sort(edges.begin(), edges.end());
-    std::vector<uint8_t> open(mesh.places.size(), 0);
+    std::vector<uint8_t> open(mesh.positions.size(), 0);
     for (size_t i = 0; i < edges.size();) {
         int sum = 0;
         const auto edge = edges[i].first;
@@ -135,7 +136,7 @@ ClosedComponent component_of(const WeldedMesh& mesh,
                 renumbered.try_emplace(v, static_cast<uint32_t>(renumbered.size()));
             component.scene.indices.push_back(at->second);
             if (!is_new) continue;
-            const Place& p = mesh.places[v];
+            const Position& p = mesh.positions[v];
             component.scene.positions.insert(component.scene.positions.end(), p.begin(), p.end());
         }
     }

@@ -41,10 +41,13 @@ bool says_the_same(const Question& q, const Answer& answer, const TrueHit& hit, 
     return answer.any || depth_gap(q, answer_of(hit), answer) <= depth_ulps + ulps;
 }
 
-/// Calls look(ray) for rays so many ulp away from q.ray: beside it, ahead and behind, and tilted
+/// Calls visit(ray) for rays so many ulp away from q.ray: beside it, ahead and behind, and tilted
 /// ones that start on one side and reach t on the other.
-template <typename Look>
-void look_around(const Question& q, double ulps, const std::array<double, 2>& t, const Look& look) {
+template <typename Visit>
+void visit_nearby_rays(const Question& q,
+                       double ulps,
+                       const std::array<double, 2>& t,
+                       const Visit& visit) {
     constexpr int turns = 16;
     const double distance = ulps * q.unit_m;
     const Vec3d& origin = q.ray.origin;
@@ -52,17 +55,17 @@ void look_around(const Question& q, double ulps, const std::array<double, 2>& t,
     const Vec3d forward = normalize(direction) * distance;
     const Frame<double> frame = frame_around(normalize(direction));
     const double end = q.ray.end;
-    look(TrueRay{origin + forward, direction, end});
-    look(TrueRay{origin - forward, direction, end});
+    visit(TrueRay{origin + forward, direction, end});
+    visit(TrueRay{origin - forward, direction, end});
     for (int i = 0; i < turns; ++i) {
         const double angle = 2 * pi_d * (i + 0.5) / turns;
         const Vec3d side =
             (frame.tangent * std::cos(angle) + frame.bitangent * std::sin(angle)) * distance;
-        look(TrueRay{origin + side, direction, end});
-        look(TrueRay{origin + (side + forward) * 0.70710678, direction, end});
-        look(TrueRay{origin + (side - forward) * 0.70710678, direction, end});
+        visit(TrueRay{origin + side, direction, end});
+        visit(TrueRay{origin + (side + forward) * 0.70710678, direction, end});
+        visit(TrueRay{origin + (side - forward) * 0.70710678, direction, end});
         for (const double at : t) {
-            if (std::isfinite(at)) look(TrueRay{origin - side, direction + side * (2 / at), end});
+            if (std::isfinite(at)) visit(TrueRay{origin - side, direction + side * (2 / at), end});
         }
     }
 }
@@ -73,7 +76,7 @@ double explanation(const Question& q, const Answer& expected, const Answer& got,
     bool expected_seen = says_the_same(q, expected, own, 0);
     bool got_seen = says_the_same(q, got, own, 0);
     for (double ulps = edge_ulps / 16; ulps <= most; ulps *= 2) {
-        look_around(q, ulps, {expected.t, got.t}, [&](const TrueRay& ray) {
+        visit_nearby_rays(q, ulps, {expected.t, got.t}, [&](const TrueRay& ray) {
             if (expected_seen && got_seen) return;
             const TrueHit hit = q.scene.nearest(ray);
             expected_seen = expected_seen || says_the_same(q, expected, hit, ulps);
@@ -96,7 +99,7 @@ bool is_at_its_edge(const Question& q, const Answer& answer) {
     bool missed = false;
     const std::array<double, 2> places = {answer.t, passing(q, answer.item)};
     for (double ulps = edge_ulps / 16; ulps <= edge_ulps && !(hit && missed); ulps *= 2) {
-        look_around(q, ulps, places, [&](const TrueRay& ray) {
+        visit_nearby_rays(q, ulps, places, [&](const TrueRay& ray) {
             const bool found = !q.scene.meetings(ray, answer.item).empty();
             hit = hit || found;
             missed = missed || !found;
@@ -139,7 +142,7 @@ bool is_met_nearby(const Question& q, const Answer& answer) {
     };
     bool met = meets(q.ray, 0) || is_near_its_item(q, answer);
     for (double ulps = edge_ulps / 16; ulps <= edge_ulps && !met; ulps *= 2) {
-        look_around(q, ulps, {answer.t, INFINITY}, [&](const TrueRay& ray) {
+        visit_nearby_rays(q, ulps, {answer.t, INFINITY}, [&](const TrueRay& ray) {
             met = met || meets(ray, ulps);
         });
     }

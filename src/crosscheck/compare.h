@@ -18,7 +18,7 @@ struct SaidPlace {
 struct Answer {
     double t = INFINITY;
     Item item;
-    bool any = false;      ///< occlusion: something is hit, it is not said what
+    bool any = false;      ///< occlusion: something is hit, without its name
     SaidPlace place = {};  ///< judged separately: see place_check.h
 
     bool found() const { return any || item.primitive >= 0; }
@@ -35,7 +35,7 @@ inline Answer answer_of(const TrueHit& hit) {
 enum class Verdict : int {
     agree,
     equal_depth,  ///< another item that is there too, within 4 ulp: neighbours on a common edge
-                  ///< that the ray passes, surfaces in one place
+                  ///< that the ray passes, or coincident surfaces
     edge,         ///< different, and rays moved by at most 4 ulp have the other answer
     crack,        ///< within 4 ulp of an edge too, but no such ray has both answers: a ray that
                   ///< went between two neighbours
@@ -69,8 +69,8 @@ struct Comparison {
 /// other difference counts as `edge` when both answers are true for rays that are at most edge_ulps
 /// away from this one, where it begins and where it hits. It counts as `crack` when no such ray has
 /// the answer, but all that was passed by has an edge within edge_ulps, and what was hit is there
-/// within edge_ulps or has an edge there; of occlusion, which says not what was hit, something must
-/// have an edge within edge_ulps. A place where the cone and the end cap of a curve segment touch
+/// within edge_ulps or has an edge there. Occlusion does not say what was hit: any item with an
+/// edge within edge_ulps explains it. The seam between the cone and the end cap of a curve segment
 /// counts as such an edge where rounding does not tell them apart (SegmentRounding). It counts as
 /// `edge_on` when the ray passes the edges' infinite lines so closely that the signs on which
 /// Embree's test (triangle_intersector_pluecker.h) is built are rounding alone: edge_ulps of the

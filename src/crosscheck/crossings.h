@@ -18,7 +18,7 @@ struct Crossings {
 };
 
 /// No equation is solved here, and no formula is src/shape's. A solid shape's side (shape_side.h)
-/// is convex along the line: its minimum is searched, and from there the two sign changes. A
+/// is convex along the line: from its minimum, both sign changes are searched for. A
 /// quadric's side is sampled at its extremum and at the ends of the range in the box: between these
 /// it changes its sign at most once. A line in a surface does not cross it. A distance within a few
 /// roundings in double counts as touching; for a quadric, a few roundings of its single precision

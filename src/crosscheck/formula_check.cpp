@@ -54,7 +54,7 @@ Ends on_special_line(const ShapeRecord& record, RandomStream& random) {
             const Vec3d p = line.origin + line.direction * (random.between(-1, 1) * reach);
             if (!is_quadric(record) || in_box(p)) return p;
         }
-        return place_near(record, 0.999, random);
+        return point_near(record, 0.999, random);
     };
     const Vec3d a = somewhere();
     return {a, somewhere()};
@@ -63,7 +63,7 @@ Ends on_special_line(const ShapeRecord& record, RandomStream& random) {
 /// Two points near a shape; for a flat one, above and below.
 Ends anywhere(const ShapeRecord& record, RandomStream& random) {
     const double wider = is_quadric(record) ? 0.999 : 1.3;
-    Ends out{place_near(record, wider, random), place_near(record, wider, random)};
+    Ends out{point_near(record, wider, random), point_near(record, wider, random)};
     if (is_flat(record)) {
         out.a.y += random.between(0.1, 1);
         out.b.y -= random.between(0.1, 1);
@@ -92,8 +92,8 @@ Parity parity_of(const ShapeRecord& record, const Ends& segment) {
 bool is_right(const ShapeRecord& record,
               const Ends& segment,
               Parity parity,
-              const LineMeeting& way) {
-    const Crossings met = way.shape(record, {segment.a, segment.b - segment.a});
+              const CrossingFormulas& formulas) {
+    const Crossings met = formulas.shape(record, {segment.a, segment.b - segment.a});
     const auto within =
         std::count_if(met.t, met.t + met.count, [](double t) { return t > 0 && t < 1; });
     return (within % 2 == 1) == (parity == Parity::odd);
@@ -107,16 +107,20 @@ struct TrianglePoint {
     double room() const { return std::min({u, v, 1 - u - v}); }
 };
 
-bool is_right(const Triangle<double>& t, const TrianglePoint& place, const LineMeeting& way) {
-    if (std::abs(place.room()) < 1e-6) return true;
-    const Crossings met = way.triangle(t, place.line);
-    if ((met.count > 0) != (place.room() > 0)) return false;
+bool is_right(const Triangle<double>& t,
+              const TrianglePoint& point,
+              const CrossingFormulas& formulas) {
+    if (std::abs(point.room()) < 1e-6) return true;
+    const Crossings met = formulas.triangle(t, point.line);
+    if ((met.count > 0) != (point.room() > 0)) return false;
     return met.count == 0 || std::abs(met.t[0] - 0.5) < 1e-6;
 }
 
 /// Whether a line that may run in the triangle's plane meets it nowhere but on it.
-bool is_on_triangle(const Triangle<double>& t, const TrueRay& line, const LineMeeting& way) {
-    const Crossings met = way.triangle(t, line);
+bool is_on_triangle(const Triangle<double>& t,
+                    const TrueRay& line,
+                    const CrossingFormulas& formulas) {
+    const Crossings met = formulas.triangle(t, line);
     if (met.count == 0) return true;
     const Vec3d normal = cross(t.b - t.a, t.c - t.a);
     const double size = std::max(length(t.b - t.a), length(t.c - t.a));
@@ -135,13 +139,15 @@ struct Wrong {
 };
 
 template <typename Test>
-Wrong wrong_of(const LineMeeting& formulas, const LineMeeting& truth, const Test& is_right_by) {
+Wrong wrong_of(const CrossingFormulas& formulas,
+               const CrossingFormulas& truth,
+               const Test& is_right_by) {
     return {!is_right_by(formulas), !is_right_by(truth)};
 }
 
 class Checker {
 public:
-    Checker(const TrueScene& scene, const LineMeeting& formulas)
+    Checker(const TrueScene& scene, const CrossingFormulas& formulas)
         : scene_(scene), formulas_(formulas) {}
 
     Wrong check(RandomStream& random, bool special) const {
@@ -155,8 +161,8 @@ private:
         const Ends segment = special ? on_special_line(record, random) : anywhere(record, random);
         const Parity parity = parity_of(record, segment);
         if (parity == Parity::unknown) return {};
-        return wrong_of(formulas_, truth_, [&](const LineMeeting& way) {
-            return is_right(record, segment, parity, way);
+        return wrong_of(formulas_, truth_, [&](const CrossingFormulas& formulas) {
+            return is_right(record, segment, parity, formulas);
         });
     }
 
@@ -167,27 +173,28 @@ private:
         if (!(length(normal) > 1e-7 * size * size)) return {};
         if (special) {
             const TrueRay line = special_line(t, random);
-            return wrong_of(formulas_, truth_, [&](const LineMeeting& way) {
-                return is_on_triangle(t, line, way);
+            return wrong_of(formulas_, truth_, [&](const CrossingFormulas& formulas) {
+                return is_on_triangle(t, line, formulas);
             });
         }
         const double u = random.between(-0.5, 1.5);
         const double v = random.between(-0.5, 1.5);
         const Vec3d middle = t.a + (t.b - t.a) * u + (t.c - t.a) * v;
         const Vec3d off = (normalize(normal) + random.direction() * 0.7) * size;
-        const TrianglePoint place{u, v, {middle + off, off * -2.0}};
-        return wrong_of(
-            formulas_, truth_, [&](const LineMeeting& way) { return is_right(t, place, way); });
+        const TrianglePoint point{u, v, {middle + off, off * -2.0}};
+        return wrong_of(formulas_, truth_, [&](const CrossingFormulas& formulas) {
+            return is_right(t, point, formulas);
+        });
     }
 
     const TrueScene& scene_;
-    const LineMeeting& formulas_;
-    LineMeeting truth_ = true_crossings();
+    const CrossingFormulas& formulas_;
+    CrossingFormulas truth_ = true_crossings();
 };
 
 }  // namespace
 
-LineMeeting formulas_in_double() {
+CrossingFormulas formulas_in_double() {
     return {[](const ShapeRecord& record, const TrueRay& line) {
                 const Roots<double> roots =
                     intersect_shape<double>(record, ShapeRay<double>{line.origin, line.direction});
@@ -206,14 +213,14 @@ LineMeeting formulas_in_double() {
             }};
 }
 
-LineMeeting true_crossings() {
+CrossingFormulas true_crossings() {
     return {cross_shape, cross_triangle};
 }
 
 FormulaCheck check_formulas(const TrueScene& scene,
                             uint64_t segments,
                             uint64_t seed,
-                            const LineMeeting& formulas) {
+                            const CrossingFormulas& formulas) {
     if (scene.item_count() == 0) return {};
     std::atomic<uint64_t> wrong = 0;
     std::atomic<uint64_t> wrong_truth = 0;

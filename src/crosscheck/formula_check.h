@@ -10,16 +10,16 @@
 namespace obscura::crosscheck {
 
 /// A set of intersection formulas.
-struct LineMeeting {
+struct CrossingFormulas {
     std::function<Crossings(const ShapeRecord&, const TrueRay&)> shape;
     std::function<Crossings(const Triangle<double>&, const TrueRay&)> triangle;
 };
 
 /// src/shape's formulas with F = double: those that the renderer has in single precision.
-LineMeeting formulas_in_double();
+CrossingFormulas formulas_in_double();
 
 /// The formulas of crossings.h: the truth.
-LineMeeting true_crossings();
+CrossingFormulas true_crossings();
 
 struct FormulaCheck {
     uint64_t segments = 0;
@@ -36,6 +36,6 @@ struct FormulaCheck {
 FormulaCheck check_formulas(const TrueScene& scene,
                             uint64_t segments,
                             uint64_t seed,
-                            const LineMeeting& formulas = formulas_in_double());
+                            const CrossingFormulas& formulas = formulas_in_double());
 
 }  // namespace obscura::crosscheck

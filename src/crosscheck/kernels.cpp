@@ -161,7 +161,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                                         const RayBatch& batch,
                                         const Kernel& kernel,
                                         const std::vector<AnswerList*>& references,
-                                        const KernelRecord& record) {
+                                        const KernelOutputs& outputs) {
     std::vector<PairFigures> all(references.size());
     for (size_t r = 0; r < references.size(); ++r) {
         all[r].got = kernel.name;
@@ -169,7 +169,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
         all[r].against_truth = references[r]->is_truth;
         references[r]->known.resize(batch.chunks);
     }
-    AnswerList* const kept = record.answers;
+    AnswerList* const kept = outputs.answers;
     if (kept != nullptr) {
         kept->name = kernel.name;
         kept->answers.resize(static_cast<size_t>(batch.count()));
@@ -203,11 +203,12 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                 [&](int index, Verdict verdict) { seen[static_cast<size_t>(index)] = verdict; });
             const std::lock_guard lock(merging);
             all[r].add(mine);
-            if (record.screen == nullptr || group != RayGroup::camera || !references[r]->is_truth) {
+            if (outputs.screen == nullptr || group != RayGroup::camera ||
+                !references[r]->is_truth) {
                 continue;
             }
             for (size_t i = 0; i < seen.size(); ++i)
-                note_on_screen(*record.screen,
+                note_on_screen(*outputs.screen,
                                batch.rays.place(chunk, static_cast<int>(i)),
                                seen[i],
                                answers[i].found());

@@ -109,9 +109,9 @@ struct ScreenVerdicts {
 };
 
 /// What compare_kernel writes beside its figures, where it is not null.
-struct KernelRecord {
+struct KernelOutputs {
     AnswerList* answers = nullptr;     ///< the kernel's answers
-    ScreenVerdicts* screen = nullptr;  ///< gets worse ones of this pair
+    ScreenVerdicts* screen = nullptr;  ///< gets the verdicts on this pair
 };
 
 /// Sends all rays of a batch to a kernel and compares it with others. The figures do not depend on
@@ -123,7 +123,7 @@ std::vector<PairFigures> compare_kernel(const TrueScene& scene,
                                         const RayBatch& batch,
                                         const Kernel& kernel,
                                         const std::vector<AnswerList*>& references,
-                                        const KernelRecord& record);
+                                        const KernelOutputs& outputs);
 
 /// The truth as a kernel.
 Kernel truth_kernel(const TrueScene& scene);

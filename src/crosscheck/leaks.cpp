@@ -94,7 +94,7 @@ struct LeakKernel {
     AskHits ask;
 };
 
-/// The production path and Embree asked otherwise, on one component.
+/// The production queries on one component, and two other ways to query Embree.
 Result<std::vector<LeakKernel>> kernels_of(const Scene& scene) {
     auto production = Accel::build(scene, "");
     if (!production) return fail(production.error());

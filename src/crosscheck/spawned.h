@@ -11,10 +11,9 @@ namespace obscura::crosscheck {
 
 /// Figures of rays that the stage for ambient occlusion starts at the hits of other rays.
 struct SpawnedReport {
-    uint64_t rays = 0;       ///< at hits of rays aimed at nothing
-    uint64_t self_hits = 0;  ///< hits on the very triangle or shape where they started
-    uint64_t aimed_rays =
-        0;  ///< likewise, at hits of rays aimed at edges, along surfaces, from afar
+    uint64_t rays = 0;        ///< at hits of rays aimed at nothing
+    uint64_t self_hits = 0;   ///< hits on the very triangle or shape where they started
+    uint64_t aimed_rays = 0;  ///< likewise, of rays aimed at edges, along surfaces, from afar
     uint64_t aimed_self_hits = 0;
     std::optional<TrueRay> first_self_hit;
     uint64_t wall_rays = 0;   ///< started below a wall a ten-thousandth of the scene's size away

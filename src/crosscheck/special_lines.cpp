@@ -74,9 +74,9 @@ Vec3d ruling(const ShapeRecord& record, RandomStream& random) {
 }
 
 /// Where random lines meet the shape.
-Vec3d place_on(const ShapeRecord& record, RandomStream& random) {
+Vec3d point_on(const ShapeRecord& record, RandomStream& random) {
     for (int i = 0; i < 4; ++i) {
-        const TrueRay line{place_near(record, 1, random), random.direction()};
+        const TrueRay line{point_near(record, 1, random), random.direction()};
         const Crossings met = cross_shape(record, line);
         if (met.count > 0) return line.origin + line.direction * met.t[0];
     }
@@ -84,7 +84,7 @@ Vec3d place_on(const ShapeRecord& record, RandomStream& random) {
 }
 
 /// Positions relative to the centre: on rims, at corners and on edges of boxes, at apexes of cones.
-Vec3d place_at_edge(const ShapeRecord& record, RandomStream& random) {
+Vec3d point_at_edge(const ShapeRecord& record, RandomStream& random) {
     const Vec3d size = size_of(record);
     const double turn = 2 * pi_d * random.unit();
     const double side = random.unit() < 0.5 ? -1 : 1;
@@ -106,7 +106,7 @@ Vec3d place_at_edge(const ShapeRecord& record, RandomStream& random) {
 
 }  // namespace
 
-Vec3d place_near(const ShapeRecord& record, double wider, RandomStream& random) {
+Vec3d point_near(const ShapeRecord& record, double wider, RandomStream& random) {
     const ShapeBox box = shape_bounds(record);
     const auto along = [&](float centre, float low, float high) {
         const bool ends = std::abs(low) < 1e18f && std::abs(high) < 1e18f;
@@ -120,15 +120,15 @@ Vec3d place_near(const ShapeRecord& record, double wider, RandomStream& random) 
 
 TrueRay special_line(const ShapeRecord& record, RandomStream& random) {
     const size_t where = random.below(4);
-    const Vec3d place = where == 0   ? centre_of(record)
-                        : where == 1 ? centre_of(record) + place_at_edge(record, random)
-                        : where == 2 ? place_on(record, random)
-                                     : place_near(record, 1.2, random);
+    const Vec3d point = where == 0   ? centre_of(record)
+                        : where == 1 ? centre_of(record) + point_at_edge(record, random)
+                        : where == 2 ? point_on(record, random)
+                                     : point_near(record, 1.2, random);
     const size_t along = random.below(3);
-    return {place,
+    return {point,
             along == 0   ? axis(random)
             : along == 1 ? ruling(record, random)
-                         : across(normal_of_shape(record, place), random)};
+                         : across(normal_of_shape(record, point), random)};
 }
 
 TrueRay special_line(const Triangle<double>& triangle, RandomStream& random) {

@@ -15,12 +15,12 @@ namespace obscura::crosscheck {
 /// Out  in the shape's space; the origin is that point, the direction is unit within rounding
 TrueRay special_line(const ShapeRecord& record, RandomStream& random);
 
-/// Along an edge, an axis or the plane, or across it: through a corner, an edge, or a place beside
+/// Along an edge, an axis or the plane, or across it: through a corner, an edge, or a point beside
 /// the triangle in its plane.
 TrueRay special_line(const Triangle<double>& triangle, RandomStream& random);
 
 /// A random point in the box around a shape, or so many times further from its centre; for an
 /// infinite shape within a metre.
-Vec3d place_near(const ShapeRecord& record, double wider, RandomStream& random);
+Vec3d point_near(const ShapeRecord& record, double wider, RandomStream& random);
 
 }  // namespace obscura::crosscheck

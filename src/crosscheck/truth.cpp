@@ -1,4 +1,4 @@
-// crosscheck/truth.cpp - searches nearest hits in double precision.
+// crosscheck/truth.cpp - finds nearest hits in double precision.
 // SPDX-License-Identifier: Apache-2.0
 #include "crosscheck/truth.h"
 

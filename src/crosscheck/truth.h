@@ -39,7 +39,7 @@ struct TrueHit {
 };
 
 /// A scene for searches in double: all single precision numbers of the scene (corners, shapes,
-/// matrices) are taken as exact. Alpha is not looked at, every surface has two sides.
+/// matrices) are taken as exact. Alpha is ignored, and every surface is double-sided.
 class TrueScene {
 public:
     /// In   scene: outlives this object; slack_m: distance from it, beyond rounding, at which the
@@ -49,10 +49,10 @@ public:
     /// The nearest hit with t > 0, up to the ray's end.
     TrueHit nearest(const TrueRay& ray) const;
 
-    /// The same without boxes: every triangle and every shape is looked at.
+    /// The same without boxes: every triangle and every shape is tested.
     TrueHit nearest_of_all(const TrueRay& ray) const;
 
-    /// Calls take(t, item) for every place where the ray meets something, in no order.
+    /// Calls take(t, item) for every hit of the ray, in no order.
     void all_hits(const TrueRay& ray, const std::function<void(double, Item)>& take) const;
 
     /// Calls take(item) for every finite item whose box the ray passes within room_m, and possibly

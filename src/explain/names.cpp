@@ -16,7 +16,7 @@ const Primitive& primitive_of(const Scene& scene, const crosscheck::Item& item) 
 
 std::string kind_of(const crosscheck::TrueScene& scene, const crosscheck::Item& item) {
     if (scene.is_triangle(item)) return fmt::format("triangle {}", item.element);
-    if (scene.is_segment(item)) return fmt::format("piece {} of a line", item.element);
+    if (scene.is_segment(item)) return fmt::format("segment {} of a line", item.element);
     const auto kind = static_cast<GeometryKind>(primitive_of(scene.scene(), item).geometry);
     if (kind == GeometryKind::spheres) return fmt::format("particle {}", item.element);
     const ShapeRecord record = scene.shape(item);

@@ -21,14 +21,14 @@ auto key_of(const crosscheck::Item& item) {
 /// Items near the ray, each once; those that it meets come first.
 std::vector<crosscheck::Item> near_ray(const crosscheck::TrueScene& scene,
                                        const crosscheck::TrueRay& ray,
-                                       size_t most) {
+                                       size_t max_objects) {
     std::vector<crosscheck::Item> items;
     std::set<std::array<int32_t, 3>> known;
     const auto add = [&](const crosscheck::Item& item) {
         if (known.insert(key_of(item)).second) items.push_back(item);
     };
     scene.all_hits(ray, [&](double, const crosscheck::Item& item) { add(item); });
-    if (scene.item_count() <= most) {
+    if (scene.item_count() <= max_objects) {
         for (size_t i = 0; i < scene.item_count(); ++i)
             add(scene.item(i));
         return items;
@@ -65,7 +65,7 @@ Candidate work_out(const crosscheck::TrueScene& scene,
                });
     });
     if (out.working.t.empty() && out.working.missed.empty()) {
-        out.working.missed = "it lies inside the next piece of the same line";
+        out.working.missed = "it lies inside the next segment of the same line";
     }
     return out;
 }
@@ -185,8 +185,8 @@ const char* fate_name(Fate fate) {
     return "missed";
 }
 
-void list_objects(const crosscheck::TrueScene& scene, size_t most, PixelReport& report) {
-    const std::vector<crosscheck::Item> items = near_ray(scene, report.working.ray, most);
+void list_objects(const crosscheck::TrueScene& scene, size_t max_objects, PixelReport& report) {
+    const std::vector<crosscheck::Item> items = near_ray(scene, report.working.ray, max_objects);
     size_t misses = 0;
     for (const crosscheck::Item& item : items) {
         Candidate object = work_out(scene, report.working.ray, item);
@@ -199,7 +199,7 @@ void list_objects(const crosscheck::TrueScene& scene, size_t most, PixelReport& 
     choose_seen(scene, report);
     follow_renderer(scene, report);
     std::sort(report.objects.begin(), report.objects.end(), comes_first);
-    while (report.objects.size() > most && report.objects.back().fate != Fate::seen)
+    while (report.objects.size() > max_objects && report.objects.back().fate != Fate::seen)
         report.objects.pop_back();
     const size_t near = std::max(items.size(), report.objects.size());
     report.more_near = near - report.objects.size();

@@ -8,9 +8,9 @@ namespace obscura {
 
 /// Fills the report's objects, and counts those that are not listed.
 ///
-/// In      report: its ray and the renderer's hit; most: limit on listed objects, met ones first. A
-///         scene that has no more is listed whole
+/// In      report: its ray and the renderer's hit; max_objects: limit on listed objects, met ones
+///         first. A scene that has no more is listed whole
 /// Out     report.objects, more_near, elsewhere, disagrees
-void list_objects(const crosscheck::TrueScene& scene, size_t most, PixelReport& report);
+void list_objects(const crosscheck::TrueScene& scene, size_t max_objects, PixelReport& report);
 
 }  // namespace obscura

@@ -60,7 +60,7 @@ struct LightContribution {
     Vec3d irradiance = {0, 0, 0};  ///< E of a surface that faces the light
     double cosine = 0;             ///< N . L
     Vec3d bsdf = {0, 0, 0};        ///< what the material reflects of it: offered / (E N . L), as if
-                                   ///< no splats were before it
+                                   ///< no splats were in front of it
     NotedLight noted;              ///< what the renderer made of it
     std::string blocked_by;        ///< empty: nothing is in the way
 };
@@ -73,7 +73,7 @@ struct PixelReport {
     size_t more_near = 0;            ///< objects whose boxes the ray meets, not listed
     size_t elsewhere = 0;            ///< all others
     std::optional<SeenPoint> seen;
-    RaycastNotes renderer;  ///< its own ray, hit and shares, in single precision
+    RaycastNotes renderer;  ///< its own ray, hit and contributions, in single precision
     std::string renderer_item;
     /// In double precision another object is nearest: rounding decides at an edge.
     bool disagrees = false;

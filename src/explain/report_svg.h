@@ -7,7 +7,7 @@
 namespace obscura {
 
 /// An SVG document with its own light ground, so that it can be read on any page: cross sections of
-/// the objects, the ray with a numbered dot at each place that it meets, the normal, the directions
+/// the objects, the ray with a numbered dot at each hit, the normal, the directions
 /// of the lights as far as they lie in the plane, and a legend with the numbers.
 std::string pixel_svg(const crosscheck::TrueScene& scene, const PixelReport& report);
 

@@ -13,8 +13,8 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-constexpr size_t counts_bytes = 20;  // of the global data, before the images' rows
-constexpr size_t image_bytes = 20;
+constexpr size_t counts_bytes = 20;  // of the global data, before the images' descriptions
+constexpr size_t description_bytes = 20;
 constexpr uint32_t flag_p_frame = 2;
 constexpr uint32_t red_mask = 0xFFU;
 constexpr uint32_t green_mask = 0xFF00U;
@@ -32,7 +32,7 @@ tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) 
 
 Result<BasisLz> read_global(const Ktx2Header& header, const std::string& where) {
     const Bytes bytes = header.global_bytes;
-    const size_t images = static_cast<size_t>(header.levels_in_file) * image_bytes;
+    const size_t images = static_cast<size_t>(header.levels_in_file) * description_bytes;
     if (bytes.size() < counts_bytes + images) {
         return corrupt(where, "the KTX2 file's BasisLZ global data are cut off");
     }
@@ -94,7 +94,7 @@ Result<void> decode_basis_lz(const Ktx2Header& header,
     const bool is_red_green = header.channels == Ktx2Channels::red_green;
     const bool has_second = is_red_green || header.channels == Ktx2Channels::rgba;
     for (size_t i = 0; i < levels.size(); ++i) {
-        const size_t at = counts_bytes + i * image_bytes;
+        const size_t at = counts_bytes + i * description_bytes;
         const auto field = [&](size_t number) {
             return little_endian_32(header.global_bytes, at + 4 * number);
         };

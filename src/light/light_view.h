@@ -29,7 +29,7 @@ struct LightView {
     float environment_select = 0;  ///< probability of choosing the environment
     LightProfileView profiles;     ///< of punctual lights
     /// Lights at each of MotionView::steps times: `steps` records for every punctual light, and for
-    /// every triangle that moves. Null: none moves.
+    /// every triangle that moves. Null: nothing moves.
     const PunctualLight* moving_punctual = nullptr;
     const MovingTriangle* moving_triangles = nullptr;
 };

@@ -22,7 +22,7 @@ using BlockWeights = std::array<double, pixels_of_block>;
 using BlockNumbers = std::array<uint32_t, pixels_of_block>;
 
 /// Position of (x, y) on the Hilbert curve through a square of `side` (a power of two).
-uint64_t place_on_curve(uint32_t side, uint32_t x, uint32_t y) {
+uint64_t position_on_curve(uint32_t side, uint32_t x, uint32_t y) {
     uint64_t place = 0;
     for (uint32_t half = side / 2; half > 0; half /= 2) {
         const bool right = (x & half) != 0;
@@ -47,7 +47,7 @@ std::vector<uint32_t> curve_order(uint32_t columns, uint32_t rows) {
     parallel_for(rows, [&](size_t row) {
         for (uint32_t column = 0; column < columns; ++column)
             place[row * columns + column] =
-                place_on_curve(side, column, static_cast<uint32_t>(row));
+                position_on_curve(side, column, static_cast<uint32_t>(row));
     });
     std::vector<uint32_t> order(place.size());
     std::iota(order.begin(), order.end(), 0U);

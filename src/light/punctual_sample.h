@@ -23,7 +23,7 @@ struct PunctualSample {
 
 /// One light for each lane, as PunctualLight.
 template <typename F>
-struct PunctualRecord {
+struct PunctualValues {
     IntOf<F> type, profile;
     Vec3<F> position, shines;
     Vec3<F> zero_axis;  ///< read where there are profiles
@@ -33,7 +33,7 @@ struct PunctualRecord {
 
 /// In      index must be in range for idle lanes too; has_profiles: some light may have one
 template <typename F>
-OBSCURA_INLINE PunctualRecord<F> read_punctual(const PunctualLight* lights,
+OBSCURA_INLINE PunctualValues<F> read_punctual(const PunctualLight* lights,
                                                const IntOf<F>& index,
                                                bool has_profiles) {
     const IntOf<F> word = index * IntOf<F>(words_per_record<PunctualLight>);
@@ -43,7 +43,7 @@ OBSCURA_INLINE PunctualRecord<F> read_punctual(const PunctualLight* lights,
     const auto read3 = [&](size_t offset) {
         return Vec3<F>{read(offset), read(offset + 4), read(offset + 8)};
     };
-    PunctualRecord<F> out;
+    PunctualValues<F> out;
     out.type = gather<F>(member_words<int32_t>(lights, offsetof(PunctualLight, type)), word);
     out.position = read3(offsetof(PunctualLight, position));
     out.shines = read3(offsetof(PunctualLight, direction));
@@ -63,15 +63,15 @@ OBSCURA_INLINE PunctualRecord<F> read_punctual(const PunctualLight* lights,
 
 /// Interpolates a light between two poses.
 template <typename F>
-OBSCURA_INLINE PunctualRecord<F> blend(const PunctualRecord<F>& a,
-                                       const PunctualRecord<F>& b,
+OBSCURA_INLINE PunctualValues<F> blend(const PunctualValues<F>& a,
+                                       const PunctualValues<F>& b,
                                        const F& fraction) {
     const auto mix = [&](const auto& p, const auto& q) { return p + (q - p) * fraction; };
     const auto turn = [&](const Vec3<F>& p, const Vec3<F>& q) {
         const Vec3<F> between = mix(p, q);
         return between * (F(1.0f) / max(length(between), F(1e-18f)));
     };
-    PunctualRecord<F> out = a;
+    PunctualValues<F> out = a;
     out.position = mix(a.position, b.position);
     out.shines = turn(a.shines, b.shines);
     out.zero_axis = turn(a.zero_axis, b.zero_axis);
@@ -90,7 +90,7 @@ OBSCURA_INLINE PunctualRecord<F> blend(const PunctualRecord<F>& a,
 ///         treated as that far away
 /// Source  KHR_lights_punctual: range window, inverse square law and spot cone; EXT_lights_ies
 template <typename F>
-OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualRecord<F>& light,
+OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualValues<F>& light,
                                                  const Vec3<F>& from,
                                                  const LightProfileView& profiles = {}) {
     const auto directional =

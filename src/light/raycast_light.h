@@ -13,9 +13,8 @@ struct CentreLight {
     float position[3] = {0, 0, 0};   ///< mean of the surface, weighted by its emission
     float normal[3] = {0, 1, 0};     ///< of a flat one, unit
     float intensity[3] = {0, 0, 0};  ///< candela, or W/sr: along the normal, or to all sides
-    float min_distance_squared =
-        0;                  ///< minimum squared distance, m^2: nearer, brightness is constant
-    float radius = 0;       ///< metres; shadow rays end this far before the position
+    float min_distance_squared = 0;  ///< m^2; at smaller distances the brightness is constant
+    float radius = 0;                ///< metres; shadow rays end this far before the position
     int32_t flat = 0;       ///< 1: emits by the cosine with the normal; 0: equally to all sides
     int32_t two_sided = 0;  ///< of a flat one
 };

@@ -54,7 +54,7 @@ struct ShapeLightSample {
 
 /// A light in registers.
 template <typename F>
-struct ShapeLightRecord {
+struct ShapeLightValues {
     IntOf<F> kind;
     Vec3<F> centre, x, y, z;
     F radius, area;
@@ -68,7 +68,7 @@ OBSCURA_INLINE Vec3<F> light_vector(const TableRecord<F, ShapeLight>& record) {
 }
 
 template <typename F>
-OBSCURA_INLINE ShapeLightRecord<F> read_shape_light(const TableRecord<F, ShapeLight>& record) {
+OBSCURA_INLINE ShapeLightValues<F> read_shape_light(const TableRecord<F, ShapeLight>& record) {
     return {.kind = record.template integer<&ShapeLight::kind>(),
             .centre = light_vector<&ShapeLight::centre>(record),
             .x = light_vector<&ShapeLight::x>(record),
@@ -101,7 +101,7 @@ struct SphericalRectangle {
 inline constexpr float smallest_solid_angle = 0.01f;
 
 template <typename F>
-OBSCURA_INLINE SphericalRectangle<F> spherical_rectangle(const ShapeLightRecord<F>& light,
+OBSCURA_INLINE SphericalRectangle<F> spherical_rectangle(const ShapeLightValues<F>& light,
                                                          const Vec3<F>& from) {
     const F half_x = length(light.x);
     const F half_y = length(light.z);
@@ -157,13 +157,13 @@ OBSCURA_INLINE Vec2<F> sample_spherical_rectangle(const SphericalRectangle<F>& r
 }
 
 template <typename F>
-OBSCURA_INLINE MaskOf<F> is_kind(const ShapeLightRecord<F>& light, ShapeLightKind kind) {
+OBSCURA_INLINE MaskOf<F> is_kind(const ShapeLightValues<F>& light, ShapeLightKind kind) {
     return light.kind == IntOf<F>(static_cast<int32_t>(kind));
 }
 
 /// True where the point is inside a sphere light, which is then sampled by area.
 template <typename F>
-OBSCURA_INLINE MaskOf<F> is_inside(const ShapeLightRecord<F>& light, const F& distance) {
+OBSCURA_INLINE MaskOf<F> is_inside(const ShapeLightValues<F>& light, const F& distance) {
     return distance <= light.radius * F(1.00001f);
 }
 
@@ -171,7 +171,7 @@ OBSCURA_INLINE MaskOf<F> is_inside(const ShapeLightRecord<F>& light, const F& di
 ///
 /// In      cosine: between the light's normal at the hit point and the direction back
 template <typename F>
-OBSCURA_INLINE F shape_light_density(const ShapeLightRecord<F>& light,
+OBSCURA_INLINE F shape_light_density(const ShapeLightValues<F>& light,
                                      const Vec3<F>& from,
                                      const F& distance,
                                      const F& cosine) {
@@ -195,7 +195,7 @@ OBSCURA_INLINE F shape_light_density(const ShapeLightRecord<F>& light,
 
 /// Texture coordinates of a sphere light at a unit normal: as shape/sphere.h.
 template <typename F>
-OBSCURA_INLINE Vec2<F> sphere_light_uv(const ShapeLightRecord<F>& light, const Vec3<F>& n) {
+OBSCURA_INLINE Vec2<F> sphere_light_uv(const ShapeLightValues<F>& light, const Vec3<F>& n) {
     const F x = dot(n, light.x);
     const F y = dot(n, light.y);
     const F z = dot(n, light.z);
@@ -208,7 +208,7 @@ OBSCURA_INLINE Vec2<F> sphere_light_uv(const ShapeLightRecord<F>& light, const V
 /// Source  Shirley, Wang and Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations",
 ///         ACM TOG 15(1), 1996
 template <typename F>
-OBSCURA_INLINE Vec3<F> sample_sphere_light(const ShapeLightRecord<F>& light,
+OBSCURA_INLINE Vec3<F> sample_sphere_light(const ShapeLightValues<F>& light,
                                            const Vec2<F>& u,
                                            const Vec3<F>& from) {
     const Vec3<F> to_centre = light.centre - from;
@@ -232,7 +232,7 @@ OBSCURA_INLINE Vec3<F> sample_sphere_light(const ShapeLightRecord<F>& light,
 /// In      u: [0,1)^2
 /// Out     the light reaches `from` when pdf > 0; estimate: emission * texture / pdf
 template <typename F>
-OBSCURA_INLINE ShapeLightSample<F> sample_shape_light(const ShapeLightRecord<F>& light,
+OBSCURA_INLINE ShapeLightSample<F> sample_shape_light(const ShapeLightValues<F>& light,
                                                       const Vec2<F>& u,
                                                       const Vec3<F>& from) {
     const F one(1.0f);

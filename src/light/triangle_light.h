@@ -151,7 +151,7 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
 
     static_assert(offsetof(TriangleLight, coat) == offsetof(TriangleLight, emission) + 12);
     sample.emission = Vec3<F>{emission.x, emission.y, emission.z} *
-                      coat_lets_pass<F>(emission.w, abs(sample.cosine));
+                      coat_transmittance<F>(emission.w, abs(sample.cosine));
     sample.texture = read_int(offsetof(TriangleLight, texture));
     const Vec2<F> uv0{uv0_uv1.x, uv0_uv1.y};
     const Vec2<F> uv1{uv0_uv1.z, uv0_uv1.w};

@@ -18,12 +18,12 @@ class TableRecord {
 public:
     TableRecord() = default;
 
-    /// In  record: indices of the records, valid in idle lanes too
-    OBSCURA_INLINE TableRecord(const Record* table, const IntOf<F>& record)
+    /// In  index: of the records, valid in idle lanes too
+    OBSCURA_INLINE TableRecord(const Record* table, const IntOf<F>& index)
         : words_(reinterpret_cast<const int32_t*>(table)),
-          first_(record * IntOf<F>(words_per_record<Record>)) {
-        const int32_t index_of_first = first_lane(record);
-        shared_ = all(record == IntOf<F>(index_of_first));
+          first_(index * IntOf<F>(words_per_record<Record>)) {
+        const int32_t index_of_first = first_lane(index);
+        shared_ = all(index == IntOf<F>(index_of_first));
         record_words_ = words_ + static_cast<int64_t>(index_of_first) * words_per_record<Record>;
     }
 

@@ -50,8 +50,8 @@ void store(const Vec3d& v, float* out) {
 constexpr double flat_fraction = 0.99;
 
 CentreLight centre_of(const Scene& scene, const TriangleLight* lights, size_t count) {
-    Vec3d flux = splat3(0.0);  // radiance times area
-    Vec3d place = splat3(0.0);
+    Vec3d flux = splat3(0.0);        // radiance times area
+    Vec3d centre_sum = splat3(0.0);  // of triangle centres times their weights
     Vec3d normal = splat3(0.0);
     double weights = 0;
     double area = 0;
@@ -65,14 +65,14 @@ CentreLight centre_of(const Scene& scene, const TriangleLight* lights, size_t co
         const Vec3d face = cross(e1, e2) * 0.5;
         const double weight = max_component(emission);
         flux = flux + emission * length(face);
-        place = place + (p0 + (e1 + e2) * (1.0 / 3.0)) * (weight * length(face));
+        centre_sum = centre_sum + (p0 + (e1 + e2) * (1.0 / 3.0)) * (weight * length(face));
         normal = normal + face * weight;
         weights += weight * length(face);
         area += weight > 0 ? length(face) : 0;
     });
     CentreLight out;
     if (!(weights > 0)) return out;
-    const Vec3d centre = place * (1.0 / weights);
+    const Vec3d centre = centre_sum * (1.0 / weights);
     double radius = 0;
     for_each([&](const TriangleLight&, const Vec3d& p0, const Vec3d& e1, const Vec3d& e2) {
         for (const Vec3d& corner : {p0, p0 + e1, p0 + e2})

@@ -11,7 +11,7 @@ namespace {
 
 using Poses = std::span<const ScenePose>;
 
-/// Whether two arrays are equal behind their static part.
+/// Whether two arrays are equal after their static part.
 bool has_same_tail(const LargeArray<uint32_t>& all,
                    size_t static_size,
                    const LargeArray<uint32_t>& tail) {
@@ -168,9 +168,9 @@ void join_lights(Scene& first, Poses later) {
 
 Affinef world_from_object_at(const Scene& scene, const Instance& instance, float time) {
     if (instance.motion < 0) return instance.world_from_object;
-    const float place = time * static_cast<float>(scene.motion.steps - 1);
-    const int32_t step = std::clamp(static_cast<int32_t>(place), 0, scene.motion.steps - 2);
-    const float fraction = place - static_cast<float>(step);
+    const float position = time * static_cast<float>(scene.motion.steps - 1);
+    const int32_t step = std::clamp(static_cast<int32_t>(position), 0, scene.motion.steps - 2);
+    const float fraction = position - static_cast<float>(step);
     const Affinef* before =
         &scene.motion.instances[static_cast<size_t>(instance.motion) + static_cast<size_t>(step)];
     Affinef out;

@@ -27,7 +27,7 @@ struct StaticSizes {
 /// The parts of a scene that may change with time.
 struct ScenePose {
     StaticSizes static_sizes;
-    LargeArray<float> positions;  ///< those behind the static ones; likewise the others
+    LargeArray<float> positions;  ///< those after the static ones; likewise the others
     LargeArray<uint32_t> indices;
     LargeArray<float> attributes;
     std::vector<Primitive> primitives;

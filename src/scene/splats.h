@@ -25,8 +25,8 @@ struct SplatGroup {
     Affinef object_from_world;  ///< harmonics are seen along directions in the mesh's own space
 };
 
-/// All splats of a scene. They are not primitives: they attenuate light that passes them and add
-/// their own, without a surface to hit.
+/// All splats of a scene. They are not primitives and have no surface to hit: they attenuate the
+/// light that passes through them and add their own.
 struct SplatField {
     LargeArray<float> blocks;             ///< see shape/splat.h
     std::vector<ShapeBox> boxes;          ///< around the splats of each block

@@ -127,8 +127,8 @@ void split_long_curves(Scene& scene) {
     constexpr double max_segments = 64;
     split(scene, [&](const float* ends) {
         const auto radius = static_cast<double>(std::min(ends[3], ends[7]));
-        const double thin = length(position(ends + 4) - position(ends)) / (radius * longest);
-        const int segments = static_cast<int>(std::clamp(std::ceil(thin), 1.0, max_segments));
+        const double wanted = length(position(ends + 4) - position(ends)) / (radius * longest);
+        const int segments = static_cast<int>(std::clamp(std::ceil(wanted), 1.0, max_segments));
         std::vector<double> fractions;
         for (int i = 1; i < segments; ++i)
             fractions.push_back(static_cast<double>(i) / segments);

@@ -3,7 +3,7 @@
 #include "scene/thin_walls.h"
 
 #include "scene/lowest_texel.h"
-#include "surface/layered_weights.h"
+#include "surface/lobes/facet_transmission.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,8 +9,8 @@
 
 namespace obscura {
 
-/// By material: 1 where some point may be a smooth thin wall, see surface/thin_wall.h. Shading
-/// decides for each point.
+/// 1 for every material that somewhere may be a smooth thin wall: see
+/// surface/lobes/straight_transmission.h. What it is at one point, shading finds out.
 std::vector<uint8_t> find_thin_walls(const Scene& scene);
 
 /// Whether some medium has the index of air, so that light passes its boundary straight.

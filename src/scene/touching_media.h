@@ -1,4 +1,4 @@
-// scene/touching_media.h - finds media whose boundaries may share faces with another's.
+// scene/touching_media.h - finds media whose boundaries may share faces.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

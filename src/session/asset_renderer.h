@@ -26,7 +26,7 @@ struct RenderHooks {
     const std::atomic<bool>* stop = nullptr;  ///< null: nobody stops it
 };
 
-/// Makes images of an asset, one after the other; each reuses what the one before built. Used by
+/// Makes images of an asset, one after the other; each reuses what the previous one built. Used by
 /// one thread at a time.
 class AssetRenderer {
 public:
@@ -39,7 +39,7 @@ public:
                                       bool has_time,
                                       Log& log);
 
-    /// Poses the scene at a time, in place of the one before.
+    /// Poses the scene at a time; this replaces the previous pose.
     ///
     /// Errors  those of load_gltf
     Result<void> pose(const PoseTimes& times, Log& log);
@@ -54,8 +54,8 @@ public:
     /// Drops what was built, but not what was read: for another light or instruction set.
     void start_anew();
 
-    /// Chooses the camera and builds what rendering needs and the image before has not left. Once
-    /// for each pose.
+    /// Chooses the camera and builds what rendering needs, except for parts that the previous image
+    /// left and that still fit. To be called once for each pose.
     ///
     /// Errors  those of choose_unfocused_camera, focus and PreparedScene::create
     Result<ChosenCamera> prepare(const RenderRequest& request,
@@ -69,7 +69,7 @@ public:
 
     /// Renders the prepared pose.
     ///
-    /// In      log: whose number of warnings the image's header tells
+    /// In      log: its number of warnings goes into the image's header
     /// Errors  those of render
     Result<FinishedImage> render(const RenderRequest& request,
                                  const ChosenCamera& camera,

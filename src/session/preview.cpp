@@ -67,14 +67,14 @@ float hot_value(const OutputImage& image, const Layout& layout, size_t pixels) {
 Rgb depth_color(float depth, const std::array<float, 2>& range) {
     if (depth <= 0) return {0, 0, 0};
     const float span = range[1] - range[0];
-    const float share = span > 0 ? (depth - range[0]) / span : 0.0f;
-    const float grey = 1.0f - (1.0f - farthest_grey) * share;
+    const float relative = span > 0 ? (depth - range[0]) / span : 0.0f;
+    const float grey = 1.0f - (1.0f - farthest_grey) * relative;
     return {grey, grey, grey};
 }
 
-/// The ramp of glowing metal; share in [0, 1].
-Rgb heat_color(float share) {
-    const auto ramp = [&](float begin) { return std::clamp(3.0f * share - begin, 0.0f, 1.0f); };
+/// The ramp of glowing metal; heat in [0, 1].
+Rgb heat_color(float heat) {
+    const auto ramp = [&](float begin) { return std::clamp(3.0f * heat - begin, 0.0f, 1.0f); };
     return {ramp(0), ramp(1), ramp(2)};
 }
 

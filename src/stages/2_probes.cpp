@@ -47,7 +47,8 @@ int make_probes(const SceneView& scene, int count, const ProbeColumns& columns) 
         const Vec3<Lanes> normal = select(front, g.ng, -g.ng);
         const Lanes height = abs(cosine) * hit.t;
         // Embree may confuse the order of two faces that are closer together than this.
-        const Lanes depth = Lanes(company_distance) * g.offset + Lanes(8.0f / 16777216.0f) * height;
+        const Lanes depth =
+            Lanes(coincidence_distance) * g.offset + Lanes(8.0f / 16777216.0f) * height;
         const Lanes length = depth + Lanes(probe_distance) * g.offset;
         const LanesU side = select(front, LanesU(seen_from_front), LanesU(0U));
         store(columns.path_index + probes,

@@ -52,8 +52,8 @@ OBSCURA_INLINE Vec3<Lanes> smooth_surface_shift(const HitGeometry& g,
         shift = shift - up * (below * g.weight[k]);
     }
     // The limit is for boxes with averaged normals, which are not meant as spheres.
-    const Lanes most = Lanes(0.05f) * sqrt(g.area2);
-    return shift * min(Lanes(1.0f), most / max(length(shift), Lanes(1e-30f)));
+    const Lanes max_length = Lanes(0.05f) * sqrt(g.area2);
+    return shift * min(Lanes(1.0f), max_length / max(length(shift), Lanes(1e-30f)));
 }
 
 /// HitGeometry::offset: the rounding of the barycentric sum and of Embree's own arithmetic, 2^-24

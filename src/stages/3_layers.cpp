@@ -120,10 +120,10 @@ OBSCURA_INLINE void read_thin_film(const LayerReader& layers, LayeredParams<Lane
                        layers.texel<&MaterialLayers::iridescence_texture>().rgb.x,
                    layers.number<&MaterialLayers::iridescence_ior>(),
                    Lanes(0.0f)};
-    const Lanes least = layers.number<&MaterialLayers::thin_film_thickness_nm>(0);
-    const Lanes most = layers.number<&MaterialLayers::thin_film_thickness_nm>(1);
+    const Lanes min_nm = layers.number<&MaterialLayers::thin_film_thickness_nm>(0);
+    const Lanes max_nm = layers.number<&MaterialLayers::thin_film_thickness_nm>(1);
     const Lanes fraction = layers.texel<&MaterialLayers::thin_film_thickness_texture>().rgb.y;
-    p.thin_film.thickness_nm = lerp(least, most, fraction);
+    p.thin_film.thickness_nm = lerp(min_nm, max_nm, fraction);
     p.thin_film.strength = p.thin_film.strength * thin_film_presence(p.thin_film.thickness_nm);
 }
 
@@ -204,8 +204,9 @@ OBSCURA_INLINE void disperse(const LayerReader& layers,
         relative_ior(layers.number<&MaterialLayers::ior>(), dispersion, wavelength.nm);
     // From the denser side, total reflection depends on the wavelength. The longest wavelength has
     // the lowest index.
-    const Lanes least = relative_ior(layers.number<&MaterialLayers::ior>(), dispersion, longest_nm);
-    out.reflects_white = entering & (p.eta * least > Lanes(1.0f));
+    const Lanes thinnest =
+        relative_ior(layers.number<&MaterialLayers::ior>(), dispersion, longest_nm);
+    out.reflects_white = entering & (p.eta * thinnest > Lanes(1.0f));
     p.eta = select(disperses, p.eta * select(entering, denser, Lanes(1.0f) / denser), p.eta);
     out.wavelength = select(disperses, LanesU(one_wavelength), LanesU(0U));
     const Mask first = disperses & ((path.medium_stack & LanesU(one_wavelength)) == LanesU(0U));

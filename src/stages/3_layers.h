@@ -4,7 +4,8 @@
 
 #include "stages/3_media.h"
 #include "stages/3_tangents.h"
-#include "surface/thin_wall.h"
+#include "surface/layered_bsdf.h"
+#include "surface/lobes/straight_transmission.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -31,8 +32,8 @@ struct LayeredPoint {
     LayeredWeights<Lanes> weights;
     Boundary boundary;
     Vec3<Lanes> tint;     ///< of paths that are given a wavelength here; else 1
-    LanesU wavelength;    ///< what media gain by it: one_wavelength, or 0 where nothing disperses
-    Mask reflects_white;  ///< only what goes through is given a wavelength
+    LanesU wavelength;    ///< bits to add to the medium stack: one_wavelength, or 0
+    Mask reflects_white;  ///< only transmitted light is given a wavelength
     Mask lets_through;
 };
 

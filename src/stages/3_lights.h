@@ -1,8 +1,8 @@
-// stages/3_lights.h - next-event estimation: one light a shading point, weighted against the BSDF.
+// stages/3_lights.h - next-event estimation: one light per shading point, by MIS with the BSDF.
 // SPDX-License-Identifier: Apache-2.0
 //
 // Light selection: a light is drawn by its power from a CDF (render/light_table.h,
-// light/cdf_table.h) wherever the shading point lies: there is no light tree.
+// light/cdf_table.h), wherever the shading point lies: there is no light tree.
 #pragma once
 
 #include "light/cdf_table.h"
@@ -17,8 +17,7 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Weight of a strategy of density `own` against one of density `other`; 1 where the other has
-/// none.
+/// Weight of a strategy of density `own` against one of density `other`; 1 where `other` is 0.
 /// Source  Veach, PhD thesis, 1997, section 9.2.4: the power heuristic, exponent 2
 OBSCURA_INLINE Lanes mis_weight(Lanes own, Lanes other) {
     const Lanes ratio = other / max(own, Lanes(1e-30f));
@@ -163,7 +162,9 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
 
 /// Transmittance of an emitter's coat as light sampling computes it: without the coat's texture and
 /// normal map. Lanes whose `light` is -1 get 1.
-OBSCURA_INLINE Lanes sampled_coat_lets_pass(const SceneView& scene, LanesI light, Lanes cosine) {
+OBSCURA_INLINE Lanes sampled_coat_transmittance(const SceneView& scene,
+                                                LanesI light,
+                                                Lanes cosine) {
     const LanesI shape = light - LanesI(scene.lights.triangle_count);
     const Mask is_triangle = (light >= LanesI(0)) & (shape < LanesI(0));
     const Mask is_shape = shape >= LanesI(0);
@@ -181,7 +182,7 @@ OBSCURA_INLINE Lanes sampled_coat_lets_pass(const SceneView& scene, LanesI light
         const Lanes read = gather<Lanes>(words, in_range * LanesI(words_per_record<ShapeLight>));
         coat = select(is_shape, read, coat);
     }
-    return coat_lets_pass<Lanes>(coat, cosine);
+    return coat_transmittance<Lanes>(coat, cosine);
 }
 
 /// Density with which sample_light would have chosen the emitter that a BSDF ray hit: `point`.

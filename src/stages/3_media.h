@@ -77,7 +77,7 @@ OBSCURA_INLINE Mask scatters(const Four<Lanes>& scattering) {
 }
 
 /// Transmittance of a distance through the dominant medium.
-/// Source  Beer and Lambert's law
+/// Source  the Beer-Lambert law
 OBSCURA_INLINE Vec3<Lanes> transmittance(const SceneView& scene,
                                          LanesU medium_stack,
                                          Lanes distance_m) {
@@ -98,7 +98,7 @@ struct Boundary {
 /// Sets how the boundary refracts light between the dominant media of its two sides.
 ///
 /// In/Out  b: with `hidden`; lanes of `exists` change
-OBSCURA_INLINE void bend(
+OBSCURA_INLINE void set_refraction(
     const SceneView& scene, Mask exists, LanesI here, LanesI there, Boundary& b) {
     const Lanes eta = read_medium(scene, there).w / read_medium(scene, here).w;
     const Mask equal = exists & (abs(eta - Lanes(1.0f)) < Lanes(min_refraction));
@@ -118,11 +118,12 @@ OBSCURA_INLINE Boundary boundary_at(const SceneView& scene,
     const LanesU inside = select(entering, enter_medium(medium_stack, medium), medium_stack);
     const LanesU outside = select(entering, medium_stack, leave_medium(medium_stack, medium));
     b.transmitted_stack = select(exists, select(entering, inside, outside), medium_stack);
-    // A path that starts inside has not entered: what it leaves is this medium all the same.
+    // A path that starts inside never entered this medium, but leaves it all the same.
     const LanesI within = max(dominant_medium(inside), medium);
     const LanesI around = dominant_medium(outside);
     b.hidden = exists & (within > medium);
-    bend(scene, exists, select(entering, around, within), select(entering, within, around), b);
+    set_refraction(
+        scene, exists, select(entering, around, within), select(entering, within, around), b);
     return b;
 }
 
@@ -146,8 +147,8 @@ OBSCURA_INLINE SharedLanes read_shared_faces(const SharedFaces* by_slot, LanesU 
             bits_float(record.w)};
 }
 
-/// Replaces the boundary of the hit face by that of all coincident faces: from the dominant medium
-/// before them to the dominant medium behind them.
+/// Replaces the boundary of the hit face by that of all coincident faces together: between the
+/// dominant medium in front of all of them and the one behind all of them.
 ///
 /// In/Out  b: of the hit face; lanes of shared.exist change
 OBSCURA_INLINE void join_boundaries(const SceneView& scene,
@@ -169,7 +170,7 @@ OBSCURA_INLINE void join_boundaries(const SceneView& scene,
     const LanesI there = dominant_medium(stack);
     b.transmitted_stack = select(shared.exist, stack, b.transmitted_stack);
     b.hidden = (shared.exist & (here == there)) | ((!shared.exist) & b.hidden);
-    bend(scene, shared.exist, here, there, b);
+    set_refraction(scene, shared.exist, here, there, b);
 }
 
 }  // namespace OBSCURA_ISA

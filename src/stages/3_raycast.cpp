@@ -28,13 +28,13 @@ OBSCURA_INLINE Vec3<Lanes> ambient_light(const AmbientLight& light,
 /// Fraction of uniform light that sheen passes on to the layers below: evaluate_layered's factor
 /// for this view direction, averaged over cosine-distributed light directions.
 OBSCURA_INLINE Lanes left_by_sheen(const LayeredParams<Lanes>& p, const LayeredWeights<Lanes>& w) {
-    const Lanes most = max_component(p.sheen_color);
-    if (none(most > Lanes(0.0f))) return Lanes(1.0f);
+    const Lanes max_sheen = max_component(p.sheen_color);
+    if (none(max_sheen > Lanes(0.0f))) return Lanes(1.0f);
     constexpr int strata = 4;
     Lanes sum(0.0f);
     for (int i = 0; i < strata; ++i) {
         const Lanes cosine = sqrt(Lanes((static_cast<float>(i) + 0.5f) / strata));
-        const Lanes below = Lanes(1.0f) - most * sheen_albedo(cosine, p.sheen_alpha).albedo;
+        const Lanes below = Lanes(1.0f) - max_sheen * sheen_albedo(cosine, p.sheen_alpha).albedo;
         sum = sum + min(w.below_sheen, below);
     }
     return sum * Lanes(1.0f / strata);

@@ -35,16 +35,16 @@ OBSCURA_INLINE BsdfSample<Lanes> sample_point(const ShadingPoint& s,
             select(l.layered, layers.spread, core.spread)};
 }
 
-/// Whether a ray may leave on the side that its direction has of the true surface
-/// (`reflected_side`: the viewer's, else the transmitted side): where light goes through, the
-/// shading normal must put it on the same side.
+/// Whether a ray may leave in the direction wi. `reflected_side` tells on which side of the true
+/// surface that is: the viewer's, or else the transmitted side. At materials with layers, the
+/// shading normal must put wi on the same side.
 OBSCURA_INLINE Mask may_leave(const ShadingPoint& s, Mask reflected_side, const Vec3<Lanes>& wi) {
     if (!s.any_layers) return reflected_side;
     const Mask through = s.layers.lets_through & (!reflected_side) & (wi.z < Lanes(0.0f));
     return (reflected_side & (wi.z > Lanes(0.0f))) | through;
 }
 
-/// What the wavelength that a path is given here multiplies it with.
+/// The colour that multiplies a path's throughput where it is given a wavelength; else 1.
 ///
 /// In   s: with layers; reflected_side: rays that leave on the viewer's side
 OBSCURA_INLINE Vec3<Lanes> wavelength_tint(const ShadingPoint& s, Mask reflected_side) {

@@ -123,7 +123,7 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
         if (s.any_layers) {
             const LanesI sampled = select(glows & chosen_by_bsdf, s.light, LanesI(-1));
             const Lanes cosine = abs(dot(s.ng, path.direction));
-            weight = weight * sampled_coat_lets_pass(scene, sampled, cosine);
+            weight = weight * sampled_coat_transmittance(scene, sampled, cosine);
         }
         light = select(glows, s.emission * weight, light);
     }

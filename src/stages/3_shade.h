@@ -8,7 +8,7 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Groups whose memory is prefetched together, so that the others are served while one waits.
+/// Number of groups whose memory is prefetched together, so that their waits overlap.
 inline constexpr int groups_ahead = 8;
 
 /// The hits of one group at their paths' times; see hits_or_first.
@@ -28,7 +28,7 @@ hits_of_paths(const Columns& columns, int i, Mask exists, const PathLanes& path)
 /// One bounce of path tracing.
 ///
 /// In      columns.paths, columns.hits: `count` paths of this bounce; number: 0 for camera rays
-/// In/Out  columns.passed: by sample index, see stages/3_thin_walls.h
+/// In/Out  columns.distance_since_scattering: by sample index, see stages/3_thin_walls.h
 /// Out     columns.next, columns.shadows: packed, at most `count` each and one per sample;
 ///         columns.samples: emission and environment light are added
 /// Units   radiance; distance m; pdf 1/sr
@@ -40,7 +40,7 @@ ShadeCounts shade(const SceneView& scene,
                   int count,
                   const ShadeColumns& columns);
 
-/// Ambient occlusion: one cosine-distributed ray of limited length a hit.
+/// Ambient occlusion: one cosine-distributed ray of limited length per hit.
 /// Returns the number of shadow rays.
 int shade_ao(const SceneView& scene,
              const BatchSettings& batch,
@@ -79,12 +79,14 @@ void write_wireframe(const SceneView& scene,
                      int count,
                      const AovColumns& columns);
 
-/// Moves the hits to the front of their columns and the misses to columns.misses. Hits are sorted
-/// by primitive where that saves much: lanes that share a surface share its records.
+/// The result of sort_hits_from_misses.
 struct SortedCounts {
     int hits = 0;
     int misses = 0;
 };
+
+/// Moves the hits to the front of their columns and the misses to columns.misses. Hits are sorted
+/// by primitive where that saves much: lanes that share a surface share its records.
 SortedCounts sort_hits_from_misses(int count, const ShadeColumns& columns);
 
 }  // namespace OBSCURA_ISA

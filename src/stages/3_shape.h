@@ -168,21 +168,21 @@ inline __attribute__((noinline)) void orient_points_lines(const SceneView& scene
     const Lanes size = length(n);
     Mask turns = has_normals & (size > Lanes(1e-6f));
     n = n * (Lanes(1.0f) / max(size, Lanes(1e-6f)));
-    Vec3<Lanes> middle = shape_centre<Lanes>(words);
+    Vec3<Lanes> centre = shape_centre<Lanes>(words);
     Lanes radius = words.number<&ShapeRecord::size>(0);
     const CurveLanes& curves = words.curves();
     if (curves.any) {
         const Capsule<Lanes>& capsule = curves.frame.capsule;
         const Vec3<Lanes> axis = curves.frame.axes.normal;
         const Lanes height = capsule.half_height * (out.fraction + out.fraction - Lanes(1.0f));
-        middle = select(curves.lanes, curves.frame.centre + axis * height, middle);
-        // The more the normal leans along the line, the longer is the distance out of it.
+        centre = select(curves.lanes, curves.frame.centre + axis * height, centre);
+        // The more the normal leans along the line, the further it is to the outside.
         const Lanes width = length(n - axis * dot(n, axis));
         const Lanes thickness = capsule.bottom + (capsule.top - capsule.bottom) * out.fraction;
         radius = select(curves.lanes, thickness / max(width, Lanes(0.1f)), radius);
         turns = turns & (!(curves.lanes & (width < Lanes(0.1f))));
     }
-    s.position = select(turns, middle, s.position);
+    s.position = select(turns, centre, s.position);
     s.normal = select(turns, n, s.normal);
     out.offset = select(turns, radius, out.offset);
 }
@@ -191,7 +191,7 @@ inline __attribute__((noinline)) void orient_points_lines(const SceneView& scene
 ///
 /// In      q: rays in world space; at least one lane of q.shapes
 /// Out     out: lanes of q.shapes
-/// Source  shape/shape_record.h; offset: as for triangles in 3_surface.h
+/// Source  shape/shape_record.h; offset: as for triangles in 3_geometry.h
 inline __attribute__((noinline)) void find_shape_lanes(const SceneView& scene,
                                                        const ShapeQuery& q,
                                                        ShapeLanes& out) {

@@ -46,7 +46,7 @@ inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene
     const Lanes clear = Lanes(32.0f / 16777216.0f) * (size + s.distance * Lanes(0.25f));
     const Lanes cosine = abs(dot(s.normal, s.direction));
     const Lanes coat = record.number<&ShapeLight::coat>();
-    out.emission = out.emission * coat_lets_pass<Lanes>(coat, cosine);
+    out.emission = out.emission * coat_transmittance<Lanes>(coat, cosine);
     out.direction = s.direction;
     out.distance = max(s.distance - clear / max(cosine, Lanes(0.02f)), Lanes(0.0f));
     out.pdf = s.pdf * record.number<&ShapeLight::select>();
@@ -55,8 +55,8 @@ inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene
 /// Density with which light sampling would have chosen a direction that hit a shape light; `other`
 /// where it hit none.
 ///
-/// In      light: as ShadingPoint::light; from, direction, distance: the ray that met it; ng: faces
-///         the ray
+/// In      light: as ShadingPoint::light; path, distance_and_other.x: the ray that hit it, and its
+///         length; ng: faces the ray; distance_and_other.y: `other'
 inline __attribute__((noinline)) Lanes shape_light_pdf(const SceneView& scene,
                                                        const LanesI& light,
                                                        const PathLanes& path,
@@ -68,7 +68,7 @@ inline __attribute__((noinline)) Lanes shape_light_pdf(const SceneView& scene,
     if (none(known)) return other;
     const TableRecord<Lanes, ShapeLight> record =
         shape_light_record(scene, select(known, index, LanesI(0)));
-    ShapeLightRecord<Lanes> read = read_shape_light(record);
+    ShapeLightValues<Lanes> read = read_shape_light(record);
     read.two_sided = Mask(true);  // the caller has tested the side: the normal faces the ray
     const Lanes cosine = abs(dot(ng, path.direction));
     const Lanes pdf = shape_light_density(read, path.origin, distance_and_other.x, cosine);

@@ -135,7 +135,7 @@ struct EmissionContext {
 
 /// Reads the surface's emission, and its index in the light table.
 ///
-/// In   s.unlit; seen.front: lanes that are seen from their front
+/// In   s.unlit; s.any_layers, s.layers
 OBSCURA_INLINE void read_emission(const SceneView& scene,
                                   const HitLanes& hit,
                                   const HitGeometry& g,
@@ -166,7 +166,7 @@ OBSCURA_INLINE void read_emission(const SceneView& scene,
         }
         s.light = select(emits & (base >= LanesI(0)), light, LanesI(-1));
         if (s.any_layers) {
-            // Where light sampling may find the same light, both use sampled_coat_lets_pass.
+            // Where light sampling may find the same light, both use sampled_coat_transmittance.
             const Mask coated = s.layers.layered & !(context.by_bsdf & (s.light >= LanesI(0)));
             s.emission = select(coated, s.emission * s.layers.weights.below_coat, s.emission);
         }

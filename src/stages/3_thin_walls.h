@@ -21,16 +21,17 @@ struct ThinWallHit {
 
 /// The outcome of a group at smooth thin walls.
 struct PassedThinWalls {
-    int next = 0;  ///< of the next paths
-    Mask others;   ///< lanes that go on in another way
-    Lanes left;    ///< probability that they did: the shares of the layers' other lobes sum to this
+    int next = 0;  ///< size of columns.next, the rays written here included
+    Mask others;   ///< lanes that continue in another direction
+    Lanes left;    ///< probability of that: the probabilities of the layers' other lobes sum to it
 };
 
 /// Writes the rays that go straight on, and removes that light from the layers' lobes. Such a ray
-/// keeps the density of the last scattering, and `columns.passed` the distance since then. Not
-/// inlined into shading, as few scenes need it.
+/// keeps the density of the last scattering, and columns.distance_since_scattering the distance
+/// from there. Not inlined into shading, as few scenes need it.
 ///
-/// In      at: size of columns.next so far; columns.passed is not null; path: at the hit
+/// In      at: size of columns.next so far; columns.distance_since_scattering is not null; path: at
+///         the hit
 /// In/Out  layers: if hit.any_layers
 PassedThinWalls pass_thin_walls(const ShadeColumns& columns,
                                 int at,

@@ -10,7 +10,7 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// Rays shorter than this end at a light at a finite distance; see directional_distance_m.
+/// Shorter rays end at a light at a finite distance; see directional_distance_m.
 constexpr float farthest_lamp_m = 1e18f;
 
 /// A random position between texels and between mip levels. It is hashed: the pixel's Sobol points
@@ -48,13 +48,13 @@ OBSCURA_INLINE ShadowLanes restart_on_transmitted_side(const ShadowLanes& ray,
                                                        const Vec3<Lanes>& start) {
     const Mask has_end = ray.tfar < Lanes(farthest_lamp_m);
     const Lanes reach = select(has_end, ray.tfar, Lanes(0.0f));
-    const Vec3<Lanes> way = ray.origin + ray.direction * reach - start;
-    const Lanes distance = length(way);
+    const Vec3<Lanes> to_end = ray.origin + ray.direction * reach - start;
+    const Lanes distance = length(to_end);
     const Mask ahead = has_end & (distance > Lanes(0.0f));
     ShadowLanes next = ray;
     next.origin = start;
     next.direction =
-        select(ahead, way * (Lanes(1.0f) / select(ahead, distance, Lanes(1.0f))), ray.direction);
+        select(ahead, to_end * (Lanes(1.0f) / select(ahead, distance, Lanes(1.0f))), ray.direction);
     next.tfar = select(has_end, distance, ray.tfar);
     return next;
 }

@@ -16,9 +16,9 @@ struct Moment {
 
 /// In  time: 0 when the shutter opens, 1 when it closes; steps: at least 2
 OBSCURA_INLINE Moment moment_of(int steps, Lanes time) {
-    const Lanes place = time * Lanes(static_cast<float>(steps - 1));
-    const LanesI step = min(max(to_int(place), LanesI(0)), LanesI(steps - 2));
-    return {step, place - from_int<Lanes>(step)};
+    const Lanes position = time * Lanes(static_cast<float>(steps - 1));
+    const LanesI step = min(max(to_int(position), LanesI(0)), LanesI(steps - 2));
+    return {step, position - from_int<Lanes>(step)};
 }
 
 /// Entry by entry, as Embree blends its instances.

@@ -46,13 +46,13 @@ inline constexpr int batch_size = 4096;
 #define OBSCURA_PATH_COLUMNS(VECTOR, NUMBER, WORD, INTEGER)                                      \
     VECTOR(origin, ox, oy, oz)     /* of the ray, metres */                                      \
     VECTOR(direction, dx, dy, dz)  /* unit */                                                    \
-    VECTOR(throughput, tr, tg, tb) /* share of the light that the pixel sees */                  \
+    VECTOR(throughput, tr, tg, tb) /* fraction of the light that the pixel receives */           \
     NUMBER(pdf)                    /* of this direction, 1/sr; 0: chosen without one (camera) */ \
     NUMBER(cone_width)             /* footprint at the origin, metres */                         \
     NUMBER(cone_spread)            /* growth of the footprint, metres per metre */               \
-    WORD(slot)                                                                                   \
-    WORD(key)          /* of the pixel's random numbers */                                       \
-    WORD(sample)       /* sample number, bits reversed */                                        \
+    WORD(slot)                     /* sample index */                                            \
+    WORD(key)                      /* of the pixel's random numbers */                           \
+    WORD(sample)                   /* sample number, bits reversed */                            \
     WORD(path_key)     /* of the path: decides at alpha BLEND, between pixels, within media */   \
     WORD(medium_stack) /* what the ray travels in, see stages/3_media.h */
 
@@ -63,12 +63,12 @@ inline constexpr int batch_size = 4096;
     WORD(slot)                                              \
     WORD(path_key)
 
-#define OBSCURA_SHADOW_COLUMNS(VECTOR, NUMBER, WORD, INTEGER)           \
-    VECTOR(origin, ox, oy, oz)                                          \
-    VECTOR(direction, dx, dy, dz)                                       \
-    NUMBER(tfar)                                                        \
-    VECTOR(radiance, r, g, b) /* contribution to the slot's radiance */ \
-    WORD(slot)                                                          \
+#define OBSCURA_SHADOW_COLUMNS(VECTOR, NUMBER, WORD, INTEGER)  \
+    VECTOR(origin, ox, oy, oz)                                 \
+    VECTOR(direction, dx, dy, dz)                              \
+    NUMBER(tfar)                                               \
+    VECTOR(radiance, r, g, b) /* contribution to its sample */ \
+    WORD(slot)                                                 \
     WORD(path_key)
 
 #define OBSCURA_SAMPLE_COLUMNS(VECTOR, NUMBER, WORD, INTEGER) \
@@ -135,7 +135,7 @@ struct SceneView {
     const int32_t* touching_media = nullptr;  ///< by primitive; null: no faces are shared
     bool scatters = false;                    ///< some medium scatters light
     bool occludes = false;    ///< some material has an occlusion texture: stages/3_occlusion.h
-    bool thin_walls = false;  ///< some surface may let light pass straight: surface/thin_wall.h
+    bool thin_walls = false;  ///< some may let light straight through: scene/thin_walls.h
     const int32_t* material_numbers = nullptr;  ///< glTF index of each material; -1: none
     MotionView motion;
     TextureView textures;
@@ -150,8 +150,8 @@ struct SceneView {
 struct SharedFaces {
     uint32_t left = 0;     ///< up to three media, as PathColumns::medium_stack; see faces_shared
     uint32_t entered = 0;  ///< likewise
-    float reflected_clearance = 0;  ///< how far off the hit, by side, rays start clear of all
-    float transmitted_clearance = 0;
+    float reflected_clearance = 0;    ///< from the hit to the start of rays, by side
+    float transmitted_clearance = 0;  ///< likewise
 };
 
 inline constexpr int shared_faces_words = 4;
@@ -174,7 +174,7 @@ struct BatchSettings {
     uint32_t seed_low = 0, seed_high = 0;
     const float* filter = nullptr;  ///< inverse CDF, filter_entries + 1 offsets; null: box
     int max_bounces = 8;
-    uint32_t medium_stack = 0;  ///< medium stack at the camera, see stages/3_media.h
+    uint32_t medium_stack = 0;  ///< at the camera, see stages/3_media.h
     int strategies = sample_lights | sample_bsdfs;
     bool background_visible = true;      ///< camera rays that miss see the environment
     float background[4] = {0, 0, 0, 0};  ///< added where camera rays miss; premultiplied RGBA

@@ -14,7 +14,7 @@ auto identity(const Crossing& face) {
     return std::tie(face.surface.primitive, face.surface.instance, face.triangle);
 }
 
-/// True for the same triangle or shape in the same place.
+/// True for the same triangle or shape of the same instance.
 bool is_same_face(const Crossing& a, const Crossing& b) {
     return identity(a) == identity(b);
 }
@@ -24,15 +24,15 @@ bool is_before(const Crossing& a, const Crossing& b) {
 }
 
 /// The first face that the path has not crossed yet, and all faces that coincide with it.
-std::span<const Crossing> first_company(const Probe& probe, std::vector<Crossing>& faces) {
-    // These lie behind the path's start: it has crossed them before.
+std::span<const Crossing> first_coincident_faces(const Probe& probe, std::vector<Crossing>& faces) {
+    // These lie behind the path's start: it has already crossed them.
     std::erase_if(faces, [&](const Crossing& face) {
         return face.t < probe.depth && probe.depth - face.t >= probe.height;
     });
     std::sort(faces.begin(), faces.end(), is_before);
     size_t count = 1;
     while (count < faces.size() &&
-           faces[count].t - faces[count - 1].t <= company_distance * probe.clearance) {
+           faces[count].t - faces[count - 1].t <= coincidence_distance * probe.clearance) {
         ++count;
     }
     return {faces.data(), std::min(count, faces.size())};
@@ -77,30 +77,32 @@ void add_medium(int32_t medium, uint32_t& medium_stack) {
 
 }  // namespace
 
-Company find_company(const Probe& probe, const Crossing& hit, std::vector<Crossing>& faces) {
+CoincidentFaces find_coincident_faces(const Probe& probe,
+                                      const Crossing& hit,
+                                      std::vector<Crossing>& faces) {
     std::erase_if(faces, [&](const Crossing& face) { return is_same_face(face, hit); });
     faces.push_back(hit);
-    const std::span<const Crossing> company = first_company(probe, faces);
-    Company out;
-    out.found = std::any_of(company.begin(), company.end(), [&](const Crossing& face) {
+    const std::span<const Crossing> coincident = first_coincident_faces(probe, faces);
+    CoincidentFaces out;
+    out.found = std::any_of(coincident.begin(), coincident.end(), [&](const Crossing& face) {
         return face.medium != hit.medium || face.enters != hit.enters;
     });
     if (!out.found) return out;
     out.crossed.left = faces_shared;
-    const std::vector<Change> changes = find_changes(company);
+    const std::vector<Change> changes = find_changes(coincident);
     for (const Change& change : changes)
         add_medium(change.medium, change.enters ? out.crossed.entered : out.crossed.left);
     // Where nothing changes, any face will do: it stays invisible.
     const auto rank = [&](const Crossing& face) {
-        const bool fills = !changes.empty() && face.medium == changes.front().medium;
-        return std::make_tuple(fills ? 0 : 1, identity(face));
+        const bool dominates = !changes.empty() && face.medium == changes.front().medium;
+        return std::make_tuple(dominates ? 0 : 1, identity(face));
     };
     out.face = *std::min_element(
-        company.begin(), company.end(), [&](const Crossing& a, const Crossing& b) {
+        coincident.begin(), coincident.end(), [&](const Crossing& a, const Crossing& b) {
             return rank(a) < rank(b);
         });
-    out.crossed.reflected_clearance = out.face.t - company.front().t + probe.clearance;
-    out.crossed.transmitted_clearance = company.back().t - out.face.t + probe.clearance;
+    out.crossed.reflected_clearance = out.face.t - coincident.front().t + probe.clearance;
+    out.crossed.transmitted_clearance = coincident.back().t - out.face.t + probe.clearance;
     return out;
 }
 
@@ -122,7 +124,7 @@ RayColumns ray_of(const Columns& columns, size_t index, const float* tfar, const
 }
 
 /// All faces of media along one ray of a sample's path.
-void list_faces(const CompanyQuery& query,
+void list_faces(const CoincidenceQuery& query,
                 const RayColumns& ray,
                 const uint32_t* slot,
                 std::vector<Crossing>& out) {
@@ -157,11 +159,11 @@ void move_hit(const HitColumns& h,
 
 }  // namespace
 
-int meet_company(const CompanyQuery& query,
-                 int probes,
-                 const ProbeColumns& columns,
-                 const HitColumns& hits,
-                 SharedFaces* shared) {
+int resolve_coincident_faces(const CoincidenceQuery& query,
+                             int probes,
+                             const ProbeColumns& columns,
+                             const HitColumns& hits,
+                             SharedFaces* shared) {
     int met = 0;
     const ShadowView p = columns.probes;
     const HitColumns& h = hits;
@@ -177,14 +179,15 @@ int meet_company(const CompanyQuery& query,
                            query.touching_media[surface.primitive],
                            (columns.path_index[i] & seen_from_front) != 0};
         list_faces(query, ray_of(p, i, p.tfar + i, columns.time), p.slot + i, faces);
-        const Company company = find_company({p.r[i], p.g[i], p.b[i]}, hit, faces);
-        if (!company.found) continue;
+        const CoincidentFaces coincident =
+            find_coincident_faces({p.r[i], p.g[i], p.b[i]}, hit, faces);
+        if (!coincident.found) continue;
         ++met;
-        shared[p.slot[i]] = company.crossed;
-        const float tfar =
-            h.t[index] * 1.001f;  // a little further: the face may lie behind the hit
+        shared[p.slot[i]] = coincident.crossed;
+        // A little further: the face may lie behind the hit.
+        const float tfar = h.t[index] * 1.001f;
         list_faces(query, ray_of(columns.paths, index, &tfar, columns.time), p.slot + i, faces);
-        move_hit(h, index, company.face, faces);
+        move_hit(h, index, coincident.face, faces);
     }
     return met;
 }

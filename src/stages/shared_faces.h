@@ -17,7 +17,7 @@ struct Probe {
 };
 
 /// The coincident faces that a path crosses at a hit.
-struct Company {
+struct CoincidentFaces {
     bool found = false;  ///< false: the hit face is alone
     Crossing face;       ///< the one that counts: of the medium that dominates on one side
     SharedFaces crossed;
@@ -31,10 +31,12 @@ struct Company {
 /// In      hit: t along the probe; faces: all that the probe crosses, with or without the hit
 /// Source  priorities: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced Images", Journal
 ///         of Graphics Tools 7(2), 2002; they do not treat coincident faces
-Company find_company(const Probe& probe, const Crossing& hit, std::vector<Crossing>& faces);
+CoincidentFaces find_coincident_faces(const Probe& probe,
+                                      const Crossing& hit,
+                                      std::vector<Crossing>& faces);
 
 /// The inputs of the search for coincident faces.
-struct CompanyQuery {
+struct CoincidenceQuery {
     const Accel& accel;
     const int32_t* touching_media;  ///< by primitive
     SeeThrough see_through;         ///< of the paths' rays; cutaway: by path index
@@ -45,10 +47,10 @@ struct CompanyQuery {
 ///
 /// In/Out  hits: those of `columns`; shared: by sample index; written where faces coincide.
 ///         Returns the number of such hits.
-int meet_company(const CompanyQuery& query,
-                 int probes,
-                 const ProbeColumns& columns,
-                 const HitColumns& hits,
-                 SharedFaces* shared);
+int resolve_coincident_faces(const CoincidenceQuery& query,
+                             int probes,
+                             const ProbeColumns& columns,
+                             const HitColumns& hits,
+                             SharedFaces* shared);
 
 }  // namespace obscura

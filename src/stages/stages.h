@@ -40,10 +40,10 @@ struct ShadeColumns {
     PathColumns next;       ///< out
     ShadowColumns shadows;  ///< out
     SampleColumns samples;  ///< in and out
-    const float* time = nullptr;                 ///< by slot; null: nothing moves
-    float* distance_since_scattering = nullptr;  ///< metres, by slot; see stages/3_thin_walls.h
-    float* occlusion = nullptr;  ///< where SceneView::occludes, by slot; see stages/3_occlusion.h
-    const SharedFaces* shared = nullptr;  ///< where SceneView::touching_media, by slot
+    const float* time = nullptr;                 ///< by sample index; null: nothing moves
+    float* distance_since_scattering = nullptr;  ///< metres, by sample index; see 3_thin_walls.h
+    float* occlusion = nullptr;  ///< by sample index, where SceneView::occludes: 3_occlusion.h
+    const SharedFaces* shared = nullptr;  ///< by sample index, where SceneView::touching_media
 };
 
 /// The columns that ray casting reads and writes, once hits and misses are separated.
@@ -64,8 +64,8 @@ struct AovColumns {
     const float* time = nullptr;  ///< by pixel; null: nothing moves
 };
 
-/// Limit of smooth thin walls that a shadow ray passes, and a path after its last bounce. Behind
-/// more of them the image is too dark.
+/// Maximum number of smooth thin walls that a shadow ray passes, or a path after its last bounce.
+/// What lies behind more of them is too dark.
 inline constexpr int max_thin_walls = 32;
 
 /// A third value in `occluded`, beside 0 and 1: only possible thin walls are in the way.
@@ -76,7 +76,7 @@ struct ThinWallColumns {
     ShadowColumns shadows;  ///< in and out, packed in place
     HitView hits;
     SampleColumns samples;        ///< in and out
-    const float* time = nullptr;  ///< by slot; null: nothing moves
+    const float* time = nullptr;  ///< by sample index; null: nothing moves
 };
 
 /// One step of transparent shadow rays: up to the next thin wall.
@@ -109,9 +109,9 @@ struct ScatterColumns {
 struct ProbeColumns {
     PathView paths;
     HitView hits;                 ///< what they hit
-    const float* time = nullptr;  ///< by slot; null: nothing moves
-    const SharedFaces* shared =
-        nullptr;  ///< by sample index: probes only where faces_shared; null: all
+    const float* time = nullptr;  ///< by sample index; null: nothing moves
+    /// By sample index: probes are made only where faces_shared; null: everywhere.
+    const SharedFaces* shared = nullptr;
     /// Out, packed. The colour channels hold distances: of the hit along the probe; of the path's
     /// start before the hit, along the normal; at which rays start clear of the hit.
     ShadowColumns probes;
@@ -122,10 +122,10 @@ struct ProbeColumns {
 // clear of the face that they leave. Nearer faces are within the rounding of Embree and shading.
 
 /// Faces closer together than this coincide: a ray that starts clear of one would miss the other.
-inline constexpr float company_distance = 2.0f;
+inline constexpr float coincidence_distance = 2.0f;
 
 /// Length of a probe behind the hit: a chain of faces, each coincident with the next, may be longer
-/// than company_distance.
+/// than coincidence_distance.
 inline constexpr float probe_distance = 10.0f;
 
 /// Bit in ProbeColumns::path_index: the path comes from the front of the face it hit.
@@ -157,7 +157,7 @@ struct StageTable {
     void (*open_shutter)(
         const SceneView&, bool through_centres, int count, const PathColumns&, float* time);
 
-    /// Stage 2, inside scattering media: finds the paths that are, then makes one flight of each.
+    /// Stage 2, inside scattering media: finds the paths there, then makes one flight of each.
     int (*begin_scatter)(const SceneView&, int count, const ScatterStart&);
     int (*scatter)(const SceneView&, const Flight&, int count, const ScatterColumns&);
 
@@ -168,7 +168,7 @@ struct StageTable {
     ShadeCounts (*shade)(
         const SceneView&, const BatchSettings&, int bounce, int count, const ShadeColumns&);
 
-    /// Stage 3 for --integrator ao: one occlusion ray a hit.
+    /// Stage 3 for --integrator ao: one occlusion ray per hit.
     int (*shade_ao)(const SceneView&, const BatchSettings&, int count, const ShadeColumns&);
 
     /// Stage 3 for --integrator raycast: the number of hits, which come to the front; then their

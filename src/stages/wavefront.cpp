@@ -146,14 +146,15 @@ void cross_shared_faces(const WavefrontInput& in,
                                    .probes = work.shadows,
                                    .path_index = work.random_walk_path.data()};
         const int probes = in.stages->make_probes(in.scene, count, columns);
-        const CompanyQuery query{.accel = *in.accel,
-                                 .touching_media = in.scene.touching_media,
-                                 .see_through = see_through};
-        if (meet_company(query, probes, columns, work.hits, found) == 0) return;
+        const CoincidenceQuery query{.accel = *in.accel,
+                                     .touching_media = in.scene.touching_media,
+                                     .see_through = see_through};
+        if (resolve_coincident_faces(query, probes, columns, work.hits, found) == 0) return;
     }
 }
 
-/// Stage 4 for shadow rays that wait at thin walls: these need the nearest hit, wall after wall.
+/// Stage 4 for shadow rays that wait at thin walls: they need the nearest hit, one thin
+/// wall after the other.
 void cross_thin_walls(
     const WavefrontInput& in, int count, uint32_t segment, Workspace& work, WavefrontCounters& c) {
     const bool raycast = in.kind == WavefrontKind::raycast;
@@ -323,8 +324,8 @@ void trace_wireframe(
     WavefrontInput one = in;
     for (int i = 0; i < in.batch.samples; ++i) {
         const int ray = static_cast<int>(in.batch.first_sample) + i;
-        const auto offset = [](int place) {
-            return (static_cast<float>(place) + 0.5f) / wireframe_side - 0.5f;
+        const auto offset = [](int cell) {
+            return (static_cast<float>(cell) + 0.5f) / wireframe_side - 0.5f;
         };
         one.batch.film_offset_px[0] = offset(ray % wireframe_side);
         one.batch.film_offset_px[1] = offset(ray / wireframe_side);

@@ -47,20 +47,20 @@ public:
 
     PathColumns paths[2];
     HitColumns hits;
-    HitColumns random_walk_hits;  ///< in scattering medium_stack, and of shadow rays at thin walls
-    std::vector<uint32_t> random_walk_path;
+    HitColumns random_walk_hits;  ///< in scattering media, and of shadow rays at thin walls
+    std::vector<uint32_t> random_walk_path;  ///< path index of each random walk, or of each probe
     MissColumns misses;
     ShadowColumns shadows;
     SampleColumns samples;
     std::vector<uint8_t> occluded;
     std::vector<uint8_t> thin_walls;  ///< where there are thin walls; see Accel::occluded
-    std::vector<float> distance_since_scattering;  ///< likewise, by slot; see ShadeColumns
+    std::vector<float> distance_since_scattering;  ///< likewise, by sample index; see ShadeColumns
     std::vector<float> occlusion;                  ///< where SceneView::occludes; see ShadeColumns
-    std::vector<SharedFaces> shared_faces;         ///< where media touch, by slot
+    std::vector<SharedFaces> shared_faces;         ///< where media touch, by sample index
     std::vector<float> slot_time;                  ///< where something moves; see 1_shutter.h
     std::vector<float> ray_time;                   ///< the same, by index of the rays to be asked
     std::vector<PassedBack> passed_backs;          ///< of this batch's camera rays
-    std::vector<CutFaces> cut_faces;               ///< the same by slot, else nothing
+    std::vector<CutFaces> cut_faces;               ///< by sample index: those of passed_backs
     Cutaway cutaway;                               ///< of the rays that are asked now
     std::vector<float> splats[4];                  ///< as SplatColumns, by index
     std::vector<float> ray_end;                    ///< of paths, where there are splats

@@ -18,11 +18,11 @@ OBSCURA_INLINE F schlick_weight(const F& cosine) {
 /// Transmittance of a clear coat with index 1.5 for light from below; `coat` is its coverage.
 /// Source  KHR_materials_clearcoat, Emission
 template <typename F>
-OBSCURA_INLINE F coat_lets_pass(const F& coat, const F& cosine) {
+OBSCURA_INLINE F coat_transmittance(const F& coat, const F& cosine) {
     return F(1.0f) - coat * (F(0.04f) + F(0.96f) * schlick_weight(cosine));
 }
 
-/// The mean reflectance of a coat (1 - coat_lets_pass at coat = 1) over a Lambertian surface.
+/// The mean reflectance of a coat (1 - coat_transmittance at coat = 1) over a Lambertian surface.
 inline constexpr float mean_coat_reflectance = 0.04f + 0.96f / 21;
 
 /// Indices of refraction with a smaller relative difference count as equal: the formulas divide by

@@ -29,7 +29,7 @@ enum MaterialFlag : uint32_t {
 /// One glTF material. A table of these is read word by word by the shading lanes, so every member
 /// is 32 bits wide and there is no padding.
 ///
-/// To add a lobe: see surface/material_layers.h.
+/// To add a lobe: see surface/lobes/list.h.
 struct Material {
     float base_color[4] = {1, 1, 1, 1};  ///< linear Rec.709 and alpha
     float metallic = 1;

@@ -10,10 +10,12 @@ namespace obscura {
 /// materials that use one have such a record (Material::layers); the defaults equal the core.
 /// Read word by word by the shading lanes: every member is 32 bits wide, there is no padding.
 ///
-/// To add a lobe: append its factors here and its slots at the end, read them by records of
-/// gltf/parse/material_factors.cpp, fill them in gltf/parse/finish_material.cpp, name the slots in
-/// gltf/materials/materials.h, turn both into LayeredParams in stages/3_layers.h, and evaluate them
-/// in surface/layered_bsdf.h.
+/// To add a number or a texture of a lobe: append it here (slots at the end, layer_slot_count says
+/// how many); a member of MaterialFactors and its entry in gltf/parse/material_factors.h and .cpp
+/// read it, gltf/parse/finish_material.cpp copies it, slot_entries in gltf/materials/materials.cpp
+/// names a slot (with slot_count), gltf/parse/extensions.cpp knows a new extension.
+/// stages/3_layers.cpp makes LayeredParams of it. The recipe for the lobe itself is in
+/// surface/lobes/list.h.
 struct MaterialLayers {
     float ior = 1.5f;  ///< KHR_materials_ior; 0: always reflects
     float specular = 1;
@@ -28,8 +30,8 @@ struct MaterialLayers {
     float anisotropy_sine = 0;
     float iridescence = 0;
     float iridescence_ior = 1.3f;
-    float thin_film_thickness_nm[2] = {100,
-                                       400};  ///< for texel 0 and 1; without a texture: the second
+    /// For texel 0 and 1; without a texture: the second.
+    float thin_film_thickness_nm[2] = {100, 400};
     float transmission = 0;
     float diffuse_transmission = 0;
     float diffuse_transmission_color[3] = {1, 1, 1};

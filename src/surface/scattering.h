@@ -49,23 +49,23 @@ template <typename F>
 struct FreeFlight {
     F distance_m;
     Vec3<F> scattered;  ///< weight of the path if it scatters at distance_m
-    Vec3<F> passed;     ///< weight if it reaches a surface at `limit_m` before
+    Vec3<F> passed;     ///< weight if it first reaches the surface at `limit_m`
 };
 
-/// Samples a free flight. The distance follows one channel, chosen in proportion to `share`; the
-/// weights hold for all three.
+/// Samples a free flight. The distance follows one channel, chosen with its `probability`; the
+/// weights of the result hold for all three.
 ///
-/// In      extinction, 1/m; albedo: scattering / extinction; share: probabilities of the channels,
-///         sum 1; limit_m: distance of the surface; u: uniform in [0, 1)^2
+/// In      extinction, 1/m; albedo: scattering / extinction; probability: of the channels, sum 1;
+///         limit_m: distance of the surface; u: uniform in [0, 1)^2
 /// Source  balance heuristic over the channels: Veach, PhD thesis, 1997, ch. 9.2
 template <typename F>
 OBSCURA_INLINE FreeFlight<F> sample_flight(const Vec3<F>& extinction,
                                            const Vec3<F>& albedo,
-                                           const Vec3<F>& weight,
+                                           const Vec3<F>& probability,
                                            const F& limit_m,
                                            const Vec2<F>& u) {
-    const auto red = u.x < weight.x;
-    const auto green = (!red) & (u.x < weight.x + weight.y);
+    const auto red = u.x < probability.x;
+    const auto green = (!red) & (u.x < probability.x + probability.y);
     const F sigma = select(red, extinction.x, select(green, extinction.y, extinction.z));
     const F depth = -log(max(F(1.0f) - u.y, F(1e-8f)));
     const auto never = sigma <= F(0.0f);
@@ -79,8 +79,8 @@ OBSCURA_INLINE FreeFlight<F> sample_flight(const Vec3<F>& extinction,
     const Vec3<F> at_end = extinction * left(min(flight.distance_m, limit_m));
     const Vec3<F> at_limit = left(limit_m);
     const F least(1e-30f);
-    flight.scattered = albedo * at_end * (F(1.0f) / max(dot(weight, at_end), least));
-    flight.passed = at_limit * (F(1.0f) / max(dot(weight, at_limit), least));
+    flight.scattered = albedo * at_end * (F(1.0f) / max(dot(probability, at_end), least));
+    flight.passed = at_limit * (F(1.0f) / max(dot(probability, at_limit), least));
     return flight;
 }
 

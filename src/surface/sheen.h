@@ -59,12 +59,22 @@ struct SheenAlbedo {
     F scale;
 };
 
+/// The albedo before scaling: of narrow fibres above 1.
 template <typename F>
-OBSCURA_INLINE SheenAlbedo<F> sheen_albedo(const F& cosine, const F& alpha) {
+OBSCURA_INLINE F unscaled_sheen_albedo(const F& cosine, const F& alpha) {
     const AlbedoCell<F> cell = albedo_cell(cosine, sqrt(alpha));
     const Four<F> corners = gather4<F>(sheen_cells, IntOf<F>(cell.index * IntOf<F>(4)));
-    const F raw = bilinear(corners, cell.x, cell.y);
-    return {min(raw, F(1.0f)), F(1.0f) / max(raw, F(1.0f))};
+    return bilinear(corners, cell.x, cell.y);
+}
+
+template <typename F>
+OBSCURA_INLINE SheenAlbedo<F> scaled_sheen_albedo(const F& unscaled) {
+    return {min(unscaled, F(1.0f)), F(1.0f) / max(unscaled, F(1.0f))};
+}
+
+template <typename F>
+OBSCURA_INLINE SheenAlbedo<F> sheen_albedo(const F& cosine, const F& alpha) {
+    return scaled_sheen_albedo(unscaled_sheen_albedo(cosine, alpha));
 }
 
 }  // namespace OBSCURA_ISA

@@ -221,9 +221,9 @@ int ask_all(const Scene& scene, WildScenes& wild, bool thoroughly) {
     }
     if (!thoroughly) return found;
     for (const RayKind kind : {RayKind::camera, RayKind::shadow}) {
-        for (const ReplayMode way :
+        for (const ReplayMode mode :
              {ReplayMode::single, ReplayMode::packets, ReplayMode::coherent_packets})
-            accel->replay(recording, kind, way);
+            accel->replay(recording, kind, mode);
     }
     for (const std::string& isa : embree_isas()) {
         for (const bool robust : {false, true}) {

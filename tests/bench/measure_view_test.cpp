@@ -110,7 +110,7 @@ TEST(Replay, ShadowRaysGoOnThroughPanes) {
     expect_replay_finds_all_hits(scene, recording);
 }
 
-TEST(MeasureView, CountsAndShares) {
+TEST(MeasureView, CountsAndFractions) {
     const PreparedScene scene = some_scene();
     ViewTask task;
     task.scene = &scene;
@@ -126,10 +126,10 @@ TEST(MeasureView, CountsAndShares) {
     EXPECT_EQ(view->counters.paths, 48U * 32U * 3U);
     EXPECT_EQ(view->kinds[0].rays, view->counters.camera_rays);
     EXPECT_TRUE(doubts_about(*view).empty());
-    const auto shares = stage_fractions(*view);
-    EXPECT_NEAR(std::accumulate(shares.begin(), shares.end(), 0.0), 1.0, 1e-12);
-    for (const double share : shares)
-        EXPECT_GE(share, 0);
+    const auto fractions = stage_fractions(*view);
+    EXPECT_NEAR(std::accumulate(fractions.begin(), fractions.end(), 0.0), 1.0, 1e-12);
+    for (const double fraction : fractions)
+        EXPECT_GE(fraction, 0);
     EXPECT_GT(view->of_bare.median, 0);
     EXPECT_LE(view->of_bare.low, view->of_bare.median);
     EXPECT_LE(view->of_bare.median, view->of_bare.high);

@@ -91,7 +91,7 @@ TEST_F(Cameras, EveryModelRenders) {
 }
 
 /// The same once more with every AOV, whose rays pass the centres of pixels and lens.
-TEST_F(Cameras, AovsGoThroughTheMiddleOfTheLens) {
+TEST_F(Cameras, AovsGoThroughTheCentreOfTheLens) {
     const Strings depth = {"--integrator", "depth"};
     const ReadImage pinhole = shot(depth);
     EXPECT_EQ(shot({"--integrator", "depth", "--lens-radius", "0.5"}).pixels, pinhole.pixels);

@@ -16,7 +16,7 @@ protected:
     }
 };
 
-TEST_F(Crosscheck, WritesAReportAndAImage) {
+TEST_F(Crosscheck, WritesAReportAndAnImage) {
     const ProgramRun got = run({"crosscheck",
                                 "box.gltf",
                                 "--rays",

@@ -120,7 +120,7 @@ TEST(FormulaCheck, RuledQuadricsAreRightAndPhantomsAreSeen) {
         add_shape(scene, record, 0);
         const TrueScene truth(scene);
         EXPECT_EQ(check_formulas(truth, 20000, 1), (FormulaCheck{20000, 0, 0})) << record.k[1];
-        LineMeeting wrong = formulas_in_double();
+        CrossingFormulas wrong = formulas_in_double();
         wrong.shape = with_phantoms;
         const FormulaCheck seen = check_formulas(truth, 20000, 1, wrong);
         EXPECT_EQ(seen.wrong_truth, 0U);

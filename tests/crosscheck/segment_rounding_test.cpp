@@ -162,7 +162,7 @@ private:
     mutable std::optional<TrueScene> truth_;
 };
 
-/// No ray moved by less than the radius misses the segment: only its test does.
+/// Any ray moved by less than the radius meets the segment; only the test by its cone misses it.
 TEST_F(CurveSegment, AlongItsAxisEmbreeMayMissIt) {
     const TrueRay along{{-4, 0.001, 0}, {1, 1e-5, 0}};
     EXPECT_TRUE(test(along, 0).is_chance());
@@ -178,8 +178,8 @@ TEST_F(CurveSegment, AlongItsAxisEmbreeMayMissIt) {
     EXPECT_EQ(verdict(slanted, {}), Verdict::missed);
 }
 
-/// The end cap between two segments is the first one's: if that is missed, nobody reports the cap.
-TEST_F(CurveSegment, WhoseEndCapEndsItMayBeMissedThere) {
+/// The end cap between two segments belongs to the first: where that is missed, so is the cap.
+TEST_F(CurveSegment, IsMissedAtAnEndCapOfAMissedNeighbour) {
     const TrueRay along{{-4, -0.002, 0.003}, {1, 1e-5, 1e-5}};
     double out = 0;
     std::vector<int32_t> elements;

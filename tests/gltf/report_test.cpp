@@ -1,4 +1,4 @@
-// tests/gltf/report_test.cpp - the report of every part's features, and the docs.
+// tests/gltf/report_test.cpp - the report of an asset's features, and the table in the docs.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/report.h"
 
@@ -65,8 +65,8 @@ TEST(Report, ExtensionsInsidePartsAreFound) {
     EXPECT_TRUE(lines_of_report(triangle_asset()).empty());
 }
 
-/// Each entry's function must find its feature in a part that has all features, and none in an
-/// empty part, except for features that the part itself is.
+/// Each entry's function must find its feature in a part that has all features, and must not find
+/// it in an empty part, unless the part itself is the feature.
 TEST(Report, EveryFeatureCanBeFound) {
     const json primitive = {{"mode", 0},
                             {"attributes", {{"POSITION", 0}, {"COLOR_0", 0}}},

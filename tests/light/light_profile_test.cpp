@@ -113,18 +113,18 @@ TEST(LightProfile, LumensAreTheIntegralOverAllDirections) {
 
     const LightProfile profile = uneven_profile();
     double sum = 0;
-    constexpr int records = 720;
+    constexpr int rows = 720;
     constexpr int columns = 720;
     const LightProfileTable table = pack_light_profiles({&profile, 1});
-    for (int y = 0; y < records; ++y) {
+    for (int y = 0; y < rows; ++y) {
         for (int x = 0; x < columns; ++x) {
-            const double polar = 180.0 * (y + 0.5) / records;
+            const double polar = 180.0 * (y + 0.5) / rows;
             const Vec3d d = lamp_direction(polar, 360.0 * (x + 0.5) / columns);
             sum +=
                 profile_candela<double>(table.view(), 0, lamp_axes(), d) * std::sin(polar * degree);
         }
     }
-    sum *= pi_d / records * 2 * pi_d / columns;
+    sum *= pi_d / rows * 2 * pi_d / columns;
     EXPECT_NEAR(profile_lumens(profile) / sum, 1, 1e-5);
 }
 

@@ -11,7 +11,7 @@
 namespace obscura {
 namespace {
 
-/// Offset of a record within a record.
+/// A record that is a member of another.
 struct Place {
     int32_t record = 0;
     float at[3] = {0, 0, 0};

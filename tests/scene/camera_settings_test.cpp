@@ -53,7 +53,7 @@ TEST(CameraSettingTable, EverySettingHasOneEntry) {
     size_t bytes = sizeof(all.model);
     for_each_camera_setting([&](const auto& entry) {
         auto& member = all.*entry.member;
-        EXPECT_FALSE(member.has_value()) << entry.info.name << ": another row has that member";
+        EXPECT_FALSE(member.has_value()) << entry.info.name << ": another entry has that member";
         member.emplace();
         bytes += sizeof(member);
         const std::string place = std::string(entry.info.section) + "/" +
@@ -63,7 +63,7 @@ TEST(CameraSettingTable, EverySettingHasOneEntry) {
         EXPECT_TRUE(report.empty() || reports.insert(report).second) << report;
         EXPECT_LE(entry.info.range.low, entry.info.range.high) << entry.info.name;
     });
-    EXPECT_LE(sizeof(CameraSettings) - bytes, 4 * sizeof(int)) << "a member has no row";
+    EXPECT_LE(sizeof(CameraSettings) - bytes, 4 * sizeof(int)) << "a member has no entry";
 }
 
 TEST(CameraSettingTable, ModelsRefuseWhatTheyDoNotHave) {

@@ -22,12 +22,12 @@ uint32_t medium_stack(uint32_t shared) {
 
 TEST(SharedFaces, AloneNothingChanges) {
     std::vector<Crossing> none;
-    EXPECT_FALSE(find_company(probe, face(1, 0, glass, true), none).found);
+    EXPECT_FALSE(find_coincident_faces(probe, face(1, 0, glass, true), none).found);
     // The hit itself, and the neighbour on whose edge it is.
     std::vector<Crossing> same{face(1, 0, glass, true), face(1, 1, glass, true)};
-    EXPECT_FALSE(find_company(probe, face(1, 0, glass, true), same).found);
+    EXPECT_FALSE(find_coincident_faces(probe, face(1, 0, glass, true), same).found);
     std::vector<Crossing> far{face(1.5f, 1, liquid, true)};
-    EXPECT_FALSE(find_company(probe, face(1, 0, glass, false), far).found);
+    EXPECT_FALSE(find_coincident_faces(probe, face(1, 0, glass, false), far).found);
 }
 
 TEST(SharedFaces, WhicheverIsHitTheGreaterNumberCounts) {
@@ -38,13 +38,14 @@ TEST(SharedFaces, WhicheverIsHitTheGreaterNumberCounts) {
             Crossing hit = glass_is_hit ? out : in;
             hit.t = 1;
             std::vector<Crossing> others{glass_is_hit ? in : out};
-            const Company company = find_company(probe, hit, others);
-            ASSERT_TRUE(company.found);
-            EXPECT_EQ(company.face.medium, glass);
-            EXPECT_EQ(medium_stack(company.crossed.left), static_cast<uint32_t>(glass) << 16U);
-            EXPECT_EQ(medium_stack(company.crossed.entered), static_cast<uint32_t>(liquid) << 16U);
-            EXPECT_GE(company.crossed.reflected_clearance, 0.1f);
-            EXPECT_GE(company.crossed.transmitted_clearance, 0.1f);
+            const CoincidentFaces coincident = find_coincident_faces(probe, hit, others);
+            ASSERT_TRUE(coincident.found);
+            EXPECT_EQ(coincident.face.medium, glass);
+            EXPECT_EQ(medium_stack(coincident.crossed.left), static_cast<uint32_t>(glass) << 16U);
+            EXPECT_EQ(medium_stack(coincident.crossed.entered),
+                      static_cast<uint32_t>(liquid) << 16U);
+            EXPECT_GE(coincident.crossed.reflected_clearance, 0.1f);
+            EXPECT_GE(coincident.crossed.transmitted_clearance, 0.1f);
         }
     }
 }
@@ -52,27 +53,29 @@ TEST(SharedFaces, WhicheverIsHitTheGreaterNumberCounts) {
 /// Rays start off all faces, not only off the one that counts.
 TEST(SharedFaces, RaysStartClearOfAllOnBothSides) {
     std::vector<Crossing> others{face(1.15f, 1, glass, true), face(1.3f, 2, 3, true)};
-    const Company company = find_company(probe, face(1, 0, liquid, true), others);
-    ASSERT_TRUE(company.found);
-    EXPECT_EQ(company.face.medium, 3);
-    EXPECT_FLOAT_EQ(company.crossed.reflected_clearance, 0.4f);
-    EXPECT_FLOAT_EQ(company.crossed.transmitted_clearance, 0.1f);
-    EXPECT_EQ(medium_stack(company.crossed.entered), 3U << 16U | 2U << 8U | 1U);
+    const CoincidentFaces coincident =
+        find_coincident_faces(probe, face(1, 0, liquid, true), others);
+    ASSERT_TRUE(coincident.found);
+    EXPECT_EQ(coincident.face.medium, 3);
+    EXPECT_FLOAT_EQ(coincident.crossed.reflected_clearance, 0.4f);
+    EXPECT_FLOAT_EQ(coincident.crossed.transmitted_clearance, 0.1f);
+    EXPECT_EQ(medium_stack(coincident.crossed.entered), 3U << 16U | 2U << 8U | 1U);
 }
 
 /// Faces in front of the hit and behind the path's start have been crossed already.
 TEST(SharedFaces, WhatThePathHasLeftBehindIsNotCrossedAgain) {
     std::vector<Crossing> others{face(0.95f, 1, liquid, true)};
     const Probe started_between{1.0f, 0.03f, 0.1f};
-    EXPECT_FALSE(find_company(started_between, face(1, 0, glass, false), others).found);
+    EXPECT_FALSE(find_coincident_faces(started_between, face(1, 0, glass, false), others).found);
 }
 
 TEST(SharedFaces, OutOfAMediumAndIntoItAgainIsNoBoundary) {
     std::vector<Crossing> others{face(1, 1, glass, true)};
-    const Company company = find_company(probe, face(1, 0, glass, false), others);
-    ASSERT_TRUE(company.found);
-    EXPECT_EQ(medium_stack(company.crossed.left), 0U);
-    EXPECT_EQ(company.crossed.entered, 0U);
+    const CoincidentFaces coincident =
+        find_coincident_faces(probe, face(1, 0, glass, false), others);
+    ASSERT_TRUE(coincident.found);
+    EXPECT_EQ(medium_stack(coincident.crossed.left), 0U);
+    EXPECT_EQ(coincident.crossed.entered, 0U);
 }
 
 }  // namespace

@@ -36,7 +36,7 @@ ShapeLight flat_lamp(ShapeLightKind kind) {
 }
 
 template <typename F>
-ShapeLightRecord<F> record_of_light(const ShapeLight& light) {
+ShapeLightValues<F> values_of_light(const ShapeLight& light) {
     return read_shape_light(TableRecord<F, ShapeLight>(&light, 0));
 }
 
@@ -64,7 +64,7 @@ double density(const ShapeLight& light, const Vec3d& from, const Vec3d& directio
     const Vec3d centre{light.centre[0], light.centre[1], light.centre[2]};
     const Vec3d normal = round ? normalize(*point - centre) : Vec3d{0, 1, 0};
     return shape_light_density(
-        record_of_light<double>(light), from, length(*point - from), -dot(normal, direction));
+        values_of_light<double>(light), from, length(*point - from), -dot(normal, direction));
 }
 
 void expect_right(const ShapeLight& light, const Vec3d& from, int axis = 1) {
@@ -73,7 +73,7 @@ void expect_right(const ShapeLight& light, const Vec3d& from, int axis = 1) {
     const auto sample = [&](Pcg32& random) -> std::optional<Vec3d> {
         const float x = random.next_float();
         const auto s =
-            sample_shape_light(record_of_light<float>(light), Vec2f{x, random.next_float()}, eye);
+            sample_shape_light(values_of_light<float>(light), Vec2f{x, random.next_float()}, eye);
         const Vec3d direction{s.direction.x, s.direction.y, s.direction.z};
         const double expected = density(light, from, direction);
         // Directions on the outline may miss by rounding; the others have the claimed density.
@@ -122,7 +122,7 @@ TEST(ShapeLightStatistics, WrongDensityFails) {
     const auto sample = [&](Pcg32& random) -> std::optional<Vec3d> {
         const double x = random.next_double();
         return sample_shape_light(
-                   record_of_light<double>(light), Vec2<double>{x, random.next_double()}, {0, 0, 0})
+                   values_of_light<double>(light), Vec2<double>{x, random.next_double()}, {0, 0, 0})
             .direction;
     };
     const auto pdf = [&](const Vec3d& d) { return density(light, {0.02, 0, 0}, d); };

@@ -26,11 +26,11 @@ public:
     }
 
     /// A parallelogram with corners p, p + a, p + a + b, p + b; its front is cross(a, b).
-    void quad(const Vec3f& p, const Vec3f& a, const Vec3f& b, int32_t material_record) {
+    void quad(const Vec3f& p, const Vec3f& a, const Vec3f& b, int32_t material_index) {
         const uint32_t first = vertex_count();
         for (const Vec3f& v : {p, p + a, p + a + b, p + b})
             add_vertex(v);
-        begin(material_record);
+        begin(material_index);
         triangle(first, first + 1, first + 2);
         triangle(first, first + 2, first + 3);
         end();
@@ -41,7 +41,7 @@ public:
     void sphere(const Vec3f& centre,
                 float radius,
                 int rings,
-                int32_t material_record,
+                int32_t material_index,
                 bool inward = false,
                 bool flat = false) {
         const uint32_t first = vertex_count();
@@ -59,7 +59,7 @@ public:
                 normals.insert(normals.end(), {sign * n.x, sign * n.y, sign * n.z});
             }
         }
-        begin(material_record);
+        begin(material_index);
         if (!flat) {
             scene_.primitives.back().normal_base = static_cast<int32_t>(
                 static_cast<int64_t>(scene_.attributes.size()) - 3 * static_cast<int64_t>(first));
@@ -103,10 +103,10 @@ private:
     void add_vertex(const Vec3f& v) {
         scene_.positions.insert(scene_.positions.end(), {v.x, v.y, v.z});
     }
-    void begin(int32_t material_record) {
+    void begin(int32_t material_index) {
         Primitive primitive;
         primitive.first_triangle = static_cast<int32_t>(scene_.indices.size() / 3);
-        primitive.material = material_record;
+        primitive.material = material_index;
         primitive.node = static_cast<int32_t>(scene_.primitives.size());
         scene_.primitives.push_back(primitive);
     }

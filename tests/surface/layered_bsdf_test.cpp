@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "surface/layered_bsdf.h"
 
-#include "surface/thin_wall.h"
+#include "surface/lobes/straight_transmission.h"
 
 #include <gtest/gtest.h>
 
@@ -71,7 +71,7 @@ TEST(Layers, NoMixtureReflectsMoreThanArrives) {
         const LayeredParams<float> p = random_layers(random, 0.01F);
         const Vec3f wo = direction_above(random, 0.1F);
         const Furnace sky = white_furnace(p, wo);
-        // Tables are interpolated; a film's own albedo is taken at the normal's angle.
+        // Tables are interpolated; a thin film's own albedo is taken at the normal's angle.
         const double slack = p.thin_film.strength > 0 ? 0.03 : 0.006;
         EXPECT_LT(max_component(sky.mean), 1 + slack + 3 * sky.error) << n << ", " << wo.z;
     }
@@ -229,7 +229,7 @@ TEST(Layers, SheenIsTheIntegralOfItsTable) {
     }
 }
 
-/// Glass mixed with metal, tinted, under a film: all that only microfacets do.
+/// Glass mixed with metal, tinted, under a thin film: all that only microfacets do.
 LayeredParams<float> stained_glass(float alpha, float eta) {
     LayeredParams<float> p = clear_glass(alpha, eta);
     p.base_color = {0.1F, 0.02F, 0.9F};

@@ -163,7 +163,7 @@ TEST(Cutaway, PathsBesideTheRoofAreInItsShadow) {
 TEST(Cutaway, EachPathHasItsOwnEye) {
     const auto build = [](bool roofed) {
         return floor_with([&](ThinWallScene& s) {
-            // Standing, its front away from x = 0: looked through by rays from the left alone.
+            // Upright, its front towards +x: only rays that meet its back look through it.
             const int32_t index = s.builder.material(plaster());
             if (roofed) s.builder.quad({0, 0.05f, -9}, {0, 9, 0}, {0, 0, 18}, index);
         });
@@ -233,7 +233,7 @@ TEST(Cutaway, ARoofOverTheCameraGivesShadow) {
               0.5 * film_mean(from_above(lit, view)).value);
 }
 
-/// A room open at no side whose fronts face inwards; without its ceiling where `open`.
+/// A closed room whose fronts face inwards; without its ceiling where `open`.
 Scene room(bool open, float ceiling_emission = 0) {
     SceneBuilder builder;
     const int32_t red = builder.material(plaster({0.9f, 0.1f, 0.1f}));

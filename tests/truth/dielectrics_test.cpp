@@ -77,8 +77,8 @@ TEST(Dielectrics, LampsInsideShineThroughTheMedium) {
     EXPECT_NEAR(lit_wall(0.5f) / lit_wall(0.0f), std::exp(-1.5), 0.005);
 }
 
-/// The camera is 1000 m from the origin, inside the medium, 500 m from its wall.
-TEST(Dielectrics, BetweenACameraInsideAndTheWallLightIsAbsorbed) {
+/// The camera is 1000 m from the origin, inside the medium, 500 m from its boundary.
+TEST(Dielectrics, BetweenACameraInsideAndTheBoundaryLightIsAbsorbed) {
     for (const float absorption : {0.0f, 1e-3f}) {
         DielectricScene scene;
         const int32_t index = scene.add(dielectric(1.5f, {absorption, absorption, absorption}));

@@ -128,8 +128,8 @@ void BatchReader::use_material(const PrimitiveName& name) {
 int BatchReader::choose_material(const PrimitiveNote& note) {
     const int material = gltf_primitive(note.name).material;
     const MaterialChoice choice =
-        note.corners == 3 ? material_record(materials_, material, note.uv_sets)
-                          : points_lines_material_record(materials_, material, note.shading);
+        note.corners == 3 ? material_for_surface(materials_, material, note.uv_sets)
+                          : material_for_points_lines(materials_, material, note.shading);
     if (choice.lost.empty()) return choice.index;
     const std::string text = lost_slots_text(materials_, choice);
     if (note.corners == 3) {
@@ -196,7 +196,7 @@ void BatchReader::use_again(GeometryBatch& kept) {
 
 void BatchReader::note_faults(const MeshPrimitive& primitive) {
     const char* const what = primitive.corners == 3   ? " triangles"
-                             : primitive.corners == 2 ? " pieces of lines"
+                             : primitive.corners == 2 ? " line segments"
                                                       : " points";
     for (const PrimitiveFault& fault : primitive.faults) {
         const std::string count = std::to_string(fault.dropped) + what;

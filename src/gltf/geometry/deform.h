@@ -25,16 +25,16 @@ struct VertexJoints {
     std::vector<float> weights;    ///< 0 or more; those of a vertex sum to 1
 };
 
-/// Moves every vertex by the mean of its joints' matrices: positions by it, normals by its inverse
-/// transpose, tangents along. Where most vertices are mirrored, the winding is reversed.
+/// Moves every vertex by the mean of its joints' matrices: positions and tangents by the mean,
+/// normals by its inverse transpose. Where most vertices are mirrored, the winding is reversed.
 ///
 /// Source  glTF 2.0, section 3.7.3.3
 void skin_primitive(const VertexJoints& from,
                     std::span<const Affined> world_from_bind,
                     MeshPrimitive& primitive);
 
-/// Reads what bends a primitive and bends it; positions may end up anywhere. Only targets whose
-/// weight is not 0 are read.
+/// Reads a primitive's morph targets and skin and deforms it; the caller checks whether positions
+/// are still in range. Only targets whose weight is not 0 are read.
 ///
 /// Errors  65 E-SKIN-JOINT a vertex names a joint that the skin lacks; those of read_attribute
 Result<void> deform_primitive(PrimitiveReader& reader,

@@ -22,7 +22,7 @@ GltfInstancing read_instancing(const DocumentReading& reading, const ModelElemen
 /// False when the node places its mesh once, at its own transform.
 bool is_instanced(const GltfInstancing& instancing);
 
-/// The transforms of meshes: `placed`, with one entry per instance in place of the node's entry.
+/// The transforms of meshes: `placed`, where a node's entry is replaced by one entry per instance.
 ///
 /// Errors  65 E-NODE-INSTANCING a rotation without length; 77 E-LIMIT-INSTANCES; as read_floats
 /// Source  glTF extension EXT_mesh_gpu_instancing

@@ -9,8 +9,8 @@
 
 namespace obscura::gltf {
 
-/// Moves a primitive to another space: positions by the matrix, normals by its inverse transpose,
-/// tangents along; a mirror reverses the winding. False: a position is no longer in range.
+/// Moves a primitive to another space: positions and tangents by the matrix, normals by its inverse
+/// transpose; a mirror reverses the winding. False: a position is no longer in range.
 bool bake_primitive(MeshPrimitive& primitive, const Affined& world_from_mesh);
 
 /// Sizes of a scene's arrays, in elements.

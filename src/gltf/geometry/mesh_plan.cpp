@@ -31,7 +31,7 @@ private:
     const GltfNode& node(int placed) const {
         return document_.nodes[static_cast<size_t>(placed_[static_cast<size_t>(placed)].node)];
     }
-    const PlacedNode& place(int placed) const { return placed_[static_cast<size_t>(placed)]; }
+    const PlacedNode& placed_node(int placed) const { return placed_[static_cast<size_t>(placed)]; }
     int dynamic_group(int placed) const {
         return options_.posed ? placed_[static_cast<size_t>(placed)].dynamic_group : -1;
     }
@@ -76,7 +76,7 @@ void Planner::add_tasks(const MeshUse& use, int placed, ElementKind kind, MeshBa
 
 bool Planner::is_shrunk(int placed, const Affined& transform) {
     if (!is_singular(transform) || is_flattening(transform)) return false;
-    shrunk_nodes_.push_back(node_label(document_, place(placed).node));
+    shrunk_nodes_.push_back(node_label(document_, placed_node(placed).node));
     return true;
 }
 
@@ -90,7 +90,7 @@ MeshBatch& Planner::batch_of_group(std::vector<MeshBatch>& batches, BatchSpace s
 /// Triangles that one node shows.
 void Planner::add_single(const MeshUse& use) {
     const int placed = use.placed[0];
-    const PlacedNode& from = place(placed);
+    const PlacedNode& from = placed_node(placed);
     if (use.bends) {
         if (use.skin >= 0 || dynamic_group(placed) < 0 ||
             !is_shrunk(placed, from.world_from_node)) {
@@ -113,11 +113,12 @@ void Planner::add_points_lines(const MeshUse& use, int placed) {
     const bool moves = dynamic_group(placed) >= 0;
     const bool follows = options_.anchored && moves && !use.bends;
     if (follows) {
-        const PlacedNode& from = place(placed);
+        const PlacedNode& from = placed_node(placed);
         const Affined& within = group_from_node_[static_cast<size_t>(from.node)];
         if (is_shrunk(placed, compose(within, from.node_from_mesh))) return;
     } else if (moves) {
-        if (!place(placed).visible || is_shrunk(placed, place(placed).world_from_node)) return;
+        if (!placed_node(placed).visible || is_shrunk(placed, placed_node(placed).world_from_node))
+            return;
     }
     MeshBatch& to = follows ? batch_of_group(anchored_, BatchSpace::anchored_group, placed)
                             : (options_.posed ? dynamic_batch_ : static_batch_);

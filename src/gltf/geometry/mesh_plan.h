@@ -17,8 +17,9 @@ struct PrimitiveTask {
     int placed = -1;  ///< the node that places it; -1: it stays in its mesh's space
 };
 
-/// The space of a batch. A dynamic group's geometry is stored once, in its node's own space; points
-/// and lines, whose radius no node may scale, where they are at shutter open (anchored).
+/// The space of a batch. dynamic_group: that of the animated node; the geometry is stored once.
+/// anchored_group: the world, with the group where it is at shutter open; for points and lines,
+/// because no node may scale their radius. mesh: its own, for meshes that have instances.
 enum class BatchSpace { world, dynamic_group, anchored_group, mesh };
 
 /// Primitives that share one space.
@@ -30,7 +31,7 @@ struct MeshBatch {
 };
 
 struct MeshPlan {
-    std::vector<MeshBatch> batches;  ///< static ones come first, the world's before others
+    std::vector<MeshBatch> batches;  ///< static ones first; in each half the world's first
     std::vector<std::string> shrunk_nodes =
         {};  ///< nodes that scale their mesh to no area: not drawn
 };

@@ -22,8 +22,10 @@ std::vector<double> weights_of(const Document& document, const GltfNode& node) {
 
 /// Whether the shape of a placed mesh changes over time. A moving skin counts, and so does a
 /// skinned mesh that appears or vanishes: it never lies in a dynamic group's space.
-bool bends(const Document& document, const PlacedNode& place, const std::vector<char>& moving) {
-    const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
+bool bends(const Document& document,
+           const PlacedNode& placed_node,
+           const std::vector<char>& moving) {
+    const GltfNode& node = document.nodes[static_cast<size_t>(placed_node.node)];
     const bool own_weights = !node.weights.empty();
     if (node.bends || (!own_weights && document.meshes[static_cast<size_t>(node.mesh)].bends)) {
         return true;
@@ -31,7 +33,7 @@ bool bends(const Document& document, const PlacedNode& place, const std::vector<
     if (node.skin < 0) return false;
     const std::vector<int>& joints = document.skins[static_cast<size_t>(node.skin)].joints;
     const auto moves = [&](int joint) { return moving[static_cast<size_t>(joint)] != 0; };
-    return place.dynamic_group >= 0 || std::any_of(joints.begin(), joints.end(), moves);
+    return placed_node.dynamic_group >= 0 || std::any_of(joints.begin(), joints.end(), moves);
 }
 
 }  // namespace
@@ -42,29 +44,29 @@ MeshUses find_mesh_uses(const Document& document, const std::vector<PlacedNode>&
     std::vector<char> moving;  // asked for joints only
     if (!document.skins.empty()) moving = moving_nodes(document);
     for (size_t i = 0; i < placed.size(); ++i) {
-        const PlacedNode& place = placed[i];
-        const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
-        if (node.mesh < 0 || !place.may_show) continue;
-        const bool flat = node.skin < 0 && is_flattening(place.world_from_node);
-        if (node.skin < 0 && place.dynamic_group < 0 && !flat &&
-            is_singular(place.world_from_node)) {
-            out.shrunk_nodes.push_back(node_label(document, place.node));
+        const PlacedNode& placed_node = placed[i];
+        const GltfNode& node = document.nodes[static_cast<size_t>(placed_node.node)];
+        if (node.mesh < 0 || !placed_node.may_show) continue;
+        const bool flat = node.skin < 0 && is_flattening(placed_node.world_from_node);
+        if (node.skin < 0 && placed_node.dynamic_group < 0 && !flat &&
+            is_singular(placed_node.world_from_node)) {
+            out.shrunk_nodes.push_back(node_label(document, placed_node.node));
             continue;
         }
-        const bool thin = node.skin < 0 && !flat && is_nearly_flat(place.world_from_node);
+        const bool thin = node.skin < 0 && !flat && is_nearly_flat(placed_node.world_from_node);
         // Instances cannot be flat: a mesh is read again for a node that flattens it.
-        const bool is_bent =
-            bends(document, place, moving) || ((flat || thin) && place.dynamic_group >= 0);
-        if (is_bent && !place.visible) continue;
+        const bool is_bent = bends(document, placed_node, moving) ||
+                             ((flat || thin) && placed_node.dynamic_group >= 0);
+        if (is_bent && !placed_node.visible) continue;
         std::vector<double> weights = weights_of(document, node);
-        if (flat) out.flat_nodes.push_back(node_label(document, place.node));
+        if (flat) out.flat_nodes.push_back(node_label(document, placed_node.node));
         if (flat || thin) {
             const auto index = static_cast<int>(i);
             out.uses.push_back({node.mesh, -1, std::move(weights), is_bent, {index}});
             continue;
         }
         // Nodes that deform their mesh share no shape, even if shapes agree at some time.
-        const int own = node.skin >= 0 || node.bends ? place.node : -1;
+        const int own = node.skin >= 0 || node.bends ? placed_node.node : -1;
         const auto [entry, is_new] = known.try_emplace({node.mesh, own, weights}, out.uses.size());
         if (is_new) out.uses.push_back({node.mesh, node.skin, std::move(weights), is_bent, {}});
         MeshUse& use = out.uses[entry->second];

@@ -50,8 +50,8 @@ private:
     void add_mesh(const MeshBatch& batch, const GeometryBatch& geometry);
     void add_instance(const MeshBatch& batch,
                       const GeometryBatch& geometry,
-                      const PlacedNode& place);
-    bool place_of(const MeshBatch& batch, const PlacedNode& place, Affined& out);
+                      const PlacedNode& placed_node);
+    bool world_of_batch(const MeshBatch& batch, const PlacedNode& placed_node, Affined& out);
     bool grow_bounds(const MeshBatch& batch, const GeometryBatch& geometry, const Affined& world);
     void store(const std::vector<MeshBatch>& batches, std::vector<GeometryBatch>& geometries);
     void warn();
@@ -194,20 +194,23 @@ void MeshBuilder::add_world(const std::vector<MeshBatch>& batches,
 }
 
 /// World transform of the batch's space; false: it is not visible now.
-bool MeshBuilder::place_of(const MeshBatch& batch, const PlacedNode& place, Affined& out) {
-    if (!place.visible) return false;
+bool MeshBuilder::world_of_batch(const MeshBatch& batch,
+                                 const PlacedNode& placed_node,
+                                 Affined& out) {
+    if (!placed_node.visible) return false;
     if (batch.space == BatchSpace::mesh) {
-        out = place.world_from_node;
+        out = placed_node.world_from_node;
     } else {
-        out = world_from_node()[static_cast<size_t>(place.dynamic_group)];
+        out = world_from_node()[static_cast<size_t>(placed_node.dynamic_group)];
     }
-    if (place.dynamic_group >= 0 && is_singular(out)) {
-        const int node = batch.space == BatchSpace::mesh ? place.node : place.dynamic_group;
+    if (placed_node.dynamic_group >= 0 && is_singular(out)) {
+        const int node =
+            batch.space == BatchSpace::mesh ? placed_node.node : placed_node.dynamic_group;
         shrunk_nodes_.add(node_label(document(), node));
         return false;
     }
     if (batch.space != BatchSpace::anchored_group) return true;
-    const Affined& anchor = (*sources_.anchors)[static_cast<size_t>(place.dynamic_group)];
+    const Affined& anchor = (*sources_.anchors)[static_cast<size_t>(placed_node.dynamic_group)];
     if (is_singular(anchor)) return false;
     const bool is_there = std::equal(&anchor.m[0][0], &anchor.m[0][0] + 12, &out.m[0][0]);
     out = is_there ? Affined{} : compose(out, inverse(anchor));
@@ -246,15 +249,15 @@ bool MeshBuilder::grow_bounds(const MeshBatch& batch,
 
 void MeshBuilder::add_instance(const MeshBatch& batch,
                                const GeometryBatch& geometry,
-                               const PlacedNode& place) {
+                               const PlacedNode& placed_node) {
     Affined world;
-    if (!place_of(batch, place, world)) return;
+    if (!world_of_batch(batch, placed_node, world)) return;
     const bool own_mesh = batch.space == BatchSpace::mesh;
     Instance instance;
     instance.world_from_object = affine_cast<float>(world);
     instance.object_from_world = affine_cast<float>(inverse(world));
     instance.mesh = static_cast<int32_t>(scene_.meshes.size()) - 1;
-    instance.node = own_mesh ? place.node : -1;
+    instance.node = own_mesh ? placed_node.node : -1;
     instance.mirrored = determinant(world) < 0 ? 1 : 0;
     bool in_range = true;
     for (int r = 0; r < 3; ++r) {
@@ -264,7 +267,7 @@ void MeshBuilder::add_instance(const MeshBatch& batch,
         }
     }
     if (!in_range || !grow_bounds(batch, geometry, world)) {
-        const int node = own_mesh ? place.node : place.dynamic_group;
+        const int node = own_mesh ? placed_node.node : placed_node.dynamic_group;
         problems_.add({ExitCode::bad_data,
                        "E-NODE-RANGE",
                        document().at("nodes", static_cast<size_t>(node)),

@@ -39,7 +39,7 @@ struct ParticleRange {
     std::vector<uint32_t> order = {};  ///< index in the input of each sphere
 };
 
-inline constexpr size_t max_spheres = size_t{1} << 29;  ///< their words have 31-bit numbers
+inline constexpr size_t max_spheres = size_t{1} << 29;  ///< so that 31 bits index every float
 
 /// Appends spheres to Scene::spheres in an order in which blocks are small boxes.
 ///

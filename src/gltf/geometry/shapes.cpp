@@ -44,17 +44,17 @@ private:
     const GltfShape& shape(int index) const {
         return document().shapes[static_cast<size_t>(index)];
     }
-    const GltfNode& node(const PlacedNode& place) const {
-        return document().nodes[static_cast<size_t>(place.node)];
+    const GltfNode& node(const PlacedNode& placed_node) const {
+        return document().nodes[static_cast<size_t>(placed_node.node)];
     }
     int32_t choose_material(int material, bool double_sided);
-    Result<Primitive> make_primitive(const PlacedNode& place, const Affined* baked);
-    Result<void> add_particles(const PlacedNode& place, Primitive& primitive);
-    Result<Primitive> make_world_primitive(const PlacedNode& place);
-    void add_to_world(const std::vector<const PlacedNode*>& places);
-    Result<int32_t> instanced_mesh(const PlacedNode& place);
-    Result<void> add_instance(const PlacedNode& place);
-    Result<void> grow_bounds(const PlacedNode& place, const ShapeBox& box);
+    Result<Primitive> make_primitive(const PlacedNode& placed_node, const Affined* baked);
+    Result<void> add_particles(const PlacedNode& placed_node, Primitive& primitive);
+    Result<Primitive> make_world_primitive(const PlacedNode& placed_node);
+    void add_to_world(const std::vector<const PlacedNode*>& placed_nodes);
+    Result<int32_t> instanced_mesh(const PlacedNode& placed_node);
+    Result<void> add_instance(const PlacedNode& placed_node);
+    Result<void> grow_bounds(const PlacedNode& placed_node, const ShapeBox& box);
     void count(const GltfShape& shape, int32_t added);
     void report(const Error& error) {
         problems_.add(error, {Loss::primitive, "the shape is not drawn"});
@@ -71,7 +71,7 @@ private:
 };
 
 int32_t ShapeBuilder::choose_material(int material, bool double_sided) {
-    const MaterialChoice choice = material_record(materials_, material, 1U);
+    const MaterialChoice choice = material_for_surface(materials_, material, 1U);
     if (choice.is_new) {
         log_.warn(document().at("materials", static_cast<size_t>(material)),
                   lost_slots_text(materials_, choice) + "; on shapes the factors alone count");
@@ -102,12 +102,12 @@ void ShapeBuilder::count(const GltfShape& counted, int32_t added) {
     }
 }
 
-Result<void> ShapeBuilder::add_particles(const PlacedNode& place, Primitive& primitive) {
-    const GltfShape& particles = shape(node(place).shape);
+Result<void> ShapeBuilder::add_particles(const PlacedNode& placed_node, Primitive& primitive) {
+    const GltfShape& particles = shape(node(placed_node).shape);
     GeometryStore* store = sources_.store;
     SphereOrders* orders = store != nullptr ? &store->sphere_orders : nullptr;
     const Result<ParticleRange> range = append_particles(
-        {document(), sources_.buffers, orders}, particles, node(place).shape, scene_);
+        {document(), sources_.buffers, orders}, particles, node(placed_node).shape, scene_);
     if (!range) return fail(range.error());
     primitive.geometry = static_cast<int32_t>(GeometryKind::spheres);
     primitive.first_triangle = range->first;
@@ -116,15 +116,16 @@ Result<void> ShapeBuilder::add_particles(const PlacedNode& place, Primitive& pri
 }
 
 /// The primitive of a node's shape; moved to the world where `baked`.
-Result<Primitive> ShapeBuilder::make_primitive(const PlacedNode& place, const Affined* baked) {
-    const GltfShape& own = shape(node(place).shape);
+Result<Primitive> ShapeBuilder::make_primitive(const PlacedNode& placed_node,
+                                               const Affined* baked) {
+    const GltfShape& own = shape(node(placed_node).shape);
     Primitive out;
-    out.material = choose_material(node(place).shape_material, own.double_sided);
+    out.material = choose_material(node(placed_node).shape_material, own.double_sided);
     out.tangent_base = 0;
     out.uv_base[0] = 0;
     out.geometry = static_cast<int32_t>(GeometryKind::shapes);
     if (own.positions >= 0) {
-        const Result<void> added = add_particles(place, out);
+        const Result<void> added = add_particles(placed_node, out);
         if (!added) return fail(added.error());
         return out;
     }
@@ -139,7 +140,7 @@ Result<Primitive> ShapeBuilder::make_primitive(const PlacedNode& place, const Af
     return out;
 }
 
-Result<void> ShapeBuilder::grow_bounds(const PlacedNode& place, const ShapeBox& box) {
+Result<void> ShapeBuilder::grow_bounds(const PlacedNode& placed_node, const ShapeBox& box) {
     bool in_range = true;
     Bounds all = scene_.bounds;
     const auto cut = [](float v) { return std::isfinite(v) ? v : std::copysign(0.5f, v); };
@@ -147,7 +148,7 @@ Result<void> ShapeBuilder::grow_bounds(const PlacedNode& place, const ShapeBox& 
         const Vec3d p{cut((corner & 1) != 0 ? box.high.x : box.low.x),
                       cut((corner & 2) != 0 ? box.high.y : box.low.y),
                       cut((corner & 4) != 0 ? box.high.z : box.low.z)};
-        const Vec3d moved = transform_point(place.world_from_node, p);
+        const Vec3d moved = transform_point(placed_node.world_from_node, p);
         in_range = in_range && max_component(abs(moved)) <= farthest_position;
         const Vec3f v{
             static_cast<float>(moved.x), static_cast<float>(moved.y), static_cast<float>(moved.z)};
@@ -160,26 +161,26 @@ Result<void> ShapeBuilder::grow_bounds(const PlacedNode& place, const ShapeBox& 
     }
     return fail(ExitCode::bad_data,
                 "E-NODE-RANGE",
-                document().at("nodes", static_cast<size_t>(place.node)),
+                document().at("nodes", static_cast<size_t>(placed_node.node)),
                 "the node moves its shape beyond 1e18");
 }
 
-Result<Primitive> ShapeBuilder::make_world_primitive(const PlacedNode& place) {
-    const GltfShape& own = shape(node(place).shape);
-    const Result<void> grown = grow_bounds(place, shape_bounds(own.record));
+Result<Primitive> ShapeBuilder::make_world_primitive(const PlacedNode& placed_node) {
+    const GltfShape& own = shape(node(placed_node).shape);
+    const Result<void> grown = grow_bounds(placed_node, shape_bounds(own.record));
     if (!grown) return fail(grown.error());
-    Result<Primitive> primitive = make_primitive(place, &place.world_from_node);
+    Result<Primitive> primitive = make_primitive(placed_node, &placed_node.world_from_node);
     if (!primitive) return primitive;
-    primitive->node = place.node;
+    primitive->node = placed_node.node;
     count(own, 1);
     return primitive;
 }
 
 /// Primitives in world space come before those of meshes.
-void ShapeBuilder::add_to_world(const std::vector<const PlacedNode*>& places) {
+void ShapeBuilder::add_to_world(const std::vector<const PlacedNode*>& placed_nodes) {
     std::vector<Primitive> world;
-    for (const PlacedNode* place : places) {
-        const Result<Primitive> primitive = make_world_primitive(*place);
+    for (const PlacedNode* placed_node : placed_nodes) {
+        const Result<Primitive> primitive = make_world_primitive(*placed_node);
         if (primitive) world.push_back(*primitive);
         if (!primitive) report(primitive.error());
     }
@@ -192,11 +193,11 @@ void ShapeBuilder::add_to_world(const std::vector<const PlacedNode*>& places) {
 }
 
 /// The mesh of a node's shape, made where it is the first such node.
-Result<int32_t> ShapeBuilder::instanced_mesh(const PlacedNode& place) {
-    const std::pair<int, int> key{node(place).shape, node(place).shape_material};
+Result<int32_t> ShapeBuilder::instanced_mesh(const PlacedNode& placed_node) {
+    const std::pair<int, int> key{node(placed_node).shape, node(placed_node).shape_material};
     const auto known = instanced_.find(key);
     if (known != instanced_.end()) return known->second;
-    const Result<Primitive> primitive = make_primitive(place, nullptr);
+    const Result<Primitive> primitive = make_primitive(placed_node, nullptr);
     if (!primitive) return fail(primitive.error());
     const auto index = static_cast<int32_t>(scene_.meshes.size());
     scene_.meshes.push_back({static_cast<int32_t>(scene_.primitives.size()), 1});
@@ -206,20 +207,20 @@ Result<int32_t> ShapeBuilder::instanced_mesh(const PlacedNode& place) {
     return index;
 }
 
-Result<void> ShapeBuilder::add_instance(const PlacedNode& place) {
-    const Result<int32_t> index = instanced_mesh(place);
+Result<void> ShapeBuilder::add_instance(const PlacedNode& placed_node) {
+    const Result<int32_t> index = instanced_mesh(placed_node);
     if (!index) return fail(index.error());
-    const Result<void> grown = grow_bounds(place, mesh_boxes_[*index]);
+    const Result<void> grown = grow_bounds(placed_node, mesh_boxes_[*index]);
     if (!grown) return grown;
     const Mesh& mesh = scene_.meshes[static_cast<size_t>(*index)];
     Instance instance;
-    instance.world_from_object = affine_cast<float>(place.world_from_node);
-    instance.object_from_world = affine_cast<float>(inverse(place.world_from_node));
+    instance.world_from_object = affine_cast<float>(placed_node.world_from_node);
+    instance.object_from_world = affine_cast<float>(inverse(placed_node.world_from_node));
     instance.mesh = *index;
-    instance.node = place.node;
-    instance.mirrored = determinant(place.world_from_node) < 0 ? 1 : 0;
+    instance.node = placed_node.node;
+    instance.mirrored = determinant(placed_node.world_from_node) < 0 ? 1 : 0;
     scene_.instances.push_back(instance);
-    count(shape(node(place).shape),
+    count(shape(node(placed_node).shape),
           scene_.primitives[static_cast<size_t>(mesh.first_primitive)].triangle_count);
     return {};
 }
@@ -228,17 +229,17 @@ void ShapeBuilder::build() {
     std::vector<const PlacedNode*> world;
     std::vector<const PlacedNode*> moved;
     std::vector<std::string> flat;
-    for (const PlacedNode& place : sources_.placed) {
-        const int index = node(place).shape;
-        if (index < 0 || !place.visible) continue;
-        if (is_singular(place.world_from_node)) {
-            flat.push_back(document().at("nodes", static_cast<size_t>(place.node)));
+    for (const PlacedNode& placed_node : sources_.placed) {
+        const int index = node(placed_node).shape;
+        if (index < 0 || !placed_node.visible) continue;
+        if (is_singular(placed_node.world_from_node)) {
+            flat.push_back(document().at("nodes", static_cast<size_t>(placed_node.node)));
             continue;
         }
         const bool single = shape(index).positions < 0;
         const bool stays =
-            single && place.dynamic_group < 0 && uniform_scale(place.world_from_node);
-        (stays ? world : moved).push_back(&place);
+            single && placed_node.dynamic_group < 0 && uniform_scale(placed_node.world_from_node);
+        (stays ? world : moved).push_back(&placed_node);
     }
     if (!flat.empty()) {
         log_.warn(document().file,
@@ -246,8 +247,8 @@ void ShapeBuilder::build() {
                       list_text(flat));
     }
     add_to_world(world);
-    for (const PlacedNode* place : moved) {
-        const Result<void> added = add_instance(*place);
+    for (const PlacedNode* placed_node : moved) {
+        const Result<void> added = add_instance(*placed_node);
         if (!added) report(added.error());
     }
 }

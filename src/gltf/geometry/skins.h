@@ -8,9 +8,9 @@
 
 namespace obscura::gltf {
 
-/// For each joint of a skin: the world from the pose that the mesh was bound in.
+/// For each joint of a skin: the transform to the world from the pose in which the mesh was bound.
 ///
-/// In      world_from_node: of all nodes, for joints need not be in the drawn scene
+/// In      world_from_node: of all nodes, because joints need not be in the drawn scene
 /// Errors  65 E-SKIN-MATRICES an inverse bind matrix is not finite; those of read_floats
 Result<std::vector<Affined>> skin_matrices(const Document& document,
                                            const BufferStore& buffers,

@@ -67,7 +67,7 @@ int add_copy(MaterialTable& table,
     return static_cast<int>(table.records.size()) - 1;
 }
 
-MaterialChoice material_record(MaterialTable& table, int material, uint32_t uv_sets) {
+MaterialChoice material_for_surface(MaterialTable& table, int material, uint32_t uv_sets) {
     const size_t own = static_cast<size_t>(material) + 1;
     MaterialChoice choice{static_cast<int>(own)};
     uint32_t lost = 0;
@@ -96,10 +96,10 @@ MaterialChoice material_record(MaterialTable& table, int material, uint32_t uv_s
     return choice;
 }
 
-MaterialChoice points_lines_material_record(MaterialTable& table,
-                                            int material,
-                                            const PointsLinesShading& shading) {
-    MaterialChoice choice = material_record(table, material, shading.uv_sets);
+MaterialChoice material_for_points_lines(MaterialTable& table,
+                                         int material,
+                                         const PointsLinesShading& shading) {
+    MaterialChoice choice = material_for_surface(table, material, shading.uv_sets);
     const auto plain = static_cast<size_t>(choice.index);
     if ((table.records[plain].flags & material_unlit) != 0) return choice;
     const auto [entry, is_new] = table.points_lines.try_emplace(

@@ -57,8 +57,8 @@ struct MaterialChoice {
 };
 
 /// The material for a primitive that has `uv_sets` (bit n: TEXCOORD_n); -1 is no material. Slots
-/// whose set is absent are taken away.
-MaterialChoice material_record(MaterialTable& table, int material, uint32_t uv_sets);
+/// whose set is absent are taken away: such a material is a reduced copy.
+MaterialChoice material_for_surface(MaterialTable& table, int material, uint32_t uv_sets);
 
 /// Adds a copy of a material with other values, not in use yet; returns its index.
 int add_copy(MaterialTable& table, int index, const Material& values, const MaterialLayers& layers);
@@ -70,11 +70,11 @@ struct PointsLinesShading {
 };
 
 /// The material for points or lines. Without normals they are unlit: their radiance is base colour
-/// plus emission. With normals they are double-sided pieces of surface without an inside.
+/// plus emission. With normals they are double-sided surfaces without an inside.
 /// Source  glTF 2.0, Point and Line Materials
-MaterialChoice points_lines_material_record(MaterialTable& table,
-                                            int material,
-                                            const PointsLinesShading& shading);
+MaterialChoice material_for_points_lines(MaterialTable& table,
+                                         int material,
+                                         const PointsLinesShading& shading);
 
 /// "the material "Glass" needs ...", for messages about slots that were taken away.
 std::string lost_slots_text(const MaterialTable& table, const MaterialChoice& choice);

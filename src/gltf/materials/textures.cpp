@@ -55,7 +55,7 @@ private:
     void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
     void warn_wrong_encoding(size_t image, ImageEncoding encoding) const;
     Result<void> lay_out();
-    int record_of(const TextureSlot& slot, bool srgb);
+    int record_index(const TextureSlot& slot, bool srgb);
     void resolve_slots();
     Result<void> decode(size_t image);
     void fill_broken(size_t image);
@@ -221,7 +221,7 @@ Result<void> TextureBuilder::lay_out() {
     return {};
 }
 
-int TextureBuilder::record_of(const TextureSlot& slot, bool srgb) {
+int TextureBuilder::record_index(const TextureSlot& slot, bool srgb) {
     const GltfTexture& from = texture(slot.texture);
     const GltfSampler sampler =
         from.sampler < 0 ? GltfSampler{} : document().samplers[static_cast<size_t>(from.sampler)];
@@ -261,7 +261,7 @@ void TextureBuilder::resolve_slots() {
             if (images_[image].broken && !slot_entries[i].color) {
                 slot = TextureSlot{};
             } else {
-                slot.texture = record_of(slot, slot_entries[i].color);
+                slot.texture = record_index(slot, slot_entries[i].color);
             }
         }
     }

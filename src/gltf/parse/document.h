@@ -86,8 +86,8 @@ struct GltfAccessor {
     std::array<double, 3> high = {};
 };
 
-/// Upper limit on emission, in nits, candela or lux: times a mirror's narrowest lobe, or at a
-/// lamp's shortest distance, single precision still holds the product.
+/// Upper limit on emission, in nits, candela or lux. Single precision still holds its product with
+/// the peak of a mirror's narrowest lobe, or its irradiance at a lamp's shortest distance.
 inline constexpr double brightest = 1e20;
 
 struct GltfImage {

@@ -29,7 +29,7 @@ struct NumberFault {
 /// A range that is not above 0 is taken as unlimited: 0. False: it was one.
 bool finish_range(GltfLight& light);
 
-/// Which numbers that may be absent a camera has.
+/// Which of the numbers that may be absent a camera has.
 struct CameraGiven {
     bool aspect = false;
     bool zfar = false;

@@ -35,7 +35,7 @@ std::vector<Affined> world_transforms(const Document& document);
 /// the world where they have none.
 std::vector<Affined> group_transforms(const Document& document);
 
-/// 1 for every node of a dynamic group.
+/// By node: 1 where it belongs to a dynamic group.
 std::vector<char> moving_nodes(const Document& document);
 
 /// A node's name, else its number, for messages.

@@ -10,8 +10,8 @@ namespace {
 
 using nlohmann::json;
 
-// Texts that stand for what a value cannot be. A text of the file that begins as they do gets one
-// more such character in front.
+// Texts that stand for members that a tinygltf::Value cannot hold. A text of the file that begins
+// with the same character gets one more of it in front.
 constexpr char mark = '\x01';
 constexpr std::string_view null_mark = "\x01n";
 constexpr std::string_view array_mark = "\x01[";

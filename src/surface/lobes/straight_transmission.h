@@ -1,8 +1,8 @@
-// surface/thin_wall.h - a smooth thin wall: light that passes it in its own direction.
+// surface/lobes/straight_transmission.h - light straight through smooth thin walls.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "surface/layered_bsdf.h"
+#include "surface/lobes/list.h"
 
 namespace obscura {
 
@@ -23,7 +23,7 @@ inline namespace OBSCURA_ISA {
 /// In      wo: in the shading frame, wo.z > 0
 /// In/Out  w: of layered_weights; the probabilities of its lobes then sum to 1 - probability
 /// Source  KHR_materials_transmission: what the dielectric boundary does not reflect, times the
-///         base colour; see layered_transmission, of which this is the limit
+///         base colour; see FacetTransmission, of which this is the limit
 template <typename F>
 OBSCURA_INLINE StraightLight<F> take_straight_light(const LayeredParams<F>& p,
                                                     const Vec3<F>& wo,

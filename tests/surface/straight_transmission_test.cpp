@@ -1,6 +1,6 @@
-// tests/surface/thin_wall_test.cpp - straight transmission is the limit of the blurred lobe.
+// tests/surface/straight_transmission_test.cpp - thin walls: the limit of the blurred lobe.
 // SPDX-License-Identifier: Apache-2.0
-#include "surface/thin_wall.h"
+#include "surface/lobes/straight_transmission.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ using namespace test;
 
 constexpr double smooth = static_cast<double>(min_ggx_alpha);
 
-/// Light through the lobe that sample_layered draws: mean weight of transmitted samples.
+/// Light through the lobe that sample_layered draws: mean weight of what leaves behind.
 Vec3d through_by_sampling(const LayeredParams<double>& p, const Vec3d& wo) {
     Pcg32 random(3);
     const LayeredWeights<double> weights = layered_weights(p, wo);
@@ -54,7 +54,7 @@ TEST(ThinWall, StraightLightIsTheLimitOfTheLobe) {
     }
 }
 
-/// Nothing is transmitted twice, and the other lobes are sampled with the rest.
+/// Nothing goes through twice, and the lobes that stay are sampled with what is left.
 TEST(ThinWall, TheLobesThatStayShareTheRest) {
     Pcg32 random(8);
     for (int n = 0; n < 20000; ++n) {
@@ -77,7 +77,7 @@ TEST(ThinWall, TheLobesThatStayShareTheRest) {
     }
 }
 
-/// White sheen that reflects everything transmits nothing, and no path is sent that way.
+/// White sheen that reflects everything lets nothing through, and no path is sent that way.
 TEST(ThinWall, NothingPassesBelowFullSheen) {
     Pcg32 random(3);
     LayeredParams<double> p = convert<double>(random_layers(random, 0.1F));
