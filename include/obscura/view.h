@@ -22,8 +22,9 @@ struct Rect {
 /// A camera, an image size and a time. What is not set is as the file says; a file without camera
 /// is framed as a whole.
 ///
-/// Which camera: `world_from_camera`, else any of `eye`, `target` and `up`, else `camera`, else the
-/// file's first one, else a view of all. docs/cameras.md explains the models and lenses.
+/// Which camera: `world_from_camera` or `camera_json`, else any of `eye`, `target` and `up`, else
+/// `camera`, else the file's first one, else a view of all. docs/cameras.md explains the models and
+/// lenses.
 struct View {
     int width = 1280;
     int height = 720;
@@ -33,22 +34,36 @@ struct View {
     std::optional<Vector3> eye, target, up;
     /// A rigid placing, element 4 r + c of a matrix for column vectors; the camera looks along -Z.
     std::optional<std::array<double, 16>> world_from_camera;
+    /// A file with a camera as computer vision writes it, scaled to `width` and `height`.
+    std::string camera_json;
     std::optional<CameraModel> camera_model;
     std::optional<double> fov_deg;  ///< vertical angle; of a fisheye the whole one
 
     std::optional<double> near_m, far_m;                   ///< clip what is nearer or further away
     std::optional<std::array<double, 2>> magnification_m;  ///< half width and height; orthographic
     std::optional<double> focal_length_m;
-    std::optional<std::array<double, 2>> sensor_m;  ///< width and height
-    std::optional<std::array<double, 2>> shift;     ///< in images: right, up
+    std::optional<std::array<double, 2>> sensor_m;    ///< width and height
+    std::optional<std::array<double, 2>> shift;       ///< in images: right, up
+    std::optional<std::array<double, 5>> distortion;  ///< k1 k2 p1 p2 k3, as OpenCV defines them
 
     std::optional<double> fstop, lens_radius_m;  ///< give a thin lens its opening
     std::optional<double> focus_distance_m;
     std::optional<std::array<int, 2>> focus_on_px;  ///< focuses on what this pixel shows
     std::optional<int> blades;
     std::optional<double> blade_rotation_deg, anamorphic;
+    std::string aperture;  ///< a file: light passes where the image is bright
+
     std::string fisheye;  ///< "equidistant", "equisolid", "stereographic", "orthographic", "opencv"
-    std::string projection;  ///< of all directions: "latlong", "cylindrical", "cubemap"
+    std::string fisheye_fit;                                    ///< "circle", "diagonal"
+    std::optional<std::array<double, 4>> fisheye_coefficients;  ///< k1 to k4 of "opencv"
+
+    std::string projection;          ///< of all directions: "latlong", "cylindrical", "cubemap"
+    std::string align;               ///< centre of such an image: "world" (+X), "view" (ahead)
+    std::optional<double> stereo_m;  ///< between two eyes, the left one's image above the other's
+
+    /// Exposure of images that are written for a display: EV at ISO 100, or time and speed with
+    /// `fstop`.
+    std::optional<double> ev100, exposure_s, iso;
 
     /// Seconds of the animation; none: the asset as it is stored.
     std::optional<double> time_s;

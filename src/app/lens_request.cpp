@@ -6,32 +6,19 @@
 
 namespace obscura::app {
 
-namespace {
-
-tl::unexpected<Error> conflict(const std::string& option, const std::string& message) {
-    return fail(ExitCode::usage, "E-USAGE-CONFLICT", option, message);
-}
-
-}  // namespace
-
 Result<void> complete_lens(const LensArguments& arguments,
                            const std::optional<CameraModel>& model,
                            CameraSettings& settings) {
-    if (settings.ev100 && settings.shutter_s) {
-        return conflict("--ev100",
-                        "it cannot go together with --shutter or --iso; give one or the other");
-    }
-    if (settings.fisheye_k && settings.fisheye.value_or(FisheyeLaw::opencv) != FisheyeLaw::opencv) {
-        return conflict("--fisheye-coefficients",
-                        "they are for --fisheye opencv; leave out one or the other");
-    }
+    if (auto agree = check_settings_agree(settings); !agree) return agree;
     // Only a lens can be focused.
     if (arguments.focus_on && !implied_model(settings)) settings.model = CameraModel::thin_lens;
     // Without --camera-model the file decides: choose_camera checks later.
     const std::optional<CameraModel> meant = model ? model : implied_model(settings);
     if (!meant) return {};
     if (arguments.focus_on && *meant != CameraModel::thin_lens) {
-        return conflict(
+        return fail(
+            ExitCode::usage,
+            "E-USAGE-CONFLICT",
             "--focus-on",
             "only a thin lens can be focused; leave it out or choose another --camera-model");
     }

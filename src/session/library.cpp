@@ -9,6 +9,7 @@
 #include "session/library_request.h"
 #include "session/lighting.h"
 #include "session/outputs.h"
+#include "session/requested_camera.h"
 #include <cmath>
 #include <mutex>
 #include <obscura/obscura.h>
@@ -201,6 +202,7 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     asset.has_images = true;
     RenderRequest request = asked;
     request.load = asset.load;
+    if (auto loaded = load_requested_camera(request, log); !loaded) return fail(loaded.error());
     const obscura::Result<ChosenCamera> camera = prepare(asset, view, request, log);
     if (!camera) {
         if (asset.renderer && !asset.renderer->has_scene()) asset.renderer.reset();

@@ -5,8 +5,10 @@
 #include "base/setting_names.h"
 #include "base/text.h"
 #include "camera/names.h"
+#include "scene/camera_setting_table.h"
 
 #include "session/framing.h"
+#include "session/model_settings.h"
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -53,13 +55,10 @@ public:
         for (const double value : *values)
             real(field, value, low, high);
     }
-    template <typename T, size_t N, typename Target>
-    void name(const char* field,
-              const std::string& text,
-              const std::array<Named<T>, N>& names,
-              Target& target) {
+    template <typename Names, typename Target>
+    void name(const char* field, const std::string& text, const Names& names, Target& target) {
         std::string list;
-        for (const Named<T>& known : names) {
+        for (const auto& known : names) {
             if (text == known.name) {
                 target = known.value;
                 return;
@@ -71,6 +70,15 @@ public:
     }
     void conflict(bool condition, const char* field, const std::string& message) {
         if (condition) refuse("E-USAGE-CONFLICT", field, message);
+    }
+    /// Both are given, and only one may be.
+    void excludes(bool condition, const char* field, const char* other) {
+        conflict(condition,
+                 field,
+                 "it cannot go together with " + setting(other) + "; give one or the other");
+    }
+    void take(const Result<void>& check) {
+        if (!check && !error_) error_ = check.error();
     }
     const std::optional<Error>& error() const { return error_; }
 
@@ -100,43 +108,58 @@ void read_image(const v0::View& view, RenderOptions& out, Checks& checks) {
     out.crop = PixelRect{view.crop->x, view.crop->y, view.crop->width, view.crop->height};
 }
 
+/// Copies a setting, by the range of scene/camera_setting_table.h.
+template <auto member, typename T>
+void take(const std::optional<T>& value, CameraSettings& to, Checks& checks) {
+    if (!value) return;
+    constexpr CameraSettingInfo info = camera_setting_of<member>().info;
+    if constexpr (std::is_arithmetic_v<T>) {
+        checks.real(info.name, static_cast<double>(*value), info.range.low, info.range.high);
+    } else {
+        checks.reals(info.name, value, info.range.low, info.range.high);
+    }
+    to.*member = *value;
+}
+
+/// Copies a setting that is one of several names.
+template <auto member>
+void take(const std::string& value, CameraSettings& to, Checks& checks) {
+    if (value.empty()) return;
+    constexpr auto entry = camera_setting_of<member>();
+    checks.name(entry.info.name, value, entry.choices, to.*member);
+}
+
 void read_lens(const v0::View& view, CameraSettings& s, Checks& checks) {
-    constexpr double longest_m = 1e12;
-    checks.real("near", view.near_m, 0, longest_m);
-    checks.real("far", view.far_m, 1e-9, longest_m);
-    checks.reals("mag", view.magnification_m, 1e-9, longest_m);
-    checks.real("focal-length", view.focal_length_m, 1e-5, 100);
-    checks.reals("sensor", view.sensor_m, 1e-5, 100);
-    checks.reals("shift", view.shift, -100, 100);
-    checks.real("fstop", view.fstop, 0.01, 1e6);
-    checks.real("lens-radius", view.lens_radius_m, 0, 1e9);
-    checks.real("focus-distance", view.focus_distance_m, 1e-9, longest_m);
-    if (view.blades) checks.real("blades", *view.blades, 3, 64);
+    using S = CameraSettings;
+    take<&S::near_m>(view.near_m, s, checks);
+    take<&S::far_m>(view.far_m, s, checks);
+    take<&S::magnification_m>(view.magnification_m, s, checks);
+    take<&S::focal_length_m>(view.focal_length_m, s, checks);
+    take<&S::sensor_m>(view.sensor_m, s, checks);
+    take<&S::shift>(view.shift, s, checks);
+    take<&S::distortion>(view.distortion, s, checks);
+    take<&S::fstop>(view.fstop, s, checks);
+    take<&S::lens_radius_m>(view.lens_radius_m, s, checks);
+    take<&S::focus_distance_m>(view.focus_distance_m, s, checks);
+    take<&S::blades>(view.blades, s, checks);
     checks.real("blade-rotation", view.blade_rotation_deg, -36000, 36000);
-    checks.real("anamorphic", view.anamorphic, 0.01, 100);
-    checks.conflict(view.fstop && view.lens_radius_m,
-                    "lens-radius",
-                    "it cannot go together with " + setting("fstop") + "; give one or the other");
-    checks.conflict(
-        view.focus_on_px && view.focus_distance_m,
-        "focus-on",
-        "it cannot go together with " + setting("focus-distance") + "; give one or the other");
-    s.near_m = view.near_m;
-    s.far_m = view.far_m;
-    s.magnification_m = view.magnification_m;
-    s.focal_length_m = view.focal_length_m;
-    s.sensor_m = view.sensor_m;
-    s.shift = view.shift;
-    s.fstop = view.fstop;
-    s.lens_radius_m = view.lens_radius_m;
-    s.focus_distance_m = view.focus_distance_m;
-    s.blades = view.blades;
     if (view.blade_rotation_deg) s.blade_rotation_rad = *view.blade_rotation_deg * degree;
-    s.anamorphic = view.anamorphic;
-    if (!view.fisheye.empty()) checks.name("fisheye", view.fisheye, fisheye_law_names, s.fisheye);
+    take<&S::anamorphic>(view.anamorphic, s, checks);
+    if (!view.aperture.empty()) s.aperture_file = view.aperture;
+    take<&S::fisheye>(view.fisheye, s, checks);
+    take<&S::fisheye_fit>(view.fisheye_fit, s, checks);
+    take<&S::fisheye_k>(view.fisheye_coefficients, s, checks);
     if (!view.projection.empty()) {
         checks.name("projection", view.projection, environment_projection_names, s.environment);
     }
+    take<&S::align>(view.align, s, checks);
+    take<&S::stereo_m>(view.stereo_m, s, checks);
+    take<&S::ev100>(view.ev100, s, checks);
+    take<&S::shutter_s>(view.exposure_s, s, checks);
+    take<&S::iso>(view.iso, s, checks);
+    checks.excludes(view.fstop && view.lens_radius_m, "lens-radius", "fstop");
+    checks.excludes(view.focus_on_px && view.focus_distance_m, "focus-on", "focus-distance");
+    checks.excludes(view.blades && s.aperture_file, "aperture", "blades");
     // Only a lens can be focused.
     if (view.focus_on_px && !implied_model(s)) s.model = CameraModel::thin_lens;
 }
@@ -162,16 +185,25 @@ void read_camera(const v0::View& view, CameraRequest& out, Checks& checks) {
                     "camera",
                     "it cannot go together with " + setting("eye") + ", " + setting("target") +
                         " or " + setting("up") + "; give one or the other");
-    checks.conflict(view.world_from_camera && (by_hand || !view.camera.empty()),
-                    "world-from-camera",
-                    "it places the camera; it cannot go together with " + setting("camera") + ", " +
-                        setting("eye") + ", " + setting("target") + " or " + setting("up"));
+    for (const char* placing : {"world-from-camera", "camera-json"}) {
+        const bool given = placing == std::string_view("camera-json")
+                               ? !view.camera_json.empty()
+                               : view.world_from_camera.has_value();
+        checks.conflict(given && (by_hand || !view.camera.empty()),
+                        placing,
+                        "it places the camera; it cannot go together with " + setting("camera") +
+                            ", " + setting("eye") + ", " + setting("target") + " or " +
+                            setting("up"));
+    }
+    checks.excludes(
+        view.world_from_camera && !view.camera_json.empty(), "camera-json", "world-from-camera");
     out.choice = view.camera;
     out.eye_m = point_of(view.eye);
     out.target_m = point_of(view.target);
     out.up = point_of(view.up);
     if (view.camera_model) out.model = camera_models[static_cast<size_t>(*view.camera_model)];
     read_lens(view, out.settings, checks);
+    checks.take(check_settings_agree(out.settings));
     const bool fisheye =
         out.model.value_or(implied_model(out.settings).value_or(CameraModel::pinhole)) ==
         CameraModel::fisheye;
@@ -238,6 +270,8 @@ Result<RenderRequest> request_of(const v0::View& view,
     Checks checks;
     read_image(view, out.options, checks);
     read_camera(view, out.camera, checks);
+    out.size_is_given = true;
+    if (!view.camera_json.empty()) out.camera_json = view.camera_json;
     read_look(look, out, checks);
     read_sampling(sampling, out.options, checks);
     checks.real("threads", control.threads, 0, 1024);

@@ -1,4 +1,4 @@
-// session/model_settings.cpp - which settings a camera of a model can have.
+// session/model_settings.cpp - checks camera settings against the model and against each other.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/model_settings.h"
 
@@ -18,6 +18,23 @@ Result<void> check_model_has(const CameraSettings& settings, CameraModel model) 
                 setting(lacking->name),
                 std::string("a camera of the model ") + name_of(camera_model_names, model) +
                     " does not have it; leave it out or choose another " + setting("camera-model"));
+}
+
+Result<void> check_settings_agree(const CameraSettings& settings) {
+    const auto conflict = [](const char* name, const std::string& message) {
+        return fail(ExitCode::usage, "E-USAGE-CONFLICT", setting(name), message);
+    };
+    if (settings.ev100 && settings.shutter_s) {
+        return conflict("ev100",
+                        "it cannot go together with " + setting("shutter") + " or " +
+                            setting("iso") + "; give one or the other");
+    }
+    if (settings.fisheye_k && settings.fisheye.value_or(FisheyeLaw::opencv) != FisheyeLaw::opencv) {
+        return conflict(
+            "fisheye-coefficients",
+            "they are for " + setting("fisheye") + " opencv; leave out one or the other");
+    }
+    return {};
 }
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// session/model_settings.h - which settings a camera of a model can have.
+// session/model_settings.h - checks camera settings against the model and against each other.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,5 +9,8 @@ namespace obscura {
 
 /// 64 E-USAGE-CONFLICT when a setting does not belong to a camera of that model.
 Result<void> check_model_has(const CameraSettings& settings, CameraModel model);
+
+/// 64 E-USAGE-CONFLICT when two settings exclude each other.
+Result<void> check_settings_agree(const CameraSettings& settings);
 
 }  // namespace obscura
