@@ -1,4 +1,4 @@
-// surface/lobes/diffuse.h - what the base scatters back: Lambert's lobe.
+// surface/lobes/diffuse.h - Lambertian reflection of the base.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,4 +1,4 @@
-// surface/lobes/diffuse_transmission.h - what thin leaves and paper scatter to their other side.
+// surface/lobes/diffuse_transmission.h - Lambertian transmission of leaves and paper.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

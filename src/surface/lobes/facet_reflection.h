@@ -1,4 +1,4 @@
-// surface/lobes/facet_reflection.h - what microfacets reflect: metal, dielectric, thin film.
+// surface/lobes/facet_reflection.h - microfacet reflection: metal, dielectric, thin film.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,7 +20,7 @@ struct FacetReflection : Lobe {
         GgxWidths<F> alpha;  ///< along the shading frame's tangent and bitangent
         Vec3<F> f0;          ///< of the dielectric, at normal incidence
         F f90;               ///< of the dielectric, at grazing incidence
-        ThinFilm<F> film;
+        ThinFilm<F> thin_film;
     };
 
     template <typename F>

@@ -1,4 +1,4 @@
-// surface/lobes/facet_transmission.h - light through microfacets: rough glass and thin walls.
+// surface/lobes/facet_transmission.h - microfacet transmission: rough glass and thin walls.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,14 +8,14 @@
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
-/// Width of what a thin wall lets through, as a share of its facets' width: the less it refracts,
-/// the less it blurs, and nothing at an index of 1. From 1.5 on as it reflects.
+/// Width of the light through a thin wall, as a fraction of its facets' width: the less it
+/// refracts, the less it blurs, and nothing at an index of 1. From 1.5 on as it reflects.
 template <typename F>
 OBSCURA_INLINE F thin_wall_spread(const F& ior) {
     return square(clamp(F(2.0f) * abs(ior - F(1.0f)), F(0.0f), F(1.0f)));
 }
 
-/// What the facets of a body's boundary gain by further bounces, reflecting and refracting.
+/// The gain of a dielectric's facets by further bounces, reflecting and refracting.
 template <typename F>
 OBSCURA_INLINE F glass_factor(const LayeredParams<F>& p, const Vec3<F>& wo) {
     // The table is for round facets. Of others the width along the view matters most: what is
@@ -50,19 +50,19 @@ OBSCURA_INLINE void split_transmission(const LayeredParams<F>& p,
     w.through_alpha = {max(p.alpha.x * spread, least), max(p.alpha.y * spread, least)};
     w.facetwise = spread >= one;
 
-    // What a wall does not reflect passes; a film's facets are not known one by one.
+    // What a thin wall does not reflect passes; a thin film's facets are not known one by one.
     const F passes = one - s.boundary;
     const F passes_once = max(s.once.mirror - s.boundary / s.factor, F(0.02f));
-    F factor = lerp(passes / passes_once, one / s.once.mirror, p.film.strength);
+    F factor = lerp(passes / passes_once, one / s.once.mirror, p.thin_film.strength);
     if (any(!w.facetwise)) {
         F mirror = stretched_albedo(wo, w.through_alpha).mirror;
         mirror = select(is_smooth(w.through_alpha), one, mirror);
         factor = select(w.facetwise, factor, passes / mirror);
     }
     if (any(p.solid)) {
-        const F body = glass_factor(p, wo);
-        factor = select(p.solid, body, factor);
-        const F clear = select(p.solid, (one - p.metallic) * body, w.dielectric);
+        const F dielectric = glass_factor(p, wo);
+        factor = select(p.solid, dielectric, factor);
+        const F clear = select(p.solid, (one - p.metallic) * dielectric, w.dielectric);
         w.dielectric = lerp(w.dielectric, clear, p.transmission);
     }
     w.through_factor = total * factor;
@@ -79,9 +79,10 @@ OBSCURA_INLINE void split_transmission(const LayeredParams<F>& p,
     w.reflects = select(through > F(1e-6f), share, one);  // not by rounding alone
 }
 
-/// The microfacet that sends wo to wi beyond the surface: half vector and what densities gain.
+/// The microfacet that sends wo to wi on the transmitted side: half vector and the factor of
+/// densities.
 template <typename F>
-struct Crossing {
+struct TransmittingFacet {
     Vec3<F> h;
     F cosine;    ///< of wo on the microfacet
     F jacobian;  ///< |dot(wo, h)| * d(h) / d(wi), 1/sr
@@ -91,12 +92,12 @@ struct Crossing {
 /// Source  Walter et al., "Microfacet Models for Refraction", EGSR 2007, eq. 16, 17; for thin walls
 ///         a reflection whose result is mirrored through the surface
 template <typename F>
-OBSCURA_INLINE Crossing<F> crossing(const LayeredParams<F>& p,
-                                    const Vec3<F>& wo,
-                                    const Vec3<F>& wi) {
+OBSCURA_INLINE TransmittingFacet<F> transmitting_facet(const LayeredParams<F>& p,
+                                                       const Vec3<F>& wo,
+                                                       const Vec3<F>& wi) {
     const Vec3<F> mirrored{wi.x, wi.y, -wi.z};
     const Vec3<F> thin = normalize(wo + mirrored);
-    Crossing<F> c{thin, dot(wo, thin), F(0.25f), wi.z < F(0.0f)};
+    TransmittingFacet<F> c{thin, dot(wo, thin), F(0.25f), wi.z < F(0.0f)};
     if (none(p.solid)) return c;
     Vec3<F> h = normalize(wo + wi * p.eta);
     h = select(h.z < F(0.0f), -h, h);
@@ -118,9 +119,10 @@ OBSCURA_INLINE Vec3<F> transmit(const LayeredParams<F>& p, const Vec3<F>& wo, co
     const Vec3<F> mirrored = h * (F(2.0f) * cosine) - wo;
     const Vec3<F> thin{mirrored.x, mirrored.y, -mirrored.z};
     if (none(p.solid)) return thin;
-    const F beyond = refracted_cosine(cosine, p.eta);
-    const Vec3<F> refracted = h * (cosine / p.eta - beyond) - wo * (F(1.0f) / p.eta);
-    const Vec3<F> solid = select(beyond < F(0.0f), Vec3<F>{F(0.0f), F(0.0f), F(1.0f)}, refracted);
+    const F transmitted_cosine = refracted_cosine(cosine, p.eta);
+    const Vec3<F> refracted = h * (cosine / p.eta - transmitted_cosine) - wo * (F(1.0f) / p.eta);
+    const Vec3<F> solid =
+        select(transmitted_cosine < F(0.0f), Vec3<F>{F(0.0f), F(0.0f), F(1.0f)}, refracted);
     return select(p.solid, solid, thin);
 }
 
@@ -136,15 +138,15 @@ struct FacetTransmission : Lobe {
 
     template <typename F>
     struct Params {
-        F eta;            ///< index of refraction beyond / on the viewer's side; a thin wall's own
+        F eta;  ///< index of refraction on the transmitted / the reflected side; a thin wall's own
         MaskOf<F> solid;  ///< what is transmitted is refracted; else the surface is a thin wall
         F transmission;
     };
 
     template <typename F>
     struct Weights {
-        F transmitted;     ///< of the light on a thin wall, of that on a body's dielectric
-        F through_factor;  ///< scales the facets that light passes
+        F transmitted;               ///< of the light on a thin wall, or on a solid's dielectric
+        F through_factor;            ///< scales the facets that light passes
         GgxWidths<F> through_alpha;  ///< of those facets
         MaskOf<F> facetwise;  ///< each facet shares light by its own reflectance, else all alike
         F reflects;  ///< where all are alike: probability that a path which meets one is reflected
@@ -166,7 +168,7 @@ struct FacetTransmission : Lobe {
         const LayeredWeights<F>& w = at.w;
         const F zero(0.0f);
         const F one(1.0f);
-        const Crossing<F> c = crossing(p, at.wo, at.wi);
+        const TransmittingFacet<F> c = transmitting_facet(p, at.wo, at.wi);
         const LayeredFresnel<F> fresnel = layered_fresnel(p, c.cosine);
         const F passes = select(w.facetwise, one - max_component(fresnel.dielectric), one);
         const F length_o = smith_length(at.wo, w.through_alpha);

@@ -1,4 +1,4 @@
-// surface/lobes/microfacet.h - the base's microfacets, which reflect and transmit: what both share.
+// surface/lobes/microfacet.h - the microfacets that reflection and transmission of the base share.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -20,19 +20,19 @@ OBSCURA_INLINE LayeredFresnel<F> layered_fresnel(const LayeredParams<F>& p, cons
     F inner = weight;
     F total(0.0f);  // 1: total reflection
     if (any(p.solid)) {
-        const F beyond = refracted_cosine(cosine, p.eta);
-        total = select(p.solid & (beyond < F(0.0f)), F(1.0f), F(0.0f));
-        const F in_thinner = select(p.eta < F(1.0f), max(beyond, F(0.0f)), cosine);
+        const F transmitted_cosine = refracted_cosine(cosine, p.eta);
+        total = select(p.solid & (transmitted_cosine < F(0.0f)), F(1.0f), F(0.0f));
+        const F in_thinner = select(p.eta < F(1.0f), max(transmitted_cosine, F(0.0f)), cosine);
         inner = select(p.solid, schlick_weight(in_thinner), weight);
     }
     LayeredFresnel<F> r;
     r.dielectric = p.f0 + (splat3(p.f90) - p.f0) * inner;
     r.metal = p.base_color + (splat3(F(1.0f)) - p.base_color) * weight;
-    if (any(p.film.strength > F(0.0f))) {
-        const Vec3<F> over_dielectric = thin_film_reflectance(cosine, p.film, p.f0);
-        const Vec3<F> over_metal = thin_film_reflectance(cosine, p.film, p.base_color);
-        r.dielectric = r.dielectric + (over_dielectric - r.dielectric) * p.film.strength;
-        r.metal = r.metal + (over_metal - r.metal) * p.film.strength;
+    if (any(p.thin_film.strength > F(0.0f))) {
+        const Vec3<F> over_dielectric = thin_film_reflectance(cosine, p.thin_film, p.f0);
+        const Vec3<F> over_metal = thin_film_reflectance(cosine, p.thin_film, p.base_color);
+        r.dielectric = r.dielectric + (over_dielectric - r.dielectric) * p.thin_film.strength;
+        r.metal = r.metal + (over_metal - r.metal) * p.thin_film.strength;
     }
     r.dielectric = r.dielectric + (splat3(F(1.0f)) - r.dielectric) * total;
     return r;
@@ -107,9 +107,9 @@ OBSCURA_INLINE FacetWeights<F> facet_weights(const LayeredParams<F>& p, const Ve
     const F most = max_component(s.fresnel.dielectric);
     const F max_f0 = max_component(p.f0);
     const F reflected = s.once(max_f0, p.f90);
-    s.boundary = lerp(reflected, most * s.once.mirror, p.film.strength);
+    s.boundary = lerp(reflected, most * s.once.mirror, p.thin_film.strength);
     s.boundary = select(smooth, most, s.boundary);
-    F mean = lerp(mean_schlick(max_f0, p.f90), most, p.film.strength);
+    F mean = lerp(mean_schlick(max_f0, p.f90), most, p.thin_film.strength);
     const auto from_within =
         p.solid & (p.eta < one) & ((one - p.metallic) * (one - p.transmission) > F(0.0f));
     if (any(from_within)) {
@@ -120,15 +120,15 @@ OBSCURA_INLINE FacetWeights<F> facet_weights(const LayeredParams<F>& p, const Ve
     s.factor = interreflection(s.once.mirror, mean);
     s.boundary = min(s.boundary * s.factor, one);
     const Vec3<F> mean_metal = mean_schlick(p.base_color);
-    s.metal_factor = interreflection(s.once.mirror,
-                                     mean_metal + (s.fresnel.metal - mean_metal) * p.film.strength);
+    s.metal_factor = interreflection(
+        s.once.mirror, mean_metal + (s.fresnel.metal - mean_metal) * p.thin_film.strength);
     return s;
 }
 
 /// Probability that sample_layered reflects at a microfacet rather than going through it: in the
 /// proportion of what the facet leaves of the channels' mean. No channel is more than three times
 /// that, so that what microfacets do weighs three times their interreflection at most, once where
-/// it has no colour. The same for all facets at walls that let light pass less blurred.
+/// it has no colour. The same for all facets at thin walls, which blur transmitted light less.
 ///
 /// Source  Walter et al., "Microfacet Models for Refraction", EGSR 2007, sec. 5.3: choosing by the
 ///         reflectance of the microfacet itself

@@ -6,19 +6,19 @@
 
 namespace obscura {
 
-/// What a wall lets pass straight through, as seen from one side.
+/// The light that goes straight through a thin wall, as seen from one side.
 template <typename F>
 struct StraightLight {
     Vec3<F> transmittance;
-    F probability;  ///< with which a path should go that way, 0: the wall is none or is rough
+    F probability;  ///< with which a path should go straight on; 0: no thin wall, or a rough one
 };
 
 inline namespace OBSCURA_ISA {
 
 /// Takes transmission out of a smooth thin wall's lobes and returns it as what it is there: a lobe
-/// without a density, whose one direction is that of the light. A wall is smooth where what passes
-/// is spread as little as anything (min_ggx_alpha), as at an index of 1; where it is spread more,
-/// the blurred lobe stays.
+/// without a density, whose one direction is that of the light. A thin wall is smooth where what
+/// passes is spread as little as anything (min_ggx_alpha), as at an index of 1; where it is spread
+/// more, the blurred lobe stays.
 ///
 /// In      wo: in the shading frame, wo.z > 0
 /// In/Out  w: of layered_weights; the probabilities of its lobes then sum to 1 - probability
