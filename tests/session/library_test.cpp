@@ -154,7 +154,9 @@ TEST(Library, EverySettingOfACameraIsAField) {
     const std::string file = assets + "cornell/cornell.gltf";
     View fisheye = small_view();
     fisheye.fisheye = "opencv";
-    fisheye.fisheye_fit = "diagonal";
+    View diagonal = fisheye;
+    diagonal.fisheye_fit = "diagonal";
+    EXPECT_NE(fresh_image(file, fisheye).pixels, fresh_image(file, diagonal).pixels);
     View bent = fisheye;
     bent.fisheye_coefficients = {{0.1, 0.02, 0, 0}};
     EXPECT_NE(fresh_image(file, fisheye).pixels, fresh_image(file, bent).pixels);
@@ -162,11 +164,41 @@ TEST(Library, EverySettingOfACameraIsAField) {
     around.camera_model = CameraModel::environment;
     View eyes = around;
     eyes.stereo_m = 0.2;
-    eyes.align = "view";
     EXPECT_NE(fresh_image(file, around).pixels, fresh_image(file, eyes).pixels);
+    View ahead = around;
+    ahead.align = "view";
+    EXPECT_NE(fresh_image(file, around).pixels, fresh_image(file, ahead).pixels);
     View barrel = small_view();
     barrel.distortion = {{-0.2, 0, 0, 0, 0}};
     EXPECT_NE(fresh_image(file, small_view()).pixels, fresh_image(file, barrel).pixels);
+    View opened = small_view();
+    opened.fstop = 2;
+    opened.aperture = "none.png";
+    Session session;
+    const Result<Asset> asset = session.open(file);
+    ASSERT_TRUE(asset);
+    const Result<Image> missing = session.render(*asset, opened);
+    ASSERT_FALSE(missing);
+    EXPECT_EQ(missing.error().id, "E-APERTURE-MISSING");
+}
+
+TEST(Library, ExposureCountsInImagesForADisplay) {
+    const std::string file = assets + "cornell/cornell.gltf";
+    const TempFolder folder;
+    Session session;
+    const Result<Asset> asset = session.open(file);
+    ASSERT_TRUE(asset);
+    std::vector<std::string> written;
+    for (const double ev100 : {0.0, 3.0}) {
+        View view = small_view();
+        view.ev100 = ev100;
+        const Image image = image_of(session.render(*asset, view, {}, few_samples()));
+        const std::string png = (folder / "a.png").string();
+        const Result<void> done = session.write(image, png);
+        ASSERT_TRUE(done) << done.error().text;
+        written.push_back(read_whole_file(png));
+    }
+    EXPECT_NE(written[0], written[1]);
 }
 
 TEST(Library, TilesCoverTheImageWithItsPixels) {
