@@ -10,6 +10,7 @@
 #include <CLI/Formatter.hpp>
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 namespace obscura::app {
 
@@ -145,6 +146,16 @@ Result<void> read_config(const Command& command, const Program& program) {
     return apply_config(file, items, command, program);
 }
 
+/// What an option prints that stands for the whole command; nothing if none was given.
+std::optional<std::string> printed_text(const Program& program) {
+    for (const Command& command : program.commands) {
+        for (const BoundOption& option : command.options) {
+            if (option.info.prints != nullptr && is_given(option)) return option.info.prints();
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 std::string nearest_option(const Command& command, const std::string& typed) {
@@ -182,9 +193,13 @@ Result<CommandLine> parse_command_line(const Program& program, int argc, const c
         return CommandLine{nullptr, app.help()};
     } catch (const CLI::CallForVersion&) {
         return CommandLine{nullptr, program.version + "\n"};
+    } catch (const CLI::RequiredError& error) {
+        if (const auto text = printed_text(program)) return CommandLine{nullptr, *text};
+        return worded(app, program, error);
     } catch (const CLI::ParseError& error) {
         return worded(app, program, error);
     }
+    if (const auto text = printed_text(program)) return CommandLine{nullptr, *text};
     const auto parsed = std::find_if(
         declared.begin(), declared.end(), [](const CLI::App* sub) { return sub->parsed(); });
     const Command& command =

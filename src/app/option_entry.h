@@ -29,6 +29,8 @@ struct OptionInfo {
     const char* files = "";     ///< completion: "*" files, "/" folders, else endings: "exr png"
     std::array<const char*, 4> excludes = {};  ///< may not be given beside it
     std::array<const char*, 2> needs = {};     ///< one must be given: "--sensor", "--integrator ao"
+    std::string (*prints)() =
+        nullptr;  ///< of a flag: the command prints this and does nothing else
 };
 
 /// "--output" of "-o,--output".

@@ -7,9 +7,11 @@
 #include "app/option_readers.h"
 #include "app/render_command.h"
 #include "camera/names.h"
+#include "film/layers.h"
 #include "render/integrators.h"
 
 #include <cstring>
+#include <fmt/format.h>
 
 namespace obscura::app {
 
@@ -102,6 +104,16 @@ constexpr OptionReader<R> points_lines_size_at = {
         return shortest(thickness.diameter) + (thickness.unit == LengthUnit::pixels ? "px" : "m");
     }};
 
+/// The table of --list-aovs.
+std::string list_of_layers() {
+    std::string out = fmt::format("{:<18}{:<10}{:<13}{}\n", "layer", "channels", "a pixel is", "what");
+    for (const LayerDescription& layer : all_layers()) {
+        out += fmt::format(
+            "{:<18}{:<10}{:<13}{}\n", layer.name, layer.channels, layer.reduction, layer.help);
+    }
+    return out;
+}
+
 Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*option*/) {
     return ExrDepth::float32;
 }
@@ -135,6 +147,19 @@ constexpr Entry image[] = {
      text_at<&A::point_size>, points_lines_size_at<&R::points_lines, &PointsLinesSizes::points>},
     {{.name = "--line-width", .argument = "LENGTH", .help = "Diameter of glTF's lines, likewise"},
      text_at<&A::line_width>, points_lines_size_at<&R::points_lines, &PointsLinesSizes::lines>}};
+
+constexpr Entry layers[] = {
+    {{.name = "--aov", .argument = "NAME[,NAME...]",
+      .help = "Layers beside the beauty, from the same samples: an EXR holds them as NAME.X and so "
+              "on. May be given several times; --list-aovs lists them", .fallback = "none"},
+     text_at<&A::aovs>},
+    {{.name = "--crypto-levels", .argument = "N",
+      .help = "How many ids a pixel of a Cryptomatte layer keeps, those that cover most of it",
+      .range = {1, 64}, .needs = {"--aov"}},
+     text_at<&A::crypto_levels>, number_at<&R::crypto_levels>},
+    {{.name = "--list-aovs", .help = "Print the layers that --aov knows, and do nothing else",
+      .prints = list_of_layers},
+     text_at<&A::list_aovs>}};
 
 constexpr Entry time[] = {
     {{.name = "--time", .argument = "SECONDS",
@@ -277,6 +302,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
     static const std::vector<RenderOptionGroup> all = [] {
         std::vector<RenderOptionGroup> groups = {{"", scene_file},
                                                  {"Picture", image},
+                                                 {"Layers", layers},
                                                  {"Time", time},
                                                  {"Sampling", sampling},
                                                  {"Camera", camera}};

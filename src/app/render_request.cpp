@@ -7,9 +7,13 @@
 #include "app/numbers.h"
 #include "app/render_options.h"
 #include "app/scene_choice.h"
+#include "render/integrators.h"
 
+#include "film/layers.h"
 #include <algorithm>
+#include <sstream>
 #include <system_error>
+#include <variant>
 
 namespace obscura::app {
 
@@ -68,6 +72,37 @@ Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& req
     return conflict("--output", "the name is empty; give one or leave out the option");
 }
 
+/// The layers that --aov names.
+Result<void> choose_layers(const RenderArguments& arguments, RenderRequest& request) {
+    if (arguments.aovs.empty()) return {};
+    std::vector<std::string> names;
+    for (const std::string& list : arguments.aovs) {
+        std::istringstream parts(list);
+        for (std::string name; std::getline(parts, name, ',');)
+            names.push_back(name);
+    }
+    const IntegratorEntry& integrator = entry_of(request.options.integrator);
+    if (!has_layers(integrator.value)) {
+        return conflict("--aov",
+                        std::string("layers stand beside light; --integrator ") + integrator.name +
+                            " computes none. Use path, direct, raycast or ao");
+    }
+    Result<std::vector<Layer>> layers = layers_of(names, request.crypto_levels);
+    if (!layers) return fail(layers.error());
+    request.options.layers = std::move(*layers);
+    return {};
+}
+
+/// True when texture coordinates are wanted that no texture needs.
+bool wants_uv(const RenderOptions& options) {
+    const bool layer =
+        std::any_of(options.layers.begin(), options.layers.end(), [](const Layer& one) {
+            const Aov* aov = std::get_if<Aov>(&one.source);
+            return aov != nullptr && *aov == Aov::uv;
+        });
+    return layer || options.integrator == Integrator::uv;
+}
+
 /// Values that depend on several options, which an entry of the table cannot express.
 Result<void> complete(const RenderArguments& arguments, RenderRequest& request) {
     if (auto done = complete_lens(arguments.lens, request.camera.model, request.camera.settings);
@@ -78,7 +113,8 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     // Without --size, --camera-json may set the image size; it is checked later.
     const bool size_is_known = request.size_is_given || !request.camera_json;
     if (auto fits = check_crop(request.options); size_is_known && !fits) return fits;
-    request.load.keeps_uv = request.options.integrator == Integrator::uv;
+    if (auto chosen = choose_layers(arguments, request); !chosen) return chosen;
+    request.load.keeps_uv = wants_uv(request.options);
     request.verbosity = verbosity_of(arguments);
     return complete_time(arguments, request);
 }

@@ -15,12 +15,12 @@ namespace obscura::app {
 /// The texts of the options as they stood on the command line; an empty optional was not given.
 struct RenderArguments {
     std::string scene_file;
-    std::vector<std::string> outputs;
+    std::vector<std::string> outputs, aovs;
     std::optional<std::string> size, spp, depth, seed, threads, isa, tile_size, crop;
     std::optional<std::string> scene, variant, camera, camera_model, eye, target, up, fov;
     LensArguments lens;
     std::optional<std::string> env, env_intensity, env_rotation, background, occlusion;
-    std::optional<std::string> integrator, ao_distance, wire_width, filter;
+    std::optional<std::string> integrator, ao_distance, wire_width, filter, crypto_levels;
     std::optional<std::string> point_size, line_width;
     std::optional<std::string> view, display, ocio, exposure, stats;
     std::optional<std::string> animation, time, frames, fps;
@@ -31,12 +31,13 @@ struct RenderArguments {
     bool strict = false;  ///< the default, too
     bool lenient = false;
     bool check = false;
+    bool list_aovs = false;
 };
 
 /// Parses the texts; touches files only to find out whether two names mean the same one.
 ///
 /// Errors  64, each with the option and what it accepts: E-USAGE-NUMBER, E-USAGE-RANGE,
-///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE
+///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE, E-AOV-NAME
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
 
 /// What --quiet and --verbose ask for.

@@ -84,6 +84,12 @@ void fill_info(const Document& document, AssetInfo& info) {
     for (size_t i = 0; i < document.nodes.size(); ++i) {
         const std::string& name = document.nodes[i].name;
         info.node_names.push_back(name.empty() ? "node " + std::to_string(i) : name);
+        info.node_meshes.push_back(document.nodes[i].mesh);
+    }
+    info.node_parents.assign(document.nodes.size(), -1);
+    for (size_t i = 0; i < document.nodes.size(); ++i) {
+        for (const int child : document.nodes[i].children)
+            info.node_parents[static_cast<size_t>(child)] = static_cast<int32_t>(i);
     }
     info.extensions = document.extensions;
     info.variants = document.variants;

@@ -33,6 +33,7 @@ int samples_taken(const RenderOptions& options) {
             return wireframe_rays;
         case WavefrontKind::raycast:
         case WavefrontKind::aov:
+        case WavefrontKind::heat:
             break;
     }
     return 1;

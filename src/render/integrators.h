@@ -6,6 +6,7 @@
 #include "stages/wavefront.h"
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,37 +16,47 @@ struct IntegratorEntry {
     const char* name;  ///< on the command line
     Integrator value;
     WavefrontKind kind;
-    Aov aov;                          ///< for WavefrontKind::aov and wireframe; else unused
     std::array<const char*, 4> film;  ///< channels; null: no more
+    std::span<const Aov> aovs = {};   ///< for WavefrontKind::aov: what fills the channels
 };
+
+inline constexpr Aov normal_aovs[] = {Aov::normal};
+inline constexpr Aov facing_aovs[] = {Aov::facing};
+inline constexpr Aov depth_aovs[] = {Aov::depth};
+inline constexpr Aov distance_aovs[] = {Aov::distance};
+inline constexpr Aov uv_aovs[] = {Aov::uv};
+inline constexpr Aov albedo_aovs[] = {Aov::base_color, Aov::opacity};
+inline constexpr Aov id_aovs[] = {Aov::id_node, Aov::id_material, Aov::id_triangle};
 
 /// In the order of the enumeration.
 inline constexpr std::array<IntegratorEntry, 13> integrator_entries = {
-    {{"path", Integrator::path, WavefrontKind::path, {}, {"R", "G", "B", "A"}},
-     {"direct", Integrator::direct, WavefrontKind::path, {}, {"R", "G", "B", "A"}},
-     {"raycast", Integrator::raycast, WavefrontKind::raycast, {}, {"R", "G", "B", "A"}},
-     {"ao", Integrator::ao, WavefrontKind::ao, {}, {"R", "G", "B", "A"}},
-     {"normal", Integrator::normal, WavefrontKind::aov, Aov::normal, {"N.X", "N.Y", "N.Z"}},
-     {"facing", Integrator::facing, WavefrontKind::aov, Aov::facing, {"facing"}},
-     {"depth", Integrator::depth, WavefrontKind::aov, Aov::depth, {"Z"}},
-     {"distance", Integrator::distance, WavefrontKind::aov, Aov::distance, {"distance"}},
-     {"uv", Integrator::uv, WavefrontKind::aov, Aov::uv, {"UV.U", "UV.V"}},
-     {"albedo", Integrator::albedo, WavefrontKind::aov, Aov::albedo, {"R", "G", "B", "A"}},
-     {"id", Integrator::id, WavefrontKind::aov, Aov::id, {"id.node", "id.material", "id.triangle"}},
-     {"wireframe",
-      Integrator::wireframe,
-      WavefrontKind::wireframe,
-      Aov::wireframe,
-      {"R", "G", "B", "A"}},
-     {"heat", Integrator::heat, WavefrontKind::aov, Aov::heat, {"heat"}}}};
+    {{"path", Integrator::path, WavefrontKind::path, {"R", "G", "B", "A"}},
+     {"direct", Integrator::direct, WavefrontKind::path, {"R", "G", "B", "A"}},
+     {"raycast", Integrator::raycast, WavefrontKind::raycast, {"R", "G", "B", "A"}},
+     {"ao", Integrator::ao, WavefrontKind::ao, {"R", "G", "B", "A"}},
+     {"normal", Integrator::normal, WavefrontKind::aov, {"N.X", "N.Y", "N.Z"}, normal_aovs},
+     {"facing", Integrator::facing, WavefrontKind::aov, {"facing"}, facing_aovs},
+     {"depth", Integrator::depth, WavefrontKind::aov, {"Z"}, depth_aovs},
+     {"distance", Integrator::distance, WavefrontKind::aov, {"distance"}, distance_aovs},
+     {"uv", Integrator::uv, WavefrontKind::aov, {"UV.U", "UV.V"}, uv_aovs},
+     {"albedo", Integrator::albedo, WavefrontKind::aov, {"R", "G", "B", "A"}, albedo_aovs},
+     {"id", Integrator::id, WavefrontKind::aov, {"id.node", "id.material", "id.triangle"}, id_aovs},
+     {"wireframe", Integrator::wireframe, WavefrontKind::wireframe, {"R", "G", "B", "A"}},
+     {"heat", Integrator::heat, WavefrontKind::heat, {"heat"}}}};
 
 constexpr const IntegratorEntry& entry_of(Integrator integrator) {
     return integrator_entries[static_cast<size_t>(integrator)];
 }
 
-/// True for AOVs: one ray through each pixel's centre, without light.
+/// True for AOVs and heat: one ray through each pixel's centre, without light.
 constexpr bool is_aov(Integrator integrator) {
-    return entry_of(integrator).kind == WavefrontKind::aov;
+    const WavefrontKind kind = entry_of(integrator).kind;
+    return kind == WavefrontKind::aov || kind == WavefrontKind::heat;
+}
+
+/// True for integrators beside whose image layers can stand.
+constexpr bool has_layers(Integrator integrator) {
+    return !is_aov(integrator) && integrator != Integrator::wireframe;
 }
 
 /// Names of the channels of an integrator's film.

@@ -12,6 +12,8 @@
 #include "render/raycast_lights.h"
 #include "stages/wavefront.h"
 
+#include "film/cryptomatte_names.h"
+#include "film/layer_sums.h"
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -61,7 +63,7 @@ WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
         medium_stack_around(*scene.accel, scene.scene, {eye[0][3], eye[1][3], eye[2][3]});
     if (options.integrator == Integrator::direct) batch.max_bounces = 0;
     input.kind = entry_of(options.integrator).kind;
-    input.aov = entry_of(options.integrator).aov;
+    input.aovs = entry_of(options.integrator).aovs;
     batch.through_centres = input.kind == WavefrontKind::raycast;
     return input;
 }
@@ -120,6 +122,7 @@ struct ThreadState {
     TilePattern pattern;
     std::vector<int32_t> xs, ys;
     std::vector<PixelSum> sums;
+    LayerSums layers;
     WavefrontCounters counters;
     std::unique_ptr<RayRecorder> recorder;  ///< null: no recording
 };
@@ -140,12 +143,14 @@ int list_pixels(const Tile& tile, ThreadState& state) {
 
 /// Renders all samples of one tile into state.sums; leaves early when `stop` is set.
 void render_tile(const WavefrontInput& wavefront_input,
+                 const LayerPlan& plan,
                  int samples,
                  const Tile& tile,
                  const std::atomic<bool>& stop,
                  ThreadState& state) {
     const int pixels = list_pixels(tile, state);
     state.sums.assign(static_cast<size_t>(pixels), {});
+    state.layers.begin(plan, static_cast<size_t>(pixels));
     WavefrontInput in = wavefront_input;
     in.recorder = state.recorder.get();
     const int per_batch = std::max(1, batch_size / pixels);
@@ -157,11 +162,13 @@ void render_tile(const WavefrontInput& wavefront_input,
             if (stop.load(std::memory_order_relaxed)) return;
             in.batch.first_sample = static_cast<uint32_t>(sample);
             in.batch.samples = std::min(per_batch, samples - sample);
-            trace_batch(in,
-                        std::min(pixels_per_batch, pixels - first),
-                        state.work,
-                        state.sums.data() + first,
-                        state.counters);
+            const int count = std::min(pixels_per_batch, pixels - first);
+            trace_batch(in, count, state.work, state.sums.data() + first, state.counters);
+            if (plan.empty()) continue;
+            const SumOfTime time(state.counters.seconds.accumulate);
+            const BatchShape shape{static_cast<size_t>(count),
+                                   static_cast<size_t>(in.batch.samples)};
+            state.layers.add(plan, static_cast<size_t>(first), shape, state.work);
         }
     }
 }
@@ -187,14 +194,17 @@ void render_aov_tile(const WavefrontInput& wavefront_input,
 }
 
 /// Writes a tile's means into the film.
-void store_tile(const ThreadState& state, int samples, Film& film) {
+void store_tile(const ThreadState& state, const LayerPlan& layers, int samples, Film& film) {
     const size_t channels = film.channels.size();
+    std::vector<size_t> at;
     for (size_t i = 0; i < state.pattern.dx.size(); ++i) {
         const size_t pixel = pixel_index(film, state.xs[i], state.ys[i]);
+        at.push_back(pixel);
         for (size_t c = 0; c < channels; ++c) {
             film.pixels[pixel * channels + c] = state.sums[i].mean(static_cast<int>(c), samples);
         }
     }
+    if (!layers.empty()) state.layers.store(layers, at, samples, film);
 }
 
 RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& states) {
@@ -254,6 +264,39 @@ Result<Supplies> make_supplies(const PreparedScene::Impl& scene, const RenderOpt
     return out;
 }
 
+bool has_cryptomatte(const RenderOptions& options) {
+    return std::any_of(options.layers.begin(), options.layers.end(), [](const Layer& layer) {
+        return std::holds_alternative<CryptomatteNames>(layer.source);
+    });
+}
+
+/// The names that a layer's ids stand for; none if they are not Cryptomatte's.
+std::vector<std::string> names_of(const Layer& layer, const CryptomatteTables& tables) {
+    const auto* names = std::get_if<CryptomatteNames>(&layer.source);
+    if (names == nullptr) return {};
+    switch (*names) {
+        case CryptomatteNames::objects:
+            return tables.objects;
+        case CryptomatteNames::materials:
+            return tables.materials;
+        case CryptomatteNames::assets:
+            break;
+    }
+    return tables.assets;
+}
+
+/// Adds the layers that were asked for to a film.
+LayerPlan add_layers(const Scene& scene, const RenderOptions& options, Film& film) {
+    CryptomatteTables tables;
+    if (has_cryptomatte(options)) tables = cryptomatte_tables(scene);
+    const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
+    for (const Layer& layer : options.layers) {
+        film.layers.push_back({layer, {}, names_of(layer, tables)});
+        film.layers.back().pixels.resize(pixels * layer.channels.size());
+    }
+    return LayerPlan(options.layers, cryptomatte_hashes(tables));
+}
+
 /// A film of the crop's size, in the memory of an earlier film if there is one.
 Film make_film(const RenderOptions& options) {
     Film film;
@@ -282,12 +325,15 @@ Result<RenderResult> render(const PreparedScene& scene,
     if (!supplies) return fail(supplies.error());
     RenderResult result;
     result.film = make_film(options);
+    const LayerPlan layers = add_layers(scene.scene(), options, result.film);
 
     const std::vector<float> filter = make_filter_table(options.filter);
     WavefrontInput wavefront_input = make_wavefront_input(scene.impl(), camera, options);
     wavefront_input.batch.filter = filter.empty() ? nullptr : filter.data();
     wavefront_input.scene.raycast = supplies->raycast.view();
     wavefront_input.notes = options.notes;
+    if (!layers.empty()) wavefront_input.aovs = layers.aovs();
+    wavefront_input.counts_rays = layers.counts_rays();
     if (!supplies->camera.empty()) {
         wavefront_input.scene.motion.camera = supplies->camera.data();
         wavefront_input.scene.motion.camera_steps = static_cast<int>(supplies->camera.size());
@@ -308,8 +354,8 @@ Result<RenderResult> render(const PreparedScene& scene,
         if (aov) {
             render_aov_tile(wavefront_input, tiles[i], stop, *state, result.film);
         } else {
-            render_tile(wavefront_input, samples, tiles[i], stop, *state);
-            store_tile(*state, samples, result.film);
+            render_tile(wavefront_input, layers, samples, tiles[i], stop, *state);
+            store_tile(*state, layers, samples, result.film);
         }
         const size_t done = ++finished;
         if (!progress || stop.load(std::memory_order_relaxed)) return;

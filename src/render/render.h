@@ -12,6 +12,7 @@
 #include "stages/dispatch.h"
 #include "stages/stage_seconds.h"
 
+#include "film/film.h"
 #include <atomic>
 #include <cstdint>
 #include <functional>
@@ -75,7 +76,8 @@ struct RenderOptions {
     /// world_from_camera at evenly spaced times while the shutter is open, the first one as in
     /// Camera; empty: it stands still.
     std::vector<Affined> moving_camera;
-    double ao_distance_m = 0;  ///< 0: a fifth of the scene's diagonal
+    std::vector<Layer> layers;  ///< beside the beauty; see layers_of
+    double ao_distance_m = 0;   ///< 0: a fifth of the scene's diagonal
     double wire_width_px = 1;
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
     int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling
@@ -97,15 +99,6 @@ struct RenderCounters {
     uint64_t refused_rays = 0;       ///< not finite: never handed to Embree
     uint64_t nonfinite_samples = 0;  ///< written as zero
     StageSeconds stages;
-};
-
-/// A finished film, float32, rows from the top: as large as the crop where there is one.
-struct Film {
-    int width = 0;
-    int height = 0;
-    std::vector<std::string> channels;  ///< R G B A; or e.g. Z; N.X N.Y N.Z
-    UnsetArray<float> pixels;
-    std::optional<ImagePart> part_of = {};  ///< with a crop: of the whole image
 };
 
 struct RenderResult {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,8 @@ struct AssetInfo {
     std::vector<AnimationInfo> animations;
     std::optional<double> time_s;          ///< time of the pose; nothing: the pose as stored
     std::vector<std::string> node_names;   ///< by glTF node index
+    std::vector<int32_t> node_parents;     ///< likewise; -1: a root
+    std::vector<int32_t> node_meshes;      ///< likewise, in `meshes`; -1: none
     std::vector<std::string> light_names;  ///< beside Scene::lights
     std::string environment;               ///< name of the scene's image-based light; empty: none
     std::vector<ImageInfo> images;

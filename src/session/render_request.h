@@ -36,6 +36,7 @@ struct RenderRequest {
     Isa isa = Isa::automatic;
     DisplayOptions display;
     ExrDepth exr_depth = ExrDepth::half;
+    int crypto_levels = 6;  ///< of Cryptomatte layers in options.layers
     std::optional<std::filesystem::path> statistics;
     Verbosity verbosity = Verbosity::normal;
     bool check = false;  ///< --check: nothing is built, rendered or written

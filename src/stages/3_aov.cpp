@@ -1,4 +1,4 @@
-// stages/3_aov.cpp - stage 3 for AOVs: one value per pixel, without light or randomness.
+// stages/3_aov.cpp - stage 3 for AOVs: what the first hits tell, without light or randomness.
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/3_shade.h"
 #include "stages/3_surface.h"
@@ -44,102 +44,189 @@ OBSCURA_INLINE Vec3<Lanes> surface_uv(const SceneView& scene,
     return select(present, Vec3<Lanes>{g.first_uv.at.x, g.first_uv.at.y, Lanes(0.0f)}, zero);
 }
 
-/// Indices of glTF node, glTF material and triangle, plus 1; material 0 is the default one.
-OBSCURA_INLINE Vec3<Lanes> identity(const SceneView& scene, const HitLanes& hit) {
+/// Index of the glTF node.
+OBSCURA_INLINE LanesI node_of(const SceneView& scene, const HitLanes& hit) {
     const TableRecord<Lanes, Primitive> primitive(scene.primitives, hit.primitive);
-    LanesI node = primitive.integer<&Primitive::node>();
-    const LanesI material =
-        gather<Lanes>(scene.material_numbers, primitive.integer<&Primitive::material>());
+    const LanesI node = primitive.integer<&Primitive::node>();
     const Mask instanced = hit.instance >= LanesI(0);
-    if (any(instanced)) {
-        const LanesI own = instance_record(scene, hit).integer<&Instance::node>();
-        node = select(instanced, max(own, node), node);
-    }
-    return {from_int<Lanes>(node + LanesI(1)),
-            from_int<Lanes>(material + LanesI(1)),
-            from_int<Lanes>(hit.triangle + LanesI(1))};
+    if (none(instanced)) return node;
+    const LanesI own = instance_record(scene, hit).integer<&Instance::node>();
+    return select(instanced, max(own, node), node);
 }
 
-template <Aov aov>
-OBSCURA_INLINE Vec3<Lanes> aov_of(const SceneView& scene,
-                                  const Camera& camera,
-                                  const PathLanes& path,
-                                  const HitLanes& hit) {
+/// Index of the glTF material; -1: the default one.
+OBSCURA_INLINE LanesI material_of(const SceneView& scene, const HitLanes& hit) {
+    const TableRecord<Lanes, Primitive> primitive(scene.primitives, hit.primitive);
+    return gather<Lanes>(scene.material_numbers, primitive.integer<&Primitive::material>());
+}
+
+/// The texture slot of a material at the hits, found by bilinear filtering.
+template <auto slot>
+OBSCURA_INLINE FoundSlot bilinear_slot(const SceneView& scene,
+                                       const SurfaceInteraction& interaction) {
+    return find_slot<slot>(scene, interaction.g, interaction.g.material, interaction.filter, {});
+}
+
+/// A number of the material times a channel of its texture.
+OBSCURA_INLINE Lanes textured(const SceneView& scene,
+                              const SurfaceInteraction& interaction,
+                              Lanes factor,
+                              int channel) {
+    const auto slot = bilinear_slot<&Material::metallic_roughness_texture>(scene, interaction);
+    if (none(slot.used)) return factor;
+    const Vec3<Lanes> texel = read_slot(scene, interaction.g, slot, interaction.filter).rgb;
+    return select(slot.used, factor * (channel == 1 ? texel.y : texel.z), factor);
+}
+
+/// The emission towards the viewer: none from the back of a single-sided surface.
+OBSCURA_INLINE Vec3<Lanes> emission_color(const SceneView& scene,
+                                          const SurfaceInteraction& interaction) {
+    const HitGeometry& g = interaction.g;
+    Vec3<Lanes> emission = g.material.vector<&Material::emission>();
+    const LanesI flags = g.material.integer<&Material::flags>();
+    const Mask seen = (interaction.cos_front >= Lanes(0.0f)) |
+                      has_bits<Lanes>(flags, material_double_sided | material_unlit);
+    const auto slot = bilinear_slot<&Material::emissive_texture>(scene, interaction);
+    if (any(slot.used)) {
+        const Vec3<Lanes> texel = read_slot(scene, g, slot, interaction.filter).rgb;
+        emission = select(slot.used, emission * texel, emission);
+    }
+    return select(seen, emission, splat3(Lanes(0.0f)));
+}
+
+OBSCURA_INLINE Vec3<Lanes> normal_with_map(const SceneView& scene,
+                                           const HitLanes& hit,
+                                           const SurfaceInteraction& interaction) {
+    const auto slot = bilinear_slot<&Material::normal_texture>(scene, interaction);
+    const TangentLanes tangents = read_tangents(scene, hit, interaction.g, slot.used);
+    return shading_normal(scene, interaction, tangents, slot);
+}
+
+/// AOVs that only the ray, its hit and the tables of primitives and instances tell.
+constexpr bool needs_surface(Aov aov) {
+    switch (aov) {
+        case Aov::depth:
+        case Aov::distance:
+        case Aov::uv:
+        case Aov::opacity:
+        case Aov::id_node:
+        case Aov::id_material:
+        case Aov::id_triangle:
+        case Aov::instance:
+            return false;
+        default:
+            return true;
+    }
+}
+
+/// One group of hits.
+struct AovGroup {
+    const SceneView& scene;
+    const BatchSettings& batch;
+    const PathLanes& path;
+    const HitLanes& hit;
+};
+
+OBSCURA_INLINE Vec3<Lanes> aov_of_hit(const AovGroup& at, Aov aov) {
     const Lanes zero(0.0f);
-    if constexpr (aov == Aov::depth) {
-        return {axial_depth(camera, path, hit.t), zero, zero};
-    } else if constexpr (aov == Aov::distance) {
-        return {distance_along_ray(camera, path, hit.t), zero, zero};
-    } else if constexpr (aov == Aov::uv) {
-        return surface_uv(scene, path, hit);
-    } else if constexpr (aov == Aov::id) {
-        return identity(scene, hit);
-    } else {
-        const SurfaceInteraction interaction = find_surface_interaction<HitUse::attributes>(
-            scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f))});
-        constexpr auto texture =
-            aov == Aov::albedo ? &Material::base_color_texture : &Material::normal_texture;
-        const FoundSlot slot = find_slot<texture>(
-            scene, interaction.g, interaction.g.material, interaction.filter, {});
-        if constexpr (aov == Aov::albedo) {
-            return base_color(scene, interaction.g, interaction.filter, slot);
-        } else {
-            const TangentLanes tangents = read_tangents(scene, hit, interaction.g, slot.used);
-            const Vec3<Lanes> normal = shading_normal(scene, interaction, tangents, slot);
-            if constexpr (aov == Aov::normal) return normal;
-            return {abs(dot(normal, path.direction)), zero, zero};
-        }
+    const auto one = [&](Lanes value) { return Vec3<Lanes>{value, zero, zero}; };
+    const auto number = [&](LanesI index) { return one(from_int<Lanes>(index + LanesI(1))); };
+    switch (aov) {
+        case Aov::depth:
+            return one(axial_depth(at.batch.camera, at.path, at.hit.t));
+        case Aov::distance:
+            return one(distance_along_ray(at.batch.camera, at.path, at.hit.t));
+        case Aov::uv:
+            return surface_uv(at.scene, at.path, at.hit);
+        case Aov::id_node:
+            return number(node_of(at.scene, at.hit));
+        case Aov::id_material:
+            return number(material_of(at.scene, at.hit));
+        case Aov::id_triangle:
+            return number(at.hit.triangle);
+        case Aov::instance:
+            return number(at.hit.instance);
+        default:
+            return one(Lanes(1.0f));
     }
 }
 
-/// Each AOV gets its own loop, so that the compiler drops the work it does not need. Index i is
-/// pixel i.
-template <Aov aov>
-void write_all(const SceneView& scene, const Camera& camera, int count, const AovColumns& columns) {
-    const SampleColumns& out = columns.samples;
-    for (int i = 0; i < count; i += lane_count) {
-        const Mask hits =
-            lanes_in_range(i, count) & (load(columns.hits.primitive + i) >= LanesI(0));
-        if (none(hits)) {
-            store3(out.r, out.g, out.b, i, splat3(Lanes(0.0f)));
-            store(out.a + i, Lanes(0.0f));
-            continue;
+OBSCURA_INLINE Vec3<Lanes> aov_of_surface(const AovGroup& at,
+                                          const SurfaceInteraction& interaction,
+                                          Aov aov) {
+    const Lanes zero(0.0f);
+    const SceneView& scene = at.scene;
+    const HitGeometry& g = interaction.g;
+    switch (aov) {
+        case Aov::position:
+            return g.position;
+        case Aov::normal_geometric:
+            return interaction.ng;
+        case Aov::tangent: {
+            const TangentLanes tangents = read_tangents(scene, at.hit, g, Mask(true));
+            return select(tangents.known, tangents.tangent, splat3(zero));
         }
-        HitLanes hit = hits_or_first(columns.hits, i, hits);
-        if (columns.time != nullptr) hit.time = load(columns.time + i);  // path i is pixel i
-        const PathLanes path = load_paths(columns.paths, i);
-        const Vec3<Lanes> value = aov_of<aov>(scene, camera, path, hit);
-        store3(out.r, out.g, out.b, i, select(hits, value, splat3(Lanes(0.0f))));
-        store(out.a + i, select(hits, Lanes(1.0f), Lanes(0.0f)));
+        case Aov::facing: {
+            const Vec3<Lanes> normal = normal_with_map(scene, at.hit, interaction);
+            return {abs(dot(normal, at.path.direction)), zero, zero};
+        }
+        case Aov::base_color: {
+            const auto slot = bilinear_slot<&Material::base_color_texture>(scene, interaction);
+            return base_color(scene, g, interaction.filter, slot);
+        }
+        case Aov::roughness:
+            return {textured(scene, interaction, g.material.number<&Material::roughness>(), 1),
+                    zero,
+                    zero};
+        case Aov::metallic:
+            return {textured(scene, interaction, g.material.number<&Material::metallic>(), 2),
+                    zero,
+                    zero};
+        case Aov::emission_color:
+            return emission_color(scene, interaction);
+        default:
+            return normal_with_map(scene, at.hit, interaction);
     }
+}
+
+/// Writes an AOV of the hits of one group; 0 elsewhere.
+OBSCURA_INLINE void store_aov(const AovOutput& out, int i, Mask hits, const Vec3<Lanes>& value) {
+    const Lanes lanes[max_aov_channels] = {value.x, value.y, value.z};
+    for (int c = 0; c < channel_count(out.aov); ++c)
+        store(out.columns[c] + i, select(hits, lanes[c], Lanes(0.0f)));
 }
 
 }  // namespace
 
-void write_aov(const SceneView& scene,
-               const BatchSettings& batch,
-               Aov aov,
-               int count,
-               const AovColumns& columns) {
-    switch (aov) {
-        case Aov::normal:
-            return write_all<Aov::normal>(scene, batch.camera, count, columns);
-        case Aov::facing:
-            return write_all<Aov::facing>(scene, batch.camera, count, columns);
-        case Aov::depth:
-            return write_all<Aov::depth>(scene, batch.camera, count, columns);
-        case Aov::distance:
-            return write_all<Aov::distance>(scene, batch.camera, count, columns);
-        case Aov::uv:
-            return write_all<Aov::uv>(scene, batch.camera, count, columns);
-        case Aov::albedo:
-            return write_all<Aov::albedo>(scene, batch.camera, count, columns);
-        case Aov::id:
-            return write_all<Aov::id>(scene, batch.camera, count, columns);
-        case Aov::wireframe:
-            return write_wireframe(scene, batch, count, columns);
-        case Aov::heat:
-            break;
+void write_aovs(const SceneView& scene,
+                const BatchSettings& batch,
+                int count,
+                const AovColumns& columns) {
+    bool any_surface = false;
+    for (const AovOutput& out : columns.outputs)
+        any_surface |= needs_surface(out.aov);
+    for (int i = 0; i < count; i += lane_count) {
+        const Mask hits =
+            lanes_in_range(i, count) & (load(columns.hits.primitive + i) >= LanesI(0));
+        if (none(hits)) {
+            for (const AovOutput& out : columns.outputs)
+                store_aov(out, i, hits, splat3(Lanes(0.0f)));
+            continue;
+        }
+        HitLanes hit = hits_or_first(columns.hits, i, hits);
+        if (columns.time != nullptr) hit.time = load(columns.time + i);  // path i is sample i
+        const PathLanes path = load_paths(columns.paths, i);
+        const AovGroup group{scene, batch, path, hit};
+        for (const AovOutput& out : columns.outputs) {
+            if (!needs_surface(out.aov)) store_aov(out, i, hits, aov_of_hit(group, out.aov));
+        }
+        if (!any_surface) continue;
+        const SurfaceInteraction interaction = find_surface_interaction<HitUse::attributes>(
+            scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f)), batch.footprint_fraction});
+        for (const AovOutput& out : columns.outputs) {
+            if (needs_surface(out.aov))
+                store_aov(out, i, hits, aov_of_surface(group, interaction, out.aov));
+        }
     }
 }
 

@@ -61,12 +61,11 @@ int begin_raycast(const SceneView& scene,
 /// Source  Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968
 int shade_raycast(const SceneView& scene, const RaycastRange& range, const RaycastColumns& columns);
 
-/// Writes an AOV of the first hit (see Aov). Misses get zero.
-void write_aov(const SceneView& scene,
-               const BatchSettings& batch,
-               Aov aov,
-               int count,
-               const AovColumns& columns);
+/// Writes AOVs of the first hits (see Aov). Misses get zero.
+void write_aovs(const SceneView& scene,
+                const BatchSettings& batch,
+                int count,
+                const AovColumns& columns);
 
 /// Coverage of the wireframe at each ray: the edges of triangles, and on analytic shapes the lines
 /// on which u or v is a multiple of an eighth. Lines are batch.wire_width_px wide.
@@ -77,7 +76,7 @@ void write_aov(const SceneView& scene,
 void write_wireframe(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const AovColumns& columns);
+                     const WireframeColumns& columns);
 
 /// The result of sort_hits_from_misses.
 struct SortedCounts {

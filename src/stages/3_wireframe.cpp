@@ -133,7 +133,7 @@ template <typename Maker>
 void write_all_wires(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const AovColumns& columns) {
+                     const WireframeColumns& columns) {
     const Lanes zero(0.0f);
     for (int i = 0; i < count; i += lane_count) {
         const SampleColumns& out = columns.samples;
@@ -164,7 +164,7 @@ void write_all_wires(const SceneView& scene,
 void write_wireframe(const SceneView& scene,
                      const BatchSettings& batch,
                      int count,
-                     const AovColumns& columns) {
+                     const WireframeColumns& columns) {
     visit_model(batch.camera, false, [&](auto maker) {
         write_all_wires<decltype(maker)>(scene, batch, count, columns);
     });

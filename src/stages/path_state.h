@@ -7,10 +7,10 @@
 //   PathColumns    68 bytes
 //     written:  camera centre_camera open_shutter begin_scatter scatter shade shade_ao
 //               begin_raycast
-//     only read:  make_probes shade_raycast aov
+//     only read:  make_probes shade_raycast aovs wireframe
 //   HitColumns     24 bytes
 //     written:  begin_scatter scatter shade shade_ao begin_raycast
-//     only read:  make_probes shade_raycast aov cross_thin_walls
+//     only read:  make_probes shade_raycast aovs wireframe cross_thin_walls
 //   MissColumns    36 bytes
 //     written:  shade shade_ao begin_raycast
 //   ShadowColumns  48 bytes
@@ -18,8 +18,8 @@
 //               cross_thin_walls
 //     only read:  add_shadows
 //   SampleColumns  16 bytes
-//     written:  camera shade shade_ao begin_raycast shade_raycast aov cross_thin_walls add_shadows
-//               accumulate clear_nonfinite
+//     written:  camera shade shade_ao begin_raycast shade_raycast wireframe cross_thin_walls
+//               add_shadows accumulate clear_nonfinite
 //
 // A batch holds one path per sample; the sample index is a path's fixed number in its batch.
 // Columns are 64-byte aligned and padded by 16 entries, so that a stage may read and write whole

@@ -2,23 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "stages/aov.h"
 #include "stages/path_state.h"
 #include "stages/pixel_sum.h"
 
-namespace obscura {
+#include <span>
 
-/// The AOVs: per-pixel outputs other than radiance, each an integrator of its own.
-enum class Aov : int {
-    normal,
-    facing,
-    depth,
-    distance,
-    uv,
-    albedo,
-    id,
-    wireframe,
-    heat,  ///< not a stage's work: accel/ counts
-};
+namespace obscura {
 
 /// Sizes of the columns that shade writes.
 struct ShadeCounts {
@@ -56,8 +46,22 @@ struct RaycastColumns {
     const SharedFaces* shared = nullptr;
 };
 
-/// The columns from which an AOV is written: index i is pixel i.
+/// An AOV and the columns that it is written to, as many as it has channels.
+struct AovOutput {
+    Aov aov;
+    float* columns[max_aov_channels];
+};
+
+/// Camera rays and what they hit, before shading: path i is sample i.
 struct AovColumns {
+    PathView paths;
+    HitView hits;
+    const float* time = nullptr;  ///< by sample index; null: nothing moves
+    std::span<const AovOutput> outputs;
+};
+
+/// The columns of the wireframe: index i is pixel i.
+struct WireframeColumns {
     PathView paths;
     HitView hits;
     SampleColumns samples;        ///< out
@@ -177,7 +181,10 @@ struct StageTable {
     int (*shade_raycast)(const SceneView&, const RaycastRange&, const RaycastColumns&);
 
     /// Stage 3 for AOVs: every sample is written; 0 where nothing was hit.
-    void (*aov)(const SceneView&, const BatchSettings&, Aov, int count, const AovColumns&);
+    void (*aovs)(const SceneView&, const BatchSettings&, int count, const AovColumns&);
+
+    /// Stage 3 for --integrator wireframe: likewise.
+    void (*wireframe)(const SceneView&, const BatchSettings&, int count, const WireframeColumns&);
 
     /// Stage 4, if there are thin walls: packs the shadow rays that wait there, then steps each.
     int (*take_waiting)(int count, const uint8_t* occluded, const ShadowColumns&);

@@ -27,6 +27,13 @@ const float* times_of(const WavefrontInput& in, const uint32_t* slot, int count,
     return work.ray_time.data();
 }
 
+/// Adds one to the rays of each of these samples.
+void count_rays(const WavefrontInput& in, const uint32_t* slot, int count, Workspace& work) {
+    if (!in.counts_rays) return;
+    for (int i = 0; i < count; ++i)
+        ++work.rays_cast[slot[i]];
+}
+
 /// Stage 2: finds the hits of rays.
 void intersect_rays(const WavefrontInput& in,
                     const RayColumns& rays,
@@ -88,8 +95,41 @@ void intersect(const WavefrontInput& in,
         rays.time = slot_times(in, work);
     } else {
         rays.time = times_of(in, work.paths[0].slot, count, work);
+        count_rays(in, work.paths[0].slot, count, work);
     }
     intersect_rays(in, rays, work.hits, see_through, c);
+}
+
+/// Stage 3 for AOVs, before shading moves the paths: path i is sample i.
+void write_aovs(const WavefrontInput& in,
+                int count,
+                std::span<const AovOutput> outputs,
+                const Workspace& work,
+                WavefrontCounters& c) {
+    if (outputs.empty()) return;
+    const SumOfTime time(c.seconds.shade);
+    in.stages->aovs(in.scene,
+                    in.batch,
+                    count,
+                    {.paths = work.paths[0],
+                     .hits = work.hits,
+                     .time = slot_times(in, work),
+                     .outputs = outputs});
+}
+
+/// Camera rays: their hits, the back faces that they passed, and AOVs.
+void intersect_camera_rays(const WavefrontInput& in,
+                           int count,
+                           SeeThrough see_through,
+                           Workspace& work,
+                           WavefrontCounters& c) {
+    see_through.culls_back_faces = true;
+    see_through.passed_backs = &work.passed_backs;
+    intersect(in, count, see_through, work, c);
+    note_passed_backs(in, work);
+    if (in.aovs.empty()) return;
+    work.allot_aovs(in.aovs);
+    write_aovs(in, count, work.aov_outputs, work, c);
 }
 
 /// Stage 2 inside scattering media: a random walk from scattering to scattering until the path
@@ -122,6 +162,7 @@ void scatter_in_media(
         if (random_walks == 0) return;
         RayColumns rays = rays_of(columns.random_walks, random_walks);
         rays.time = times_of(in, columns.random_walks.slot, random_walks, work);
+        count_rays(in, columns.random_walks.slot, random_walks, work);
         see_through.cutaway = cut_away(columns.random_walks.slot, work);
         intersect_rays(in, rays, work.random_walk_hits, see_through, c);
     }
@@ -168,6 +209,7 @@ void cross_thin_walls(
         RayColumns rays = rays_of(work.shadows, waiting);
         if (raycast) rays.key = nullptr;
         rays.time = times_of(in, work.shadows.slot, waiting, work);
+        count_rays(in, work.shadows.slot, waiting, work);
         const SeeThrough see_through{.fixed_alpha = raycast,
                                      .segment = segment,
                                      .cutaway = cut_away(work.shadows.slot, work)};
@@ -199,6 +241,7 @@ void trace_shadows(
     RayColumns rays = rays_of(work.shadows, count);
     if (in.kind == WavefrontKind::raycast) rays.key = nullptr;
     rays.time = times_of(in, work.shadows.slot, count, work);
+    count_rays(in, work.shadows.slot, count, work);
     c.shadow_rays += static_cast<uint64_t>(count);
     if (passes_thin_walls) work.thin_walls.assign(padded_batch_size, 0);
     const ShadowQuery query{.segment = segment,
@@ -250,12 +293,13 @@ void trace_paths(const WavefrontInput& in, int count, Workspace& work, Wavefront
     const int segments = in.batch.max_bounces + 2 + (in.scene.thin_walls ? max_thin_walls : 0);
     work.clear_slots(in.scene);
     for (int bounce = 0; count > 0 && bounce < segments; ++bounce) {
-        SeeThrough see_through{.culls_back_faces = bounce == 0,
-                               .segment = 2U * static_cast<uint32_t>(bounce)};
-        if (bounce == 0) see_through.passed_backs = &work.passed_backs;
-        if (bounce > 0) see_through.cutaway = cut_away(work.paths[0].slot, work);
-        intersect(in, count, see_through, work, c);
-        if (bounce == 0) note_passed_backs(in, work);
+        SeeThrough see_through{.segment = 2U * static_cast<uint32_t>(bounce)};
+        if (bounce == 0) {
+            intersect_camera_rays(in, count, see_through, work, c);
+        } else {
+            see_through.cutaway = cut_away(work.paths[0].slot, work);
+            intersect(in, count, see_through, work, c);
+        }
         if (in.scene.scatters) scatter_in_media(in, count, bounce, work, c);
         if (in.scene.touching_media != nullptr) cross_shared_faces(in, count, see_through, work);
         if (in.accel->has_splats()) pass_splats(in, count, bounce == 0, work, c);
@@ -271,9 +315,7 @@ void trace_paths(const WavefrontInput& in, int count, Workspace& work, Wavefront
 }
 
 void trace_ao(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
-    const SeeThrough see_through{.culls_back_faces = true, .passed_backs = &work.passed_backs};
-    intersect(in, count, see_through, work, c);
-    note_passed_backs(in, work);
+    intersect_camera_rays(in, count, {}, work, c);
     int shadows = 0;
     {
         const SumOfTime time(c.seconds.shade);
@@ -286,10 +328,7 @@ void trace_ao(const WavefrontInput& in, int count, Workspace& work, WavefrontCou
 /// added in the same order however the steps are cut.
 void trace_raycast(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
     const int max_lights = in.notes != nullptr ? 1 : batch_size / 16;
-    const SeeThrough see_through{
-        .culls_back_faces = true, .fixed_alpha = true, .passed_backs = &work.passed_backs};
-    intersect(in, count, see_through, work, c);
-    note_passed_backs(in, work);
+    intersect_camera_rays(in, count, {.fixed_alpha = true}, work, c);
     if (in.accel->has_splats()) pass_splats(in, count, true, work, c);
     int hits = 0;
     {
@@ -348,6 +387,21 @@ void count_heat(const WavefrontInput& in, int pixels, Workspace& work, Wavefront
     c.refused_rays += static_cast<uint64_t>(in.counting->count_tests(rays, work.samples.r));
 }
 
+/// AOVs whose channels are written to the samples, one after the other.
+std::span<const AovOutput> aovs_in_samples(std::span<const Aov> aovs, Workspace& work) {
+    const SampleColumns& samples = work.samples;
+    float* const columns[] = {samples.r, samples.g, samples.b, samples.a};
+    size_t next = 0;
+    work.aov_outputs.clear();
+    for (const Aov aov : aovs) {
+        AovOutput output{aov, {}};
+        for (int c = 0; c < channel_count(aov); ++c)
+            output.columns[c] = columns[next++];
+        work.aov_outputs.push_back(output);
+    }
+    return work.aov_outputs;
+}
+
 }  // namespace
 
 int spawn_ambient_rays(const WavefrontInput& in, int count, Workspace& work) {
@@ -373,6 +427,7 @@ void trace_batch(const WavefrontInput& in,
     }
     counters.paths += static_cast<uint64_t>(count);
     forget_passed_backs(work);
+    if (in.counts_rays) work.rays_cast.assign(padded_batch_size, 0);
     switch (in.kind) {
         case WavefrontKind::path:
             trace_paths(in, count, work, counters);
@@ -385,6 +440,7 @@ void trace_batch(const WavefrontInput& in,
             break;
         case WavefrontKind::wireframe:
         case WavefrontKind::aov:
+        case WavefrontKind::heat:
             break;
     }
     const SumOfTime time(counters.seconds.accumulate);
@@ -401,17 +457,20 @@ void trace_aov(const WavefrontInput& in, int pixels, Workspace& work, WavefrontC
         }
     }
     counters.paths += static_cast<uint64_t>(pixels);
-    if (in.aov == Aov::heat) return count_heat(in, pixels, work, counters);
+    if (in.kind == WavefrontKind::heat) return count_heat(in, pixels, work, counters);
     intersect(in, pixels, {.culls_back_faces = true, .fixed_alpha = true}, work, counters);
-    const SumOfTime time(counters.seconds.shade);
-    in.stages->aov(in.scene,
-                   in.batch,
-                   in.aov,
-                   pixels,
-                   {.paths = work.paths[0],
-                    .hits = work.hits,
-                    .samples = work.samples,
-                    .time = slot_times(in, work)});
+    if (in.kind == WavefrontKind::wireframe) {
+        const SumOfTime time(counters.seconds.shade);
+        in.stages->wireframe(in.scene,
+                             in.batch,
+                             pixels,
+                             {.paths = work.paths[0],
+                              .hits = work.hits,
+                              .samples = work.samples,
+                              .time = slot_times(in, work)});
+    } else {
+        write_aovs(in, pixels, aovs_in_samples(in.aovs, work), work, counters);
+    }
     counters.nonfinite_samples += in.stages->clear_nonfinite(pixels, work.samples);
 }
 

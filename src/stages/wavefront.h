@@ -15,7 +15,7 @@
 namespace obscura {
 
 /// What the wavefront loop computes. To add an integrator: see render/render.h.
-enum class WavefrontKind { path, ao, raycast, wireframe, aov };
+enum class WavefrontKind { path, ao, raycast, wireframe, aov, heat };
 
 /// A wireframe pixel is sampled by a grid of rays, this many a side, each for its own square.
 inline constexpr int wireframe_side = 4;
@@ -45,6 +45,9 @@ public:
         if (scene.occludes) occlusion.assign(slot_time.size(), 1.0f);
     }
 
+    /// Makes columns for AOVs, in aov_outputs.
+    void allot_aovs(std::span<const Aov> aovs);
+
     PathColumns paths[2];
     HitColumns hits;
     HitColumns random_walk_hits;  ///< in scattering media, and of shadow rays at thin walls
@@ -65,8 +68,11 @@ public:
     std::vector<float> splats[4];                  ///< as SplatColumns, by index
     std::vector<float> ray_end;                    ///< of paths, where there are splats
     std::vector<float> camera_length_m;  ///< how far camera rays may go; for cameras that say it
+    std::vector<AovOutput> aov_outputs;  ///< of this batch, by sample index; see allot_aovs
+    std::vector<uint32_t> rays_cast;     ///< by sample index, where WavefrontInput::counts_rays
 
 private:
+    std::vector<float> aov_memory_;
     std::vector<std::byte> memory_;
 };
 
@@ -101,15 +107,17 @@ struct WavefrontInput {
     const Accel* accel;
     SceneView scene;
     BatchSettings batch;
-    const Accel* counting = nullptr;  ///< for Aov::heat: see Accel::build_counting
+    const Accel* counting = nullptr;  ///< for WavefrontKind::heat: see Accel::build_counting
     WavefrontKind kind = WavefrontKind::path;
-    Aov aov = Aov::normal;            ///< of trace_aov
+    std::span<const Aov> aovs = {};   ///< written beside light, or alone by trace_aov
+    bool counts_rays = false;         ///< fills Workspace::rays_cast
     RayRecorder* recorder = nullptr;  ///< records every ray of this thread; null: no recording
     RaycastNotes* notes = nullptr;    ///< for a raycast of one pixel; null: no notes
 };
 
 /// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_size) and adds them
-/// to the pixels' sums. For every kind but AOVs.
+/// to the pixels' sums; work.aov_outputs and work.rays_cast hold what was asked for beside. For
+/// every kind but AOVs and heat.
 void trace_batch(const WavefrontInput& in,
                  int pixels,
                  Workspace& work,
@@ -125,7 +133,8 @@ int spawn_ambient_rays(const WavefrontInput& in, int count, Workspace& work);
 /// Pixels in a batch of AOVs: their columns fit the nearest cache.
 inline constexpr int aov_batch_size = 1024;
 
-/// Writes in.aov at `pixels` <= batch_size pixel centres to work.samples, one entry each.
+/// Writes in.aovs at `pixels` <= batch_size pixel centres to work.samples, one entry each: their
+/// channels one after the other to r, g, b and a. Or wireframe or heat, by in.kind.
 void trace_aov(const WavefrontInput& in, int pixels, Workspace& work, WavefrontCounters& counters);
 
 }  // namespace obscura

@@ -31,6 +31,21 @@ private:
 
 }  // namespace
 
+void Workspace::allot_aovs(std::span<const Aov> aovs) {
+    size_t channels = 0;
+    for (const Aov aov : aovs)
+        channels += static_cast<size_t>(channel_count(aov));
+    aov_memory_.resize(channels * padded_batch_size);
+    aov_outputs.clear();
+    float* next = aov_memory_.data();
+    for (const Aov aov : aovs) {
+        AovOutput output{aov, {}};
+        for (int c = 0; c < channel_count(aov); ++c, next += padded_batch_size)
+            output.columns[c] = next;
+        aov_outputs.push_back(output);
+    }
+}
+
 Workspace::Workspace() {
     constexpr size_t words = 2 * column_count<PathColumns> + 2 * column_count<HitColumns> +
                              column_count<MissColumns> + column_count<ShadowColumns> +

@@ -61,6 +61,10 @@ void note(Type<AovColumns>, Access& access) {
     const auto& [a, b, c, d] = AovColumns{};
     note_members(access, a, b, c, d);
 }
+void note(Type<WireframeColumns>, Access& access) {
+    const auto& [a, b, c, d] = WireframeColumns{};
+    note_members(access, a, b, c, d);
+}
 void note(Type<ThinWallColumns>, Access& access) {
     const auto& [a, b, c, d] = ThinWallColumns{};
     note_members(access, a, b, c, d);
@@ -102,7 +106,8 @@ Table table_of_types() {
     add_stage("shade_ao", &S::shade_ao, table);
     add_stage("begin_raycast", &S::begin_raycast, table);
     add_stage("shade_raycast", &S::shade_raycast, table);
-    add_stage("aov", &S::aov, table);
+    add_stage("aovs", &S::aovs, table);
+    add_stage("wireframe", &S::wireframe, table);
     add_stage("take_waiting", &S::take_waiting, table);
     add_stage("cross_thin_walls", &S::cross_thin_walls, table);
     add_stage("add_shadows", &S::add_shadows, table);

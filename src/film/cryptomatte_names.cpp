@@ -1,0 +1,69 @@
+// film/cryptomatte_names.cpp - the names in a scene that Cryptomatte layers know.
+// SPDX-License-Identifier: Apache-2.0
+#include "film/cryptomatte_names.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+namespace obscura {
+
+namespace {
+
+/// The nodes from a root down to `node`.
+std::vector<size_t> chain_to(const AssetInfo& info, size_t node) {
+    std::vector<size_t> chain;
+    for (auto at = static_cast<int32_t>(node); at >= 0;
+         at = info.node_parents[static_cast<size_t>(at)]) {
+        chain.push_back(static_cast<size_t>(at));
+    }
+    std::reverse(chain.begin(), chain.end());
+    return chain;
+}
+
+std::vector<uint32_t> hashes_of(const std::vector<std::string>& names) {
+    std::vector<uint32_t> hashes;
+    for (const std::string& name : names)
+        hashes.push_back(name.empty() ? cryptomatte_no_object : cryptomatte_hash(name));
+    return hashes;
+}
+
+}  // namespace
+
+std::vector<std::string> node_paths(const AssetInfo& info) {
+    std::vector<std::string> paths(info.node_names.size());
+    for (size_t node = 0; node < paths.size(); ++node) {
+        std::string path;
+        for (const size_t at : chain_to(info, node)) {
+            if (paths[at].empty()) paths[at] = path + "/" + info.node_names[at];
+            path = paths[at];
+        }
+    }
+    return paths;
+}
+
+CryptomatteTables cryptomatte_tables(const Scene& scene) {
+    const AssetInfo& info = scene.info;
+    CryptomatteTables out;
+    out.objects = node_paths(info);
+    for (size_t node = 0; node < out.objects.size(); ++node)
+        out.assets.push_back(out.objects[chain_to(info, node).front()]);
+    // Number 0 is what belongs to no node.
+    out.objects.insert(out.objects.begin(), "");
+    out.assets.insert(out.assets.begin(), "");
+    out.materials = {"default material"};
+    for (size_t i = 0; i < scene.material_names.size(); ++i) {
+        const auto number = static_cast<size_t>(scene.material_numbers[i] + 1);
+        if (number == 0) continue;
+        if (out.materials.size() <= number) out.materials.resize(number + 1);
+        const std::string& name = scene.material_names[i];
+        out.materials[number] = name.empty() ? "material " + std::to_string(number - 1) : name;
+    }
+    return out;
+}
+
+CryptomatteHashes cryptomatte_hashes(const CryptomatteTables& tables) {
+    return {hashes_of(tables.objects), hashes_of(tables.materials), hashes_of(tables.assets)};
+}
+
+}  // namespace obscura

@@ -1,0 +1,227 @@
+// film/layer_sums.cpp - samples of layers become pixels, tile by tile.
+// SPDX-License-Identifier: Apache-2.0
+#include "film/layer_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+/// The layer's AOV, if that is what it is.
+const Aov* aov_of(const Layer& layer) {
+    return std::get_if<Aov>(&layer.source);
+}
+
+bool is_reduced(const Layer& layer, Reduction reduction) {
+    const Aov* aov = aov_of(layer);
+    return aov != nullptr && entry_of(*aov).reduction == reduction;
+}
+
+/// Rec.709's luminance.
+double luminance(float r, float g, float b) {
+    return 0.2126 * static_cast<double>(r) + 0.7152 * static_cast<double>(g) +
+           0.0722 * static_cast<double>(b);
+}
+
+}  // namespace
+
+LayerPlan::LayerPlan(std::span<const Layer> layers, CryptomatteHashes hashes)
+    : hashes_(std::move(hashes)) {
+    for (const Layer& layer : layers)
+        add_layer(layer);
+    if (has_nearest_ || mattes_ > 0) opacity_ = written_aov(Aov::opacity);
+    if (has_nearest_) distance_ = written_aov(Aov::distance);
+}
+
+size_t LayerPlan::written_aov(Aov aov) {
+    const auto found = std::find(aovs_.begin(), aovs_.end(), aov);
+    const auto index = static_cast<size_t>(found - aovs_.begin());
+    if (found == aovs_.end()) aovs_.push_back(aov);
+    return index;
+}
+
+void LayerPlan::add_layer(const Layer& layer) {
+    Source source;
+    if (const Aov* aov = aov_of(layer)) {
+        source.aov = written_aov(*aov);
+        const size_t channels = layer.channels.size();
+        if (entry_of(*aov).reduction == Reduction::mean) {
+            source.first_sum = std::exchange(sums_, sums_ + channels);
+        } else {
+            source.first_value = std::exchange(values_, values_ + channels);
+            has_nearest_ = true;
+        }
+    } else if (const auto* names = std::get_if<CryptomatteNames>(&layer.source)) {
+        const bool materials = *names == CryptomatteNames::materials;
+        const std::vector<uint32_t>& hashes = materials ? hashes_.materials
+                                              : *names == CryptomatteNames::objects
+                                                  ? hashes_.objects
+                                                  : hashes_.assets;
+        source.aov = written_aov(materials ? Aov::id_material : Aov::id_node);
+        source.hashes = hashes.data();
+        source.hash_count = hashes.size();
+        source.matte = mattes_++;
+    } else {
+        const auto statistic = std::get<SampleStatistic>(layer.source);
+        counts_rays_ |= statistic == SampleStatistic::cost;
+        has_variance_ |= statistic == SampleStatistic::variance;
+    }
+    layers_.push_back(layer);
+    sources_.push_back(source);
+}
+
+void LayerSums::begin(const LayerPlan& plan, size_t pixels) {
+    sums_.assign(pixels * plan.sums_, 0.0);
+    nearest_values_.assign(pixels * plan.values_, 0.0f);
+    nearest_m_.assign(plan.has_nearest_ ? pixels : 0, std::numeric_limits<float>::infinity());
+    luminance_.assign(plan.has_variance_ ? pixels : 0, {});
+    rays_.assign(plan.counts_rays_ ? pixels : 0, 0);
+    mattes_.assign(pixels * plan.mattes_, {});
+}
+
+void LayerSums::add(const LayerPlan& plan,
+                    size_t first_pixel,
+                    const BatchShape& batch,
+                    const Workspace& work) {
+    if (plan.sums_ > 0) add_means(plan, first_pixel, batch, work);
+    if (plan.has_nearest_) add_nearest(plan, first_pixel, batch, work);
+    if (plan.mattes_ > 0) add_mattes(plan, first_pixel, batch, work);
+    if (plan.has_variance_ || plan.counts_rays_) add_statistics(plan, first_pixel, batch, work);
+}
+
+void LayerSums::add_means(const LayerPlan& plan,
+                          size_t first_pixel,
+                          const BatchShape& batch,
+                          const Workspace& work) {
+    for (size_t k = 0; k < plan.layers_.size(); ++k) {
+        if (!is_reduced(plan.layers_[k], Reduction::mean)) continue;
+        const LayerPlan::Source& source = plan.sources_[k];
+        const AovOutput& output = work.aov_outputs[source.aov];
+        for (int c = 0; c < channel_count(output.aov); ++c) {
+            const float* value = output.columns[c];
+            const size_t first = source.first_sum + static_cast<size_t>(c);
+            for (size_t p = 0; p < batch.pixels; ++p) {
+                double& sum = sums_[(first_pixel + p) * plan.sums_ + first];
+                for (size_t i = 0; i < batch.samples; ++i)
+                    sum += static_cast<double>(*value++);
+            }
+        }
+    }
+}
+
+void LayerSums::add_nearest(const LayerPlan& plan,
+                            size_t first_pixel,
+                            const BatchShape& batch,
+                            const Workspace& work) {
+    const float* hit = work.aov_outputs[plan.opacity_].columns[0];
+    const float* distance_m = work.aov_outputs[plan.distance_].columns[0];
+    size_t slot = 0;
+    for (size_t p = first_pixel; p < first_pixel + batch.pixels; ++p) {
+        const size_t end = slot + batch.samples;
+        size_t best = end;
+        for (; slot < end; ++slot) {
+            if (hit[slot] == 0.0f || !(distance_m[slot] < nearest_m_[p])) continue;
+            nearest_m_[p] = distance_m[slot];
+            best = slot;
+        }
+        if (best == end) continue;
+        for (size_t k = 0; k < plan.layers_.size(); ++k) {
+            if (!is_reduced(plan.layers_[k], Reduction::nearest)) continue;
+            const LayerPlan::Source& source = plan.sources_[k];
+            const AovOutput& output = work.aov_outputs[source.aov];
+            float* value = &nearest_values_[p * plan.values_ + source.first_value];
+            for (int c = 0; c < channel_count(output.aov); ++c)
+                value[c] = output.columns[c][best];
+        }
+    }
+}
+
+void LayerSums::add_mattes(const LayerPlan& plan,
+                           size_t first_pixel,
+                           const BatchShape& batch,
+                           const Workspace& work) {
+    const float* hit = work.aov_outputs[plan.opacity_].columns[0];
+    for (const LayerPlan::Source& source : plan.sources_) {
+        if (source.hashes == nullptr) continue;
+        const float* id = work.aov_outputs[source.aov].columns[0];
+        size_t slot = 0;
+        for (size_t p = first_pixel; p < first_pixel + batch.pixels; ++p) {
+            CryptomattePixel& matte = mattes_[p * plan.mattes_ + source.matte];
+            for (const size_t end = slot + batch.samples; slot < end; ++slot) {
+                const auto number = static_cast<size_t>(id[slot]);
+                const bool named = hit[slot] != 0.0f && number < source.hash_count;
+                matte.add(named ? source.hashes[number] : cryptomatte_no_object);
+            }
+        }
+    }
+}
+
+void LayerSums::add_statistics(const LayerPlan& plan,
+                               size_t first_pixel,
+                               const BatchShape& batch,
+                               const Workspace& work) {
+    size_t slot = 0;
+    for (size_t p = first_pixel; p < first_pixel + batch.pixels; ++p) {
+        for (const size_t end = slot + batch.samples; slot < end; ++slot) {
+            if (plan.has_variance_) {
+                const double y =
+                    luminance(work.samples.r[slot], work.samples.g[slot], work.samples.b[slot]);
+                luminance_[p].sum += y;
+                luminance_[p].squares += y * y;
+            }
+            if (plan.counts_rays_) rays_[p] += work.rays_cast[slot];
+        }
+    }
+}
+
+void LayerSums::store(const LayerPlan& plan,
+                      std::span<const size_t> at,
+                      int samples,
+                      Film& film) const {
+    const double n = samples;
+    for (size_t k = 0; k < plan.layers_.size(); ++k) {
+        const Layer& layer = plan.layers_[k];
+        const LayerPlan::Source& source = plan.sources_[k];
+        const size_t channels = layer.channels.size();
+        float* const pixels = film.layers[k].pixels.data();
+        for (size_t p = 0; p < at.size(); ++p) {
+            float* const out = pixels + at[p] * channels;
+            if (is_reduced(layer, Reduction::mean)) {
+                for (size_t c = 0; c < channels; ++c) {
+                    const double sum = sums_[p * plan.sums_ + source.first_sum + c];
+                    out[c] = static_cast<float>(sum / n);
+                }
+            } else if (is_reduced(layer, Reduction::nearest)) {
+                const float* from = &nearest_values_[p * plan.values_ + source.first_value];
+                std::copy_n(from, channels, out);
+            } else if (source.hashes != nullptr) {
+                mattes_[p * plan.mattes_ + source.matte].write_ranks(static_cast<uint32_t>(samples),
+                                                                     {out, channels});
+            } else {
+                out[0] = statistic(std::get<SampleStatistic>(layer.source), p, n);
+            }
+        }
+    }
+}
+
+float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double samples) const {
+    switch (statistic) {
+        case SampleStatistic::sample_count:
+            return static_cast<float>(samples);
+        case SampleStatistic::cost:
+            return static_cast<float>(rays_[pixel]);
+        case SampleStatistic::variance:
+            break;
+    }
+    if (samples < 2) return 0;
+    const Luminance& y = luminance_[pixel];
+    const double mean = y.sum / samples;
+    const double spread = std::max(y.squares / samples - mean * mean, 0.0);
+    return static_cast<float>(spread / (samples - 1));
+}
+
+}  // namespace obscura

@@ -1,0 +1,106 @@
+// film/layer_sums.h - samples of layers become pixels, tile by tile.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/wavefront.h"
+
+#include "film/cryptomatte.h"
+#include "film/film.h"
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace obscura {
+
+/// Hashes of the names that ids stand for, by the number of an id AOV (index plus 1).
+struct CryptomatteHashes {
+    std::vector<uint32_t> objects;    ///< by id_node
+    std::vector<uint32_t> materials;  ///< by id_material
+    std::vector<uint32_t> assets;     ///< by id_node
+};
+
+/// The pixels of a batch, with so many samples each.
+struct BatchShape {
+    size_t pixels = 0;
+    size_t samples = 0;
+};
+
+/// What the layers of an image need from the wavefront loop; the same for all tiles.
+class LayerPlan {
+public:
+    LayerPlan() = default;
+    explicit LayerPlan(std::span<const Layer> layers, CryptomatteHashes hashes);
+
+    /// The AOVs to write for every sample, each once.
+    std::span<const Aov> aovs() const { return aovs_; }
+    bool counts_rays() const { return counts_rays_; }
+    bool empty() const { return layers_.empty(); }
+
+private:
+    friend class LayerSums;
+
+    /// Where a layer's values come from, and where its sums are.
+    struct Source {
+        size_t aov = 0;                    ///< index in aovs_, for AOVs and Cryptomatte
+        size_t first_sum = 0;              ///< of a pixel's sums, for means
+        size_t first_value = 0;            ///< of a pixel's nearest values
+        const uint32_t* hashes = nullptr;  ///< for Cryptomatte
+        size_t hash_count = 0;
+        size_t matte = 0;  ///< index of its pixels, for Cryptomatte
+    };
+
+    size_t written_aov(Aov aov);
+    void add_layer(const Layer& layer);
+
+    std::vector<Layer> layers_;
+    std::vector<Source> sources_;  ///< by layer
+    std::vector<Aov> aovs_;
+    CryptomatteHashes hashes_;
+    size_t sums_ = 0;                    ///< a pixel's sums of AOVs, in double
+    size_t values_ = 0;                  ///< a pixel's nearest values
+    size_t mattes_ = 0;                  ///< Cryptomatte layers
+    size_t opacity_ = 0, distance_ = 0;  ///< in aovs_
+    bool has_nearest_ = false;
+    bool counts_rays_ = false;
+    bool has_variance_ = false;
+};
+
+/// The sums of one tile's pixels; reused from tile to tile. Samples are added in the order of their
+/// numbers, in double, so that the result does not depend on how they are cut into batches.
+class LayerSums {
+public:
+    /// Begins a tile of `pixels` pixels.
+    void begin(const LayerPlan& plan, size_t pixels);
+
+    /// Adds a batch: sample i of pixel p of the batch is at p * samples + i.
+    void add(const LayerPlan& plan, size_t first_pixel, const BatchShape& batch, const Workspace&);
+
+    /// Writes the tile's pixels to the film's layers.
+    ///
+    /// In      at: index in the film of each pixel of the tile
+    void store(const LayerPlan& plan, std::span<const size_t> at, int samples, Film& film) const;
+
+private:
+    struct Luminance {
+        double sum = 0, squares = 0;
+    };
+
+    float statistic(SampleStatistic statistic, size_t pixel, double samples) const;
+    void add_means(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
+    void add_nearest(const LayerPlan& plan,
+                     size_t first_pixel,
+                     const BatchShape&,
+                     const Workspace&);
+    void add_mattes(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
+    void add_statistics(const LayerPlan&, size_t first_pixel, const BatchShape&, const Workspace&);
+
+    std::vector<double> sums_;
+    std::vector<float> nearest_values_;
+    std::vector<float> nearest_m_;  ///< distance of the nearest hit so far; infinite: none
+    std::vector<Luminance> luminance_;
+    std::vector<uint64_t> rays_;
+    std::vector<CryptomattePixel> mattes_;
+};
+
+}  // namespace obscura
