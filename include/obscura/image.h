@@ -25,7 +25,7 @@ struct Image {
     std::vector<std::string> channels;  ///< "R" "G" "B" "A", or what the integrator computes
     /// part.width x part.height pixels, row after row from the top, channels interleaved.
     std::vector<float> pixels;
-    /// What the EXR's header says besides: "camera", "cameraParameters", "isa", ...
+    /// What the EXR's header says besides: "obscura:camera", "obscura:cameraParameters", ...
     std::vector<std::pair<std::string, std::string>> attributes;
     ImageStatistics statistics;
 

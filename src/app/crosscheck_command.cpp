@@ -70,9 +70,9 @@ Result<void> deliver(const CrosscheckRequest& request,
         const auto written = write_image_file(*request.image,
                                               crosscheck::screen_image(scenes.front().screen),
                                               metadata,
-                                              ExrDepth::float32,
+                                              {.depth = ExrDepth::float32},
                                               nullptr);
-        if (!written) return written;
+        if (!written) return fail(written.error());
     }
     return crosscheck::check_budget(scenes);
 }

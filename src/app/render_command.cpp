@@ -28,7 +28,7 @@ namespace {
 /// Runs one command, from the request to the statistics.
 struct Job {
     Log& log;               ///< the command's; frames may have their own
-    RenderRequest request;  ///< its outputs and camera.framed change from frame to frame
+    RenderRequest request;  ///< its outputs, frame and camera.framed change from frame to frame
     std::optional<DisplayTransform> display = {};
     std::optional<AssetRenderer> renderer = {};
     LightingOptions lighting = {};
@@ -71,7 +71,8 @@ Result<void> render_and_write(
     Result<FinishedImage> finished = job.renderer->render(request, camera, hooks, job.log);
     if (!finished) return fail(finished.error());
     const Stopwatch writing;
-    const Result<void> written = write_outputs(request, *finished, job.display, job.stop->flag());
+    const Result<void> written =
+        write_outputs(request, *finished, job.display, job.stop->flag(), log);
     job.renderer->statistics().write_s += writing.seconds();
     job.renderer->recycle(std::move(finished->image));
     return written;
@@ -126,6 +127,7 @@ Result<void> render_all(Job& job, Progress& progress) {
         const Turn turn{i, frames.size()};
         Log& log = i == 0 ? job.log : later.begin();
         job.request.outputs = frames[i].outputs;
+        job.request.frame = frames[i].number;
         if (auto posed = pose(job, frames[i], turn, log); !posed) return posed;
         const Result<ChosenCamera> camera = job.renderer->prepare(job.request, job.lighting, log);
         if (!camera) return fail(camera.error());

@@ -1,4 +1,4 @@
-// camera/matrices.cpp - the world-to-camera and world-to-NDC matrices for image metadata.
+// camera/matrices.cpp - the camera as an image's header describes it: matrices and screen window.
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/matrices.h"
 
@@ -11,11 +11,14 @@ struct Matrix4 {
     double m[4][4] = {};
 };
 
-Matrix4 from_affine(const Affined& a) {
+/// OpenEXR's camera space from the world: ours, which looks down -Z, with the third axis reversed.
+Matrix4 camera_from_world(const Camera& camera) {
+    const Affined ours = inverse(affine_cast<double>(camera.world_from_camera));
     Matrix4 out;
-    for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 4; ++c)
-            out.m[r][c] = a.m[r][c];
+    for (int c = 0; c < 4; ++c) {
+        out.m[0][c] = ours.m[0][c];
+        out.m[1][c] = ours.m[1][c];
+        out.m[2][c] = -ours.m[2][c];
     }
     out.m[3][3] = 1;
     return out;
@@ -32,49 +35,68 @@ Matrix4 multiply(const Matrix4& a, const Matrix4& b) {
     return out;
 }
 
-/// The projection of glTF 2.0, section 3.10.3: camera space to clip space, z to [-w, w].
-Matrix4 ndc_from_camera(const Camera& camera, double znear_m, double zfar_m) {
+/// A size does not depend on the distance: w stays 1.
+Matrix4 parallel_ndc(const OrthographicCamera& camera, double znear_m, double zfar_m) {
     Matrix4 out;
-    const double depth = znear_m - zfar_m;
-    if (camera.model == CameraModel::orthographic) {
-        out.m[0][0] = 1.0 / static_cast<double>(camera.orthographic.half_width_m);
-        out.m[1][1] = 1.0 / static_cast<double>(camera.orthographic.half_height_m);
-        out.m[2][2] = 2.0 / depth;
-        out.m[2][3] = (zfar_m + znear_m) / depth;
-        out.m[3][3] = 1;
-        return out;
-    }
-    const double half_height = static_cast<double>(camera.pinhole.tan_half_yfov);
-    out.m[0][0] = 1.0 / (half_height * static_cast<double>(camera.pinhole.aspect));
-    out.m[0][2] = out.m[0][0] * static_cast<double>(camera.pinhole.shift_x);
-    out.m[1][1] = 1.0 / half_height;
-    out.m[1][2] = out.m[1][1] * static_cast<double>(camera.pinhole.shift_y);
-    out.m[2][2] = (zfar_m + znear_m) / depth;
-    out.m[2][3] = 2.0 * zfar_m * znear_m / depth;
-    out.m[3][2] = -1;
+    out.m[0][0] = 0.5 / static_cast<double>(camera.half_width_m);
+    out.m[0][3] = 0.5;
+    out.m[1][1] = -0.5 / static_cast<double>(camera.half_height_m);
+    out.m[1][3] = 0.5;
+    out.m[2][2] = 1 / (zfar_m - znear_m);
+    out.m[2][3] = -znear_m / (zfar_m - znear_m);
+    out.m[3][3] = 1;
     return out;
 }
 
-void store_for_row_vectors(const Matrix4& matrix, float* out) {
-    for (int r = 0; r < 4; ++r) {
-        for (int c = 0; c < 4; ++c)
+/// w is the depth z, by which all else is divided.
+Matrix4 perspective_ndc(const PinholeCamera& camera, double znear_m, double zfar_m) {
+    const double half_height = static_cast<double>(camera.tan_half_yfov);
+    const double half_width = half_height * static_cast<double>(camera.aspect);
+    Matrix4 out;
+    out.m[0][0] = 0.5 / half_width;
+    out.m[0][2] = 0.5 - 0.5 * static_cast<double>(camera.shift_x) / half_width;
+    out.m[1][1] = -0.5 / half_height;
+    out.m[1][2] = 0.5 + 0.5 * static_cast<double>(camera.shift_y) / half_height;
+    out.m[2][2] = zfar_m / (zfar_m - znear_m);
+    out.m[2][3] = -zfar_m * znear_m / (zfar_m - znear_m);
+    out.m[3][2] = 1;
+    return out;
+}
+
+RowMatrix4 for_row_vectors(const Matrix4& matrix) {
+    RowMatrix4 out = {};
+    for (size_t r = 0; r < 4; ++r) {
+        for (size_t c = 0; c < 4; ++c)
             out[4 * r + c] = static_cast<float>(matrix.m[c][r]);
     }
+    return out;
+}
+
+ScreenWindow window_of(const PinholeCamera& camera) {
+    return {2 * camera.tan_half_yfov * camera.aspect, -camera.shift_x, camera.shift_y};
 }
 
 }  // namespace
 
 CameraMatrices camera_matrices(const Camera& camera, double znear_m, double zfar_m) {
-    const Matrix4 camera_from_world =
-        from_affine(inverse(affine_cast<double>(camera.world_from_camera)));
-    CameraMatrices out = {};
-    store_for_row_vectors(camera_from_world, out.world_to_camera);
-    const bool flat = camera.model != CameraModel::fisheye &&
-                      camera.model != CameraModel::environment && !is_distorted(camera);
-    out.has_ndc = flat;
-    if (!flat) return out;
-    store_for_row_vectors(multiply(ndc_from_camera(camera, znear_m, zfar_m), camera_from_world),
-                          out.world_to_ndc);
+    const Matrix4 view = camera_from_world(camera);
+    CameraMatrices out = {for_row_vectors(view), {}, {}};
+    if (is_distorted(camera)) return out;
+    switch (camera.model) {
+        case CameraModel::pinhole:
+        case CameraModel::thin_lens:
+            out.world_to_ndc =
+                for_row_vectors(multiply(perspective_ndc(camera.pinhole, znear_m, zfar_m), view));
+            out.screen_window = window_of(camera.pinhole);
+            break;
+        case CameraModel::orthographic:
+            out.world_to_ndc =
+                for_row_vectors(multiply(parallel_ndc(camera.orthographic, znear_m, zfar_m), view));
+            break;
+        case CameraModel::fisheye:
+        case CameraModel::environment:
+            break;
+    }
     return out;
 }
 

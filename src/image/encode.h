@@ -11,12 +11,25 @@
 
 namespace obscura {
 
-/// Encodes an image as an OpenEXR file. The same image gives the same bytes on any number of
-/// threads. OpenEXR's exceptions pass through.
-std::vector<std::byte> encode_exr(const OutputImage& image,
-                                  const ImageMetadata& metadata,
-                                  ExrDepth depth,
-                                  const std::string& name);
+/// A file in memory, and what it could not keep.
+struct EncodedFile {
+    std::vector<std::byte> bytes;
+    WriteReport report = {};
+};
+
+/// Encodes an image as an OpenEXR file: with its layers, unless they have files of their own. The
+/// same image gives the same bytes on any number of threads. OpenEXR's exceptions pass through.
+EncodedFile encode_exr(const OutputImage& image,
+                       const ImageMetadata& metadata,
+                       const ExrOptions& options,
+                       const std::string& name);
+
+/// Encodes one of the image's layers as a file of its own. As encode_exr.
+EncodedFile encode_exr_layer(const OutputImage& image,
+                             const ImageLayer& layer,
+                             const ImageMetadata& metadata,
+                             const ExrOptions& options,
+                             const std::string& name);
 
 enum class DisplayFormat { png, jpeg };
 

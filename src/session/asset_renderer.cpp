@@ -117,9 +117,10 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     statistics_.film_bytes = result->film.pixels.size() * sizeof(float);
 
     FinishedImage finished;
-    finished.metadata = make_metadata(request, *prepared_, camera, result->render_seconds, log);
+    finished.metadata = make_metadata(request, *prepared_, camera, log);
+    finished.render_seconds = result->render_seconds;
     if (request.load.lenient) {
-        finished.metadata.extra.emplace_back("degraded", degraded_text(degraded_));
+        finished.metadata.extra.push_back({"obscura:degraded", degraded_text(degraded_)});
     }
     Film& film = result->film;
     finished.counters = result->counters;

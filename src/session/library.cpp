@@ -1,6 +1,7 @@
 // session/library.cpp - the library's Session: opens assets, renders images, writes files.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
+#include "base/text.h"
 #include "render/film_rows.h"
 #include "render/integrators.h"
 
@@ -10,6 +11,7 @@
 #include "session/lighting.h"
 #include "session/outputs.h"
 #include "session/requested_camera.h"
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <obscura/obscura.h>
@@ -171,6 +173,32 @@ struct Image::Source {
 
 namespace {
 
+std::string text_of(const AttributeValue& value) {
+    return std::visit(
+        [](const auto& from) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(from)>, std::string>) {
+                return from;
+            } else {
+                return shortest(static_cast<double>(from));
+            }
+        },
+        value);
+}
+
+/// Attributes that the caller left as they were keep their types; the others are texts.
+std::vector<ImageAttribute> typed_attributes(
+    const std::vector<std::pair<std::string, std::string>>& texts,
+    const std::vector<ImageAttribute>& made) {
+    std::vector<ImageAttribute> out;
+    for (const auto& [name, text] : texts) {
+        const auto same = std::find_if(made.begin(), made.end(), [&](const ImageAttribute& own) {
+            return own.name == name && text_of(own.value) == text;
+        });
+        out.push_back(same != made.end() ? *same : ImageAttribute{name, text});
+    }
+    return out;
+}
+
 Image image_of(const FinishedImage& finished,
                const RenderRequest& request,
                const ChosenCamera& camera) {
@@ -182,7 +210,10 @@ Image image_of(const FinishedImage& finished,
     out.part = {part.x, part.y, image.width, image.height};
     out.channels = image.channels;
     out.pixels.assign(image.pixels.begin(), image.pixels.end());
-    out.attributes = finished.metadata.extra;
+    for (const ImageAttribute& attribute : finished.metadata.extra) {
+        std::string text = text_of(attribute.value);
+        if (!text.empty()) out.attributes.emplace_back(attribute.name, std::move(text));
+    }
     out.source = std::make_shared<const Image::Source>(
         Image::Source{finished.metadata, request.options.integrator, camera.ev100});
     return out;
@@ -216,7 +247,7 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     Image image = image_of(*finished, request, *camera);
     asset.renderer->recycle(std::move(finished->image));
     ImageStatistics& statistics = image.statistics;
-    statistics.render_seconds = finished->metadata.render_seconds;
+    statistics.render_seconds = finished->render_seconds;
     statistics.paths = finished->counters.paths;
     statistics.rays = total_rays(finished->counters);
     statistics.nonfinite_samples = finished->counters.nonfinite_samples;
@@ -242,7 +273,7 @@ obscura::Result<void> write_image(const Image& image,
     if (auto done = expose_display(camera, request, *display, log); !done) return done;
     FinishedImage finished;
     finished.metadata = image.source->metadata;
-    finished.metadata.extra = image.attributes;
+    finished.metadata.extra = typed_attributes(image.attributes, finished.metadata.extra);
     OutputImage& output = finished.image;
     output.width = image.part.width;
     output.height = image.part.height;
@@ -252,7 +283,7 @@ obscura::Result<void> write_image(const Image& image,
         output.part_of = ImagePart{image.width, image.height, image.part.x, image.part.y};
     }
     const std::atomic<bool> never = false;
-    return write_outputs(request, finished, *display, never);
+    return write_outputs(request, finished, *display, never, log);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "session/outputs.h"
 
 #include "base/atomic_file.h"
-#include "base/text.h"
+#include "base/setting_names.h"
 #include "camera/exposure.h"
 #include "camera/matrices.h"
 #include "camera/names.h"
@@ -27,6 +27,85 @@ bool is_exr(const std::filesystem::path& file) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
     }
     return extension == ".exr";
+}
+
+/// True when the whole image is one sphere, as OpenEXR's envmap attribute says: twice as wide as
+/// high, for one eye.
+bool is_latlong(const RenderOptions& options, const Camera& camera) {
+    return camera.model == CameraModel::environment &&
+           camera.environment.projection == EnvironmentProjection::latlong &&
+           camera.environment.half_eyes_m == 0 && !options.crop &&
+           options.width == 2 * options.height;
+}
+
+/// The time of a frame in hours, minutes, seconds and frames of 24, 25 or 30 (also over 1.001) a
+/// second; none: a time code does not count other rates, or more than a day.
+std::optional<TimeCode> time_code(int frame, double fps) {
+    const int whole = static_cast<int>(std::lround(std::min(fps, 1e6)));
+    const bool is_counted = whole == 24 || whole == 25 || whole == 30;
+    const bool is_exact = std::abs(fps - whole) < 1e-6 || std::abs(fps * 1.001 - whole) < 1e-3;
+    if (frame < 0 || !is_counted || !is_exact) return {};
+    const int seconds = frame / whole;
+    if (seconds >= 24 * 3600) return {};
+    return TimeCode{seconds / 3600, seconds / 60 % 60, seconds % 60, frame % whole};
+}
+
+/// What the lens and the shutter were set to, where that had a meaning for the image.
+void add_photographic(const RenderRequest& request,
+                      const ChosenCamera& chosen,
+                      StandardAttributes& out) {
+    const CameraSettings& settings = chosen.settings;
+    const bool is_lens = chosen.camera.model == CameraModel::thin_lens;
+    const auto narrow = [](double value) { return static_cast<float>(value); };
+    if (settings.fstop && (is_lens || settings.shutter_s)) out.fstop = narrow(*settings.fstop);
+    if (is_lens) out.focus_m = 1 / chosen.camera.thin_lens.inverse_focus;
+    if (settings.shutter_s) {
+        out.exposure_s = narrow(*settings.shutter_s);
+        out.iso = narrow(settings.iso.value_or(100));
+    } else if (request.shutter) {
+        out.exposure_s = narrow((request.shutter->close - request.shutter->open) / request.fps);
+    }
+}
+
+StandardAttributes standard_attributes(const RenderRequest& request, const ChosenCamera& chosen) {
+    const RenderOptions& options = request.options;
+    StandardAttributes out;
+    const CameraMatrices matrices = camera_matrices(chosen.camera, chosen.znear_m, chosen.zfar_m);
+    out.world_to_camera = matrices.world_to_camera;
+    out.world_to_ndc = matrices.world_to_ndc;
+    if (matrices.screen_window) {
+        out.screen_window_width = matrices.screen_window->width;
+        out.screen_window_center = {matrices.screen_window->center_x,
+                                    matrices.screen_window->center_y};
+    }
+    add_photographic(request, chosen, out);
+    const Integrator integrator = options.integrator;
+    const bool is_in_nits = integrator == Integrator::path || integrator == Integrator::direct ||
+                            integrator == Integrator::raycast;
+    if (is_in_nits) out.white_luminance = 1.0f;
+    out.is_latlong = is_latlong(options, chosen.camera);
+    if (request.frames) {
+        out.frame_rate_hz = request.frames->fps;
+        if (request.frame) out.time_code = time_code(*request.frame, request.frames->fps);
+    }
+    return out;
+}
+
+/// Warns of what a file could not keep.
+void warn_of(const WriteReport& report, const std::filesystem::path& file, Log& log) {
+    if (report.clamped_values > 0) {
+        log.warn(
+            file.string(),
+            fmt::format("{} values beyond 65504, the largest of 16 bits, are clamped; {} keeps "
+                        "them",
+                        report.clamped_values,
+                        setting("float")));
+    }
+    if (report.lossless_instead) {
+        log.warn(file.string(),
+                 "its colours are compressed by ZIP: the codec would round the data beside them; "
+                 "give layers parts or files of their own");
+    }
 }
 
 }  // namespace
@@ -66,7 +145,6 @@ Result<void> expose_display(const ChosenCamera& chosen,
 ImageMetadata make_metadata(const RenderRequest& request,
                             const PreparedScene& prepared,
                             const ChosenCamera& chosen,
-                            double render_seconds,
                             const Log& log) {
     const RenderOptions& options = request.options;
     const AssetInfo& info = prepared.scene().info;
@@ -76,26 +154,22 @@ ImageMetadata make_metadata(const RenderRequest& request,
     metadata.copyright = info.copyright;
     metadata.samples_per_pixel = samples_taken(options);
     metadata.seed = options.seed;
-    metadata.render_seconds = render_seconds;
     metadata.is_color =
         !needs_preview(options.integrator) || options.integrator == Integrator::albedo;
-    const CameraMatrices matrices = camera_matrices(chosen.camera, chosen.znear_m, chosen.zfar_m);
-    std::copy_n(matrices.world_to_camera, 16, metadata.world_to_camera);
-    metadata.has_ndc = matrices.has_ndc;
-    std::copy_n(matrices.world_to_ndc, 16, metadata.world_to_ndc);
-    metadata.extra = {{"integrator", entry_of(options.integrator).name},
-                      {"camera", chosen.description},
-                      {"cameraModel", name_of(camera_model_names, chosen.camera.model)},
-                      {"cameraParameters", camera_parameters(chosen.camera)},
-                      {"isa", prepared.isa_name()},
-                      {"embree", prepared.embree_version()},
-                      {"warnings", std::to_string(log.warnings().size())}};
-    if (!info.xmp.empty()) metadata.extra.emplace_back("xmp", info.xmp);
-    if (info.time_s) metadata.extra.emplace_back("timeSeconds", shortest(*info.time_s));
-    if (!info.variant.empty()) metadata.extra.emplace_back("variant", info.variant);
+    metadata.standard = standard_attributes(request, chosen);
+    metadata.extra = {{"obscura:integrator", entry_of(options.integrator).name},
+                      {"obscura:camera", chosen.description},
+                      {"obscura:projection", name_of(camera_model_names, chosen.camera.model)},
+                      {"obscura:cameraParameters", camera_parameters(chosen.camera)},
+                      {"obscura:isa", prepared.isa_name()},
+                      {"obscura:embree", prepared.embree_version()},
+                      {"obscura:warnings", static_cast<int>(log.warnings().size())},
+                      {"obscura:xmp", info.xmp},
+                      {"obscura:variant", info.variant}};
+    if (info.time_s) metadata.extra.push_back({"obscura:timeSeconds", *info.time_s});
     if (chosen.ev100) {
-        metadata.extra.emplace_back("ev100", shortest(*chosen.ev100));
-        metadata.extra.emplace_back("exposureScale", shortest(exposure_scale(*chosen.ev100)));
+        metadata.extra.push_back({"obscura:ev100", *chosen.ev100});
+        metadata.extra.push_back({"obscura:exposureScale", exposure_scale(*chosen.ev100)});
     }
     return metadata;
 }
@@ -110,22 +184,24 @@ std::string degraded_text(const gltf::Degraded& degraded) {
 Result<void> write_outputs(const RenderRequest& request,
                            const FinishedImage& finished,
                            const std::optional<DisplayTransform>& display,
-                           const std::atomic<bool>& stop) {
+                           const std::atomic<bool>& stop,
+                           Log& log) {
     const Integrator integrator = request.options.integrator;
-    const ExrDepth depth = is_aov(integrator) ? ExrDepth::float32 : request.exr_depth;
+    const ExrOptions exr{.depth = is_aov(integrator) ? ExrDepth::float32 : request.exr_depth};
     for (const std::filesystem::path& output : request.outputs) {
         if (stop) return fail(ExitCode::stopped_early, "E-STOPPED", output.string(), "stopped");
-        Result<void> written;
+        Result<WriteReport> written;
         if (needs_preview(integrator) && !is_exr(output)) {
             ImageMetadata metadata = finished.metadata;
             metadata.is_color = false;
             const OutputImage preview = preview_image(whole_image(finished.image), integrator);
-            written = write_image_file(output, preview, metadata, depth, nullptr);
+            written = write_image_file(output, preview, metadata, exr, nullptr);
         } else {
             written = write_image_file(
-                output, finished.image, finished.metadata, depth, display ? &*display : nullptr);
+                output, finished.image, finished.metadata, exr, display ? &*display : nullptr);
         }
-        if (!written) return written;
+        if (!written) return fail(written.error());
+        warn_of(*written, output, log);
     }
     return {};
 }

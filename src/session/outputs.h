@@ -33,10 +33,9 @@ Result<void> expose_display(const ChosenCamera& chosen,
 ImageMetadata make_metadata(const RenderRequest& request,
                             const PreparedScene& prepared,
                             const ChosenCamera& chosen,
-                            double render_seconds,
                             const Log& log);
 
-/// The EXR attribute `degraded`: "textures=2 primitives=0 triangles=17".
+/// The EXR attribute `obscura:degraded`: "textures=2 primitives=0 triangles=17".
 std::string degraded_text(const gltf::Degraded& degraded);
 
 /// The image and metadata that write_outputs puts into every file.
@@ -44,14 +43,17 @@ struct FinishedImage {
     OutputImage image;
     ImageMetadata metadata;
     RenderCounters counters;
+    double render_seconds = 0;
 };
 
-/// Writes every output, each whole or not at all; stops between two when a signal came.
+/// Writes every output, each whole or not at all; stops between two when a signal came. Warns of
+/// what a file could not keep.
 ///
 /// Errors  73, 74 of write_image_file; 75 E-STOPPED
 Result<void> write_outputs(const RenderRequest& request,
                            const FinishedImage& finished,
                            const std::optional<DisplayTransform>& display,
-                           const std::atomic<bool>& stop);
+                           const std::atomic<bool>& stop,
+                           Log& log);
 
 }  // namespace obscura

@@ -22,6 +22,7 @@ struct RenderRequest {
     std::vector<std::filesystem::path> outputs;  ///< at least one where images are written
     gltf::LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
     std::optional<FrameRange> frames;         ///< then the outputs are patterns; see frame_file
+    std::optional<int> frame;                 ///< of them, the one that is rendered
     std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
     double fps = 24;
     CameraRequest camera;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera/camera.h"
 
+#include "camera/camera_models.h"
 #include "camera/matrices.h"
 #include "camera/project.h"
 
@@ -9,6 +10,9 @@
 
 #include "support/random.h"
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace obscura {
 namespace {
@@ -48,20 +52,15 @@ Camera make_camera(CameraModel model) {
     return camera;
 }
 
-struct Projected {
-    double x_px, y_px, z_ndc;
-};
-
-/// Projects with the row-vector matrix that images carry: p' = p * M.
-Projected project(const CameraMatrices& matrices, const Vec3d& p) {
+/// A world position in the space of a matrix for row vectors: p' = p * M, divided by w.
+Vec3d times(const Vec3d& p, const RowMatrix4& matrix) {
     const double in[4] = {p.x, p.y, p.z, 1};
     double out[4] = {};
-    for (int c = 0; c < 4; ++c) {
-        for (int r = 0; r < 4; ++r) {
-            out[c] += in[r] * static_cast<double>(matrices.world_to_ndc[4 * r + c]);
-        }
+    for (size_t c = 0; c < 4; ++c) {
+        for (size_t r = 0; r < 4; ++r)
+            out[c] += in[r] * static_cast<double>(matrix[4 * r + c]);
     }
-    return {(out[0] / out[3] + 1) / 2 * width, (1 - out[1] / out[3]) / 2 * height, out[2] / out[3]};
+    return {out[0] / out[3], out[1] / out[3], out[2] / out[3]};
 }
 
 class BothModels : public testing::TestWithParam<CameraModel> {};
@@ -77,11 +76,12 @@ TEST_P(BothModels, APointOnARayProjectsToTheRaysPixel) {
         const Vec2<double> film{random.next_float(), random.next_float()};
         const double distance = 1 + 20 * static_cast<double>(random.next_float());
         const CameraRay<double> ray = generate_ray(camera, film);
-        const Projected got = project(matrices, ray.origin + distance * ray.direction);
-        EXPECT_NEAR(got.x_px, film.x * width, 2e-3);
-        EXPECT_NEAR(got.y_px, film.y * height, 2e-3);
-        EXPECT_GT(got.z_ndc, -1);
-        EXPECT_LT(got.z_ndc, 1);
+        const Vec3d ndc =
+            times(ray.origin + distance * ray.direction, matrices.world_to_ndc.value());
+        EXPECT_NEAR(ndc.x * width, film.x * width, 2e-3);
+        EXPECT_NEAR(ndc.y * height, film.y * height, 2e-3);
+        EXPECT_GT(ndc.z, 0);
+        EXPECT_LT(ndc.z, 1);
     }
 }
 
@@ -142,38 +142,87 @@ TEST(Matrices, AKnownPointLandsOnItsPixel) {
     camera.pinhole.tan_half_yfov = 0.5f;
     camera.pinhole.aspect = 2;
     const CameraMatrices matrices = camera_matrices(camera, 1, 9);
-    // In camera space (0.5, 0.25, -4): x' = 0.5 / (0.5 * 2 * 4) = 1/8, y' = 0.25 / (0.5 * 4) = 1/8.
-    const Projected got = project(matrices, {1.5, 2.25, -1});
-    EXPECT_NEAR(got.x_px, (1 + 1.0 / 8) / 2 * width, 1e-4);
-    EXPECT_NEAR(got.y_px, (1 - 1.0 / 8) / 2 * height, 1e-4);
-    // z' = ((f + n) / (n - f) * z + 2 f n / (n - f)) / -z, with n = 1, f = 9, z = -4.
-    EXPECT_NEAR(got.z_ndc, (-1.25 * -4 - 2.25) / 4, 1e-6);
+    // 4 m ahead the film is 8 m wide and 4 m high, from the corner at (-4, 2) of the camera. The
+    // point is 0.5 m right of its middle and 0.25 m above: 4.5 / 8 to the right, 1.75 / 4 down.
+    const Vec3d ndc = times({1.5, 2.25, -1}, matrices.world_to_ndc.value());
+    EXPECT_NEAR(ndc.x, 0.5625, 1e-6);
+    EXPECT_NEAR(ndc.y, 0.4375, 1e-6);
+    // 1 / depth falls evenly from 1 at the near plane to 1/9 at the far one: (1 - 1/4) / (1 - 1/9).
+    EXPECT_NEAR(ndc.z, 0.84375, 1e-6);
+}
+
+TEST(Matrices, NdcIsWhereTheRendererProjects) {
+    std::vector<std::string> with_ndc;
+    for (const auto& [name, camera] : test::all_cameras()) {
+        SCOPED_TRACE(name);
+        const CameraMatrices matrices = camera_matrices(camera, 0.1, 100);
+        if (!matrices.world_to_ndc) continue;
+        with_ndc.push_back(name);
+        Pcg32 random(3);
+        for (int i = 0; i < 500; ++i) {
+            const auto at = [&] { return 2 * static_cast<double>(random.next_float()) - 1; };
+            const Vec3d ahead{8 * at(), 6 * at(), -10 + 8 * at()};
+            const Vec3d world =
+                transform_point(affine_cast<double>(camera.world_from_camera), ahead);
+            const auto film = project(camera, world);
+            ASSERT_TRUE(film);
+            const Vec3d ndc = times(world, *matrices.world_to_ndc);
+            EXPECT_NEAR(ndc.x, film->x, 2e-5);
+            EXPECT_NEAR(ndc.y, film->y, 2e-5);
+        }
+    }
+    EXPECT_EQ(with_ndc,
+              (std::vector<std::string>{"pinhole", "shifted", "thin lens", "orthographic"}));
 }
 
 TEST(Matrices, OrthographicDepthIsLinear) {
     Camera camera = make_camera(CameraModel::orthographic);
     camera.world_from_camera = {};
-    const CameraMatrices matrices = camera_matrices(camera, 2, 6);
-    EXPECT_NEAR(project(matrices, {0, 0, -2}).z_ndc, -1, 1e-6);
-    EXPECT_NEAR(project(matrices, {0, 0, -4}).z_ndc, 0, 1e-6);
-    EXPECT_NEAR(project(matrices, {0, 0, -6}).z_ndc, 1, 1e-6);
-    EXPECT_NEAR(project(matrices, {2.5 * aspect, 0, -3}).x_px, width, 1e-4);
-    EXPECT_NEAR(project(matrices, {0, 2.5, -3}).y_px, 0, 1e-4);
+    const RowMatrix4 ndc = camera_matrices(camera, 2, 6).world_to_ndc.value();
+    EXPECT_NEAR(times({0, 0, -2}, ndc).z, 0, 1e-6);
+    EXPECT_NEAR(times({0, 0, -4}, ndc).z, 0.5, 1e-6);
+    EXPECT_NEAR(times({0, 0, -6}, ndc).z, 1, 1e-6);
+    EXPECT_NEAR(times({2.5 * aspect, 0, -3}, ndc).x, 1, 1e-6);
+    EXPECT_NEAR(times({-2.5 * aspect, 0, -3}, ndc).x, 0, 1e-6);
+    EXPECT_NEAR(times({0, 2.5, -3}, ndc).y, 0, 1e-6);
+    EXPECT_NEAR(times({0, -2.5, -3}, ndc).y, 1, 1e-6);
 }
 
-TEST(Matrices, WorldToCameraUndoesTheCamerasPlace) {
-    const Camera camera = make_camera(CameraModel::pinhole);
-    const CameraMatrices matrices = camera_matrices(camera, 0.1, 100);
-    const Vec3f in_camera{0.5f, -1, -7};
-    const Vec3f world = transform_point(camera.world_from_camera, in_camera);
-    const float p[4] = {world.x, world.y, world.z, 1};
-    const float expected[4] = {in_camera.x, in_camera.y, in_camera.z, 1};
-    for (int c = 0; c < 4; ++c) {
-        float sum = 0;
-        for (int r = 0; r < 4; ++r)
-            sum += p[r] * matrices.world_to_camera[4 * r + c];
-        EXPECT_NEAR(sum, expected[c], 3e-6f);
+/// OpenEXR's camera space: +x right, +y up, +z ahead.
+TEST(Matrices, WhatIsAheadHasPositiveDepth) {
+    // At (1, 2, 3), looking along +X: the right hand is at +Z.
+    Camera camera = make_camera(CameraModel::pinhole);
+    camera.world_from_camera =
+        affine_cast<float>(Affined{{{0, 0, -1, 1}, {0, 1, 0, 2}, {1, 0, 0, 3}}});
+    const RowMatrix4 to_camera = camera_matrices(camera, 0.1, 100).world_to_camera;
+    const std::pair<Vec3d, Vec3d> known[] = {{{6, 2, 3}, {0, 0, 5}},
+                                             {{6, 2, 4}, {1, 0, 5}},
+                                             {{6, 3, 3}, {0, 1, 5}},
+                                             {{0, 2, 3}, {0, 0, -1}}};
+    for (const auto& [world, expected] : known)
+        EXPECT_LT(length(times(world, to_camera) - expected), 1e-6) << world.x << " " << world.y;
+}
+
+/// The window on the plane one unit ahead is what the rays of the image's edges bound.
+TEST(Matrices, TheScreenWindowIsWhatTheRaysBound) {
+    std::vector<std::string> with_window;
+    for (auto [name, camera] : test::all_cameras()) {
+        SCOPED_TRACE(name);
+        const auto window = camera_matrices(camera, 0.1, 100).screen_window;
+        if (!window) continue;
+        with_window.push_back(name);
+        camera.world_from_camera = {};
+        const auto on_plane = [&, &lens = camera](double x, double y) {
+            const Vec3d ray = generate_ray(lens, Vec2<double>{x, y}).direction;
+            return Vec2<double>{ray.x / -ray.z, ray.y / -ray.z};
+        };
+        const Vec2<double> low = on_plane(0, 1);
+        const Vec2<double> high = on_plane(1, 0);
+        EXPECT_NEAR(window->width, high.x - low.x, 1e-6);
+        EXPECT_NEAR(window->center_x, -(low.x + high.x) / 2, 1e-6) << "+x is to the left";
+        EXPECT_NEAR(window->center_y, (low.y + high.y) / 2, 1e-6);
     }
+    EXPECT_EQ(with_window, (std::vector<std::string>{"pinhole", "shifted", "thin lens"}));
 }
 
 }  // namespace

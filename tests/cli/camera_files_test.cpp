@@ -53,8 +53,8 @@ TEST_F(CameraFiles, TheExtensionIsTheOptions) {
         const ReadImage by_file = shot("own.gltf", {});
         const ReadImage by_options = shot("box.gltf", options);
         EXPECT_EQ(by_file.pixels, by_options.pixels);
-        EXPECT_EQ(by_file.spec.get_string_attribute("cameraParameters"),
-                  by_options.spec.get_string_attribute("cameraParameters"));
+        EXPECT_EQ(by_file.spec.get_string_attribute("obscura:cameraParameters"),
+                  by_options.spec.get_string_attribute("obscura:cameraParameters"));
     };
     same(R"({"lens": {"radius": 0.2, "focusDistance": 5, "blades": 5, "anamorphic": 2}})",
          {"--lens-radius", "0.2", "--focus-distance", "5", "--blades", "5", "--anamorphic", "2"});
@@ -73,7 +73,7 @@ TEST_F(CameraFiles, TheExtensionIsTheOptions) {
 TEST_F(CameraFiles, OptionsOverrideTheExtensionOneByOne) {
     write_box_with(R"({"lens": {"radius": 0.2, "focusDistance": 5}})");
     const ReadImage image = shot("own.gltf", {"--focus-distance", "7"});
-    const std::string parameters(image.spec.get_string_attribute("cameraParameters"));
+    const std::string parameters(image.spec.get_string_attribute("obscura:cameraParameters"));
     EXPECT_THAT(parameters, HasSubstr("lens_radius_m=0.2"));
     EXPECT_THAT(parameters, HasSubstr("focus_distance_m=7"));
     EXPECT_EQ(shot("own.gltf", {"--camera-model", "pinhole"}).pixels, shot("box.gltf", {}).pixels);
@@ -187,7 +187,7 @@ TEST_F(CameraFiles, PoseAndPixelsMayBeWrittenInOtherWays) {
     fisheye["model"] = "fisheye";
     fisheye["distortion"] = {0.01, 0.001, 0, 0};
     folder_.write("c.json", fisheye.dump());
-    EXPECT_EQ(shot("box.gltf", options).spec.get_string_attribute("cameraModel"), "fisheye");
+    EXPECT_EQ(shot("box.gltf", options).spec.get_string_attribute("obscura:projection"), "fisheye");
 }
 
 TEST_F(CameraFiles, FaultsOfTheJsonAreNamed) {

@@ -1,5 +1,8 @@
 // tests/cli/cameras_test.cpp - every camera by its options: images, headers, messages.
 // SPDX-License-Identifier: Apache-2.0
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+
 #include "cli/cli.h"
 #include <algorithm>
 #include <cmath>
@@ -29,6 +32,11 @@ protected:
     static const float* pixel(const ReadImage& image, int x, int y) {
         return &image.pixels[static_cast<size_t>(y * image.width + x) * image.channels.size()];
     }
+    static double number(const ReadImage& image, const char* attribute) {
+        const OIIO::ParamValue* found =
+            image.spec.find_attribute(attribute, OIIO::TypeDesc::DOUBLE);
+        return found != nullptr ? found->get<double>() : -1;
+    }
     static std::string text(const ReadImage& image, const char* attribute) {
         return std::string(image.spec.get_string_attribute(attribute));
     }
@@ -43,14 +51,14 @@ TEST_F(Cameras, HeadersNameModelAndParameters) {
                                  "5",
                                  "--blades",
                                  "6"});
-    EXPECT_EQ(text(lens, "cameraModel"), "thinlens");
-    EXPECT_THAT(text(lens, "cameraParameters"), HasSubstr("lens_radius_m=0.25"));
-    EXPECT_THAT(text(lens, "cameraParameters"), HasSubstr("focus_distance_m=5"));
-    EXPECT_THAT(text(lens, "cameraParameters"), HasSubstr("blades=6"));
+    EXPECT_EQ(text(lens, "obscura:projection"), "thinlens");
+    EXPECT_THAT(text(lens, "obscura:cameraParameters"), HasSubstr("lens_radius_m=0.25"));
+    EXPECT_THAT(text(lens, "obscura:cameraParameters"), HasSubstr("focus_distance_m=5"));
+    EXPECT_THAT(text(lens, "obscura:cameraParameters"), HasSubstr("blades=6"));
     EXPECT_NE(lens.spec.find_attribute("worldToNDC"), nullptr);
     const ReadImage fisheye = shot({"--fisheye", "equisolid", "--fov", "220"});
-    EXPECT_EQ(text(fisheye, "cameraModel"), "fisheye");
-    EXPECT_THAT(text(fisheye, "cameraParameters"), HasSubstr("fisheye=equisolid"));
+    EXPECT_EQ(text(fisheye, "obscura:projection"), "fisheye");
+    EXPECT_THAT(text(fisheye, "obscura:cameraParameters"), HasSubstr("fisheye=equisolid"));
     EXPECT_NE(fisheye.spec.find_attribute("worldToCamera"), nullptr);
     EXPECT_EQ(fisheye.spec.find_attribute("worldToNDC"), nullptr) << "there is no such matrix";
 }
@@ -104,10 +112,10 @@ TEST_F(Cameras, TheFilmsSizeAndFocalLengthAreAnAngle) {
     const std::string fov = std::to_string(2 * std::atan(12.0 / 50) * 180 / 3.14159265358979);
     const ReadImage by_angle = shot({"--fov", fov});
     const ReadImage by_film = shot({"--focal-length", "50", "--sensor", "36x24"});
-    EXPECT_EQ(by_angle.spec.get_string_attribute("cameraModel"), "pinhole");
+    EXPECT_EQ(by_angle.spec.get_string_attribute("obscura:projection"), "pinhole");
     for (size_t i = 0; i < by_angle.pixels.size(); ++i)
         EXPECT_NEAR(by_angle.pixels[i], by_film.pixels[i], 0.35f) << i;
-    EXPECT_THAT(text(by_film, "cameraParameters"), HasSubstr("yfov_deg=26.99"));
+    EXPECT_THAT(text(by_film, "obscura:cameraParameters"), HasSubstr("yfov_deg=26.99"));
     expect_refusal({"--focal-length", "50"}, "E-CAM-LENS", "--sensor");
 }
 
@@ -138,7 +146,7 @@ TEST_F(Cameras, AutofocusFindsThePixelsDistance) {
     const ReadImage focused =
         shot({"--fstop", "1.4", "--focal-length", "50", "--sensor", "36x24", "--focus-on", "12,8"},
              "quad.gltf");
-    EXPECT_THAT(text(focused, "cameraParameters"), HasSubstr("focus_distance_m=3"));
+    EXPECT_THAT(text(focused, "obscura:cameraParameters"), HasSubstr("focus_distance_m=3"));
     expect_refusal({"--fstop", "2", "--focus-on", "0,0"}, "E-CAM-FOCUS", "nothing to focus on");
     expect_refusal({"--fstop", "2", "--focus-on", "24,0"}, "E-CAM-FOCUS", "24x16");
 }
@@ -200,8 +208,14 @@ TEST_F(Cameras, PhotographicExposureDarkensTheDisplayOnly) {
     EXPECT_EQ(png({"--fstop", "2", "--shutter", "1/2", "--iso", "200"}), by_hand);
     const auto exposed = read_image_file(folder_ / "a.exr");
     EXPECT_EQ(exposed->pixels, exr);
-    EXPECT_EQ(text(*exposed, "cameraModel"), "pinhole") << "the f-number is for the exposure";
-    EXPECT_EQ(std::stof(text(*exposed, "ev100")), 2);
+    EXPECT_EQ(text(*exposed, "obscura:projection"), "pinhole")
+        << "the f-number is for the exposure";
+    EXPECT_EQ(number(*exposed, "obscura:ev100"), 2);
+    EXPECT_NEAR(number(*exposed, "obscura:exposureScale"), 1 / 4.8, 1e-12);
+    const Imf::InputFile file((folder_ / "a.exr").c_str());
+    EXPECT_EQ(Imf::aperture(file.header()), 2);
+    EXPECT_EQ(Imf::expTime(file.header()), 0.5f);
+    EXPECT_EQ(Imf::isoSpeed(file.header()), 200);
     expect_refusal({"--shutter", "1"}, "E-CAM-EXPOSURE", "--fstop");
 }
 

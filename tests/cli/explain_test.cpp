@@ -67,8 +67,8 @@ TEST_F(Explain, ThePacketAndTheVariantGoIntoTheHeader) {
     expect_result(render("looks.gltf", {"--variant", "Night", "-o", "a.exr"}), 0, "OK");
     const auto exr = read_image_file(folder_ / "a.exr");
     ASSERT_TRUE(exr);
-    EXPECT_EQ(exr->spec.get_string_attribute("xmp"), R"({"dc:title":"Box"})");
-    EXPECT_EQ(exr->spec.get_string_attribute("variant"), "Night");
+    EXPECT_EQ(exr->spec.get_string_attribute("obscura:xmp"), R"({"dc:title":"Box"})");
+    EXPECT_EQ(exr->spec.get_string_attribute("obscura:variant"), "Night");
     EXPECT_EQ(exr->spec.get_string_attribute("copyright"), "CC0");
 }
 

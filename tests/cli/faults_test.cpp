@@ -64,7 +64,8 @@ TEST_F(Faults, LenientRendersMagenta) {
                                 static_cast<size_t>(image->width / 2);
     const float* pixel = &image->pixels[centre_pixel * image->channels.size()];
     EXPECT_EQ((std::vector<float>{pixel[0], pixel[1], pixel[2]}), (std::vector<float>{1, 0, 1}));
-    EXPECT_EQ(image->spec.get_string_attribute("degraded"), "textures=2 primitives=0 triangles=0");
+    EXPECT_EQ(image->spec.get_string_attribute("obscura:degraded"),
+              "textures=2 primitives=0 triangles=0");
     const json statistics = json::parse(read_whole_file(folder_ / "s.json"));
     EXPECT_EQ(statistics["lenient"], true);
     EXPECT_EQ(statistics["degraded"], (json{{"textures", 2}, {"primitives", 0}, {"triangles", 0}}));
@@ -74,7 +75,7 @@ TEST_F(Faults, WholeScenesAreNotMarked) {
     expect_result(render("quad.gltf", {"-o", "a.exr", "--stats", "s.json"}), 0, "OK");
     const std::optional<ReadImage> image = read_image_file(folder_ / "a.exr");
     ASSERT_TRUE(image);
-    EXPECT_EQ(image->spec.get_string_attribute("degraded"), "");
+    EXPECT_EQ(image->spec.get_string_attribute("obscura:degraded"), "");
     EXPECT_EQ(json::parse(read_whole_file(folder_ / "s.json"))["lenient"], false);
 }
 

@@ -68,10 +68,11 @@ TEST_F(Outputs, TheExrSpeaksAboutItself) {
     EXPECT_EQ(spec.format, OIIO::TypeFloat);
     EXPECT_THAT(std::string(spec.get_string_attribute("Software")), HasSubstr("Obscura"));
     EXPECT_EQ(spec.get_string_attribute("colorInteropID"), "lin_rec709_scene");
-    EXPECT_EQ(spec.get_string_attribute("asset"), "box.gltf");
-    EXPECT_EQ(spec.get_string_attribute("integrator"), "path");
-    EXPECT_THAT(std::string(spec.get_string_attribute("camera")), HasSubstr("'Top'"));
-    EXPECT_EQ(spec.get_int_attribute("samplesPerPixel"), 2);
+    EXPECT_EQ(spec.get_string_attribute("obscura:asset"), "box.gltf");
+    EXPECT_EQ(spec.get_string_attribute("obscura:integrator"), "path");
+    EXPECT_THAT(std::string(spec.get_string_attribute("obscura:camera")), HasSubstr("'Top'"));
+    EXPECT_EQ(spec.get_int_attribute("obscura:samplesPerPixel"), 2);
+    EXPECT_EQ(spec.get_int_attribute("obscura:seed"), 7);
     EXPECT_NE(spec.find_attribute("worldToCamera", OIIO::TypeMatrix44), nullptr);
     EXPECT_NE(spec.find_attribute("worldToNDC", OIIO::TypeMatrix44), nullptr);
 }
@@ -91,7 +92,7 @@ TEST_F(Outputs, AovsAreFloatsInExrAndReadableInPng) {
         EXPECT_EQ(exr->channels.size(), channels);
         EXPECT_EQ(exr->spec.format, OIIO::TypeFloat);
         EXPECT_EQ(exr->spec.get_string_attribute("colorInteropID"), "data");
-        EXPECT_EQ(exr->spec.get_int_attribute("samplesPerPixel"), 1);
+        EXPECT_EQ(exr->spec.get_int_attribute("obscura:samplesPerPixel"), 1);
         EXPECT_GT(centre(*png)[0] + centre(*png)[1] + centre(*png)[2], 0.3f);
     }
     EXPECT_NEAR(centre(*read_image_file(folder_ / "depth.exr"))[0], 3, 1e-5);
@@ -113,7 +114,8 @@ TEST_F(Outputs, EveryIntegratorRuns) {
         "--integrator", "wireframe", "--wire-width", "4", "-o", "a.exr", "-o", "a.png"};
     expect_result(render("quad.gltf", wires), 0, "OK");
     EXPECT_EQ(centre(*read_image_file(folder_ / "a.exr"))[0], 1) << "the quad's diagonal";
-    EXPECT_EQ(read_image_file(folder_ / "a.exr")->spec.get_int_attribute("samplesPerPixel"), 16);
+    EXPECT_EQ(read_image_file(folder_ / "a.exr")->spec.get_int_attribute("obscura:samplesPerPixel"),
+              16);
 }
 
 TEST_F(Outputs, BackgroundsAndExposure) {

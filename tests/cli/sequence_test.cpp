@@ -1,5 +1,8 @@
 // tests/cli/sequence_test.cpp - animated scenes at a time, and as a sequence of files.
 // SPDX-License-Identifier: Apache-2.0
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfStandardAttributes.h>
+
 #include "cli/cli.h"
 #include <nlohmann/json.hpp>
 
@@ -83,18 +86,43 @@ TEST_F(Sequence, AMovedBoxIsSeenElsewhere) {
     EXPECT_NEAR(pixels("rest.exr")[row + 12], 5, 0.01) << "as stored: in the middle";
 }
 
+TEST_F(Sequence, HeadersHaveTheRateAndATimeCodeWhereItIsCounted) {
+    const auto header = [&](const char* frames, const char* fps, const char* file) {
+        expect_result(
+            render("slide.gltf", {"--frames", frames, "--fps", fps, "-o", "t.####.exr"}), 0, "OK");
+        return Imf::InputFile((folder_ / file).c_str()).header();
+    };
+    const Imf::Header film = header("1465-1465", "24", "t.1465.exr");
+    EXPECT_EQ(Imf::framesPerSecond(film).n, 24);
+    EXPECT_EQ(Imf::framesPerSecond(film).d, 1U);
+    const Imf::TimeCode& time = Imf::timeCode(film);
+    EXPECT_EQ(time.minutes(), 1) << "1440 frames";
+    EXPECT_EQ(time.seconds(), 1) << "24 more";
+    EXPECT_EQ(time.frame(), 1);
+    const Imf::Header television = header("30-30", "29.97", "t.0030.exr");
+    EXPECT_EQ(Imf::framesPerSecond(television).n, 30000);
+    EXPECT_EQ(Imf::timeCode(television).seconds(), 1) << "no frame is dropped";
+    EXPECT_FALSE(Imf::hasTimeCode(header("1-1", "2", "t.0001.exr")));
+    expect_result(render("slide.gltf", {"-o", "one.exr"}), 0, "OK");
+    EXPECT_FALSE(Imf::hasFramesPerSecond(Imf::InputFile((folder_ / "one.exr").c_str()).header()));
+}
+
 TEST_F(Sequence, FramesAreEqualToSingleImages) {
     expect_result(render("slide.gltf",
                          {"--frames", "1-3", "--fps", "2", "-o", "f.##.exr", "--stats", "s.json"}),
                   0,
                   "OK");
     const char* times[] = {"0.5", "1", "1.5"};
+    const double seconds[] = {0.5, 1, 1.5};
     for (int frame = 1; frame <= 3; ++frame) {
         const std::string file = "f.0" + std::to_string(frame) + ".exr";
         expect_result(render("slide.gltf", {"--time", times[frame - 1], "-o", "one.exr"}), 0, "OK");
         EXPECT_EQ(pixels(file), pixels("one.exr")) << file;
-        EXPECT_EQ(read_image_file(folder_ / file)->spec.get_string_attribute("timeSeconds"),
-                  times[frame - 1]);
+        const auto read = read_image_file(folder_ / file);
+        const OIIO::ParamValue* time = read->spec.find_attribute("obscura:timeSeconds");
+        ASSERT_NE(time, nullptr);
+        ASSERT_EQ(time->type(), OIIO::TypeDesc::DOUBLE);
+        EXPECT_EQ(time->get<double>(), seconds[frame - 1]);
     }
     EXPECT_NE(pixels("f.01.exr"), pixels("f.03.exr"));
     const json stats = json::parse(read_whole_file(folder_ / "s.json"));

@@ -1,5 +1,9 @@
 // tests/session/library_test.cpp - the library, used as by a program that embeds it.
 // SPDX-License-Identifier: Apache-2.0
+#include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfInputFile.h>
+#include <OpenEXR/ImfIntAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfThreading.h>
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
@@ -7,6 +11,7 @@
 
 #include "support/small_scenes.h"
 #include "support/temp_folder.h"
+#include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <gmock/gmock.h>
@@ -199,6 +204,35 @@ TEST(Library, ExposureCountsInImagesForADisplay) {
         written.push_back(read_whole_file(png));
     }
     EXPECT_NE(written[0], written[1]);
+}
+
+TEST(Library, AttributesKeepTheirTypesUnlessTheyAreChanged) {
+    const TempFolder folder;
+    Session session;
+    const Result<Asset> asset = session.open(assets + "cornell/cornell.gltf");
+    ASSERT_TRUE(asset);
+    View view = small_view();
+    view.ev100 = 3;
+    Image image = image_of(session.render(*asset, view, {}, few_samples()));
+    const auto attribute = [&](const std::string& name) -> std::string& {
+        const auto found = std::find_if(image.attributes.begin(),
+                                        image.attributes.end(),
+                                        [&](const auto& entry) { return entry.first == name; });
+        EXPECT_NE(found, image.attributes.end()) << name;
+        return found->second;
+    };
+    EXPECT_EQ(attribute("obscura:ev100"), "3");
+    attribute("obscura:exposureScale") = "unknown";
+    image.attributes.emplace_back("shot", "7");
+    const std::string file = (folder / "a.exr").string();
+    ASSERT_TRUE(session.write(image, file));
+    const Imf::InputFile written(file.c_str());
+    const Imf::Header& header = written.header();
+    EXPECT_EQ(header.typedAttribute<Imf::DoubleAttribute>("obscura:ev100").value(), 3);
+    EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("obscura:exposureScale").value(),
+              "unknown");
+    EXPECT_EQ(header.typedAttribute<Imf::StringAttribute>("shot").value(), "7");
+    EXPECT_NE(header.findTypedAttribute<Imf::IntAttribute>("obscura:warnings"), nullptr);
 }
 
 TEST(Library, TilesCoverTheImageWithItsPixels) {

@@ -1,0 +1,58 @@
+// image/exr_pixels.cpp - an image's values as files hold them: as halves, and at half the size.
+// SPDX-License-Identifier: Apache-2.0
+#include "image/exr_pixels.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+namespace obscura {
+
+Halves halves_of(std::span<const float> values) {
+    constexpr float largest = 65504;
+    constexpr size_t grain = 1 << 16;
+    Halves halves{std::vector<half>(values.size())};
+    std::atomic<uint64_t> all_clamped = 0;
+    parallel_ranges(values.size(), grain, [&](size_t begin, size_t end) {
+        uint64_t clamped = 0;
+        for (size_t i = begin; i < end; ++i) {
+            const float value = values[i];
+            clamped += std::abs(value) > largest ? 1 : 0;
+            halves.values[i] =
+                half(std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest));
+        }
+        all_clamped += clamped;
+    });
+    halves.clamped = all_clamped;
+    return halves;
+}
+
+UnsetArray<float> half_as_large(const PixelView& image, bool averaged) {
+    constexpr size_t grain = 64;
+    const size_t channels = image.channels;
+    const auto width = static_cast<size_t>(std::max(image.width / 2, 1));
+    const auto height = static_cast<size_t>(std::max(image.height / 2, 1));
+    const size_t row = static_cast<size_t>(image.width) * channels;
+    // One pixel wide or high, the second of a pair is the first once more.
+    const size_t right = image.width > 1 ? channels : 0;
+    const size_t below = image.height > 1 ? row : 0;
+    UnsetArray<float> out(width * height * channels);
+    parallel_ranges(height, grain, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y) {
+            float* to = out.data() + y * width * channels;
+            for (size_t x = 0; x < width; ++x) {
+                const float* from = image.pixels + 2 * y * row + 2 * x * channels;
+                for (size_t c = 0; c < channels; ++c, ++from, ++to) {
+                    *to = averaged ? 0.25f * ((from[0] + from[right]) +
+                                              (from[below] + from[below + right]))
+                                   : from[0];
+                }
+            }
+        }
+    });
+    return out;
+}
+
+}  // namespace obscura

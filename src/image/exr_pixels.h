@@ -1,0 +1,34 @@
+// image/exr_pixels.h - an image's values as files hold them: as halves, and at half the size.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/unset_array.h"
+
+#include <Imath/half.h>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace obscura {
+
+/// Values as halves, and how many had to be clamped to +-65504. NaN becomes 0.
+struct Halves {
+    std::vector<half> values;
+    uint64_t clamped = 0;
+};
+
+Halves halves_of(std::span<const float> values);
+
+/// Interleaved pixels in memory.
+struct PixelView {
+    const float* pixels;
+    int width, height;
+    size_t channels;
+};
+
+/// The next level of a mipmap: half as wide and high, rounded down, at least 1. A pixel is the mean
+/// of 2x2, or the upper left one of them.
+UnsetArray<float> half_as_large(const PixelView& image, bool averaged);
+
+}  // namespace obscura
