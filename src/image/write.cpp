@@ -1,8 +1,9 @@
-// image/write.cpp - writes finished images: EXR scene-linear, PNG and JPEG through a display.
+// image/write.cpp - writes finished images: EXR scene-linear, the others through a display.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/write.h"
 
 #include "base/atomic_file.h"
+#include "base/setting_names.h"
 #include "image/encode.h"
 
 #include <algorithm>
@@ -12,33 +13,20 @@ namespace obscura {
 
 namespace {
 
-enum class FileFormat { unknown, exr, png, jpeg };
-
-FileFormat format_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    if (extension == ".exr") return FileFormat::exr;
-    if (extension == ".png") return FileFormat::png;
-    if (extension == ".jpg" || extension == ".jpeg") return FileFormat::jpeg;
-    return FileFormat::unknown;
+tl::unexpected<Error> bad_format(const std::string& where, std::string message) {
+    return fail(ExitCode::usage, "E-OUT-FORMAT", where, std::move(message));
 }
 
-tl::unexpected<Error> bad_format(const std::filesystem::path& file, std::string message) {
-    return fail(ExitCode::usage, "E-OUT-FORMAT", file.string(), std::move(message));
-}
-
-Result<void> check_format(const std::filesystem::path& file) {
-    if (format_of(file) != FileFormat::unknown) return {};
+Result<OutputTarget> target_of(const std::filesystem::path& file) {
+    if (const auto format = output_format_of(file)) return OutputTarget{*format, file.string()};
     const std::string extension = file.extension().string();
-    return bad_format(file,
+    return bad_format(file.string(),
                       (extension.empty() ? "the name has no extension"
                                          : "'" + extension + "' is not a format that is written") +
-                          "; accepted are .exr, .png, .jpg and .jpeg");
+                          "; accepted are " + output_endings());
 }
 
-Result<void> check_image(const std::filesystem::path& file, const OutputImage& image) {
+Result<void> check_image(const OutputTarget& target, const OutputImage& image) {
     const bool is_sound = image.width > 0 && image.height > 0 && !image.channels.empty() &&
                           image.pixels.size() == static_cast<size_t>(image.width) *
                                                      static_cast<size_t>(image.height) *
@@ -46,42 +34,16 @@ Result<void> check_image(const std::filesystem::path& file, const OutputImage& i
     if (!is_sound) {
         return fail(ExitCode::internal,
                     "E-OUT-ENCODE",
-                    file.string(),
-                    "the picture's size, channels and pixels contradict each other");
+                    target.name,
+                    "the image's size, channels and pixels contradict each other");
     }
     const size_t channels = image.channels.size();
-    if (format_of(file) != FileFormat::exr && channels != 1 && channels != 3 && channels != 4) {
-        return bad_format(file,
-                          "a picture of " + std::to_string(channels) +
-                              " channels fits neither PNG nor JPEG (1, 3 or 4); write .exr");
+    if (target.format != OutputFormat::exr && channels != 1 && channels != 3 && channels != 4) {
+        return bad_format(target.name,
+                          "an image of " + std::to_string(channels) +
+                              " channels fits no format for displays (1, 3 or 4); write .exr");
     }
     return {};
-}
-
-Result<std::vector<std::byte>> encode(const std::filesystem::path& file,
-                                      const OutputImage& image,
-                                      const ImageMetadata& metadata,
-                                      ExrDepth depth,
-                                      const DisplayTransform* display) {
-    try {
-        const FileFormat format = format_of(file);
-        if (format == FileFormat::exr) {
-            return encode_exr(image, metadata, depth, file.string());
-        }
-        return encode_for_display(
-            image.part_of ? whole_image(image) : image,
-            metadata,
-            format == FileFormat::png ? DisplayFormat::png : DisplayFormat::jpeg,
-            display,
-            file.string());
-    } catch (const std::bad_alloc&) {
-        return fail(ExitCode::out_of_memory,
-                    "E-OUT-MEMORY",
-                    file.string(),
-                    "no memory to encode the picture");
-    } catch (const std::exception& error) {
-        return fail(ExitCode::internal, "E-OUT-ENCODE", file.string(), error.what());
-    }
 }
 
 }  // namespace
@@ -103,21 +65,76 @@ OutputImage whole_image(const OutputImage& image) {
     return whole;
 }
 
+Result<std::vector<std::byte>> encode_image(const OutputTarget& target,
+                                            const OutputImage& image,
+                                            const ImageMetadata& metadata,
+                                            ExrDepth depth,
+                                            const DisplayEncoding& encoding) {
+    if (auto sound = check_image(target, image); !sound) return fail(sound.error());
+    const int width = image.part_of ? image.part_of->width : image.width;
+    const int height = image.part_of ? image.part_of->height : image.height;
+    if (auto fits = check_encoding(target, encoding, width, height); !fits) {
+        return fail(fits.error());
+    }
+    try {
+        if (target.format == OutputFormat::exr) {
+            return encode_exr(image, metadata, depth, target.name);
+        }
+        if (image.part_of) {
+            return encode_for_display(target, whole_image(image), metadata, encoding);
+        }
+        return encode_for_display(target, image, metadata, encoding);
+    } catch (const std::bad_alloc&) {
+        return fail(
+            ExitCode::out_of_memory, "E-OUT-MEMORY", target.name, "no memory to encode the image");
+    } catch (const std::exception& error) {
+        return fail(ExitCode::internal, "E-OUT-ENCODE", target.name, error.what());
+    }
+}
+
 Result<void> write_image_file(const std::filesystem::path& file,
                               const OutputImage& image,
                               const ImageMetadata& metadata,
                               ExrDepth depth,
-                              const DisplayTransform* display) {
-    if (auto known = check_format(file); !known) return known;
-    if (auto sound = check_image(file, image); !sound) return sound;
-    const Result<std::vector<std::byte>> bytes = encode(file, image, metadata, depth, display);
+                              const DisplayEncoding& encoding) {
+    const Result<OutputTarget> target = target_of(file);
+    if (!target) return fail(target.error());
+    const Result<std::vector<std::byte>> bytes =
+        encode_image(*target, image, metadata, depth, encoding);
     if (!bytes) return fail(bytes.error());
     return write_file_atomically(file, *bytes);
 }
 
-Result<void> check_output(const std::filesystem::path& file) {
-    if (auto known = check_format(file); !known) return known;
-    return check_file_can_be_written(file);
+Result<void> check_encoding(const OutputTarget& target,
+                            const DisplayEncoding& encoding,
+                            int width,
+                            int height) {
+    const OutputFormatEntry& format = entry_of(target.format);
+    if (encoding.bits > format.max_bits) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-CONFLICT",
+                    setting("bits"),
+                    target.name + ": " + format.name + " has " + std::to_string(format.max_bits) +
+                        " bits a channel; 16 are for PNG and TIFF, and EXR has 16 or 32 anyway");
+    }
+    if (std::max(width, height) > format.max_side) {
+        return bad_format(target.name,
+                          std::to_string(width) + " x " + std::to_string(height) +
+                              " pixels are too many for " + format.name + ", whose sides have " +
+                              std::to_string(format.max_side) + " at most; write .png or .exr");
+    }
+    if (target.format == OutputFormat::avif && !can_write_avif()) {
+        return bad_format(target.name,
+                          "the OpenImageIO of this build writes no AVIF; write .webp or .png");
+    }
+    return {};
+}
+
+Result<OutputTarget> check_output(const std::filesystem::path& file) {
+    Result<OutputTarget> target = target_of(file);
+    if (!target) return target;
+    if (auto writable = check_file_can_be_written(file); !writable) return fail(writable.error());
+    return target;
 }
 
 }  // namespace obscura

@@ -15,18 +15,32 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace obscura {
 
 namespace {
 
-/// .exr in upper or lower case, as write_image_file recognises formats.
 bool is_exr(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return output_format_of(file) == OutputFormat::exr;
+}
+
+/// One file's content: the image itself, or what one can look at in its place.
+Result<std::vector<std::byte>> encode_output(const OutputTarget& target,
+                                             const RenderRequest& request,
+                                             const FinishedImage& finished,
+                                             const DisplayTransform* display) {
+    const Integrator integrator = request.options.integrator;
+    const ExrDepth depth = is_aov(integrator) ? ExrDepth::float32 : request.exr_depth;
+    DisplayEncoding encoding = request.encoding;
+    if (!needs_preview(integrator) || target.format == OutputFormat::exr) {
+        encoding.transform = display;
+        return encode_image(target, finished.image, finished.metadata, depth, encoding);
     }
-    return extension == ".exr";
+    ImageMetadata metadata = finished.metadata;
+    metadata.is_color = false;
+    const OutputImage preview = preview_image(whole_image(finished.image), integrator);
+    return encode_image(target, preview, metadata, depth, encoding);
 }
 
 }  // namespace
@@ -34,17 +48,27 @@ bool is_exr(const std::filesystem::path& file) {
 Result<void> check_outputs(const RenderRequest& request) {
     // All files of a sequence lie in one folder: those of the first frame stand for all.
     const MovieFrame first = frames_of(request).front();
+    const RenderOptions& options = request.options;
+    const auto fits = [&](const OutputTarget& target) {
+        return check_encoding(target, request.encoding, options.width, options.height);
+    };
     for (const std::filesystem::path& output : first.outputs) {
-        if (auto writable = check_output(output); !writable) return writable;
+        const Result<OutputTarget> target = check_output(output);
+        if (!target) return fail(target.error());
+        if (auto done = fits(*target); !done) return done;
+    }
+    if (request.standard_output) {
+        if (auto done = fits({*request.standard_output, standard_output_name}); !done) return done;
     }
     if (request.statistics) return check_file_can_be_written(*request.statistics);
     return {};
 }
 
 Result<std::optional<DisplayTransform>> make_display(const RenderRequest& request, Log& log) {
-    const bool wanted = !needs_preview(request.options.integrator) &&
-                        !std::all_of(request.outputs.begin(), request.outputs.end(), is_exr);
-    if (!wanted) return std::optional<DisplayTransform>();
+    const bool all_exr = std::all_of(request.outputs.begin(), request.outputs.end(), is_exr) &&
+                         request.standard_output.value_or(OutputFormat::exr) == OutputFormat::exr;
+    if (all_exr || needs_preview(request.options.integrator))
+        return std::optional<DisplayTransform>();
     Result<DisplayTransform> display = DisplayTransform::create(request.display, log);
     if (!display) return fail(display.error());
     return std::optional<DisplayTransform>(std::move(*display));
@@ -111,23 +135,25 @@ Result<void> write_outputs(const RenderRequest& request,
                            const FinishedImage& finished,
                            const std::optional<DisplayTransform>& display,
                            const std::atomic<bool>& stop) {
-    const Integrator integrator = request.options.integrator;
-    const ExrDepth depth = is_aov(integrator) ? ExrDepth::float32 : request.exr_depth;
+    const DisplayTransform* const transform = display ? &*display : nullptr;
+    const auto stopped = [](const std::string& name) {
+        return fail(ExitCode::stopped_early, "E-STOPPED", name, "stopped");
+    };
     for (const std::filesystem::path& output : request.outputs) {
-        if (stop) return fail(ExitCode::stopped_early, "E-STOPPED", output.string(), "stopped");
-        Result<void> written;
-        if (needs_preview(integrator) && !is_exr(output)) {
-            ImageMetadata metadata = finished.metadata;
-            metadata.is_color = false;
-            const OutputImage preview = preview_image(whole_image(finished.image), integrator);
-            written = write_image_file(output, preview, metadata, depth, nullptr);
-        } else {
-            written = write_image_file(
-                output, finished.image, finished.metadata, depth, display ? &*display : nullptr);
-        }
-        if (!written) return written;
+        if (stop) return stopped(output.string());
+        const std::optional<OutputFormat> format = output_format_of(output);
+        if (!format) return fail(check_output(output).error());
+        const OutputTarget target{*format, output.string()};
+        const auto bytes = encode_output(target, request, finished, transform);
+        if (!bytes) return fail(bytes.error());
+        if (auto written = write_file_atomically(output, *bytes); !written) return written;
     }
-    return {};
+    if (!request.standard_output) return {};
+    if (stop) return stopped(standard_output_name);
+    const OutputTarget target{*request.standard_output, standard_output_name};
+    const auto bytes = encode_output(target, request, finished, transform);
+    if (!bytes) return fail(bytes.error());
+    return write_fully(STDOUT_FILENO, *bytes, standard_output_name);
 }
 
 }  // namespace obscura
