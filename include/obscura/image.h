@@ -3,8 +3,10 @@
 #pragma once
 
 #include "obscura/view.h"
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,11 +37,17 @@ struct Image {
 
 /// How an image becomes a file.
 struct WriteOptions {
-    bool float32 = false;     ///< EXR: 32 bits a channel in place of 16; data always has 32
-    double exposure_ev = 0;   ///< PNG and JPEG, as all below: values are multiplied by 2^EV
-    std::string ocio_config;  ///< a file; empty: $OCIO, else the built-in config
-    std::string display;      ///< empty: the config's default
-    std::string view;         ///< empty: the display's default
+    bool float32 = false;        ///< EXR: 32 bits a channel in place of 16; data always has 32
+    double exposure_ev = 0;      ///< all but EXR, as all below: values are multiplied by 2^EV
+    std::string ocio_config;     ///< a file; empty: $OCIO, else the built-in config
+    std::string display;         ///< empty: the config's default
+    std::string view;            ///< empty: the display's default
+    int bits = 8;                ///< of a channel: 8, or 16 in PNG and TIFF
+    std::optional<int> quality;  ///< 1 to 100, of JPEG (else 95), WebP (else 90) and AVIF (else 90)
+    bool dither = true;          ///< 8-bit colours, so that smooth areas show no bands
+    /// A colour behind an image with alpha, in the display's encoded values from 0 to 1; the file
+    /// has no alpha then.
+    std::optional<std::array<float, 3>> page;
 };
 
 OBSCURA_END_API

@@ -35,7 +35,8 @@ public:
                          const Sampling& sampling = {},
                          const Control& control = {});
 
-    /// Writes .exr, .png or .jpg: the file that the program writes, whole or not at all.
+    /// Writes .exr, .png, .jpg, .tif, .webp or .avif: the file that the program writes, whole or
+    /// not at all.
     Result<void> write(const Image& image,
                        const std::string& file,
                        const WriteOptions& options = {});

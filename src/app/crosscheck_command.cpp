@@ -22,7 +22,7 @@ Result<void> check_files(const CrosscheckRequest& request) {
         if (auto writable = check_file_can_be_written(*request.json); !writable) return writable;
     }
     if (request.image) {
-        if (auto writable = check_output(*request.image); !writable) return writable;
+        if (auto writable = check_output(*request.image); !writable) return fail(writable.error());
     }
     if (!has_isa(request.scenes.front().isa)) return fail(missing_isa());
     return {};
@@ -71,7 +71,7 @@ Result<void> deliver(const CrosscheckRequest& request,
                                               crosscheck::screen_image(scenes.front().screen),
                                               metadata,
                                               {.depth = ExrDepth::float32},
-                                              nullptr);
+                                              DisplayEncoding{});
         if (!written) return fail(written.error());
     }
     return crosscheck::check_budget(scenes);

@@ -166,7 +166,7 @@ constexpr OptionGroup<A, R> groups[] = {{"Film", film},
                                         {"Lens (--camera-model thinlens)", thin_lens},
                                         {"Fisheye (--camera-model fisheye)", fisheye},
                                         {"All around (--camera-model environment)", around},
-                                        {"Photographic exposure (PNG and JPEG only)", exposure}};
+                                        {"Photographic exposure (all but EXR)", exposure}};
 
 }  // namespace
 

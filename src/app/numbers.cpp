@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/numbers.h"
 
+#include "surface/srgb.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -33,6 +35,17 @@ tl::unexpected<Error> out_of_range(std::string_view text,
 }
 
 enum class Reading { good, garbage, overflow };
+
+/// Three numbers as a colour.
+Result<std::array<float, 3>> parse_rgb(std::string_view text,
+                                       std::string_view option,
+                                       const NumberList& accepted) {
+    const Result<std::vector<double>> list = parse_numbers(text, option, accepted);
+    if (!list) return fail(list.error());
+    return std::array<float, 3>{static_cast<float>((*list)[0]),
+                                static_cast<float>((*list)[1]),
+                                static_cast<float>((*list)[2])};
+}
 
 /// Reads all of the text as one number; a single leading plus is allowed.
 template <typename T>
@@ -148,15 +161,45 @@ Result<Vec3d> parse_point(std::string_view text, std::string_view option) {
     return Vec3d{(*list)[0], (*list)[1], (*list)[2]};
 }
 
+std::optional<std::array<float, 3>> encoded_color(std::string_view text) {
+    constexpr float middle = 128.0f / 255;
+    if (text == "white") return std::array<float, 3>{1, 1, 1};
+    if (text == "black") return std::array<float, 3>{0, 0, 0};
+    if (text == "grey" || text == "gray") return std::array<float, 3>{middle, middle, middle};
+    if (text.size() != 7 || text[0] != '#') return std::nullopt;
+    std::array<float, 3> color = {};
+    for (size_t i = 0; i < 3; ++i) {
+        const char* const begin = text.data() + 1 + 2 * i;
+        unsigned code = 0;
+        const auto [end, error] = std::from_chars(begin, begin + 2, code, 16);
+        if (end != begin + 2 || error != std::errc()) return std::nullopt;
+        color[i] = static_cast<float>(code) / 255;
+    }
+    return color;
+}
+
 Result<std::array<float, 3>> parse_color(std::string_view text, std::string_view option) {
-    const Result<std::vector<double>> list = parse_numbers(
+    if (std::optional<std::array<float, 3>> color = encoded_color(text)) {
+        for (float& channel : *color)
+            channel = linear_from_srgb(channel);
+        return *color;
+    }
+    return parse_rgb(text,
+                     option,
+                     {"env, transparent, white, black, grey, #RRGGBB, or linear R,G,B without "
+                      "blanks, each from 0 to 1e9",
+                      3,
+                      3,
+                      0,
+                      1e9});
+}
+
+Result<std::array<float, 3>> parse_page(const std::string& text, const std::string& option) {
+    if (const std::optional<std::array<float, 3>> color = encoded_color(text)) return *color;
+    return parse_rgb(
         text,
         option,
-        {"env, transparent, or linear R,G,B without blanks, each from 0 to 1e9", 3, 3, 0, 1e9});
-    if (!list) return fail(list.error());
-    return std::array<float, 3>{static_cast<float>((*list)[0]),
-                                static_cast<float>((*list)[1]),
-                                static_cast<float>((*list)[2])};
+        {"white, black, grey, #RRGGBB, or the display's R,G,B, each from 0 to 1", 3, 3, 0, 1});
 }
 
 Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_view option) {

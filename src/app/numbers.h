@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,8 +45,15 @@ std::string size_text(const std::array<int, 2>& size);
 /// "x,y,z" with finite components of magnitude up to 1e18.
 Result<Vec3d> parse_point(std::string_view text, std::string_view option);
 
-/// "r,g,b", each in [0, 1e9].
+/// white, black, grey or gray, as style sheets define them, or "#RRGGBB": sRGB-encoded values in
+/// [0, 1]; nothing for other texts.
+std::optional<std::array<float, 3>> encoded_color(std::string_view text);
+
+/// A linear colour: "r,g,b", each in [0, 1e9], or that of encoded_color.
 Result<std::array<float, 3>> parse_color(std::string_view text, std::string_view option);
+
+/// A display's encoded values: "r,g,b", each in [0, 1], or encoded_color.
+Result<std::array<float, 3>> parse_page(const std::string& text, const std::string& option);
 
 /// "X,Y,W,H" of integers; width and height at least 1, corner at least 0.
 Result<std::array<int, 4>> parse_rectangle(std::string_view text, std::string_view option);

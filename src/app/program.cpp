@@ -45,7 +45,8 @@ struct Arguments {
 Program describe(Arguments& arguments) {
     Program program;
     program.name = "obscura";
-    program.summary = "Renders glTF 2.0 assets to scene-linear EXR, PNG and JPEG by path tracing.";
+    program.summary =
+        "Renders glTF 2.0 assets by path tracing, to scene-linear EXR and to images for displays.";
     program.notes = notes;
     program.version = "obscura " OBSCURA_VERSION "\nEmbree " OBSCURA_EMBREE_VERSION
                       "\ncompiled by " +

@@ -22,9 +22,9 @@ int terminal_columns() {
     return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-void print_line(int percent) {
-    std::printf("Progress: %d%%\n", percent);
-    std::fflush(stdout);
+void print_line(std::FILE* file, int percent) {
+    std::fprintf(file, "Progress: %d%%\n", percent);
+    std::fflush(file);
 }
 
 /// "1:02:03" or "2:03".
@@ -69,7 +69,7 @@ std::string progress_bar(double fraction, double elapsed_s, int columns) {
            std::string(static_cast<size_t>(cells) - filled, '.') + "] " + left;
 }
 
-Progress::Progress(Verbosity verbosity) : style_(Style::none) {
+Progress::Progress(Verbosity verbosity, std::FILE* lines) : style_(Style::none), lines_(lines) {
     if (verbosity == Verbosity::quiet) return;
     style_ = isatty(STDERR_FILENO) != 0 ? Style::bar : Style::lines;
     show_now();
@@ -93,7 +93,7 @@ void Progress::update(double fraction) {
 
 void Progress::finish() {
     stop();
-    if (style_ == Style::lines) print_line(100);
+    if (style_ == Style::lines) print_line(lines_, 100);
     if (style_ == Style::bar) std::fputs("\r\x1b[K", stderr);
     style_ = Style::none;
 }
@@ -114,7 +114,7 @@ void Progress::show_now() {
     const double begin_s = begin_s_.load();
     if (style_ == Style::lines) {
         if (const std::optional<int> percent = pacer_.due(seconds(), fraction))
-            print_line(*percent);
+            print_line(lines_, *percent);
     } else if (begin_s >= 0) {  // before that, warnings of loading would mix with the bar
         const std::string bar = progress_bar(fraction, seconds() - begin_s, terminal_columns());
         std::fprintf(stderr, "\r\x1b[K%s", bar.c_str());

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdio>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -30,10 +31,11 @@ private:
 std::string progress_bar(double fraction, double elapsed_s, int columns);
 
 /// Shows progress from a thread of its own for as long as it lives: a bar on standard error when
-/// that is a terminal, else `Progress: 42%` lines on standard output; nothing when quiet.
+/// that is a terminal, else `Progress: 42%` lines; nothing when quiet.
 class Progress {
 public:
-    explicit Progress(Verbosity verbosity);
+    /// lines: where those go: standard output, unless an image goes there.
+    explicit Progress(Verbosity verbosity, std::FILE* lines = stdout);
     /// Stops without a last line: the work did not end well.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -54,6 +56,7 @@ private:
     void stop();
 
     Style style_;
+    std::FILE* lines_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::atomic<double> begin_s_{-1.0};  ///< since start_; negative before begin()
     std::atomic<double> fraction_{0.0};

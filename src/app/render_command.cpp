@@ -168,6 +168,8 @@ void log_summary(const RenderRequest& request, const RenderStatistics& statistic
     for (const std::filesystem::path& output : request.outputs) {
         names += (names.empty() ? "" : ", ") + output.string();
     }
+    if (request.standard_output)
+        names += (names.empty() ? "" : ", ") + std::string(standard_output_name);
     const double seconds = std::max(statistics.render_s, 1e-9);
     const auto millions = [&](uint64_t count) {
         return static_cast<double>(count) / seconds * 1e-6;
@@ -207,7 +209,7 @@ Result<void> execute(const RenderRequest& request, Log& log) {
     const ThreadLimit threads(request.threads);
     Job job{.log = log, .request = request, .display = std::move(*display)};
     if (request.check) return check_all(job);
-    Progress progress(request.verbosity);
+    Progress progress(request.verbosity, request.standard_output ? stderr : stdout);
     const Result<void> done = render_all(job, progress);
     if (!done) return done;
     RenderStatistics& statistics = job.renderer->statistics();

@@ -7,9 +7,9 @@
 #include "app/option_readers.h"
 #include "app/render_command.h"
 #include "camera/names.h"
-#include "film/layers.h"
 #include "render/integrators.h"
 
+#include "film/layers.h"
 #include <cstring>
 #include <fmt/format.h>
 
@@ -20,6 +20,7 @@ namespace {
 using A = RenderArguments;
 using C = CameraRequest;
 using D = DisplayOptions;
+using E = DisplayEncoding;
 using L = gltf::LoadOptions;
 using O = RenderOptions;
 using R = RenderRequest;
@@ -31,6 +32,9 @@ Examples:
       writes helmet.exr, framed by the file's first camera or as a whole
   obscura render helmet.glb --env sky.hdr --spp 256 -o helmet.exr -o helmet.png
       one rendering, two files: scene-linear data and a picture to look at
+  obscura render part.glb --page white -o part.webp
+  obscura render part.glb --page white -o - --format jpeg | lpr
+      the part alone, on the page's own white
   obscura render room.gltf --camera Door --size 1920x1080 --exposure 1.5 -o room.jpg
   obscura render part.glb --eye 2,1,3 --target 0,0.5,0 --fov 30 --background transparent
 
@@ -52,6 +56,22 @@ constexpr std::array<Choice<PixelFilter>, 3> filters = {
 constexpr std::array<Choice<bool>, 2> occlusions = {{{"off", false}, {"ambient", true}}};
 constexpr std::array<Choice<BackgroundKind>, 2> backgrounds = {
     {{"env", BackgroundKind::environment}, {"transparent", BackgroundKind::transparent}}};
+
+constexpr std::array<Choice<int>, 2> bit_depths = {{{"8", 8}, {"16", 16}}};
+
+std::vector<std::string> color_names() {
+    return {"white", "black", "grey"};
+}
+
+std::vector<std::string> background_names() {
+    std::vector<std::string> names = choice_names<backgrounds>();
+    for (const std::string& color : color_names())
+        names.push_back(color);
+    return names;
+}
+
+constexpr OptionReader<R> page = {
+    .read = read_parsed<parse_page, &R::encoding, &E::page>, .show = nullptr, .names = color_names};
 
 constexpr OptionReader<R> size = {
     .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
@@ -81,7 +101,7 @@ constexpr OptionReader<R> background = {
         return {};
     },
     .show = show_choice<backgrounds, &R::options, &O::background>,
-    .names = choice_names<backgrounds>};
+    .names = background_names};
 
 Result<PixelRect> parse_crop(const std::string& text, const std::string& option) {
     const Result<std::array<int, 4>> r = parse_rectangle(text, option);
@@ -106,12 +126,17 @@ constexpr OptionReader<R> points_lines_size_at = {
 
 /// The table of --list-aovs.
 std::string list_of_layers() {
-    std::string out = fmt::format("{:<18}{:<10}{:<13}{}\n", "layer", "channels", "a pixel is", "what");
+    std::string out =
+        fmt::format("{:<18}{:<10}{:<13}{}\n", "layer", "channels", "a pixel is", "what");
     for (const LayerDescription& layer : all_layers()) {
         out += fmt::format(
             "{:<18}{:<10}{:<13}{}\n", layer.name, layer.channels, layer.reduction, layer.help);
     }
     return out;
+}
+
+Result<bool> parse_off(const std::string& /*text*/, const std::string& /*option*/) {
+    return false;
 }
 
 Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*option*/) {
@@ -125,20 +150,23 @@ constexpr Entry scene_file[] = {
 
 constexpr Entry image[] = {
     {{.name = "-o,--output", .argument = "FILE",
-      .help = "File to write: .exr scene-linear, .png or .jpg for a display. May be given several "
-              "times",
-      .fallback = "SCENE's name with .exr, here", .files = "exr png jpg jpeg"},
+      .help = "File to write: .exr scene-linear; .png, .jpg, .tif, .webp or .avif for a display; "
+              "- is standard output. May be given several times",
+      .fallback = "SCENE's name with .exr, here", .files = "exr png jpg jpeg tif tiff webp avif"},
      text_at<&A::outputs>},
+    {{.name = "--format", .argument = "NAME", .help = "What -o - writes:", .fallback = "png"},
+     text_at<&A::format>, choice_at<output_formats, &R::standard_output>},
     {{.name = "--size", .argument = "WxH", .help = "Width and height in pixels"},
      text_at<&A::size>, size},
     {{.name = "--crop", .argument = "X,Y,W,H",
-      .help = "Render only this part, in pixels from the top left: the data window of an EXR; PNG "
-              "and JPEG are zero elsewhere"},
+      .help = "Render only this part, in pixels from the top left: the data window of an EXR; "
+              "other formats are empty elsewhere"},
      text_at<&A::crop>, parsed_at<parse_crop, &R::options, &O::crop>},
     {{.name = "--float", .help = "Store EXR colours as 32-bit floats", .fallback = "16-bit half"},
      text_at<&A::float32>, parsed_at<parse_depth, &R::exr_depth>},
-    {{.name = "--background", .argument = "KIND|R,G,B",
-      .help = "What rays that hit nothing see: env, transparent, or a linear colour R,G,B"},
+    {{.name = "--background", .argument = "KIND|COLOR",
+      .help = "What rays that hit nothing see: env, transparent, or a colour of the scene: linear "
+              "R,G,B, sRGB #RRGGBB, white, black or grey"},
      text_at<&A::background>, background},
     {{.name = "--filter", .argument = "NAME", .help = "Pixel filter:"},
      text_at<&A::filter>, choice_at<filters, &R::options, &O::filter>},
@@ -253,7 +281,20 @@ constexpr Entry display[] = {
      text_at<&A::display>, name_at<&R::display, &D::display>},
     {{.name = "--ocio", .argument = "FILE", .help = "OpenColorIO config",
       .fallback = "$OCIO, else built in", .files = "ocio"},
-     text_at<&A::ocio>, name_at<&R::display, &D::ocio_file>}};
+     text_at<&A::ocio>, name_at<&R::display, &D::ocio_file>},
+    {{.name = "--page", .argument = "COLOR",
+      .help = "A colour behind the finished image, after the view: white, black, grey, #RRGGBB or "
+              "R,G,B from 0 to 1. Without --background the image is transparent around the scene"},
+     text_at<&A::page>, page},
+    {{.name = "--bits", .argument = "N", .help = "Of a channel in PNG and TIFF:"},
+     text_at<&A::bits>, choice_at<bit_depths, &R::encoding, &E::bits>},
+    {{.name = "--quality", .argument = "N",
+      .help = "Of JPEG, WebP and AVIF; at 100 a WebP loses nothing", .range = {1, 100},
+      .fallback = "JPEG 95, others 90"},
+     text_at<&A::quality>, number_at<&R::encoding, &E::quality>},
+    {{.name = "--no-dither",
+      .help = "Round 8-bit colours to the nearest code: smooth areas may show bands"},
+     text_at<&A::no_dither>, parsed_at<parse_off, &R::encoding, &E::dither>}};
 
 constexpr Entry faults[] = {
     {{.name = "--strict",
@@ -308,11 +349,10 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                  {"Camera", camera}};
         const auto lens = lens_option_groups();
         groups.insert(groups.end(), lens.begin(), lens.end());
-        const std::initializer_list<RenderOptionGroup> rest = {
-            {"Light", light},
-            {"Display (PNG and JPEG only)", display},
-            {"Faulty scenes", faults},
-            {"Program", program}};
+        const std::initializer_list<RenderOptionGroup> rest = {{"Light", light},
+                                                               {"Display (all but EXR)", display},
+                                                               {"Faulty scenes", faults},
+                                                               {"Program", program}};
         groups.insert(groups.end(), rest);
         return groups;
     }();
@@ -320,7 +360,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
 }
 
 Command render_command(RenderArguments& arguments) {
-    Command command{"render", "Render a scene to EXR, PNG or JPEG", notes};
+    Command command{"render", "Render a scene to EXR, PNG, JPEG, TIFF, WebP or AVIF", notes};
     command.options = bind_all(std::span(render_option_groups()), arguments);
     command.run = [&arguments] { return run_render(arguments); };
     return command;

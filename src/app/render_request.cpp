@@ -49,6 +49,9 @@ Result<void> complete_time(const RenderArguments& arguments, RenderRequest& requ
             "it is for --frames and --shutter OPEN,CLOSE; leave it out or add one of them");
     }
     if (!request.frames) return {};
+    if (request.standard_output) {
+        return conflict("--output", "- takes one image; with --frames give files shot.####.png");
+    }
     request.frames->fps = request.fps;
     for (const std::filesystem::path& output : request.outputs) {
         if (frame_file(output, 0)) continue;
@@ -60,8 +63,20 @@ Result<void> complete_time(const RenderArguments& arguments, RenderRequest& requ
 }
 
 Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& request) {
-    request.outputs.assign(arguments.outputs.begin(), arguments.outputs.end());
-    if (request.outputs.empty() && arguments.writes_images && !arguments.check) {
+    for (const std::string& output : arguments.outputs) {
+        if (output != "-") {
+            request.outputs.emplace_back(output);
+        } else if (request.standard_output) {
+            return usage("E-USAGE-SAMEFILE", "--output", "- is given twice; give it once");
+        } else {
+            request.standard_output = OutputFormat::png;
+        }
+    }
+    if (arguments.format && !request.standard_output) {
+        return conflict("--format", "it is for -o -; other outputs' names tell their formats");
+    }
+    if (request.outputs.empty() && !request.standard_output && arguments.writes_images &&
+        !arguments.check) {
         const char* ending = arguments.frames ? ".####.exr" : ".exr";
         request.outputs.push_back(request.scene.stem().concat(ending));
     }
@@ -103,6 +118,16 @@ bool wants_uv(const RenderOptions& options) {
     return layer || options.integrator == Integrator::uv;
 }
 
+/// --page: the rest of the file is the page unless another background is asked for.
+Result<void> complete_page(const RenderArguments& arguments, RenderRequest& request) {
+    if (!request.encoding.page) return {};
+    if (!arguments.background) request.options.background = BackgroundKind::transparent;
+    if (request.options.background != BackgroundKind::color) return {};
+    return conflict("--page",
+                    "a --background of one colour hides it; give one or the other, or --background "
+                    "transparent");
+}
+
 /// Values that depend on several options, which an entry of the table cannot express.
 Result<void> complete(const RenderArguments& arguments, RenderRequest& request) {
     if (auto done = complete_lens(arguments.lens, request.camera.model, request.camera.settings);
@@ -116,6 +141,7 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     if (auto chosen = choose_layers(arguments, request); !chosen) return chosen;
     request.load.keeps_uv = wants_uv(request.options);
     request.verbosity = verbosity_of(arguments);
+    if (auto done = complete_page(arguments, request); !done) return done;
     return complete_time(arguments, request);
 }
 

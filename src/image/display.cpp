@@ -3,6 +3,7 @@
 #include "image/display.h"
 
 #include "base/setting_names.h"
+#include "image/code_points.h"
 #include "image/ocio_config.h"
 #include "image/ocio_cycles.h"
 #include "image/pbr_neutral.h"
@@ -27,6 +28,7 @@ struct DisplayTransform::Impl {
     ocio::ConstCPUProcessorRcPtr processor;
     float exposure = 1;
     bool pbr_neutral = false;
+    std::optional<ColorCodePoints> code_points;
 };
 
 namespace {
@@ -218,10 +220,15 @@ Result<DisplayTransform> DisplayTransform::create(const DisplayOptions& options,
         impl->processor = from->config->getProcessor(transform)->getDefaultCPUProcessor();
         impl->exposure = static_cast<float>(std::exp2(options.exposure_ev));
         impl->pbr_neutral = from->is_builtin && chosen->view == "Khronos PBR Neutral";
+        impl->code_points = find_code_points(*from->config, chosen->display, chosen->view);
         return DisplayTransform(std::move(impl));
     } catch (const std::exception& error) {
         return bad_configuration("E-OCIO-FILE", from->name, error.what());
     }
+}
+
+const std::optional<ColorCodePoints>& DisplayTransform::code_points() const {
+    return impl_->code_points;
 }
 
 void DisplayTransform::apply(float* rgb, size_t count) const {

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace obscura {
@@ -17,6 +18,16 @@ struct DisplayOptions {
     std::string view;        ///< empty: the config's default for that display
     double exposure_ev = 0;  ///< scene values are multiplied by 2^EV first
 };
+
+/// What RGB code values mean, as ITU-T H.273 counts it and PNG's cICP chunk stores it: full range,
+/// no matrix.
+struct ColorCodePoints {
+    int primaries = 2;  ///< ColourPrimaries; 2: unspecified
+    int transfer = 2;   ///< TransferCharacteristics; 2: unspecified
+
+    bool operator==(const ColorCodePoints&) const = default;
+};
+inline constexpr ColorCodePoints srgb_code_points = {1, 13};
 
 /// Scene-linear Rec.709 to display code values in [0, 1].
 class DisplayTransform {
@@ -31,6 +42,9 @@ public:
 
     /// Converts `count` RGB triples in place. Thread-safe.
     void apply(float* rgb, size_t count) const;
+
+    /// What the display's codes mean; none: data, or nothing that has a number.
+    const std::optional<ColorCodePoints>& code_points() const;
 
 private:
     struct Impl;

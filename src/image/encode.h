@@ -6,16 +6,11 @@
 #include "image/write.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 namespace obscura {
-
-/// A file in memory, and what it could not keep.
-struct EncodedFile {
-    std::vector<std::byte> bytes;
-    WriteReport report = {};
-};
 
 /// Encodes an image as an OpenEXR file: with its layers, unless they have files of their own. The
 /// same image gives the same bytes on any number of threads. OpenEXR's exceptions pass through.
@@ -31,21 +26,40 @@ EncodedFile encode_exr_layer(const OutputImage& image,
                              const ExrOptions& options,
                              const std::string& name);
 
-enum class DisplayFormat { png, jpeg };
-
-/// Encodes an image of 1 to 4 channels as PNG or JPEG; see write_image_file.
+/// Encodes a whole image of 1, 3 or 4 channels for a display; see write_image_file.
 ///
+/// In      target: of any format but EXR
 /// Errors  70 E-OUT-ENCODE with the library's message
-Result<std::vector<std::byte>> encode_for_display(const OutputImage& image,
+Result<std::vector<std::byte>> encode_for_display(const OutputTarget& target,
+                                                  const OutputImage& image,
                                                   const ImageMetadata& metadata,
-                                                  DisplayFormat format,
-                                                  const DisplayTransform* display,
-                                                  const std::string& where);
+                                                  const DisplayEncoding& encoding);
 
-/// The image's interleaved 8-bit code values, as encode_for_display stores them: grey, RGB or RGBA
-/// (JPEG: never alpha).
-std::vector<unsigned char> display_codes(const OutputImage& image,
-                                         bool keep_alpha,
-                                         const DisplayTransform* display);
+/// Interleaved codes of an image: grey, RGB, or RGB and straight alpha.
+struct CodedImage {
+    int width = 0, height = 0, channels = 0;
+    const uint8_t* codes = nullptr;
+};
+
+/// Encodes as WebP through libwebp: with loss below quality 100, without at 100.
+///
+/// In      image: 3 or 4 channels; is_srgb: adds the profile of sRGB
+/// Errors  70 E-OUT-ENCODE
+Result<std::vector<std::byte>> encode_webp(const CodedImage& image,
+                                           int quality,
+                                           bool is_srgb,
+                                           const std::string& where);
+
+/// Encodes as AVIF through OpenImageIO, which needs a file for that: one of its own in the folder
+/// for temporary files, removed in the end.
+///
+/// In      image: 3 or 4 channels
+/// Errors  70 E-OUT-ENCODE, 74 E-OUT-WRITE
+Result<std::vector<std::byte>> encode_avif(const CodedImage& image,
+                                           int quality,
+                                           const std::string& where);
+
+/// True when OpenImageIO, as it is installed, writes AVIF: asks by writing a small one, once.
+bool can_write_avif();
 
 }  // namespace obscura

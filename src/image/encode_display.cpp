@@ -1,96 +1,132 @@
-// image/encode_display.cpp - encodes finished images as PNG and JPEG.
+// image/encode_display.cpp - encodes finished images for displays, with what their colours mean.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/log.h"
-#include "base/parallel.h"
 #include "image/encode.h"
+#include "image/icc_profile.h"
 #include "image/oiio_input.h"
+#include "image/png_chunks.h"
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace obscura {
 
 namespace {
 
-unsigned char code_of(float value) {
-    const float in_range = std::isnan(value) ? 0.0f : std::clamp(value, 0.0f, 1.0f);
-    return static_cast<unsigned char>(std::lround(in_range * 255.0f));
+/// The codes of an image, with what is to be said about them.
+struct Encodable {
+    const OutputTarget& target;
+    const ImageMetadata& metadata;
+    int width, height, channels;
+    int bits;
+    int quality;
+    std::optional<ColorCodePoints> code_points;
+    const void* codes;
+
+    bool is_srgb() const { return code_points == srgb_code_points; }
+};
+
+const char* oiio_name(OutputFormat format) {
+    return format == OutputFormat::png ? "png" : format == OutputFormat::jpeg ? "jpeg" : "tiff";
 }
 
-/// Divides colour by alpha; colour becomes 0 if alpha is 0.
-void unpremultiply(float* rgb, float alpha) {
-    const float scale = alpha > 0 ? 1.0f / alpha : 0.0f;
-    for (int i = 0; i < 3; ++i)
-        rgb[i] *= scale;
+OIIO::ImageSpec spec_of(const Encodable& image) {
+    const OIIO::TypeDesc type = image.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("Software", escape_control(image.metadata.software));
+    if (!image.metadata.copyright.empty()) {
+        spec.attribute("Copyright", escape_control(image.metadata.copyright));
+    }
+    const OutputFormat format = image.target.format;
+    if (format == OutputFormat::png) spec.attribute("compression", "zip:4");
+    if (format == OutputFormat::tiff) spec.attribute("compression", "zip");
+    if (format == OutputFormat::jpeg) {
+        spec.attribute("compression", "jpeg:" + std::to_string(image.quality));
+        spec.attribute("jpeg:subsampling", "4:4:4");
+    }
+    if (format != OutputFormat::png && image.is_srgb()) {  // a PNG has a chunk for that
+        const std::vector<std::byte> profile = srgb_icc_profile();
+        const OIIO::TypeDesc bytes(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size()));
+        spec.attribute("ICCProfile", bytes, profile.data());
+    }
+    return spec;
+}
+
+/// PNG, JPEG and TIFF.
+Result<std::vector<std::byte>> encode_with_oiio(const Encodable& image) {
+    prepare_oiio();
+    const OIIO::ImageSpec spec = spec_of(image);
+    std::vector<unsigned char> encoded;
+    OIIO::Filesystem::IOVecOutput stream(encoded);
+    const auto output = OIIO::ImageOutput::create(oiio_name(image.target.format));
+    if (output) output->threads(1);
+    const bool done = output && output->set_ioproxy(&stream) &&
+                      output->open(image.target.name, spec) &&
+                      output->write_image(spec.format, image.codes) && output->close();
+    if (!done) {
+        return fail(ExitCode::internal,
+                    "E-OUT-ENCODE",
+                    image.target.name,
+                    "encoding failed: " + (output ? output->geterror() : OIIO::geterror()));
+    }
+    const auto bytes = std::as_bytes(std::span(encoded));
+    if (image.target.format == OutputFormat::png) {
+        return with_color_chunk(bytes, image.code_points);
+    }
+    return std::vector<std::byte>(bytes.begin(), bytes.end());
+}
+
+/// Grey as RGB, which all that libwebp and libheif take has.
+std::vector<uint8_t> spread_grey(const std::vector<uint8_t>& grey) {
+    std::vector<uint8_t> rgb;
+    rgb.reserve(3 * grey.size());
+    for (const uint8_t code : grey)
+        rgb.insert(rgb.end(), 3, code);
+    return rgb;
 }
 
 }  // namespace
 
-std::vector<unsigned char> display_codes(const OutputImage& image,
-                                         bool keep_alpha,
-                                         const DisplayTransform* display) {
-    constexpr size_t grain = 4096;
-    const size_t channels = image.channels.size();
-    const size_t colors = channels >= 3 ? 3 : 1;
-    const bool has_alpha = keep_alpha && channels == 4;
-    const size_t out_channels = colors + (has_alpha ? 1 : 0);
-    const size_t count = image.pixels.size() / channels;
-    std::vector<unsigned char> codes(count * out_channels);
-    parallel_ranges(count, grain, [&](size_t begin, size_t end) {
-        std::vector<float> rgb((end - begin) * colors);
-        for (size_t i = begin; i < end; ++i) {
-            const float* pixel = image.pixels.data() + i * channels;
-            float* color = rgb.data() + (i - begin) * colors;
-            std::copy_n(pixel, colors, color);
-            if (has_alpha) unpremultiply(color, std::min(pixel[3], 1.0f));
-        }
-        if (display && colors == 3) display->apply(rgb.data(), end - begin);
-        for (size_t i = begin; i < end; ++i) {
-            unsigned char* out = codes.data() + i * out_channels;
-            const float* color = rgb.data() + (i - begin) * colors;
-            std::transform(color, color + colors, out, code_of);
-            if (has_alpha) out[3] = code_of(image.pixels[i * channels + 3]);
-        }
-    });
-    return codes;
-}
-
-Result<std::vector<std::byte>> encode_for_display(const OutputImage& image,
+Result<std::vector<std::byte>> encode_for_display(const OutputTarget& target,
+                                                  const OutputImage& image,
                                                   const ImageMetadata& metadata,
-                                                  DisplayFormat format,
-                                                  const DisplayTransform* display,
-                                                  const std::string& where) {
-    const bool is_png = format == DisplayFormat::png;
-    const std::vector<unsigned char> codes =
-        display_codes(image, is_png, metadata.is_color ? display : nullptr);
-    prepare_oiio();
+                                                  const DisplayEncoding& encoding) {
+    const OutputFormatEntry& format = entry_of(target.format);
+    DisplayEncoding how = encoding;
+    if (!metadata.is_color) how.transform = nullptr;
+    Encodable encodable{.target = target,
+                        .metadata = metadata,
+                        .width = image.width,
+                        .height = image.height,
+                        .channels = 0,
+                        .bits = how.bits,
+                        .quality = how.quality.value_or(format.quality),
+                        .code_points = {},
+                        .codes = nullptr};
+    if (how.transform && image.channels.size() >= 3) {
+        encodable.code_points = how.transform->code_points();
+    }
     const size_t pixels = image.pixels.size() / image.channels.size();
-    const int channels = static_cast<int>(codes.size() / pixels);
-    OIIO::ImageSpec spec(image.width, image.height, channels, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("Software", escape_control(metadata.software));
-    if (!metadata.copyright.empty()) {
-        spec.attribute("Copyright", escape_control(metadata.copyright));
+    if (how.bits == 16) {
+        const std::vector<uint16_t> codes = display_codes<uint16_t>(image, format.has_alpha, how);
+        encodable.channels = static_cast<int>(codes.size() / pixels);
+        encodable.codes = codes.data();
+        return encode_with_oiio(encodable);
     }
-    spec.attribute("compression", is_png ? "zip:4" : "jpeg:95");
-    if (!is_png) spec.attribute("jpeg:subsampling", "4:4:4");
-    std::vector<unsigned char> encoded;
-    OIIO::Filesystem::IOVecOutput stream(encoded);
-    const auto output = OIIO::ImageOutput::create(is_png ? "png" : "jpeg");
-    if (output) output->threads(1);
-    const bool done = output && output->set_ioproxy(&stream) && output->open(where, spec) &&
-                      output->write_image(OIIO::TypeDesc::UINT8, codes.data()) && output->close();
-    if (!done) {
-        return fail(ExitCode::internal,
-                    "E-OUT-ENCODE",
-                    where,
-                    "encoding failed: " + (output ? output->geterror() : OIIO::geterror()));
+    std::vector<uint8_t> codes = display_codes<uint8_t>(image, format.has_alpha, how);
+    const bool by_oiio = target.format != OutputFormat::webp && target.format != OutputFormat::avif;
+    if (!by_oiio && codes.size() == pixels) codes = spread_grey(codes);
+    encodable.channels = static_cast<int>(codes.size() / pixels);
+    encodable.codes = codes.data();
+    if (by_oiio) return encode_with_oiio(encodable);
+    const CodedImage coded{image.width, image.height, encodable.channels, codes.data()};
+    if (target.format == OutputFormat::avif) {
+        return encode_avif(coded, encodable.quality, target.name);
     }
-    const auto bytes = std::as_bytes(std::span(encoded));
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
+    return encode_webp(coded, encodable.quality, encodable.is_srgb(), target.name);
 }
 
 }  // namespace obscura

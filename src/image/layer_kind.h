@@ -5,7 +5,7 @@
 namespace obscura {
 
 /// What a layer of an image holds, and so how it may be stored: colours as half floats and with
-/// losses, data and ids never.
+/// losses, data (depth, normals) and ids never. Ids are not averaged either.
 enum class LayerKind { color, data, id };
 
 }  // namespace obscura

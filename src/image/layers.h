@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/unset_array.h"
+#include "image/layer_kind.h"
 #include "image/pixels.h"
 
 #include <optional>
@@ -11,10 +12,6 @@
 #include <vector>
 
 namespace obscura {
-
-/// Colour may be stored in half and lossily; data (depth, normals) and ids never are. Ids are not
-/// averaged either.
-enum class LayerKind { color, data, id };
 
 /// Further channels of an image.
 struct ImageLayer {

@@ -1,8 +1,9 @@
-// image/write.cpp - writes finished images: EXR scene-linear, PNG and JPEG through a display.
+// image/write.cpp - writes finished images: EXR scene-linear, the others through a display.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/write.h"
 
 #include "base/atomic_file.h"
+#include "base/setting_names.h"
 #include "image/encode.h"
 #include "image/exr_parts.h"
 
@@ -13,30 +14,17 @@ namespace obscura {
 
 namespace {
 
-enum class FileFormat { unknown, exr, png, jpeg };
-
-FileFormat format_of(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    }
-    if (extension == ".exr") return FileFormat::exr;
-    if (extension == ".png") return FileFormat::png;
-    if (extension == ".jpg" || extension == ".jpeg") return FileFormat::jpeg;
-    return FileFormat::unknown;
+tl::unexpected<Error> bad_format(const std::string& where, std::string message) {
+    return fail(ExitCode::usage, "E-OUT-FORMAT", where, std::move(message));
 }
 
-tl::unexpected<Error> bad_format(const std::filesystem::path& file, std::string message) {
-    return fail(ExitCode::usage, "E-OUT-FORMAT", file.string(), std::move(message));
-}
-
-Result<void> check_format(const std::filesystem::path& file) {
-    if (format_of(file) != FileFormat::unknown) return {};
+Result<OutputTarget> target_of(const std::filesystem::path& file) {
+    if (const auto format = output_format_of(file)) return OutputTarget{*format, file.string()};
     const std::string extension = file.extension().string();
-    return bad_format(file,
+    return bad_format(file.string(),
                       (extension.empty() ? "the name has no extension"
                                          : "'" + extension + "' is not a format that is written") +
-                          "; accepted are .exr, .png, .jpg and .jpeg");
+                          "; accepted are " + output_endings());
 }
 
 /// True when there are as many values as the size and the channels ask for.
@@ -49,72 +37,70 @@ bool has_all_values(const OutputImage& image) {
     return fits(image) && std::all_of(image.layers.begin(), image.layers.end(), fits);
 }
 
-Result<void> check_image(const std::filesystem::path& file, const OutputImage& image) {
+Result<void> check_image(const OutputTarget& target, const OutputImage& image) {
     if (!has_all_values(image)) {
         return fail(ExitCode::internal,
                     "E-OUT-ENCODE",
-                    file.string(),
-                    "the picture's size, channels and pixels contradict each other");
+                    target.name,
+                    "the image's size, channels and pixels contradict each other");
     }
     const size_t channels = image.channels.size();
-    if (format_of(file) != FileFormat::exr && channels != 1 && channels != 3 && channels != 4) {
-        return bad_format(file,
-                          "a picture of " + std::to_string(channels) +
-                              " channels fits neither PNG nor JPEG (1, 3 or 4); write .exr");
+    if (target.format != OutputFormat::exr && channels != 1 && channels != 3 && channels != 4) {
+        return bad_format(target.name,
+                          "an image of " + std::to_string(channels) +
+                              " channels fits no format for displays (1, 3 or 4); write .exr");
     }
     return {};
 }
 
-/// What one file is made of.
+/// What a file, or an image's several, are made of.
 struct FileContent {
     const OutputImage& image;
-    const ImageLayer* layer;  ///< the only one in the file; null: the image
     const ImageMetadata& metadata;
     const ExrOptions& exr;
-    const DisplayTransform* display;
+    const DisplayEncoding& encoding;
 };
 
-Result<EncodedFile> encode_content(const std::filesystem::path& file, const FileContent& content) {
-    const FileFormat format = format_of(file);
-    if (format == FileFormat::exr) {
-        return content.layer != nullptr
-                   ? encode_exr_layer(content.image,
-                                      *content.layer,
-                                      content.metadata,
-                                      content.exr,
-                                      file.string())
-                   : encode_exr(content.image, content.metadata, content.exr, file.string());
-    }
-    const bool is_part = content.image.part_of.has_value();
-    const OutputImage whole = is_part ? whole_image(content.image) : OutputImage{};
-    Result<std::vector<std::byte>> bytes =
-        encode_for_display(is_part ? whole : content.image,
-                           content.metadata,
-                           format == FileFormat::png ? DisplayFormat::png : DisplayFormat::jpeg,
-                           content.display,
-                           file.string());
-    if (!bytes) return fail(bytes.error());
-    return EncodedFile{std::move(*bytes)};
+Result<void> check_content(const OutputTarget& target, const FileContent& content) {
+    const OutputImage& image = content.image;
+    if (auto sound = check_image(target, image); !sound) return sound;
+    const int width = image.part_of ? image.part_of->width : image.width;
+    const int height = image.part_of ? image.part_of->height : image.height;
+    if (auto fits = check_encoding(target, content.encoding, width, height); !fits) return fits;
+    if (target.format != OutputFormat::exr) return {};
+    return check_layers({image, content.metadata, content.exr}, target.name);
 }
 
-/// Encodes and writes one file, whole or not at all.
-Result<WriteReport> write_content(const std::filesystem::path& file, const FileContent& content) {
-    Result<EncodedFile> encoded;
+Result<std::vector<std::byte>> encode_whole(const OutputTarget& target,
+                                            const FileContent& content) {
+    const OutputImage& image = content.image;
+    if (image.part_of) {
+        return encode_for_display(target, whole_image(image), content.metadata, content.encoding);
+    }
+    return encode_for_display(target, image, content.metadata, content.encoding);
+}
+
+/// Encodes one file.
+///
+/// In      layer: the only one in the file, an EXR; null: the image
+Result<EncodedFile> encode_content(const OutputTarget& target,
+                                   const FileContent& content,
+                                   const ImageLayer* layer) {
+    const auto& [image, metadata, exr, encoding] = content;
     try {
-        encoded = encode_content(file, content);
+        if (layer) return encode_exr_layer(image, *layer, metadata, exr, target.name);
+        if (target.format == OutputFormat::exr) {
+            return encode_exr(image, metadata, exr, target.name);
+        }
+        Result<std::vector<std::byte>> bytes = encode_whole(target, content);
+        if (!bytes) return fail(bytes.error());
+        return EncodedFile{std::move(*bytes)};
     } catch (const std::bad_alloc&) {
-        return fail(ExitCode::out_of_memory,
-                    "E-OUT-MEMORY",
-                    file.string(),
-                    "no memory to encode the picture");
+        return fail(
+            ExitCode::out_of_memory, "E-OUT-MEMORY", target.name, "no memory to encode the image");
     } catch (const std::exception& error) {
-        return fail(ExitCode::internal, "E-OUT-ENCODE", file.string(), error.what());
+        return fail(ExitCode::internal, "E-OUT-ENCODE", target.name, error.what());
     }
-    if (!encoded) return fail(encoded.error());
-    if (auto written = write_file_atomically(file, encoded->bytes); !written) {
-        return fail(written.error());
-    }
-    return encoded->report;
 }
 
 }  // namespace
@@ -145,39 +131,74 @@ std::filesystem::path layer_file(const std::filesystem::path& beauty, const std:
     return beauty.parent_path() / (name + beauty.extension().string());
 }
 
+Result<EncodedFile> encode_image(const OutputTarget& target,
+                                 const OutputImage& image,
+                                 const ImageMetadata& metadata,
+                                 const ExrOptions& exr,
+                                 const DisplayEncoding& encoding) {
+    const FileContent content{image, metadata, exr, encoding};
+    if (auto checked = check_content(target, content); !checked) return fail(checked.error());
+    return encode_content(target, content, nullptr);
+}
+
 Result<WriteReport> write_image_file(const std::filesystem::path& file,
                                      const OutputImage& image,
                                      const ImageMetadata& metadata,
                                      const ExrOptions& exr,
-                                     const DisplayTransform* display) {
-    if (auto known = check_format(file); !known) return fail(known.error());
-    if (auto sound = check_image(file, image); !sound) return fail(sound.error());
+                                     const DisplayEncoding& encoding) {
+    const Result<OutputTarget> target = target_of(file);
+    if (!target) return fail(target.error());
+    const FileContent content{image, metadata, exr, encoding};
+    if (auto checked = check_content(*target, content); !checked) return fail(checked.error());
     WriteReport all;
-    const auto write = [&](const std::filesystem::path& to, const ImageLayer* layer) {
-        const auto written = write_content(to, {image, layer, metadata, exr, display});
-        if (written) {
-            all.clamped_values += written->clamped_values;
-            all.lossless_instead |= written->lossless_instead;
-        }
-        return written;
+    const auto write = [&](const std::filesystem::path& to,
+                           const ImageLayer* layer) -> Result<void> {
+        const auto encoded = encode_content({target->format, to.string()}, content, layer);
+        if (!encoded) return fail(encoded.error());
+        all.clamped_values += encoded->report.clamped_values;
+        all.lossless_instead |= encoded->report.lossless_instead;
+        return write_file_atomically(to, encoded->bytes);
     };
-    if (format_of(file) == FileFormat::exr) {
-        const auto fit = check_layers({image, metadata, exr}, file.string());
-        if (!fit) return fail(fit.error());
-        if (exr.layout == ExrLayout::separate) {
-            for (const ImageLayer& layer : image.layers) {
-                const auto written = write(layer_file(file, layer.name), &layer);
-                if (!written) return written;
-            }
+    if (target->format == OutputFormat::exr && exr.layout == ExrLayout::separate) {
+        for (const ImageLayer& layer : image.layers) {
+            const auto written = write(layer_file(file, layer.name), &layer);
+            if (!written) return fail(written.error());
         }
     }
-    if (const auto written = write(file, nullptr); !written) return written;
+    if (const auto written = write(file, nullptr); !written) return fail(written.error());
     return all;
 }
 
-Result<void> check_output(const std::filesystem::path& file) {
-    if (auto known = check_format(file); !known) return known;
-    return check_file_can_be_written(file);
+Result<void> check_encoding(const OutputTarget& target,
+                            const DisplayEncoding& encoding,
+                            int width,
+                            int height) {
+    const OutputFormatEntry& format = entry_of(target.format);
+    if (encoding.bits > format.max_bits) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-CONFLICT",
+                    setting("bits"),
+                    target.name + ": " + format.name + " has " + std::to_string(format.max_bits) +
+                        " bits a channel; 16 are for PNG and TIFF, and EXR has 16 or 32 anyway");
+    }
+    if (std::max(width, height) > format.max_side) {
+        return bad_format(target.name,
+                          std::to_string(width) + " x " + std::to_string(height) +
+                              " pixels are too many for " + format.name + ", whose sides have " +
+                              std::to_string(format.max_side) + " at most; write .png or .exr");
+    }
+    if (target.format == OutputFormat::avif && !can_write_avif()) {
+        return bad_format(target.name,
+                          "the OpenImageIO of this build writes no AVIF; write .webp or .png");
+    }
+    return {};
+}
+
+Result<OutputTarget> check_output(const std::filesystem::path& file) {
+    Result<OutputTarget> target = target_of(file);
+    if (!target) return target;
+    if (auto writable = check_file_can_be_written(file); !writable) return fail(writable.error());
+    return target;
 }
 
 }  // namespace obscura

@@ -265,6 +265,9 @@ obscura::Result<void> write_image(const Image& image,
     request.outputs = {file};
     request.options.integrator = image.source->integrator;
     request.exr_depth = options.float32 ? ExrDepth::float32 : ExrDepth::half;
+    const obscura::Result<DisplayEncoding> encoding = encoding_of(options);
+    if (!encoding) return fail(encoding.error());
+    request.encoding = *encoding;
     request.display = {options.ocio_config, options.display, options.view, options.exposure_ev};
     obscura::Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());

@@ -289,4 +289,19 @@ Result<RenderRequest> request_of(const v0::View& view,
     return out;
 }
 
+Result<DisplayEncoding> encoding_of(const v0::WriteOptions& options) {
+    DisplayEncoding out;
+    Checks checks;
+    checks.conflict(options.bits != 8 && options.bits != 16, "bits", "8 and 16 are accepted");
+    if (options.quality) checks.real("quality", *options.quality, 1, 100);
+    for (const float code : options.page.value_or(std::array<float, 3>{}))
+        checks.real("page", static_cast<double>(code), 0, 1);
+    if (checks.error()) return fail(*checks.error());
+    out.bits = options.bits;
+    out.quality = options.quality;
+    out.dither = options.dither;
+    out.page = options.page;
+    return out;
+}
+
 }  // namespace obscura

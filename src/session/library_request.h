@@ -21,4 +21,9 @@ Result<RenderRequest> request_of(const v0::View& view,
                                  const v0::Sampling& sampling,
                                  const v0::Control& control);
 
+/// How an image becomes a file for a display, without the display's transform.
+///
+/// Errors  64 E-USAGE-RANGE, E-USAGE-CONFLICT
+Result<DisplayEncoding> encoding_of(const v0::WriteOptions& options);
+
 }  // namespace obscura

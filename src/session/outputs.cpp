@@ -15,18 +15,42 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <unistd.h>
 
 namespace obscura {
 
 namespace {
 
-/// .exr in upper or lower case, as write_image_file recognises formats.
 bool is_exr(const std::filesystem::path& file) {
-    std::string extension = file.extension().string();
-    for (char& c : extension) {
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return output_format_of(file) == OutputFormat::exr;
+}
+
+/// What an output is made of.
+struct Content {
+    const OutputImage& image;
+    const ImageMetadata& metadata;
+    ExrOptions exr;
+    DisplayEncoding encoding;
+};
+
+/// Calls `write` with the image itself, or with what one can look at in its place.
+template <typename Write>
+auto with_content(const RenderRequest& request,
+                  const FinishedImage& finished,
+                  bool exr,
+                  const DisplayTransform* display,
+                  const Write& write) {
+    const Integrator integrator = request.options.integrator;
+    const ExrOptions options{.depth = is_aov(integrator) ? ExrDepth::float32 : request.exr_depth};
+    DisplayEncoding encoding = request.encoding;
+    if (exr || !needs_preview(integrator)) {
+        encoding.transform = display;
+        return write(Content{finished.image, finished.metadata, options, encoding});
     }
-    return extension == ".exr";
+    ImageMetadata metadata = finished.metadata;
+    metadata.is_color = false;
+    const OutputImage preview = preview_image(whole_image(finished.image), integrator);
+    return write(Content{preview, metadata, options, encoding});
 }
 
 /// True when the whole image is one sphere, as OpenEXR's envmap attribute says: twice as wide as
@@ -92,17 +116,17 @@ StandardAttributes standard_attributes(const RenderRequest& request, const Chose
 }
 
 /// Warns of what a file could not keep.
-void warn_of(const WriteReport& report, const std::filesystem::path& file, Log& log) {
+void warn_of(const WriteReport& report, const std::string& file, Log& log) {
     if (report.clamped_values > 0) {
         log.warn(
-            file.string(),
+            file,
             fmt::format("{} values beyond 65504, the largest of 16 bits, are clamped; {} keeps "
                         "them",
                         report.clamped_values,
                         setting("float")));
     }
     if (report.lossless_instead) {
-        log.warn(file.string(),
+        log.warn(file,
                  "its colours are compressed by ZIP: the codec would round the data beside them; "
                  "give layers parts or files of their own");
     }
@@ -113,17 +137,27 @@ void warn_of(const WriteReport& report, const std::filesystem::path& file, Log& 
 Result<void> check_outputs(const RenderRequest& request) {
     // All files of a sequence lie in one folder: those of the first frame stand for all.
     const MovieFrame first = frames_of(request).front();
+    const RenderOptions& options = request.options;
+    const auto fits = [&](const OutputTarget& target) {
+        return check_encoding(target, request.encoding, options.width, options.height);
+    };
     for (const std::filesystem::path& output : first.outputs) {
-        if (auto writable = check_output(output); !writable) return writable;
+        const Result<OutputTarget> target = check_output(output);
+        if (!target) return fail(target.error());
+        if (auto done = fits(*target); !done) return done;
+    }
+    if (request.standard_output) {
+        if (auto done = fits({*request.standard_output, standard_output_name}); !done) return done;
     }
     if (request.statistics) return check_file_can_be_written(*request.statistics);
     return {};
 }
 
 Result<std::optional<DisplayTransform>> make_display(const RenderRequest& request, Log& log) {
-    const bool wanted = !needs_preview(request.options.integrator) &&
-                        !std::all_of(request.outputs.begin(), request.outputs.end(), is_exr);
-    if (!wanted) return std::optional<DisplayTransform>();
+    const bool all_exr = std::all_of(request.outputs.begin(), request.outputs.end(), is_exr) &&
+                         request.standard_output.value_or(OutputFormat::exr) == OutputFormat::exr;
+    if (all_exr || needs_preview(request.options.integrator))
+        return std::optional<DisplayTransform>();
     Result<DisplayTransform> display = DisplayTransform::create(request.display, log);
     if (!display) return fail(display.error());
     return std::optional<DisplayTransform>(std::move(*display));
@@ -186,24 +220,32 @@ Result<void> write_outputs(const RenderRequest& request,
                            const std::optional<DisplayTransform>& display,
                            const std::atomic<bool>& stop,
                            Log& log) {
-    const Integrator integrator = request.options.integrator;
-    const ExrOptions exr{.depth = is_aov(integrator) ? ExrDepth::float32 : request.exr_depth};
+    const auto stopped = [](const std::string& name) {
+        return fail(ExitCode::stopped_early, "E-STOPPED", name, "stopped");
+    };
+    const DisplayTransform* const transform = display ? &*display : nullptr;
     for (const std::filesystem::path& output : request.outputs) {
-        if (stop) return fail(ExitCode::stopped_early, "E-STOPPED", output.string(), "stopped");
-        Result<WriteReport> written;
-        if (needs_preview(integrator) && !is_exr(output)) {
-            ImageMetadata metadata = finished.metadata;
-            metadata.is_color = false;
-            const OutputImage preview = preview_image(whole_image(finished.image), integrator);
-            written = write_image_file(output, preview, metadata, exr, nullptr);
-        } else {
-            written = write_image_file(
-                output, finished.image, finished.metadata, exr, display ? &*display : nullptr);
-        }
+        if (stop) return stopped(output.string());
+        const auto write = [&](const Content& content) {
+            return write_image_file(
+                output, content.image, content.metadata, content.exr, content.encoding);
+        };
+        const bool exr = is_exr(output);
+        const Result<WriteReport> written = with_content(request, finished, exr, transform, write);
         if (!written) return fail(written.error());
-        warn_of(*written, output, log);
+        warn_of(*written, output.string(), log);
     }
-    return {};
+    if (!request.standard_output) return {};
+    if (stop) return stopped(standard_output_name);
+    const OutputTarget target{*request.standard_output, standard_output_name};
+    const auto encode = [&](const Content& content) {
+        return encode_image(target, content.image, content.metadata, content.exr, content.encoding);
+    };
+    const bool exr = target.format == OutputFormat::exr;
+    const Result<EncodedFile> encoded = with_content(request, finished, exr, transform, encode);
+    if (!encoded) return fail(encoded.error());
+    warn_of(encoded->report, target.name, log);
+    return write_fully(STDOUT_FILENO, encoded->bytes, standard_output_name);
 }
 
 }  // namespace obscura

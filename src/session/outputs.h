@@ -10,13 +10,16 @@
 
 namespace obscura {
 
+/// Standard output in messages.
+inline constexpr const char* standard_output_name = "standard output";
+
 /// Finds early errors before the costly work starts: every output and the statistics file can be
-/// created, and every extension is known.
+/// created, every extension is known, and every format can hold what it is asked for.
 ///
-/// Errors  64 E-OUT-FORMAT; 73 E-OUT-CREATE
+/// Errors  64 E-OUT-FORMAT, E-USAGE-CONFLICT; 73 E-OUT-CREATE
 Result<void> check_outputs(const RenderRequest& request);
 
-/// The display transform, where a PNG or JPEG of colours needs one.
+/// The display transform, where an output of colours that is no EXR needs one.
 ///
 /// Errors  78 E-OCIO-*
 Result<std::optional<DisplayTransform>> make_display(const RenderRequest& request, Log& log);
@@ -46,10 +49,10 @@ struct FinishedImage {
     double render_seconds = 0;
 };
 
-/// Writes every output, each whole or not at all; stops between two when a signal came. Warns of
-/// what a file could not keep.
+/// Writes every output, each whole or not at all, standard output last; stops between two when a
+/// signal came. Warns of what a file could not keep.
 ///
-/// Errors  73, 74 of write_image_file; 75 E-STOPPED
+/// Errors  those of write_image_file; 75 E-STOPPED
 Result<void> write_outputs(const RenderRequest& request,
                            const FinishedImage& finished,
                            const std::optional<DisplayTransform>& display,

@@ -4,7 +4,6 @@
 
 #include "base/log.h"
 #include "gltf/load.h"
-#include "image/display.h"
 #include "image/write.h"
 #include "render/points_lines_sizes.h"
 #include "render/render.h"
@@ -19,7 +18,8 @@ namespace obscura {
 
 struct RenderRequest {
     std::filesystem::path scene;
-    std::vector<std::filesystem::path> outputs;  ///< at least one where images are written
+    std::vector<std::filesystem::path> outputs;
+    std::optional<OutputFormat> standard_output;  ///< -o -: the image goes there, too
     gltf::LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
     std::optional<FrameRange> frames;         ///< then the outputs are patterns; see frame_file
     std::optional<int> frame;                 ///< of them, the one that is rendered
@@ -36,6 +36,7 @@ struct RenderRequest {
     int threads = 0;  ///< 0: every core
     Isa isa = Isa::automatic;
     DisplayOptions display;
+    DisplayEncoding encoding;  ///< --bits, --quality, --no-dither, --page; without its transform
     ExrDepth exr_depth = ExrDepth::half;
     int crypto_levels = 6;  ///< of Cryptomatte layers in options.layers
     std::optional<std::filesystem::path> statistics;

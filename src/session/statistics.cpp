@@ -97,6 +97,7 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
     Json& outputs = json["outputs"] = Json::array();
     for (const std::filesystem::path& output : request.outputs)
         outputs.push_back(output.string());
+    if (request.standard_output) outputs.push_back("-");
     json["width"] = options.width;
     json["height"] = options.height;
     json["spp"] = samples_taken(options);

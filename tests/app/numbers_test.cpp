@@ -104,6 +104,20 @@ TEST(Numbers, PointsColorsRectangles) {
     EXPECT_TRUE(parse_color("0,0.5,2", "--it"));
     expect_refused(parse_color("0,-0.5,2", "--it"), "E-USAGE-RANGE", "transparent");
     expect_refused(parse_color("sky", "--it"), "E-USAGE-NUMBER", "transparent");
+    EXPECT_EQ(*parse_color("white", "--it"), (std::array<float, 3>{1, 1, 1}));
+    EXPECT_EQ(*parse_color("black", "--it"), (std::array<float, 3>{0, 0, 0}));
+    const std::array<float, 3> grey = *parse_color("gray", "--it");
+    EXPECT_EQ(grey, *parse_color("grey", "--it"));
+    EXPECT_EQ(grey, *parse_color("#808080", "--it"));
+    EXPECT_NEAR(grey[0], 0.2158605f, 1e-6f) << "linear";
+    const std::array<float, 3> page = *parse_page("#0080fF", "--it");
+    EXPECT_FLOAT_EQ(page[0], 0);
+    EXPECT_FLOAT_EQ(page[1], 128.0f / 255) << "encoded";
+    EXPECT_FLOAT_EQ(page[2], 1);
+    EXPECT_EQ(*parse_page("0,0.5,1", "--it"), (std::array<float, 3>{0, 0.5f, 1}));
+    expect_refused(parse_page("0,0.5,1.1", "--it"), "E-USAGE-RANGE", "from 0 to 1");
+    for (const char* text : {"#12345", "#12345g", "#+12345", "#1234567", "White", "transparent"})
+        expect_refused(parse_page(text, "--it"), "E-USAGE-NUMBER", "#RRGGBB");
     EXPECT_TRUE(parse_rectangle("0,0,1,1", "--it"));
     expect_refused(parse_rectangle("0,0,0,1", "--it"), "E-USAGE-RANGE", "X,Y");
     expect_refused(parse_rectangle("-1,0,1,1", "--it"), "E-USAGE-RANGE", "X,Y");

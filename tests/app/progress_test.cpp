@@ -73,6 +73,19 @@ TEST(Progress, LinesStartAtZeroAndEndAtHundred) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
+/// An image on standard output stays alone there.
+TEST(Progress, LinesGoWhereTheyAreSent) {
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    {
+        Progress progress(Verbosity::normal, stderr);
+        progress.begin();
+        progress.finish();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "Progress: 0%\nProgress: 100%\n");
+}
+
 TEST(Progress, AFailureHasNoLastLine) {
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();

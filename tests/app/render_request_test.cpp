@@ -10,6 +10,62 @@
 namespace obscura::app {
 namespace {
 
+Result<RenderRequest> request_of(const RenderArguments& arguments) {
+    RenderArguments named = arguments;
+    named.scene_file = "s.glb";
+    return make_render_request(named);
+}
+
+void expect_conflict(const RenderArguments& arguments, const std::string& where) {
+    const Result<RenderRequest> request = request_of(arguments);
+    ASSERT_FALSE(request) << where;
+    EXPECT_EQ(request.error().code, ExitCode::usage);
+    EXPECT_EQ(request.error().id, "E-USAGE-CONFLICT");
+    EXPECT_EQ(request.error().where, where);
+}
+
+TEST(RenderRequest, ImagesForDisplaysAreAskedForByFourOptions) {
+    RenderArguments arguments;
+    arguments.outputs = {"a.png"};
+    arguments.bits = "16";
+    arguments.quality = "70";
+    arguments.no_dither = true;
+    arguments.page = "#FF0000";
+    const Result<RenderRequest> request = request_of(arguments);
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->encoding.bits, 16);
+    EXPECT_EQ(request->encoding.quality, 70);
+    EXPECT_FALSE(request->encoding.dither);
+    EXPECT_EQ(request->encoding.page, (std::array<float, 3>{1, 0, 0}));
+    EXPECT_EQ(request->options.background, BackgroundKind::transparent) << "a page shows behind";
+    arguments.background = "env";
+    EXPECT_EQ(request_of(arguments)->options.background, BackgroundKind::environment);
+    arguments.background = "white";
+    expect_conflict(arguments, "--page");
+}
+
+TEST(RenderRequest, ADashIsStandardOutput) {
+    RenderArguments arguments;
+    arguments.outputs = {"-"};
+    Result<RenderRequest> request = request_of(arguments);
+    ASSERT_TRUE(request);
+    EXPECT_TRUE(request->outputs.empty()) << "no default file";
+    EXPECT_EQ(request->standard_output, OutputFormat::png);
+    arguments.format = "webp";
+    arguments.outputs = {"a.exr", "-"};
+    request = request_of(arguments);
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->outputs, std::vector<std::filesystem::path>{"a.exr"});
+    EXPECT_EQ(request->standard_output, OutputFormat::webp);
+    arguments.outputs = {"a.exr"};
+    expect_conflict(arguments, "--format");
+    arguments.outputs = {"-", "-"};
+    EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-SAMEFILE");
+    arguments.outputs = {"-"};
+    arguments.frames = "1-2";
+    expect_conflict(arguments, "--output");
+}
+
 TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     RenderArguments arguments;
     arguments.scene_file = "folder/My.Scene.glb";
@@ -29,6 +85,10 @@ TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(request->threads, 0);
     EXPECT_EQ(request->isa, Isa::automatic);
     EXPECT_EQ(request->exr_depth, ExrDepth::half);
+    EXPECT_EQ(request->encoding.bits, 8);
+    EXPECT_FALSE(request->encoding.quality || request->encoding.page);
+    EXPECT_TRUE(request->encoding.dither);
+    EXPECT_FALSE(request->standard_output);
     EXPECT_EQ(request->load.scene, -1);
     EXPECT_FALSE(request->load.occlusion);
     EXPECT_EQ(request->verbosity, Verbosity::normal);

@@ -181,6 +181,59 @@ TEST_F(Outputs, ACropInAPngLiesInTheWholeImage) {
     }
 }
 
+TEST_F(Outputs, FormatsForTheWebAndForPrint) {
+    const std::vector<std::string> files = {"a.webp", "a.tif", "a.png"};
+    std::vector<std::string> how = {"--no-dither"};
+    for (const std::string& file : files)
+        how.insert(how.end(), {"-o", file});
+    expect_result(render("quad.gltf", how), 0, "OK");
+    const auto reference = read_image_file(folder_ / "a.png");
+    ASSERT_TRUE(reference);
+    for (const std::string& file : files) {
+        const auto image = read_image_file(folder_ / file);
+        ASSERT_TRUE(image) << file;
+        EXPECT_NEAR(centre(*image)[1], centre(*reference)[1], 0.03f) << file;
+    }
+    expect_result(render("quad.gltf", {"--bits", "16", "-o", "b.png", "-o", "b.tiff"}), 0, "OK");
+    EXPECT_EQ(read_image_file(folder_ / "b.png")->spec.format, OIIO::TypeDesc::UINT16);
+    EXPECT_EQ(read_image_file(folder_ / "b.tiff")->spec.format, OIIO::TypeDesc::UINT16);
+}
+
+/// Nothing but the image goes to standard output, in any format.
+TEST_F(Outputs, StandardOutputTakesTheImageAlone) {
+    expect_result(render("quad.gltf", {"-o", "file.png"}), 0, "OK");
+    const ProgramRun png = render("quad.gltf", {"-o", "-"});
+    expect_result(png, 0, "OK");
+    EXPECT_EQ(png.out, read_whole_file(folder_ / "file.png"));
+    EXPECT_THAT(png.err, HasSubstr("Progress: 100%"));
+    EXPECT_THAT(png.err, HasSubstr("wrote standard output"));
+    const ProgramRun exr = render("quad.gltf", {"-o", "-", "--format", "exr", "-o", "also.webp"});
+    expect_result(exr, 0, "OK");
+    EXPECT_EQ(exr.out.substr(0, 4), "\x76\x2F\x31\x01");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "also.webp"));
+    EXPECT_EQ(render("missing.gltf", {"-o", "-"}).out, "");
+    EXPECT_EQ(render("quad.gltf", {"-o", "-", "--check"}).out, "");
+}
+
+TEST_F(Outputs, APageLiesBehindTheFinishedImage) {
+    const std::vector<std::string> away = {
+        "--eye", "0,0,90", "--target", "0,90,90", "--up", "0,0,1", "-o", "a.png"};
+    const auto shot = [&](std::vector<std::string> more) {
+        more.insert(more.end(), away.begin(), away.end());
+        expect_result(render("quad.gltf", more), 0, "OK");
+        return read_image_file(folder_ / "a.png");
+    };
+    const auto white = shot({"--page", "white"});
+    ASSERT_TRUE(white);
+    EXPECT_EQ(white->channels.size(), 3U) << "alpha leaves the file";
+    EXPECT_THAT(white->pixels, testing::Each(1.0f)) << "whatever the view does to white";
+    const auto color = shot({"--page", "#336699", "--exposure", "3"});
+    EXPECT_EQ(centre(*color), (std::vector<float>{51 / 255.0f, 102 / 255.0f, 153 / 255.0f}));
+    const auto scene = shot({"--background", "#336699", "--view", "Un-tone-mapped"});
+    EXPECT_NEAR(centre(*scene)[0], 51 / 255.0f, 0.005f)
+        << "a colour of the scene, through the view";
+}
+
 class Surviving : public Outputs {
 protected:
     void SetUp() override {

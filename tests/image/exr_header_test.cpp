@@ -29,7 +29,7 @@ protected:
                           const OutputImage& image = four_pixels(),
                           const ExrOptions& options = {},
                           int part = 0) {
-        const auto written = write_image_file(folder_ / "a.exr", image, metadata, options, nullptr);
+        const auto written = write_image_file(folder_ / "a.exr", image, metadata, options, {});
         EXPECT_TRUE(written) << written.error().message;
         const Imf::MultiPartInputFile file((folder_ / "a.exr").c_str());
         return file.header(part);

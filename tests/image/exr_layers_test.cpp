@@ -70,7 +70,7 @@ OutputImage layered(int width, int height) {
 class ExrLayers : public FolderTest {
 protected:
     WriteReport write(const OutputImage& image, const ExrOptions& options) {
-        const auto written = write_image_file(folder_ / "out.exr", image, {}, options, nullptr);
+        const auto written = write_image_file(folder_ / "out.exr", image, {}, options, {});
         EXPECT_TRUE(written) << written.error().message;
         return written ? *written : WriteReport{};
     }
@@ -80,7 +80,7 @@ protected:
     }
 
     Error error_of(const OutputImage& image, const ExrOptions& options = {}) {
-        const auto written = write_image_file(folder_ / "out.exr", image, {}, options, nullptr);
+        const auto written = write_image_file(folder_ / "out.exr", image, {}, options, {});
         EXPECT_FALSE(written);
         return written ? Error{} : written.error();
     }
@@ -169,7 +169,7 @@ TEST_F(ExrLayers, ABeautyOfDataMayHaveColoursBesideIt) {
     ImageMetadata metadata;
     metadata.is_color = false;
     ASSERT_TRUE(write_image_file(
-        folder_ / "out.exr", image, metadata, {.layout = ExrLayout::multipart}, nullptr));
+        folder_ / "out.exr", image, metadata, {.layout = ExrLayout::multipart}, {}));
     const Imf::MultiPartInputFile file = open();
     EXPECT_EQ(file.header(0).name(), "main");
     EXPECT_EQ(file.header(0).channels().findChannel("u")->type, Imf::FLOAT);

@@ -32,8 +32,7 @@ TEST_F(ImageMemory, ReadingAndWritingFailWithAnId) {
     OutputImage image = noisy_image(256);
     {
         const MemoryLimit limit(100000);
-        const auto written =
-            write_image_file(file, image, {}, {.depth = ExrDepth::float32}, nullptr);
+        const auto written = write_image_file(file, image, {}, {.depth = ExrDepth::float32}, {});
         ASSERT_FALSE(written);
         EXPECT_EQ(written.error().id, "E-OUT-MEMORY");
         EXPECT_EQ(written.error().code, ExitCode::out_of_memory);
@@ -41,7 +40,7 @@ TEST_F(ImageMemory, ReadingAndWritingFailWithAnId) {
     EXPECT_FALSE(std::filesystem::exists(file));
     image.height = 128;
     image.pixels.resize(size_t{3} * 256 * 128);
-    ASSERT_TRUE(write_image_file(file, image, {}, {.depth = ExrDepth::float32}, nullptr));
+    ASSERT_TRUE(write_image_file(file, image, {}, {.depth = ExrDepth::float32}, {}));
     Log log(Verbosity::quiet);
     {
         const MemoryLimit limit(300000);

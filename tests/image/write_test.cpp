@@ -1,4 +1,4 @@
-// tests/image/write_test.cpp - EXR, PNG and JPEG read back, metadata included, and failing disks.
+// tests/image/write_test.cpp - EXR, PNG and JPEG files read back, metadata, and failing disks.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/write.h"
 
@@ -78,14 +78,14 @@ protected:
                const OutputImage& image,
                const ImageMetadata& metadata = full_metadata(),
                ExrDepth depth = ExrDepth::half,
-               const DisplayTransform* display = nullptr) {
+               const DisplayEncoding& encoding = {}) {
         const auto written =
-            write_image_file(folder_ / name, image, metadata, {.depth = depth}, display);
+            write_image_file(folder_ / name, image, metadata, {.depth = depth}, encoding);
         ASSERT_TRUE(written) << written.error().message;
     }
 
     Error error_of(const std::filesystem::path& file, const OutputImage& image) {
-        const auto written = write_image_file(file, image, full_metadata(), {}, nullptr);
+        const auto written = write_image_file(file, image, full_metadata(), {}, {});
         EXPECT_FALSE(written) << file;
         return written ? Error{} : written.error();
     }
@@ -185,11 +185,11 @@ TEST_F(WriteImage, HalfIsFiniteAndFloatKeepsEverything) {
 TEST_F(WriteImage, AnyNumberOfThreadsWritesTheSameBytes) {
     const OutputImage image = image_of(1024, 700, {"R", "G", "B", "A"});
     const DisplayTransform display = display_of("ACES 1.0 SDR");
-    for (const char* name : {"out.exr", "out.png", "out.jpg"}) {
+    for (const char* name : {"out.exr", "out.png", "out.jpg", "out.tif", "out.webp"}) {
         std::vector<ByteVector> files;
         for (const int threads : {1, 2, 7}) {
             const ThreadLimit limit(threads);
-            write(name, image, full_metadata(), ExrDepth::half, &display);
+            write(name, image, full_metadata(), ExrDepth::half, {&display});
             files.push_back(read_bytes(folder_ / name));
         }
         EXPECT_TRUE(files[0] == files[1]) << name;
@@ -201,7 +201,9 @@ TEST_F(WriteImage, PngHasStraightAlphaAndDisplayColour) {
     const OutputImage image{
         3, 1, {"R", "G", "B", "A"}, {0.25f, 0.1f, 0.05f, 0.5f, 1, 0.5f, 0, 1, 0.3f, 0.3f, 0.3f, 0}};
     const DisplayTransform display = display_of("Un-tone-mapped");
-    write("out.png", image, full_metadata(), ExrDepth::half, &display);
+    DisplayEncoding encoding{&display};
+    encoding.dither = false;
+    write("out.png", image, full_metadata(), ExrDepth::half, encoding);
     const auto code = [](double linear) {
         return static_cast<uint32_t>(
             std::lround(255 * (linear <= 0.0031308 ? 12.92 * linear
@@ -221,7 +223,7 @@ TEST_F(WriteImage, JpegLiesOverBlack) {
     }
     const DisplayTransform display = display_of("Raw");
     for (const char* name : {"out.jpg", "out.JPEG"}) {
-        write(name, image, full_metadata(), ExrDepth::half, &display);
+        write(name, image, full_metadata(), ExrDepth::half, {&display});
         for (const uint32_t texel : texels(name)) {
             EXPECT_NEAR(texel & 0xFF, 64, 2);
             EXPECT_NEAR(texel >> 8 & 0xFF, 128, 2);
@@ -250,24 +252,25 @@ TEST_F(WriteImage, DataInAPngIgnoreTheDisplay) {
     ImageMetadata metadata;
     metadata.is_color = false;
     const DisplayTransform display = display_of("ACES 1.0 SDR");
-    write("z.png", one_pixel({"Z"}, {0.5f}), metadata, ExrDepth::half, &display);
+    write("z.png", one_pixel({"Z"}, {0.5f}), metadata, ExrDepth::half, {&display});
     EXPECT_EQ(texels("z.png"), std::vector{0xFF808080U});
     write("n.png",
           one_pixel({"N.X", "N.Y", "N.Z"}, {0.2f, 0.4f, 1}),
           metadata,
           ExrDepth::half,
-          &display);
+          {&display});
     EXPECT_EQ(texels("n.png"), std::vector{0xFFFF6633U});
 }
 
 TEST_F(WriteImage, OtherExtensionsAndChannelCountsAre64) {
     const OutputImage image = image_of(2, 2, {"R", "G", "B"});
-    for (const char* name : {"out.tiff", "out", "out.", ".exr", "exr", "out.exr.bak"}) {
+    for (const char* name : {"out.tga", "out", "out.", ".exr", "exr", "out.exr.bak"}) {
         for (const Error& error :
              {error_of(folder_ / name, image), check_output(folder_ / name).error()}) {
             EXPECT_EQ(error.code, ExitCode::usage) << name;
             EXPECT_EQ(error.id, "E-OUT-FORMAT");
-            EXPECT_NE(error.message.find(".exr, .png, .jpg"), std::string::npos);
+            EXPECT_NE(error.message.find(".exr, .png, .jpg, .jpeg, .tif, .tiff, .webp and .avif"),
+                      std::string::npos);
         }
     }
     EXPECT_EQ(error_of(folder_ / "two.png", image_of(2, 2, {"u", "v"})).id, "E-OUT-FORMAT");
@@ -292,9 +295,11 @@ TEST_F(WriteImage, ImpossibleTargetsAre73FromBothSides) {
 }
 
 TEST_F(WriteImage, CheckOutputAcceptsWhatCanBeWrittenAndLeavesNothing) {
-    for (const char* name : {"out.exr", "OUT.EXR", "a b.png", "x.jpg", "x.jpeg"}) {
+    for (const char* name :
+         {"out.exr", "OUT.EXR", "a b.png", "x.jpg", "x.jpeg", "x.TIF", "x.tiff", "x.webp"}) {
         EXPECT_TRUE(check_output(folder_ / name)) << name;
     }
+    EXPECT_EQ(check_output(folder_ / "x.TIF")->format, OutputFormat::tiff);
     EXPECT_TRUE(std::filesystem::is_empty(folder_));
 }
 
@@ -323,7 +328,8 @@ TEST_F(WriteImage, AFullDiskIs74AndTheOldImageSurvives) {
         getrlimit(RLIMIT_FSIZE, &limits);
         const rlimit low{8192, limits.rlim_max};
         setrlimit(RLIMIT_FSIZE, &low);
-        const auto written = write_image_file(folder_ / name, large, full_metadata(), {}, &display);
+        const auto written =
+            write_image_file(folder_ / name, large, full_metadata(), {}, {&display});
         setrlimit(RLIMIT_FSIZE, &limits);
         ASSERT_FALSE(written) << name;
         EXPECT_EQ(written.error().code, ExitCode::io_error);

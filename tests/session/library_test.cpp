@@ -235,6 +235,40 @@ TEST(Library, AttributesKeepTheirTypesUnlessTheyAreChanged) {
     EXPECT_NE(header.findTypedAttribute<Imf::IntAttribute>("obscura:warnings"), nullptr);
 }
 
+TEST(Library, FilesForDisplaysFollowTheirOptions) {
+    const TempFolder folder;
+    Session session;
+    const Result<Asset> asset =
+        session.open(folder.write("t.gltf", gltf_text(triangle_scene())).string());
+    ASSERT_TRUE(asset);
+    Look clear;
+    clear.background = Background::transparent;
+    const Image image = image_of(session.render(*asset, small_view(), clear, few_samples()));
+    const auto write = [&](const std::string& name, const WriteOptions& options) {
+        return session.write(image, (folder / name).string(), options);
+    };
+    const auto size = [&](const std::string& name) {
+        return std::filesystem::file_size(folder / name);
+    };
+    WriteOptions options;
+    EXPECT_TRUE(write("a.png", options));
+    options.bits = 16;
+    EXPECT_TRUE(write("b.png", options));
+    EXPECT_GT(size("b.png"), size("a.png"));
+    EXPECT_EQ(write("b.webp", options).error().id, "E-USAGE-CONFLICT");
+    options.bits = 12;
+    EXPECT_EQ(write("c.png", options).error().id, "E-USAGE-CONFLICT");
+    options.bits = 8;
+    options.quality = 0;
+    EXPECT_EQ(write("c.webp", options).error().id, "E-USAGE-RANGE");
+    options.quality = 100;
+    options.page = std::array<float, 3>{1, 1, 2};
+    EXPECT_EQ(write("c.webp", options).error().id, "E-USAGE-RANGE");
+    options.page = std::array<float, 3>{1, 1, 1};
+    EXPECT_TRUE(write("c.webp", options));
+    EXPECT_EQ(write("-", options).error().id, "E-OUT-FORMAT") << "the library prints nothing";
+}
+
 TEST(Library, TilesCoverTheImageWithItsPixels) {
     Session session;
     const Result<Asset> asset = session.open(assets + "cornell/cornell.gltf");
@@ -406,7 +440,7 @@ TEST(Library, TheProcessIsLeftAlone) {
     Look look;
     look.environment = assets + "environments/sky.hdr";
     const Image image = image_of(session.render(*asset, view, look, one));
-    for (const char* name : {"a.exr", "a.png", "a.jpg"}) {
+    for (const char* name : {"a.exr", "a.png", "a.jpg", "a.tif", "a.webp"}) {
         const Result<void> written = session.write(image, (folder / name).string());
         EXPECT_TRUE(written) << written.error().text;
     }

@@ -1,0 +1,99 @@
+// image/encode_avif.cpp - encodes finished images as AVIF where OpenImageIO can.
+// SPDX-License-Identifier: Apache-2.0
+#include "base/file_bytes.h"
+#include "image/encode.h"
+#include "image/oiio_input.h"
+
+#include <OpenImageIO/imageio.h>
+
+#include <cstring>
+#include <stdlib.h>
+#include <string_view>
+#include <unistd.h>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+/// A new empty file; removed in the end.
+class ScratchFile {
+public:
+    ScratchFile() {
+        std::error_code error;
+        const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+        if (error) return;
+        std::string name = (folder / "obscura-XXXXXX.avif").string();
+        const int descriptor = ::mkstemps(name.data(), 5);
+        if (descriptor < 0) return;
+        ::close(descriptor);
+        path_ = name;
+    }
+    ScratchFile(const ScratchFile&) = delete;
+    ScratchFile& operator=(const ScratchFile&) = delete;
+    ~ScratchFile() {
+        std::error_code error;
+        if (!path_.empty()) std::filesystem::remove(path_, error);
+    }
+
+    const std::string& path() const { return path_; }  ///< "": it could not be made
+
+private:
+    std::string path_;
+};
+
+/// Copies rows to the encoder from a buffer with room behind: up to version 2.5 OpenImageIO reads
+/// as many bytes a row as libheif's rows have, which are padded.
+bool write_rows(OIIO::ImageOutput& output, const CodedImage& image) {
+    constexpr size_t max_padding = 4096;
+    const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
+    std::vector<uint8_t> padded(row + max_padding);
+    for (int y = 0; y < image.height; ++y) {
+        std::memcpy(padded.data(), image.codes + static_cast<size_t>(y) * row, row);
+        if (!output.write_scanline(y, 0, OIIO::TypeDesc::UINT8, padded.data())) return false;
+    }
+    return true;
+}
+
+bool is_avif(std::span<const std::byte> bytes) {
+    constexpr std::string_view brand = "ftypavif";
+    return bytes.size() > 12 && std::memcmp(bytes.data() + 4, brand.data(), brand.size()) == 0;
+}
+
+}  // namespace
+
+Result<std::vector<std::byte>> encode_avif(const CodedImage& image,
+                                           int quality,
+                                           const std::string& where) {
+    prepare_oiio();
+    const ScratchFile file;
+    if (file.path().empty()) {
+        return fail(ExitCode::io_error,
+                    "E-OUT-WRITE",
+                    where,
+                    "no temporary file can be made, which AVIF needs; set $TMPDIR");
+    }
+    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:UnassociatedAlpha", 1);
+    spec.attribute("compression", "avif:" + std::to_string(quality));
+    const auto output = OIIO::ImageOutput::create("heif");
+    const bool done =
+        output && output->open(file.path(), spec) && write_rows(*output, image) && output->close();
+    FileBytes encoded = done ? read_file_bytes(file.path(), {}) : FileBytes();
+    if (!is_avif(encoded.bytes)) {
+        const std::string cause = output ? output->geterror() : OIIO::geterror();
+        return fail(ExitCode::internal, "E-OUT-ENCODE", where, "encoding failed: " + cause);
+    }
+    return std::move(encoded.bytes);
+}
+
+bool can_write_avif() {
+    static const bool can = [] {
+        constexpr int side = 16;
+        const std::vector<uint8_t> grey(size_t{3} * side * side, 128);
+        return encode_avif({side, side, 3, grey.data()}, 50, "").has_value();
+    }();
+    return can;
+}
+
+}  // namespace obscura
