@@ -7,6 +7,7 @@
 #include "app/numbers.h"
 #include "app/render_options.h"
 #include "app/scene_choice.h"
+#include "math/warp.h"
 
 #include <algorithm>
 #include <system_error>
@@ -14,8 +15,6 @@
 namespace obscura::app {
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 tl::unexpected<Error> usage(const char* id, const std::string& where, const std::string& message) {
     return fail(ExitCode::usage, id, where, message);
@@ -33,7 +32,7 @@ Result<void> read_fov(const OptionText& text, CameraRequest& camera) {
     const Result<double> degrees =
         parse_real(*text, "--fov", 0.01, model == CameraModel::fisheye ? 360 : 179);
     if (!degrees) return fail(degrees.error());
-    camera.yfov_rad = *degrees * degree;
+    camera.yfov_rad = *degrees * radians_per_degree;
     return {};
 }
 
