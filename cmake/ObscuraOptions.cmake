@@ -3,7 +3,11 @@
 add_library(obscura_options INTERFACE)
 
 target_compile_options(obscura_options INTERFACE
-  -Wall -Wextra -Wshadow -Wconversion
+  -Wall -Wextra
+  # Where files are joined (OBSCURA_UNITY), one may call a variable as another its constant. The
+  # preset clang joins none, and so warns of real shadows.
+  $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow>
+  -Wconversion
   -fno-math-errno -fno-trapping-math  # sqrt becomes an instruction; NaN and infinity still work
   -ffp-contract=fast                  # a*b+c may become one fused instruction
 )

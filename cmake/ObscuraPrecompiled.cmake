@@ -4,6 +4,7 @@
 # still include all that they use: the preset clang builds without precompiled headers and shows
 # what is missing.
 option(OBSCURA_PCH "Precompile the headers of libraries" ON)
+option(OBSCURA_UNITY "Compile many source files of a target at once" ON)
 
 set(obscura_std_headers
   <algorithm> <array> <atomic> <charconv> <cmath> <cstdint> <cstdio> <cstdlib> <cstring> <filesystem>
@@ -36,4 +37,13 @@ function(obscura_precompiled target name)
         -Wno-stringop-overflow -Wno-stringop-overread -Wno-array-bounds)
     endif()
   endif()
+endfunction()
+
+# obscura_unity(TARGET): its files are compiled many at a time, which reads the libraries' headers
+# once for all of them.
+function(obscura_unity target)
+  if(NOT OBSCURA_UNITY)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
 endfunction()

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_views.h"
 
+#include "math/warp.h"
+
 #include "session/framing.h"
 #include <algorithm>
 #include <cmath>
@@ -12,7 +14,6 @@ namespace obscura::app {
 
 namespace {
 
-constexpr double degree = pi_d / 180;
 constexpr int coverage_height = 128;
 /// Least height of a close view, as a fraction of the whole view's height.
 constexpr double min_fraction = 1.0 / 256;
@@ -117,7 +118,8 @@ bench::ViewCamera numbers_of(const Camera& camera, double distance_m) {
     out.eye_m = column(3);
     out.target_m = column(3) - column(2) * distance_m;
     out.up = column(1);
-    out.yfov_deg = 2 * std::atan(static_cast<double>(camera.pinhole.tan_half_yfov)) / degree;
+    out.yfov_deg =
+        2 * std::atan(static_cast<double>(camera.pinhole.tan_half_yfov)) / radians_per_degree;
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include "app/frames.h"
 #include "app/option_readers.h"
 #include "app/render_request.h"
+#include "math/warp.h"
 #include "scene/camera_setting_table.h"
 
 namespace obscura::app {
@@ -19,8 +20,6 @@ using S = CameraSettings;
 using Entry = OptionEntry<A, R>;
 
 constexpr double millimetre = 1e-3;
-constexpr double degree = pi_d / 180;
-
 /// The names of a setting that is an enumeration.
 template <auto member>
 constexpr auto setting_choices = camera_setting_of<member>().choices;
@@ -121,7 +120,7 @@ constexpr Entry thin_lens[] = {
     setting<&L::blades, &S::blades>({.name = "--blades", .argument = "N",
         .help = "Opening with so many edges", .fallback = "round"}),
     setting<&L::blade_rotation, &S::blade_rotation_rad>({.name = "--blade-rotation",
-        .argument = "DEG", .help = "Turns the opening", .range = {-36000, 36000}, .scale = degree,
+        .argument = "DEG", .help = "Turns the opening", .range = {-36000, 36000}, .scale = radians_per_degree,
         .fallback = "0"}),
     setting<&L::anamorphic, &S::anamorphic>({.name = "--anamorphic", .argument = "X",
         .help = "Opening so many times as high as wide", .fallback = "1"}),

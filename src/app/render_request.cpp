@@ -8,6 +8,7 @@
 #include "app/render_options.h"
 #include "app/scene_choice.h"
 #include "render/integrators.h"
+#include "math/warp.h"
 
 #include "film/layers.h"
 #include <algorithm>
@@ -18,8 +19,6 @@
 namespace obscura::app {
 
 namespace {
-
-constexpr double degree = 3.14159265358979323846 / 180.0;
 
 tl::unexpected<Error> usage(const char* id, const std::string& where, const std::string& message) {
     return fail(ExitCode::usage, id, where, message);
@@ -37,7 +36,7 @@ Result<void> read_fov(const OptionText& text, CameraRequest& camera) {
     const Result<double> degrees =
         parse_real(*text, "--fov", 0.01, model == CameraModel::fisheye ? 360 : 179);
     if (!degrees) return fail(degrees.error());
-    camera.yfov_rad = *degrees * degree;
+    camera.yfov_rad = *degrees * radians_per_degree;
     return {};
 }
 

@@ -18,11 +18,11 @@ namespace {
 constexpr double max_seconds = 20;
 
 /// The measured times, one value a repetition.
-struct Series {
+struct Repetitions {
     std::vector<double> load, parse, decode, prepare, bvh, read, bare_bvh, of_bare;
 };
 
-Result<PreparedScene> load_once(const LoadTask& task, Log& log, Series& series) {
+Result<PreparedScene> load_once(const LoadTask& task, Log& log, Repetitions& series) {
     const Stopwatch loading;
     Result<Scene> scene = gltf::load_gltf(task.file, task.load, log);
     if (!scene) return fail(scene.error());
@@ -40,7 +40,7 @@ Result<PreparedScene> load_once(const LoadTask& task, Log& log, Series& series) 
 Result<size_t> bare_once(const PreparedScene& prepared,
                          const std::vector<std::filesystem::path>& files,
                          Isa isa,
-                         Series& series) {
+                         Repetitions& series) {
     const Stopwatch reading;
     read_all(files);
     series.read.push_back(reading.seconds());
@@ -52,7 +52,7 @@ Result<size_t> bare_once(const PreparedScene& prepared,
     return bare->bytes;
 }
 
-LoadFigures figures_of(const Series& series) {
+LoadFigures figures_of(const Repetitions& series) {
     LoadFigures out;
     out.load_s = spread_of(series.load);
     out.parse_s = spread_of(series.parse);
@@ -83,7 +83,7 @@ Result<LoadedScene> measure_load(const LoadTask& task, Log& log) {
     const std::vector<std::filesystem::path> files = gltf::files_of_asset(task.file);
     const Stopwatch all;
     Log silent(Verbosity::quiet);
-    Series series;
+    Repetitions series;
     std::optional<PreparedScene> kept;
     size_t bare_bytes = 0;
     size_t peak = 0;

@@ -25,7 +25,7 @@ std::vector<double> sorted_hits(const TrueScene& component, const TrueRay& ray) 
     return hits;
 }
 
-using AskHits = std::function<void(const RayColumns&, const HitColumns&)>;
+using FindHits = std::function<void(const RayColumns&, const HitColumns&)>;
 
 /// One component, what is inside of it, and how many rays it gets.
 struct Room {
@@ -55,7 +55,7 @@ void fill_rays(const Room& room, uint64_t first, uint64_t count, RayBlock& out) 
     }
 }
 
-void shoot(const Room& room, const AskHits& ask, LeakFigures& figures) {
+void shoot(const Room& room, const FindHits& ask, LeakFigures& figures) {
     std::mutex merging;
     uint64_t first_leak = room.rays;
     LeakCount sum;
@@ -91,7 +91,7 @@ void shoot(const Room& room, const AskHits& ask, LeakFigures& figures) {
 struct LeakKernel {
     const char* name;
     bool in_budget;
-    AskHits ask;
+    FindHits ask;
 };
 
 /// The production queries on one component, and two other ways to query Embree.

@@ -17,7 +17,7 @@ struct OwnRay {
     Vec3d direction = {0, 0, -1};
 };
 
-struct Film {
+struct FilmPosition {
     double s, t;  ///< from the left and from the top, in [0, 1]
 };
 
@@ -57,7 +57,7 @@ bool undo_distortion(const Distortion& d, const Vec2<double>& wanted, Vec2<doubl
     return std::hypot(at.x - wanted.x, at.y - wanted.y) < 1e-6 * (1 + std::hypot(at.x, at.y));
 }
 
-OwnRay through_plane(const Camera& camera, const Film& film, CameraWorking& out) {
+OwnRay through_plane(const Camera& camera, const FilmPosition& film, CameraWorking& out) {
     const PinholeCamera& pinhole = camera.pinhole;
     const double tall = pinhole.tan_half_yfov;
     const double wide = tall * static_cast<double>(pinhole.aspect);
@@ -85,7 +85,7 @@ OwnRay through_plane(const Camera& camera, const Film& film, CameraWorking& out)
     return {{0, 0, 0}, unit({at.x, at.y, -1})};
 }
 
-OwnRay parallel(const OrthographicCamera& camera, const Film& film, CameraWorking& out) {
+OwnRay parallel(const OrthographicCamera& camera, const FilmPosition& film, CameraWorking& out) {
     const double xmag = camera.half_width_m;
     const double ymag = camera.half_height_m;
     out.terms.emplace_back("xmag, ymag", xmag, ymag);
@@ -142,7 +142,7 @@ const char* fisheye_formula(FisheyeLaw law) {
     return "theta, of r = theta (1 + k1 theta^2 + k2 theta^4 + k3 theta^6 + k4 theta^8)";
 }
 
-OwnRay through_fisheye(const FisheyeCamera& camera, const Film& film, CameraWorking& out) {
+OwnRay through_fisheye(const FisheyeCamera& camera, const FilmPosition& film, CameraWorking& out) {
     const double half_width = camera.half_width;
     const double half_height = camera.half_height;
     const double x = (2 * film.s - 1) * half_width + static_cast<double>(camera.shift_x);
@@ -162,7 +162,7 @@ OwnRay through_fisheye(const FisheyeCamera& camera, const Film& film, CameraWork
     return {{0, 0, 0}, {x * across, y * across, -std::cos(theta)}};
 }
 
-OwnRay from_cube(const EnvironmentCamera& camera, const Film& film, CameraWorking& out) {
+OwnRay from_cube(const EnvironmentCamera& camera, const FilmPosition& film, CameraWorking& out) {
     // Forward, right and up of the faces +X, -X, +Y, -Y, +Z, -Z: the table in docs/cameras.md.
     constexpr Vec3d faces[6][3] = {{{1, 0, 0}, {0, 0, 1}, {0, 1, 0}},
                                    {{-1, 0, 0}, {0, 0, -1}, {0, 1, 0}},
@@ -183,7 +183,7 @@ OwnRay from_cube(const EnvironmentCamera& camera, const Film& film, CameraWorkin
     return {{0, 0, 0}, unit(f[0] + f[1] * a + f[2] * b)};
 }
 
-OwnRay from_environment(const EnvironmentCamera& camera, Film film, CameraWorking& out) {
+OwnRay from_environment(const EnvironmentCamera& camera, FilmPosition film, CameraWorking& out) {
     if (camera.projection == EnvironmentProjection::cubemap) return from_cube(camera, film, out);
     double eye = 0;
     if (camera.half_eyes_m != 0.0f) {
@@ -222,7 +222,7 @@ std::string model_text(const Camera& camera) {
     return text;
 }
 
-OwnRay own_ray(const Camera& camera, const Film& film, CameraWorking& out) {
+OwnRay own_ray(const Camera& camera, const FilmPosition& film, CameraWorking& out) {
     switch (camera.model) {
         case CameraModel::pinhole:
         case CameraModel::thin_lens:
@@ -252,7 +252,7 @@ void clip(const Camera& camera, double axial, CameraWorking& out) {
 CameraWorking work_out_camera(const Camera& camera, const PixelPlace& pixel) {
     CameraWorking out;
     out.model = model_text(camera);
-    const Film film{(pixel.x + 0.5) / pixel.width, (pixel.y + 0.5) / pixel.height};
+    const FilmPosition film{(pixel.x + 0.5) / pixel.width, (pixel.y + 0.5) / pixel.height};
     out.terms.emplace_back("s = (i + 0.5) / n_x", film.s);
     out.terms.emplace_back("t = (j + 0.5) / n_y", film.t);
     const OwnRay own = own_ray(camera, film, out);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/decode.h"
 
+#include "image/corrupt.h"
 #include "image/image_header.h"
 #include "image/ktx2.h"
 #include "image/oiio_input.h"
@@ -21,10 +22,6 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "texels keep R in the lowest byte");
 
 using Bytes = std::span<const std::byte>;
-
-tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
-    return fail(ExitCode::bad_resource, "E-IMG-CORRUPT", where, why);
-}
 
 /// Spreads 1 (grey) or 2 (grey, alpha) channels, as read into 4-byte texels, over all four.
 void spread_grey(std::vector<uint32_t>& texels, bool has_alpha) {
@@ -64,11 +61,11 @@ Result<void> decode_with_oiio(
     Bytes bytes, ImageFormat format, ImageRgba8& image, const std::string& where, Log& log) {
     const std::vector<std::byte> pixels_only = without_metadata(bytes, format);
     OiioInput input(pixels_only, image.format.c_str());
-    if (!input.error().empty()) return corrupt(where, input.error());
+    if (!input.error().empty()) return corrupt_image(where, input.error());
     const OIIO::ImageSpec& spec = input.spec();
     if (spec.width != image.width || spec.height != image.height || spec.nchannels < 1 ||
         spec.nchannels > 4) {
-        return corrupt(where, "the size or the number of channels contradicts the header");
+        return corrupt_image(where, "the size or the number of channels contradicts the header");
     }
     const int channels = spec.nchannels;
     const bool read = image.low_bytes.empty()
@@ -76,7 +73,7 @@ Result<void> decode_with_oiio(
                           : read_wide(input, image);
     const std::string complaint = input.errors();
     if (!read || means_missing_pixels(complaint)) {
-        return corrupt(where, complaint.empty() ? "cut off or broken" : complaint);
+        return corrupt_image(where, complaint.empty() ? "cut off or broken" : complaint);
     }
     if (!complaint.empty()) log.warn(where, complaint);
     if (channels <= 2) {
@@ -92,13 +89,13 @@ Result<void> decode_webp(Bytes bytes, ImageRgba8& image, const std::string& wher
                                          reinterpret_cast<uint8_t*>(image.texels.data()),
                                          image.texels.size() * sizeof(uint32_t),
                                          image.width * int{sizeof(uint32_t)});
-    if (!out) return corrupt(where, "the WebP data are cut off or broken");
+    if (!out) return corrupt_image(where, "the WebP data are cut off or broken");
     return {};
 }
 
 Result<void> decode_first_webp_frame(Bytes bytes, ImageRgba8& image, const std::string& where) {
     WebPAnimDecoderOptions options;
-    if (!WebPAnimDecoderOptionsInit(&options)) return corrupt(where, "libwebp does not fit");
+    if (!WebPAnimDecoderOptionsInit(&options)) return corrupt_image(where, "libwebp does not fit");
     options.color_mode = MODE_RGBA;
     const WebPData data{reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()};
     const std::unique_ptr<WebPAnimDecoder, void (*)(WebPAnimDecoder*)> decoder(
@@ -106,7 +103,7 @@ Result<void> decode_first_webp_frame(Bytes bytes, ImageRgba8& image, const std::
     uint8_t* canvas = nullptr;
     int time = 0;
     if (!decoder || !WebPAnimDecoderGetNext(decoder.get(), &canvas, &time)) {
-        return corrupt(where, "the animated WebP's data are cut off or broken");
+        return corrupt_image(where, "the animated WebP's data are cut off or broken");
     }
     std::memcpy(image.texels.data(), canvas, image.texels.size() * sizeof(uint32_t));
     return {};
@@ -156,7 +153,7 @@ Result<ImageRgba8> decode_image(Bytes bytes, const std::string& where, Log& log,
                     "no memory for " + std::to_string(image.width) + " x " +
                         std::to_string(image.height) + " pixels");
     } catch (const std::exception& error) {
-        return corrupt(where, error.what());
+        return corrupt_image(where, error.what());
     }
     return image;
 }

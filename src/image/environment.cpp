@@ -1,5 +1,6 @@
 // image/environment.cpp - reads an environment map from disk as finite linear RGB.
 // SPDX-License-Identifier: Apache-2.0
+#include "image/corrupt.h"
 #include "image/decode.h"
 #include "image/environment_exr.h"
 #include "image/image_header.h"
@@ -26,10 +27,6 @@ using Bytes = std::span<const std::byte>;
 
 tl::unexpected<Error> missing(const std::string& where, const std::string& why) {
     return fail(ExitCode::bad_resource, "E-ENV-MISSING", where, why);
-}
-
-tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
-    return fail(ExitCode::bad_resource, "E-ENV-CORRUPT", where, why);
 }
 
 class Descriptor {
@@ -62,7 +59,7 @@ Result<std::vector<std::byte>> read_regular_file(const std::filesystem::path& fi
         if (count < 0) {
             return missing(where, "cannot be read: " + std::generic_category().message(errno));
         }
-        if (count == 0) return corrupt(where, "became shorter while it was being read");
+        if (count == 0) return corrupt_environment(where, "became shorter while it was being read");
         done += static_cast<size_t>(count);
     }
     return bytes;
@@ -86,13 +83,15 @@ int64_t take_side(std::string_view& line, std::string_view axis) {
 Result<void> check_hdr_size(Bytes bytes, const std::string& where) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const size_t empty_line = text.find("\n\n");
-    if (empty_line == std::string_view::npos) return corrupt(where, "the header is cut off");
+    if (empty_line == std::string_view::npos)
+        return corrupt_environment(where, "the header is cut off");
     std::string_view line = text.substr(empty_line + 2);
     line = line.substr(0, line.find('\n'));
     const int64_t height = take_side(line, "-Y ");
     const int64_t width = take_side(line, " +X ");
     if (height < 1 || width < 1) {
-        return corrupt(where, "the header's size line must read '-Y <height> +X <width>'");
+        return corrupt_environment(where,
+                                   "the header's size line must read '-Y <height> +X <width>'");
     }
     return check_environment_size(width, height, where);
 }
@@ -100,9 +99,9 @@ Result<void> check_hdr_size(Bytes bytes, const std::string& where) {
 Result<ImageRgb32f> read_hdr(Bytes bytes, const std::string& where) {
     if (auto fits = check_hdr_size(bytes, where); !fits) return fail(std::move(fits.error()));
     OiioInput input(bytes, "hdr");
-    if (!input.error().empty()) return corrupt(where, input.error());
+    if (!input.error().empty()) return corrupt_environment(where, input.error());
     const OIIO::ImageSpec& spec = input.spec();
-    if (spec.nchannels != 3) return corrupt(where, "does not have three channels");
+    if (spec.nchannels != 3) return corrupt_environment(where, "does not have three channels");
     if (auto fits = check_environment_size(spec.width, spec.height, where); !fits) {
         return fail(std::move(fits.error()));
     }
@@ -111,7 +110,7 @@ Result<ImageRgb32f> read_hdr(Bytes bytes, const std::string& where) {
     const bool read = input.read(OIIO::TypeDesc::FLOAT, image.pixels.data(), 3 * sizeof(float));
     const std::string complaint = input.errors();
     if (!read || !complaint.empty()) {
-        return corrupt(where, complaint.empty() ? "cut off or broken" : complaint);
+        return corrupt_environment(where, complaint.empty() ? "cut off or broken" : complaint);
     }
     return image;
 }
@@ -191,7 +190,7 @@ Result<ImageRgb32f> read_environment(const std::filesystem::path& file, Log& log
     } catch (const std::bad_alloc&) {
         return fail(ExitCode::out_of_memory, "E-ENV-MEMORY", where, "no memory for its pixels");
     } catch (const std::exception& error) {
-        return corrupt(where, error.what());
+        return corrupt_environment(where, error.what());
     }
 }
 

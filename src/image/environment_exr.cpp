@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/environment_exr.h"
 
+#include "image/corrupt.h"
 #include "image/exr_stream.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -24,10 +25,6 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 using Names = std::array<std::string, 3>;
-
-tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
-    return fail(ExitCode::bad_resource, "E-ENV-CORRUPT", where, why);
-}
 
 /// Reads the bytes of a header; after the end everything is empty or 0.
 struct HeaderReader {
@@ -96,7 +93,8 @@ Result<void> check_sizes(Bytes bytes, const std::string& where) {
         const PartSize part = read_part(reader);
         if (is_first) {
             if (!part.window) {
-                return corrupt(where, "the OpenEXR header is cut off or has no data window");
+                return corrupt_environment(where,
+                                           "the OpenEXR header is cut off or has no data window");
             }
             auto fits = check_environment_size((*part.window)[0], (*part.window)[1], where);
             if (!fits) return fits;
@@ -104,7 +102,8 @@ Result<void> check_sizes(Bytes bytes, const std::string& where) {
         const std::array<int64_t, 2> window = part.window.value_or(std::array<int64_t, 2>{1, 1});
         if (std::max(window[0], window[1]) > longest_side ||
             std::max(part.tile[0], part.tile[1]) > longest_side) {
-            return corrupt(where, "a part or a tile is wider or higher than 65536 pixels");
+            return corrupt_environment(where,
+                                       "a part or a tile is wider or higher than 65536 pixels");
         }
         if (!part.is_whole || reader.rest.empty() || reader.rest.front() == std::byte{0}) break;
     }
@@ -153,12 +152,14 @@ Result<ImageRgb32f> read_pixels(Imf::InputFile& file, const std::string& where) 
     const Imf::ChannelList& channels = file.header().channels();
     const Names names = color_channels(channels);
     if (names[0].empty()) {
-        return corrupt(where, "needs channels R, G, B or Y; it has " + channel_list(channels));
+        return corrupt_environment(where,
+                                   "needs channels R, G, B or Y; it has " + channel_list(channels));
     }
     for (const std::string& name : names) {
         const Imf::Channel& channel = *channels.findChannel(name);
         if (channel.xSampling != 1 || channel.ySampling != 1) {
-            return corrupt(where, "channel " + name + " is subsampled; save it at full resolution");
+            return corrupt_environment(
+                where, "channel " + name + " is subsampled; save it at full resolution");
         }
     }
     const Imath::Box2i window = file.header().dataWindow();
@@ -202,7 +203,7 @@ Result<ImageRgb32f> read_exr(Bytes bytes, const std::string& where, Log& log) {
     } catch (const std::bad_alloc&) {
         throw;
     } catch (const std::exception& error) {
-        return corrupt(where, error.what());
+        return corrupt_environment(where, error.what());
     }
 }
 

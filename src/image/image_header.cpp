@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/image_header.h"
 
+#include "image/corrupt.h"
 #include "image/ktx2_header.h"
 
 #include <algorithm>
@@ -34,10 +35,6 @@ uint32_t big_endian_16(Bytes bytes, size_t at) {
 
 uint32_t big_endian_32(Bytes bytes, size_t at) {
     return big_endian_16(bytes, at) << 16 | big_endian_16(bytes, at + 2);
-}
-
-tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
-    return fail(ExitCode::bad_resource, "E-IMG-CORRUPT", where, why);
 }
 
 /// The probable format of the first bytes, for messages.
@@ -78,9 +75,10 @@ const char* looks_like(Bytes bytes) {
 /// Refuses files that are too short for the image size in their header, before it is allocated.
 Result<void> check_enough_data(Bytes bytes, int64_t min_bytes, const std::string& where) {
     if (static_cast<int64_t>(bytes.size()) >= min_bytes) return {};
-    return corrupt(where,
-                   std::to_string(bytes.size()) +
-                       " bytes cannot hold a picture of the size in its header: it is cut off");
+    return corrupt_image(
+        where,
+        std::to_string(bytes.size()) +
+            " bytes cannot hold a picture of the size in its header: it is cut off");
 }
 
 /// Bytes of one PNG row before compression, its filter byte included.
@@ -94,7 +92,7 @@ int64_t png_row_bytes(Bytes bytes, int64_t width) {
 Result<ImageHeader> read_png(Bytes bytes, const std::string& where) {
     constexpr size_t signature = 8;
     if (bytes.size() < signature + 25 || !starts_with(bytes, "IHDR", signature + 4)) {
-        return corrupt(where, "the PNG header is cut off or is not first");
+        return corrupt_image(where, "the PNG header is cut off or is not first");
     }
     ImageHeader header{ImageFormat::png};
     const int64_t width = big_endian_32(bytes, signature + 8);
@@ -115,7 +113,7 @@ Result<ImageHeader> read_png(Bytes bytes, const std::string& where) {
         const size_t left = bytes.size() - at;
         const size_t length = left < length_type_checksum ? left : big_endian_32(bytes, at);
         if (length + length_type_checksum > left) {
-            return corrupt(where, "the PNG is cut off: its last chunk, IEND, is not there");
+            return corrupt_image(where, "the PNG is cut off: its last chunk, IEND, is not there");
         }
         if (starts_with(bytes, "acTL", at + 4)) header.animated = true;
         at += length + length_type_checksum;
@@ -129,7 +127,7 @@ bool is_start_of_frame(uint32_t marker) {
 
 /// Reads the frame header of an 8-bit JPEG: baseline, extended or progressive, in either coding.
 Result<ImageHeader> read_jpeg_frame(Bytes frame, uint32_t marker, const std::string& where) {
-    if (frame.size() < 8) return corrupt(where, "the JPEG frame header is cut off");
+    if (frame.size() < 8) return corrupt_image(where, "the JPEG frame header is cut off");
     const bool read = marker <= 0xC2 || marker == 0xC9 || marker == 0xCA;
     const uint32_t bits = byte_at(frame, 2);
     if (!read || bits != 8) {
@@ -174,7 +172,7 @@ Result<ImageHeader> read_jpeg(Bytes bytes, const std::string& where) {
             continue;
         }
         if (marker == 0xDA || marker == 0xD9) {
-            return corrupt(where, "a JPEG without a frame header before its pixels");
+            return corrupt_image(where, "a JPEG without a frame header before its pixels");
         }
         const size_t length = big_endian_16(bytes, at + 2);
         if (length < 2 || at + 2 + length > bytes.size()) break;
@@ -197,7 +195,7 @@ Result<ImageHeader> read_jpeg(Bytes bytes, const std::string& where) {
         }
         at += 2 + length;
     }
-    return corrupt(where, "the JPEG is cut off before its frame header");
+    return corrupt_image(where, "the JPEG is cut off before its frame header");
 }
 
 Result<ImageHeader> read_webp(Bytes bytes, const std::string& where) {
@@ -205,9 +203,9 @@ Result<ImageHeader> read_webp(Bytes bytes, const std::string& where) {
     const auto status =
         WebPGetFeatures(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &features);
     if (status != VP8_STATUS_OK) {
-        return corrupt(where,
-                       status == VP8_STATUS_NOT_ENOUGH_DATA ? "the WebP header is cut off"
-                                                            : "the WebP header is broken");
+        return corrupt_image(where,
+                             status == VP8_STATUS_NOT_ENOUGH_DATA ? "the WebP header is cut off"
+                                                                  : "the WebP header is broken");
     }
     if (auto fits = check_image_size(features.width, features.height, 4, "E-IMG", where); !fits) {
         return fail(std::move(fits.error()));

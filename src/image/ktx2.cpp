@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/ktx2.h"
 
+#include "image/corrupt.h"
 #include "image/uastc.h"
 
 #include <optional>
@@ -15,10 +16,6 @@ using Bytes = std::span<const std::byte>;
 
 constexpr uint32_t opaque = 0xFF000000U;
 constexpr uint32_t all_channels = ~0U;
-
-tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
-    return fail(ExitCode::bad_resource, "E-IMG-CORRUPT", where, why);
-}
 
 /// A stored texel with its channels in RGBA order, as materials read it.
 uint32_t as_seen(uint32_t texel, Ktx2Channels channels) {
@@ -83,13 +80,13 @@ Result<void> decode_level(const Ktx2Header& header,
     std::optional<std::vector<std::byte>> inflated;
     if (header.is_zstd) {
         inflated = without_zstd(bytes, header.plain_bytes(number));
-        if (!inflated) return corrupt(where, name + ": its Zstandard data are broken");
+        if (!inflated) return corrupt_image(where, name + ": its Zstandard data are broken");
         bytes = *inflated;
     }
     if (header.coding == Ktx2Coding::plain) {
         read_plain(bytes, header, level);
     } else if (!decode_uastc(bytes, header, level)) {
-        return corrupt(where, name + " has a UASTC block of no known mode or pattern");
+        return corrupt_image(where, name + " has a UASTC block of no known mode or pattern");
     }
     return {};
 }

@@ -1,6 +1,7 @@
 // image/ktx2_basis_lz.cpp - decodes the BasisLZ data of a KTX 2.0 file into mip levels.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/basis_lz.h"
+#include "image/corrupt.h"
 #include "image/ktx2.h"
 #include "image/little_endian.h"
 
@@ -26,15 +27,11 @@ struct BasisLz {
     BasisLzCodes codes;
 };
 
-tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
-    return fail(ExitCode::bad_resource, "E-IMG-CORRUPT", where, why);
-}
-
 Result<BasisLz> read_global(const Ktx2Header& header, const std::string& where) {
     const Bytes bytes = header.global_bytes;
     const size_t images = static_cast<size_t>(header.levels_in_file) * description_bytes;
     if (bytes.size() < counts_bytes + images) {
-        return corrupt(where, "the KTX2 file's BasisLZ global data are cut off");
+        return corrupt_image(where, "the KTX2 file's BasisLZ global data are cut off");
     }
     const uint32_t counts = little_endian_32(bytes, 0);
     const uint32_t endpoint_bytes = little_endian_32(bytes, 4);
@@ -46,14 +43,14 @@ Result<BasisLz> read_global(const Ktx2Header& header, const std::string& where) 
     at += selector_bytes;
     const auto code_range = range_of(bytes, at, little_endian_32(bytes, 12));
     if (!endpoint_range || !selector_range || !code_range) {
-        return corrupt(where, "the KTX2 file's BasisLZ global data are cut off");
+        return corrupt_image(where, "the KTX2 file's BasisLZ global data are cut off");
     }
     auto endpoints = read_endpoints(*endpoint_range, counts & 0xFFFF);
-    if (!endpoints) return corrupt(where, "the KTX2 file's table of endpoints is broken");
+    if (!endpoints) return corrupt_image(where, "the KTX2 file's table of endpoints is broken");
     auto selectors = read_selectors(*selector_range, counts >> 16);
-    if (!selectors) return corrupt(where, "the KTX2 file's table of selectors is broken");
+    if (!selectors) return corrupt_image(where, "the KTX2 file's table of selectors is broken");
     auto codes = read_slice_codes(*code_range);
-    if (!codes) return corrupt(where, "the KTX2 file's Huffman tables are broken");
+    if (!codes) return corrupt_image(where, "the KTX2 file's Huffman tables are broken");
     return BasisLz{{std::move(*endpoints), std::move(*selectors)}, std::move(*codes)};
 }
 
@@ -113,9 +110,9 @@ Result<void> decode_basis_lz(const Ktx2Header& header,
                 paint_slice(second, *basis, levels[i], is_red_green ? green_mask : alpha_mask);
         }
         if (!painted) {
-            return corrupt(where,
-                           "level " + std::to_string(i) +
-                               " of the KTX2 file: its BasisLZ data are cut off or broken");
+            return corrupt_image(where,
+                                 "level " + std::to_string(i) +
+                                     " of the KTX2 file: its BasisLZ data are cut off or broken");
         }
     }
     return {};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/ktx2_header.h"
 
+#include "image/corrupt.h"
 #include "image/image_header.h"
 #include "image/little_endian.h"
 #include "image/texel_block.h"
@@ -49,10 +50,6 @@ constexpr uint32_t transfer_srgb = 2;
 constexpr uint32_t primaries_of_srgb = 1;
 constexpr uint32_t flag_premultiplied = 1;
 
-tl::unexpected<Error> corrupt(const std::string& where, const std::string& why) {
-    return fail(ExitCode::bad_resource, "E-IMG-CORRUPT", where, why);
-}
-
 tl::unexpected<Error> unsupported(const std::string& where, const std::string& why) {
     return fail(ExitCode::unsupported, "E-IMG-FEATURE", where, why);
 }
@@ -71,7 +68,7 @@ Result<void> read_shape(Bytes bytes, Ktx2Header& header, const std::string& wher
                            std::string("the KTX2 file is ") + shape + "; accepted are 2D pictures");
     }
     if (faces != 1) {
-        return corrupt(where, "the KTX2 file has " + std::to_string(faces) + " faces");
+        return corrupt_image(where, "the KTX2 file has " + std::to_string(faces) + " faces");
     }
     if (auto fits = check_image_size(width, height, sizeof(uint32_t), "E-IMG", where); !fits) {
         return fits;
@@ -82,9 +79,9 @@ Result<void> read_shape(Bytes bytes, Ktx2Header& header, const std::string& wher
     const auto max_levels = static_cast<uint32_t>(
         std::bit_width(static_cast<uint32_t>(std::max(header.width, header.height))));
     if (levels > max_levels) {
-        return corrupt(where,
-                       "the KTX2 file has " + std::to_string(levels) + " levels; its size allows " +
-                           std::to_string(max_levels));
+        return corrupt_image(where,
+                             "the KTX2 file has " + std::to_string(levels) +
+                                 " levels; its size allows " + std::to_string(max_levels));
     }
     header.levels = static_cast<int>(levels);
     header.levels_in_file = header.levels;
@@ -108,11 +105,11 @@ Result<Description> read_description(Bytes bytes, const std::string& where) {
                                 little_endian_32(bytes, at_description),
                                 little_endian_32(bytes, at_description + 4));
     if (!found || found->size() < total_and_block) {
-        return corrupt(where, "the KTX2 file's data format descriptor is cut off");
+        return corrupt_image(where, "the KTX2 file's data format descriptor is cut off");
     }
     const size_t block_bytes = little_endian_32(*found, 8) >> 16;
     if (little_endian_32(*found, 4) != 0 || block_bytes < 24 || block_bytes > found->size() - 4) {
-        return corrupt(where, "the KTX2 file's data format descriptor is broken");
+        return corrupt_image(where, "the KTX2 file's data format descriptor is broken");
     }
     const uint32_t colors = little_endian_32(*found, 12);
     Description out;
@@ -242,7 +239,7 @@ Result<void> check_key_values(Bytes bytes, const std::string& where) {
                                                                 {"KTXswizzle", "rgba"}};
     for (const auto& [key, accepted] : expected) {
         const auto value = entries ? find_value(*entries, key) : std::nullopt;
-        if (!value) return corrupt(where, "the KTX2 file's key/value data are cut off");
+        if (!value) return corrupt_image(where, "the KTX2 file's key/value data are cut off");
         if (value->empty() || *value == accepted) continue;
         return unsupported(where,
                            std::string("the KTX2 file's ") + key + " is \"" +
@@ -255,20 +252,20 @@ Result<void> check_key_values(Bytes bytes, const std::string& where) {
 Result<void> find_level(Bytes bytes, int level, Ktx2Header& header, const std::string& where) {
     const size_t entry = header_bytes + level_entry_bytes * static_cast<size_t>(level);
     const std::string name = "level " + std::to_string(level) + " of the KTX2 file";
-    if (entry + level_entry_bytes > bytes.size()) return corrupt(where, name + " is cut off");
+    if (entry + level_entry_bytes > bytes.size()) return corrupt_image(where, name + " is cut off");
     const uint64_t length = little_endian_64(bytes, entry + 8);
     const auto found = range_of(bytes, little_endian_64(bytes, entry), length);
-    if (!found) return corrupt(where, name + " is cut off");
+    if (!found) return corrupt_image(where, name + " is cut off");
     header.level_bytes[static_cast<size_t>(level)] = *found;
     if (header.coding == Ktx2Coding::basis_lz) return {};
     const uint64_t wanted = header.plain_bytes(level);
     const uint64_t stated = header.is_zstd ? little_endian_64(bytes, entry + 16) : length;
     constexpr uint64_t best_zstd_compression = 32768;  // blocks of 128 KiB, told in 4 bytes
     if (stated != wanted || length < wanted / best_zstd_compression) {
-        return corrupt(where,
-                       name + " has " + std::to_string(stated) + " bytes, stored in " +
-                           std::to_string(length) + "; its size asks for " +
-                           std::to_string(wanted));
+        return corrupt_image(where,
+                             name + " has " + std::to_string(stated) + " bytes, stored in " +
+                                 std::to_string(length) + "; its size asks for " +
+                                 std::to_string(wanted));
     }
     return {};
 }
@@ -291,7 +288,7 @@ bool is_ktx2(Bytes bytes) {
 }
 
 Result<Ktx2Header> read_ktx2_header(Bytes bytes, const std::string& where) {
-    if (bytes.size() < header_bytes) return corrupt(where, "the KTX2 header is cut off");
+    if (bytes.size() < header_bytes) return corrupt_image(where, "the KTX2 header is cut off");
     Ktx2Header header;
     Result<void> done = read_shape(bytes, header, where);
     if (done) done = read_coding(bytes, header, where);
@@ -301,7 +298,7 @@ Result<Ktx2Header> read_ktx2_header(Bytes bytes, const std::string& where) {
     if (!done) return fail(std::move(done.error()));
     const auto global =
         range_of(bytes, little_endian_64(bytes, at_global), little_endian_64(bytes, at_global + 8));
-    if (!global) return corrupt(where, "the KTX2 file's global data are cut off");
+    if (!global) return corrupt_image(where, "the KTX2 file's global data are cut off");
     header.global_bytes = *global;
     return header;
 }

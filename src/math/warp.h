@@ -10,6 +10,7 @@ namespace obscura {
 
 inline constexpr float pi_f = 3.14159265358979324f;
 inline constexpr double pi_d = 3.14159265358979324;
+inline constexpr double radians_per_degree = pi_d / 180;
 
 inline namespace OBSCURA_ISA {
 

@@ -30,14 +30,6 @@ double punctual_power(const Scene& scene, const PunctualLight& light, double rad
     return directional ? pi_d * radius * radius * intensity : 4.0 * pi_d * intensity;
 }
 
-/// True for emitters that light sampling can use. Alpha cut-outs are left to BSDF sampling: a point
-/// sampled on a triangle does not know its alpha.
-bool emits(const Material& material) {
-    constexpr uint32_t unsampled = material_unlit | material_alpha_mask | material_alpha_blend;
-    return (material.flags & unsampled) == 0 &&
-           std::max({material.emission[0], material.emission[1], material.emission[2]}) > 0;
-}
-
 /// Data that the lights of one emissive primitive share.
 struct Emitter {
     const Scene& scene;
@@ -257,6 +249,15 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
 }
 
 }  // namespace
+
+float largest_emission(const Material& material) {
+    return std::max({material.emission[0], material.emission[1], material.emission[2]});
+}
+
+bool emits(const Material& material) {
+    constexpr uint32_t unsampled = material_unlit | material_alpha_mask | material_alpha_blend;
+    return (material.flags & unsampled) == 0 && largest_emission(material) > 0;
+}
 
 LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     LightTable table;

@@ -35,6 +35,13 @@ struct LightTable {
 /// In      environment: null or black: none
 LightTable make_light_table(Scene& scene, const EnvironmentTable* environment);
 
+/// The material's emission in its brightest channel, without texture.
+float largest_emission(const Material& material);
+
+/// True for emitters that light sampling can use. Alpha cut-outs are left to BSDF sampling: a point
+/// sampled on a triangle does not know its alpha.
+bool emits(const Material& material);
+
 /// A material's clearcoat factor times the mean of its texture.
 float mean_coat(const Scene& scene, const Material& material);
 

@@ -3,6 +3,7 @@
 #include "render/raycast_lights.h"
 
 #include "base/parallel.h"
+#include "render/store_vector.h"
 #include "surface/texture.h"
 
 #include <algorithm>
@@ -14,12 +15,12 @@ namespace obscura {
 namespace {
 
 /// The range of the triangle light table that belongs to one instance of a primitive.
-struct Emitter {
+struct EmitterRange {
     size_t first = 0, count = 0;
 };
 
-std::vector<Emitter> list_emitters(const Scene& scene) {
-    std::vector<Emitter> list;
+std::vector<EmitterRange> list_emitters(const Scene& scene) {
+    std::vector<EmitterRange> list;
     const auto add = [&](const Primitive& primitive, int32_t base) {
         if (primitive.light_base < 0 || base < 0 || !is_mesh(primitive)) return;
         list.push_back({static_cast<size_t>(base + primitive.light_base),
@@ -38,12 +39,6 @@ std::vector<Emitter> list_emitters(const Scene& scene) {
 
 Vec3d vector(const float* v) {
     return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
-void store(const Vec3d& v, float* out) {
-    out[0] = static_cast<float>(v.x);
-    out[1] = static_cast<float>(v.y);
-    out[2] = static_cast<float>(v.z);
 }
 
 /// Triangles whose normals stay within about 8 degrees of their mean count as one flat lamp.
@@ -197,10 +192,10 @@ AmbientLight project_environment(const EnvironmentView& map) {
 
 RaycastLights make_raycast_lights(const PreparedScene::Impl& impl) {
     RaycastLights out;
-    const std::vector<Emitter> emitters = list_emitters(impl.scene);
+    const std::vector<EmitterRange> emitters = list_emitters(impl.scene);
     out.centres.resize(emitters.size());
     parallel_for(emitters.size(), [&](size_t i) {
-        const Emitter& emitter = emitters[i];
+        const EmitterRange& emitter = emitters[i];
         out.centres[i] =
             centre_of(impl.scene, impl.lights.triangles.data() + emitter.first, emitter.count);
     });

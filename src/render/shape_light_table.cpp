@@ -3,6 +3,7 @@
 #include "render/shape_light_table.h"
 
 #include "render/light_table.h"
+#include "render/store_vector.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,22 +12,6 @@
 namespace obscura {
 
 namespace {
-
-double largest_emission(const Material& m) {
-    return static_cast<double>(std::max({m.emission[0], m.emission[1], m.emission[2]}));
-}
-
-/// As for triangles: unlit materials and alpha cut-outs cannot be sampled.
-bool emits(const Material& material) {
-    constexpr uint32_t unsampled = material_unlit | material_alpha_mask | material_alpha_blend;
-    return (material.flags & unsampled) == 0 && largest_emission(material) > 0;
-}
-
-void store(const Vec3d& v, float* out) {
-    out[0] = static_cast<float>(v.x);
-    out[1] = static_cast<float>(v.y);
-    out[2] = static_cast<float>(v.z);
-}
 
 Vec3d column(const Affined& map, int c) {
     return {map.m[0][c], map.m[1][c], map.m[2][c]};
@@ -148,7 +133,7 @@ double brightest_shape_radiance(const Scene& scene) {
     for (const Primitive& primitive : scene.primitives) {
         if (is_mesh(primitive)) continue;
         const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
-        brightest = std::max(brightest, largest_emission(material));
+        brightest = std::max(brightest, static_cast<double>(largest_emission(material)));
     }
     return brightest;
 }

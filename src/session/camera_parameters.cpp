@@ -3,6 +3,7 @@
 #include "session/camera_parameters.h"
 
 #include "camera/names.h"
+#include "math/warp.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -10,8 +11,6 @@
 namespace obscura {
 
 namespace {
-
-constexpr double degree = pi_d / 180;
 
 void add(std::string& text, const char* name, double value) {
     text += fmt::format("{}{}={:.7g}", text.empty() ? "" : " ", name, value);
@@ -23,7 +22,7 @@ void add(std::string& text, const char* name, const char* value) {
 
 void add_film(const PinholeCamera& film, std::string& text) {
     const auto half_height = static_cast<double>(film.tan_half_yfov);
-    add(text, "yfov_deg", 2 * std::atan(half_height) / degree);
+    add(text, "yfov_deg", 2 * std::atan(half_height) / radians_per_degree);
     add(text, "film_aspect", static_cast<double>(film.aspect));
     if (film.shift_x == 0 && film.shift_y == 0) return;
     add(text,
@@ -52,7 +51,7 @@ void add_lens(const ThinLens& lens, std::string& text) {
 
 void add_fisheye(const FisheyeCamera& camera, std::string& text) {
     add(text, "fisheye", name_of(fisheye_law_names, camera.law));
-    add(text, "fov_deg", 2 * static_cast<double>(camera.largest_angle) / degree);
+    add(text, "fov_deg", 2 * static_cast<double>(camera.largest_angle) / radians_per_degree);
     add(text, "half_width", static_cast<double>(camera.half_width));
     add(text, "half_height", static_cast<double>(camera.half_height));
     if (camera.shift_x != 0 || camera.shift_y != 0) {
@@ -67,7 +66,9 @@ void add_fisheye(const FisheyeCamera& camera, std::string& text) {
 void add_environment(const EnvironmentCamera& camera, std::string& text) {
     add(text, "environment", name_of(environment_projection_names, camera.projection));
     if (camera.projection == EnvironmentProjection::cylindrical) {
-        add(text, "yfov_deg", 2 * std::atan(static_cast<double>(camera.half_height)) / degree);
+        add(text,
+            "yfov_deg",
+            2 * std::atan(static_cast<double>(camera.half_height)) / radians_per_degree);
     }
     if (camera.half_eyes_m > 0) {
         add(text, "stereo_m", 2 * static_cast<double>(camera.half_eyes_m));

@@ -5,6 +5,7 @@
 #include "base/setting_names.h"
 #include "base/text.h"
 #include "camera/names.h"
+#include "math/warp.h"
 #include "scene/camera_setting_table.h"
 
 #include "session/framing.h"
@@ -16,8 +17,6 @@
 namespace obscura {
 
 namespace {
-
-constexpr double degree = pi_d / 180;
 
 /// The library's enumerations have the same order as ours.
 static_assert(static_cast<int>(v0::Integrator::heat) == static_cast<int>(Integrator::heat) &&
@@ -143,7 +142,8 @@ void read_lens(const v0::View& view, CameraSettings& s, Checks& checks) {
     take<&S::focus_distance_m>(view.focus_distance_m, s, checks);
     take<&S::blades>(view.blades, s, checks);
     checks.real("blade-rotation", view.blade_rotation_deg, -36000, 36000);
-    if (view.blade_rotation_deg) s.blade_rotation_rad = *view.blade_rotation_deg * degree;
+    if (view.blade_rotation_deg)
+        s.blade_rotation_rad = *view.blade_rotation_deg * radians_per_degree;
     take<&S::anamorphic>(view.anamorphic, s, checks);
     if (!view.aperture.empty()) s.aperture_file = view.aperture;
     take<&S::fisheye>(view.fisheye, s, checks);
@@ -172,7 +172,7 @@ SceneCamera placed_camera(const std::array<double, 16>& m, const v0::View& view)
         for (size_t column = 0; column < 4; ++column)
             camera.world_from_camera.m[row][column] = m[4 * row + column];
     }
-    camera.yfov_rad = view.fov_deg ? *view.fov_deg * degree : default_yfov_rad;
+    camera.yfov_rad = view.fov_deg ? *view.fov_deg * radians_per_degree : default_yfov_rad;
     return camera;
 }
 
@@ -208,7 +208,7 @@ void read_camera(const v0::View& view, CameraRequest& out, Checks& checks) {
         out.model.value_or(implied_model(out.settings).value_or(CameraModel::pinhole)) ==
         CameraModel::fisheye;
     checks.real("fov", view.fov_deg, 0.01, fisheye ? 360 : 179);
-    if (view.fov_deg) out.yfov_rad = *view.fov_deg * degree;
+    if (view.fov_deg) out.yfov_rad = *view.fov_deg * radians_per_degree;
     if (view.world_from_camera) out.loaded = placed_camera(*view.world_from_camera, view);
     if (view.focus_on_px) {
         checks.reals("focus-on", view.focus_on_px, 0, 65535);

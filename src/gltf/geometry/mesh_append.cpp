@@ -3,6 +3,7 @@
 #include "gltf/geometry/mesh_append.h"
 
 #include "gltf/geometry/cofactors.h"
+#include "gltf/geometry/farthest_position.h"
 #include "gltf/parse/node_graph.h"
 
 #include <cmath>
@@ -15,8 +16,6 @@ namespace {
 
 constexpr size_t max_vertices = (1U << 29) - 1;  // four floats a vertex stay below 2^31
 constexpr size_t max_words = (1U << 31) - 1;     // what an int32 offset reaches
-constexpr float farthest_position = 1e18f;
-
 /// Transforms a direction in place and makes it unit; the zero vector stays.
 void turn(float* v, const Affined& map, double sign) {
     const Vec3d turned = transform_vector(map, Vec3d{v[0], v[1], v[2]});

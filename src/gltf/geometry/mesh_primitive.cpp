@@ -3,6 +3,7 @@
 #include "gltf/geometry/mesh_primitive.h"
 
 #include "gltf/geometry/deform.h"
+#include "gltf/geometry/farthest_position.h"
 #include "gltf/geometry/mesh_shading.h"
 #include "gltf/geometry/primitive_modes.h"
 #include "gltf/geometry/primitive_reader.h"
@@ -17,8 +18,6 @@
 namespace obscura::gltf {
 
 namespace {
-
-constexpr float farthest_position = 1e18f;  // Embree drops triangles beyond 1.8e18
 
 /// The vertex order of a primitive: its indices, or 0, 1, 2...
 Result<std::vector<uint32_t>> read_vertex_order(PrimitiveReader& reader) {

@@ -3,6 +3,7 @@
 #include "gltf/geometry/meshes.h"
 
 #include "gltf/geometry/batch_reader.h"
+#include "gltf/geometry/farthest_position.h"
 #include "gltf/geometry/skins.h"
 
 #include <algorithm>
@@ -11,8 +12,6 @@
 namespace obscura::gltf {
 
 namespace {
-
-constexpr double farthest_position = 1e18;
 
 class MeshBuilder {
 public:

@@ -3,6 +3,7 @@
 #include "gltf/geometry/particles.h"
 
 #include "base/parallel.h"
+#include "gltf/geometry/farthest_position.h"
 #include "shape/sphere_cluster.h"
 
 #include <algorithm>
@@ -14,8 +15,6 @@
 namespace obscura::gltf {
 
 namespace {
-
-constexpr double farthest_position = 1e18;
 
 /// Splits spheres along the longest edge of their box into two parts of whole clusters, or of whole
 /// blocks where there is one cluster at most. Returns how many the first one gets.

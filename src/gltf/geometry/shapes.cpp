@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/geometry/shapes.h"
 
+#include "gltf/geometry/farthest_position.h"
 #include "gltf/geometry/particles.h"
 #include "gltf/parse/list_text.h"
 
@@ -13,8 +14,6 @@
 namespace obscura::gltf {
 
 namespace {
-
-constexpr double farthest_position = 1e18;
 
 /// A uniform scale and a translation; nothing when the map rotates, mirrors or stretches.
 std::optional<double> uniform_scale(const Affined& map) {

@@ -3,6 +3,7 @@
 #include "gltf/geometry/splats.h"
 
 #include "base/parallel.h"
+#include "gltf/geometry/farthest_position.h"
 #include "gltf/geometry/particles.h"
 #include "gltf/geometry/splat_primitive.h"
 #include "gltf/parse/list_text.h"
@@ -17,8 +18,6 @@ namespace obscura::gltf {
 namespace {
 
 constexpr size_t max_splats = size_t{1} << 29;
-constexpr double farthest_position = 1e18;
-
 /// Least ratio of axes: it looks like a disc, and single precision still resolves it.
 constexpr double min_flatness = 1e-5;
 
