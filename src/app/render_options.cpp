@@ -5,6 +5,7 @@
 #include "app/frames.h"
 #include "app/lens_options.h"
 #include "app/option_readers.h"
+#include "app/product_options.h"
 #include "app/render_command.h"
 #include "camera/names.h"
 #include "render/integrators.h"
@@ -284,6 +285,8 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
         groups.insert(groups.end(), lens.begin(), lens.end());
         const std::initializer_list<RenderOptionGroup> rest = {
             {"Light", light},
+            light_choice_group(),
+            part_group(),
             {"Display (PNG and JPEG only)", display},
             {"Faulty scenes", faults},
             {"Program", program}};

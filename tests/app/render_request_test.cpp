@@ -60,6 +60,8 @@ RenderArguments every_option() {
     a.env_intensity = "2";
     a.env_rotation = "-45";
     a.occlusion = "ambient";
+    a.product.lights = "Key=Light=0.5,Rim*=off";
+    a.product.hide = {"Floor", "Wall*"};
     a.background = "0.5,0.25,1";
     a.point_size = "0.25";
     a.line_width = "5px";
@@ -115,6 +117,13 @@ TEST(RenderRequest, CameraLightAndDisplayOptionsArrive) {
     EXPECT_EQ(request->environment_intensity, 2);
     EXPECT_EQ(request->environment_rotation_deg, -45);
     EXPECT_TRUE(request->load.occlusion);
+    ASSERT_EQ(request->load.lights.factors.size(), 2U);
+    EXPECT_FALSE(request->load.lights.off);
+    EXPECT_EQ(request->load.lights.factors[0].pattern, "Key=Light");
+    EXPECT_EQ(request->load.lights.factors[0].factor, 0.5);
+    EXPECT_EQ(request->load.lights.factors[1].pattern, "Rim*");
+    EXPECT_EQ(request->load.lights.factors[1].factor, 0);
+    EXPECT_EQ(request->load.hidden, (std::vector<std::string>{"Floor", "Wall*"}));
     EXPECT_EQ(options.background, BackgroundKind::color);
     EXPECT_EQ(options.background_color[1], 0.25f);
     EXPECT_EQ(request->display.view, "V");
@@ -133,6 +142,16 @@ TEST(RenderRequest, ASceneIsAnIndexOrAName) {
     EXPECT_EQ(make_render_request(arguments)->load.scene_name, "Night 2");
     arguments.scene = "99999999999";
     EXPECT_EQ(make_render_request(arguments).error().id, "E-USAGE-RANGE");
+}
+
+TEST(ParseLights, TakesTwoWordsAndPairs) {
+    EXPECT_TRUE(parse_lights("off", "--lights")->off);
+    EXPECT_FALSE(parse_lights("keep", "--lights")->off);
+    EXPECT_TRUE(parse_lights("keep", "--lights")->factors.empty());
+    for (const char* text : {"", "Lamp", "=2", "Lamp=1,", ","})
+        EXPECT_EQ(parse_lights(text, "--lights").error().id, "E-USAGE-CHOICE") << text;
+    EXPECT_EQ(parse_lights("Lamp=bright", "--lights").error().id, "E-USAGE-NUMBER");
+    EXPECT_EQ(parse_lights("Lamp=1e7", "--lights").error().id, "E-USAGE-RANGE");
 }
 
 TEST(SameFile, SeesThroughLinksAndMissingFiles) {

@@ -73,6 +73,40 @@ TEST_F(Lights, InfoNamesThem) {
     EXPECT_THAT(run({"info", "lit.gltf"}).out, HasSubstr("'red sky'"));
 }
 
+TEST_F(Lights, TheOptionChoosesAmongTheFilesLights) {
+    json tree = json::parse(gltf_text(box_scene()));
+    tree["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"name", "Sun"}, {"intensity", 2}}};
+    tree["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    folder_.write("sun.gltf", tree.dump());
+    const auto sum = [&](const std::string& choice) {
+        expect_result(
+            render("sun.gltf", {"-o", "sun.exr", "--float", "--lights", choice}), 0, "OK");
+        const auto image = read_image_file(folder_ / "sun.exr");
+        float out = 0;
+        for (size_t i = 0; image && i < image->pixels.size(); i += 4)
+            out += image->pixels[i];
+        return out;
+    };
+    const float kept = sum("keep");
+    EXPECT_GT(kept, 0);
+    EXPECT_NEAR(sum("S*=3"), 3 * kept, 1e-4 * kept);
+    EXPECT_THAT(render("sun.gltf").err, Not(HasSubstr("studio")));
+    EXPECT_THAT(render("sun.gltf", {"--lights", "off"}).err, HasSubstr("built-in studio"));
+    expect_result(render("sun.gltf", {"--lights", "Son=2"}), 64, "E-LIGHT-UNKNOWN");
+    expect_result(render("sun.gltf", {"--lights", "Sun"}), 64, "E-USAGE-CHOICE");
+    expect_result(render("sun.gltf", {"--lights", "Sun=-1"}), 64, "E-USAGE-RANGE");
+}
+
+TEST_F(Lights, HiddenPartsAreLeftOut) {
+    json tree = json::parse(gltf_text(box_scene()));
+    tree["nodes"][0]["name"] = "Crate";
+    folder_.write("crate.gltf", tree.dump());
+    EXPECT_THAT(render("crate.gltf", {"--hide", "Crate"}).err, HasSubstr("no triangles"));
+    expect_result(render("crate.gltf", {"--hide", "Create"}), 64, "E-HIDE-UNKNOWN");
+    expect_result(render("crate.gltf", {"--hide", ""}), 64, "E-USAGE-CONFLICT");
+}
+
 TEST_F(Lights, DamagedProfilesAreRefused) {
     folder_.write("lamp.ies", "TILT=NONE\n1 1 1 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n5\n");
     const ProgramRun broken = render("lit.gltf");
