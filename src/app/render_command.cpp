@@ -28,7 +28,7 @@ namespace {
 /// Runs one command, from the request to the statistics.
 struct Job {
     Log& log;               ///< the command's; frames may have their own
-    RenderRequest request;  ///< its outputs and camera.framed change from frame to frame
+    RenderRequest request;  ///< its outputs and what its camera keeps change from frame to frame
     std::optional<DisplayTransform> display = {};
     std::optional<AssetRenderer> renderer = {};
     LightingOptions lighting = {};
@@ -98,6 +98,7 @@ Result<void> load(Job& job) {
         AssetRenderer::open(job.request.scene, options, has_time, job.log);
     if (!renderer) return fail(renderer.error());
     job.renderer = std::move(*renderer);
+    if (auto found = job.renderer->find_framed_nodes(job.request.camera); !found) return found;
     Result<LightingOptions> lighting = load_lighting(job.request, job.log);
     if (!lighting) return fail(lighting.error());
     job.lighting = std::move(*lighting);
@@ -110,7 +111,12 @@ Result<void> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log)
     const PoseTimes times = times_of(job.request, frame, turn.is_last());
     if (auto posed = job.renderer->pose(times, log); !posed) return posed;
     if (turn.count > 1 && turn.index == 0) {
-        job.request.camera.framed = job.renderer->scene().bounds;
+        const Scene& scene = job.renderer->scene();
+        const RenderOptions& options = job.request.options;
+        CameraRequest& camera = job.request.camera;
+        camera.framed = scene.bounds;
+        camera.kept =
+            automatic_framing(scene, camera, static_cast<double>(options.width) / options.height);
     }
     return {};
 }

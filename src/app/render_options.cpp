@@ -177,7 +177,8 @@ constexpr Entry sampling[] = {
      text_at<&A::wire_width>, number_at<&R::options, &O::wire_width_px>}};
 
 constexpr Entry camera[] = {
-    {{.name = "--camera", .argument = "NAME|INDEX", .help = "A camera of the file",
+    {{.name = "--camera", .argument = "NAME|INDEX|auto",
+      .help = "A camera of the file; auto frames the scene, whatever cameras there are",
       .fallback = "the first; without any, the whole scene is framed from the front, right and "
                   "above",
       .excludes = {"--eye", "--target", "--up"}},
@@ -280,7 +281,8 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                  {"Picture", image},
                                                  {"Time", time},
                                                  {"Sampling", sampling},
-                                                 {"Camera", camera}};
+                                                 {"Camera", camera},
+                                                 framing_group()};
         const auto lens = lens_option_groups();
         groups.insert(groups.end(), lens.begin(), lens.end());
         const std::initializer_list<RenderOptionGroup> rest = {
