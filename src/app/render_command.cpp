@@ -8,9 +8,11 @@
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "camera/exposure.h"
 #include "stages/dispatch.h"
 
 #include "session/asset_renderer.h"
+#include "session/dark_image.h"
 #include "session/focus.h"
 #include "session/lighting.h"
 #include "session/outputs.h"
@@ -18,6 +20,7 @@
 #include "session/requested_camera.h"
 #include "session/statistics.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <span>
 
@@ -70,6 +73,10 @@ Result<void> render_and_write(
     };
     Result<FinishedImage> finished = job.renderer->render(request, camera, hooks, job.log);
     if (!finished) return fail(finished.error());
+    const double camera_ev = camera.ev100 ? std::log2(exposure_scale(*camera.ev100)) : 0;
+    const double exposure_ev = request.display.exposure_ev + camera_ev;
+    if (turn.index == 0)
+        warn_of_dark_image(finished->image, request, job.renderer->scene(), exposure_ev, log);
     const Stopwatch writing;
     const Result<void> written = write_outputs(request, *finished, job.display, job.stop->flag());
     job.renderer->statistics().write_s += writing.seconds();
