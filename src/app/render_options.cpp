@@ -10,6 +10,8 @@
 #include "camera/names.h"
 #include "render/integrators.h"
 
+#include "session/built_in_environment.h"
+
 #include <cstring>
 
 namespace obscura::app {
@@ -102,6 +104,16 @@ constexpr OptionReader<R> points_lines_size_at = {
         const PointsLinesSize& thickness = field<path...>(r);
         return shortest(thickness.diameter) + (thickness.unit == LengthUnit::pixels ? "px" : "m");
     }};
+
+/// A file, or the name of an environment, whose angles are checked here.
+Result<void> read_environment_choice(const OptionInfo& info, const std::string& text, R& request) {
+    const Result<std::string> name = parse_name(text, info.name);
+    if (!name) return fail(name.error());
+    const auto built_in = parse_built_in_environment(text);
+    if (!built_in) return fail(built_in.error());
+    request.environment = *name;
+    return {};
+}
 
 Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*option*/) {
     return ExrDepth::float32;
@@ -202,10 +214,13 @@ constexpr Entry camera[] = {
      text_at<&A::camera_model>, choice_at<camera_model_names, &R::camera, &C::model>}};
 
 constexpr Entry light[] = {
-    {{.name = "--env", .argument = "FILE", .help = "Latitude-longitude environment, .hdr or .exr",
+    {{.name = "--env", .argument = "FILE|NAME",
+      .help = "Latitude-longitude environment, .hdr or .exr, beside the file's lamps; or studio; "
+              "neutral or white, the same from all sides; or sky:ELEVATION,AZIMUTH, a clear sky "
+              "with its sun there, in degrees. A file of such a name is ./studio",
       .fallback = "the file's own, else a neutral studio if the scene has no light",
       .files = "hdr exr"},
-     text_at<&A::env>, name_at<&R::environment>},
+     text_at<&A::env>, {.read = read_environment_choice}},
     {{.name = "--env-intensity", .argument = "X", .help = "Multiplies the environment",
       .range = {0, 1e9}},
      text_at<&A::env_intensity>, number_at<&R::environment_intensity>},

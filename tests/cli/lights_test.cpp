@@ -59,6 +59,16 @@ TEST_F(Lights, TheFilesEnvironmentIsSeenUnlessAnotherIsChosen) {
     EXPECT_THAT(render("lit.gltf").err, Not(HasSubstr("studio")));
 }
 
+TEST_F(Lights, EnvironmentsHaveNames) {
+    EXPECT_THAT(corner({"--env", "white"}), testing::ElementsAre(1, 1, 1));
+    const std::vector<float> sky = corner({"--env", "sky:50,0"});
+    ASSERT_EQ(sky.size(), 3U);
+    EXPECT_GT(sky[2], sky[0]);  // away from the sun it is blue
+    expect_result(render("lit.gltf", {"--env", "sky:100,0"}), 64, "E-USAGE-RANGE");
+    expect_result(render("lit.gltf", {"--env", "sky:10"}), 64, "E-USAGE-NUMBER");
+    expect_result(render("lit.gltf", {"--env", "./white"}), 67, "E-ENV-MISSING");
+}
+
 TEST_F(Lights, InfoNamesThem) {
     const ProgramRun table = run({"info", "lit.gltf", "--explain"});
     expect_result(table, 0, "OK");
