@@ -119,7 +119,10 @@ private:
 template <typename Visit>
 void FramedGeometry::each_point(const Chunk& chunk, const Visit& visit) const {
     const Scene& scene = *scene_;
-    const auto kind = static_cast<GeometryKind>(scene.primitives[chunk.primitive].geometry);
+    const Primitive& primitive = scene.primitives[chunk.primitive];
+    const auto kind = static_cast<GeometryKind>(primitive.geometry);
+    // The radius of points and lines may depend on the view, and must not decide about it.
+    const float thickness = is_point_or_line(primitive) ? 0.0f : 1.0f;
     const auto end = static_cast<size_t>(chunk.first + chunk.count);
     for (auto i = static_cast<size_t>(chunk.first); i < end; ++i) {
         if (kind == GeometryKind::triangles) {
@@ -129,11 +132,12 @@ void FramedGeometry::each_point(const Chunk& chunk, const Visit& visit) const {
             }
         } else if (kind == GeometryKind::spheres) {
             const float* at = &scene.spheres[sphere_word(i)];
-            visit(Vec3f{at[0], at[sphere_block], at[2 * sphere_block]}, at[3 * sphere_block]);
+            visit(Vec3f{at[0], at[sphere_block], at[2 * sphere_block]},
+                  thickness * at[3 * sphere_block]);
         } else if (kind == GeometryKind::curves) {
             for (size_t point = 0; point < 2; ++point) {
                 const float* at = &scene.curve_points[4 * (scene.curve_segments[i] + point)];
-                visit(Vec3f{at[0], at[1], at[2]}, at[3]);
+                visit(Vec3f{at[0], at[1], at[2]}, thickness * at[3]);
             }
         } else {
             const ShapeRecord& record = scene.shapes[i];

@@ -203,8 +203,8 @@ TEST(Framing, ASphereHasOneScaleFromAllSides) {
         for (const double edge : seen)
             EXPECT_LE(std::abs(edge), 0.9 + 1e-6);
     }
-    EXPECT_DOUBLE_EQ(distances[0], distances[1]);
-    EXPECT_DOUBLE_EQ(distances[0], distances[2]);
+    EXPECT_NEAR(distances[0], distances[1], 1e-9);
+    EXPECT_NEAR(distances[0], distances[2], 1e-9);
 }
 
 TEST(Framing, WideAnglesStillSeeAllCorners) {
