@@ -4,6 +4,7 @@
 
 #include "app/config_file.h"
 #include "app/numbers.h"
+#include "base/name_search.h"
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -58,23 +59,6 @@ void declare(CLI::App& command, const BoundOption& option) {
     }
     if (!std::holds_alternative<bool*>(option.target)) declared->type_name(info.argument);
     if (*option.heading) declared->group(option.heading);
-}
-
-/// Steps that turn one word into the other.
-size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<size_t> row(b.size() + 1);
-    for (size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (size_t i = 1; i <= a.size(); ++i) {
-        size_t diagonal = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= b.size(); ++j) {
-            const size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-        }
-    }
-    return row[b.size()];
 }
 
 /// The option that has too few or too many values; "" for other complaints. The parser's text

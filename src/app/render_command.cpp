@@ -8,9 +8,11 @@
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "camera/exposure.h"
 #include "stages/dispatch.h"
 
 #include "session/asset_renderer.h"
+#include "session/dark_image.h"
 #include "session/focus.h"
 #include "session/lighting.h"
 #include "session/outputs.h"
@@ -18,6 +20,7 @@
 #include "session/requested_camera.h"
 #include "session/statistics.h"
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 #include <span>
 
@@ -28,7 +31,7 @@ namespace {
 /// Runs one command, from the request to the statistics.
 struct Job {
     Log& log;               ///< the command's; frames may have their own
-    RenderRequest request;  ///< its outputs, frame and camera.framed change from frame to frame
+    RenderRequest request;  ///< its outputs, frame and what its camera keeps change by frame
     std::optional<DisplayTransform> display = {};
     std::optional<AssetRenderer> renderer = {};
     LightingOptions lighting = {};
@@ -70,6 +73,10 @@ Result<void> render_and_write(
     };
     Result<FinishedImage> finished = job.renderer->render(request, camera, hooks, job.log);
     if (!finished) return fail(finished.error());
+    const double camera_ev = camera.ev100 ? std::log2(exposure_scale(*camera.ev100)) : 0;
+    const double exposure_ev = request.display.exposure_ev + camera_ev;
+    if (turn.index == 0)
+        warn_of_dark_image(finished->image, request, job.renderer->scene(), exposure_ev, log);
     const Stopwatch writing;
     const Result<void> written =
         write_outputs(request, *finished, job.display, job.stop->flag(), log);
@@ -99,6 +106,7 @@ Result<void> load(Job& job) {
         AssetRenderer::open(job.request.scene, options, has_time, job.log);
     if (!renderer) return fail(renderer.error());
     job.renderer = std::move(*renderer);
+    if (auto found = job.renderer->find_framed_nodes(job.request.camera); !found) return found;
     Result<LightingOptions> lighting = load_lighting(job.request, job.log);
     if (!lighting) return fail(lighting.error());
     job.lighting = std::move(*lighting);
@@ -111,7 +119,12 @@ Result<void> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log)
     const PoseTimes times = times_of(job.request, frame, turn.is_last());
     if (auto posed = job.renderer->pose(times, log); !posed) return posed;
     if (turn.count > 1 && turn.index == 0) {
-        job.request.camera.framed = job.renderer->scene().bounds;
+        const Scene& scene = job.renderer->scene();
+        const RenderOptions& options = job.request.options;
+        CameraRequest& camera = job.request.camera;
+        camera.framed = scene.bounds;
+        camera.kept =
+            automatic_framing(scene, camera, static_cast<double>(options.width) / options.height);
     }
     return {};
 }

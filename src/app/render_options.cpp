@@ -5,11 +5,13 @@
 #include "app/frames.h"
 #include "app/lens_options.h"
 #include "app/option_readers.h"
+#include "app/product_options.h"
 #include "app/render_command.h"
 #include "camera/names.h"
 #include "render/integrators.h"
 
 #include "film/layers.h"
+#include "session/built_in_environment.h"
 #include <cstring>
 #include <fmt/format.h>
 
@@ -139,6 +141,16 @@ Result<bool> parse_off(const std::string& /*text*/, const std::string& /*option*
     return false;
 }
 
+/// A file, or the name of an environment, whose angles are checked here.
+Result<void> read_environment_choice(const OptionInfo& info, const std::string& text, R& request) {
+    const Result<std::string> name = parse_name(text, info.name);
+    if (!name) return fail(name.error());
+    const auto built_in = parse_built_in_environment(text);
+    if (!built_in) return fail(built_in.error());
+    request.environment = *name;
+    return {};
+}
+
 Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*option*/) {
     return ExrDepth::float32;
 }
@@ -229,7 +241,8 @@ constexpr Entry sampling[] = {
      text_at<&A::wire_width>, number_at<&R::options, &O::wire_width_px>}};
 
 constexpr Entry camera[] = {
-    {{.name = "--camera", .argument = "NAME|INDEX", .help = "A camera of the file",
+    {{.name = "--camera", .argument = "NAME|INDEX|auto",
+      .help = "A camera of the file; auto frames the scene, whatever cameras there are",
       .fallback = "the first; without any, the whole scene is framed from the front, right and "
                   "above",
       .excludes = {"--eye", "--target", "--up"}},
@@ -253,10 +266,13 @@ constexpr Entry camera[] = {
      text_at<&A::camera_model>, choice_at<camera_model_names, &R::camera, &C::model>}};
 
 constexpr Entry light[] = {
-    {{.name = "--env", .argument = "FILE", .help = "Latitude-longitude environment, .hdr or .exr",
+    {{.name = "--env", .argument = "FILE|NAME",
+      .help = "Latitude-longitude environment, .hdr or .exr, beside the file's lamps; or studio; "
+              "neutral or white, the same from all sides; or sky:ELEVATION,AZIMUTH, a clear sky "
+              "with its sun there, in degrees. A file of such a name is ./studio",
       .fallback = "the file's own, else a neutral studio if the scene has no light",
       .files = "hdr exr"},
-     text_at<&A::env>, name_at<&R::environment>},
+     text_at<&A::env>, {.read = read_environment_choice}},
     {{.name = "--env-intensity", .argument = "X", .help = "Multiplies the environment",
       .range = {0, 1e9}},
      text_at<&A::env_intensity>, number_at<&R::environment_intensity>},
@@ -346,10 +362,13 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                  {"Layers", layers},
                                                  {"Time", time},
                                                  {"Sampling", sampling},
-                                                 {"Camera", camera}};
+                                                 {"Camera", camera},
+                                                 framing_group()};
         const auto lens = lens_option_groups();
         groups.insert(groups.end(), lens.begin(), lens.end());
         const std::initializer_list<RenderOptionGroup> rest = {{"Light", light},
+                                                               light_choice_group(),
+                                                               part_group(),
                                                                {"Display (all but EXR)", display},
                                                                {"Faulty scenes", faults},
                                                                {"Program", program}};

@@ -5,6 +5,7 @@
 #include "app/frames.h"
 #include "app/lens_request.h"
 #include "app/numbers.h"
+#include "app/product_options.h"
 #include "app/render_options.h"
 #include "app/scene_choice.h"
 #include "render/integrators.h"
@@ -134,6 +135,9 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
         return done;
     }
     if (auto done = read_fov(arguments.fov, request.camera); !done) return done;
+    if (auto done = complete_framing(arguments.product, arguments.camera, request.camera); !done) {
+        return done;
+    }
     // Without --size, --camera-json may set the image size; it is checked later.
     const bool size_is_known = request.size_is_given || !request.camera_json;
     if (auto fits = check_crop(request.options); size_is_known && !fits) return fits;

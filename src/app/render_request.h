@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/lens_options.h"
+#include "app/product_options.h"
 
 #include "session/render_request.h"
 #include <filesystem>
@@ -19,6 +20,7 @@ struct RenderArguments {
     std::optional<std::string> size, spp, depth, seed, threads, isa, tile_size, crop;
     std::optional<std::string> scene, variant, camera, camera_model, eye, target, up, fov;
     LensArguments lens;
+    ProductArguments product;
     std::optional<std::string> env, env_intensity, env_rotation, background, occlusion;
     std::optional<std::string> integrator, ao_distance, wire_width, filter, crypto_levels;
     std::optional<std::string> point_size, line_width;

@@ -3,6 +3,7 @@
 #include "gltf/load.h"
 
 #include "base/setting_names.h"
+#include "gltf/chosen_parts.h"
 #include "gltf/decode/meshopt.h"
 #include "gltf/geometry/instancing.h"
 #include "gltf/geometry/left_out_nodes.h"
@@ -172,11 +173,14 @@ struct PosedAsset::Impl {
     std::optional<std::vector<Affined>> anchors;  ///< see MeshSources
     std::vector<LightProfile> light_profiles;
     EnvironmentStore environment;
+    std::vector<char> hidden_nodes;  ///< of hide_parts
     Problems problems;
     Degraded degraded;        ///< of the latest scene
     double open_seconds = 0;  ///< not yet told in a scene
 
     Result<void> open(bool has_time, Log& log);
+    Result<void> choose_parts();
+    std::vector<PlacedNode> drawn_nodes(Log& log) const;
     Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log);
     Result<Scene> pose_at(double time_s, MaterialTable& materials, Log& log);
     Result<void> finish(MaterialTable& materials, bool last, Scene& out, Log& log);
@@ -184,6 +188,30 @@ struct PosedAsset::Impl {
     Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
     Result<Scene> settled(Result<Scene> made, Log& log);
 };
+
+/// The look and the parts of it that the options choose.
+Result<void> PosedAsset::Impl::choose_parts() {
+    Document& document = asset.document;
+    if (!options.variant.empty()) {
+        if (auto chosen = choose_variant(options.variant, document); !chosen) return chosen;
+    }
+    if (auto known = check_light_choice(options.lights, document); !known) return known;
+    Result<std::vector<char>> hidden = hide_parts(options.hidden, document);
+    if (!hidden) return fail(hidden.error());
+    hidden_nodes = std::move(*hidden);
+    return {};
+}
+
+/// The chosen scene's nodes; the hidden ones are never visible.
+std::vector<PlacedNode> PosedAsset::Impl::drawn_nodes(Log& log) const {
+    std::vector<PlacedNode> placed = place_nodes(asset.document, scene, log);
+    for (PlacedNode& place : placed) {
+        if (hidden_nodes.empty() || hidden_nodes[static_cast<size_t>(place.node)] == 0) continue;
+        place.visible = false;
+        place.may_show = false;
+    }
+    return placed;
+}
 
 Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     const auto start = std::chrono::steady_clock::now();
@@ -196,8 +224,7 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     const Result<int> chosen = choose_scene(document, options, log);
     if (!chosen) return fail(chosen.error());
     scene = *chosen;
-    Result<void> done;
-    if (!options.variant.empty()) done = choose_variant(options.variant, document);
+    Result<void> done = choose_parts();
     if (!done) return done;
     const auto animations = choose_animations(document, options.animation, has_time);
     if (!animations) return fail(animations.error());
@@ -232,7 +259,7 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
 /// Everything but textures.
 Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out, Log& log) {
     const Document& document = asset.document;
-    const std::vector<PlacedNode> placed = place_nodes(document, scene, log);
+    const std::vector<PlacedNode> placed = drawn_nodes(log);
     const Result<std::vector<PlacedNode>> placed_meshes =
         expand_instances(document, buffers, placed);
     if (!placed_meshes) return fail(placed_meshes.error());
@@ -245,7 +272,7 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
     if (done) done = add_splats(sources, problems, out, log);
     if (!done) return done;
     add_shapes({document, buffers, placed}, materials, problems, out, log);
-    done = add_lights_and_cameras(document, placed, out, log);
+    done = add_lights_and_cameras(document, placed, options.lights, out, log);
     return done;
 }
 
@@ -360,6 +387,10 @@ Result<Scene> PosedAsset::scene_at(double time_s, bool last, Log& log) {
 Result<Scene> PosedAsset::scene_between(const ShutterTimes& shutter, bool last, Log& log) {
     return guarded(impl_->file.string(),
                    [&] { return impl_->settled(impl_->scene_between(shutter, last, log), log); });
+}
+
+Result<std::vector<char>> PosedAsset::subtree(const std::string& pattern) const {
+    return find_subtree(pattern, impl_->asset.document);
 }
 
 const Degraded& PosedAsset::degraded() const {

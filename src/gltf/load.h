@@ -11,8 +11,19 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace obscura::gltf {
+
+/// What --lights does to the lights of the file (KHR_lights_punctual, EXT_lights_ies).
+struct LightChoice {
+    struct Factor {
+        std::string pattern;  ///< of the light's or its node's name, see base/name_search.h
+        double factor = 1;    ///< times its intensity; 0: the light is left out
+    };
+    bool off = false;                  ///< all are left out
+    std::vector<Factor> factors = {};  ///< the last one that fits a light counts
+};
 
 struct LoadOptions {
     int scene = -1;  ///< number of the scene in the file; -1: scene_name, else the file's own
@@ -28,6 +39,10 @@ struct LoadOptions {
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
     /// Problems that would change the image become warnings, not errors: see gltf/problems.h.
     bool lenient = false;
+    LightChoice lights = {};  ///< --lights
+    /// --hide: patterns of the names of nodes (with all below them), meshes and materials whose
+    /// geometry is not loaded. The lights of hidden nodes are left out, their cameras stay.
+    std::vector<std::string> hidden = {};
 };
 
 /// Reads, checks and converts one asset with everything that it refers to.
@@ -39,7 +54,8 @@ struct LoadOptions {
 /// All problems of meshes and images come together: the first one with the others in Error::also,
 /// in the order of gltf/problems.h: accessors, meshes as the scene shows them, images.
 ///
-/// Errors  64 E-SCENE-UNKNOWN, E-VARIANT-UNKNOWN, E-ANIM-UNKNOWN, E-ANIM-AMBIGUOUS;
+/// Errors  64 E-SCENE-UNKNOWN, E-VARIANT-UNKNOWN, E-LIGHT-UNKNOWN, E-HIDE-UNKNOWN,
+///         E-ANIM-UNKNOWN, E-ANIM-AMBIGUOUS;
 ///         65 E-GLB-*, E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*, E-MESH-*, E-NODE-*, E-MESHOPT-*,
 ///         E-DRACO-*, E-SKIN-*, E-ANIM-*, E-LIGHT-*, E-IES-*, E-ENV-FACES; 66 E-SCENE-MISSING;
 ///         67 E-RES-MISSING, E-RES-SHORT, E-IMG-*; 69 E-VERSION, E-EXT-REQUIRED,
@@ -79,6 +95,11 @@ public:
     ///
     /// Errors  those of load_gltf
     Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
+
+    /// The nodes whose names fit the pattern, and all below them: 1 by the node's number.
+    ///
+    /// Errors  64 E-NODE-UNKNOWN
+    Result<std::vector<char>> subtree(const std::string& pattern) const;
 
     /// What the latest scene lacks; nothing unless LoadOptions::lenient.
     const Degraded& degraded() const;

@@ -23,6 +23,14 @@ Result<AssetRenderer> AssetRenderer::open(const std::filesystem::path& file,
     return out;
 }
 
+Result<void> AssetRenderer::find_framed_nodes(CameraRequest& camera) const {
+    if (camera.framed_node.empty()) return {};
+    Result<std::vector<char>> nodes = asset_->subtree(camera.framed_node);
+    if (!nodes) return fail(nodes.error());
+    camera.framed_nodes = std::move(*nodes);
+    return {};
+}
+
 Result<void> AssetRenderer::pose(const PoseTimes& times, Log& log) {
     const Stopwatch loading;
     if (scene_) asset_->take_back(std::move(*scene_));

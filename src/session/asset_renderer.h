@@ -39,6 +39,11 @@ public:
                                       bool has_time,
                                       Log& log);
 
+    /// Finds the nodes of CameraRequest::framed_node; to be called before the last pose.
+    ///
+    /// Errors  64 E-NODE-UNKNOWN
+    Result<void> find_framed_nodes(CameraRequest& camera) const;
+
     /// Poses the scene at a time; this replaces the previous pose.
     ///
     /// Errors  those of load_gltf

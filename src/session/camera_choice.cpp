@@ -126,18 +126,10 @@ const Bounds& framed_bounds(const Scene& scene, const CameraRequest& request) {
     return request.framed ? *request.framed : scene.bounds;
 }
 
-Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect) {
-    const bool orthographic =
-        wanted_model(request) == CameraModel::orthographic && !request.yfov_rad;
-    const Bounds& bounds = framed_bounds(scene, request);
-    return orthographic ? frame_orthographic(bounds, aspect)
-                        : frame_perspective(bounds, flat_yfov(request), aspect);
-}
-
 /// The viewpoint of the options over the framing's. Where no up is given, a view straight up or
 /// down takes the world's -Z as up.
 Viewpoint viewpoint_by_hand(const CameraRequest& request, const Viewpoint& framed) {
-    Viewpoint view = framed;
+    Viewpoint view;
     view.eye_m = request.eye_m.value_or(framed.eye_m);
     view.target_m = request.target_m.value_or(framed.target_m);
     if (request.up) {
@@ -161,11 +153,12 @@ Result<Placed> place_outside(const Scene& scene, const CameraRequest& request, d
     Placed placed;
     placed.world_from_camera = *world_from_camera;
     placed.model = wanted_model(request).value_or(CameraModel::pinhole);
-    placed.tan_half_yfov = std::tan(0.5 * flat_yfov(request));
+    placed.tan_half_yfov = by_hand ? std::tan(0.5 * flat_yfov(request)) : framing.tan_half_yfov;
     placed.target_m = distance;
     placed.half_height_m = by_hand ? distance * placed.tan_half_yfov : framing.half_height_m;
-    placed.description =
-        by_hand ? "placed by eye, target and up" : "automatic framing of the whole scene";
+    placed.description = by_hand                        ? "placed by eye, target and up"
+                         : request.framed_nodes.empty() ? "automatic framing of the whole scene"
+                                                        : "automatic framing of a part";
     return placed;
 }
 
@@ -235,7 +228,7 @@ Result<Placed> place(const Scene& scene, const CameraRequest& request, double as
     if (request.loaded) {
         placed = place_as_given(*request.loaded, request.loaded->name, aspect);
         if (placed) placed->description = "camera of " + request.loaded->name;
-    } else if (!by_hand && (!request.choice.empty() || !scene.cameras.empty())) {
+    } else if (!by_hand && !request.frames && (!request.choice.empty() || !scene.cameras.empty())) {
         const Result<size_t> index =
             request.choice.empty() ? Result<size_t>(0) : find_camera(scene.cameras, request.choice);
         if (!index) return fail(index.error());
@@ -271,6 +264,13 @@ Result<void> add_aperture(ChosenCamera& out, Log& log) {
 }
 
 }  // namespace
+
+Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect) {
+    if (request.kept) return *request.kept;
+    FrameLens lens{flat_yfov(request), aspect};
+    lens.orthographic = wanted_model(request) == CameraModel::orthographic && !request.yfov_rad;
+    return frame_view(FramedGeometry(scene, request.framed_nodes), request.framing, lens);
+}
 
 Result<ChosenCamera> choose_camera(
     const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log) {

@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 
 #include "session/camera_build.h"
+#include "session/framing.h"
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,9 +28,15 @@ struct CameraRequest {
     CameraSettings settings = {};  ///< all else; its model is `model`
     /// Pixel from the top left; the caller finds the distance (session/focus.h).
     std::optional<std::array<int, 2>> focus_on_px = {};
-    /// Bounds that the automatic framing shows in place of the scene's: in a sequence those of the
-    /// first frame, so that the view stands still while things move.
+    /// Bounds that measure the scene in place of its own: in a sequence those of the first frame.
     std::optional<Bounds> framed = {};
+    FramingOptions framing = {};   ///< of the automatic framing
+    std::string framed_node = {};  ///< pattern of the names of nodes that the framing shows alone
+    /// Those nodes and all below them, 1 by the node's number; empty: the whole scene.
+    std::vector<char> framed_nodes = {};
+    bool frames = false;  ///< the automatic framing goes before the file's cameras
+    /// The framing of a sequence's first frame, so that the view stands still while things move.
+    std::optional<Framing> kept = {};
     /// Takes the place of the file's cameras.
     std::optional<SceneCamera> loaded = {};
 };
@@ -51,9 +58,10 @@ struct ChosenCamera {
 ///  0. `loaded`, whatever the file has;
 ///  1. any of eye, target, up: placed by hand; what is not given is taken from the automatic
 ///     framing (the vertical angle too);
-///  2. `choice`: by exact name, else by index;
-///  3. the file's first camera;
-///  4. the automatic framing (session/framing.h).
+///  2. the automatic framing where `frames` asks for it (session/framing.h);
+///  3. `choice`: by exact name, else by index;
+///  4. the file's first camera;
+///  5. the automatic framing.
 /// `yfov_rad` replaces the vertical angle of whichever camera that is; of a fisheye, its whole
 /// angle. The settings replace what the file's OBSCURA_camera says, one by one. An orthographic
 /// camera that comes from an angle shows what a pinhole with that angle shows at the target's
@@ -70,6 +78,9 @@ struct ChosenCamera {
 ///         floats; 67 E-IMG-* and E-APERTURE-* the image of an aperture
 Result<ChosenCamera> choose_camera(
     const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log);
+
+/// The automatic framing of the scene; `kept`, where there is one.
+Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect);
 
 /// Focuses at another distance along the view axis; all else stays.
 ///

@@ -12,21 +12,20 @@ namespace obscura {
 
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-constexpr double frame_fraction = 0.95;   ///< of the half frame that the corners may fill
-constexpr double azimuth = pi / 6;        ///< from +Z towards +X: the viewer's right
-constexpr double elevation = pi / 9;      ///< above the horizon
-constexpr double min_gap_fraction = 0.1;  ///< of the radius, between the eye and the nearest corner
+constexpr double min_gap_fraction = 0.1;  ///< of the radius, between the eye and the nearest point
 
 struct Box {
     Vec3d low, high;
 };
 
+Vec3d wide(const Vec3f& v) {
+    return {v.x, v.y, v.z};
+}
+
 /// The bounds as doubles; a stand-in where there is nothing to frame.
 Box box_to_frame(const Bounds& bounds) {
     if (bounds.empty()) return {{-1, -1, -1}, {1, 1, 1}};
-    const auto widen = [](const Vec3f& v) { return Vec3d{v.x, v.y, v.z}; };
-    const Box box = {widen(bounds.low), widen(bounds.high)};
+    const Box box = {wide(bounds.low), wide(bounds.high)};
     const Vec3d centre = (box.low + box.high) * 0.5;
     const double smallest_visible = 1e-6 * max_component(abs(centre));
     if (length(box.high - box.low) > smallest_visible) return box;
@@ -34,43 +33,102 @@ Box box_to_frame(const Bounds& bounds) {
     return {centre - splat3(half), centre + splat3(half)};
 }
 
-/// Right, up and backward of the automatic view.
+Bounds rounded(const Box& box) {
+    const auto narrow = [](const Vec3d& v) {
+        return Vec3f{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+    };
+    return {narrow(box.low), narrow(box.high)};
+}
+
+/// Right, up and backward of a view.
 struct Axes {
     Vec3d x, y, z;
 };
 
-Axes automatic_axes() {
-    const Vec3d z = {std::sin(azimuth) * std::cos(elevation),
-                     std::sin(elevation),
-                     std::cos(azimuth) * std::cos(elevation)};
-    const Vec3d x = normalize(cross(Vec3d{0, 1, 0}, z));
-    return {x, cross(z, x), z};
+Axes view_axes(const FramingOptions& options) {
+    const double around = options.azimuth_rad;
+    const double above = options.elevation_rad;
+    const Vec3d z = {
+        std::sin(around) * std::cos(above), std::sin(above), std::cos(around) * std::cos(above)};
+    const Vec3d level = {std::cos(around), 0, -std::sin(around)};  // also straight from above
+    const Vec3d upright = cross(z, level);
+    const double c = std::cos(options.roll_rad);
+    const double s = std::sin(options.roll_rad);
+    return {level * c + upright * s, upright * c - level * s, z};
 }
 
-/// The box's corners relative to its centre, along the axes of the automatic view.
-std::array<Vec3d, 8> corners_in_view(const Box& box, const Axes& axes) {
-    const Vec3d half = (box.high - box.low) * 0.5;
-    std::array<Vec3d, 8> corners = {};
-    for (size_t i = 0; i < 8; ++i) {
-        const Vec3d corner = {(i & 1) != 0 ? half.x : -half.x,
-                              (i & 2) != 0 ? half.y : -half.y,
-                              (i & 4) != 0 ? half.z : -half.z};
-        corners[i] = {dot(corner, axes.x), dot(corner, axes.y), dot(corner, axes.z)};
-    }
-    return corners;
-}
-
-/// The strip that holds every corner's view cone in one direction, for a slope of the frame's edge:
-/// at distance D all corners are inside exactly when high - slope D <= eye <= low + slope D.
-struct Strip {
-    double low = 1e300;
-    double high = -1e300;
-    void add(double across, double towards_eye, double slope) {
-        low = std::min(low, across - slope * towards_eye);
-        high = std::max(high, across + slope * towards_eye);
-    }
-    double centre() const { return 0.5 * (low + high); }
+/// A point's place across the image in one direction, and towards the eye; relative to the middle
+/// of the geometry.
+struct Extreme {
+    double across, towards;
 };
+
+/// What lies at two opposite edges of an image whose edges have a slope: at distance D from the
+/// middle all points are seen exactly when high() - slope D <= eye <= low() + slope D.
+struct Strip {
+    Extreme first, last;
+    double slope = 0;
+    double low() const { return first.across - slope * first.towards; }
+    double high() const { return last.across + slope * last.towards; }
+    double centre() const { return 0.5 * (low() + high()); }
+    double least_distance() const { return (high() - low()) / (2 * slope); }
+};
+
+/// Finds strips in the geometry, for a view along -Z of the axes.
+class StripFinder {
+public:
+    StripFinder(const FramedGeometry& geometry, const Axes& axes, const Vec3d& middle)
+        : geometry_(geometry), axes_(axes), middle_(middle) {}
+
+    Strip find(const Vec3d& across, double slope) const {
+        const auto extreme = [&](const Vec3d& direction) {
+            const Vec3d offset = geometry_.farthest(direction) - middle_;
+            return Extreme{dot(offset, across), dot(offset, axes_.z)};
+        };
+        return {extreme(axes_.z * slope - across), extreme(axes_.z * slope + across), slope};
+    }
+
+    /// The strip that just holds all points at a distance. Each step takes the slope at which the
+    /// two points that limit the strip lie at its edges: Newton's method for a function that is
+    /// convex and piecewise linear, which ends after a few.
+    Strip closest(const Vec3d& across, double slope, double distance) const {
+        constexpr int max_steps = 20;
+        Strip strip = find(across, slope);
+        for (int step = 0; step < max_steps; ++step) {
+            const double next = (strip.last.across - strip.first.across) /
+                                (2 * distance - strip.first.towards - strip.last.towards);
+            if (!(next > 0) || std::abs(next - strip.slope) <= 1e-9 * next) break;
+            strip = find(across, next);
+        }
+        return strip;
+    }
+
+    double nearest() const { return dot(geometry_.farthest(axes_.z) - middle_, axes_.z); }
+
+private:
+    const FramedGeometry& geometry_;
+    const Axes& axes_;
+    const Vec3d& middle_;
+};
+
+/// Where the eye is: across and upward from the middle, and its distance.
+struct Eye {
+    double x = 0, y = 0, distance = 1;
+};
+
+Eye eye_of_tight_view(const StripFinder& finder,
+                      const Axes& axes,
+                      const std::array<double, 2>& slopes,
+                      double gap) {
+    const Strip across = finder.find(axes.x, slopes[0]);
+    const Strip upward = finder.find(axes.y, slopes[1]);
+    const double distance =
+        std::max({across.least_distance(), upward.least_distance(), finder.nearest() + gap});
+    // Where there is room, the strip of the image's edge would not be centred in perspective.
+    return {finder.closest(axes.x, slopes[0], distance).centre(),
+            finder.closest(axes.y, slopes[1], distance).centre(),
+            distance};
+}
 
 }  // namespace
 
@@ -79,43 +137,44 @@ BoundingSphere bounding_sphere(const Bounds& bounds) {
     return {(box.low + box.high) * 0.5, 0.5 * length(box.high - box.low)};
 }
 
-Framing frame_perspective(const Bounds& bounds, double yfov_rad, double aspect) {
-    const Axes axes = automatic_axes();
+Framing frame_view(const FramedGeometry& geometry,
+                   const FramingOptions& options,
+                   const FrameLens& lens) {
+    const Axes axes = view_axes(options);
+    const Bounds bounds = geometry.box();
     const Box box = box_to_frame(bounds);
-    const BoundingSphere sphere = bounding_sphere(bounds);
-    const double half_height = std::tan(0.5 * yfov_rad);
-    const double slope_x = frame_fraction * half_height * aspect;
-    const double slope_y = frame_fraction * half_height;
-    Strip across;
-    Strip upward;
-    double nearest = 0;
-    for (const Vec3d& corner : corners_in_view(box, axes)) {
-        across.add(corner.x, corner.z, slope_x);
-        upward.add(corner.y, corner.z, slope_y);
-        nearest = std::max(nearest, corner.z);
-    }
-    const double distance = std::max({(across.high - across.low) / (2 * slope_x),
-                                      (upward.high - upward.low) / (2 * slope_y),
-                                      nearest + min_gap_fraction * sphere.radius_m});
-    const Vec3d target = sphere.centre_m + axes.x * across.centre() + axes.y * upward.centre();
-    Framing framing;
-    framing.view = {target + axes.z * distance, target, {0, 1, 0}};
-    framing.half_height_m = distance * half_height;
-    return framing;
-}
+    const Vec3d middle = (box.low + box.high) * 0.5;
+    const bool stands_in = bounds.empty() || length(wide(bounds.low) - box.low) > 0;
+    const FramedGeometry corners(rounded(box));
+    const FramedGeometry& shown = stands_in ? corners : geometry;
+    const double radius = shown.farthest_from(middle);
 
-Framing frame_orthographic(const Bounds& bounds, double aspect) {
-    const Axes axes = automatic_axes();
-    const BoundingSphere sphere = bounding_sphere(bounds);
-    double half_width = 0;
-    double half_height = 0;
-    for (const Vec3d& corner : corners_in_view(box_to_frame(bounds), axes)) {
-        half_width = std::max(half_width, std::abs(corner.x));
-        half_height = std::max(half_height, std::abs(corner.y));
-    }
+    const double inside = 1 - 2 * options.margin;
+    const double half_height = std::tan(0.5 * lens.yfov_rad);
+    const std::array<double, 2> slopes = {inside * half_height * lens.aspect, inside * half_height};
+    const StripFinder finder(shown, axes, middle);
+    Eye eye;
     Framing framing;
-    framing.half_height_m = std::max(half_height, half_width / aspect) / frame_fraction;
-    framing.view = {sphere.centre_m + axes.z * (2 * sphere.radius_m), sphere.centre_m, {0, 1, 0}};
+    if (lens.orthographic) {
+        const Strip across = finder.find(axes.x, 0);
+        const Strip upward = finder.find(axes.y, 0);
+        const bool round = options.fit == FrameFit::sphere;
+        const double half_x = round ? radius : 0.5 * (across.high() - across.low());
+        const double half_y = round ? radius : 0.5 * (upward.high() - upward.low());
+        eye = {round ? 0 : across.centre(), round ? 0 : upward.centre(), 2 * radius};
+        framing.half_height_m = std::max(half_y, half_x / lens.aspect) / inside;
+    } else if (options.fit == FrameFit::sphere) {
+        const double slope = std::min(slopes[0], slopes[1]);
+        eye.distance = radius * std::sqrt(1 + 1 / (slope * slope));  // a cone that touches the ball
+        framing.half_height_m = eye.distance * half_height;
+    } else {
+        eye = eye_of_tight_view(finder, axes, slopes, min_gap_fraction * radius);
+        framing.half_height_m = eye.distance * half_height;
+    }
+    const Vec3d target = middle + axes.x * eye.x + axes.y * eye.y;
+    framing.view = {target + axes.z * eye.distance, target, axes.y};
+    framing.half_height_m /= options.zoom;
+    framing.tan_half_yfov = half_height / options.zoom;
     return framing;
 }
 

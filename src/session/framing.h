@@ -5,6 +5,8 @@
 #include "base/error.h"
 #include "scene/scene.h"
 
+#include "session/framed_geometry.h"
+
 namespace obscura {
 
 /// Vertical angle of the automatic framing and of cameras placed by hand without --fov.
@@ -21,13 +23,39 @@ struct Viewpoint {
 struct Framing {
     Viewpoint view;
     double half_height_m = 1;
+    double tan_half_yfov = 1;  ///< of a pinhole; as asked for, unless the view is zoomed
 };
 
-/// Looks at the bounds from the front (glTF assets face +Z), a little from the right and above,
-/// such that all eight corners lie within 95 % of the frame and touch it in one direction.
-/// Empty bounds count as a box of 2 m at the origin, a point as one of 2 m around it.
-Framing frame_perspective(const Bounds& bounds, double yfov_rad, double aspect);
-Framing frame_orthographic(const Bounds& bounds, double aspect);
+/// What decides the size of a framed view: tight, what is seen reaches to the margins; sphere, a
+/// ball around the middle does, so that views from all sides have the same scale.
+enum class FrameFit { tight, sphere };
+
+/// How a view is framed.
+struct FramingOptions {
+    FrameFit fit = FrameFit::tight;
+    double margin = 0.05;                    ///< of the image's width and height, on each side
+    double azimuth_rad = 30 * pi_d / 180;    ///< of the eye, from +Z towards +X
+    double elevation_rad = 20 * pi_d / 180;  ///< of the eye, above the horizon
+    double roll_rad = 0;                     ///< turns the image clockwise
+    double zoom = 1;                         ///< enlarges the image about its middle
+};
+
+/// The lens of a framed view.
+struct FrameLens {
+    double yfov_rad = default_yfov_rad;  ///< in (0, pi)
+    double aspect = 1;                   ///< width / height
+    bool orthographic = false;
+};
+
+/// Looks at the geometry from the front (glTF assets face +Z), a little from the right and above,
+/// or as the options say. What is seen lies in the middle, and reaches to the margins in one
+/// direction; the margins on opposite sides are equal.
+///
+/// In      geometry: where it is empty it counts as a box of 2 m at the origin, a point as one of
+///         2 m around it
+Framing frame_view(const FramedGeometry& geometry,
+                   const FramingOptions& options,
+                   const FrameLens& lens);
 
 /// Rigid world_from_camera, looking from eye to target along -Z with `up` in the +Y half.
 ///

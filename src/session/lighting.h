@@ -1,4 +1,4 @@
-// session/lighting.h - reads the environment map of the command line.
+// session/lighting.h - reads or makes the environment that is asked for.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,9 +6,9 @@
 
 namespace obscura {
 
-/// Reads --env, if it was given.
+/// Reads or makes --env, if it was given.
 ///
-/// Errors  67 E-ENV-*
+/// Errors  67 E-ENV-*; those of parse_built_in_environment
 Result<LightingOptions> load_lighting(const RenderRequest& request, Log& log);
 
 }  // namespace obscura

@@ -120,6 +120,8 @@ RenderArguments every_option() {
     a.env_intensity = "2";
     a.env_rotation = "-45";
     a.occlusion = "ambient";
+    a.product.lights = "Key=Light=0.5,Rim*=off";
+    a.product.hide = {"Floor", "Wall*"};
     a.background = "0.5,0.25,1";
     a.point_size = "0.25";
     a.line_width = "5px";
@@ -175,6 +177,13 @@ TEST(RenderRequest, CameraLightAndDisplayOptionsArrive) {
     EXPECT_EQ(request->environment_intensity, 2);
     EXPECT_EQ(request->environment_rotation_deg, -45);
     EXPECT_TRUE(request->load.occlusion);
+    ASSERT_EQ(request->load.lights.factors.size(), 2U);
+    EXPECT_FALSE(request->load.lights.off);
+    EXPECT_EQ(request->load.lights.factors[0].pattern, "Key=Light");
+    EXPECT_EQ(request->load.lights.factors[0].factor, 0.5);
+    EXPECT_EQ(request->load.lights.factors[1].pattern, "Rim*");
+    EXPECT_EQ(request->load.lights.factors[1].factor, 0);
+    EXPECT_EQ(request->load.hidden, (std::vector<std::string>{"Floor", "Wall*"}));
     EXPECT_EQ(options.background, BackgroundKind::color);
     EXPECT_EQ(options.background_color[1], 0.25f);
     EXPECT_EQ(request->display.view, "V");
@@ -193,6 +202,61 @@ TEST(RenderRequest, ASceneIsAnIndexOrAName) {
     EXPECT_EQ(make_render_request(arguments)->load.scene_name, "Night 2");
     arguments.scene = "99999999999";
     EXPECT_EQ(make_render_request(arguments).error().id, "E-USAGE-RANGE");
+}
+
+TEST(RenderRequest, TheFramingsOptionsArriveAndGoBeforeTheFilesCameras) {
+    RenderArguments a;
+    a.scene_file = "s.glb";
+    EXPECT_FALSE(make_render_request(a)->camera.frames);
+    a.camera = "auto";
+    EXPECT_TRUE(make_render_request(a)->camera.frames);
+    a.product.azimuth = "-90";
+    a.product.elevation = "45";
+    a.product.roll = "180";
+    a.product.zoom = "2.5";
+    a.product.margin = "10";
+    a.product.frame = "sphere";
+    a.product.focus_node = "Lid*";
+    const Result<RenderRequest> request = make_render_request(a);
+    ASSERT_TRUE(request) << request.error().message;
+    const FramingOptions& framing = request->camera.framing;
+    EXPECT_NEAR(framing.azimuth_rad, -M_PI / 2, 1e-12);
+    EXPECT_NEAR(framing.elevation_rad, M_PI / 4, 1e-12);
+    EXPECT_NEAR(framing.roll_rad, M_PI, 1e-12);
+    EXPECT_EQ(framing.zoom, 2.5);
+    EXPECT_NEAR(framing.margin, 0.1, 1e-12);
+    EXPECT_EQ(framing.fit, FrameFit::sphere);
+    EXPECT_EQ(request->camera.framed_node, "Lid*");
+    a.camera.reset();
+    EXPECT_TRUE(make_render_request(a)->camera.frames);
+    a.camera = "Door";
+    EXPECT_EQ(make_render_request(a).error().id, "E-USAGE-CONFLICT");
+    a.camera.reset();
+    a.eye = "1,2,3";
+    EXPECT_EQ(make_render_request(a).error().id, "E-USAGE-CONFLICT");
+}
+
+TEST(RenderRequest, TheDefaultsOfTheFramingAreWrittenAsTheyAre) {
+    RenderArguments a;
+    a.scene_file = "s.glb";
+    const FramingOptions framing = make_render_request(a)->camera.framing;
+    a.product.azimuth = "30";  // as in the table of options
+    a.product.elevation = "20";
+    a.product.margin = "5";
+    const FramingOptions written = make_render_request(a)->camera.framing;
+    EXPECT_NEAR(written.azimuth_rad, framing.azimuth_rad, 1e-12);
+    EXPECT_NEAR(written.elevation_rad, framing.elevation_rad, 1e-12);
+    EXPECT_NEAR(written.margin, framing.margin, 1e-12);
+}
+
+TEST(ParseLights, TakesTwoWordsAndPairs) {
+    EXPECT_TRUE(parse_lights("off", "--lights")->off);
+    EXPECT_FALSE(parse_lights("keep", "--lights")->off);
+    EXPECT_TRUE(parse_lights("keep", "--lights")->factors.empty());
+    for (const char* text : {"", "Lamp", "=2", "Lamp=1,", ","})
+        EXPECT_EQ(parse_lights(text, "--lights").error().id, "E-USAGE-CHOICE") << text;
+    EXPECT_EQ(parse_lights("Lamp=bright", "--lights").error().id, "E-USAGE-NUMBER");
+    EXPECT_EQ(parse_lights("Lamp=1e7", "--lights").error().id, "E-USAGE-RANGE");
 }
 
 TEST(SameFile, SeesThroughLinksAndMissingFiles) {

@@ -251,5 +251,14 @@ TEST_F(Cameras, AnAperturesImageIsReadOrRefused) {
     expect_result(with("black.png"), 67, "E-APERTURE-BLACK");
 }
 
+TEST_F(Cameras, FramesAnyPartFromAnySide) {
+    expect_result(
+        render("box.gltf", {"--camera", "auto", "--azimuth", "-90", "--zoom", "2"}), 0, "OK");
+    expect_result(render("box.gltf", {"--focus-node", "Nowhere"}), 64, "E-NODE-UNKNOWN");
+    expect_result(render("box.gltf", {"--focus-node", "node 0", "--margin", "0"}), 0, "OK");
+    expect_result(render("box.gltf", {"--azimuth", "0", "--eye", "1,2,3"}), 64, "E-USAGE-CONFLICT");
+    expect_result(render("box.gltf", {"--margin", "50"}), 64, "E-USAGE-RANGE");
+}
+
 }  // namespace
 }  // namespace obscura

@@ -59,6 +59,16 @@ TEST_F(Lights, TheFilesEnvironmentIsSeenUnlessAnotherIsChosen) {
     EXPECT_THAT(render("lit.gltf").err, Not(HasSubstr("studio")));
 }
 
+TEST_F(Lights, EnvironmentsHaveNames) {
+    EXPECT_THAT(corner({"--env", "white"}), testing::ElementsAre(1, 1, 1));
+    const std::vector<float> sky = corner({"--env", "sky:50,0"});
+    ASSERT_EQ(sky.size(), 3U);
+    EXPECT_GT(sky[2], sky[0]);  // away from the sun it is blue
+    expect_result(render("lit.gltf", {"--env", "sky:100,0"}), 64, "E-USAGE-RANGE");
+    expect_result(render("lit.gltf", {"--env", "sky:10"}), 64, "E-USAGE-NUMBER");
+    expect_result(render("lit.gltf", {"--env", "./white"}), 67, "E-ENV-MISSING");
+}
+
 TEST_F(Lights, InfoNamesThem) {
     const ProgramRun table = run({"info", "lit.gltf", "--explain"});
     expect_result(table, 0, "OK");
@@ -71,6 +81,40 @@ TEST_F(Lights, InfoNamesThem) {
     EXPECT_EQ(info.at("lights").at(0).at("type"), "profile");
     EXPECT_EQ(info.at("lights").at(0).at("name"), "lamp");
     EXPECT_THAT(run({"info", "lit.gltf"}).out, HasSubstr("'red sky'"));
+}
+
+TEST_F(Lights, TheOptionChoosesAmongTheFilesLights) {
+    json tree = json::parse(gltf_text(box_scene()));
+    tree["extensions"]["KHR_lights_punctual"]["lights"] = {
+        {{"type", "directional"}, {"name", "Sun"}, {"intensity", 2}}};
+    tree["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    folder_.write("sun.gltf", tree.dump());
+    const auto sum = [&](const std::string& choice) {
+        expect_result(
+            render("sun.gltf", {"-o", "sun.exr", "--float", "--lights", choice}), 0, "OK");
+        const auto image = read_image_file(folder_ / "sun.exr");
+        float out = 0;
+        for (size_t i = 0; image && i < image->pixels.size(); i += 4)
+            out += image->pixels[i];
+        return out;
+    };
+    const float kept = sum("keep");
+    EXPECT_GT(kept, 0);
+    EXPECT_NEAR(sum("S*=3"), 3 * kept, 1e-4 * kept);
+    EXPECT_THAT(render("sun.gltf").err, Not(HasSubstr("studio")));
+    EXPECT_THAT(render("sun.gltf", {"--lights", "off"}).err, HasSubstr("built-in studio"));
+    expect_result(render("sun.gltf", {"--lights", "Son=2"}), 64, "E-LIGHT-UNKNOWN");
+    expect_result(render("sun.gltf", {"--lights", "Sun"}), 64, "E-USAGE-CHOICE");
+    expect_result(render("sun.gltf", {"--lights", "Sun=-1"}), 64, "E-USAGE-RANGE");
+}
+
+TEST_F(Lights, HiddenPartsAreLeftOut) {
+    json tree = json::parse(gltf_text(box_scene()));
+    tree["nodes"][0]["name"] = "Crate";
+    folder_.write("crate.gltf", tree.dump());
+    EXPECT_THAT(render("crate.gltf", {"--hide", "Crate"}).err, HasSubstr("no triangles"));
+    expect_result(render("crate.gltf", {"--hide", "Create"}), 64, "E-HIDE-UNKNOWN");
+    expect_result(render("crate.gltf", {"--hide", ""}), 64, "E-USAGE-CONFLICT");
 }
 
 TEST_F(Lights, DamagedProfilesAreRefused) {

@@ -50,6 +50,10 @@ Result<ChosenCamera> choose(const Scene& scene,
     return choose_camera(scene, request, width, height, log);
 }
 
+Framing framing_of(const Scene& scene) {
+    return frame_view(FramedGeometry(scene.bounds), {}, {default_yfov_rad, 2, false});
+}
+
 TEST(CameraChoice, TheFirstCameraOfTheFileIsTheDefault) {
     const Scene scene = scene_with({perspective("A", 0, 1), perspective("B", 0, 2)});
     const Result<ChosenCamera> chosen = choose(scene, {});
@@ -130,16 +134,39 @@ TEST(CameraChoice, WithoutACameraTheWholeSceneIsFramed) {
     const Scene scene = scene_with({});
     const Result<ChosenCamera> chosen = choose(scene, {});
     ASSERT_TRUE(chosen);
-    const Framing framing = frame_perspective(scene.bounds, default_yfov_rad, 2);
+    const Framing framing = framing_of(scene);
     EXPECT_NEAR(chosen->camera.world_from_camera.m[2][3], framing.view.eye_m.z, 1e-5);
     EXPECT_THAT(chosen->description, HasSubstr("framing"));
     EXPECT_GT(chosen->znear_m, 0);
     EXPECT_GT(chosen->zfar_m, chosen->znear_m);
 }
 
+TEST(CameraChoice, TheFramingGoesBeforeTheFilesCamerasWhereItIsAskedFor) {
+    const Scene scene = scene_with({perspective("A", 0, 1)});
+    CameraRequest request;
+    request.frames = true;
+    request.framing.azimuth_rad = 0;
+    request.framing.elevation_rad = 0;
+    request.framing.zoom = 2;
+    const Result<ChosenCamera> chosen = choose(scene, request);
+    ASSERT_TRUE(chosen);
+    EXPECT_THAT(chosen->description, HasSubstr("framing"));
+    EXPECT_NEAR(chosen->camera.world_from_camera.m[0][3], 0, 1e-6);
+    EXPECT_NEAR(chosen->camera.pinhole.tan_half_yfov, std::tan(default_yfov_rad / 2) / 2, 1e-6);
+}
+
+TEST(CameraChoice, AKeptFramingStandsStill) {
+    Scene scene = scene_with({});
+    CameraRequest request;
+    request.kept = automatic_framing(scene, request, 2);
+    request.kept->view.eye_m.z += 1;
+    const Camera camera = choose(scene, request)->camera;
+    EXPECT_NEAR(camera.world_from_camera.m[2][3], framing_of(scene).view.eye_m.z + 1, 1e-5);
+}
+
 TEST(CameraChoice, PlacedByHandTheRestComesFromTheFraming) {
     const Scene scene = scene_with({perspective("A", 0, 0)});
-    const Framing framing = frame_perspective(scene.bounds, default_yfov_rad, 2);
+    const Framing framing = framing_of(scene);
     const Result<ChosenCamera> chosen = choose(scene, {.eye_m = Vec3d{0, 0, 7}});
     ASSERT_TRUE(chosen);
     const auto& m = chosen->camera.world_from_camera.m;

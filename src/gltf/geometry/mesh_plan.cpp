@@ -70,6 +70,7 @@ void Planner::add_tasks(const MeshUse& use, int placed, ElementKind kind, MeshBa
         const bool points_lines = is_point_or_line_mode(primitives[i].mode);
         if (points_lines != (kind == ElementKind::points_lines) || primitives[i].is_splats)
             continue;
+        if (primitives[i].mode == hidden_mode) continue;
         batch.tasks.push_back({{use.mesh, static_cast<int>(i)}, &use, placed});
     }
 }

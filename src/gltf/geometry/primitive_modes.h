@@ -11,8 +11,11 @@ namespace obscura::gltf {
 inline constexpr int points_mode = 0, lines_mode = 1, line_loop_mode = 2, line_strip_mode = 3,
                      triangles_mode = 4, triangle_strip_mode = 5;
 
+/// In the place of a mode: LoadOptions::hidden leaves the primitive out.
+inline constexpr int hidden_mode = -1;
+
 inline constexpr bool is_point_or_line_mode(int mode) {
-    return mode < triangles_mode;
+    return mode >= points_mode && mode < triangles_mode;
 }
 
 /// Vertices of one triangle, line segment or point.

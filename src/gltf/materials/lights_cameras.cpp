@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/materials/lights_cameras.h"
 
+#include "gltf/chosen_parts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -76,7 +78,9 @@ void set_cone(const GltfLight& light, PunctualLight& out) {
 }
 
 /// Nothing when the node's transform leaves the light no position or direction.
-std::optional<PunctualLight> place_light(const GltfLight& light, const Affined& world) {
+std::optional<PunctualLight> place_light(const GltfLight& light,
+                                         const Affined& world,
+                                         double factor) {
     const std::optional<Vec3d> direction = unit(transform_vector(world, Vec3d{0, 0, -1}));
     const bool directed = light.type != GltfLightType::point;
     if (directed && !direction) return std::nullopt;
@@ -85,7 +89,7 @@ std::optional<PunctualLight> place_light(const GltfLight& light, const Affined& 
         out.position[axis] = static_cast<float>(world.m[axis][3]);
         if (!std::isfinite(out.position[axis])) return std::nullopt;
         const double power =
-            std::min(light.color[static_cast<size_t>(axis)] * light.intensity, brightest);
+            std::min(light.color[static_cast<size_t>(axis)] * light.intensity * factor, brightest);
         out.intensity[axis] = static_cast<float>(power);
     }
     const Vec3d aim = direction.value_or(Vec3d{0, 0, -1});
@@ -114,7 +118,8 @@ std::optional<PunctualLight> place_light(const GltfLight& light, const Affined& 
 /// in type C, clockwise in A and B, whose polar axis is X.
 std::optional<PunctualLight> place_profile(const GltfProfileUse& use,
                                            const LightProfile& profile,
-                                           const Affined& world) {
+                                           const Affined& world,
+                                           double factor) {
     const std::optional<Affined> rigid = rigid_part(world);
     if (!rigid) return std::nullopt;
     const Vec3d aim = transform_vector(*rigid, Vec3d{0, 0, -1});
@@ -132,30 +137,63 @@ std::optional<PunctualLight> place_profile(const GltfProfileUse& use,
     store({rigid->m[0][3], rigid->m[1][3], rigid->m[2][3]}, out.position);
     store(polar, out.direction);
     store(zero, out.zero_axis);
-    store(Vec3d{use.color[0], use.color[1], use.color[2]} * use.multiplier, out.intensity);
+    const Vec3d multiplier = Vec3d{use.color[0], use.color[1], use.color[2]} * use.multiplier;
+    const Vec3d scaled = multiplier * factor;
+    store({std::min(scaled.x, brightest),
+           std::min(scaled.y, brightest),
+           std::min(scaled.z, brightest)},
+          out.intensity);
     return out;
 }
 
-/// Adds the lights of a node to the scene.
-void add_lights(const Document& document, const PlacedNode& place, Scene& scene, Log& log) {
-    const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
-    const auto add = [&](const std::optional<PunctualLight>& light, const std::string& name) {
-        if (!light) {
-            log.warn(document.at("nodes", static_cast<size_t>(place.node)),
-                     "the node's matrix gives the light no place or direction; it is left out");
-            return;
-        }
-        scene.lights.push_back(*light);
-        scene.info.light_names.push_back(name);
-    };
+/// Adds lights of nodes to the scene.
+class LightPlacer {
+public:
+    LightPlacer(const Document& document, const LightChoice& choice, Scene& scene, Log& log)
+        : document_(document), choice_(choice), scene_(scene), log_(log) {}
+
+    void add(const PlacedNode& place);
+
+private:
+    void store(const std::optional<PunctualLight>& light, int node, const std::string& name);
+
+    const Document& document_;
+    const LightChoice& choice_;
+    Scene& scene_;
+    Log& log_;
+};
+
+void LightPlacer::store(const std::optional<PunctualLight>& light,
+                        int node,
+                        const std::string& name) {
+    if (!light) {
+        log_.warn(document_.at("nodes", static_cast<size_t>(node)),
+                  "the node's matrix gives the light no place or direction; it is left out");
+        return;
+    }
+    scene_.lights.push_back(*light);
+    scene_.info.light_names.push_back(name);
+}
+
+void LightPlacer::add(const PlacedNode& place) {
+    const GltfNode& node = document_.nodes[static_cast<size_t>(place.node)];
+    if (node.light < 0 && node.ies.profile < 0) return;
+    const std::string label = node_label(document_, place.node);
     if (node.light >= 0) {
-        const GltfLight& light = document.lights[static_cast<size_t>(node.light)];
-        add(place_light(light, place.world_from_node), light.name);
+        const GltfLight& light = document_.lights[static_cast<size_t>(node.light)];
+        const double factor = light_factor(choice_, light.name, label);
+        if (factor > 0)
+            store(place_light(light, place.world_from_node, factor), place.node, light.name);
     }
     if (node.ies.profile >= 0) {
         const auto profile = static_cast<size_t>(node.ies.profile);
-        add(place_profile(node.ies, scene.light_profiles[profile], place.world_from_node),
-            document.profiles[profile].name);
+        const std::string& name = document_.profiles[profile].name;
+        const double factor = light_factor(choice_, name, label);
+        const LightProfile& measured = scene_.light_profiles[profile];
+        if (factor > 0) {
+            store(
+                place_profile(node.ies, measured, place.world_from_node, factor), place.node, name);
+        }
     }
 }
 
@@ -163,8 +201,10 @@ void add_lights(const Document& document, const PlacedNode& place, Scene& scene,
 
 Result<void> add_lights_and_cameras(const Document& document,
                                     const std::vector<PlacedNode>& placed,
+                                    const LightChoice& lights,
                                     Scene& scene,
                                     Log& log) {
+    LightPlacer placer(document, lights, scene, log);
     for (const PlacedNode& place : placed) {
         const GltfNode& node = document.nodes[static_cast<size_t>(place.node)];
         if (node.camera >= 0) {
@@ -172,7 +212,7 @@ Result<void> add_lights_and_cameras(const Document& document,
             if (!camera) return fail(std::move(camera.error()));
             scene.cameras.push_back(std::move(*camera));
         }
-        if (place.visible) add_lights(document, place, scene, log);
+        if (place.visible) placer.add(place);
     }
     return {};
 }

@@ -1,0 +1,34 @@
+// gltf/chosen_parts.h - which nodes, meshes, materials and lights the load options name.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "gltf/load.h"
+#include "gltf/parse/document.h"
+
+#include <string>
+#include <vector>
+
+namespace obscura::gltf {
+
+/// Marks nodes: 1 where a node's name ("node 3" where it has none) fits the pattern, or that of a
+/// node above it, by the node's number.
+///
+/// Errors  64 E-NODE-UNKNOWN, with the names that are near or all
+Result<std::vector<char>> find_subtree(const std::string& pattern, const Document& document);
+
+/// Makes the geometry that LoadOptions::hidden names invisible for good: meshes and materials in
+/// the document itself.
+///
+/// Out     nodes that are not drawn, as those of find_subtree; empty: all are
+/// Errors  64 E-HIDE-UNKNOWN a pattern fits no name, with those that are near or all
+Result<std::vector<char>> hide_parts(const std::vector<std::string>& patterns, Document& document);
+
+/// Checks that each pattern fits a light.
+///
+/// Errors  64 E-LIGHT-UNKNOWN, with the names of lights that are near or all
+Result<void> check_light_choice(const LightChoice& choice, const Document& document);
+
+/// What the choice multiplies a light's intensity by; 0: it is left out.
+double light_factor(const LightChoice& choice, const std::string& light, const std::string& node);
+
+}  // namespace obscura::gltf

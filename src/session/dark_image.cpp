@@ -1,0 +1,96 @@
+// session/dark_image.cpp - warns of finished images that are nearly black.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/dark_image.h"
+
+#include "base/setting_names.h"
+#include "base/text.h"
+
+#include "session/preview.h"
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace obscura {
+
+namespace {
+
+constexpr double darkest = 0.01;
+constexpr double middle_grey = 0.18;
+
+/// Offset of a channel in a pixel.
+std::optional<size_t> find_channel(const OutputImage& image, const char* name) {
+    const auto found = std::find(image.channels.begin(), image.channels.end(), name);
+    if (found == image.channels.end()) return std::nullopt;
+    return static_cast<size_t>(found - image.channels.begin());
+}
+
+std::string lights_text(const RenderRequest& request, const Scene& scene) {
+    std::string out;
+    const auto add = [&](const std::string& text) { out += (out.empty() ? "" : " and ") + text; };
+    if (request.environment) {
+        add("the environment " + request.environment->filename().string());
+    } else if (scene.environment) {
+        add("the file's own environment");
+    }
+    const size_t count = scene.lights.size();
+    if (count == 1) {
+        const auto& names = scene.info.light_names;
+        add("the file's one light" + (names.empty() ? "" : " " + in_quotes(names.front())));
+    } else if (count > 1) {
+        add("the file's " + std::to_string(count) + " lights");
+    }
+    return out.empty() ? "what glows in the scene, or the studio" : out;
+}
+
+}  // namespace
+
+std::optional<double> mean_luminance(const OutputImage& image) {
+    constexpr std::array<const char*, 3> names = {"R", "G", "B"};
+    constexpr std::array<double, 3> weights = {0.2126, 0.7152, 0.0722};
+    std::array<size_t, 3> offsets = {};
+    for (size_t c = 0; c < 3; ++c) {
+        const std::optional<size_t> offset = find_channel(image, names[c]);
+        if (!offset) return std::nullopt;
+        offsets[c] = *offset;
+    }
+    const std::optional<size_t> alpha = find_channel(image, "A");
+    double sum = 0;
+    double covered = 0;
+    for (size_t at = 0; at < image.pixels.size(); at += image.channels.size()) {
+        for (size_t c = 0; c < 3; ++c)
+            sum += weights[c] * static_cast<double>(image.pixels[at + offsets[c]]);
+        covered += alpha ? static_cast<double>(image.pixels[at + *alpha]) : 1.0;
+    }
+    if (!(covered > 0)) return std::nullopt;
+    return sum / covered;
+}
+
+void warn_of_dark_image(const OutputImage& image,
+                        const RenderRequest& request,
+                        const Scene& scene,
+                        double exposure_ev,
+                        Log& log) {
+    // A background of one colour says nothing about the light, and may well be black.
+    const RenderOptions& options = request.options;
+    if (needs_preview(options.integrator) || options.background == BackgroundKind::color) return;
+    if (scene.primitives.empty() && scene.splats.empty()) return;
+    const std::optional<double> mean = mean_luminance(image);
+    if (!mean) return;
+    const double shown = *mean * std::exp2(exposure_ev);
+    if (!(shown < darkest)) return;
+    std::string help;
+    if (!scene.lights.empty() && !request.environment && !scene.environment)
+        help += setting("lights") + " off lights it by the studio instead; ";
+    if (shown > 0) {
+        const double stops = request.display.exposure_ev + std::log2(middle_grey / shown);
+        help += setting("exposure") + " " + shortest(std::round(10 * stops) / 10) +
+                " makes its mean a middle grey";
+    } else {
+        help += "no light reaches what is seen";
+    }
+    log.warn(request.scene.string(),
+             "the image is nearly black: its mean is " + shortest(std::round(1e5 * shown) / 1000) +
+                 " % of white, lit by " + lights_text(request, scene) + "; " + help);
+}
+
+}  // namespace obscura
