@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_options.h"
 
+#include "app/compression.h"
 #include "app/frames.h"
 #include "app/lens_options.h"
 #include "app/option_readers.h"
@@ -25,6 +26,7 @@ using D = DisplayOptions;
 using E = DisplayEncoding;
 using L = gltf::LoadOptions;
 using O = RenderOptions;
+using X = ExrOptions;
 using R = RenderRequest;
 using Entry = RenderOptionEntry;
 
@@ -59,6 +61,9 @@ constexpr std::array<Choice<bool>, 2> occlusions = {{{"off", false}, {"ambient",
 constexpr std::array<Choice<BackgroundKind>, 2> backgrounds = {
     {{"env", BackgroundKind::environment}, {"transparent", BackgroundKind::transparent}}};
 
+constexpr std::array<Choice<ExrLayout>, 3> exr_layouts = {{{"single", ExrLayout::single},
+                                                           {"multipart", ExrLayout::multipart},
+                                                           {"separate", ExrLayout::separate}}};
 constexpr std::array<Choice<int>, 2> bit_depths = {{{"8", 8}, {"16", 16}}};
 
 std::vector<std::string> color_names() {
@@ -155,6 +160,13 @@ Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*o
     return ExrDepth::float32;
 }
 
+constexpr OptionReader<R> compression = {
+    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
+        return parse_compression(text, long_name(info), r.exr);
+    },
+    .show = show_choice<compression_names, &R::exr, &X::compression>,
+    .names = choice_names<compression_names>};
+
 // clang-format off
 constexpr Entry scene_file[] = {
     {{.name = "SCENE", .help = "glTF 2.0 file, .gltf or .glb", .files = "gltf glb"},
@@ -175,7 +187,18 @@ constexpr Entry image[] = {
               "other formats are empty elsewhere"},
      text_at<&A::crop>, parsed_at<parse_crop, &R::options, &O::crop>},
     {{.name = "--float", .help = "Store EXR colours as 32-bit floats", .fallback = "16-bit half"},
-     text_at<&A::float32>, parsed_at<parse_depth, &R::exr_depth>},
+     text_at<&A::float32>, parsed_at<parse_depth, &R::exr, &X::depth>},
+    {{.name = "--compression", .argument = "NAME[:LEVEL]",
+      .help = "Codec of EXRs; pxr24 and those after it are lossy, never to data and ids. dwaa and "
+              "dwab may have a level, 45 unless told. One of:"},
+     text_at<&A::compression>, compression},
+    {{.name = "--exr-tiles", .argument = "N",
+      .help = "Store EXRs in tiles of so many pixels a side",
+      .range = {1, 4096}, .fallback = "lines"},
+     text_at<&A::exr_tiles>, number_at<&R::exr, &X::tile_size>},
+    {{.name = "--exr-mipmap",
+      .help = "Store smaller copies, too, in tiles of 64 pixels a side unless told"},
+     text_at<&A::exr_mipmap>, flag_at<&R::exr, &X::mipmap>},
     {{.name = "--background", .argument = "KIND|COLOR",
       .help = "What rays that hit nothing see: env, transparent, or a colour of the scene: linear "
               "R,G,B, sRGB #RRGGBB, white, black or grey"},
@@ -193,10 +216,19 @@ constexpr Entry layers[] = {
       .help = "Layers beside the beauty, from the same samples: an EXR holds them as NAME.X and so "
               "on. May be given several times; --list-aovs lists them", .fallback = "none"},
      text_at<&A::aovs>},
+    {{.name = "--exr-layout", .argument = "NAME",
+      .help = "Where layers lie: in the beauty's part of the EXR, in a part each, or in a file "
+              "each beside it, such as shot.normal.exr:"},
+     text_at<&A::exr_layout>, choice_at<exr_layouts, &R::exr, &X::layout>},
     {{.name = "--crypto-levels", .argument = "N",
       .help = "How many ids a pixel of a Cryptomatte layer keeps, those that cover most of it",
       .range = {1, 64}, .needs = {"--aov"}},
      text_at<&A::crypto_levels>, number_at<&R::crypto_levels>},
+    {{.name = "--crypto-manifest", .argument = "FILE.json",
+      .help = "Write the names that Cryptomatte's ids stand for into this file, in the folder of "
+              "the EXR, which then has the file's name in their place",
+      .fallback = "in the EXR", .files = "json", .needs = {"--aov"}},
+     text_at<&A::crypto_manifest>, name_at<&R::crypto_manifest>},
     {{.name = "--list-aovs", .help = "Print the layers that --aov knows, and do nothing else",
       .prints = list_of_layers},
      text_at<&A::list_aovs>}};

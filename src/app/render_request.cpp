@@ -108,6 +108,56 @@ Result<void> choose_layers(const RenderArguments& arguments, RenderRequest& requ
     return {};
 }
 
+bool is_exr(const std::filesystem::path& file) {
+    return output_format_of(file) == OutputFormat::exr;
+}
+
+/// Layers need an EXR, and those in files of their own one that has a name.
+Result<void> check_layer_outputs(const RenderRequest& request) {
+    const bool to_pipe = request.standard_output == OutputFormat::exr;
+    const std::vector<std::filesystem::path>& files = request.outputs;
+    const bool has_output = !files.empty() || request.standard_output;
+    const bool has_exr = to_pipe || std::any_of(files.begin(), files.end(), is_exr);
+    if (!request.options.layers.empty() && has_output && !has_exr) {
+        return conflict("--aov", "only EXRs hold layers; give an output that ends in .exr");
+    }
+    if (to_pipe && request.exr.layout == ExrLayout::separate) {
+        return conflict("--exr-layout",
+                        "with -o - there are no files beside the image's; use single or multipart");
+    }
+    return {};
+}
+
+/// --crypto-manifest: images name it as a file in their own folder, as the specification of
+/// Cryptomatte wants.
+Result<void> check_manifest(const RenderRequest& request) {
+    if (!request.crypto_manifest) return {};
+    const std::string option = "--crypto-manifest";
+    const std::vector<Layer>& layers = request.options.layers;
+    const bool has_ids = std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
+        return std::holds_alternative<CryptomatteNames>(layer.source);
+    });
+    if (!has_ids) {
+        return conflict(option, "it is for Cryptomatte; add a layer such as --aov crypto_object");
+    }
+    if (request.standard_output == OutputFormat::exr) {
+        return conflict(option, "what -o - writes is in no folder; leave out one of them");
+    }
+    if (request.crypto_manifest->filename().string().find('\\') != std::string::npos) {
+        return conflict(option, "Cryptomatte has no names with \\; give another");
+    }
+    const auto folder = [](const std::filesystem::path& file) {
+        return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+    };
+    for (const std::filesystem::path& output : request.outputs) {
+        if (!is_exr(output) || same_file(folder(output), folder(*request.crypto_manifest)))
+            continue;
+        return conflict(option,
+                        "it must lie in the folder of " + output.string() + ", which names it");
+    }
+    return {};
+}
+
 /// True when texture coordinates are wanted that no texture needs.
 bool wants_uv(const RenderOptions& options) {
     const bool layer =
@@ -142,6 +192,8 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     const bool size_is_known = request.size_is_given || !request.camera_json;
     if (auto fits = check_crop(request.options); size_is_known && !fits) return fits;
     if (auto chosen = choose_layers(arguments, request); !chosen) return chosen;
+    if (auto fit = check_layer_outputs(request); !fit) return fit;
+    if (auto fit = check_manifest(request); !fit) return fit;
     request.load.keeps_uv = wants_uv(request.options);
     request.verbosity = verbosity_of(arguments);
     if (auto done = complete_page(arguments, request); !done) return done;
@@ -151,9 +203,12 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
 /// No output may overwrite an input or another output.
 Result<void> check_distinct_files(const RenderRequest& request) {
     std::vector<std::filesystem::path> written;
-    for (const MovieFrame& frame : frames_of(request))
-        written.insert(written.end(), frame.outputs.begin(), frame.outputs.end());
+    for (const MovieFrame& frame : frames_of(request)) {
+        const std::vector<std::filesystem::path> files = image_files(request, frame);
+        written.insert(written.end(), files.begin(), files.end());
+    }
     if (request.statistics) written.push_back(*request.statistics);
+    if (request.crypto_manifest) written.push_back(*request.crypto_manifest);
     std::vector<std::filesystem::path> read = {request.scene};
     if (request.camera_json) read.push_back(*request.camera_json);
     if (request.camera.settings.aperture_file)

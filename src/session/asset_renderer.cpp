@@ -8,6 +8,8 @@
 #include "scene/scene_memory.h"
 
 #include "session/focus.h"
+#include "session/image_layers.h"
+#include <utility>
 
 namespace obscura {
 
@@ -122,7 +124,8 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     if (!result) return fail(result.error());
     statistics_.render_s += result->render_seconds;
     add_counters(result->counters, statistics_.counters);
-    statistics_.film_bytes = result->film.pixels.size() * sizeof(float);
+    Film& film = result->film;
+    statistics_.film_bytes = film.pixels.size() * sizeof(float) + layer_bytes(film.layers);
 
     FinishedImage finished;
     finished.metadata = make_metadata(request, *prepared_, camera, log);
@@ -130,10 +133,15 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     if (request.load.lenient) {
         finished.metadata.extra.push_back({"obscura:degraded", degraded_text(degraded_)});
     }
-    Film& film = result->film;
+    std::string manifest;
+    if (request.crypto_manifest) {
+        manifest = request.crypto_manifest->filename().string();
+        finished.crypto_manifest = cryptomatte_document(film.layers);
+    }
     finished.counters = result->counters;
     finished.image = {
         film.width, film.height, std::move(film.channels), std::move(film.pixels), film.part_of};
+    finished.image.layers = image_layers(std::move(film.layers), manifest);
     return finished;
 }
 

@@ -264,7 +264,7 @@ obscura::Result<void> write_image(const Image& image,
     RenderRequest request;
     request.outputs = {file};
     request.options.integrator = image.source->integrator;
-    request.exr_depth = options.float32 ? ExrDepth::float32 : ExrDepth::half;
+    request.exr.depth = options.float32 ? ExrDepth::float32 : ExrDepth::half;
     const obscura::Result<DisplayEncoding> encoding = encoding_of(options);
     if (!encoding) return fail(encoding.error());
     request.encoding = *encoding;

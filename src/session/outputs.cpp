@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <span>
 #include <unistd.h>
 
 namespace obscura {
@@ -41,7 +42,8 @@ auto with_content(const RenderRequest& request,
                   const DisplayTransform* display,
                   const Write& write) {
     const Integrator integrator = request.options.integrator;
-    const ExrOptions options{.depth = is_aov(integrator) ? ExrDepth::float32 : request.exr_depth};
+    ExrOptions options = request.exr;
+    if (is_aov(integrator)) options.depth = ExrDepth::float32;
     DisplayEncoding encoding = request.encoding;
     if (exr || !needs_preview(integrator)) {
         encoding.transform = display;
@@ -141,10 +143,14 @@ Result<void> check_outputs(const RenderRequest& request) {
     const auto fits = [&](const OutputTarget& target) {
         return check_encoding(target, request.encoding, options.width, options.height);
     };
-    for (const std::filesystem::path& output : first.outputs) {
+    for (const std::filesystem::path& output : image_files(request, first)) {
         const Result<OutputTarget> target = check_output(output);
         if (!target) return fail(target.error());
         if (auto done = fits(*target); !done) return done;
+    }
+    if (request.crypto_manifest) {
+        const auto writable = check_file_can_be_written(*request.crypto_manifest);
+        if (!writable) return writable;
     }
     if (request.standard_output) {
         if (auto done = fits({*request.standard_output, standard_output_name}); !done) return done;
@@ -223,6 +229,12 @@ Result<void> write_outputs(const RenderRequest& request,
     const auto stopped = [](const std::string& name) {
         return fail(ExitCode::stopped_early, "E-STOPPED", name, "stopped");
     };
+    // Before the images that name it.
+    if (request.crypto_manifest && !finished.crypto_manifest.empty()) {
+        const auto bytes = std::as_bytes(std::span(finished.crypto_manifest));
+        const auto written = write_file_atomically(*request.crypto_manifest, bytes);
+        if (!written) return written;
+    }
     const DisplayTransform* const transform = display ? &*display : nullptr;
     for (const std::filesystem::path& output : request.outputs) {
         if (stop) return stopped(output.string());

@@ -7,6 +7,7 @@
 #include "session/render_request.h"
 #include <atomic>
 #include <optional>
+#include <string>
 
 namespace obscura {
 
@@ -45,6 +46,7 @@ std::string degraded_text(const gltf::Degraded& degraded);
 struct FinishedImage {
     OutputImage image;
     ImageMetadata metadata;
+    std::string crypto_manifest = {};  ///< the text of the request's file; empty: there is none
     RenderCounters counters;
     double render_seconds = 0;
 };

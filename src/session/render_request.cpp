@@ -18,6 +18,18 @@ std::vector<MovieFrame> frames_of(const RenderRequest& request) {
     return out;
 }
 
+std::vector<std::filesystem::path> image_files(const RenderRequest& request,
+                                               const MovieFrame& frame) {
+    std::vector<std::filesystem::path> files = frame.outputs;
+    if (request.exr.layout != ExrLayout::separate) return files;
+    for (const std::filesystem::path& output : frame.outputs) {
+        if (output_format_of(output) != OutputFormat::exr) continue;
+        for (const Layer& layer : request.options.layers)
+            files.push_back(layer_file(output, layer.name));
+    }
+    return files;
+}
+
 Result<void> check_crop(const RenderOptions& options) {
     const PixelRect crop = options.crop.value_or(PixelRect{});
     if (crop.x + crop.width <= options.width && crop.y + crop.height <= options.height) return {};

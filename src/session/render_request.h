@@ -37,8 +37,10 @@ struct RenderRequest {
     Isa isa = Isa::automatic;
     DisplayOptions display;
     DisplayEncoding encoding;  ///< --bits, --quality, --no-dither, --page; without its transform
-    ExrDepth exr_depth = ExrDepth::half;
-    int crypto_levels = 6;  ///< of Cryptomatte layers in options.layers
+    ExrOptions exr;            ///< --float, --compression, --exr-layout and the like
+    int crypto_levels = 6;     ///< of Cryptomatte layers in options.layers
+    /// Where their manifest is written; none: in the headers.
+    std::optional<std::filesystem::path> crypto_manifest;
     std::optional<std::filesystem::path> statistics;
     Verbosity verbosity = Verbosity::normal;
     bool check = false;  ///< --check: nothing is built, rendered or written
@@ -46,6 +48,11 @@ struct RenderRequest {
 
 /// The images of a request: one, or one for each frame.
 std::vector<MovieFrame> frames_of(const RenderRequest& request);
+
+/// All files that an image of a request is written to: its outputs, and layers in files of their
+/// own.
+std::vector<std::filesystem::path> image_files(const RenderRequest& request,
+                                               const MovieFrame& frame);
 
 /// 64 E-USAGE-CONFLICT when the part to render reaches beyond the image.
 Result<void> check_crop(const RenderOptions& options);

@@ -66,6 +66,73 @@ TEST(RenderRequest, ADashIsStandardOutput) {
     expect_conflict(arguments, "--output");
 }
 
+TEST(RenderRequest, ExrsAreStoredAsTheOptionsSay) {
+    RenderArguments arguments;
+    const ExrOptions untouched = request_of(arguments)->exr;
+    EXPECT_EQ(untouched.layout, ExrLayout::single);
+    EXPECT_EQ(untouched.compression, ExrCompression::zip);
+    EXPECT_EQ(untouched.tile_size, 0);
+    EXPECT_FALSE(untouched.mipmap);
+    arguments.exr_layout = "multipart";
+    arguments.compression = "dwab:12";
+    arguments.exr_tiles = "128";
+    arguments.exr_mipmap = true;
+    const Result<RenderRequest> request = request_of(arguments);
+    ASSERT_TRUE(request);
+    EXPECT_EQ(request->exr.layout, ExrLayout::multipart);
+    EXPECT_EQ(request->exr.compression, ExrCompression::dwab);
+    EXPECT_EQ(request->exr.dwa_level, 12);
+    EXPECT_EQ(request->exr.tile_size, 128);
+    EXPECT_TRUE(request->exr.mipmap);
+    arguments.exr_tiles = "0";
+    EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-RANGE");
+}
+
+TEST(RenderRequest, LayersNeedAnExrAndFilesOfTheirOwnANamedOne) {
+    RenderArguments arguments;
+    arguments.aovs = {"depth,normal"};
+    arguments.outputs = {"a.png"};
+    expect_conflict(arguments, "--aov");
+    arguments.outputs = {"-"};
+    expect_conflict(arguments, "--aov");
+    arguments.format = "exr";
+    EXPECT_TRUE(request_of(arguments));
+    arguments.exr_layout = "separate";
+    expect_conflict(arguments, "--exr-layout");
+    arguments.format = "png";
+    arguments.outputs = {"-", "a.exr"};
+    const Result<RenderRequest> request = request_of(arguments);
+    ASSERT_TRUE(request);
+    const std::vector<std::filesystem::path> files = {"a.exr", "a.depth.exr", "a.normal.exr"};
+    EXPECT_EQ(image_files(*request, frames_of(*request).front()), files);
+    arguments.outputs = {"a.exr", "a.depth.exr"};
+    arguments.format.reset();
+    EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-SAMEFILE");
+}
+
+TEST(RenderRequest, AManifestIsForCryptomatteAndLiesBesideTheImage) {
+    RenderArguments arguments;
+    arguments.outputs = {"out/a.exr", "b.png"};
+    arguments.crypto_manifest = "out/names.json";
+    expect_conflict(arguments, "--crypto-manifest");
+    arguments.aovs = {"depth"};
+    expect_conflict(arguments, "--crypto-manifest");
+    arguments.aovs = {"crypto_object"};
+    EXPECT_EQ(request_of(arguments)->crypto_manifest, std::filesystem::path("out/names.json"));
+    arguments.crypto_manifest = "names.json";
+    expect_conflict(arguments, "--crypto-manifest");
+    arguments.outputs = {"a.exr"};
+    EXPECT_TRUE(request_of(arguments));
+    arguments.crypto_manifest = "names\\.json";
+    expect_conflict(arguments, "--crypto-manifest");
+    arguments.crypto_manifest = "a.exr";
+    EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-SAMEFILE");
+    arguments.crypto_manifest = "names.json";
+    arguments.outputs = {"-"};
+    arguments.format = "exr";
+    expect_conflict(arguments, "--crypto-manifest");
+}
+
 TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     RenderArguments arguments;
     arguments.scene_file = "folder/My.Scene.glb";
@@ -84,7 +151,7 @@ TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     EXPECT_FALSE(request->options.crop);
     EXPECT_EQ(request->threads, 0);
     EXPECT_EQ(request->isa, Isa::automatic);
-    EXPECT_EQ(request->exr_depth, ExrDepth::half);
+    EXPECT_EQ(request->exr.depth, ExrDepth::half);
     EXPECT_EQ(request->encoding.bits, 8);
     EXPECT_FALSE(request->encoding.quality || request->encoding.page);
     EXPECT_TRUE(request->encoding.dither);
@@ -191,7 +258,7 @@ TEST(RenderRequest, CameraLightAndDisplayOptionsArrive) {
     EXPECT_EQ(request->display.ocio_file, "o.ocio");
     EXPECT_EQ(request->display.exposure_ev, -1.5);
     EXPECT_EQ(request->statistics, std::filesystem::path("s.json"));
-    EXPECT_EQ(request->exr_depth, ExrDepth::float32);
+    EXPECT_EQ(request->exr.depth, ExrDepth::float32);
     EXPECT_EQ(request->verbosity, Verbosity::verbose);
 }
 
