@@ -3,11 +3,11 @@
 #include "base/parallel.h"
 #include "gltf/load.h"
 #include "image/decode.h"
+#include "session/camera_choice.h"
 
 #include <benchmark/benchmark.h>
 
 #include "benchmarks/benchmarks.h"
-#include "session/camera_choice.h"
 #include <cstdio>
 #include <deque>
 #include <filesystem>

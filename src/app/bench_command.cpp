@@ -14,9 +14,9 @@
 #include "bench/report_json.h"
 #include "bench/report_svg.h"
 #include "render/integrators.h"
-
 #include "session/lighting.h"
 #include "session/statistics.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 #include <span>

@@ -3,8 +3,8 @@
 #include "app/bench_views.h"
 
 #include "math/warp.h"
-
 #include "session/framing.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -7,12 +7,12 @@
 #include "app/outcome.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
-#include "gltf/load.h"
-
 #include "explain/explain_pixel.h"
+#include "gltf/load.h"
 #include "session/focus.h"
 #include "session/lighting.h"
 #include "session/requested_camera.h"
+
 #include <span>
 
 namespace obscura::app {

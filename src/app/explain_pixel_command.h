@@ -3,8 +3,8 @@
 #pragma once
 
 #include "app/render_request.h"
-
 #include "explain/explain_pixel.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>

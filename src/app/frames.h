@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/error.h"
-
 #include "session/frames.h"
+
 #include <string>
 #include <string_view>
 

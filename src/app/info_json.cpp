@@ -3,9 +3,9 @@
 #include "app/info_report.h"
 #include "base/json/json.h"
 #include "camera/matrices.h"
-
 #include "session/camera_build.h"
 #include "session/framing.h"
+
 #include <cmath>
 #include <numeric>
 

@@ -4,7 +4,6 @@
 
 #include "app/option_entry.h"
 #include "gltf/load.h"
-
 #include "session/camera_choice.h"
 
 namespace obscura {

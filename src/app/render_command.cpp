@@ -9,8 +9,6 @@
 #include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "camera/exposure.h"
-#include "stages/dispatch.h"
-
 #include "session/asset_renderer.h"
 #include "session/dark_image.h"
 #include "session/focus.h"
@@ -19,6 +17,8 @@
 #include "session/repeated_log.h"
 #include "session/requested_camera.h"
 #include "session/statistics.h"
+#include "stages/dispatch.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

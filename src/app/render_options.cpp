@@ -9,10 +9,10 @@
 #include "app/product_options.h"
 #include "app/render_command.h"
 #include "camera/names.h"
-#include "render/integrators.h"
-
 #include "film/layers.h"
+#include "render/integrators.h"
 #include "session/built_in_environment.h"
+
 #include <cstring>
 #include <fmt/format.h>
 

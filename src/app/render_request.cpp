@@ -8,10 +8,10 @@
 #include "app/product_options.h"
 #include "app/render_options.h"
 #include "app/scene_choice.h"
-#include "render/integrators.h"
-#include "math/warp.h"
-
 #include "film/layers.h"
+#include "math/warp.h"
+#include "render/integrators.h"
+
 #include <algorithm>
 #include <sstream>
 #include <system_error>

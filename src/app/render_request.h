@@ -4,8 +4,8 @@
 
 #include "app/lens_options.h"
 #include "app/product_options.h"
-
 #include "session/render_request.h"
+
 #include <filesystem>
 #include <optional>
 #include <string>

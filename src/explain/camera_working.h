@@ -4,7 +4,6 @@
 
 #include "camera/camera.h"
 #include "crosscheck/box_tree.h"
-
 #include "explain/term.h"
 
 namespace obscura {

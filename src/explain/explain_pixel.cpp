@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/explain_pixel.h"
 
-#include "render/prepared_scene.h"
-
 #include "explain/light_contributions.h"
 #include "explain/names.h"
 #include "explain/objects.h"
 #include "explain/report_svg.h"
+#include "render/prepared_scene.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 

@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "render/render.h"
-
 #include "explain/pixel_report.h"
+#include "render/render.h"
 
 namespace obscura {
 

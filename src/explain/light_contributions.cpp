@@ -3,9 +3,9 @@
 #include "explain/light_contributions.h"
 
 #include "base/log.h"
+#include "explain/names.h"
 #include "render/raycast_lights.h"
 
-#include "explain/names.h"
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

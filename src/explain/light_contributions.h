@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "render/prepared_scene.h"
-
 #include "explain/pixel_report.h"
+#include "render/prepared_scene.h"
 
 namespace obscura {
 

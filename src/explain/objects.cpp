@@ -3,6 +3,7 @@
 #include "explain/objects.h"
 
 #include "explain/names.h"
+
 #include <algorithm>
 #include <cmath>
 #include <set>

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "crosscheck/truth.h"
-#include "stages/raycast_notes.h"
-
 #include "explain/camera_working.h"
 #include "explain/workings.h"
+#include "stages/raycast_notes.h"
+
 #include <array>
 #include <optional>
 #include <string>

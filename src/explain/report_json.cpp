@@ -1,8 +1,8 @@
 // explain/report_json.cpp - the report of one pixel as JSON.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/json/json.h"
-
 #include "explain/explain_pixel.h"
+
 #include <array>
 #include <span>
 

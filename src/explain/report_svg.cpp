@@ -3,8 +3,8 @@
 #include "explain/report_svg.h"
 
 #include "base/xml_text.h"
-
 #include "explain/cross_section.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

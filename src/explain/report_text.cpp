@@ -1,6 +1,7 @@
 // explain/report_text.cpp - the report of one pixel as text: every step with its numbers.
 // SPDX-License-Identifier: Apache-2.0
 #include "explain/explain_pixel.h"
+
 #include <algorithm>
 #include <fmt/format.h>
 

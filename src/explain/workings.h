@@ -3,10 +3,9 @@
 #pragma once
 
 #include "crosscheck/box_tree.h"
+#include "explain/term.h"
 #include "shape/shape_record.h"
 #include "shape/triangle.h"
-
-#include "explain/term.h"
 
 namespace obscura {
 

@@ -3,8 +3,8 @@
 #include "film/cryptomatte.h"
 
 #include "base/json/json.h"
-
 #include "film/murmur_hash.h"
+
 #include <algorithm>
 #include <bit>
 #include <limits>

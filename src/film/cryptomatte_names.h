@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "film/layer_sums.h"
 #include "scene/scene.h"
 
-#include "film/layer_sums.h"
 #include <string>
 #include <vector>
 

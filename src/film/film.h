@@ -3,9 +3,9 @@
 #pragma once
 
 #include "base/unset_array.h"
+#include "film/layers.h"
 #include "image/pixels.h"
 
-#include "film/layers.h"
 #include <cstddef>
 #include <cstdint>
 #include <optional>

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "stages/wavefront.h"
-
 #include "film/cryptomatte.h"
 #include "film/film.h"
+#include "stages/wavefront.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -3,6 +3,7 @@
 #include "film/layers.h"
 
 #include "film/cryptomatte.h"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>

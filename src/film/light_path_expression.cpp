@@ -3,8 +3,8 @@
 #include "film/light_path_expression.h"
 
 #include "base/text.h"
-
 #include "film/path_order.h"
+
 #include <algorithm>
 #include <optional>
 #include <utility>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "film/light_path_expression.h"
+
 #include <optional>
 #include <vector>
 

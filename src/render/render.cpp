@@ -4,6 +4,8 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "film/cryptomatte_names.h"
+#include "film/layer_sums.h"
 #include "render/camera_media.h"
 #include "render/film_rows.h"
 #include "render/filter_table.h"
@@ -12,8 +14,6 @@
 #include "render/raycast_lights.h"
 #include "stages/wavefront.h"
 
-#include "film/cryptomatte_names.h"
-#include "film/layer_sums.h"
 #include <algorithm>
 #include <memory>
 #include <optional>

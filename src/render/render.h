@@ -7,12 +7,12 @@
 #include "base/log.h"
 #include "base/unset_array.h"
 #include "camera/camera.h"
+#include "film/film.h"
 #include "image/pixels.h"
 #include "scene/scene.h"
 #include "stages/dispatch.h"
 #include "stages/stage_seconds.h"
 
-#include "film/film.h"
 #include <atomic>
 #include <cstdint>
 #include <functional>

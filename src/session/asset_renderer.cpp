@@ -6,9 +6,9 @@
 #include "render/enclosed_lights.h"
 #include "render/integrators.h"
 #include "scene/scene_memory.h"
-
 #include "session/focus.h"
 #include "session/image_layers.h"
+
 #include <utility>
 
 namespace obscura {

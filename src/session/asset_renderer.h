@@ -4,10 +4,10 @@
 
 #include "gltf/load.h"
 #include "render/render.h"
-
 #include "session/outputs.h"
 #include "session/render_request.h"
 #include "session/statistics.h"
+
 #include <filesystem>
 #include <optional>
 

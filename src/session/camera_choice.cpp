@@ -4,10 +4,10 @@
 
 #include "base/setting_names.h"
 #include "base/text.h"
-
 #include "session/aperture_image.h"
 #include "session/framing.h"
 #include "session/model_settings.h"
+
 #include <algorithm>
 #include <cmath>
 

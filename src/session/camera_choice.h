@@ -7,9 +7,9 @@
 #include "camera/aperture_table.h"
 #include "camera/camera.h"
 #include "scene/scene.h"
-
 #include "session/camera_build.h"
 #include "session/framing.h"
+
 #include <memory>
 #include <optional>
 #include <string>

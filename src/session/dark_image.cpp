@@ -4,8 +4,8 @@
 
 #include "base/setting_names.h"
 #include "base/text.h"
-
 #include "session/preview.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -4,8 +4,8 @@
 
 #include "base/log.h"
 #include "image/write.h"
-
 #include "session/render_request.h"
+
 #include <optional>
 
 namespace obscura {

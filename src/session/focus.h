@@ -3,7 +3,6 @@
 #pragma once
 
 #include "render/render.h"
-
 #include "session/render_request.h"
 
 namespace obscura {

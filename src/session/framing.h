@@ -4,7 +4,6 @@
 
 #include "base/error.h"
 #include "scene/scene.h"
-
 #include "session/framed_geometry.h"
 
 namespace obscura {

@@ -3,6 +3,7 @@
 #include "session/image_layers.h"
 
 #include "film/cryptomatte.h"
+
 #include <algorithm>
 #include <iterator>
 #include <utility>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "film/film.h"
 #include "image/layers.h"
 
-#include "film/film.h"
 #include <cstddef>
 #include <span>
 #include <string>

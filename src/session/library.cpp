@@ -4,13 +4,13 @@
 #include "base/text.h"
 #include "render/film_rows.h"
 #include "render/integrators.h"
-
 #include "session/focus.h"
 #include "session/library_asset.h"
 #include "session/library_request.h"
 #include "session/lighting.h"
 #include "session/outputs.h"
 #include "session/requested_camera.h"
+
 #include <algorithm>
 #include <cmath>
 #include <mutex>

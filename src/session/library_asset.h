@@ -4,6 +4,7 @@
 
 #include "session/asset_renderer.h"
 #include "session/repeated_log.h"
+
 #include <obscura/session.h>
 #include <optional>
 

@@ -7,9 +7,9 @@
 #include "camera/names.h"
 #include "math/warp.h"
 #include "scene/camera_setting_table.h"
-
 #include "session/framing.h"
 #include "session/model_settings.h"
+
 #include <array>
 #include <charconv>
 #include <cmath>

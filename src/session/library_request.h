@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/error.h"
-
 #include "session/render_request.h"
+
 #include <obscura/session.h>
 
 namespace obscura {

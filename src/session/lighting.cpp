@@ -3,7 +3,6 @@
 #include "session/lighting.h"
 
 #include "image/decode.h"
-
 #include "session/built_in_environment.h"
 
 namespace obscura {

@@ -8,10 +8,10 @@
 #include "camera/matrices.h"
 #include "camera/names.h"
 #include "render/integrators.h"
-
 #include "session/camera_parameters.h"
 #include "session/preview.h"
 #include "session/statistics.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -7,9 +7,9 @@
 #include "image/write.h"
 #include "render/points_lines_sizes.h"
 #include "render/render.h"
-
 #include "session/camera_choice.h"
 #include "session/frames.h"
+
 #include <filesystem>
 #include <optional>
 #include <vector>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "render/render.h"
-
 #include "session/render_request.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <string>

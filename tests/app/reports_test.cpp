@@ -1,10 +1,10 @@
 // tests/app/reports_test.cpp - numbers of the reports; whole documents are in tests/cli.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/info_report.h"
+#include "session/statistics.h"
 
 #include <gtest/gtest.h>
 
-#include "session/statistics.h"
 #include <gmock/gmock.h>
 
 namespace obscura::app {

@@ -3,10 +3,10 @@
 #include "film/cryptomatte.h"
 
 #include "base/json/json.h"
+#include "film/murmur_hash.h"
 
 #include <gtest/gtest.h>
 
-#include "film/murmur_hash.h"
 #include <algorithm>
 #include <bit>
 #include <cmath>

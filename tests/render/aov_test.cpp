@@ -1,9 +1,10 @@
 // tests/render/aov_test.cpp - layers beside the beauty, against what the scene says by hand.
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
-
 #include "film/cryptomatte.h"
 #include "film/layers.h"
+
+#include <gtest/gtest.h>
+
 #include "support/scene_builder.h"
 #include <bit>
 #include <cmath>

@@ -3,10 +3,10 @@
 #include "session/camera_choice.h"
 
 #include "base/setting_names.h"
+#include "session/framing.h"
 
 #include <gtest/gtest.h>
 
-#include "session/framing.h"
 #include <cmath>
 #include <gmock/gmock.h>
 

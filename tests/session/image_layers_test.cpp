@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/image_layers.h"
 
+#include "session/asset_renderer.h"
+
 #include <gtest/gtest.h>
 
-#include "session/asset_renderer.h"
 #include <algorithm>
 #include <gmock/gmock.h>
 #include <utility>
