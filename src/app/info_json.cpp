@@ -61,11 +61,12 @@ void add_ndc(const SceneCamera& source, const Affined& rigid, Json& json) {
     const double znear = std::max(source.znear_m, 1e-6);
     const double zfar = source.zfar_m > znear ? source.zfar_m : 1e6 * znear;
     const CameraMatrices matrices = camera_matrices(*camera, znear, zfar);
-    if (!matrices.has_ndc) return;
+    if (!matrices.world_to_ndc) return;
     Json& out = json["ndc_from_world"] = Json::array();
     for (int r = 0; r < 4; ++r) {
         for (int c = 0; c < 4; ++c)
-            out.push_back(static_cast<double>(matrices.world_to_ndc[4 * c + r]));
+            out.push_back(
+                static_cast<double>((*matrices.world_to_ndc)[static_cast<size_t>(4 * c + r)]));
     }
 }
 

@@ -21,7 +21,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "texels keep R in the lowest byte");
 
-using Bytes = std::span<const std::byte>;
+using ByteSpan = std::span<const std::byte>;
 
 /// Spreads 1 (grey) or 2 (grey, alpha) channels, as read into 4-byte texels, over all four.
 void spread_grey(std::vector<uint32_t>& texels, bool has_alpha) {
@@ -58,7 +58,7 @@ bool means_missing_pixels(const std::string& complaint) {
 }
 
 Result<void> decode_with_oiio(
-    Bytes bytes, ImageFormat format, ImageRgba8& image, const std::string& where, Log& log) {
+    ByteSpan bytes, ImageFormat format, ImageRgba8& image, const std::string& where, Log& log) {
     const std::vector<std::byte> pixels_only = without_metadata(bytes, format);
     OiioInput input(pixels_only, image.format.c_str());
     if (!input.error().empty()) return corrupt_image(where, input.error());
@@ -83,7 +83,7 @@ Result<void> decode_with_oiio(
     return {};
 }
 
-Result<void> decode_webp(Bytes bytes, ImageRgba8& image, const std::string& where) {
+Result<void> decode_webp(ByteSpan bytes, ImageRgba8& image, const std::string& where) {
     const auto* out = WebPDecodeRGBAInto(reinterpret_cast<const uint8_t*>(bytes.data()),
                                          bytes.size(),
                                          reinterpret_cast<uint8_t*>(image.texels.data()),
@@ -93,7 +93,7 @@ Result<void> decode_webp(Bytes bytes, ImageRgba8& image, const std::string& wher
     return {};
 }
 
-Result<void> decode_first_webp_frame(Bytes bytes, ImageRgba8& image, const std::string& where) {
+Result<void> decode_first_webp_frame(ByteSpan bytes, ImageRgba8& image, const std::string& where) {
     WebPAnimDecoderOptions options;
     if (!WebPAnimDecoderOptionsInit(&options)) return corrupt_image(where, "libwebp does not fit");
     options.color_mode = MODE_RGBA;
@@ -109,7 +109,10 @@ Result<void> decode_first_webp_frame(Bytes bytes, ImageRgba8& image, const std::
     return {};
 }
 
-Result<ImageRgba8> decode_levels(Bytes bytes, Extent extent, const std::string& where, Log& log) {
+Result<ImageRgba8> decode_levels(ByteSpan bytes,
+                                 Extent extent,
+                                 const std::string& where,
+                                 Log& log) {
     Result<Ktx2Header> header = read_ktx2_header(bytes, where);
     if (!header) return fail(std::move(header.error()));
     if (extent == Extent::base) header->levels = 1;
@@ -118,7 +121,7 @@ Result<ImageRgba8> decode_levels(Bytes bytes, Extent extent, const std::string& 
 
 }  // namespace
 
-Result<ImageRgba8> probe_image(Bytes bytes, const std::string& where) {
+Result<ImageRgba8> probe_image(ByteSpan bytes, const std::string& where) {
     const Result<ImageHeader> header = read_image_header(bytes, where);
     if (!header) return fail(header.error());
     return ImageRgba8{header->width,
@@ -130,7 +133,7 @@ Result<ImageRgba8> probe_image(Bytes bytes, const std::string& where) {
                       header->bits};
 }
 
-Result<ImageRgba8> decode_image(Bytes bytes, const std::string& where, Log& log, Extent extent) {
+Result<ImageRgba8> decode_image(ByteSpan bytes, const std::string& where, Log& log, Extent extent) {
     const Result<ImageHeader> header = read_image_header(bytes, where);
     if (!header) return fail(header.error());
     ImageRgba8 image{header->width, header->height, {}, format_name(header->format)};

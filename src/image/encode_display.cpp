@@ -42,7 +42,10 @@ OIIO::ImageSpec spec_of(const Encodable& image) {
     }
     const OutputFormat format = image.target.format;
     if (format == OutputFormat::png) spec.attribute("compression", "zip:4");
-    if (format == OutputFormat::tiff) spec.attribute("compression", "zip");
+    if (format == OutputFormat::tiff) {
+        spec.attribute("compression", "zip");
+        spec.attribute("DateTime", "");  // else the time of writing: no two files would be equal
+    }
     if (format == OutputFormat::jpeg) {
         spec.attribute("compression", "jpeg:" + std::to_string(image.quality));
         spec.attribute("jpeg:subsampling", "4:4:4");

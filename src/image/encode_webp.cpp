@@ -16,13 +16,13 @@ tl::unexpected<Error> webp_error(const std::string& where, const std::string& me
 }
 
 /// A file in libwebp's memory, freed in the end.
-struct EncodedFile {
+struct WebpData {
     WebPData data = {};
 
-    EncodedFile() = default;
-    EncodedFile(const EncodedFile&) = delete;
-    EncodedFile& operator=(const EncodedFile&) = delete;
-    ~EncodedFile() { WebPDataClear(&data); }
+    WebpData() = default;
+    WebpData(const WebpData&) = delete;
+    WebpData& operator=(const WebpData&) = delete;
+    ~WebpData() { WebPDataClear(&data); }
 
     std::vector<std::byte> copy() const {
         const auto* begin = reinterpret_cast<const std::byte*>(data.bytes);
@@ -49,7 +49,7 @@ Result<std::vector<std::byte>> with_profile(const WebPData& file, const std::str
     if (!mux) return webp_error(where, "the encoded file cannot be taken apart");
     const std::vector<std::byte> profile = srgb_icc_profile();
     const WebPData chunk{reinterpret_cast<const uint8_t*>(profile.data()), profile.size()};
-    EncodedFile assembled;
+    WebpData assembled;
     const bool done = WebPMuxSetChunk(mux.get(), "ICCP", &chunk, 0) == WEBP_MUX_OK &&
                       WebPMuxAssemble(mux.get(), &assembled.data) == WEBP_MUX_OK;
     if (!done) return webp_error(where, "the colour profile cannot be added");
@@ -62,7 +62,7 @@ Result<std::vector<std::byte>> encode_webp(const CodedImage& image,
                                            int quality,
                                            bool is_srgb,
                                            const std::string& where) {
-    EncodedFile file;
+    WebpData file;
     uint8_t* bytes = nullptr;
     file.data.size = encode(image, quality, &bytes);
     file.data.bytes = bytes;

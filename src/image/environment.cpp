@@ -23,7 +23,7 @@ namespace obscura {
 
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using ByteSpan = std::span<const std::byte>;
 
 tl::unexpected<Error> missing(const std::string& where, const std::string& why) {
     return fail(ExitCode::bad_resource, "E-ENV-MISSING", where, why);
@@ -65,7 +65,7 @@ Result<std::vector<std::byte>> read_regular_file(const std::filesystem::path& fi
     return bytes;
 }
 
-bool is_radiance_hdr(Bytes bytes) {
+bool is_radiance_hdr(ByteSpan bytes) {
     return bytes.size() >= 2 && std::memcmp(bytes.data(), "#?", 2) == 0;
 }
 
@@ -80,7 +80,7 @@ int64_t take_side(std::string_view& line, std::string_view axis) {
 }
 
 /// Checks the line "-Y height +X width" that follows the header's empty line.
-Result<void> check_hdr_size(Bytes bytes, const std::string& where) {
+Result<void> check_hdr_size(ByteSpan bytes, const std::string& where) {
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     const size_t empty_line = text.find("\n\n");
     if (empty_line == std::string_view::npos)
@@ -96,7 +96,7 @@ Result<void> check_hdr_size(Bytes bytes, const std::string& where) {
     return check_environment_size(width, height, where);
 }
 
-Result<ImageRgb32f> read_hdr(Bytes bytes, const std::string& where) {
+Result<ImageRgb32f> read_hdr(ByteSpan bytes, const std::string& where) {
     if (auto fits = check_hdr_size(bytes, where); !fits) return fail(std::move(fits.error()));
     OiioInput input(bytes, "hdr");
     if (!input.error().empty()) return corrupt_environment(where, input.error());
@@ -120,7 +120,7 @@ float linear_from_srgb(double code) {
                                               : std::pow((code + 0.055) / 1.055, 2.4));
 }
 
-Result<ImageRgb32f> read_8_bit(Bytes bytes, const std::string& where, Log& log) {
+Result<ImageRgb32f> read_8_bit(ByteSpan bytes, const std::string& where, Log& log) {
     const auto renamed = [](Error error) {
         if (error.id.rfind("E-IMG-", 0) == 0) error.id.replace(0, 6, "E-ENV-");
         if (error.id == "E-ENV-FORMAT") error.message += ", Radiance HDR and OpenEXR";

@@ -23,12 +23,12 @@ namespace obscura {
 
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using ByteSpan = std::span<const std::byte>;
 using Names = std::array<std::string, 3>;
 
 /// Reads the bytes of a header; after the end everything is empty or 0.
 struct HeaderReader {
-    Bytes rest;
+    ByteSpan rest;
 
     std::string_view text() {
         const auto* begin = reinterpret_cast<const char*>(rest.data());
@@ -82,7 +82,7 @@ PartSize read_part(HeaderReader& reader) {
 
 /// Checks the sizes of all parts and tiles first, because OpenEXR allocates tables in proportion to
 /// them. Its own limits are process-wide, which a library must not change.
-Result<void> check_sizes(Bytes bytes, const std::string& where) {
+Result<void> check_sizes(ByteSpan bytes, const std::string& where) {
     constexpr size_t magic_and_flags = 8;
     constexpr int32_t several_parts = 0x1000;
     constexpr int64_t longest_side = 65536;
@@ -188,12 +188,12 @@ Result<ImageRgb32f> read_pixels(Imf::InputFile& file, const std::string& where) 
 
 }  // namespace
 
-bool is_exr(Bytes bytes) {
+bool is_exr(ByteSpan bytes) {
     constexpr unsigned char magic[] = {0x76, 0x2F, 0x31, 0x01};
     return bytes.size() >= sizeof magic && std::memcmp(bytes.data(), magic, sizeof magic) == 0;
 }
 
-Result<ImageRgb32f> read_exr(Bytes bytes, const std::string& where, Log& log) {
+Result<ImageRgb32f> read_exr(ByteSpan bytes, const std::string& where, Log& log) {
     if (auto fits = check_sizes(bytes, where); !fits) return fail(std::move(fits.error()));
     try {
         ExrMemoryReader stream(bytes, where.c_str());

@@ -18,27 +18,27 @@ constexpr int64_t longest_side = 65536;
 constexpr int64_t max_bytes = int64_t{1} << 31;
 constexpr int max_jpeg_scans = 1000;
 
-using Bytes = std::span<const std::byte>;
+using ByteSpan = std::span<const std::byte>;
 
-bool starts_with(Bytes bytes, std::string_view text, size_t at = 0) {
+bool starts_with(ByteSpan bytes, std::string_view text, size_t at = 0) {
     return bytes.size() >= at + text.size() &&
            std::memcmp(bytes.data() + at, text.data(), text.size()) == 0;
 }
 
-uint32_t byte_at(Bytes bytes, size_t at) {
+uint32_t byte_at(ByteSpan bytes, size_t at) {
     return std::to_integer<uint32_t>(bytes[at]);
 }
 
-uint32_t big_endian_16(Bytes bytes, size_t at) {
+uint32_t big_endian_16(ByteSpan bytes, size_t at) {
     return byte_at(bytes, at) << 8 | byte_at(bytes, at + 1);
 }
 
-uint32_t big_endian_32(Bytes bytes, size_t at) {
+uint32_t big_endian_32(ByteSpan bytes, size_t at) {
     return big_endian_16(bytes, at) << 16 | big_endian_16(bytes, at + 2);
 }
 
 /// The probable format of the first bytes, for messages.
-const char* looks_like(Bytes bytes) {
+const char* looks_like(ByteSpan bytes) {
     struct Magic {
         size_t at;
         std::string_view text;
@@ -73,7 +73,7 @@ const char* looks_like(Bytes bytes) {
 }
 
 /// Refuses files that are too short for the image size in their header, before it is allocated.
-Result<void> check_enough_data(Bytes bytes, int64_t min_bytes, const std::string& where) {
+Result<void> check_enough_data(ByteSpan bytes, int64_t min_bytes, const std::string& where) {
     if (static_cast<int64_t>(bytes.size()) >= min_bytes) return {};
     return corrupt_image(
         where,
@@ -81,15 +81,15 @@ Result<void> check_enough_data(Bytes bytes, int64_t min_bytes, const std::string
             " bytes cannot hold a picture of the size in its header: it is cut off");
 }
 
-/// Bytes of one PNG row before compression, its filter byte included.
-int64_t png_row_bytes(Bytes bytes, int64_t width) {
+/// ByteSpan of one PNG row before compression, its filter byte included.
+int64_t png_row_bytes(ByteSpan bytes, int64_t width) {
     const int64_t bits = byte_at(bytes, 24);
     const uint32_t color_type = byte_at(bytes, 25);
     const int64_t channels = color_type == 2 ? 3 : color_type == 4 ? 2 : color_type == 6 ? 4 : 1;
     return 1 + (width * channels * bits + 7) / 8;
 }
 
-Result<ImageHeader> read_png(Bytes bytes, const std::string& where) {
+Result<ImageHeader> read_png(ByteSpan bytes, const std::string& where) {
     constexpr size_t signature = 8;
     if (bytes.size() < signature + 25 || !starts_with(bytes, "IHDR", signature + 4)) {
         return corrupt_image(where, "the PNG header is cut off or is not first");
@@ -126,7 +126,7 @@ bool is_start_of_frame(uint32_t marker) {
 }
 
 /// Reads the frame header of an 8-bit JPEG: baseline, extended or progressive, in either coding.
-Result<ImageHeader> read_jpeg_frame(Bytes frame, uint32_t marker, const std::string& where) {
+Result<ImageHeader> read_jpeg_frame(ByteSpan frame, uint32_t marker, const std::string& where) {
     if (frame.size() < 8) return corrupt_image(where, "the JPEG frame header is cut off");
     const bool read = marker <= 0xC2 || marker == 0xC9 || marker == 0xCA;
     const uint32_t bits = byte_at(frame, 2);
@@ -147,7 +147,7 @@ Result<ImageHeader> read_jpeg_frame(Bytes frame, uint32_t marker, const std::str
 }
 
 /// The number of scans after `at`, counted up to just above the limit.
-int count_scans(Bytes bytes, size_t at) {
+int count_scans(ByteSpan bytes, size_t at) {
     int scans = 0;
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     while (scans <= max_jpeg_scans && at + 1 < bytes.size()) {
@@ -159,7 +159,7 @@ int count_scans(Bytes bytes, size_t at) {
     return scans;
 }
 
-Result<ImageHeader> read_jpeg(Bytes bytes, const std::string& where) {
+Result<ImageHeader> read_jpeg(ByteSpan bytes, const std::string& where) {
     for (size_t at = 2; at + 4 <= bytes.size();) {
         if (byte_at(bytes, at) != 0xFF) {
             ++at;  // a stray byte between two segments; decoders skip them
@@ -198,7 +198,7 @@ Result<ImageHeader> read_jpeg(Bytes bytes, const std::string& where) {
     return corrupt_image(where, "the JPEG is cut off before its frame header");
 }
 
-Result<ImageHeader> read_webp(Bytes bytes, const std::string& where) {
+Result<ImageHeader> read_webp(ByteSpan bytes, const std::string& where) {
     WebPBitstreamFeatures features = {};
     const auto status =
         WebPGetFeatures(reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size(), &features);
@@ -214,7 +214,7 @@ Result<ImageHeader> read_webp(Bytes bytes, const std::string& where) {
         ImageFormat::webp, features.width, features.height, features.has_animation != 0};
 }
 
-Result<ImageHeader> read_ktx2(Bytes bytes, const std::string& where) {
+Result<ImageHeader> read_ktx2(ByteSpan bytes, const std::string& where) {
     const Result<Ktx2Header> header = read_ktx2_header(bytes, where);
     if (!header) return fail(header.error());
     return ImageHeader{
@@ -260,7 +260,7 @@ Result<void> check_image_size(int64_t width,
                     " and, altogether, " + std::to_string(max_bytes / bytes_per_pixel) + " pixels");
 }
 
-Result<ImageHeader> read_image_header(Bytes bytes, const std::string& where) {
+Result<ImageHeader> read_image_header(ByteSpan bytes, const std::string& where) {
     if (starts_with(bytes, std::string_view("\x89PNG\r\n\x1A\n", 8))) return read_png(bytes, where);
     if (starts_with(bytes, "\xFF\xD8\xFF")) return read_jpeg(bytes, where);
     if (starts_with(bytes, "RIFF") && starts_with(bytes, "WEBP", 8)) return read_webp(bytes, where);

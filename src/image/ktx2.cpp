@@ -12,7 +12,7 @@ namespace obscura {
 
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using ByteSpan = std::span<const std::byte>;
 
 constexpr uint32_t opaque = 0xFF000000U;
 constexpr uint32_t all_channels = ~0U;
@@ -35,7 +35,7 @@ uint32_t as_seen(uint32_t texel, Ktx2Channels channels) {
     return texel;
 }
 
-void read_plain(Bytes bytes, const Ktx2Header& header, const TexelLevel& level) {
+void read_plain(ByteSpan bytes, const Ktx2Header& header, const TexelLevel& level) {
     const size_t count = static_cast<size_t>(level.width) * static_cast<size_t>(level.height);
     const auto step = static_cast<size_t>(header.bytes_per_texel);
     for (size_t i = 0; i < count; ++i) {
@@ -47,7 +47,7 @@ void read_plain(Bytes bytes, const Ktx2Header& header, const TexelLevel& level) 
 }
 
 /// False: a block is broken.
-bool decode_uastc(Bytes bytes, const Ktx2Header& header, const TexelLevel& level) {
+bool decode_uastc(ByteSpan bytes, const Ktx2Header& header, const TexelLevel& level) {
     const bool srgb = header.encoding == ImageEncoding::srgb;
     TexelBlock block;
     size_t at = 0;
@@ -64,7 +64,7 @@ bool decode_uastc(Bytes bytes, const Ktx2Header& header, const TexelLevel& level
 }
 
 /// nullopt: broken, or not of the size that the index says.
-std::optional<std::vector<std::byte>> without_zstd(Bytes bytes, size_t size) {
+std::optional<std::vector<std::byte>> without_zstd(ByteSpan bytes, size_t size) {
     std::vector<std::byte> out(size);
     const size_t written = ZSTD_decompress(out.data(), size, bytes.data(), bytes.size());
     if (ZSTD_isError(written) != 0 || written != size) return std::nullopt;
@@ -76,7 +76,7 @@ Result<void> decode_level(const Ktx2Header& header,
                           const TexelLevel& level,
                           const std::string& where) {
     const std::string name = "level " + std::to_string(number) + " of the KTX2 file";
-    Bytes bytes = header.level_bytes[static_cast<size_t>(number)];
+    ByteSpan bytes = header.level_bytes[static_cast<size_t>(number)];
     std::optional<std::vector<std::byte>> inflated;
     if (header.is_zstd) {
         inflated = without_zstd(bytes, header.plain_bytes(number));

@@ -12,7 +12,7 @@ namespace obscura {
 
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using ByteSpan = std::span<const std::byte>;
 
 constexpr size_t counts_bytes = 20;  // of the global data, before the images' descriptions
 constexpr size_t description_bytes = 20;
@@ -28,7 +28,7 @@ struct BasisLz {
 };
 
 Result<BasisLz> read_global(const Ktx2Header& header, const std::string& where) {
-    const Bytes bytes = header.global_bytes;
+    const ByteSpan bytes = header.global_bytes;
     const size_t images = static_cast<size_t>(header.levels_in_file) * description_bytes;
     if (bytes.size() < counts_bytes + images) {
         return corrupt_image(where, "the KTX2 file's BasisLZ global data are cut off");
@@ -55,7 +55,7 @@ Result<BasisLz> read_global(const Ktx2Header& header, const std::string& where) 
 }
 
 /// Decodes a slice into some channels of a level; false if it is broken.
-bool paint_slice(std::optional<Bytes> slice,
+bool paint_slice(std::optional<ByteSpan> slice,
                  const BasisLz& basis,
                  const TexelLevel& level,
                  uint32_t mask) {
@@ -101,7 +101,7 @@ Result<void> decode_basis_lz(const Ktx2Header& header,
                         where,
                         "the KTX2 file is a frame of a video; accepted are still pictures");
         }
-        const Bytes bytes = header.level_bytes[i];
+        const ByteSpan bytes = header.level_bytes[i];
         const auto first = range_of(bytes, field(1), field(2));
         const auto second = range_of(bytes, field(3), field(4));
         bool painted = paint_slice(first, *basis, levels[i], is_red_green ? red_mask : color_mask);

@@ -19,7 +19,7 @@ namespace obscura {
 
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using ByteSpan = std::span<const std::byte>;
 
 constexpr std::string_view identifier("\xABKTX 20\xBB\r\n\x1A\n", 12);
 constexpr size_t header_bytes = 80;
@@ -54,7 +54,7 @@ tl::unexpected<Error> unsupported(const std::string& where, const std::string& w
     return fail(ExitCode::unsupported, "E-IMG-FEATURE", where, why);
 }
 
-Result<void> read_shape(Bytes bytes, Ktx2Header& header, const std::string& where) {
+Result<void> read_shape(ByteSpan bytes, Ktx2Header& header, const std::string& where) {
     const int64_t width = little_endian_32(bytes, at_width);
     const int64_t height = little_endian_32(bytes, at_height);
     const uint32_t faces = little_endian_32(bytes, at_faces);
@@ -99,7 +99,7 @@ struct Description {
     size_t samples = 0;
 };
 
-Result<Description> read_description(Bytes bytes, const std::string& where) {
+Result<Description> read_description(ByteSpan bytes, const std::string& where) {
     constexpr size_t total_and_block = 4 + 24, sample_bytes = 16, channel_at = 3;
     const auto found = range_of(bytes,
                                 little_endian_32(bytes, at_description),
@@ -156,7 +156,7 @@ std::optional<Ktx2Channels> uastc_channels(const Description& description) {
     }
 }
 
-/// Bytes per texel of an uncompressed format; 0: not supported.
+/// ByteSpan per texel of an uncompressed format; 0: not supported.
 int plain_texel_bytes(uint32_t vk_format) {
     switch (vk_format) {  // of each the UNORM and the SRGB format
         case 9:
@@ -176,7 +176,7 @@ int plain_texel_bytes(uint32_t vk_format) {
     }
 }
 
-Result<void> read_coding(Bytes bytes, Ktx2Header& header, const std::string& where) {
+Result<void> read_coding(ByteSpan bytes, Ktx2Header& header, const std::string& where) {
     const Result<Description> description = read_description(bytes, where);
     if (!description) return fail(description.error());
     header.is_premultiplied = (description->flags & flag_premultiplied) != 0;
@@ -215,7 +215,7 @@ Result<void> read_coding(Bytes bytes, Ktx2Header& header, const std::string& whe
 }
 
 /// The text of an entry without the terminating 0; nullopt: the entries are truncated.
-std::optional<std::string_view> find_value(Bytes entries, std::string_view key) {
+std::optional<std::string_view> find_value(ByteSpan entries, std::string_view key) {
     while (!entries.empty()) {
         const auto size = range_of(entries, 0, 4);
         const auto entry = size ? range_of(entries, 4, little_endian_32(*size, 0)) : std::nullopt;
@@ -232,7 +232,7 @@ std::optional<std::string_view> find_value(Bytes entries, std::string_view key) 
     return std::string_view();
 }
 
-Result<void> check_key_values(Bytes bytes, const std::string& where) {
+Result<void> check_key_values(ByteSpan bytes, const std::string& where) {
     const auto entries = range_of(
         bytes, little_endian_32(bytes, at_key_values), little_endian_32(bytes, at_key_values + 4));
     constexpr std::pair<const char*, const char*> expected[] = {{"KTXorientation", "rd"},
@@ -249,7 +249,7 @@ Result<void> check_key_values(Bytes bytes, const std::string& where) {
     return {};
 }
 
-Result<void> find_level(Bytes bytes, int level, Ktx2Header& header, const std::string& where) {
+Result<void> find_level(ByteSpan bytes, int level, Ktx2Header& header, const std::string& where) {
     const size_t entry = header_bytes + level_entry_bytes * static_cast<size_t>(level);
     const std::string name = "level " + std::to_string(level) + " of the KTX2 file";
     if (entry + level_entry_bytes > bytes.size()) return corrupt_image(where, name + " is cut off");
@@ -282,12 +282,12 @@ size_t Ktx2Header::plain_bytes(int level) const {
            uastc_block_bytes;
 }
 
-bool is_ktx2(Bytes bytes) {
+bool is_ktx2(ByteSpan bytes) {
     return bytes.size() >= identifier.size() &&
            std::memcmp(bytes.data(), identifier.data(), identifier.size()) == 0;
 }
 
-Result<Ktx2Header> read_ktx2_header(Bytes bytes, const std::string& where) {
+Result<Ktx2Header> read_ktx2_header(ByteSpan bytes, const std::string& where) {
     if (bytes.size() < header_bytes) return corrupt_image(where, "the KTX2 header is cut off");
     Ktx2Header header;
     Result<void> done = read_shape(bytes, header, where);

@@ -11,9 +11,9 @@ namespace obscura {
 
 namespace {
 
-using Bytes = std::span<const std::byte>;
+using ByteSpan = std::span<const std::byte>;
 
-size_t byte_at(Bytes bytes, size_t at) {
+size_t byte_at(ByteSpan bytes, size_t at) {
     return std::to_integer<size_t>(bytes[at]);
 }
 
@@ -22,19 +22,19 @@ struct Parts {
     std::vector<std::byte> bytes;
     size_t used = 0;
 
-    void append(Bytes part) {
+    void append(ByteSpan part) {
         std::copy(part.begin(), part.end(), bytes.begin() + static_cast<std::ptrdiff_t>(used));
         used += part.size();
     }
 };
 
-bool is_needed_png_chunk(Bytes chunk) {
+bool is_needed_png_chunk(ByteSpan chunk) {
     const std::string_view type(reinterpret_cast<const char*>(chunk.data()) + 4, 4);
     const bool is_critical = (type[0] & 0x20) == 0;  // broken ones too: the decoder refuses them
     return is_critical || type == "tRNS";
 }
 
-void strip_png(Bytes bytes, Parts& out) {
+void strip_png(ByteSpan bytes, Parts& out) {
     constexpr size_t signature = 8;
     constexpr size_t length_type_checksum = 12;
     out.append(bytes.first(signature));
@@ -55,7 +55,7 @@ bool is_needed_jpeg_segment(size_t marker) {
     return marker != 0xFE && (!is_application || marker == 0xE0 || marker == 0xEE);
 }
 
-void strip_jpeg(Bytes bytes, Parts& out) {
+void strip_jpeg(ByteSpan bytes, Parts& out) {
     constexpr size_t start_of_scan = 0xDA;
     out.append(bytes.first(2));
     size_t at = 2;
@@ -77,7 +77,7 @@ void strip_jpeg(Bytes bytes, Parts& out) {
 
 }  // namespace
 
-std::vector<std::byte> without_metadata(Bytes bytes, ImageFormat format) {
+std::vector<std::byte> without_metadata(ByteSpan bytes, ImageFormat format) {
     Parts out{std::vector<std::byte>(bytes.size())};
     if (format == ImageFormat::png) {
         strip_png(bytes, out);

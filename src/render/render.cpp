@@ -141,17 +141,24 @@ int list_pixels(const Tile& tile, ThreadState& state) {
     return static_cast<int>(count);
 }
 
+/// What is done in every tile.
+struct TileWork {
+    const WavefrontInput& wavefront;
+    const LayerPlan& layers;
+    int samples;
+};
+
 /// Renders all samples of one tile into state.sums; leaves early when `stop` is set.
-void render_tile(const WavefrontInput& wavefront_input,
-                 const LayerPlan& plan,
-                 int samples,
+void render_tile(const TileWork& tile_work,
                  const Tile& tile,
                  const std::atomic<bool>& stop,
                  ThreadState& state) {
+    const LayerPlan& plan = tile_work.layers;
+    const int samples = tile_work.samples;
     const int pixels = list_pixels(tile, state);
     state.sums.assign(static_cast<size_t>(pixels), {});
     state.layers.begin(plan, static_cast<size_t>(pixels));
-    WavefrontInput in = wavefront_input;
+    WavefrontInput in = tile_work.wavefront;
     in.recorder = state.recorder.get();
     const int per_batch = std::max(1, batch_size / pixels);
     const int pixels_per_batch = std::min(pixels, batch_size);
@@ -354,7 +361,7 @@ Result<RenderResult> render(const PreparedScene& scene,
         if (aov) {
             render_aov_tile(wavefront_input, tiles[i], stop, *state, result.film);
         } else {
-            render_tile(wavefront_input, layers, samples, tiles[i], stop, *state);
+            render_tile({wavefront_input, layers, samples}, tiles[i], stop, *state);
             store_tile(*state, layers, samples, result.film);
         }
         const size_t done = ++finished;

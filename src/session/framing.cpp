@@ -71,7 +71,7 @@ struct Strip {
     double low() const { return first.across - slope * first.towards; }
     double high() const { return last.across + slope * last.towards; }
     double centre() const { return 0.5 * (low() + high()); }
-    double least_distance() const { return (high() - low()) / (2 * slope); }
+    double min_distance() const { return (high() - low()) / (2 * slope); }
 };
 
 /// Finds strips in the geometry, for a view along -Z of the axes.
@@ -123,7 +123,7 @@ Eye eye_of_tight_view(const StripFinder& finder,
     const Strip across = finder.find(axes.x, slopes[0]);
     const Strip upward = finder.find(axes.y, slopes[1]);
     const double distance =
-        std::max({across.least_distance(), upward.least_distance(), finder.nearest() + gap});
+        std::max({across.min_distance(), upward.min_distance(), finder.nearest() + gap});
     // Where there is room, the strip of the image's edge would not be centred in perspective.
     return {finder.closest(axes.x, slopes[0], distance).centre(),
             finder.closest(axes.y, slopes[1], distance).centre(),

@@ -4,6 +4,7 @@
 
 #include "base/log.h"
 #include "gltf/load.h"
+#include "image/display.h"
 #include "image/write.h"
 #include "render/points_lines_sizes.h"
 #include "render/render.h"

@@ -1,5 +1,6 @@
 // tests/cli/cameras_test.cpp - every camera by its options: images, headers, messages.
 // SPDX-License-Identifier: Apache-2.0
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 

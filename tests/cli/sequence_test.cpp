@@ -1,5 +1,6 @@
 // tests/cli/sequence_test.cpp - animated scenes at a time, and as a sequence of files.
 // SPDX-License-Identifier: Apache-2.0
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 

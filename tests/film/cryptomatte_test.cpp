@@ -1,5 +1,5 @@
-// tests/film/cryptomatte_test.cpp - Cryptomatte ids, metadata and ranks, and mattes decoded from
-// them. SPDX-License-Identifier: Apache-2.0
+// tests/film/cryptomatte_test.cpp - Cryptomatte ids, metadata, ranks, and mattes decoded from them.
+// SPDX-License-Identifier: Apache-2.0
 #include "film/cryptomatte.h"
 
 #include "base/json/json.h"

@@ -52,7 +52,8 @@ TEST(IccProfile, EveryTagLiesWithinOnABoundary) {
     EXPECT_EQ(text_at(elements.at("desc"), 28, 8), std::string("\0s\0R\0G\0B", 8));
 }
 
-/// Truth: the columns of sRGB adapted to D50 and the Bradford matrix, as Lindbloom publishes them.
+/// Truth: the columns of sRGB adapted to D50 and the Bradford matrix, as Lindbloom publishes them:
+/// for whites that differ from those of the specifications by up to 3e-4 in Z.
 TEST(IccProfile, ColumnsAndAdaptationAreThePublishedOnes) {
     const auto elements = profile_elements(srgb_icc_profile());
     const double columns[3][3] = {{0.4360747, 0.2225045, 0.0139322},
@@ -66,7 +67,7 @@ TEST(IccProfile, ColumnsAndAdaptationAreThePublishedOnes) {
         const std::vector<double> found = fixed_numbers(element);
         ASSERT_EQ(found.size(), 3U);
         for (size_t i = 0; i < 3; ++i) {
-            EXPECT_NEAR(found[i], columns[c][i], 2e-4) << names[c];
+            EXPECT_NEAR(found[i], columns[c][i], 3e-4) << names[c];
             white[i] += found[i];
         }
     }

@@ -1,6 +1,7 @@
 // tests/session/library_test.cpp - the library, used as by a program that embeds it.
 // SPDX-License-Identifier: Apache-2.0
 #include <OpenEXR/ImfDoubleAttribute.h>
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
