@@ -199,7 +199,7 @@ constexpr Entry image[] = {
     {{.name = "--exr-mipmap",
       .help = "Store smaller copies, too, in tiles of 64 pixels a side unless told"},
      text_at<&A::exr_mipmap>, flag_at<&R::exr, &X::mipmap>},
-    {{.name = "--background", .argument = "KIND|COLOR",
+    {{.name = "--background", .argument = "KIND|NAME|#RRGGBB|R,G,B",
       .help = "What rays that hit nothing see: env, transparent, or a colour of the scene: linear "
               "R,G,B, sRGB #RRGGBB, white, black or grey"},
      text_at<&A::background>, background},
@@ -330,7 +330,7 @@ constexpr Entry display[] = {
     {{.name = "--ocio", .argument = "FILE", .help = "OpenColorIO config",
       .fallback = "$OCIO, else built in", .files = "ocio"},
      text_at<&A::ocio>, name_at<&R::display, &D::ocio_file>},
-    {{.name = "--page", .argument = "COLOR",
+    {{.name = "--page", .argument = "NAME|#RRGGBB|R,G,B",
       .help = "A colour behind the finished image, after the view: white, black, grey, #RRGGBB or "
               "R,G,B from 0 to 1. Without --background the image is transparent around the scene"},
      text_at<&A::page>, page},

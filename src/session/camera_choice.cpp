@@ -269,7 +269,9 @@ Framing automatic_framing(const Scene& scene, const CameraRequest& request, doub
     if (request.kept) return *request.kept;
     FrameLens lens{flat_yfov(request), aspect};
     lens.orthographic = wanted_model(request) == CameraModel::orthographic && !request.yfov_rad;
-    return frame_view(FramedGeometry(scene, request.framed_nodes), request.framing, lens);
+    const FramedGeometry geometry(scene, request.framed_nodes);
+    const FramedGeometry box(framed_bounds(scene, request));  // where there is nothing but a size
+    return frame_view(geometry.empty() ? box : geometry, request.framing, lens);
 }
 
 Result<ChosenCamera> choose_camera(

@@ -190,11 +190,11 @@ std::vector<ImageAttribute> typed_attributes(
     const std::vector<std::pair<std::string, std::string>>& texts,
     const std::vector<ImageAttribute>& made) {
     std::vector<ImageAttribute> out;
-    for (const auto& [name, text] : texts) {
+    for (const auto& text : texts) {
         const auto same = std::find_if(made.begin(), made.end(), [&](const ImageAttribute& own) {
-            return own.name == name && text_of(own.value) == text;
+            return own.name == text.first && text_of(own.value) == text.second;
         });
-        out.push_back(same != made.end() ? *same : ImageAttribute{name, text});
+        out.push_back(same != made.end() ? *same : ImageAttribute{text.first, text.second});
     }
     return out;
 }

@@ -91,7 +91,7 @@ TEST_F(CameraFiles, InfoTellsTheModelAndTheMatrices) {
     EXPECT_EQ(front.at("camera_from_world").at(11), -6);
     const json& top = info.at("cameras").at(1);
     EXPECT_EQ(top.at("model"), "orthographic");
-    EXPECT_NEAR(top.at("ndc_from_world").at(0).get<double>(), 0.5, 1e-6);
+    EXPECT_NEAR(top.at("ndc_from_world").at(0).get<double>(), 0.25, 1e-6) << "4 m are the width";
     EXPECT_FALSE(front.contains("ndc_from_world")) << "its aspect ratio is the picture's";
 }
 
