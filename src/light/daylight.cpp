@@ -140,7 +140,8 @@ double sun_coverage(int x, int y, const Vec3d& sun) {
     int inside = 0;
     for (int i = 0; i < steps * steps; ++i) {
         const double px = x + (i % steps + 0.5) / steps;
-        const double py = y + (i / steps + 0.5) / steps;
+        const int row = i / steps;
+        const double py = y + (row + 0.5) / steps;
         if (angle_between(direction_of(px, py), sun) <= sun_radius_rad) ++inside;
     }
     return static_cast<double>(inside) / (steps * steps);

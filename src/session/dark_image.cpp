@@ -14,7 +14,8 @@ namespace obscura {
 
 namespace {
 
-constexpr double darkest = 0.01;
+constexpr double darkest = 0.01;              ///< mean of the whole image
+constexpr double darkest_covered = 1.0 / 16;  ///< mean of what is covered: small things may be lit
 constexpr double middle_grey = 0.18;
 
 /// Offset of a channel in a pixel.
@@ -42,9 +43,15 @@ std::string lights_text(const RenderRequest& request, const Scene& scene) {
     return out.empty() ? "what glows in the scene, or the studio" : out;
 }
 
-}  // namespace
+/// Sums over all pixels.
+struct LuminanceSum {
+    double luminance = 0;
+    double covered = 0;  ///< alpha
+    double pixels = 0;
+};
 
-std::optional<double> mean_luminance(const OutputImage& image) {
+/// Nothing without channels R, G and B.
+std::optional<LuminanceSum> sum_luminance(const OutputImage& image) {
     constexpr std::array<const char*, 3> names = {"R", "G", "B"};
     constexpr std::array<double, 3> weights = {0.2126, 0.7152, 0.0722};
     std::array<size_t, 3> offsets = {};
@@ -54,15 +61,22 @@ std::optional<double> mean_luminance(const OutputImage& image) {
         offsets[c] = *offset;
     }
     const std::optional<size_t> alpha = find_channel(image, "A");
-    double sum = 0;
-    double covered = 0;
+    LuminanceSum sum;
     for (size_t at = 0; at < image.pixels.size(); at += image.channels.size()) {
         for (size_t c = 0; c < 3; ++c)
-            sum += weights[c] * static_cast<double>(image.pixels[at + offsets[c]]);
-        covered += alpha ? static_cast<double>(image.pixels[at + *alpha]) : 1.0;
+            sum.luminance += weights[c] * static_cast<double>(image.pixels[at + offsets[c]]);
+        sum.covered += alpha ? static_cast<double>(image.pixels[at + *alpha]) : 1.0;
+        sum.pixels += 1;
     }
-    if (!(covered > 0)) return std::nullopt;
-    return sum / covered;
+    return sum;
+}
+
+}  // namespace
+
+std::optional<double> mean_luminance(const OutputImage& image) {
+    const std::optional<LuminanceSum> sum = sum_luminance(image);
+    if (!sum || !(sum->covered > 0)) return std::nullopt;
+    return sum->luminance / sum->covered;
 }
 
 void warn_of_dark_image(const OutputImage& image,
@@ -74,10 +88,11 @@ void warn_of_dark_image(const OutputImage& image,
     const RenderOptions& options = request.options;
     if (needs_preview(options.integrator) || options.background == BackgroundKind::color) return;
     if (scene.primitives.empty() && scene.splats.empty()) return;
-    const std::optional<double> mean = mean_luminance(image);
-    if (!mean) return;
-    const double shown = *mean * std::exp2(exposure_ev);
-    if (!(shown < darkest)) return;
+    const std::optional<LuminanceSum> sum = sum_luminance(image);
+    if (!sum || !(sum->covered > 0)) return;
+    const double shown = sum->luminance / sum->covered * std::exp2(exposure_ev);
+    const double of_image = sum->luminance / sum->pixels * std::exp2(exposure_ev);
+    if (!(of_image < darkest && shown < darkest_covered)) return;
     std::string help;
     if (!scene.lights.empty() && !request.environment && !scene.environment)
         help += setting("lights") + " off lights it by the studio instead; ";
@@ -89,8 +104,9 @@ void warn_of_dark_image(const OutputImage& image,
         help += "no light reaches what is seen";
     }
     log.warn(request.scene.string(),
-             "the image is nearly black: its mean is " + shortest(std::round(1e5 * shown) / 1000) +
-                 " % of white, lit by " + lights_text(request, scene) + "; " + help);
+             "the image is nearly black: its mean is " +
+                 shortest(std::round(1e5 * of_image) / 1000) + " % of white, lit by " +
+                 lights_text(request, scene) + "; " + help);
 }
 
 }  // namespace obscura

@@ -18,7 +18,7 @@ namespace obscura {
 std::optional<double> mean_luminance(const OutputImage& image);
 
 /// Warns when an image that shows light has a mean luminance below one percent of the display's
-/// white: the warning says what lit the scene, and what would help.
+/// white, and what it shows is dim, too: the warning says what lit the scene, and what would help.
 ///
 /// In      scene: as it was rendered; exposure_ev: of the display, with that of the camera
 void warn_of_dark_image(const OutputImage& image,

@@ -63,6 +63,14 @@ TEST(DarkImage, OnlyNearlyBlackOnesAreWarnedOf) {
     EXPECT_THAT(warnings(grey(0.0099F), {}, lit_scene(), 1), IsEmpty());
 }
 
+TEST(DarkImage, SmallThingsInTheLightAreNot) {
+    OutputImage small = grey(0.5F, 0);
+    small.width = 100;
+    small.pixels.resize(400, 0.0F);
+    EXPECT_THAT(warnings(small), IsEmpty()) << "one pixel of a hundred is grey";
+    EXPECT_THAT(warnings(grey(0.018F, 0)), ElementsAre(HasSubstr("its mean is 0.9 % of white")));
+}
+
 TEST(DarkImage, ItSaysWhatWouldHelp) {
     const auto text = warnings(grey(0.18F / 64));
     EXPECT_THAT(text,
