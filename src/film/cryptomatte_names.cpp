@@ -53,8 +53,8 @@ CryptomatteTables cryptomatte_tables(const Scene& scene) {
     out.assets.insert(out.assets.begin(), "");
     out.materials = {"default material"};
     for (size_t i = 0; i < scene.material_names.size(); ++i) {
-        const auto number = static_cast<size_t>(scene.material_numbers[i] + 1);
-        if (number == 0) continue;
+        if (scene.material_numbers[i] < 0) continue;
+        const size_t number = static_cast<size_t>(scene.material_numbers[i]) + 1;
         if (out.materials.size() <= number) out.materials.resize(number + 1);
         const std::string& name = scene.material_names[i];
         out.materials[number] = name.empty() ? "material " + std::to_string(number - 1) : name;
