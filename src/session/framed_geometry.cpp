@@ -123,8 +123,9 @@ void FramedGeometry::each_point(const Chunk& chunk, const Visit& visit) const {
     const auto kind = static_cast<GeometryKind>(primitive.geometry);
     // The radius of points and lines may depend on the view, and must not decide about it.
     const float thickness = is_point_or_line(primitive) ? 0.0f : 1.0f;
-    const auto end = static_cast<size_t>(chunk.first + chunk.count);
-    for (auto i = static_cast<size_t>(chunk.first); i < end; ++i) {
+    const auto first = static_cast<size_t>(chunk.first);
+    const size_t end = first + static_cast<size_t>(chunk.count);
+    for (size_t i = first; i < end; ++i) {
         if (kind == GeometryKind::triangles) {
             for (size_t corner = 3 * i; corner < 3 * i + 3; ++corner) {
                 const float* at = &scene.positions[3 * size_t{scene.indices[corner]}];
@@ -228,8 +229,9 @@ FramedGeometry::FramedGeometry(const Scene& scene, const std::vector<char>& node
     }
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        for (int32_t i = 0; i < mesh.primitive_count; ++i) {
-            const auto primitive = static_cast<size_t>(mesh.first_primitive + i);
+        const auto first = static_cast<size_t>(mesh.first_primitive);
+        const size_t end = first + static_cast<size_t>(mesh.primitive_count);
+        for (size_t primitive = first; primitive < end; ++primitive) {
             if (counts(scene.primitives[primitive].node, instance.node))
                 add_item(primitive, &instance.world_from_object);
         }
