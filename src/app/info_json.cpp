@@ -63,10 +63,9 @@ void add_ndc(const SceneCamera& source, const Affined& rigid, Json& json) {
     const CameraMatrices matrices = camera_matrices(*camera, znear, zfar);
     if (!matrices.world_to_ndc) return;
     Json& out = json["ndc_from_world"] = Json::array();
-    for (int r = 0; r < 4; ++r) {
-        for (int c = 0; c < 4; ++c)
-            out.push_back(
-                static_cast<double>((*matrices.world_to_ndc)[static_cast<size_t>(4 * c + r)]));
+    for (size_t r = 0; r < 4; ++r) {
+        for (size_t c = 0; c < 4; ++c)
+            out.push_back(static_cast<double>((*matrices.world_to_ndc)[4 * c + r]));
     }
 }
 
