@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/layer_sums.h"
 
+#include "math/vec.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -19,12 +21,6 @@ const Aov* aov_of(const Layer& layer) {
 bool is_reduced(const Layer& layer, Reduction reduction) {
     const Aov* aov = aov_of(layer);
     return aov != nullptr && entry_of(*aov).reduction == reduction;
-}
-
-/// Rec.709's luminance.
-double luminance(float r, float g, float b) {
-    return 0.2126 * static_cast<double>(r) + 0.7152 * static_cast<double>(g) +
-           0.0722 * static_cast<double>(b);
 }
 
 }  // namespace
@@ -168,8 +164,9 @@ void LayerSums::add_statistics(const LayerPlan& plan,
     for (size_t p = first_pixel; p < first_pixel + batch.pixels; ++p) {
         for (const size_t end = slot + batch.samples; slot < end; ++slot) {
             if (plan.has_variance_) {
-                const double y =
-                    luminance(work.samples.r[slot], work.samples.g[slot], work.samples.b[slot]);
+                const SampleColumns& from = work.samples;
+                const auto y =
+                    static_cast<double>(luminance(Vec3f{from.r[slot], from.g[slot], from.b[slot]}));
                 luminance_[p].sum += y;
                 luminance_[p].squares += y * y;
             }

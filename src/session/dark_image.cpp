@@ -4,6 +4,7 @@
 
 #include "base/setting_names.h"
 #include "base/text.h"
+#include "math/vec.h"
 #include "session/preview.h"
 
 #include <algorithm>
@@ -53,7 +54,6 @@ struct LuminanceSum {
 /// Nothing without channels R, G and B.
 std::optional<LuminanceSum> sum_luminance(const OutputImage& image) {
     constexpr std::array<const char*, 3> names = {"R", "G", "B"};
-    constexpr std::array<double, 3> weights = {0.2126, 0.7152, 0.0722};
     std::array<size_t, 3> offsets = {};
     for (size_t c = 0; c < 3; ++c) {
         const std::optional<size_t> offset = find_channel(image, names[c]);
@@ -63,8 +63,9 @@ std::optional<LuminanceSum> sum_luminance(const OutputImage& image) {
     const std::optional<size_t> alpha = find_channel(image, "A");
     LuminanceSum sum;
     for (size_t at = 0; at < image.pixels.size(); at += image.channels.size()) {
-        for (size_t c = 0; c < 3; ++c)
-            sum.luminance += weights[c] * static_cast<double>(image.pixels[at + offsets[c]]);
+        const auto channel = [&](size_t c) { return image.pixels[at + offsets[c]]; };
+        const Vec3f color{channel(0), channel(1), channel(2)};
+        sum.luminance += static_cast<double>(luminance(color));
         sum.covered += alpha ? static_cast<double>(image.pixels[at + *alpha]) : 1.0;
         sum.pixels += 1;
     }
