@@ -183,8 +183,8 @@ double add_sky(const Vec3d& sun, std::vector<float>& pixels) {
                 3 * (static_cast<size_t>(y) * daylight_width + static_cast<size_t>(x));
             for (size_t c = 0; c < 3; ++c)
                 pixels[at + c] = static_cast<float>(color[c]);
-            const double luminance = 0.2126 * color[0] + 0.7152 * color[1] + 0.0722 * color[2];
-            ground += luminance * direction.y * solid_angle_of_row(y);
+            const Vec3d rgb{color[0], color[1], color[2]};
+            ground += luminance(rgb) * direction.y * solid_angle_of_row(y);
         }
     }
     return ground;
@@ -208,9 +208,7 @@ std::vector<float> make_daylight_pixels(double elevation_rad, double azimuth_rad
             pixels[3 * covered.pixel + c] +=
                 static_cast<float>(illuminance[c] * covered.coverage / disc_size);
     }
-    const double luminance =
-        0.2126 * illuminance[0] + 0.7152 * illuminance[1] + 0.0722 * illuminance[2];
-    ground += luminance * sun.y;
+    ground += luminance(Vec3d{illuminance[0], illuminance[1], illuminance[2]}) * sun.y;
     const double scale = daylight_ground * pi_d / ground;
     for (float& value : pixels)
         value = static_cast<float>(value * scale);

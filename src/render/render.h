@@ -26,11 +26,10 @@ namespace obscura {
 struct RaycastNotes;
 
 /// To add one: append it here, in include/obscura/view.h, and in render/integrators.h with a name,
-/// a kind and channels. An AOV also needs a name in stages/stages.h, a case in
-/// stages/3_aov.cpp and, for PNG and JPEG, a mapping to colours in session/preview.cpp. Light
-/// transport needs a kind in stages/wavefront.h, with cases in stages/wavefront.cpp and
-/// render/integrators.cpp. Then docs/cli.md, the help in app/render_options.cpp, and
-/// tests/render/integrators_test.cpp.
+/// a kind, channels and, for AOVs, those of stages/aov.h that fill them; for PNG and JPEG, a
+/// mapping to colours in session/preview.cpp. Light transport needs a kind in stages/wavefront.h,
+/// with cases in stages/wavefront.cpp and render/integrators.cpp. Then docs/cli.md, the help in
+/// app/render_options.cpp, and tests/render/integrators_test.cpp.
 enum class Integrator {
     path,
     direct,
