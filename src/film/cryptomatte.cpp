@@ -77,12 +77,6 @@ std::string cryptomatte_manifest_document(std::span<const std::string> names) {
     return json_document(manifest_json(names));
 }
 
-std::string cryptomatte_manifest_file(const std::filesystem::path& image, std::string_view layer) {
-    std::string stem = image.stem().string();
-    std::replace(stem.begin(), stem.end(), '\\', '_');
-    return stem + '.' + std::string(layer) + ".json";
-}
-
 std::vector<CryptomatteAttribute> cryptomatte_attributes(std::string_view layer,
                                                          std::string manifest) {
     return attributes_with(layer, "manifest", std::move(manifest));

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -63,11 +62,6 @@ std::string cryptomatte_manifest(std::span<const std::string> names);
 /// The same manifest as the text of a file, a name a line.
 std::string cryptomatte_manifest_document(std::span<const std::string> names);
 
-/// The name of the file for a layer's manifest, in the same folder as the image:
-/// "shot.0001.crypto_object.json" for "shot.0001.exr". The specification wants a path relative to
-/// the image without back-slashes: those of the image's name become underscores.
-std::string cryptomatte_manifest_file(const std::filesystem::path& image, std::string_view layer);
-
 /// A text attribute of an EXR header.
 struct CryptomatteAttribute {
     std::string name;  ///< with the key: "cryptomatte/f834d0a/hash"
@@ -83,7 +77,7 @@ std::vector<CryptomatteAttribute> cryptomatte_attributes(std::string_view layer,
 
 /// The attributes of a layer with its manifest in another file.
 ///
-/// In      file: of cryptomatte_manifest_file
+/// In      file: in the folder of the image
 /// Source  section "Metadata"
 std::vector<CryptomatteAttribute> cryptomatte_file_attributes(std::string_view layer,
                                                               std::string file);

@@ -170,12 +170,6 @@ TEST(CryptomatteAttributes, NameTheFileInsteadOfTheManifest) {
     EXPECT_EQ(found["cryptomatte/f834d0a/name"], "crypto_object");
 }
 
-TEST(CryptomatteManifestFile, LiesBesideTheImage) {
-    EXPECT_EQ(cryptomatte_manifest_file("/shots/a.b/shot.0001.exr", "crypto_object"),
-              "shot.0001.crypto_object.json");
-    EXPECT_EQ(cryptomatte_manifest_file("../x\\y.exr", "m"), "x_y.m.json");
-}
-
 /// Names that JSON must escape, and names that it must not change.
 const std::vector<std::string> awkward_names = {"plain",
                                                 "",
