@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
     view.height = 64;
     obscura::Sampling sampling;
     sampling.samples_per_pixel = 4;
+    sampling.aov = {"depth", "crypto_object"};
     std::atomic<bool> cancel{false};  // another thread may set it
     int tiles = 0;
     obscura::Control control;
@@ -44,6 +45,8 @@ int main(int argc, char** argv) {
                 tiles,
                 image.statistics.render_seconds,
                 static_cast<double>(image.pixels[0]));
+    for (const obscura::Layer& layer : image.layers)
+        std::printf("layer %s: %zu channels\n", layer.name.c_str(), layer.channels.size());
 
     obscura::WriteOptions options;
     options.float32 = true;

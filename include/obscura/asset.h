@@ -54,8 +54,8 @@ struct AssetInfo {
 
 /// An opened asset: a handle, cheap to copy; copies are the same asset. It keeps what rendering has
 /// built, so that the next image of the same pose starts at once; a View with a time after one
-/// without, and Integrator::uv after another one, read the file again. Belongs to its Session,
-/// which must outlive it; used by one thread at a time.
+/// without, and Integrator::uv or the layer "uv" after images without, read the file again. Belongs
+/// to its Session, which must outlive it; used by one thread at a time.
 class OBSCURA_API Asset {
 public:
     const AssetInfo& info() const;

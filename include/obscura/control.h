@@ -11,7 +11,7 @@
 
 OBSCURA_BEGIN_API
 
-/// Pixels that are finished, valid during the callback.
+/// Pixels of the beauty that are finished, valid during the callback.
 struct Tile {
     Rect area;  ///< in the whole image
     const std::vector<std::string>& channels;

@@ -36,7 +36,7 @@ public:
                          const Control& control = {});
 
     /// Writes .exr, .png, .jpg, .tif, .webp or .avif: the file that the program writes, whole or
-    /// not at all.
+    /// not at all. Only an EXR has the layers; the other formats hold the beauty alone.
     Result<void> write(const Image& image,
                        const std::string& file,
                        const WriteOptions& options = {});

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 OBSCURA_BEGIN_API
 
@@ -110,6 +111,10 @@ struct Sampling {
     PixelFilter filter = PixelFilter::box;
     std::optional<double> ao_distance_m;  ///< none: a fifth of the asset's diagonal
     double wire_width_px = 1;
+    /// Layers beside the beauty, by the names of docs/layers.md: "depth", "crypto_object". They go
+    /// with path, direct, raycast and ao.
+    std::vector<std::string> aov;
+    int crypto_levels = 6;  ///< ids of a pixel that Cryptomatte layers keep, from 1 to 64
 };
 
 OBSCURA_END_API

@@ -119,8 +119,7 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
 std::vector<FilterKinds> filters_of_range(const Accel::Impl& impl, const Mesh& range) {
     std::vector<FilterKinds> out(static_cast<size_t>(range.primitive_count));
     for (size_t i = 0; i < out.size(); ++i) {
-        out[i] = filters_of(impl,
-                            impl.scene->primitives[static_cast<size_t>(range.first_primitive) + i]);
+        out[i] = filters_of(impl, range.first_primitive + static_cast<int32_t>(i));
     }
     return out;
 }
@@ -220,11 +219,14 @@ Result<void> build_all(Accel::Impl& impl) {
     const Scene& scene = *impl.scene;
     impl.textures = view_of(scene.textures);
     if (impl.kernels.filters) {
-        impl.alpha.resize(scene.primitives.size());
-        for (size_t i = 0; i < impl.alpha.size(); ++i)
-            impl.alpha[i] = {impl.scene, impl.textures, static_cast<int32_t>(i)};
         impl.materials_with_holes = find_materials_with_holes(scene);
         impl.thin_walls = find_thin_walls(scene);
+        impl.visibility_filters = find_visibility_filters(scene);
+        impl.alpha.resize(scene.primitives.size());
+        for (size_t i = 0; i < impl.alpha.size(); ++i) {
+            const auto index = static_cast<int32_t>(i);
+            impl.alpha[i] = {impl.scene, impl.textures, index, filters_of(impl, index)};
+        }
         impl.has_thin_walls = std::any_of(
             scene.primitives.begin(), scene.primitives.end(), [&](const Primitive& primitive) {
                 return impl.thin_walls[static_cast<size_t>(primitive.material)] != 0;

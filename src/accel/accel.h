@@ -23,6 +23,7 @@ struct SeeThrough {
     bool fixed_alpha = false;       ///< alpha BLEND becomes a threshold at 0.5, not a random choice
     /// Different for every segment of a path, so that its alpha decisions are independent.
     uint32_t segment = 0;
+    uint8_t passes = 0;  ///< surfaces with any of these flags are absent, see scene/visibility.h
     /// With culls_back_faces, the first back face that each ray passes is appended, if its mesh may
     /// be cut away (meshes without emission); null: not recorded.
     std::vector<PassedBack>* passed_backs = nullptr;
@@ -36,6 +37,7 @@ struct ShadowQuery {
     /// its entry to 1. Null: they occlude.
     uint8_t* thin_walls = nullptr;
     const Cutaway* cutaway = nullptr;  ///< null: all faces are there
+    uint8_t passes = 0;                ///< as in SeeThrough
 };
 
 struct RayRecording;
@@ -115,8 +117,8 @@ public:
 
     /// Counts the primitives that each ray is tested against until its nearest hit is known: those
     /// whose box it meets before that hit, in Embree's order of traversal. Depends only on the
-    /// scene, the ray and Embree's instruction set. Treats back faces and alpha as AOVs do. Returns
-    /// the number of refused rays; their count is 0. Thread-safe.
+    /// scene, the ray and Embree's instruction set. Treats back faces and alpha as AOVs do, and
+    /// ignores visibility flags. Returns the number of refused rays; their count is 0. Thread-safe.
     ///
     /// In      this: from build_counting
     int count_tests(const RayColumns& rays, float* tests) const;

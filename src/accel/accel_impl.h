@@ -31,13 +31,6 @@ struct UserElements {
     int32_t primitive = 0;
 };
 
-/// The filter functions that a primitive needs.
-struct FilterKinds {
-    bool alpha = false;
-    bool thin_wall = false;  ///< possible thin wall; for shadow rays only
-    bool operator==(const FilterKinds&) const = default;
-};
-
 /// The BVH over primitives that share one space.
 struct BuiltGeometry {
     RTCScene scene = nullptr;
@@ -87,6 +80,7 @@ struct Accel::Impl {
     SplatGeometry splat_geometry;
     std::vector<uint8_t> materials_with_holes;
     std::vector<uint8_t> thin_walls;             ///< by material
+    std::vector<uint8_t> visibility_filters;     ///< by primitive: 1 if it needs one; empty: none
     bool has_thin_walls = false;                 ///< some primitive's material is one
     std::vector<AlphaGeometry> alpha;            ///< by primitive; empty: no filters
     std::vector<ShapeGeometry> shapes;           ///< by primitive; filled for primitives of shapes
@@ -100,7 +94,7 @@ struct Accel::Impl {
 };
 
 /// In   impl.alpha: empty if nothing has filters
-FilterKinds filters_of(const Accel::Impl& impl, const Primitive& primitive);
+FilterKinds filters_of(const Accel::Impl& impl, int32_t primitive);
 
 /// The Embree geometry of a primitive; null for an infinite plane.
 RTCGeometry make_geometry(Accel::Impl& impl, int32_t index);

@@ -1,4 +1,4 @@
-// accel/alpha_filter.cpp - alpha MASK, alpha BLEND and thin walls as Embree filter functions.
+// accel/alpha_filter.cpp - alpha, thin walls and visibility flags as Embree filter functions.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/alpha_filter.h"
 
@@ -116,6 +116,32 @@ bool needs_alpha_filter(const Scene& scene,
            (colored && (scene.materials[index].flags & see_through) != 0);
 }
 
+std::vector<uint8_t> find_visibility_filters(const Scene& scene) {
+    if (scene.visibility.empty()) return {};
+    std::vector<uint8_t> out = scene.visibility.primitives;
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        if (scene.visibility.instances[i] == 0) continue;
+        const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
+        const auto first = out.begin() + mesh.first_primitive;
+        std::fill_n(first, mesh.primitive_count, uint8_t{1});
+    }
+    for (uint8_t& needed : out)
+        needed = needed != 0 ? 1 : 0;
+    return out;
+}
+
+bool passes_surface(const AlphaGeometry& geometry, const QueryContext& context, unsigned instance) {
+    if (context.passes == 0) return false;
+    const Scene& scene = *geometry.scene;
+    // The still primitives, which have no instance of the scene's, come as one behind the others.
+    const bool in_world = instance == RTC_INVALID_GEOMETRY_ID ||
+                          instance == static_cast<unsigned>(scene.world_primitive_count) +
+                                          static_cast<unsigned>(scene.instances.size());
+    const int32_t number =
+        in_world ? -1 : static_cast<int32_t>(instance) - scene.world_primitive_count;
+    return (scene.visibility.of(geometry.primitive, number) & context.passes) != 0;
+}
+
 bool is_opaque_there(const AlphaGeometry& geometry,
                      const QueryContext& context,
                      const AlphaCandidate& candidate,
@@ -148,6 +174,23 @@ void thin_wall_filter(const RTCFilterFunctionNArguments* args) {
 void alpha_thin_wall_filter(const RTCFilterFunctionNArguments* args) {
     alpha_filter(args);
     thin_wall_filter(args);
+}
+
+void visibility_filter(const RTCFilterFunctionNArguments* args) {
+    const auto& geometry = *static_cast<const AlphaGeometry*>(args->geometryUserPtr);
+    const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
+    for (unsigned i = 0; i < args->N; ++i) {
+        if (args->valid[i] == 0) continue;
+        if (passes_surface(geometry, context, RTCHitN_instID(args->hit, args->N, i, 0)))
+            args->valid[i] = 0;
+    }
+    if (geometry.kinds.alpha) alpha_filter(args);
+}
+
+void visibility_shadow_filter(const RTCFilterFunctionNArguments* args) {
+    visibility_filter(args);
+    if (static_cast<const AlphaGeometry*>(args->geometryUserPtr)->kinds.thin_wall)
+        thin_wall_filter(args);
 }
 
 }  // namespace obscura

@@ -1,4 +1,4 @@
-// accel/alpha_filter.h - alpha MASK, alpha BLEND and thin walls as Embree filter functions.
+// accel/alpha_filter.h - alpha, thin walls and visibility flags as Embree filter functions.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -11,12 +11,29 @@
 
 namespace obscura {
 
-/// User pointer of an Embree geometry with an alpha filter.
+/// The filter functions that a primitive needs.
+struct FilterKinds {
+    bool alpha = false;
+    bool thin_wall = false;   ///< possible thin wall; for shadow rays only
+    bool visibility = false;  ///< it, or an instance of it, has flags of scene/visibility.h
+    bool operator==(const FilterKinds&) const = default;
+};
+
+/// User pointer of an Embree geometry with filters.
 struct AlphaGeometry {
     const Scene* scene = nullptr;
     TextureView textures;
     int32_t primitive = 0;
+    FilterKinds kinds = {};
 };
+
+/// By primitive: 1 if it, or an instance of its mesh, has visibility flags. Empty if none has.
+std::vector<uint8_t> find_visibility_filters(const Scene& scene);
+
+/// True if the rays of a query pass a surface by its visibility flags.
+///
+/// In   instance: Embree's id
+bool passes_surface(const AlphaGeometry& geometry, const QueryContext& context, unsigned instance);
 
 /// The key of a ray's alpha decisions in one segment of its path.
 inline uint32_t segment_key(uint32_t path_key, uint32_t segment) {
@@ -63,5 +80,10 @@ void thin_wall_filter(const RTCFilterFunctionNArguments* args);
 
 /// The same for primitives whose alpha is tested first.
 void alpha_thin_wall_filter(const RTCFilterFunctionNArguments* args);
+
+/// Embree filters of primitives with visibility flags: these first, then what else the primitive
+/// needs.
+void visibility_filter(const RTCFilterFunctionNArguments* args);
+void visibility_shadow_filter(const RTCFilterFunctionNArguments* args);
 
 }  // namespace obscura

@@ -86,6 +86,7 @@ void Accel::list_crossings(const RayColumns& rays,
     common.fixed_threshold = see_through.fixed_alpha || rays.key == nullptr;
     common.segment = see_through.segment;
     common.culls_back_faces = see_through.culls_back_faces;
+    common.passes = see_through.passes;
     common.crossings = &notes.notes;
     if (see_through.cutaway != nullptr) context.cut = see_through.cutaway->of(index);
     RTCRayHit ray;

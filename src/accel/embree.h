@@ -37,6 +37,7 @@ struct QueryContext {
     unsigned segment = 0;                 ///< mixed into the key
     bool fixed_threshold = false;         ///< alpha BLEND counts as MASK at 0.5
     bool culls_back_faces = false;        ///< of single-sided analytic shapes
+    unsigned char passes = 0;             ///< visibility flags of absent surfaces, see SeeThrough
     bool passes_thin_walls = false;       ///< possible thin walls do not occlude
     unsigned char* thin_walls = nullptr;  ///< by ray id: set to 1 if the ray passes one
     std::vector<PassedBack>* passed_backs = nullptr;  ///< see SeeThrough

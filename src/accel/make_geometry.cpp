@@ -13,7 +13,13 @@ namespace {
 
 void set_filters(Accel::Impl& impl, int32_t primitive_index, RTCGeometry geometry) {
     const auto index = static_cast<size_t>(primitive_index);
-    const FilterKinds kinds = filters_of(impl, impl.scene->primitives[index]);
+    const FilterKinds kinds = filters_of(impl, primitive_index);
+    if (kinds.visibility) {
+        rtcSetGeometryUserData(geometry, &impl.alpha[index]);
+        rtcSetGeometryIntersectFilterFunction(geometry, visibility_filter);
+        rtcSetGeometryOccludedFilterFunction(geometry, visibility_shadow_filter);
+        return;
+    }
     if (kinds.alpha) {
         rtcSetGeometryUserData(geometry, &impl.alpha[index]);
         rtcSetGeometryIntersectFilterFunction(geometry, alpha_filter);
@@ -101,7 +107,8 @@ bool fill_shape_geometry(Accel::Impl& impl, int32_t primitive_index) {
     out.spheres = spheres ? &scene.spheres[first * 4] : nullptr;
     out.count = primitive.triangle_count;
     out.single_sided = (material.flags & material_double_sided) == 0;
-    const FilterKinds kinds = filters_of(impl, primitive);
+    const FilterKinds kinds = filters_of(impl, primitive_index);
+    if (kinds.visibility) out.visibility = &impl.alpha[static_cast<size_t>(primitive_index)];
     if (kinds.alpha) out.alpha = &impl.alpha[static_cast<size_t>(primitive_index)];
     out.thin_wall = kinds.thin_wall;
     return spheres || !is_unbounded(scene.shapes[first]);
@@ -145,10 +152,13 @@ RTCGeometry make_shapes(Accel::Impl& impl, int32_t primitive_index) {
 
 }  // namespace
 
-FilterKinds filters_of(const Accel::Impl& impl, const Primitive& primitive) {
+FilterKinds filters_of(const Accel::Impl& impl, int32_t index) {
     if (impl.alpha.empty()) return {};
+    const Primitive& primitive = impl.scene->primitives[static_cast<size_t>(index)];
     return {needs_alpha_filter(*impl.scene, primitive, impl.materials_with_holes),
-            impl.thin_walls[static_cast<size_t>(primitive.material)] != 0};
+            impl.thin_walls[static_cast<size_t>(primitive.material)] != 0,
+            !impl.visibility_filters.empty() &&
+                impl.visibility_filters[static_cast<size_t>(index)] != 0};
 }
 
 RTCGeometry make_geometry(Accel::Impl& impl, int32_t index) {

@@ -91,6 +91,7 @@ int Accel::intersect(const RayColumns& rays,
     context.fixed_threshold = see_through.fixed_alpha || rays.key == nullptr;
     context.segment = see_through.segment;
     context.culls_back_faces = see_through.culls_back_faces;
+    context.passes = see_through.passes;
     context.passed_backs = see_through.passed_backs;
     context.cutaway = see_through.cutaway;
     int refused = 0;
@@ -142,6 +143,7 @@ int Accel::occluded(const RayColumns& rays,
     context.segment = asked.segment;
     context.passes_thin_walls = asked.thin_walls != nullptr;
     context.thin_walls = asked.thin_walls;
+    context.passes = asked.passes;
     context.cutaway = asked.cutaway;
     int refused = 0;
     ValidMask valid;

@@ -21,6 +21,7 @@ constexpr size_t chunk_rays = 4096;
 struct Chunk {
     const RecordedRays* rays;
     bool fixed_alpha, passes_thin_walls, any_hit;
+    uint8_t passes;  ///< see SeeThrough
     size_t begin, end;
 };
 
@@ -39,10 +40,13 @@ std::vector<Chunk> cut_chunks(const RayRecording& recording, RayKind kind) {
         }
     };
     const bool shadow = kind == RayKind::shadow;
+    const uint8_t passes = shadow                    ? shadow_rays_pass
+                           : kind == RayKind::camera ? camera_rays_pass
+                                                     : bounce_rays_pass;
     for (const auto& thread : recording.threads) {
         const bool fixed = thread->fixed_alpha();
-        cut({&thread->rays(kind), fixed, thread->passes_thin_walls(), shadow, 0, 0});
-        if (shadow) cut({&thread->shadow_hits(), fixed, false, false, 0, 0});
+        cut({&thread->rays(kind), fixed, thread->passes_thin_walls(), shadow, passes, 0, 0});
+        if (shadow) cut({&thread->shadow_hits(), fixed, false, false, passes, 0, 0});
     }
     return chunks;
 }
@@ -52,6 +56,7 @@ void give_keys(QueryContext& context, const Chunk& chunk) {
     context.keys = chunk.rays->key.data();
     context.fixed_threshold = chunk.fixed_alpha;
     context.passes_thin_walls = chunk.passes_thin_walls;
+    context.passes = chunk.passes;
 }
 
 /// Loads rays [first, first + count); the remaining lanes repeat the first.

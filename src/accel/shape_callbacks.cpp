@@ -241,6 +241,8 @@ void note_crossings(const Call& call, int i, unsigned geometry) {
 void intersect(const RTCIntersectFunctionNArguments* args) {
     const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
+    if (geometry.visibility != nullptr && passes_shape(geometry, context, context.embree.instID[0]))
+        return;
     const unsigned n = args->N;
     RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, n);
     const RayFields rays{reinterpret_cast<float*>(RTCRayHitN_RayN(args->rayhit, n)),
@@ -270,6 +272,8 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
 void occluded(const RTCOccludedFunctionNArguments* args) {
     const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
+    if (geometry.visibility != nullptr && passes_shape(geometry, context, context.embree.instID[0]))
+        return;
     const RayFields rays{reinterpret_cast<float*>(args->ray), static_cast<int>(args->N)};
     const Call call{geometry, context, rays, args->valid, args->primID, false, true};
     find_hits(call, [&](int index, const Found&) {

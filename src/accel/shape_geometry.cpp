@@ -23,6 +23,10 @@ Vec2f texture_uv(const ShapeGeometry& geometry, const ShapeCandidate& candidate)
 
 }  // namespace
 
+bool passes_shape(const ShapeGeometry& geometry, const QueryContext& context, unsigned instance) {
+    return passes_surface(*geometry.visibility, context, instance);
+}
+
 bool is_opaque_there(const ShapeGeometry& geometry,
                      const QueryContext& context,
                      const ShapeCandidate& candidate) {
@@ -45,6 +49,10 @@ NearHit<float> intersect_infinite_plane(const InfinitePlane& plane,
                                         unsigned id,
                                         float tfar) {
     const bool moved = plane.instance >= 0;
+    if (plane.geometry.visibility != nullptr) {
+        const Scene& scene = *plane.geometry.visibility->scene;
+        if ((scene.visibility.of(plane.primitive, plane.instance) & context.passes) != 0) return {};
+    }
     const ShapeRay<float> own =
         moved ? ShapeRay<float>{transform_point(plane.object_from_world, ray.origin),
                                 transform_vector(plane.object_from_world, ray.direction)}

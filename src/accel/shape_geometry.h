@@ -19,9 +19,10 @@ struct ShapeGeometry {
     const float* spheres = nullptr;        ///< blocks; a cluster is an Embree primitive
     int32_t count = 0;                     ///< shapes, or spheres
     bool single_sided = false;
-    bool thin_wall = false;                ///< it may be a thin wall
-    const AlphaGeometry* alpha = nullptr;  ///< null: every point is opaque
-    const float* boxes = nullptr;          ///< of the clusters of spheres
+    bool thin_wall = false;                     ///< it may be a thin wall
+    const AlphaGeometry* alpha = nullptr;       ///< null: every point is opaque
+    const AlphaGeometry* visibility = nullptr;  ///< null: it has no visibility flags
+    const float* boxes = nullptr;               ///< of the clusters of spheres
 };
 
 /// An intersection of a ray with a shape, before the alpha test.
@@ -37,6 +38,9 @@ struct ShapeCandidate {
 bool is_opaque_there(const ShapeGeometry& geometry,
                      const QueryContext& context,
                      const ShapeCandidate& candidate);
+
+/// passes_surface for a primitive of shapes.
+bool passes_shape(const ShapeGeometry& geometry, const QueryContext& context, unsigned instance);
 
 /// An intersection of a ray with a shape, for Accel::list_crossings.
 struct ShapeCrossing {

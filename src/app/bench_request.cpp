@@ -16,10 +16,6 @@ namespace obscura::app {
 
 namespace {
 
-tl::unexpected<Error> conflict(const std::string& where, const std::string& message) {
-    return fail(ExitCode::usage, "E-USAGE-CONFLICT", where, message);
-}
-
 std::vector<std::string> split_at_commas(const std::string& text) {
     std::vector<std::string> parts(1);
     for (const char c : text) {
@@ -36,6 +32,11 @@ Result<void> check_sense(const BenchArguments& arguments, const BenchRequest& re
     const RenderArguments& render = arguments.render;
     if (render.camera_model && *render.camera_model != "pinhole") {
         return conflict("--camera-model", "the bench measures through a pinhole; leave it out");
+    }
+    if (render.env_rotation && render.env_rotation->starts_with("camera")) {
+        return conflict("--env-rotation",
+                        "the bench prepares a scene for all its views; expected a number of "
+                        "degrees");
     }
     if (request.plot && request.threads.size() < 2 && request.isas.size() < 2) {
         return conflict("--plot",

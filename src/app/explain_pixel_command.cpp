@@ -85,8 +85,11 @@ Result<PixelReport> explain(const ExplainRequest& request, Log& log) {
     Result<ChosenCamera> camera = choose_unfocused_camera(*scene, render, log);
     if (!camera) return fail(camera.error());
     if (has_points_lines(*scene)) size_points_lines(render.points_lines, camera->camera, *scene);
-    const Result<LightingOptions> lighting = load_lighting(render, log);
+    Result<LightingOptions> lighting = load_lighting(render, log);
     if (!lighting) return fail(lighting.error());
+    if (render.environment_follows_camera) {
+        lighting->environment_rotation_deg += camera_azimuth_deg(camera->basis.world_from_camera);
+    }
     const Result<PreparedScene> prepared =
         PreparedScene::create(std::move(*scene), *lighting, render.isa, log);
     if (!prepared) return fail(prepared.error());

@@ -10,10 +10,6 @@ namespace obscura::app {
 
 namespace {
 
-tl::unexpected<Error> conflict(const OptionInfo& info, const std::string& message) {
-    return fail(ExitCode::usage, "E-USAGE-CONFLICT", long_name(info), message);
-}
-
 /// "--eye, --target or --up".
 template <size_t count>
 std::string alternatives(const std::array<const char*, count>& names) {
@@ -43,6 +39,10 @@ std::string end_of_range(double end) {
 }
 
 }  // namespace
+
+tl::unexpected<Error> conflict(const std::string& where, const std::string& message) {
+    return fail(ExitCode::usage, "E-USAGE-CONFLICT", where, message);
+}
 
 std::string long_name(const OptionInfo& info) {
     const std::string names = info.name;
@@ -82,7 +82,7 @@ Result<void> check_combinations(std::span<const BoundOption> options) {
         if (!is_given(option)) continue;
         for (const char* other : option.info.excludes) {
             if (!other || !is_given(options, other)) continue;
-            return conflict(option.info,
+            return conflict(long_name(option.info),
                             "it cannot go together with " + alternatives(option.info.excludes) +
                                 "; give one or the other");
         }
@@ -91,7 +91,7 @@ Result<void> check_combinations(std::span<const BoundOption> options) {
             lacks = lacks && !(other && is_given(options, other));
         if (lacks) {
             return conflict(
-                option.info,
+                long_name(option.info),
                 "it is for " + alternatives(option.info.needs) + "; leave it out or add that");
         }
     }

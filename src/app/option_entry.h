@@ -33,6 +33,11 @@ struct OptionInfo {
         nullptr;  ///< of a flag: the command prints this and does nothing else
 };
 
+/// E-USAGE-CONFLICT: options that do not go together.
+///
+/// In      where: the option, or what it names
+tl::unexpected<Error> conflict(const std::string& where, const std::string& message);
+
 /// "--output" of "-o,--output".
 std::string long_name(const OptionInfo& info);
 

@@ -5,6 +5,7 @@
 #include "app/option_readers.h"
 #include "app/render_options.h"
 #include "app/render_request.h"
+#include "render/integrators.h"
 
 namespace obscura::app {
 
@@ -14,6 +15,7 @@ using A = RenderArguments;
 using C = CameraRequest;
 using F = FramingOptions;
 using L = gltf::LoadOptions;
+using O = RenderOptions;
 using P = ProductArguments;
 using R = RenderRequest;
 using Entry = OptionEntry<A, R>;
@@ -51,6 +53,21 @@ Result<void> read_hidden(const OptionInfo& info, const std::string& text, R& req
     const Result<std::string> pattern = parse_name(text, info.name);
     if (!pattern) return fail(pattern.error());
     request.load.hidden.push_back(*pattern);
+    return {};
+}
+
+/// Adds a pattern of parts that get a visibility flag.
+template <uint8_t flag>
+Result<void> read_flagged(const OptionInfo& info, const std::string& text, R& request) {
+    const Result<std::string> pattern = parse_name(text, info.name);
+    if (!pattern) return fail(pattern.error());
+    request.load.visibility.push_back({*pattern, flag});
+    return {};
+}
+
+Result<void> read_catcher(const OptionInfo& info, const std::string& text, R& request) {
+    if (text != "ground") return read_flagged<visibility_catcher>(info, text, request);
+    request.catcher_ground = true;
     return {};
 }
 
@@ -102,7 +119,30 @@ constexpr Entry parts[] = {
               "material of this name. * and ? stand for any text and letter. May be given several "
               "times",
       .fallback = "all is shown"},
-     text_at<&A::product, &P::hide>, {.read = read_hidden}}};
+     text_at<&A::product, &P::hide>, {.read = read_hidden}},
+    {{.name = "--holdout", .argument = "PATTERN",
+      .help = "Cut the parts of this name, as for --hide, out of the image: black and transparent "
+              "where the camera sees them, ordinary for light, shadows and reflections",
+      .fallback = "none"},
+     text_at<&A::product, &P::holdout>, {.read = read_flagged<visibility_holdout>}},
+    {{.name = "--camera-invisible", .argument = "PATTERN",
+      .help = "The camera looks through the parts of this name, as for --hide; shadows and "
+              "reflections stay",
+      .fallback = "none"},
+     text_at<&A::product, &P::camera_invisible>, {.read = read_flagged<visibility_no_camera>}},
+    {{.name = "--no-shadow", .argument = "PATTERN",
+      .help = "The parts of this name, as for --hide, cast no shadows", .fallback = "none"},
+     text_at<&A::product, &P::no_shadow>, {.read = read_flagged<visibility_no_shadow>}},
+    {{.name = "--catcher", .argument = "ground|PATTERN",
+      .help = "Show nothing but the shadow, as a black of some alpha, on ground, a plane below "
+              "what is framed, or on the parts of this name, as for --hide. Best with "
+              "--background transparent. May be given several times",
+      .fallback = "none"},
+     text_at<&A::product, &P::catcher>, {.read = read_catcher}},
+    {{.name = "--catcher-reflections",
+      .help = "Catchers reflect the rest, as a lacquer of roughness 0.2 does",
+      .fallback = "shadows alone", .needs = {"--catcher"}},
+     text_at<&A::product, &P::catcher_reflections>, flag_at<&R::options, &O::catcher_reflections>}};
 // clang-format on
 
 }  // namespace
@@ -146,6 +186,16 @@ Result<void> complete_framing(const ProductArguments& arguments,
         camera.frames = true;
     }
     return {};
+}
+
+Result<void> check_catchers(const ProductArguments& arguments, const RenderRequest& request) {
+    const IntegratorEntry& integrator = entry_of(request.options.integrator);
+    if (arguments.catcher.empty() || has_catchers(integrator.value)) return {};
+    return fail(ExitCode::usage,
+                "E-USAGE-CONFLICT",
+                "--catcher",
+                std::string("shadows are caught by --integrator path and direct, not by ") +
+                    integrator.name);
 }
 
 OptionGroup<A, R> framing_group() {

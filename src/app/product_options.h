@@ -15,7 +15,8 @@ namespace obscura::app {
 /// The texts of these options as they stood on the command line.
 struct ProductArguments {
     OptionText lights, margin, frame, azimuth, elevation, roll, zoom, focus_node;
-    std::vector<std::string> hide;
+    std::vector<std::string> hide, holdout, camera_invisible, no_shadow, catcher;
+    bool catcher_reflections = false;
 };
 
 struct RenderArguments;
@@ -33,6 +34,11 @@ Result<gltf::LightChoice> parse_lights(const std::string& text, const std::strin
 Result<void> complete_framing(const ProductArguments& arguments,
                               const OptionText& choice,
                               CameraRequest& camera);
+
+/// Shadow catchers checked against the integrator.
+///
+/// Errors  64 E-USAGE-CONFLICT it renders none
+Result<void> check_catchers(const ProductArguments& arguments, const RenderRequest& request);
 
 /// Those of the framing.
 OptionGroup<RenderArguments, RenderRequest> framing_group();

@@ -51,7 +51,8 @@ PoseTimes times_of(const RenderRequest& request, const MovieFrame& frame, bool i
     if (request.shutter) {
         const double frame_s = 1 / request.fps;
         times.shutter = gltf::ShutterTimes{frame.time_s + request.shutter->open * frame_s,
-                                           frame.time_s + request.shutter->close * frame_s};
+                                           frame.time_s + request.shutter->close * frame_s,
+                                           frame.time_s};
     }
     return times;
 }
@@ -118,6 +119,9 @@ Result<void> load(Job& job) {
 Result<void> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
     const PoseTimes times = times_of(job.request, frame, turn.is_last());
     if (auto posed = job.renderer->pose(times, log); !posed) return posed;
+    if (job.request.segmentation) {
+        if (auto fits = check_segmentation(job.renderer->scene()); !fits) return fits;
+    }
     if (turn.count > 1 && turn.index == 0) {
         const Scene& scene = job.renderer->scene();
         const RenderOptions& options = job.request.options;
@@ -140,6 +144,7 @@ Result<void> render_all(Job& job, Progress& progress) {
         const Turn turn{i, frames.size()};
         Log& log = i == 0 ? job.log : later.begin();
         job.request.outputs = frames[i].outputs;
+        job.request.segmentation = frames[i].segmentation;
         job.request.frame = frames[i].number;
         if (auto posed = pose(job, frames[i], turn, log); !posed) return posed;
         const Result<ChosenCamera> camera = job.renderer->prepare(job.request, job.lighting, log);
@@ -242,6 +247,8 @@ int run_render(const RenderArguments& arguments) {
     if (!request) return report_failure(request.error(), log);
     const Result<void> loaded = load_requested_camera(*request, log);
     if (!loaded) return report_failure(loaded.error(), log);
+    const Result<void> colored = use_color_space(*request, log);
+    if (!colored) return report_failure(colored.error(), log);
     const Result<void> done = execute(*request, log);
     if (done) return report_success(request->scene.string(), log);
     if (done.error().id == "E-STOPPED" && received_stop_signal() != 0) {

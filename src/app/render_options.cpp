@@ -3,13 +3,14 @@
 #include "app/render_options.h"
 
 #include "app/compression.h"
+#include "app/delivery_options.h"
 #include "app/frames.h"
+#include "app/layer_options.h"
 #include "app/lens_options.h"
 #include "app/option_readers.h"
 #include "app/product_options.h"
 #include "app/render_command.h"
 #include "camera/names.h"
-#include "film/layers.h"
 #include "render/integrators.h"
 #include "session/built_in_environment.h"
 
@@ -61,9 +62,6 @@ constexpr std::array<Choice<bool>, 2> occlusions = {{{"off", false}, {"ambient",
 constexpr std::array<Choice<BackgroundKind>, 2> backgrounds = {
     {{"env", BackgroundKind::environment}, {"transparent", BackgroundKind::transparent}}};
 
-constexpr std::array<Choice<ExrLayout>, 3> exr_layouts = {{{"single", ExrLayout::single},
-                                                           {"multipart", ExrLayout::multipart},
-                                                           {"separate", ExrLayout::separate}}};
 constexpr std::array<Choice<int>, 2> bit_depths = {{{"8", 8}, {"16", 16}}};
 
 std::vector<std::string> color_names() {
@@ -131,17 +129,6 @@ constexpr OptionReader<R> points_lines_size_at = {
         return shortest(thickness.diameter) + (thickness.unit == LengthUnit::pixels ? "px" : "m");
     }};
 
-/// The table of --list-aovs.
-std::string list_of_layers() {
-    std::string out =
-        fmt::format("{:<18}{:<10}{:<13}{}\n", "layer", "channels", "a pixel is", "what");
-    for (const LayerDescription& layer : all_layers()) {
-        out += fmt::format(
-            "{:<18}{:<10}{:<13}{}\n", layer.name, layer.channels, layer.reduction, layer.help);
-    }
-    return out;
-}
-
 Result<bool> parse_off(const std::string& /*text*/, const std::string& /*option*/) {
     return false;
 }
@@ -155,6 +142,21 @@ Result<void> read_environment_choice(const OptionInfo& info, const std::string& 
     request.environment = *name;
     return {};
 }
+
+/// Degrees, or "camera" with degrees behind it: "camera", "camera+30", "camera-30".
+Result<void> read_environment_rotation(const OptionInfo& info, const std::string& text, R& r) {
+    constexpr std::string_view word = "camera";
+    r.environment_follows_camera =
+        text == word || text.starts_with("camera+") || text.starts_with("camera-");
+    r.environment_rotation_deg = 0;
+    if (text == word) return {};
+    const size_t sign = text.starts_with("camera+") ? word.size() + 1 : word.size();
+    const std::string degrees = r.environment_follows_camera ? text.substr(sign) : text;
+    return read_number<&R::environment_rotation_deg>(info, degrees, r);
+}
+
+constexpr OptionReader<R> environment_rotation = {
+    .read = read_environment_rotation, .show = show_number<&R::environment_rotation_deg>};
 
 Result<ExrDepth> parse_depth(const std::string& /*text*/, const std::string& /*option*/) {
     return ExrDepth::float32;
@@ -211,28 +213,6 @@ constexpr Entry image[] = {
     {{.name = "--line-width", .argument = "LENGTH", .help = "Diameter of glTF's lines, likewise"},
      text_at<&A::line_width>, points_lines_size_at<&R::points_lines, &PointsLinesSizes::lines>}};
 
-constexpr Entry layers[] = {
-    {{.name = "--aov", .argument = "NAME[,NAME...]",
-      .help = "Layers beside the beauty, from the same samples: an EXR holds them as NAME.X and so "
-              "on. May be given several times; --list-aovs lists them", .fallback = "none"},
-     text_at<&A::aovs>},
-    {{.name = "--exr-layout", .argument = "NAME",
-      .help = "Where layers lie: in the beauty's part of the EXR, in a part each, or in a file "
-              "each beside it, such as shot.normal.exr:"},
-     text_at<&A::exr_layout>, choice_at<exr_layouts, &R::exr, &X::layout>},
-    {{.name = "--crypto-levels", .argument = "N",
-      .help = "How many ids a pixel of a Cryptomatte layer keeps, those that cover most of it",
-      .range = {1, 64}, .needs = {"--aov"}},
-     text_at<&A::crypto_levels>, number_at<&R::crypto_levels>},
-    {{.name = "--crypto-manifest", .argument = "FILE.json",
-      .help = "Write the names that Cryptomatte's ids stand for into this file, in the folder of "
-              "the EXR, which then has the file's name in their place",
-      .fallback = "in the EXR", .files = "json", .needs = {"--aov"}},
-     text_at<&A::crypto_manifest>, name_at<&R::crypto_manifest>},
-    {{.name = "--list-aovs", .help = "Print the layers that --aov knows, and do nothing else",
-      .prints = list_of_layers},
-     text_at<&A::list_aovs>}};
-
 constexpr Entry time[] = {
     {{.name = "--time", .argument = "SECONDS",
       .help = "Show the scene as its animations have it then; before their beginning and after "
@@ -248,8 +228,8 @@ constexpr Entry time[] = {
               "Frame n is at n / fps seconds",
       .excludes = {"--time"}},
      text_at<&A::frames>, parsed_at<parse_frames, &R::frames>},
-    {{.name = "--fps", .argument = "X", .help = "Frames per second of --frames and --shutter",
-      .range = {1e-3, 1e5}},
+    {{.name = "--fps", .argument = "X",
+      .help = "Frames per second of --frames, --shutter and --aov motion", .range = {1e-3, 1e5}},
      text_at<&A::fps>, number_at<&R::fps>}};
 
 constexpr Entry sampling[] = {
@@ -308,9 +288,12 @@ constexpr Entry light[] = {
     {{.name = "--env-intensity", .argument = "X", .help = "Multiplies the environment",
       .range = {0, 1e9}},
      text_at<&A::env_intensity>, number_at<&R::environment_intensity>},
-    {{.name = "--env-rotation", .argument = "DEG",
-      .help = "Turns it about +Y, counter-clockwise from above", .range = {-36000, 36000}},
-     text_at<&A::env_rotation>, number_at<&R::environment_rotation_deg>},
+    {{.name = "--env-rotation", .argument = "DEG|camera",
+      .help = "Turns it about +Y, counter-clockwise from above. camera turns it with the view: "
+              "from every azimuth the light comes from where it does from the front; camera+30 "
+              "adds to that",
+      .range = {-36000, 36000}},
+     text_at<&A::env_rotation>, environment_rotation},
     {{.name = "--occlusion", .argument = "KIND",
       .help = "What occlusion textures do: off, or ambient, as in viewers: they dim the "
               "environment's light, for assets whose crevices are in the texture alone"},
@@ -391,7 +374,9 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
     static const std::vector<RenderOptionGroup> all = [] {
         std::vector<RenderOptionGroup> groups = {{"", scene_file},
                                                  {"Picture", image},
-                                                 {"Layers", layers},
+                                                 overscan_group(),
+                                                 layer_group(),
+                                                 segmentation_group(),
                                                  {"Time", time},
                                                  {"Sampling", sampling},
                                                  {"Camera", camera},
@@ -401,6 +386,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
         const std::initializer_list<RenderOptionGroup> rest = {{"Light", light},
                                                                light_choice_group(),
                                                                part_group(),
+                                                               color_group(),
                                                                {"Display (all but EXR)", display},
                                                                {"Faulty scenes", faults},
                                                                {"Program", program}};

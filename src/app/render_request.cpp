@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_request.h"
 
+#include "app/delivery_options.h"
 #include "app/frames.h"
 #include "app/lens_request.h"
 #include "app/numbers.h"
@@ -10,10 +11,9 @@
 #include "app/scene_choice.h"
 #include "film/layers.h"
 #include "math/warp.h"
-#include "render/integrators.h"
+#include "session/segmentation.h"
 
 #include <algorithm>
-#include <sstream>
 #include <system_error>
 #include <variant>
 
@@ -23,10 +23,6 @@ namespace {
 
 tl::unexpected<Error> usage(const char* id, const std::string& where, const std::string& message) {
     return fail(ExitCode::usage, id, where, message);
-}
-
-tl::unexpected<Error> conflict(const std::string& where, const std::string& message) {
-    return usage("E-USAGE-CONFLICT", where, message);
 }
 
 /// --fov: its range depends on the camera model.
@@ -43,17 +39,21 @@ Result<void> read_fov(const OptionText& text, CameraRequest& camera) {
 
 /// Checks the options of frames together.
 Result<void> complete_time(const RenderArguments& arguments, RenderRequest& request) {
-    if (arguments.fps && !request.frames && !request.shutter) {
-        return conflict(
-            "--fps",
-            "it is for --frames and --shutter OPEN,CLOSE; leave it out or add one of them");
+    const bool has_motion = has_layer(request.options, Aov::motion);
+    if (arguments.fps && !request.frames && !request.shutter && !has_motion) {
+        return conflict("--fps",
+                        "it is for --frames, --shutter OPEN,CLOSE and --aov motion; leave it out "
+                        "or add one of them");
     }
+    if (has_motion) request.load.frame_step_s = 1 / request.fps;
     if (!request.frames) return {};
     if (request.standard_output) {
         return conflict("--output", "- takes one image; with --frames give files shot.####.png");
     }
     request.frames->fps = request.fps;
-    for (const std::filesystem::path& output : request.outputs) {
+    std::vector<std::filesystem::path> patterns = request.outputs;
+    if (request.segmentation) patterns.push_back(*request.segmentation);
+    for (const std::filesystem::path& output : patterns) {
         if (frame_file(output, 0)) continue;
         return conflict(output.string(),
                         "with --frames a file's name must say where the frame's number goes; "
@@ -87,27 +87,6 @@ Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& req
     return conflict("--output", "the name is empty; give one or leave out the option");
 }
 
-/// The layers that --aov names.
-Result<void> choose_layers(const RenderArguments& arguments, RenderRequest& request) {
-    if (arguments.aovs.empty()) return {};
-    std::vector<std::string> names;
-    for (const std::string& list : arguments.aovs) {
-        std::istringstream parts(list);
-        for (std::string name; std::getline(parts, name, ',');)
-            names.push_back(name);
-    }
-    const IntegratorEntry& integrator = entry_of(request.options.integrator);
-    if (!has_layers(integrator.value)) {
-        return conflict("--aov",
-                        std::string("layers stand beside light; --integrator ") + integrator.name +
-                            " computes none. Use path, direct, raycast or ao");
-    }
-    Result<std::vector<Layer>> layers = layers_of(names, request.crypto_levels);
-    if (!layers) return fail(layers.error());
-    request.options.layers = std::move(*layers);
-    return {};
-}
-
 bool is_exr(const std::filesystem::path& file) {
     return output_format_of(file) == OutputFormat::exr;
 }
@@ -118,8 +97,11 @@ Result<void> check_layer_outputs(const RenderRequest& request) {
     const std::vector<std::filesystem::path>& files = request.outputs;
     const bool has_output = !files.empty() || request.standard_output;
     const bool has_exr = to_pipe || std::any_of(files.begin(), files.end(), is_exr);
-    if (!request.options.layers.empty() && has_output && !has_exr) {
-        return conflict("--aov", "only EXRs hold layers; give an output that ends in .exr");
+    const bool has_layers =
+        !request.options.layers.empty() || !request.options.light_groups.empty();
+    if (has_layers && has_output && !has_exr) {
+        return conflict(request.options.light_groups.empty() ? "--aov" : "--light-group",
+                        "only EXRs hold layers; give an output that ends in .exr");
     }
     if (to_pipe && request.exr.layout == ExrLayout::separate) {
         return conflict("--exr-layout",
@@ -158,16 +140,6 @@ Result<void> check_manifest(const RenderRequest& request) {
     return {};
 }
 
-/// True when texture coordinates are wanted that no texture needs.
-bool wants_uv(const RenderOptions& options) {
-    const bool layer =
-        std::any_of(options.layers.begin(), options.layers.end(), [](const Layer& one) {
-            const Aov* aov = std::get_if<Aov>(&one.source);
-            return aov != nullptr && *aov == Aov::uv;
-        });
-    return layer || options.integrator == Integrator::uv;
-}
-
 /// --page: the rest of the file is the page unless another background is asked for.
 Result<void> complete_page(const RenderArguments& arguments, RenderRequest& request) {
     if (!request.encoding.page) return {};
@@ -188,12 +160,14 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     if (auto done = complete_framing(arguments.product, arguments.camera, request.camera); !done) {
         return done;
     }
+    if (auto fits = check_catchers(arguments.product, request); !fits) return fits;
     // Without --size, --camera-json may set the image size; it is checked later.
     const bool size_is_known = request.size_is_given || !request.camera_json;
     if (auto fits = check_crop(request.options); size_is_known && !fits) return fits;
-    if (auto chosen = choose_layers(arguments, request); !chosen) return chosen;
+    if (auto chosen = read_layers(arguments, request); !chosen) return chosen;
     if (auto fit = check_layer_outputs(request); !fit) return fit;
     if (auto fit = check_manifest(request); !fit) return fit;
+    if (auto fit = check_segmentation_request(request); !fit) return fit;
     request.load.keeps_uv = wants_uv(request.options);
     request.verbosity = verbosity_of(arguments);
     if (auto done = complete_page(arguments, request); !done) return done;
@@ -206,6 +180,9 @@ Result<void> check_distinct_files(const RenderRequest& request) {
     for (const MovieFrame& frame : frames_of(request)) {
         const std::vector<std::filesystem::path> files = image_files(request, frame);
         written.insert(written.end(), files.begin(), files.end());
+        if (!frame.segmentation) continue;
+        const auto masks = segmentation_files(*frame.segmentation);
+        written.insert(written.end(), masks.begin(), masks.end());
     }
     if (request.statistics) written.push_back(*request.statistics);
     if (request.crypto_manifest) written.push_back(*request.crypto_manifest);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/delivery_options.h"
+#include "app/layer_options.h"
 #include "app/lens_options.h"
 #include "app/product_options.h"
 #include "session/render_request.h"
@@ -21,6 +23,8 @@ struct RenderArguments {
     std::optional<std::string> scene, variant, camera, camera_model, eye, target, up, fov;
     LensArguments lens;
     ProductArguments product;
+    LayerArguments layer;
+    DeliveryArguments delivery;
     std::optional<std::string> env, env_intensity, env_rotation, background, occlusion;
     std::optional<std::string> integrator, ao_distance, wire_width, filter, crypto_levels;
     std::optional<std::string> crypto_manifest, exr_layout, compression, exr_tiles;
@@ -43,7 +47,7 @@ struct RenderArguments {
 /// Parses the texts; touches files only to find out whether two names mean the same one.
 ///
 /// Errors  64, each with the option and what it accepts: E-USAGE-NUMBER, E-USAGE-RANGE,
-///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE, E-AOV-NAME
+///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE; those of read_layers
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
 
 /// What --quiet and --verbose ask for.

@@ -73,9 +73,7 @@ Film project_cube(const EnvironmentCamera& camera, const Vec3d& p) {
 
 }  // namespace
 
-std::optional<Vec2<double>> project(const Camera& camera, const Vec3d& position_world) {
-    const Affined camera_from_world = inverse(affine_cast<double>(camera.world_from_camera));
-    const Vec3d p = transform_point(camera_from_world, position_world);
+std::optional<Vec2<double>> project_local(const Camera& camera, const Vec3d& p) {
     switch (camera.model) {
         case CameraModel::pinhole:
         case CameraModel::thin_lens:
@@ -90,6 +88,11 @@ std::optional<Vec2<double>> project(const Camera& camera, const Vec3d& position_
                        : project_round(camera.environment, p);
     }
     return project_flat(camera, p);
+}
+
+std::optional<Vec2<double>> project(const Camera& camera, const Vec3d& position_world) {
+    const Affined camera_from_world = inverse(affine_cast<double>(camera.world_from_camera));
+    return project_local(camera, transform_point(camera_from_world, position_world));
 }
 
 }  // namespace obscura

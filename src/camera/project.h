@@ -13,4 +13,7 @@ namespace obscura {
 /// or past the limit of the distortion. With two eyes the left one counts.
 std::optional<Vec2<double>> project(const Camera& camera, const Vec3d& position_world);
 
+/// The same for a position in camera space.
+std::optional<Vec2<double>> project_local(const Camera& camera, const Vec3d& position_camera);
+
 }  // namespace obscura

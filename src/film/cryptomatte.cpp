@@ -70,7 +70,8 @@ std::vector<std::string> cryptomatte_channels(std::string_view layer, size_t lev
 }
 
 std::string cryptomatte_manifest(std::span<const std::string> names) {
-    return manifest_json(names).dump(-1, ' ', false, Json::error_handler_t::replace);
+    return escape_json_controls(
+        manifest_json(names).dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 std::string cryptomatte_manifest_document(std::span<const std::string> names) {
@@ -135,6 +136,19 @@ void CryptomattePixel::write_ranks(uint32_t samples, std::span<float> ranks) con
         // A pixel without samples has no ids either: 0 of 1.
         ranks[i + 1] = static_cast<float>(static_cast<double>(last.count) / std::max(samples, 1u));
     }
+}
+
+uint32_t CryptomattePixel::majority(uint32_t samples) const {
+    CryptomattePixel whole = *this;
+    whole.end_run();
+    uint32_t nothing = samples;
+    for (const IdCount& entry : whole.few_)
+        nothing -= entry.count;
+    for (const IdCount& entry : whole.others_)
+        nothing -= entry.count;
+    const IdCount most =
+        whole.next_rank({cryptomatte_no_object, std::numeric_limits<uint32_t>::max()});
+    return most.count >= nothing ? most.hash : cryptomatte_no_object;
 }
 
 }  // namespace obscura

@@ -53,7 +53,8 @@ std::string cryptomatte_key(std::string_view layer);
 std::vector<std::string> cryptomatte_channels(std::string_view layer, size_t levels);
 
 /// The manifest for a header: a JSON object on one line from each name to the eight hexadecimal
-/// digits of its hash. Names are sorted by their bytes and stand there once. Bytes that are not
+/// digits of its hash. Names are sorted by their bytes and stand there once. Control characters
+/// are escaped as JSON does, so that a header needs to escape nothing more; bytes that are not
 /// UTF-8 are shown as U+FFFD.
 ///
 /// Source  section "Manifest"
@@ -105,6 +106,12 @@ public:
     /// Out     ranks: id, coverage, id, coverage, ..., one float for each of cryptomatte_channels
     /// Source  section "Ranking Pixel Filter"
     void write_ranks(uint32_t samples, std::span<float> ranks) const;
+
+    /// The id that most samples met; cryptomatte_no_object when more met nothing. Of equal counts
+    /// the smaller id goes first.
+    ///
+    /// In      samples: all of the pixel, with those that met nothing
+    uint32_t majority(uint32_t samples) const;
 
 private:
     struct IdCount {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
+#include <utility>
 
 namespace obscura {
 
@@ -63,7 +65,12 @@ CryptomatteTables cryptomatte_tables(const Scene& scene) {
 }
 
 CryptomatteHashes cryptomatte_hashes(const CryptomatteTables& tables) {
-    return {hashes_of(tables.objects), hashes_of(tables.materials), hashes_of(tables.assets)};
+    std::vector<uint32_t> nodes(tables.objects.size());
+    std::iota(nodes.begin(), nodes.end(), 0U);
+    return {hashes_of(tables.objects),
+            hashes_of(tables.materials),
+            hashes_of(tables.assets),
+            std::move(nodes)};
 }
 
 }  // namespace obscura

@@ -18,9 +18,21 @@ const Aov* aov_of(const Layer& layer) {
     return std::get_if<Aov>(&layer.source);
 }
 
+bool is_majority(const Layer& layer) {
+    return std::holds_alternative<MajorityNode>(layer.source);
+}
+
 bool is_reduced(const Layer& layer, Reduction reduction) {
     const Aov* aov = aov_of(layer);
     return aov != nullptr && entry_of(*aov).reduction == reduction;
+}
+
+/// Light layers are red, green and blue.
+constexpr size_t light_channels = 3;
+
+/// 1 where no light could arrive.
+float ratio(double arrived, double unoccluded) {
+    return unoccluded > 0 ? static_cast<float>(arrived / unoccluded) : 1.0f;
 }
 
 }  // namespace
@@ -61,6 +73,17 @@ void LayerPlan::add_layer(const Layer& layer) {
         source.hashes = hashes.data();
         source.hash_count = hashes.size();
         source.matte = mattes_++;
+    } else if (std::holds_alternative<LightShare>(layer.source)) {
+        source.light = lights_++;
+        source.first_sum = std::exchange(sums_, sums_ + light_channels);
+    } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
+        source.first_sum = std::exchange(sums_, sums_ + 2 * light_channels);
+        has_shadow_ = true;
+    } else if (is_majority(layer)) {
+        source.aov = written_aov(Aov::id_node);
+        source.hashes = hashes_.nodes.data();
+        source.hash_count = hashes_.nodes.size();
+        source.matte = mattes_++;
     } else {
         const auto statistic = std::get<SampleStatistic>(layer.source);
         counts_rays_ |= statistic == SampleStatistic::cost;
@@ -71,7 +94,7 @@ void LayerPlan::add_layer(const Layer& layer) {
 }
 
 void LayerSums::begin(const LayerPlan& plan, size_t pixels) {
-    sums_.assign(pixels * plan.sums_, 0.0);
+    sums_.assign(pixels * plan.sums_, {});
     nearest_values_.assign(pixels * plan.values_, 0.0f);
     nearest_m_.assign(plan.has_nearest_ ? pixels : 0, std::numeric_limits<float>::infinity());
     luminance_.assign(plan.has_variance_ ? pixels : 0, {});
@@ -84,9 +107,53 @@ void LayerSums::add(const LayerPlan& plan,
                     const BatchShape& batch,
                     const Workspace& work) {
     if (plan.sums_ > 0) add_means(plan, first_pixel, batch, work);
+    if (plan.lights_ > 0 || plan.has_shadow_) add_light(plan, first_pixel, batch, work);
     if (plan.has_nearest_) add_nearest(plan, first_pixel, batch, work);
     if (plan.mattes_ > 0) add_mattes(plan, first_pixel, batch, work);
     if (plan.has_variance_ || plan.counts_rays_) add_statistics(plan, first_pixel, batch, work);
+}
+
+/// Adds one channel of a batch's samples to a sum of each pixel.
+void LayerSums::add_column(const LayerPlan& plan,
+                           size_t first_pixel,
+                           const BatchShape& batch,
+                           const float* column,
+                           size_t sum) {
+    if (column == nullptr) return;
+    for (size_t p = 0; p < batch.pixels; ++p, column += batch.samples) {
+        double* const parts = sums_[(first_pixel + p) * plan.sums_ + sum].parts;
+        size_t i = 0;
+        for (; i < batch.samples && (batch.first_sample + i) % 4 != 0; ++i)
+            parts[(batch.first_sample + i) % 4] += static_cast<double>(column[i]);
+        double at[4] = {parts[0], parts[1], parts[2], parts[3]};
+        for (; i + 4 <= batch.samples; i += 4) {
+            for (size_t k = 0; k < 4; ++k)
+                at[k] += static_cast<double>(column[i + k]);
+        }
+        for (size_t k = 0; i < batch.samples; ++i, ++k)
+            at[k] += static_cast<double>(column[i]);
+        std::copy_n(at, 4, parts);
+    }
+}
+
+void LayerSums::add_light(const LayerPlan& plan,
+                          size_t first_pixel,
+                          const BatchShape& batch,
+                          const Workspace& work) {
+    const auto add = [&](const ColorView& color, size_t sum) {
+        add_column(plan, first_pixel, batch, color.r, sum);
+        add_column(plan, first_pixel, batch, color.g, sum + 1);
+        add_column(plan, first_pixel, batch, color.b, sum + 2);
+    };
+    for (size_t k = 0; k < plan.layers_.size(); ++k) {
+        const LayerPlan::Source& source = plan.sources_[k];
+        if (std::holds_alternative<LightShare>(plan.layers_[k].source)) {
+            add(work.light_paths.layer(source.light), source.first_sum);
+        } else if (std::holds_alternative<ShadowRatio>(plan.layers_[k].source)) {
+            add(work.light_paths.shadowed(), source.first_sum);
+            add(work.light_paths.unshadowed(), source.first_sum + light_channels);
+        }
+    }
 }
 
 void LayerSums::add_means(const LayerPlan& plan,
@@ -97,15 +164,8 @@ void LayerSums::add_means(const LayerPlan& plan,
         if (!is_reduced(plan.layers_[k], Reduction::mean)) continue;
         const LayerPlan::Source& source = plan.sources_[k];
         const AovOutput& output = work.aov_outputs[source.aov];
-        for (int c = 0; c < channel_count(output.aov); ++c) {
-            const float* value = output.columns[c];
-            const size_t first = source.first_sum + static_cast<size_t>(c);
-            for (size_t p = 0; p < batch.pixels; ++p) {
-                double& sum = sums_[(first_pixel + p) * plan.sums_ + first];
-                for (size_t i = 0; i < batch.samples; ++i)
-                    sum += static_cast<double>(*value++);
-            }
-        }
+        for (size_t c = 0; c < static_cast<size_t>(channel_count(output.aov)); ++c)
+            add_column(plan, first_pixel, batch, output.columns[c], source.first_sum + c);
     }
 }
 
@@ -130,8 +190,10 @@ void LayerSums::add_nearest(const LayerPlan& plan,
             const LayerPlan::Source& source = plan.sources_[k];
             const AovOutput& output = work.aov_outputs[source.aov];
             float* value = &nearest_values_[p * plan.values_ + source.first_value];
-            for (int c = 0; c < channel_count(output.aov); ++c)
+            const int own = channel_count(output.aov);
+            for (int c = 0; c < own; ++c)
                 value[c] = output.columns[c][best];
+            std::fill(value + own, value + plan.layers_[k].channels.size(), 1.0f);
         }
     }
 }
@@ -187,14 +249,22 @@ void LayerSums::store(const LayerPlan& plan,
         float* const pixels = film.layers[k].pixels.data();
         for (size_t p = 0; p < at.size(); ++p) {
             float* const out = pixels + at[p] * channels;
-            if (is_reduced(layer, Reduction::mean)) {
+            if (is_reduced(layer, Reduction::mean) ||
+                std::holds_alternative<LightShare>(layer.source)) {
                 for (size_t c = 0; c < channels; ++c) {
-                    const double sum = sums_[p * plan.sums_ + source.first_sum + c];
-                    out[c] = static_cast<float>(sum / n);
+                    const Sum& sum = sums_[p * plan.sums_ + source.first_sum + c];
+                    out[c] = static_cast<float>(sum.total() / n);
                 }
+            } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
+                const Sum* arrived = &sums_[p * plan.sums_ + source.first_sum];
+                for (size_t c = 0; c < channels; ++c)
+                    out[c] = ratio(arrived[c].total(), arrived[c + channels].total());
             } else if (is_reduced(layer, Reduction::nearest)) {
                 const float* from = &nearest_values_[p * plan.values_ + source.first_value];
                 std::copy_n(from, channels, out);
+            } else if (is_majority(layer)) {
+                const CryptomattePixel& counts = mattes_[p * plan.mattes_ + source.matte];
+                out[0] = static_cast<float>(counts.majority(static_cast<uint32_t>(samples)));
             } else if (source.hashes != nullptr) {
                 mattes_[p * plan.mattes_ + source.matte].write_ranks(static_cast<uint32_t>(samples),
                                                                      {out, channels});

@@ -18,12 +18,14 @@ struct CryptomatteHashes {
     std::vector<uint32_t> objects;    ///< by id_node
     std::vector<uint32_t> materials;  ///< by id_material
     std::vector<uint32_t> assets;     ///< by id_node
+    std::vector<uint32_t> nodes;      ///< by id_node: the number itself, for MajorityNode
 };
 
 /// The pixels of a batch, with so many samples each.
 struct BatchShape {
     size_t pixels = 0;
     size_t samples = 0;
+    size_t first_sample = 0;  ///< number of the first of them
 };
 
 /// What the layers of an image need from the wavefront loop; the same for all tiles.
@@ -45,9 +47,10 @@ private:
         size_t aov = 0;                    ///< index in aovs_, for AOVs and Cryptomatte
         size_t first_sum = 0;              ///< of a pixel's sums, for means
         size_t first_value = 0;            ///< of a pixel's nearest values
-        const uint32_t* hashes = nullptr;  ///< for Cryptomatte
+        const uint32_t* hashes = nullptr;  ///< for Cryptomatte and MajorityNode
         size_t hash_count = 0;
-        size_t matte = 0;  ///< index of its pixels, for Cryptomatte
+        size_t matte = 0;  ///< index of its pixels, likewise
+        size_t light = 0;  ///< number among the light layers
     };
 
     size_t written_aov(Aov aov);
@@ -57,17 +60,19 @@ private:
     std::vector<Source> sources_;  ///< by layer
     std::vector<Aov> aovs_;
     CryptomatteHashes hashes_;
-    size_t sums_ = 0;                    ///< a pixel's sums of AOVs, in double
+    size_t sums_ = 0;                    ///< a pixel's sums of AOVs and light
     size_t values_ = 0;                  ///< a pixel's nearest values
-    size_t mattes_ = 0;                  ///< Cryptomatte layers
+    size_t mattes_ = 0;                  ///< layers that count ids
+    size_t lights_ = 0;                  ///< light layers
     size_t opacity_ = 0, distance_ = 0;  ///< in aovs_
     bool has_nearest_ = false;
     bool counts_rays_ = false;
     bool has_variance_ = false;
+    bool has_shadow_ = false;
 };
 
 /// The sums of one tile's pixels; reused from tile to tile. Samples are added in the order of their
-/// numbers, in double, so that the result does not depend on how they are cut into batches.
+/// numbers, so that the result does not depend on how they are cut into batches.
 class LayerSums {
 public:
     /// Begins a tile of `pixels` pixels.
@@ -82,12 +87,24 @@ public:
     void store(const LayerPlan& plan, std::span<const size_t> at, int samples, Film& film) const;
 
 private:
+    /// A sum in four parts, each of every fourth sample: they need not wait for each other.
+    struct Sum {
+        double parts[4] = {0, 0, 0, 0};
+
+        double total() const { return (parts[0] + parts[1]) + (parts[2] + parts[3]); }
+    };
     struct Luminance {
         double sum = 0, squares = 0;
     };
 
     float statistic(SampleStatistic statistic, size_t pixel, double samples) const;
+    void add_column(const LayerPlan& plan,
+                    size_t first_pixel,
+                    const BatchShape&,
+                    const float* column,
+                    size_t sum);
     void add_means(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
+    void add_light(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
     void add_nearest(const LayerPlan& plan,
                      size_t first_pixel,
                      const BatchShape&,
@@ -95,7 +112,7 @@ private:
     void add_mattes(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
     void add_statistics(const LayerPlan&, size_t first_pixel, const BatchShape&, const Workspace&);
 
-    std::vector<double> sums_;
+    std::vector<Sum> sums_;
     std::vector<float> nearest_values_;
     std::vector<float> nearest_m_;  ///< distance of the nearest hit so far; infinite: none
     std::vector<Luminance> luminance_;

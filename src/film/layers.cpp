@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/layers.h"
 
+#include "base/setting_names.h"
 #include "film/cryptomatte.h"
+#include "film/light_components.h"
 
 #include <algorithm>
 #include <array>
@@ -44,6 +46,9 @@ constexpr std::array cryptomatte_entries = {
     CryptomatteEntry{CryptomatteNames::materials, "crypto_material", "mattes by materials"},
     CryptomatteEntry{CryptomatteNames::assets, "crypto_asset", "mattes by root nodes"}};
 
+constexpr const char* shadow_name = "shadow";
+constexpr const char* shadow_reduction = "ratio";
+
 std::vector<std::string> channels_of(std::string_view layer, std::string_view letters) {
     std::vector<std::string> channels;
     for (const char letter : letters)
@@ -51,12 +56,18 @@ std::vector<std::string> channels_of(std::string_view layer, std::string_view le
     return channels;
 }
 
+/// One for each channel of a layer. Texture coordinates have a mask behind them, as Cycles' have:
+/// Blender reads layers of one, three and four channels.
+std::string letters_of(const AovEntry& entry) {
+    return std::string(entry.letters) + (entry.aov == Aov::uv ? "A" : "");
+}
+
 /// The layer with a name; its channels are empty if there is none.
 Layer layer_named(const std::string& name, int crypto_levels) {
     for (const AovEntry& entry : aov_entries) {
         if (entry.name != name) continue;
         return {name,
-                channels_of(name, entry.letters),
+                channels_of(name, letters_of(entry)),
                 entry.kind,
                 std::string(name_of(entry.reduction)),
                 entry.aov};
@@ -73,6 +84,13 @@ Layer layer_named(const std::string& name, int crypto_levels) {
                 "cryptomatte",
                 entry.names};
     }
+    for (const LightComponent& component : light_components()) {
+        if (component.name != name) continue;
+        return light_layer(name, parse_light_path_expression(component.expression).value());
+    }
+    if (name == shadow_name) {
+        return {name, channels_of(name, "RGB"), LayerKind::data, shadow_reduction, ShadowRatio{}};
+    }
     return {};
 }
 
@@ -81,16 +99,24 @@ Layer layer_named(const std::string& name, int crypto_levels) {
 std::vector<LayerDescription> all_layers() {
     std::vector<LayerDescription> out;
     for (const AovEntry& entry : aov_entries) {
-        out.push_back({entry.name,
-                       std::string(entry.letters),
-                       std::string(name_of(entry.reduction)),
-                       entry.help});
+        out.push_back(
+            {entry.name, letters_of(entry), std::string(name_of(entry.reduction)), entry.help});
     }
     for (const StatisticEntry& entry : statistic_entries)
         out.push_back({entry.name, "X", entry.reduction, entry.help});
     for (const CryptomatteEntry& entry : cryptomatte_entries)
         out.push_back({entry.name, "rgba", "cryptomatte", entry.help});
+    for (const LightComponent& one : light_components())
+        out.push_back({one.name, "RGB", "mean", one.help, one.expression});
+    out.push_back({shadow_name,
+                   "RGB",
+                   shadow_reduction,
+                   "direct light that arrives, of what would if nothing were in its way"});
     return out;
+}
+
+Layer segmentation_layer() {
+    return {"segmentation", {"segmentation.X"}, LayerKind::id, "majority", MajorityNode{}};
 }
 
 Result<std::vector<Layer>> layers_of(std::span<const std::string> names, int crypto_levels) {
@@ -106,12 +132,52 @@ Result<std::vector<Layer>> layers_of(std::span<const std::string> names, int cry
                 accepted += (accepted.empty() ? "" : ", ") + one.name;
             return fail(ExitCode::usage,
                         "E-AOV-NAME",
-                        "--aov",
+                        setting("aov"),
                         "'" + name + "' is no layer; there are " + accepted);
         }
         layers.push_back(std::move(layer));
     }
     return layers;
+}
+
+bool is_layer_name(std::string_view name) {
+    return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               c == '_' || c == '-';
+    });
+}
+
+Layer light_layer(const std::string& name,
+                  LightPathExpression expression,
+                  std::optional<size_t> group) {
+    return {name,
+            channels_of(name, "RGB"),
+            LayerKind::color,
+            "mean",
+            LightShare{std::move(expression), group}};
+}
+
+Result<Layer> light_layer_of(const std::string& text) {
+    const size_t equals = text.find('=');
+    const std::string name = text.substr(0, equals);
+    if (equals == std::string::npos || !is_layer_name(name)) {
+        return fail(ExitCode::usage,
+                    "E-LAYER-NAME",
+                    text.substr(0, max_shown_expression),
+                    "expected NAME=EXPRESSION such as key=C.*<L'key'>, with a name of letters, "
+                    "digits, - and _");
+    }
+    Result<LightPathExpression> expression =
+        parse_light_path_expression(std::string_view(text).substr(equals + 1));
+    if (!expression) return fail(expression.error());
+    return light_layer(name, std::move(*expression));
+}
+
+bool has_light_layers(std::span<const Layer> layers) {
+    return std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
+        return std::holds_alternative<LightShare>(layer.source) ||
+               std::holds_alternative<ShadowRatio>(layer.source);
+    });
 }
 
 }  // namespace obscura

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "surface/scatter_event.h"
 
 #include <string>
 #include <string_view>
@@ -14,13 +15,6 @@ inline constexpr size_t max_expression_length = 4096;  ///< bytes
 inline constexpr int max_repetition_count = 64;        ///< n and m of {n,m}
 inline constexpr int max_expression_nesting = 64;      ///< parentheses within parentheses
 inline constexpr size_t max_shown_expression = 80;     ///< bytes of it that an error shows
-
-/// Light scattered at a surface or in a medium, as a path meets it from the camera on.
-struct ScatterEvent {
-    char type;              ///< R reflection, T transmission, V volume
-    char mode;              ///< D diffuse, G glossy, S singular
-    std::string_view lobe;  ///< its label: "coat"
-};
 
 /// The light that a path ends with.
 struct LightEvent {

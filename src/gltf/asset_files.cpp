@@ -32,7 +32,7 @@ std::vector<fs::path> files_of_asset(const fs::path& file) {
     std::vector<fs::path> files = {file};
     Log silent(Verbosity::quiet);
     Problems problems(true);  // reported when the asset is loaded
-    const Result<OpenedAsset> asset = open_asset(file, problems, silent, false);
+    const Result<OpenedAsset> asset = open_asset(file, problems, silent, {});
     if (!asset) return files;
     const Document& document = asset->document;
     const fs::path folder = file.parent_path();

@@ -81,6 +81,38 @@ bool hide_materials(const std::string& pattern, Document& document) {
     return found;
 }
 
+/// The option whose rules set a flag.
+const char* option_of(uint8_t flag) {
+    switch (flag) {
+        case visibility_holdout:
+            return "holdout";
+        case visibility_no_camera:
+            return "camera-invisible";
+        case visibility_no_shadow:
+            return "no-shadow";
+        default:
+            return "catcher";
+    }
+}
+
+/// An error for a pattern that fits no node, mesh or material.
+tl::unexpected<Error> unknown_part(const char* id,
+                                   const char* option,
+                                   const std::string& pattern,
+                                   const Document& document) {
+    std::vector<std::string> names = node_names(document);
+    for (const GltfMesh& mesh : document.meshes)
+        names.push_back(mesh.name);
+    for (const GltfMaterial& material : document.materials)
+        names.push_back(material.name);
+    std::erase(names, "");
+    return fail(ExitCode::usage,
+                id,
+                setting(option),
+                "no node, mesh or material is called " + in_quotes(pattern) +
+                    names_instead(pattern, names, "names"));
+}
+
 /// Calls visit(light's name, node's label) for every light of every node.
 template <typename Visit>
 void each_light(const Document& document, const Visit& visit) {
@@ -113,19 +145,56 @@ Result<std::vector<char>> hide_parts(const std::vector<std::string>& patterns, D
         const bool is_mesh = hide_meshes(pattern, document);
         const bool is_material = hide_materials(pattern, document);
         if (is_node || is_mesh || is_material) continue;
-        std::vector<std::string> names = node_names(document);
-        for (const GltfMesh& mesh : document.meshes)
-            names.push_back(mesh.name);
-        for (const GltfMaterial& material : document.materials)
-            names.push_back(material.name);
-        std::erase(names, "");
-        return fail(ExitCode::usage,
-                    "E-HIDE-UNKNOWN",
-                    setting("hide"),
-                    "no node, mesh or material is called " + in_quotes(pattern) +
-                        names_instead(pattern, names, "names"));
+        return unknown_part("E-HIDE-UNKNOWN", "hide", pattern, document);
     }
     return nodes;
+}
+
+Result<VisibilityMarks> mark_visibility(const std::vector<VisibilityRule>& rules,
+                                        const Document& document) {
+    VisibilityMarks out;
+    if (rules.empty()) return out;
+    out.nodes.resize(document.nodes.size(), 0);
+    out.materials.resize(document.materials.size(), 0);
+    for (const auto& [pattern, flag] : rules) {
+        std::vector<char> fits(document.nodes.size(), 0);
+        bool found = mark_fitting(pattern, document, fits);
+        for (size_t i = 0; i < fits.size(); ++i) {
+            const int mesh = document.nodes[i].mesh;
+            const std::string name =
+                mesh < 0 ? "" : document.meshes[static_cast<size_t>(mesh)].name;
+            if (!name.empty() && fits_pattern(pattern, name)) fits[i] = 1;
+            if (fits[i] == 0) continue;
+            found = true;
+            out.nodes[i] |= flag;
+        }
+        for (size_t i = 0; i < out.materials.size(); ++i) {
+            const std::string& name = document.materials[i].name;
+            if (name.empty() || !fits_pattern(pattern, name)) continue;
+            found = true;
+            out.materials[i] |= flag;
+        }
+        if (!found) {
+            return unknown_part("E-VISIBILITY-UNKNOWN", option_of(flag), pattern, document);
+        }
+    }
+    return out;
+}
+
+void set_visibility(const VisibilityMarks& marks, Scene& scene) {
+    scene.visibility = {};
+    if (marks.nodes.empty()) return;
+    const auto of_node = [&](int32_t node) {
+        return node < 0 ? uint8_t{0} : marks.nodes[static_cast<size_t>(node)];
+    };
+    for (const Primitive& primitive : scene.primitives) {
+        const int32_t material = scene.material_numbers[static_cast<size_t>(primitive.material)];
+        const uint8_t own =
+            material < 0 ? uint8_t{0} : marks.materials[static_cast<size_t>(material)];
+        scene.visibility.primitives.push_back(static_cast<uint8_t>(own | of_node(primitive.node)));
+    }
+    for (const Instance& instance : scene.instances)
+        scene.visibility.instances.push_back(of_node(instance.node));
 }
 
 Result<void> check_light_choice(const LightChoice& choice, const Document& document) {

@@ -23,6 +23,20 @@ Result<std::vector<char>> find_subtree(const std::string& pattern, const Documen
 /// Errors  64 E-HIDE-UNKNOWN a pattern fits no name, with those that are near or all
 Result<std::vector<char>> hide_parts(const std::vector<std::string>& patterns, Document& document);
 
+/// Flags of scene/visibility.h by the numbers of nodes and materials; empty: there are no rules.
+struct VisibilityMarks {
+    std::vector<uint8_t> nodes, materials;
+};
+
+/// Finds what LoadOptions::visibility names; a mesh's name stands for the nodes that show it.
+///
+/// Errors  64 E-VISIBILITY-UNKNOWN a pattern fits no name, with those that are near or all
+Result<VisibilityMarks> mark_visibility(const std::vector<VisibilityRule>& rules,
+                                        const Document& document);
+
+/// Writes Scene::visibility, once the scene has its primitives and material numbers.
+void set_visibility(const VisibilityMarks& marks, Scene& scene);
+
 /// Checks that each pattern fits a light.
 ///
 /// Errors  64 E-LIGHT-UNKNOWN, with the names of lights that are near or all

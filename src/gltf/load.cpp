@@ -17,7 +17,7 @@
 #include "gltf/parse/asset_file.h"
 #include "gltf/parse/variants.h"
 #include "gltf/pose.h"
-#include "scene/motion.h"
+#include "scene/frame_motion.h"
 #include "scene/points_lines_radii.h"
 
 #include <algorithm>
@@ -174,6 +174,7 @@ struct PosedAsset::Impl {
     std::vector<LightProfile> light_profiles;
     EnvironmentStore environment;
     std::vector<char> hidden_nodes;  ///< of hide_parts
+    VisibilityMarks visibility;
     Problems problems;
     Degraded degraded;        ///< of the latest scene
     double open_seconds = 0;  ///< not yet told in a scene
@@ -183,6 +184,9 @@ struct PosedAsset::Impl {
     std::vector<PlacedNode> drawn_nodes(Log& log) const;
     Result<void> add_geometry(MaterialTable& materials, Scene& out, Log& log);
     Result<Scene> pose_at(double time_s, MaterialTable& materials, Log& log);
+    Result<std::vector<ScenePose>> poses_at(const std::vector<double>& times_s, double& seconds);
+    Result<std::vector<ScenePose>> frames_around(double time_s, double& seconds);
+    void add_frames(const std::vector<ScenePose>& frames, Scene& out, Log& log) const;
     Result<void> finish(MaterialTable& materials, bool last, Scene& out, Log& log);
     Result<Scene> scene_at(double time_s, bool last, Log& log);
     Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
@@ -199,6 +203,9 @@ Result<void> PosedAsset::Impl::choose_parts() {
     Result<std::vector<char>> hidden = hide_parts(options.hidden, document);
     if (!hidden) return fail(hidden.error());
     hidden_nodes = std::move(*hidden);
+    Result<VisibilityMarks> marks = mark_visibility(options.visibility, document);
+    if (!marks) return fail(marks.error());
+    visibility = std::move(*marks);
     return {};
 }
 
@@ -216,7 +223,8 @@ std::vector<PlacedNode> PosedAsset::Impl::drawn_nodes(Log& log) const {
 Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     const auto start = std::chrono::steady_clock::now();
     problems = Problems(options.lenient);
-    Result<OpenedAsset> opened = open_asset(file, problems, log, options.occlusion);
+    Result<OpenedAsset> opened =
+        open_asset(file, problems, log, {options.occlusion, options.from_rec709});
     if (!opened) return fail(std::move(opened.error()));
     asset = std::move(*opened);
     Document& document = asset.document;
@@ -294,10 +302,67 @@ Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials,
     return out;
 }
 
+/// Poses of the scene at several times, without what all have in common.
+///
+/// Out     seconds: how long that took is added
+Result<std::vector<ScenePose>> PosedAsset::Impl::poses_at(const std::vector<double>& times_s,
+                                                          double& seconds) {
+    Log quiet(Verbosity::quiet);  // the scene itself says what there is to say
+    MaterialTable materials;
+    std::vector<ScenePose> poses;
+    for (const double time_s : times_s) {
+        Result<Scene> pose = pose_at(time_s, materials, quiet);
+        if (!pose) return fail(std::move(pose.error()));
+        seconds += pose->info.parse_seconds;
+        poses.push_back(take_pose(*pose, geometry.static_sizes()));
+        geometry.take_back(*pose);
+    }
+    return poses;
+}
+
+/// The poses one frame before a time, at it, and one frame after it; none unless they are wanted.
+Result<std::vector<ScenePose>> PosedAsset::Impl::frames_around(double time_s, double& seconds) {
+    if (!options.frame_step_s || animator.empty()) return std::vector<ScenePose>{};
+    const double step_s = *options.frame_step_s;
+    return poses_at({time_s - step_s, time_s, time_s + step_s}, seconds);
+}
+
+/// Gives a scene, not yet finished, its motion from frame to frame.
+void PosedAsset::Impl::add_frames(const std::vector<ScenePose>& frames,
+                                  Scene& out,
+                                  Log& log) const {
+    if (frames.empty()) return;
+    FrameMotion motion;
+    if (!make_frame_motion(out, frames, motion)) {
+        log.warn(asset.document.file,
+                 "something appears or vanishes from the frame before to the frame after: motion "
+                 "vectors are those of the camera alone");
+    }
+    out.frame_motion = std::make_shared<const FrameMotion>(std::move(motion));
+}
+
+/// leave_out_nodes, for the motion from frame to frame, too.
+void leave_out(const Document& document, Scene& scene, Log& log) {
+    if (scene.frame_motion == nullptr) return leave_out_nodes(document, scene, log);
+    const std::vector<Instance> before = scene.instances;
+    leave_out_nodes(document, scene, log);
+    if (scene.instances.size() == before.size()) return;
+    FrameMotion motion = *scene.frame_motion;
+    leave_out_frames(before, scene.instances, motion);
+    scene.frame_motion = std::make_shared<const FrameMotion>(std::move(motion));
+}
+
 Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene& out, Log& log) {
     Document& document = asset.document;
+    if (options.from_rec709 && !out.splats.empty()) {
+        return fail(ExitCode::unsupported,
+                    "E-SPLAT-SPACE",
+                    document.file,
+                    "colours of Gaussian splats are blended as they are stored, in Rec.709; render "
+                    "them in lin_rec709");
+    }
     if (last) release_geometry(document, buffers);
-    leave_out_nodes(document, out, log);
+    leave_out(document, out, log);
     if (!out.bounds.empty()) set_default_points_lines_radii(out);
     const auto decode_start = std::chrono::steady_clock::now();
     const std::filesystem::path folder = file.parent_path();
@@ -308,6 +373,7 @@ Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene
     if (!done) return done;
     out.info.decode_seconds = seconds_since(decode_start);
     move_materials(materials, out);
+    set_visibility(visibility, out);
     return {};
 }
 
@@ -323,8 +389,13 @@ Result<Scene> PosedAsset::Impl::settled(Result<Scene> made, Log& log) {
 Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
     MaterialTable materials;
     anchors.reset();
+    double parse_seconds = 0;
+    const Result<std::vector<ScenePose>> frames = frames_around(time_s, parse_seconds);
+    if (!frames) return fail(frames.error());
     Result<Scene> out = pose_at(time_s, materials, log);
     if (!out) return out;
+    out->info.parse_seconds += parse_seconds;
+    add_frames(*frames, *out, log);
     const Result<void> done = finish(materials, last, *out, log);
     if (!done) return fail(done.error());
     return out;
@@ -332,26 +403,25 @@ Result<Scene> PosedAsset::Impl::scene_at(double time_s, bool last, Log& log) {
 
 Result<Scene> PosedAsset::Impl::scene_between(const ShutterTimes& shutter, bool last, Log& log) {
     constexpr int steps = 9;  // half a turn in eight straight lines: 2 % of the radius off its arc
-    std::vector<ScenePose> later;
-    double parse_seconds = 0;
-    MaterialTable materials;
-    Log quiet(Verbosity::quiet);  // the first pose says what there is to say
     const Result<void> opened = animator.pose(asset.document, shutter.open_s);
     if (!opened) return fail(opened.error());
     if (!animator.empty()) anchors = world_transforms(asset.document);
+    std::vector<double> times_s;
     for (int step = 1; step < steps && !animator.empty(); ++step) {
         const double fraction = static_cast<double>(step) / (steps - 1);
-        const double time_s = shutter.open_s + (shutter.close_s - shutter.open_s) * fraction;
-        Result<Scene> pose = pose_at(time_s, materials, quiet);
-        if (!pose) return pose;
-        parse_seconds += pose->info.parse_seconds;
-        later.push_back(take_pose(*pose, geometry.static_sizes()));
-        geometry.take_back(*pose);
+        times_s.push_back(shutter.open_s + (shutter.close_s - shutter.open_s) * fraction);
     }
+    double parse_seconds = 0;
+    const Result<std::vector<ScenePose>> later = poses_at(times_s, parse_seconds);
+    if (!later) return fail(later.error());
+    const Result<std::vector<ScenePose>> frames = frames_around(shutter.time_s, parse_seconds);
+    if (!frames) return fail(frames.error());
+    MaterialTable materials;
     Result<Scene> out = pose_at(shutter.open_s, materials, log);
     if (!out) return out;
     out->info.parse_seconds += parse_seconds;
-    if (!join_motion(*out, later)) {
+    add_frames(*frames, *out, log);
+    if (!join_motion(*out, *later)) {
         log.warn(asset.document.file,
                  "something appears or vanishes while the shutter is open; everything stands still "
                  "as at its opening");

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "base/log.h"
 #include "gltf/problems.h"
+#include "image/rgb_primaries.h"
 #include "scene/scene.h"
 
 #include <filesystem>
@@ -25,6 +26,12 @@ struct LightChoice {
     std::vector<Factor> factors = {};  ///< the last one that fits a light counts
 };
 
+/// What --holdout, --camera-invisible, --no-shadow and --catcher do to parts of the file.
+struct VisibilityRule {
+    std::string pattern;  ///< of the names of nodes (with all below them), meshes and materials
+    uint8_t flag = 0;     ///< of scene/visibility.h
+};
+
 struct LoadOptions {
     int scene = -1;  ///< number of the scene in the file; -1: scene_name, else the file's own
     std::string scene_name;  ///< used when not empty and `scene` is -1
@@ -36,6 +43,9 @@ struct LoadOptions {
     /// Meshes keep TEXCOORD_0 even if no texture reads it: for the AOV `uv`.
     bool keeps_uv = false;
     bool occlusion = false;  ///< --occlusion ambient: materials keep their occlusion textures
+    /// Colours of the file, which are Rec.709, become those of another rendering space
+    /// (image/rendering_space.h).
+    std::optional<Matrix3> from_rec709 = {};
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
     /// Problems that would change the image become warnings, not errors: see gltf/problems.h.
     bool lenient = false;
@@ -43,6 +53,10 @@ struct LoadOptions {
     /// --hide: patterns of the names of nodes (with all below them), meshes and materials whose
     /// geometry is not loaded. The lights of hidden nodes are left out, their cameras stay.
     std::vector<std::string> hidden = {};
+    std::vector<VisibilityRule> visibility = {};
+    /// Scenes of an animated asset get Scene::frame_motion, with frames this far apart: for the
+    /// layer `motion`.
+    std::optional<double> frame_step_s = {};
 };
 
 /// Reads, checks and converts one asset with everything that it refers to.
@@ -55,7 +69,7 @@ struct LoadOptions {
 /// in the order of gltf/problems.h: accessors, meshes as the scene shows them, images.
 ///
 /// Errors  64 E-SCENE-UNKNOWN, E-VARIANT-UNKNOWN, E-LIGHT-UNKNOWN, E-HIDE-UNKNOWN,
-///         E-ANIM-UNKNOWN, E-ANIM-AMBIGUOUS;
+///         E-VISIBILITY-UNKNOWN, E-ANIM-UNKNOWN, E-ANIM-AMBIGUOUS;
 ///         65 E-GLB-*, E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*, E-MESH-*, E-NODE-*, E-MESHOPT-*,
 ///         E-DRACO-*, E-SKIN-*, E-ANIM-*, E-LIGHT-*, E-IES-*, E-ENV-FACES; 66 E-SCENE-MISSING;
 ///         67 E-RES-MISSING, E-RES-SHORT, E-IMG-*; 69 E-VERSION, E-EXT-REQUIRED,
@@ -66,6 +80,7 @@ Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& op
 struct ShutterTimes {
     double open_s = 0;
     double close_s = 0;
+    double time_s = 0;  ///< the image's own, for LoadOptions::frame_step_s
 };
 
 /// An asset that is read once and posed at many times: the file is parsed, and its images are

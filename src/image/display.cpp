@@ -4,19 +4,16 @@
 
 #include "base/setting_names.h"
 #include "image/code_points.h"
-#include "image/ocio_config.h"
 #include "image/ocio_cycles.h"
+#include "image/ocio_load.h"
 #include "image/pbr_neutral.h"
+#include "image/rendering_space.h"
 
 #include <OpenColorIO/OpenColorIO.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
-#include <limits>
-#include <mutex>
-#include <sstream>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,109 +24,12 @@ namespace ocio = OCIO_NAMESPACE;
 struct DisplayTransform::Impl {
     ocio::ConstCPUProcessorRcPtr processor;
     float exposure = 1;
+    std::optional<Matrix3> rec709_from_scene;
     bool pbr_neutral = false;
     std::optional<ColorCodePoints> code_points;
 };
 
 namespace {
-
-constexpr std::uintmax_t largest_config_bytes = 64U << 20;
-
-tl::unexpected<Error> bad_configuration(const char* id,
-                                        const std::string& where,
-                                        std::string message) {
-    return fail(ExitCode::configuration, id, where, std::move(message));
-}
-
-/// Redirects OpenColorIO's notes from standard error to our log while it exists. The library has
-/// one log function for all threads, so these objects exclude each other.
-class OcioNotesToLog {
-public:
-    OcioNotesToLog(Log& log, const std::string& where) : turn_(one_at_a_time) {
-        ocio::SetLoggingFunction([&log, where](const char* text) {
-            std::string line = text;
-            while (!line.empty() && line.back() == '\n')
-                line.pop_back();
-            if (!line.empty()) log.detail(where + ": " + line);
-        });
-    }
-    ~OcioNotesToLog() { ocio::ResetToDefaultLoggingFunction(); }
-    OcioNotesToLog(const OcioNotesToLog&) = delete;
-    OcioNotesToLog& operator=(const OcioNotesToLog&) = delete;
-
-private:
-    static inline std::recursive_mutex one_at_a_time;
-    std::lock_guard<std::recursive_mutex> turn_;
-};
-
-/// A config with the name that messages use for it.
-struct NamedConfig {
-    ocio::ConstConfigRcPtr config;
-    std::string name;
-    bool is_builtin = false;
-};
-
-/// "" when `file` may be opened: not a pipe or device, which would block, and not absurdly large.
-std::string why_unreadable(const std::string& file) {
-    if (file.rfind("ocio://", 0) == 0) return {};  // a config inside the library, from 2.2 on
-    std::error_code error;
-    const auto status = std::filesystem::status(file, error);
-    if (!std::filesystem::exists(status)) return "there is no such file";
-    if (!std::filesystem::is_regular_file(status)) return "this is not a regular file";
-    const auto size = std::filesystem::file_size(file, error);
-    if (!error && size > largest_config_bytes) return "larger than 64 MB";
-    return {};
-}
-
-Result<NamedConfig> load_config(const DisplayOptions& options, Log& log) {
-    const char* variable = std::getenv("OCIO");
-    const bool from_option = !options.ocio_file.empty();
-    const std::string file = from_option ? options.ocio_file : variable ? variable : "";
-    if (file.empty()) {
-        std::istringstream text(builtin_ocio_config);
-        return NamedConfig{ocio::Config::CreateFromStream(text), "built-in OCIO config", true};
-    }
-    const std::string where = (from_option ? setting("ocio") : "$OCIO") + " " + file;
-    const std::string expected = "; give an OpenColorIO config file (.ocio)";
-    if (const std::string why = why_unreadable(file); !why.empty()) {
-        return bad_configuration("E-OCIO-FILE", where, why + expected);
-    }
-    try {
-        const OcioNotesToLog notes(log, where);
-        ocio::ConstConfigRcPtr config = ocio::Config::CreateFromFile(file.c_str());
-        if (config->getNumDisplays() == 0) {
-            return bad_configuration("E-OCIO-FILE", where, "defines no display" + expected);
-        }
-        return NamedConfig{std::move(config), where, false};
-    } catch (const std::exception& error) {
-        return bad_configuration("E-OCIO-FILE", where, error.what() + expected);
-    }
-}
-
-std::string lower(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    });
-    return text;
-}
-
-/// The entry of `names` that equals `wanted` regardless of case; "" for none.
-std::string find_name(const std::vector<std::string>& names, const std::string& wanted) {
-    for (const std::string& name : names) {
-        if (name == wanted) return name;
-    }
-    for (const std::string& name : names) {
-        if (lower(name) == lower(wanted)) return name;
-    }
-    return {};
-}
-
-std::string quoted_list(const std::vector<std::string>& names) {
-    std::string list;
-    for (const std::string& name : names)
-        list += (list.empty() ? "'" : ", '") + name + "'";
-    return list;
-}
 
 struct DisplayAndView {
     std::string display;
@@ -169,26 +69,6 @@ Result<DisplayAndView> choose(const NamedConfig& from, const DisplayOptions& opt
     return chosen;
 }
 
-/// A config's name for scene-linear Rec.709, else its scene_linear role with a warning; "" if it
-/// has neither.
-std::string input_space(const NamedConfig& from, Log& log) {
-    for (const char* name : {"lin_rec709_scene",
-                             "Linear Rec.709 (sRGB)",
-                             "lin_rec709",
-                             "lin_rec709_srgb",
-                             "Utility - Linear - Rec.709",
-                             "Linear BT.709"}) {
-        if (from.config->getColorSpace(name)) return name;
-    }
-    const ocio::ConstColorSpaceRcPtr linear = from.config->getColorSpace(ocio::ROLE_SCENE_LINEAR);
-    if (!linear) return {};
-    log.warn(from.name,
-             std::string("has no scene-linear Rec.709 colour space (lin_rec709_scene); values are "
-                         "taken as its scene_linear, '") +
-                 linear->getName() + "'");
-    return linear->getName();
-}
-
 }  // namespace
 
 DisplayTransform::DisplayTransform(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -197,7 +77,7 @@ DisplayTransform& DisplayTransform::operator=(DisplayTransform&&) noexcept = def
 DisplayTransform::~DisplayTransform() = default;
 
 Result<DisplayTransform> DisplayTransform::create(const DisplayOptions& options, Log& log) {
-    const Result<NamedConfig> from = load_config(options, log);
+    const Result<NamedConfig> from = load_config(options.ocio_file, log);
     if (!from) return fail(from.error());
     try {
         const OcioNotesToLog notes(log, from->name);
@@ -219,6 +99,7 @@ Result<DisplayTransform> DisplayTransform::create(const DisplayOptions& options,
         auto impl = std::make_unique<Impl>();
         impl->processor = from->config->getProcessor(transform)->getDefaultCPUProcessor();
         impl->exposure = static_cast<float>(std::exp2(options.exposure_ev));
+        impl->rec709_from_scene = options.rec709_from_scene;
         impl->pbr_neutral = from->is_builtin && chosen->view == "Khronos PBR Neutral";
         impl->code_points = find_code_points(*from->config, chosen->display, chosen->view);
         return DisplayTransform(std::move(impl));
@@ -237,6 +118,9 @@ void DisplayTransform::apply(float* rgb, size_t count) const {
     for (size_t first = 0; first < count; first += at_once) {
         float* part = rgb + 3 * first;
         const size_t pixels = std::min(at_once, count - first);
+        if (impl_->rec709_from_scene) {
+            convert_colors(*impl_->rec709_from_scene, std::span(part, 3 * pixels));
+        }
         for (size_t i = 0; i < 3 * pixels; ++i) {
             const float value = part[i] * impl_->exposure;
             part[i] = std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest);

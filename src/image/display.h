@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "image/rgb_primaries.h"
 
 #include <cstddef>
 #include <memory>
@@ -17,6 +18,8 @@ struct DisplayOptions {
     std::string display;     ///< empty: the config's default
     std::string view;        ///< empty: the config's default for that display
     double exposure_ev = 0;  ///< scene values are multiplied by 2^EV first
+    /// From the space of the scene values (image/rendering_space.h); none: it is Rec.709.
+    std::optional<Matrix3> rec709_from_scene = {};
 };
 
 /// What RGB code values mean, as ITU-T H.273 counts it and PNG's cICP chunk stores it: full range,
@@ -29,7 +32,7 @@ struct ColorCodePoints {
 };
 inline constexpr ColorCodePoints srgb_code_points = {1, 13};
 
-/// Scene-linear Rec.709 to display code values in [0, 1].
+/// Scene-linear values to display code values in [0, 1].
 class DisplayTransform {
 public:
     /// Errors  78 E-OCIO-FILE unreadable or bad config, E-OCIO-DISPLAY / E-OCIO-VIEW unknown name

@@ -44,8 +44,11 @@ struct StoredGroup {
     std::vector<half> halves = {};
 };
 
-StoredGroup whole_group(const ExrGroup& group, const OutputImage& image) {
-    return {group, {group.pixels->data(), image.width, image.height, group.channels->size()}};
+/// The rows of a part.
+StoredGroup stored_group(const ExrGroup& group, const ExrRows& rows, int width) {
+    const size_t channels = group.channels->size();
+    const size_t before = static_cast<size_t>(rows.first) * static_cast<size_t>(width) * channels;
+    return {group, {group.pixels->data() + before, width, rows.count, channels}};
 }
 
 /// Adds a group's channels to what OpenEXR writes, as halves if they are stored so.
@@ -91,10 +94,10 @@ void shrink(StoredGroup& stored) {
                      stored.floats.channels};
 }
 
-std::vector<StoredGroup> whole_groups(const ExrPart& part, const OutputImage& image) {
+std::vector<StoredGroup> stored_groups(const ExrPart& part, const OutputImage& image) {
     std::vector<StoredGroup> groups;
     for (const ExrGroup& group : part.groups)
-        groups.push_back(whole_group(group, image));
+        groups.push_back(stored_group(group, part.rows, image.width));
     return groups;
 }
 
@@ -102,13 +105,13 @@ std::vector<StoredGroup> whole_groups(const ExrPart& part, const OutputImage& im
 ///
 /// Out     how many values were clamped
 uint64_t write_lines(Imf::OutputPart out, const ExrPart& part, const ExrContent& content) {
-    std::vector<StoredGroup> groups = whole_groups(part, content.image);
+    std::vector<StoredGroup> groups = stored_groups(part, content.image);
     Imf::FrameBuffer buffer;
     uint64_t clamped = 0;
     for (StoredGroup& group : groups)
         clamped += add_channels(group, content.options, out.header().dataWindow(), buffer);
     out.setFrameBuffer(buffer);
-    out.writePixels(content.image.height);
+    out.writePixels(part.rows.count);
     return clamped;
 }
 
@@ -116,7 +119,7 @@ uint64_t write_lines(Imf::OutputPart out, const ExrPart& part, const ExrContent&
 ///
 /// Out     how many values of the first level were clamped
 uint64_t write_tiles(Imf::TiledOutputPart out, const ExrPart& part, const ExrContent& content) {
-    std::vector<StoredGroup> groups = whole_groups(part, content.image);
+    std::vector<StoredGroup> groups = stored_groups(part, content.image);
     uint64_t clamped = 0;
     for (int level = 0; level < out.numLevels(); ++level) {
         Imf::FrameBuffer buffer;

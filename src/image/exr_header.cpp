@@ -45,11 +45,11 @@ Imath::M44f matrix_from(const std::array<float, 16>& values) {
     return matrix;
 }
 
-Imf::Header header_of_size(const OutputImage& image) {
-    const Imath::V2i size(image.width, image.height);
-    const ImagePart part = image.part_of.value_or(ImagePart{size.x, size.y, 0, 0});
-    const Imath::V2i low(part.x, part.y);
-    return {{{0, 0}, {part.width - 1, part.height - 1}}, {low, low + size - Imath::V2i(1)}};
+Imf::Header header_of_size(const OutputImage& image, const ExrRows& rows) {
+    const Imath::V2i size(image.width, rows.count);
+    const ImagePart part = image.part_of.value_or(ImagePart{image.width, image.height, 0, 0});
+    const Imath::V2i low(part.x, part.y + rows.first - rows.top);
+    return {{{0, 0}, {part.width - 1, rows.height - 1}}, {low, low + size - Imath::V2i(1)}};
 }
 
 void insert_camera(Imf::Header& header, const StandardAttributes& standard) {
@@ -123,22 +123,6 @@ void insert_group(Imf::Header& header, const ExrGroup& group, bool is_alone) {
     insert_own_metadata(header, *layer);
 }
 
-/// In a part, the view of its channels; in a single part, the names of all.
-void insert_views(Imf::Header& header, const ExrContent& content, const ExrPart& part) {
-    const std::vector<std::string>& views = content.metadata.standard.views;
-    if (views.empty()) return;
-    const ImageLayer* const layer = part.groups.front().layer;
-    const std::string& view = layer != nullptr && !layer->view.empty() ? layer->view : views[0];
-    switch (content.options.layout) {
-        case ExrLayout::single:
-            return Imf::addMultiView(header, views);
-        case ExrLayout::multipart:
-            return header.setView(view);
-        case ExrLayout::separate:
-            return Imf::addMultiView(header, {view});
-    }
-}
-
 Imf::Compression codec_of(ExrCompression compression) {
     static_assert(static_cast<int>(ExrCompression::zip) == Imf::ZIP_COMPRESSION);
     static_assert(static_cast<int>(ExrCompression::dwab) == Imf::DWAB_COMPRESSION);
@@ -165,6 +149,14 @@ void insert_storage(Imf::Header& header, const ExrPart& part, const ExrOptions& 
     }
 }
 
+Imf::Chromaticities chromaticities_of(const RenderingSpace& space) {
+    const auto point = [](const Chromaticity& from) {
+        return Imath::V2f(static_cast<float>(from.x), static_cast<float>(from.y));
+    };
+    const RgbPrimaries& rgb = space.primaries;
+    return {point(rgb[0]), point(rgb[1]), point(rgb[2]), point(space.white)};
+}
+
 bool has_color(const ExrPart& part) {
     return std::any_of(part.groups.begin(), part.groups.end(), [](const ExrGroup& group) {
         return group.kind == LayerKind::color;
@@ -173,21 +165,21 @@ bool has_color(const ExrPart& part) {
 
 Imf::Header header_of(const ExrContent& content, const ExrPart& part) {
     const ImageMetadata& metadata = content.metadata;
-    Imf::Header header = header_of_size(content.image);
+    Imf::Header header = header_of_size(content.image, part.rows);
     insert_origin(header, metadata);
     for (const ExrGroup& group : part.groups)
         insert_group(header, group, part.groups.size() == 1);
     const bool is_color = part.groups.front().kind == LayerKind::color;
-    insert_text(header, "colorInteropID", is_color ? "lin_rec709_scene" : "data");
+    insert_text(header, "colorInteropID", is_color ? metadata.space.interop_id : "data");
     if (has_color(part)) {
-        Imf::addChromaticities(header, Imf::Chromaticities());  // Rec.709
+        Imf::addChromaticities(header, chromaticities_of(metadata.space));
         if (metadata.standard.white_luminance) {
             Imf::addWhiteLuminance(header, *metadata.standard.white_luminance);
         }
     }
     insert_camera(header, metadata.standard);
     insert_time(header, metadata.standard);
-    insert_views(header, content, part);
+    if (!part.rows.view.empty()) header.setView(part.rows.view);
     insert_storage(header, part, content.options);
     return header;
 }
@@ -202,7 +194,7 @@ std::vector<Imf::Header> headers_of(const ExrContent& content, const std::vector
     }
     // A file's parts share their chromaticities: the first has them if any has.
     if (std::any_of(parts.begin(), parts.end(), has_color)) {
-        Imf::addChromaticities(headers.front(), Imf::Chromaticities());
+        Imf::addChromaticities(headers.front(), chromaticities_of(content.metadata.space));
     }
     // Programs that read the first header only find there what layers say for themselves.
     for (const ExrPart& part : parts) {

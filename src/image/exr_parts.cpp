@@ -43,9 +43,39 @@ ExrGroup group_of(const ImageLayer& layer) {
     return {&layer.channels, &layer.pixels, layer.kind, &layer};
 }
 
-ExrPart make_part(std::string name, std::vector<ExrGroup> groups, const ExrOptions& options) {
+ImagePart whole_of(const OutputImage& image) {
+    return image.part_of.value_or(ImagePart{image.width, image.height, 0, 0});
+}
+
+ExrRows all_rows(const OutputImage& image) {
+    return {0, image.height, 0, whole_of(image).height, ""};
+}
+
+/// The rows of each view in its own part; a view that a crop leaves out has none.
+std::vector<ExrRows> rows_of_parts(const ExrContent& content) {
+    const OutputImage& image = content.image;
+    const std::vector<std::string>& views = content.metadata.standard.views;
+    if (views.empty() || content.options.layout != ExrLayout::multipart) return {all_rows(image)};
+    const ImagePart whole = whole_of(image);
+    const int height = whole.height / static_cast<int>(views.size());
+    std::vector<ExrRows> out;
+    int top = 0;
+    for (const std::string& view : views) {
+        const int first = std::clamp(top - whole.y, 0, image.height);
+        const int end = std::clamp(top + height - whole.y, 0, image.height);
+        if (first < end) out.push_back({first, end - first, top, height, view});
+        top += height;
+    }
+    return out;
+}
+
+ExrPart make_part(const std::string& layer,
+                  std::vector<ExrGroup> groups,
+                  const ExrOptions& options,
+                  const ExrRows& rows) {
     const ExrCompression codec = codec_for(groups, options.compression);
-    return {std::move(name), std::move(groups), codec};
+    const std::string name = rows.view.empty() ? layer : layer + "-" + rows.view;
+    return {name, std::move(groups), codec, rows};
 }
 
 /// A name that is the end of a file's name and part of an attribute's.
@@ -64,24 +94,23 @@ const char* beauty_part_name(const ImageMetadata& metadata) {
 std::vector<ExrPart> parts_of_image(const ExrContent& content) {
     const ExrOptions& options = content.options;
     const std::string name = beauty_part_name(content.metadata);
-    std::vector<ExrGroup> groups = {beauty_of(content)};
     std::vector<ExrPart> parts;
-    if (options.layout == ExrLayout::multipart) {
-        parts.push_back(make_part(name, std::move(groups), options));
+    for (const ExrRows& rows : rows_of_parts(content)) {
+        std::vector<ExrGroup> groups = {beauty_of(content)};
+        if (options.layout == ExrLayout::single) {
+            for (const ImageLayer& layer : content.image.layers)
+                groups.push_back(group_of(layer));
+        }
+        parts.push_back(make_part(name, std::move(groups), options, rows));
+        if (options.layout != ExrLayout::multipart) continue;
         for (const ImageLayer& layer : content.image.layers)
-            parts.push_back(part_of_layer(content, layer));
-        return parts;
+            parts.push_back(make_part(layer.name, {group_of(layer)}, options, rows));
     }
-    if (options.layout == ExrLayout::single) {
-        for (const ImageLayer& layer : content.image.layers)
-            groups.push_back(group_of(layer));
-    }
-    parts.push_back(make_part(name, std::move(groups), options));
     return parts;
 }
 
 ExrPart part_of_layer(const ExrContent& content, const ImageLayer& layer) {
-    return make_part(layer.name, {group_of(layer)}, content.options);
+    return make_part(layer.name, {group_of(layer)}, content.options, all_rows(content.image));
 }
 
 ExrDepth depth_of(const ExrGroup& group, const ExrOptions& options) {

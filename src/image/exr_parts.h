@@ -22,11 +22,19 @@ struct ExrGroup {
     const ImageLayer* layer;  ///< null: the beauty
 };
 
+/// The rows of an image that a part has: all, or those of one of its views.
+struct ExrRows {
+    int first, count;  ///< in memory
+    int top, height;   ///< of the whole image, which may be larger than what is in memory
+    std::string view;  ///< "left"; empty: the image is one view
+};
+
 /// One part of a file.
 struct ExrPart {
     std::string name;
     std::vector<ExrGroup> groups;
     ExrCompression compression;
+    ExrRows rows;
 };
 
 /// What all parts of a file are made from; it outlives them.
@@ -40,7 +48,8 @@ struct ExrContent {
 /// the image's own channels.
 const char* beauty_part_name(const ImageMetadata& metadata);
 
-/// The parts of an image's file, the beauty's first.
+/// The parts of an image's file, the beauty's first. A multipart file of several views has all
+/// parts of the first view, then those of the next.
 std::vector<ExrPart> parts_of_image(const ExrContent& content);
 
 /// The only part of a layer's own file.

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "image/rendering_space.h"
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -46,21 +48,24 @@ struct StandardAttributes {
     std::optional<TimeCode> time_code = {};  ///< timeCode
     std::string capture_date = {};           ///< capDate: YYYY:MM:DD hh:mm:ss
     bool is_latlong = false;                 ///< envmap: a whole sphere
-    std::vector<std::string> views = {};     ///< multiView: "left", "right"
+    /// Of stereo, "left" and "right": they lie one above the other in the image, all as high. A
+    /// multipart file has parts of each, and their `view`; the others have the image as it is.
+    std::vector<std::string> views = {};
 };
 
 /// Metadata of an image. An EXR has the standard attributes, Software, copyright (also as owner),
-/// colorInteropID ("lin_rec709_scene" or "data"), chromaticities (colour only), obscura:asset,
-/// obscura:samplesPerPixel (int), obscura:seed (int; text beyond 2^31 - 1, so that it stays exact)
-/// and the extra ones; PNG, JPEG and TIFF have Software and Copyright. Nothing in it depends on the
-/// time or machine of a run, so that equal images are equal files.
+/// colorInteropID (of the space where it has one, or "data"), chromaticities (colour only),
+/// obscura:asset, obscura:samplesPerPixel (int), obscura:seed (int; text beyond 2^31 - 1, so that
+/// it stays exact) and the extra ones; PNG, JPEG and TIFF have Software and Copyright. Nothing in
+/// it depends on the time or machine of a run, so that equal images are equal files.
 struct ImageMetadata {
     std::string software;   ///< "Obscura 0.1.0"
     std::string asset;      ///< the asset's file name
     std::string copyright;  ///< asset.copyright, may be empty
     int samples_per_pixel = 0;
     uint64_t seed = 0;
-    bool is_color = true;  ///< of the beauty; false: data such as depth; no chromaticities
+    RenderingSpace space = {};  ///< of all colours
+    bool is_color = true;       ///< of the beauty; false: data such as depth; no chromaticities
     StandardAttributes standard = {};
     std::vector<ImageAttribute> extra;  ///< further attributes; empty texts are left out
 };

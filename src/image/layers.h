@@ -24,17 +24,19 @@ struct ImageLayer {
     std::string reduction = {};
     /// Further text attributes, by their names in the file.
     std::vector<std::pair<std::string, std::string>> metadata = {};
-    std::string view = {};  ///< one of ImageMetadata::views; empty: the first
+    std::vector<std::string> names = {};  ///< of Cryptomatte: what its ids stand for
 };
 
-/// A finished image: interleaved float32, rows from the top, scene-linear Rec.709.
+/// A finished image: interleaved float32, rows from the top, scene-linear (ImageMetadata::space).
 struct OutputImage {
     int width = 0;
     int height = 0;
     std::vector<std::string> channels;  ///< "R","G","B","A" or e.g. "Z", "N.X","N.Y","N.Z"
     /// alpha premultiplied where there is an A
     UnsetArray<float> pixels;
-    std::optional<ImagePart> part_of = {};  ///< none: the pixels are all there is
+    /// None: the pixels are all there is. With overscan the part begins before the whole image and
+    /// ends behind it.
+    std::optional<ImagePart> part_of = {};
     std::vector<ImageLayer> layers = {};    ///< of the same part; only EXR files have them
 };
 

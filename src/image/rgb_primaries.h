@@ -14,7 +14,7 @@ struct Chromaticity {
     double x = 0, y = 0;
 };
 
-/// Red, green and blue; their white is D65.
+/// Red, green and blue.
 using RgbPrimaries = std::array<Chromaticity, 3>;
 
 /// Source  ITU-T H.273, table 2: primaries 1, 9 and 12
@@ -23,6 +23,12 @@ inline constexpr RgbPrimaries rec709_primaries = {{{0.640, 0.330}, {0.300, 0.600
 inline constexpr RgbPrimaries rec2020_primaries = {
     {{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}}};
 inline constexpr RgbPrimaries p3_primaries = {{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}}};
+
+/// Source  SMPTE ST 2065-1:2012, section 4.1; Academy S-2014-004, section 4.1
+inline constexpr Chromaticity aces_white = {0.32168, 0.33767};
+inline constexpr RgbPrimaries ap0_primaries = {
+    {{0.7347, 0.2653}, {0.0000, 1.0000}, {0.0001, -0.0770}}};
+inline constexpr RgbPrimaries ap1_primaries = {{{0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}}};
 
 /// XYZ of a chromaticity, with Y = 1.
 constexpr Xyz white_xyz(const Chromaticity& c) {
@@ -67,14 +73,14 @@ constexpr Matrix3 inverse(const Matrix3& m) {
 /// The matrix that takes linear RGB to XYZ with Y = 1 for white.
 ///
 /// Source  SMPTE RP 177-1993, section 3.3
-constexpr Matrix3 xyz_from_rgb(const RgbPrimaries& primaries) {
+constexpr Matrix3 xyz_from_rgb(const RgbPrimaries& primaries, const Chromaticity& white = d65) {
     Matrix3 columns = {};
     for (size_t c = 0; c < 3; ++c) {
         const Xyz color = white_xyz(primaries[c]);
         for (size_t row = 0; row < 3; ++row)
             columns[row][c] = color[row];
     }
-    const Xyz scale = product(inverse(columns), white_xyz(d65));
+    const Xyz scale = product(inverse(columns), white_xyz(white));
     for (Xyz& row : columns) {
         for (size_t c = 0; c < 3; ++c)
             row[c] *= scale[c];

@@ -114,10 +114,17 @@ OutputImage whole_image(const OutputImage& image) {
     OutputImage whole{part.width, part.height, image.channels, {}};
     whole.pixels.resize(whole_row * static_cast<size_t>(part.height));
     std::fill(whole.pixels.begin(), whole.pixels.end(), 0.0f);
-    for (size_t y = 0; y < static_cast<size_t>(image.height); ++y) {
-        float* const target = whole.pixels.data() + (static_cast<size_t>(part.y) + y) * whole_row +
-                              static_cast<size_t>(part.x) * channels;
-        std::copy_n(image.pixels.data() + y * row, row, target);
+    // What lies outside the whole image (overscan) is left out.
+    const int left = std::max(part.x, 0);
+    const int right = std::min(part.x + image.width, part.width);
+    if (left >= right) return whole;
+    const size_t count = static_cast<size_t>(right - left) * channels;
+    for (int y = std::max(part.y, 0); y < std::min(part.y + image.height, part.height); ++y) {
+        const float* const from = image.pixels.data() + static_cast<size_t>(y - part.y) * row +
+                                  static_cast<size_t>(left - part.x) * channels;
+        float* const target = whole.pixels.data() + static_cast<size_t>(y) * whole_row +
+                              static_cast<size_t>(left) * channels;
+        std::copy_n(from, count, target);
     }
     return whole;
 }

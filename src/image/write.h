@@ -16,7 +16,8 @@
 
 namespace obscura {
 
-/// The image that a part belongs to, zero elsewhere; without layers.
+/// The image that a part belongs to, zero elsewhere; without layers, and without what a part that
+/// is larger than it has around it.
 OutputImage whole_image(const OutputImage& image);
 
 /// The file of a layer of its own, beside the beauty's: shot.exr has shot.albedo.exr. A frame

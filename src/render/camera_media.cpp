@@ -25,7 +25,8 @@ Crossings count_crossings(const Accel& accel, const Vec3f& point, const Vec3f& d
                          .key = nullptr,
                          .count = 1};
     std::vector<Crossing> faces;
-    accel.list_crossings(ray, 0, {}, faces);
+    constexpr uint8_t passes = camera_rays_pass | bounce_rays_pass;
+    accel.list_crossings(ray, 0, {.passes = passes}, faces);
     std::sort(faces.begin(), faces.end(), [](const Crossing& a, const Crossing& b) {
         return std::tie(a.medium, a.enters, a.t) < std::tie(b.medium, b.enters, b.t);
     });

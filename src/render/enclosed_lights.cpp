@@ -133,7 +133,7 @@ std::vector<EnclosedLight> find_enclosed_lights(const PreparedScene& prepared, c
         if (light.type == static_cast<int32_t>(PunctualType::directional)) continue;
         Rays rays;
         add_directions(light, rays);
-        rays.intersect(prepared.accel(), {.fixed_alpha = true});
+        rays.intersect(prepared.accel(), {.fixed_alpha = true, .passes = shadow_rays_pass});
         const std::optional<int32_t> node = enclosing_node(scene, rays);
         if (!node || sees_inside(prepared.accel(), rays, eye)) continue;
         out.push_back({i, *node});

@@ -59,6 +59,11 @@ constexpr bool has_layers(Integrator integrator) {
     return !is_aov(integrator) && integrator != Integrator::wireframe;
 }
 
+/// True for integrators that can render shadow catchers.
+constexpr bool has_catchers(Integrator integrator) {
+    return entry_of(integrator).kind == WavefrontKind::path;
+}
+
 /// Names of the channels of an integrator's film.
 std::vector<std::string> film_channels(Integrator integrator);
 

@@ -151,9 +151,13 @@ MovingTriangle triangle_at(const Emitter& e, int32_t triangle, int32_t step) {
     return out;
 }
 
-/// False for a mesh that deforms while its instance moves: its vertices do not move linearly
-/// between two times, so that only BSDF sampling finds it.
+/// False for shadow catchers, and for a mesh that deforms while its instance moves: its vertices do
+/// not move linearly between two times, so that only BSDF sampling finds it.
 bool is_sampled(const Emitter& e) {
+    const auto primitive = static_cast<int32_t>(&e.primitive - e.scene.primitives.data());
+    const auto instance =
+        e.instance == nullptr ? -1 : static_cast<int32_t>(e.instance - e.scene.instances.data());
+    if (is_catcher(e.scene, primitive, instance)) return false;
     return e.instance == nullptr || !moves(*e.instance) || !moves(e.primitive);
 }
 
@@ -252,6 +256,10 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
 
 float largest_emission(const Material& material) {
     return std::max({material.emission[0], material.emission[1], material.emission[2]});
+}
+
+bool is_catcher(const Scene& scene, int32_t primitive, int32_t instance) {
+    return (scene.visibility.of(primitive, instance) & visibility_catcher) != 0;
 }
 
 bool emits(const Material& material) {

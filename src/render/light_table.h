@@ -42,6 +42,9 @@ float largest_emission(const Material& material);
 /// sampled on a triangle does not know its alpha.
 bool emits(const Material& material);
 
+/// True for shadow catchers, which are no lights whatever their material.
+bool is_catcher(const Scene& scene, int32_t primitive, int32_t instance);
+
 /// A material's clearcoat factor times the mean of its texture.
 float mean_coat(const Scene& scene, const Material& material);
 

@@ -78,7 +78,9 @@ Result<void> make_environment(PreparedScene::Impl& impl,
 /// Uses the environment that the user chose, else the scene's own, else the studio if nothing
 /// lights the scene.
 Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
-    const EnvironmentSource source{lighting.environment.has_value(), impl.scene.environment};
+    const EnvironmentSource source{lighting.environment.has_value(),
+                                   impl.scene.environment,
+                                   lighting.environment_rotation_deg};
     if (source.chosen && source.own) {
         log.info(setting("env") + " takes the place of the environment that the file brings");
     }

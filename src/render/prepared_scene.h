@@ -11,10 +11,12 @@
 
 namespace obscura {
 
-/// Where an environment comes from: the user's choice, else the scene's own, else the studio.
+/// Where an environment comes from: the user's choice, else the scene's own, else the studio; and
+/// how it is turned.
 struct EnvironmentSource {
     bool chosen = false;
     std::shared_ptr<const ImageRgb32f> own;
+    double rotation_deg = 0;
 
     bool operator==(const EnvironmentSource&) const = default;
 };

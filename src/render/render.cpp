@@ -4,12 +4,16 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "film/catcher_sums.h"
 #include "film/cryptomatte_names.h"
 #include "film/layer_sums.h"
+#include "film/light_path_plan.h"
 #include "render/camera_media.h"
 #include "render/film_rows.h"
 #include "render/filter_table.h"
+#include "render/frame_view.h"
 #include "render/integrators.h"
+#include "render/light_classes.h"
 #include "render/prepared_scene.h"
 #include "render/raycast_lights.h"
 #include "stages/wavefront.h"
@@ -28,6 +32,12 @@ namespace {
 float footprint_fraction(int samples) {
     constexpr float least = 1.0f / 64;
     return std::max(least, 1.0f / static_cast<float>(samples));
+}
+
+bool any_catcher(const VisibilityFlags& visibility) {
+    const auto is_one = [](uint8_t flags) { return (flags & visibility_catcher) != 0; };
+    return std::any_of(visibility.primitives.begin(), visibility.primitives.end(), is_one) ||
+           std::any_of(visibility.instances.begin(), visibility.instances.end(), is_one);
 }
 
 WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
@@ -62,6 +72,13 @@ WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
     batch.medium_stack =
         medium_stack_around(*scene.accel, scene.scene, {eye[0][3], eye[1][3], eye[2][3]});
     if (options.integrator == Integrator::direct) batch.max_bounces = 0;
+    const VisibilityFlags& visibility = scene.scene.visibility;
+    if (!visibility.empty()) input.visibility = &visibility;
+    if (has_catchers(options.integrator)) {
+        input.catchers.surfaces = any_catcher(visibility);
+        input.catchers.ground_m = options.catcher_ground_m;
+        input.catchers.reflects = options.catcher_reflections;
+    }
     input.kind = entry_of(options.integrator).kind;
     input.aovs = entry_of(options.integrator).aovs;
     batch.through_centres = input.kind == WavefrontKind::raycast;
@@ -122,6 +139,7 @@ struct ThreadState {
     TilePattern pattern;
     std::vector<int32_t> xs, ys;
     std::vector<PixelSum> sums;
+    std::vector<CatcherSum> catchers;  ///< as `sums`; empty: there are no catchers
     LayerSums layers;
     WavefrontCounters counters;
     std::unique_ptr<RayRecorder> recorder;  ///< null: no recording
@@ -157,6 +175,8 @@ void render_tile(const TileWork& tile_work,
     const int samples = tile_work.samples;
     const int pixels = list_pixels(tile, state);
     state.sums.assign(static_cast<size_t>(pixels), {});
+    const bool catches = tile_work.wavefront.catchers.any();
+    if (catches) state.catchers.assign(static_cast<size_t>(pixels), {});
     state.layers.begin(plan, static_cast<size_t>(pixels));
     WavefrontInput in = tile_work.wavefront;
     in.recorder = state.recorder.get();
@@ -171,10 +191,16 @@ void render_tile(const TileWork& tile_work,
             in.batch.samples = std::min(per_batch, samples - sample);
             const int count = std::min(pixels_per_batch, pixels - first);
             trace_batch(in, count, state.work, state.sums.data() + first, state.counters);
+            if (catches) {
+                add_catcher_samples(state.work.catcher.samples,
+                                    in.batch.samples,
+                                    std::span(state.catchers).subspan(static_cast<size_t>(first)));
+            }
             if (plan.empty()) continue;
             const SumOfTime time(state.counters.seconds.accumulate);
             const BatchShape shape{static_cast<size_t>(count),
-                                   static_cast<size_t>(in.batch.samples)};
+                                   static_cast<size_t>(in.batch.samples),
+                                   static_cast<size_t>(sample)};
             state.layers.add(plan, static_cast<size_t>(first), shape, state.work);
         }
     }
@@ -210,6 +236,10 @@ void store_tile(const ThreadState& state, const LayerPlan& layers, int samples, 
         for (size_t c = 0; c < channels; ++c) {
             film.pixels[pixel * channels + c] = state.sums[i].mean(static_cast<int>(c), samples);
         }
+        if (state.catchers.empty()) continue;
+        const std::array<float, 4> part = catcher_part(state.catchers[i], samples);
+        for (size_t c = 0; c < channels; ++c)
+            film.pixels[pixel * channels + c] += part[c];
     }
     if (!layers.empty()) state.layers.store(layers, at, samples, film);
 }
@@ -271,9 +301,11 @@ Result<Supplies> make_supplies(const PreparedScene::Impl& scene, const RenderOpt
     return out;
 }
 
-bool has_cryptomatte(const RenderOptions& options) {
-    return std::any_of(options.layers.begin(), options.layers.end(), [](const Layer& layer) {
-        return std::holds_alternative<CryptomatteNames>(layer.source);
+/// True when a layer counts the samples of ids.
+bool counts_ids(const std::vector<Layer>& layers) {
+    return std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
+        return std::holds_alternative<CryptomatteNames>(layer.source) ||
+               std::holds_alternative<MajorityNode>(layer.source);
     });
 }
 
@@ -292,16 +324,46 @@ std::vector<std::string> names_of(const Layer& layer, const CryptomatteTables& t
     return tables.assets;
 }
 
-/// Adds the layers that were asked for to a film.
-LayerPlan add_layers(const Scene& scene, const RenderOptions& options, Film& film) {
+/// The layers of an image, and what they need.
+struct LayerPlans {
+    LayerPlan layers;
+    std::optional<LightPathPlan> light;  ///< nothing: there are no light layers
+};
+
+/// Adds layers to a film.
+LayerPlan add_layers(const Scene& scene, const std::vector<Layer>& layers, Film& film) {
     CryptomatteTables tables;
-    if (has_cryptomatte(options)) tables = cryptomatte_tables(scene);
+    if (counts_ids(layers)) tables = cryptomatte_tables(scene);
     const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
-    for (const Layer& layer : options.layers) {
+    for (const Layer& layer : layers) {
         film.layers.push_back({layer, {}, names_of(layer, tables)});
         film.layers.back().pixels.resize(pixels * layer.channels.size());
     }
-    return LayerPlan(options.layers, cryptomatte_hashes(tables));
+    return LayerPlan(layers, cryptomatte_hashes(tables));
+}
+
+/// Adds the layers that were asked for to a film.
+Result<LayerPlans> plan_layers(const PreparedScene::Impl& prepared,
+                               const RenderOptions& options,
+                               Film& film) {
+    const Scene& scene = prepared.scene;
+    std::vector<Layer> layers = options.layers;
+    LayerPlans out;
+    if (has_light_layers(layers) || !options.light_groups.empty()) {
+        const Result<LightGroups> groups = make_light_groups(scene, options.light_groups);
+        if (!groups) return fail(groups.error());
+        if (options.light_groups.each) {
+            for (Layer& layer : light_group_layers(groups->names, options.light_groups.components))
+                layers.push_back(std::move(layer));
+        }
+        std::vector<uint16_t> classes = light_classes(scene, *groups, prepared.lights.view());
+        Result<LightPathPlan> light =
+            LightPathPlan::make(layers, scene, *groups, std::move(classes));
+        if (!light) return fail(light.error());
+        out.light = std::move(*light);
+    }
+    out.layers = add_layers(scene, layers, film);
+    return out;
 }
 
 /// A film of the crop's size, in the memory of an earlier film if there is one.
@@ -332,7 +394,10 @@ Result<RenderResult> render(const PreparedScene& scene,
     if (!supplies) return fail(supplies.error());
     RenderResult result;
     result.film = make_film(options);
-    const LayerPlan layers = add_layers(scene.scene(), options, result.film);
+    const Result<LayerPlans> plans = plan_layers(scene.impl(), options, result.film);
+    if (!plans) return fail(plans.error());
+    const LayerPlan& layers = plans->layers;
+    const LightPathTable light_paths = plans->light ? plans->light->table() : LightPathTable{};
 
     const std::vector<float> filter = make_filter_table(options.filter);
     WavefrontInput wavefront_input = make_wavefront_input(scene.impl(), camera, options);
@@ -341,6 +406,9 @@ Result<RenderResult> render(const PreparedScene& scene,
     wavefront_input.notes = options.notes;
     if (!layers.empty()) wavefront_input.aovs = layers.aovs();
     wavefront_input.counts_rays = layers.counts_rays();
+    if (plans->light) wavefront_input.light_paths = &light_paths;
+    const std::optional<FrameView> frames = frame_view(scene.scene(), camera, options);
+    wavefront_input.frames = frames ? &*frames : nullptr;
     if (!supplies->camera.empty()) {
         wavefront_input.scene.motion.camera = supplies->camera.data();
         wavefront_input.scene.motion.camera_steps = static_cast<int>(supplies->camera.size());

@@ -8,6 +8,7 @@
 #include "base/unset_array.h"
 #include "camera/camera.h"
 #include "film/film.h"
+#include "film/light_groups.h"
 #include "image/pixels.h"
 #include "scene/scene.h"
 #include "stages/dispatch.h"
@@ -67,7 +68,7 @@ struct RenderOptions {
     int max_bounces = 8;
     uint64_t seed = 0;
     int tile_size = 16;  ///< pixels; any value gives the same image; at least 32 for AOVs
-    std::optional<PixelRect> crop;  ///< renders only this part
+    std::optional<PixelRect> crop;  ///< renders this part; it may reach beyond the image (overscan)
     Integrator integrator = Integrator::path;
     PixelFilter filter = PixelFilter::box;
     BackgroundKind background = BackgroundKind::environment;
@@ -75,8 +76,16 @@ struct RenderOptions {
     /// world_from_camera at evenly spaced times while the shutter is open, the first one as in
     /// Camera; empty: it stands still.
     std::vector<Affined> moving_camera;
-    std::vector<Layer> layers;  ///< beside the beauty; see layers_of
-    double ao_distance_m = 0;   ///< 0: a fifth of the scene's diagonal
+    /// For the layer `motion`: the camera one frame before the image's time, at it, and one frame
+    /// after it; empty: it stands still.
+    std::vector<Camera> frame_cameras;
+    std::vector<Layer> layers;       ///< beside the beauty; see layers_of, light_group_layers
+    LightGroupOptions light_groups;  ///< with `each`, render() adds their layers
+    /// For the integrators path and direct: the height of a plane that is a shadow catcher, beside
+    /// the surfaces with visibility_catcher; none: there is no such plane.
+    std::optional<float> catcher_ground_m;
+    bool catcher_reflections = false;  ///< shadow catchers reflect other surfaces
+    double ao_distance_m = 0;          ///< 0: a fifth of the scene's diagonal
     double wire_width_px = 1;
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
     int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling

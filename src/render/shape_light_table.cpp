@@ -102,7 +102,8 @@ std::vector<ShapeLight> collect_shape_lights(Scene& scene, int32_t first) {
     for (int32_t i = 0; i < scene.world_primitive_count; ++i) {
         Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
         if (is_mesh(primitive)) continue;
-        const auto light = light_of(scene, primitive, {});
+        auto light = light_of(scene, primitive, {});
+        if (is_catcher(scene, i, -1)) light.reset();
         primitive.light_base = light ? next() : -1;
         if (light) lights.push_back(*light);
     }
@@ -115,7 +116,9 @@ std::vector<ShapeLight> collect_shape_lights(Scene& scene, int32_t first) {
         const auto light =
             light_of(scene, primitive, affine_cast<double>(instance.world_from_object));
         primitive.light_base = 0;
-        const bool known = light && !moves(instance);
+        const auto number = static_cast<int32_t>(&instance - scene.instances.data());
+        const bool known =
+            light && !moves(instance) && !is_catcher(scene, mesh.first_primitive, number);
         instance.light_base = known ? next() : no_light_base;
         if (known) lights.push_back(*light);
     }

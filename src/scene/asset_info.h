@@ -68,6 +68,7 @@ struct AssetInfo {
     std::vector<int32_t> node_parents;     ///< likewise; -1: a root
     std::vector<int32_t> node_meshes;      ///< likewise, in `meshes`; -1: none
     std::vector<std::string> light_names;  ///< beside Scene::lights
+    std::vector<int32_t> light_nodes;      ///< likewise: glTF node
     std::string environment;               ///< name of the scene's image-based light; empty: none
     std::vector<ImageInfo> images;
     std::vector<ExtensionInfo> extensions;

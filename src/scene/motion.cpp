@@ -19,44 +19,6 @@ bool has_same_tail(const LargeArray<uint32_t>& all,
            std::equal(tail.begin(), tail.end(), &all[static_size]);
 }
 
-bool have_same_structure(const Scene& a, const ScenePose& b) {
-    const auto same_primitive = [](const Primitive& p, const Primitive& q) {
-        return p.first_triangle == q.first_triangle && p.triangle_count == q.triangle_count &&
-               p.normal_base == q.normal_base && p.geometry == q.geometry;
-    };
-    const auto same_instance = [](const Instance& p, const Instance& q) {
-        return p.mesh == q.mesh && p.mirrored == q.mirrored;
-    };
-    const auto same_light = [](const PunctualLight& p, const PunctualLight& q) {
-        return p.type == q.type && p.profile == q.profile;
-    };
-    const auto all_same = [](const auto& p, const auto& q, const auto& same) {
-        return std::equal(p.begin(), p.end(), q.begin(), q.end(), same);
-    };
-    return a.positions.size() == b.static_sizes.positions + b.positions.size() &&
-           a.cameras.size() == b.cameras.size() &&
-           has_same_tail(a.indices, b.static_sizes.indices, b.indices) &&
-           a.attributes.size() == b.static_sizes.attributes + b.attributes.size() &&
-           all_same(a.primitives, b.primitives, same_primitive) &&
-           all_same(a.instances, b.instances, same_instance) &&
-           all_same(a.lights, b.lights, same_light);
-}
-
-/// The vertices of a primitive, which are contiguous.
-struct VertexRange {
-    size_t first = 0;
-    size_t count = 0;
-};
-
-VertexRange vertices_of(const Scene& scene, const Primitive& primitive) {
-    const auto begin =
-        scene.indices.begin() + static_cast<std::ptrdiff_t>(primitive.first_triangle) * 3;
-    const auto end = begin + static_cast<std::ptrdiff_t>(primitive.triangle_count) * 3;
-    if (begin == end) return {};
-    const auto [least, most] = std::minmax_element(begin, end);
-    return {*least, static_cast<size_t>(*most) - *least + 1};
-}
-
 /// Start of a primitive's normals in Scene::attributes.
 size_t normals_start(const Primitive& primitive, const VertexRange& range) {
     return static_cast<size_t>(static_cast<int64_t>(primitive.normal_base) +
@@ -165,6 +127,38 @@ void join_lights(Scene& first, Poses later) {
 }
 
 }  // namespace
+
+bool have_same_structure(const Scene& a, const ScenePose& b) {
+    const auto same_primitive = [](const Primitive& p, const Primitive& q) {
+        return p.first_triangle == q.first_triangle && p.triangle_count == q.triangle_count &&
+               p.normal_base == q.normal_base && p.geometry == q.geometry;
+    };
+    const auto same_instance = [](const Instance& p, const Instance& q) {
+        return p.mesh == q.mesh && p.mirrored == q.mirrored;
+    };
+    const auto same_light = [](const PunctualLight& p, const PunctualLight& q) {
+        return p.type == q.type && p.profile == q.profile;
+    };
+    const auto all_same = [](const auto& p, const auto& q, const auto& same) {
+        return std::equal(p.begin(), p.end(), q.begin(), q.end(), same);
+    };
+    return a.positions.size() == b.static_sizes.positions + b.positions.size() &&
+           a.cameras.size() == b.cameras.size() &&
+           has_same_tail(a.indices, b.static_sizes.indices, b.indices) &&
+           a.attributes.size() == b.static_sizes.attributes + b.attributes.size() &&
+           all_same(a.primitives, b.primitives, same_primitive) &&
+           all_same(a.instances, b.instances, same_instance) &&
+           all_same(a.lights, b.lights, same_light);
+}
+
+VertexRange vertices_of(const Scene& scene, const Primitive& primitive) {
+    const auto begin =
+        scene.indices.begin() + static_cast<std::ptrdiff_t>(primitive.first_triangle) * 3;
+    const auto end = begin + static_cast<std::ptrdiff_t>(primitive.triangle_count) * 3;
+    if (begin == end) return {};
+    const auto [least, most] = std::minmax_element(begin, end);
+    return {*least, static_cast<size_t>(*most) - *least + 1};
+}
 
 Affinef world_from_object_at(const Scene& scene, const Instance& instance, float time) {
     if (instance.motion < 0) return instance.world_from_object;

@@ -37,6 +37,18 @@ struct ScenePose {
     Bounds bounds;
 };
 
+/// True when a pose has the same parts as a scene: triangles, instances, cameras and lights.
+bool have_same_structure(const Scene& scene, const ScenePose& pose);
+
+/// The vertices of a primitive, which are contiguous.
+struct VertexRange {
+    size_t first = 0;
+    size_t count = 0;
+};
+
+/// In   primitive: a mesh
+VertexRange vertices_of(const Scene& scene, const Primitive& primitive);
+
 /// Moves the pose out of a scene; only the scene's static parts stay valid.
 ScenePose take_pose(Scene& scene, const StaticSizes& static_sizes);
 

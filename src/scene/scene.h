@@ -11,6 +11,7 @@
 #include "scene/camera_settings.h"
 #include "scene/splats.h"
 #include "scene/texture_arena.h"
+#include "scene/visibility.h"
 #include "shape/shape_record.h"
 #include "shape/sphere_block.h"
 #include "surface/material_layers.h"
@@ -152,6 +153,9 @@ struct Motion {
     std::vector<PunctualLight> lights;  ///< `steps` for each of Scene::lights; empty: all stand
 };
 
+/// Motion from frame to frame: see scene/frame_motion.h.
+struct FrameMotion;
+
 struct Bounds {
     Vec3f low = {INFINITY, INFINITY, INFINITY};
     Vec3f high = {-INFINITY, -INFINITY, -INFINITY};
@@ -182,7 +186,9 @@ struct Scene {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     SplatField splats;
+    VisibilityFlags visibility;
     Motion motion;
+    std::shared_ptr<const FrameMotion> frame_motion;  ///< null: nobody asked for it
     std::vector<Material> materials;     ///< never empty: record 0 is for primitives without one
     std::vector<MaterialLayers> layers;  ///< of the materials that have any; see Material::layers
     std::vector<Medium> media = {Medium{}};  ///< by MaterialLayers::medium; 0 is air

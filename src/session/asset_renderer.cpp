@@ -7,7 +7,9 @@
 #include "render/integrators.h"
 #include "scene/scene_memory.h"
 #include "session/focus.h"
+#include "session/framed_geometry.h"
 #include "session/image_layers.h"
+#include "session/lighting.h"
 
 #include <utility>
 
@@ -70,17 +72,23 @@ Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
     Result<ChosenCamera> camera = choose_unfocused_camera(*scene_, request, log);
     if (!camera) return camera;
     if (has_points_lines(*scene_)) size_points_lines(request.points_lines, camera->camera, *scene_);
+    std::optional<LightingOptions> turned;
+    if (request.environment_follows_camera) {
+        turned = lighting;
+        turned->environment_rotation_deg += camera_azimuth_deg(camera->basis.world_from_camera);
+    }
+    const LightingOptions& used = turned ? *turned : lighting;
     Scene scene = std::move(*scene_);
     scene_.reset();
     if (prepared_) {
-        const Result<void> updated = prepared_->update(std::move(scene), lighting, log);
+        const Result<void> updated = prepared_->update(std::move(scene), used, log);
         if (!updated) {
             prepared_.reset();
             return fail(updated.error());
         }
     } else {
         Result<PreparedScene> created =
-            PreparedScene::create(std::move(scene), lighting, request.isa, log);
+            PreparedScene::create(std::move(scene), used, request.isa, log);
         if (!created) return fail(created.error());
         prepared_ = std::move(*created);
     }
@@ -113,7 +121,17 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
                                             const RenderHooks& hooks,
                                             const Log& log) {
     RenderOptions options = request.options;
+    options.crop = rendered_part(request);
+    if (request.segmentation) options.layers.push_back(segmentation_layer());
+    if (request.catcher_ground) {
+        const FramedGeometry geometry(prepared_->scene(), request.camera.framed_nodes);
+        options.catcher_ground_m = static_cast<float>(geometry.farthest({0, -1, 0}).y);
+    }
     options.moving_camera = camera.moving;
+    Result<std::vector<Camera>> frame_cameras =
+        choose_frame_cameras(prepared_->scene(), request.camera, camera);
+    if (!frame_cameras) return fail(frame_cameras.error());
+    options.frame_cameras = std::move(*frame_cameras);
     options.film_memory = &film_memory_;
     const std::atomic<bool> never = false;
     Result<RenderResult> result = obscura::render(*prepared_,
@@ -132,6 +150,10 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     finished.render_seconds = result->render_seconds;
     if (request.load.lenient) {
         finished.metadata.extra.push_back({"obscura:degraded", degraded_text(degraded_)});
+    }
+    if (request.segmentation) {
+        finished.segmentation = segmentation_of(film, prepared_->scene());
+        film.layers.pop_back();
     }
     std::string manifest;
     if (request.crypto_manifest) {

@@ -75,7 +75,7 @@ public:
     /// Renders the prepared pose.
     ///
     /// In      log: its number of warnings goes into the image's header
-    /// Errors  those of render
+    /// Errors  those of render and choose_frame_cameras
     Result<FinishedImage> render(const RenderRequest& request,
                                  const ChosenCamera& camera,
                                  const RenderHooks& hooks,

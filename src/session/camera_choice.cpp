@@ -4,12 +4,14 @@
 
 #include "base/setting_names.h"
 #include "base/text.h"
+#include "scene/frame_motion.h"
 #include "session/aperture_image.h"
 #include "session/framing.h"
 #include "session/model_settings.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace obscura {
 
@@ -27,6 +29,7 @@ struct Placed {
     double zfar_m = 0;
     CameraSettings settings;
     std::optional<double> target_m;  ///< distance of the point that was aimed at
+    std::optional<size_t> of_file;   ///< index in Scene::cameras
     std::string description;
 };
 
@@ -108,6 +111,7 @@ Result<Placed> place_from_file(const Scene& scene, size_t index, double image_as
     Result<Placed> placed = place_as_given(
         source, scene.info.file_name + " camera '" + source.name + "'", image_aspect);
     if (!placed) return placed;
+    placed->of_file = index;
     placed->description = "camera " + std::to_string(index) + " '" + source.name + "' of the file";
     return placed;
 }
@@ -263,6 +267,17 @@ Result<void> add_aperture(ChosenCamera& out, Log& log) {
     return {};
 }
 
+/// Whether two poses of one camera of a file show what stands still at the same pixels.
+bool shows_the_same(const SceneCamera& a, const SceneCamera& b) {
+    const auto lens = [](const SceneCamera& camera) {
+        return std::tuple(camera.yfov_rad, camera.aspect, camera.xmag_m, camera.ymag_m);
+    };
+    const auto& p = a.world_from_camera.m;
+    const auto& q = b.world_from_camera.m;
+    return std::equal(&p[0][0], &p[0][0] + 12, &q[0][0]) && lens(a) == lens(b) &&
+           settings_texts(a.settings) == settings_texts(b.settings);
+}
+
 }  // namespace
 
 Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect) {
@@ -304,8 +319,30 @@ Result<ChosenCamera> choose_camera(
     out.ev100 = *ev100;
     if (const Result<void> added = add_aperture(out, log); !added) return fail(added.error());
     choose_planes(*placed, sphere, out);
+    out.of_file = placed->of_file;
     out.description = placed->description;
     log.detail("camera: " + out.description);
+    return out;
+}
+
+Result<std::vector<Camera>> choose_frame_cameras(const Scene& scene,
+                                                 const CameraRequest& request,
+                                                 const ChosenCamera& chosen) {
+    std::vector<Camera> out;
+    if (!chosen.of_file || scene.frame_motion == nullptr) return out;
+    const auto& frames = scene.frame_motion->cameras;
+    const auto at = [&](size_t s) -> const SceneCamera& { return frames[s][*chosen.of_file]; };
+    if (shows_the_same(at(0), at(1)) && shows_the_same(at(1), at(2))) return out;
+    Log quiet(Verbosity::quiet);
+    for (const std::vector<SceneCamera>& cameras : frames) {
+        CameraRequest posed = request;
+        posed.loaded = cameras[*chosen.of_file];
+        const Result<ChosenCamera> camera =
+            choose_camera(scene, posed, chosen.size.width_px, chosen.size.height_px, quiet);
+        if (!camera) return fail(camera.error());
+        out.push_back(camera->camera);
+        out.back().thin_lens.aperture.image = {};  // its table goes with `camera`
+    }
     return out;
 }
 

@@ -51,7 +51,8 @@ struct ChosenCamera {
     CameraSettings settings;      ///< those of the file and of the options together
     std::optional<double> ev100;  ///< the exposure that was asked for
     std::shared_ptr<const ApertureTable> aperture;  ///< what camera.thin_lens looks at
-    std::string description;                        ///< "camera 'Front' of the file"
+    std::optional<size_t> of_file = {};  ///< index in Scene::cameras, if it is one of those
+    std::string description;             ///< "camera 'Front' of the file"
 };
 
 /// Chooses the camera:
@@ -78,6 +79,14 @@ struct ChosenCamera {
 ///         floats; 67 E-IMG-* and E-APERTURE-* the image of an aperture
 Result<ChosenCamera> choose_camera(
     const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log);
+
+/// RenderOptions::frame_cameras of a chosen camera; empty where it stands still, as cameras do that
+/// are not the file's.
+///
+/// Errors  those of choose_camera
+Result<std::vector<Camera>> choose_frame_cameras(const Scene& scene,
+                                                 const CameraRequest& request,
+                                                 const ChosenCamera& chosen);
 
 /// The automatic framing of the scene; `kept`, where there is one.
 Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect);

@@ -36,7 +36,15 @@ Result<ChosenCamera> choose_unfocused_camera(const Scene& scene,
     const RenderOptions& options = request.options;
     Result<ChosenCamera> chosen =
         choose_camera(scene, request.camera, options.width, options.height, log);
-    if (!chosen || !request.camera.focus_on_px) return chosen;
+    if (!chosen) return chosen;
+    if (request.overscan && chosen->camera.model == CameraModel::environment) {
+        return fail(ExitCode::usage,
+                    "E-CAM-OVERSCAN",
+                    setting("overscan"),
+                    "this camera's image shows all directions: there is nothing around it; leave "
+                    "it out, or choose another camera model");
+    }
+    if (!request.camera.focus_on_px) return chosen;
     if (chosen->camera.model != CameraModel::thin_lens) {
         return refuse("this camera has no lens; expected a thin lens: " + setting("fstop") +
                       " N or " + setting("lens-radius"));

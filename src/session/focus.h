@@ -10,7 +10,7 @@ namespace obscura {
 /// Chooses the camera, and reports all errors of focusing that need no BVH.
 ///
 /// Errors  those of choose_camera; 64 E-CAM-FOCUS the pixel is outside the image, or the camera
-///         has no lens
+///         has no lens; E-CAM-OVERSCAN overscan around an image of all directions
 Result<ChosenCamera> choose_unfocused_camera(const Scene& scene,
                                              const RenderRequest& request,
                                              Log& log);

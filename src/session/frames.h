@@ -33,6 +33,7 @@ struct MovieFrame {
     std::optional<int> number;  ///< of a sequence
     double time_s = 0;
     std::vector<std::filesystem::path> outputs;
+    std::optional<std::filesystem::path> segmentation = {};
 };
 
 }  // namespace obscura

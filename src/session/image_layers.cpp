@@ -25,24 +25,26 @@ void add_names(const FilmLayer& from, std::vector<std::string>& to) {
         });
 }
 
-std::vector<CryptomatteAttribute> attributes_of(const FilmLayer& layer,
+std::vector<CryptomatteAttribute> attributes_of(const std::string& layer,
+                                                const std::vector<std::string>& names,
                                                 const std::string& manifest) {
-    if (!manifest.empty()) return cryptomatte_file_attributes(layer.layer.name, manifest);
-    std::vector<std::string> names;
-    add_names(layer, names);
-    return cryptomatte_attributes(layer.layer.name, cryptomatte_manifest(names));
+    if (!manifest.empty()) return cryptomatte_file_attributes(layer, manifest);
+    return cryptomatte_attributes(layer, cryptomatte_manifest(names));
 }
 
 ImageLayer image_layer(FilmLayer&& from, const std::string& manifest) {
     ImageLayer out;
     if (is_cryptomatte(from)) {
-        for (CryptomatteAttribute& attribute : attributes_of(from, manifest))
+        add_names(from, out.names);
+        for (CryptomatteAttribute& attribute : attributes_of(from.layer.name, out.names, manifest))
             out.metadata.emplace_back(std::move(attribute.name), std::move(attribute.text));
     }
     out.name = std::move(from.layer.name);
     out.channels = std::move(from.layer.channels);
     out.kind = from.layer.kind;
     out.pixels = std::move(from.pixels);
+    if (const auto* share = std::get_if<LightShare>(&from.layer.source))
+        out.expression = share->expression.text;
     out.reduction = std::move(from.layer.reduction);
     return out;
 }

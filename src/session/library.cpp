@@ -1,17 +1,16 @@
 // session/library.cpp - the library's Session: opens assets, renders images, writes files.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
-#include "base/text.h"
 #include "render/film_rows.h"
 #include "render/integrators.h"
 #include "session/focus.h"
 #include "session/library_asset.h"
+#include "session/library_image.h"
 #include "session/library_request.h"
 #include "session/lighting.h"
 #include "session/outputs.h"
 #include "session/requested_camera.h"
 
-#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <obscura/obscura.h>
@@ -115,8 +114,8 @@ Result<ChosenCamera> prepare(v0::Asset::Impl& asset,
                              const RenderRequest& request,
                              Log& log) {
     const bool times = view.time_s || view.shutter_s;
-    const bool uv = request.options.integrator == Integrator::uv;
-    if (auto done = read(asset, {times, uv}, log); !done) return fail(done.error());
+    if (auto done = read(asset, {times, wants_uv(request.options)}, log); !done)
+        return fail(done.error());
     AssetRenderer& renderer = *asset.renderer;
     const PreparedFor wanted{view.time_s,
                              view.shutter_s,
@@ -165,59 +164,7 @@ ProgressFunction watched_by(const v0::Control& control, std::mutex& mutex) {
 
 namespace v0 {
 
-struct Image::Source {
-    ImageMetadata metadata;
-    obscura::Integrator integrator;
-    std::optional<double> ev100;
-};
-
 namespace {
-
-std::string text_of(const AttributeValue& value) {
-    return std::visit(
-        [](const auto& from) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(from)>, std::string>) {
-                return from;
-            } else {
-                return shortest(static_cast<double>(from));
-            }
-        },
-        value);
-}
-
-/// Attributes that the caller left as they were keep their types; the others are texts.
-std::vector<ImageAttribute> typed_attributes(
-    const std::vector<std::pair<std::string, std::string>>& texts,
-    const std::vector<ImageAttribute>& made) {
-    std::vector<ImageAttribute> out;
-    for (const auto& text : texts) {
-        const auto same = std::find_if(made.begin(), made.end(), [&](const ImageAttribute& own) {
-            return own.name == text.first && text_of(own.value) == text.second;
-        });
-        out.push_back(same != made.end() ? *same : ImageAttribute{text.first, text.second});
-    }
-    return out;
-}
-
-Image image_of(const FinishedImage& finished,
-               const RenderRequest& request,
-               const ChosenCamera& camera) {
-    const OutputImage& image = finished.image;
-    Image out;
-    out.width = request.options.width;
-    out.height = request.options.height;
-    const ImagePart part = image.part_of.value_or(ImagePart{});
-    out.part = {part.x, part.y, image.width, image.height};
-    out.channels = image.channels;
-    out.pixels.assign(image.pixels.begin(), image.pixels.end());
-    for (const ImageAttribute& attribute : finished.metadata.extra) {
-        std::string text = text_of(attribute.value);
-        if (!text.empty()) out.attributes.emplace_back(attribute.name, std::move(text));
-    }
-    out.source = std::make_shared<const Image::Source>(
-        Image::Source{finished.metadata, request.options.integrator, camera.ev100});
-    return out;
-}
 
 obscura::Result<Image> render_image(Asset::Impl& asset,
                                     const View& view,
@@ -244,7 +191,7 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     const RenderHooks hooks{watched_by(control, mutex), control.cancel};
     auto finished = asset.renderer->render(request, *camera, hooks, asset.log);
     if (!finished) return fail(finished.error());
-    Image image = image_of(*finished, request, *camera);
+    Image image = library_image(*finished, request, *camera);
     asset.renderer->recycle(std::move(finished->image));
     ImageStatistics& statistics = image.statistics;
     statistics.render_seconds = finished->render_seconds;
@@ -265,6 +212,7 @@ obscura::Result<void> write_image(const Image& image,
     request.outputs = {file};
     request.options.integrator = image.source->integrator;
     request.exr.depth = options.float32 ? ExrDepth::float32 : ExrDepth::half;
+    request.exr.layout = static_cast<obscura::ExrLayout>(options.exr_layout);
     const obscura::Result<DisplayEncoding> encoding = encoding_of(options);
     if (!encoding) return fail(encoding.error());
     request.encoding = *encoding;
@@ -274,19 +222,8 @@ obscura::Result<void> write_image(const Image& image,
     ChosenCamera camera;
     camera.ev100 = image.source->ev100;
     if (auto done = expose_display(camera, request, *display, log); !done) return done;
-    FinishedImage finished;
-    finished.metadata = image.source->metadata;
-    finished.metadata.extra = typed_attributes(image.attributes, finished.metadata.extra);
-    OutputImage& output = finished.image;
-    output.width = image.part.width;
-    output.height = image.part.height;
-    output.channels = image.channels;
-    output.pixels.assign(image.pixels.begin(), image.pixels.end());
-    if (image.part.width != image.width || image.part.height != image.height) {
-        output.part_of = ImagePart{image.width, image.height, image.part.x, image.part.y};
-    }
     const std::atomic<bool> never = false;
-    return write_outputs(request, finished, *display, never, log);
+    return write_outputs(request, finished_image(image), *display, never, log);
 }
 
 }  // namespace

@@ -24,7 +24,8 @@ static_assert(static_cast<int>(v0::Integrator::heat) == static_cast<int>(Integra
               static_cast<int>(v0::CameraModel::fisheye) == 3 &&
               static_cast<int>(v0::PixelFilter::blackman_harris) ==
                   static_cast<int>(PixelFilter::blackman_harris) &&
-              static_cast<int>(v0::Background::color) == static_cast<int>(BackgroundKind::color));
+              static_cast<int>(v0::Background::color) == static_cast<int>(BackgroundKind::color) &&
+              static_cast<int>(v0::ExrLayout::separate) == static_cast<int>(ExrLayout::separate));
 constexpr std::array<CameraModel, 5> camera_models = {CameraModel::pinhole,
                                                       CameraModel::orthographic,
                                                       CameraModel::thin_lens,
@@ -238,6 +239,7 @@ void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& che
     checks.real("max-bounces", sampling.max_bounces, 0, 1000);
     checks.real("ao-distance", sampling.ao_distance_m, 1e-9, 1e12);
     checks.real("wire-width", sampling.wire_width_px, 0.01, 1000);
+    checks.real("crypto-levels", sampling.crypto_levels, 1, 64);
     out.integrator = static_cast<Integrator>(sampling.integrator);
     out.samples_per_pixel = sampling.samples_per_pixel;
     out.max_bounces = sampling.max_bounces;
@@ -286,6 +288,8 @@ Result<RenderRequest> request_of(const v0::View& view,
     out.options.tile_size = control.tile_size;
     if (checks.error()) return fail(*checks.error());
     if (const Result<void> fits = check_crop(out.options); !fits) return fail(fits.error());
+    out.crypto_levels = sampling.crypto_levels;
+    if (auto chosen = choose_layers(sampling.aov, out); !chosen) return fail(chosen.error());
     return out;
 }
 

@@ -15,7 +15,7 @@ gltf::LoadOptions load_options_of(const v0::AssetOptions& options);
 /// Everything that an image is asked for, except outputs and the file.
 ///
 /// Errors  64 E-USAGE-RANGE a number is out of its range, E-USAGE-CHOICE an unknown name,
-///         E-USAGE-CONFLICT fields that exclude each other; `where` names the field
+///         E-USAGE-CONFLICT fields that exclude each other, E-AOV-NAME; `where` names the field
 Result<RenderRequest> request_of(const v0::View& view,
                                  const v0::Look& look,
                                  const v0::Sampling& sampling,

@@ -11,4 +11,9 @@ namespace obscura {
 /// Errors  67 E-ENV-*; those of parse_built_in_environment
 Result<LightingOptions> load_lighting(const RenderRequest& request, Log& log);
 
+/// The angle about +Y, counter-clockwise seen from above, by which a camera in front (+Z) must turn
+/// to stand where this one does: its azimuth, in degrees. Of one that looks straight up or down, by
+/// its right side.
+double camera_azimuth_deg(const Affined& world_from_camera);
+
 }  // namespace obscura

@@ -51,17 +51,28 @@ auto with_content(const RenderRequest& request,
     }
     ImageMetadata metadata = finished.metadata;
     metadata.is_color = false;
-    const OutputImage preview = preview_image(whole_image(finished.image), integrator);
+    OutputImage whole = whole_image(finished.image);
+    const bool is_albedo = integrator == Integrator::albedo;
+    if (is_albedo && request.display.rec709_from_scene) {
+        convert_colors(*request.display.rec709_from_scene, whole.pixels, whole.channels.size());
+    }
+    const OutputImage preview = preview_image(whole, integrator);
     return write(Content{preview, metadata, options, encoding});
 }
 
-/// True when the whole image is one sphere, as OpenEXR's envmap attribute says: twice as wide as
-/// high, for one eye.
-bool is_latlong(const RenderOptions& options, const Camera& camera) {
-    return camera.model == CameraModel::environment &&
-           camera.environment.projection == EnvironmentProjection::latlong &&
-           camera.environment.half_eyes_m == 0 && !options.crop &&
-           options.width == 2 * options.height;
+/// True when an image has two eyes, the left one above the right one.
+bool is_stereo(const Camera& camera) {
+    return camera.model == CameraModel::environment && camera.environment.half_eyes_m > 0;
+}
+
+/// True when the image, or each of two eyes in parts of their own, is one whole sphere, as
+/// OpenEXR's envmap attribute says: twice as wide as high.
+bool is_latlong(const RenderRequest& request, const Camera& camera) {
+    const RenderOptions& options = request.options;
+    if (camera.model != CameraModel::environment || options.crop) return false;
+    if (camera.environment.projection != EnvironmentProjection::latlong) return false;
+    if (!is_stereo(camera)) return options.width == 2 * options.height;
+    return request.exr.layout == ExrLayout::multipart && options.width == options.height;
 }
 
 /// The time of a frame in hours, minutes, seconds and frames of 24, 25 or 30 (also over 1.001) a
@@ -109,7 +120,8 @@ StandardAttributes standard_attributes(const RenderRequest& request, const Chose
     const bool is_in_nits = integrator == Integrator::path || integrator == Integrator::direct ||
                             integrator == Integrator::raycast;
     if (is_in_nits) out.white_luminance = 1.0f;
-    out.is_latlong = is_latlong(options, chosen.camera);
+    out.is_latlong = is_latlong(request, chosen.camera);
+    if (is_stereo(chosen.camera)) out.views = {"left", "right"};
     if (request.frames) {
         out.frame_rate_hz = request.frames->fps;
         if (request.frame) out.time_code = time_code(*request.frame, request.frames->fps);
@@ -155,6 +167,11 @@ Result<void> check_outputs(const RenderRequest& request) {
     if (request.standard_output) {
         if (auto done = fits({*request.standard_output, standard_output_name}); !done) return done;
     }
+    if (first.segmentation) {
+        for (const std::filesystem::path& file : segmentation_files(*first.segmentation)) {
+            if (auto writable = check_file_can_be_written(file); !writable) return writable;
+        }
+    }
     if (request.statistics) return check_file_can_be_written(*request.statistics);
     return {};
 }
@@ -194,6 +211,7 @@ ImageMetadata make_metadata(const RenderRequest& request,
     metadata.copyright = info.copyright;
     metadata.samples_per_pixel = samples_taken(options);
     metadata.seed = options.seed;
+    metadata.space = request.space;
     metadata.is_color =
         !needs_preview(options.integrator) || options.integrator == Integrator::albedo;
     metadata.standard = standard_attributes(request, chosen);
@@ -233,6 +251,11 @@ Result<void> write_outputs(const RenderRequest& request,
     if (request.crypto_manifest && !finished.crypto_manifest.empty()) {
         const auto bytes = std::as_bytes(std::span(finished.crypto_manifest));
         const auto written = write_file_atomically(*request.crypto_manifest, bytes);
+        if (!written) return written;
+    }
+    if (request.segmentation && finished.segmentation) {
+        const auto written =
+            write_segmentation(*request.segmentation, *finished.segmentation, finished.metadata);
         if (!written) return written;
     }
     const DisplayTransform* const transform = display ? &*display : nullptr;

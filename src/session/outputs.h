@@ -4,6 +4,7 @@
 
 #include "render/render.h"
 #include "session/render_request.h"
+#include "session/segmentation.h"
 
 #include <atomic>
 #include <optional>
@@ -47,6 +48,7 @@ struct FinishedImage {
     OutputImage image;
     ImageMetadata metadata;
     std::string crypto_manifest = {};  ///< the text of the request's file; empty: there is none
+    std::optional<Segmentation> segmentation = {};
     RenderCounters counters;
     double render_seconds = 0;
 };

@@ -3,16 +3,30 @@
 #include "session/render_request.h"
 
 #include "base/setting_names.h"
+#include "film/layers.h"
+#include "render/integrators.h"
+
+#include <algorithm>
+#include <variant>
+
+#include <cmath>
+#include <utility>
 
 namespace obscura {
 
 std::vector<MovieFrame> frames_of(const RenderRequest& request) {
-    if (!request.frames) return {{{}, request.load.time_s.value_or(0), request.outputs}};
+    if (!request.frames) {
+        return {{{}, request.load.time_s.value_or(0), request.outputs, request.segmentation}};
+    }
     std::vector<MovieFrame> out;
     for (int number = request.frames->first; number <= request.frames->last; ++number) {
-        MovieFrame frame{number, request.frames->time_s(number), {}};
+        MovieFrame frame{number, request.frames->time_s(number), {}, request.segmentation};
         for (const std::filesystem::path& pattern : request.outputs)
             frame.outputs.push_back(frame_file(pattern, number).value_or(pattern));
+        if (frame.segmentation) {
+            frame.segmentation =
+                frame_file(*frame.segmentation, number).value_or(*frame.segmentation);
+        }
         out.push_back(std::move(frame));
     }
     return out;
@@ -30,6 +44,33 @@ std::vector<std::filesystem::path> image_files(const RenderRequest& request,
     return files;
 }
 
+std::optional<PixelRect> rendered_part(const RenderRequest& request) {
+    const RenderOptions& options = request.options;
+    if (!request.overscan) return options.crop;
+    const Overscan& overscan = *request.overscan;
+    const auto pixels = [&](int side) {
+        const double amount = overscan.is_fraction ? overscan.amount * side : overscan.amount;
+        return static_cast<int>(std::ceil(amount));
+    };
+    const int x = pixels(options.width);
+    const int y = pixels(options.height);
+    return PixelRect{-x, -y, options.width + 2 * x, options.height + 2 * y};
+}
+
+Result<void> use_color_space(RenderRequest& request, Log& log) {
+    if (request.color_space.empty()) return {};
+    Result<RenderingSpace> space =
+        find_rendering_space(request.color_space, request.display.ocio_file, log);
+    if (!space) return fail(space.error());
+    request.space = std::move(*space);
+    if (!request.space.from_rec709) return {};
+    const Matrix3& matrix = *request.space.from_rec709;
+    request.load.from_rec709 = matrix;
+    request.display.rec709_from_scene = inverse(matrix);
+    convert_colors(matrix, request.options.background_color);
+    return {};
+}
+
 Result<void> check_crop(const RenderOptions& options) {
     const PixelRect crop = options.crop.value_or(PixelRect{});
     if (crop.x + crop.width <= options.width && crop.y + crop.height <= options.height) return {};
@@ -38,6 +79,44 @@ Result<void> check_crop(const RenderOptions& options) {
                 setting("crop"),
                 "the part reaches beyond the picture; expected one within " +
                     std::to_string(options.width) + "x" + std::to_string(options.height));
+}
+
+Result<void> choose_layers(std::span<const std::string> names, RenderRequest& request) {
+    Result<std::vector<Layer>> layers = layers_of(names, request.crypto_levels);
+    if (!layers) return fail(layers.error());
+    request.options.layers = std::move(*layers);
+    return check_layers(request, setting("aov"));
+}
+
+Result<void> check_layers(const RenderRequest& request, const std::string& asked_by) {
+    const RenderOptions& options = request.options;
+    const auto conflict = [&](const std::string& message) {
+        return fail(ExitCode::usage, "E-USAGE-CONFLICT", asked_by, message);
+    };
+    if (options.layers.empty() && options.light_groups.empty()) return {};
+    const IntegratorEntry& integrator = entry_of(options.integrator);
+    const std::string chosen = setting("integrator") + " " + integrator.name;
+    if (!has_layers(integrator.value)) {
+        return conflict("layers stand beside light; " + chosen +
+                        " computes none. Use path, direct, raycast or ao");
+    }
+    const bool has_light = has_light_layers(options.layers) || !options.light_groups.empty();
+    if (has_light && integrator.kind != WavefrontKind::path) {
+        return conflict("shares of the light come from paths; " + chosen +
+                        " follows none. Use path or direct");
+    }
+    return {};
+}
+
+bool has_layer(const RenderOptions& options, Aov wanted) {
+    return std::any_of(options.layers.begin(), options.layers.end(), [&](const Layer& one) {
+        const Aov* aov = std::get_if<Aov>(&one.source);
+        return aov != nullptr && *aov == wanted;
+    });
+}
+
+bool wants_uv(const RenderOptions& options) {
+    return has_layer(options, Aov::uv) || options.integrator == Integrator::uv;
 }
 
 }  // namespace obscura

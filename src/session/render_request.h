@@ -5,6 +5,7 @@
 #include "base/log.h"
 #include "gltf/load.h"
 #include "image/display.h"
+#include "image/rendering_space.h"
 #include "image/write.h"
 #include "render/points_lines_sizes.h"
 #include "render/render.h"
@@ -13,16 +14,25 @@
 
 #include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 namespace obscura {
+
+/// What is rendered around the image, on every side.
+struct Overscan {
+    double amount = 0;
+    bool is_fraction = false;  ///< of the image's width and height; else pixels
+};
 
 struct RenderRequest {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> outputs;
     std::optional<OutputFormat> standard_output;  ///< -o -: the image goes there, too
     gltf::LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
-    std::optional<FrameRange> frames;         ///< then the outputs are patterns; see frame_file
+    /// Then the outputs and `segmentation` are patterns; see frame_file.
+    std::optional<FrameRange> frames;
     std::optional<int> frame;                 ///< of them, the one that is rendered
     std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
     double fps = 24;
@@ -30,16 +40,22 @@ struct RenderRequest {
     std::optional<std::filesystem::path> camera_json;
     PointsLinesSizes points_lines;  ///< --point-size, --line-width
     bool size_is_given = false;     ///< else --camera-json may have one
+    bool catcher_ground = false;  ///< --catcher ground: RenderOptions::catcher_ground_m by the pose
     RenderOptions options;
     std::optional<std::filesystem::path> environment;
     double environment_intensity = 1;
     double environment_rotation_deg = 0;
-    int threads = 0;  ///< 0: every core
+    bool environment_follows_camera = false;  ///< the rotation is added to the camera's azimuth
+    int threads = 0;                          ///< 0: every core
     Isa isa = Isa::automatic;
+    std::string color_space;  ///< --color-space; empty: lin_rec709
+    RenderingSpace space;     ///< what it means: set by use_color_space
     DisplayOptions display;
     DisplayEncoding encoding;  ///< --bits, --quality, --no-dither, --page; without its transform
     ExrOptions exr;            ///< --float, --compression, --exr-layout and the like
-    int crypto_levels = 6;     ///< of Cryptomatte layers in options.layers
+    std::optional<Overscan> overscan;
+    std::optional<std::filesystem::path> segmentation;  ///< --segmentation, a PNG
+    int crypto_levels = 6;                              ///< of Cryptomatte layers in options.layers
     /// Where their manifest is written; none: in the headers.
     std::optional<std::filesystem::path> crypto_manifest;
     std::optional<std::filesystem::path> statistics;
@@ -55,7 +71,35 @@ std::vector<MovieFrame> frames_of(const RenderRequest& request);
 std::vector<std::filesystem::path> image_files(const RenderRequest& request,
                                                const MovieFrame& frame);
 
+/// The part of an image that is rendered: with overscan it reaches beyond the image, by whole
+/// pixels. None: the image.
+std::optional<PixelRect> rendered_part(const RenderRequest& request);
+
+/// Finds the rendering space that is asked for, and makes the scene's colours, the background, the
+/// environment and the display use it. To be called once, before anything is loaded.
+///
+/// Errors  78 E-OCIO-FILE, E-OCIO-SPACE
+Result<void> use_color_space(RenderRequest& request, Log& log);
+
 /// 64 E-USAGE-CONFLICT when the part to render reaches beyond the image.
 Result<void> check_crop(const RenderOptions& options);
+
+/// Asks for layers, of as many Cryptomatte levels as the request says.
+///
+/// In      names: those of `--list-aovs`
+/// Errors  64 E-USAGE-CONFLICT the integrator computes none; E-AOV-NAME
+Result<void> choose_layers(std::span<const std::string> names, RenderRequest& request);
+
+/// Whether the integrator computes the layers that are asked for.
+///
+/// In      asked_by: the setting that asks for them, for messages
+/// Errors  64 E-USAGE-CONFLICT
+Result<void> check_layers(const RenderRequest& request, const std::string& asked_by);
+
+/// Whether the layer of an AOV is asked for.
+bool has_layer(const RenderOptions& options, Aov wanted);
+
+/// True when texture coordinates are wanted that no texture needs.
+bool wants_uv(const RenderOptions& options);
 
 }  // namespace obscura

@@ -3,6 +3,7 @@
 #include "stages/3_layers.h"
 
 #include "math/sampler.h"
+#include "surface/surface_albedo.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -248,8 +249,7 @@ void read_point(const LayerReader& layers,
     p.coat = select(inside, Lanes(0.0f), p.coat);
     p.sheen_color = select(inside, splat3(Lanes(0.0f)), p.sheen_color);
     p.thin_film.strength = select(inside, Lanes(0.0f), p.thin_film.strength);
-    // The less a boundary refracts, the less its roughness shows: this minimum is invisible.
-    const Lanes blurred = Lanes(5e-5f) / max(abs(p.eta - Lanes(1.0f)), Lanes(1e-3f));
+    const Lanes blurred = invisible_width(p.eta);
     p.alpha.x = select(p.solid, max(p.alpha.x, blurred), p.alpha.x);
     p.alpha.y = select(p.solid, max(p.alpha.y, blurred), p.alpha.y);
     out.weights = layered_weights(p, to_local(context.frame, context.wo));

@@ -98,14 +98,19 @@ struct LightRandom {
     PixelDraw<Lanes> environment;  ///< drawn ahead; its random numbers serve other lights too
 };
 
+/// Index of the light that each lane samples: punctual lights, triangles, shapes, the environment.
+OBSCURA_INLINE LanesI choose_light(const LightView& lights, LanesU random) {
+    if (lights.count <= 1) return LanesI(lights.count - 1);
+    return sample_cdf<Lanes>(lights.choice, lights.count, random);
+}
+
 /// Chooses one light for every lane and a point on it.
 OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                                        const ShadingPoint& point,
                                        const LightRandom& random) {
     const LightView& lights = scene.lights;
     LightLanes out{splat3(Lanes(0.0f)), Lanes(0.0f), splat3(Lanes(0.0f)), Lanes(0.0f), Mask(false)};
-    LanesI index(lights.count - 1);
-    if (lights.count > 1) index = sample_cdf<Lanes>(lights.choice, lights.count, random.choice);
+    const LanesI index = choose_light(lights, random.choice);
     const Mask punctual = index < LanesI(lights.punctual_count);
     const LanesI triangle_index = index - LanesI(lights.punctual_count);
     const Mask triangle = (!punctual) & (triangle_index < LanesI(lights.triangle_count));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/sampler.h"
+#include "stages/3_light_paths.h"
 #include "stages/3_lights.h"
 #include "stages/3_shade.h"
 
@@ -12,14 +13,18 @@ inline namespace OBSCURA_ISA {
 /// Environment light of camera rays that left the scene.
 inline void add_background(const EnvironmentView& environment,
                            int count_in,
-                           const MissView& m,
-                           const SampleColumns& samples) {
+                           const ShadeColumns& columns) {
+    const MissView m = columns.misses;
     for (int i = 0; i < count_in; i += lane_count) {
         const Mask exists = lanes_in_range(i, count_in);
         const Vec3<Lanes> direction =
             select(exists, load3(m.dx, m.dy, m.dz, i), splat3(Lanes(0.57735f)));
         const Vec3<Lanes> light = environment_radiance(environment, direction);
-        add_radiance(samples, exists, load(m.slot + i), light * load3(m.tr, m.tg, m.tb, i));
+        const LanesU slot = load(m.slot + i);
+        const Vec3<Lanes> seen = light * load3(m.tr, m.tg, m.tb, i);
+        add_radiance(columns.samples, exists, slot, seen);
+        if (columns.light_paths != nullptr)
+            add_background_light(*columns.light_paths, exists, slot, seen);
     }
 }
 
@@ -60,7 +65,7 @@ inline void shade_misses(const SceneView& scene,
     const MissView m = columns.misses;
     if (!scene.has_environment) return;
     if (bounce == 0) {
-        if (batch.background_visible) add_background(environment, count_in, m, columns.samples);
+        if (batch.background_visible) add_background(environment, count_in, columns);
         return;
     }
     MetPixel met[groups_ahead];
@@ -77,7 +82,10 @@ inline void shade_misses(const SceneView& scene,
             const LanesU slot = load(m.slot + i);
             Vec3<Lanes> light = Vec3<Lanes>{pixel.x, pixel.y, pixel.z} * weight;
             if (scene.occludes) light = light * last_occlusion(columns, exists, slot);
-            add_radiance(columns.samples, exists, slot, light * load3(m.tr, m.tg, m.tb, i));
+            light = light * load3(m.tr, m.tg, m.tb, i);
+            add_radiance(columns.samples, exists, slot, light);
+            if (columns.light_paths != nullptr)
+                add_background_light(*columns.light_paths, exists, slot, light);
         }
     }
 }
@@ -96,9 +104,12 @@ inline void set_camera_alpha(const BatchSettings& batch,
         const Lanes behind = select(is_clear, Lanes(0.0f), Lanes(batch.background[3]));
         const Lanes alpha = select(is_hit, Lanes(1.0f), behind);
         const SampleColumns& out = columns.samples;
-        add_to_slots(lanes_in_range(i, count_in),
-                     load(columns.paths.slot + i),
-                     {{out.r, seen.x}, {out.g, seen.y}, {out.b, seen.z}, {out.a, alpha}});
+        const Mask exists = lanes_in_range(i, count_in);
+        const LanesU slot = load(columns.paths.slot + i);
+        if (columns.light_paths != nullptr)
+            add_background_light(*columns.light_paths, exists & (!is_hit), slot, seen);
+        add_to_slots(
+            exists, slot, {{out.r, seen.x}, {out.g, seen.y}, {out.b, seen.z}, {out.a, alpha}});
     }
 }
 

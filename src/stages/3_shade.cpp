@@ -57,7 +57,8 @@ struct Bounce {
     const SceneView& scene;
     const BatchSettings& batch;
     int number;
-    bool is_over;  ///< paths do not scatter any more
+    bool is_over;                         ///< paths do not scatter any more
+    const LightPathColumns* light_paths;  ///< null: no light layers are asked for
 };
 
 /// One group of paths at their hits.
@@ -65,7 +66,7 @@ struct ShadedGroup {
     const PathLanes& path;
     ShadingPoint& s;
     BounceRandom& random;
-    Lanes distance;  ///< from the paths' origins
+    const HitLanes& hit;
 };
 
 /// Draws pixels of the environment for the groups that start at index `first`.
@@ -106,7 +107,7 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
         Lanes weight(1.0f);
         if (batch.strategies == (sample_lights | sample_bsdfs)) {
             PathLanes chosen = path;  // with the ray's origin and density at the last scattering
-            Lanes path_length = group.distance;
+            Lanes path_length = group.hit.t;
             if (columns.distance_since_scattering != nullptr) {
                 const Lanes straight = read_distance_since_scattering(columns, glows, path);
                 path_length = path_length + straight;
@@ -130,8 +131,11 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
     const Mask unlit = active & s.unlit;
     light = select(unlit, light + s.bsdf.base_color, light);
     const Mask any_light = glows | unlit;
-    if (any(any_light))
-        add_radiance(columns.samples, any_light, path.slot, path.throughput * light);
+    if (none(any_light)) return;
+    light = path.throughput * light;
+    add_radiance(columns.samples, any_light, path.slot, light);
+    if (bounce.light_paths != nullptr)
+        add_emitted_light(*bounce.light_paths, any_light, group.hit, path.slot, light);
 }
 
 /// Transmittance of the medium around the path towards a light. Lights at infinity get 1: they lie
@@ -182,6 +186,10 @@ OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
     }
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
+    if (bounce.light_paths != nullptr && any(useful)) {
+        const LanesI index = choose_light(scene.lights, group.random.light.choice);
+        scatter_shadow(*bounce.light_paths, useful, path.slot, index, {s, wo, wi});
+    }
     const Vec3<Lanes> start =
         s.any_layers ? select(reflected_side, s.light_start, s.transmitted_start) : s.light_start;
     return append_shadows(columns,
@@ -216,13 +224,16 @@ OBSCURA_INLINE Vec3<Lanes> direction_random(const PathLanes& path,
 }
 
 /// Writes the next rays of one group; returns their new count.
-OBSCURA_INLINE int add_next_rays(
-    const PathColumns& columns, int at, Mask active, const ShadedGroup& group, int bounce) {
+OBSCURA_INLINE int add_next_rays(const Bounce& bounce,
+                                 const PathColumns& columns,
+                                 int at,
+                                 Mask active,
+                                 const ShadedGroup& group) {
     const PathLanes& path = group.path;
     const ShadingPoint& s = group.s;
     const BounceRandom& random = group.random;
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
-    const Vec3<Lanes> u = direction_random(path, s, random, bounce);
+    const Vec3<Lanes> u = direction_random(path, s, random, bounce.number);
     const BsdfSample<Lanes> sample = sample_point(s, wo, u);
     const Vec3<Lanes> direction = normalize(to_world(s.frame, sample.direction));
     const Mask reflected_side = dot(direction, s.ng) > Lanes(0.0f);
@@ -232,14 +243,16 @@ OBSCURA_INLINE int add_next_rays(
     Vec3<Lanes> weight = sample.at.value_cos * (Lanes(1.0f) / max(sample.at.pdf, Lanes(1e-30f)));
     if (s.any_layers) weight = weight * wavelength_tint(s, reflected_side);
     const Vec3<Lanes> throughput = path.throughput * weight;
-    const Lanes survives = survival(throughput, bounce);
+    const Lanes survives = survival(throughput, bounce.number);
     goes_on = goes_on & (random.roulette < survives) & (max_component(throughput) > Lanes(0.0f));
+    if (bounce.light_paths != nullptr && any(goes_on))
+        scatter_path(*bounce.light_paths, goes_on, path.slot, {s, wo, sample.direction});
     PathLanes next;
     next.origin = s.start;
     next.direction = direction;
     next.throughput = throughput * (Lanes(1.0f) / survives);
     next.pdf = sample.at.pdf;
-    next.cone_width = path.cone_width + path.cone_spread * group.distance;
+    next.cone_width = path.cone_width + path.cone_spread * group.hit.t;
     next.cone_spread = path.cone_spread + sample.spread;
     next.slot = path.slot;
     next.key = path.key;
@@ -266,7 +279,7 @@ OBSCURA_INLINE int add_passing_rays(const PathColumns& columns,
     next.origin = s.transmitted_start;
     next.medium_stack = s.layers.boundary.transmitted_stack;
     next.pdf = Lanes(0.0f);  // light sampling does not reach through the surface
-    next.cone_width = path.cone_width + path.cone_spread * group.distance;
+    next.cone_width = path.cone_width + path.cone_spread * group.hit.t;
     return append_paths(columns, at, passes, next);
 }
 
@@ -284,7 +297,7 @@ OBSCURA_INLINE PassedThinWalls add_straight_rays(const ShadeColumns& columns,
     const ThinWallHit hit{.scatters = scatters,
                           .any_layers = s.any_layers,
                           .only_passes = bounce.is_over,
-                          .distance = group.distance,
+                          .distance = group.hit.t,
                           .choice = u.z,
                           .wo = to_local(s.frame, -path.direction),
                           .transmitted_start = s.any_layers ? s.transmitted_start : s.start};
@@ -311,8 +324,11 @@ ShadeCounts shade(const SceneView& scene,
                   int number,
                   int count_in,
                   const ShadeColumns& columns) {
-    const Bounce bounce{
-        .scene = scene, .batch = batch, .number = number, .is_over = number > batch.max_bounces};
+    const Bounce bounce{.scene = scene,
+                        .batch = batch,
+                        .number = number,
+                        .is_over = number > batch.max_bounces,
+                        .light_paths = columns.light_paths};
     if (number == 0) set_camera_alpha(batch, count_in, columns);
     const SortedCounts sorted = sort_hits_from_misses(count_in, columns);
     shade_misses(scene, batch, number, sorted.misses, columns);
@@ -331,7 +347,7 @@ ShadeCounts shade(const SceneView& scene,
         BounceRandom random = bounce_random(path, number, scene.lights.count, draws[k]);
         ShadingPoint s = shading_point(
             scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_fraction});
-        const ShadedGroup group{path, s, random, hit.t};
+        const ShadedGroup group{path, s, random, hit};
         add_emission(bounce, columns, exists, group);
         Mask scatters = exists & (!s.unlit);
         Mask turns = scatters;
@@ -349,10 +365,11 @@ ShadeCounts shade(const SceneView& scene,
             turns = turns & (!hidden);
         }
         if (scene.occludes) store_by_slot(columns.occlusion, turns, path.slot, s.occlusion);
-        out.next = add_next_rays(columns.next, out.next, turns, group, number);
+        // Before the paths turn: light layers split the shadow rays' light by where the paths were.
         if (scene.lights.count > 0) {
             out.shadow = add_shadow_rays(bounce, columns.shadows, out.shadow, scatters, group);
         }
+        out.next = add_next_rays(bounce, columns.next, out.next, turns, group);
     }
     return out;
 }

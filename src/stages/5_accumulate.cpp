@@ -36,9 +36,6 @@ void add_shadow_light(int count,
     }
 }
 
-/// Above this a sample counts as not finite: the sum of a pixel's samples must stay finite too.
-constexpr float largest_sample = 1.0e30f;
-
 uint64_t clear_nonfinite(int count, const SampleColumns& samples) {
     uint64_t nonfinite = 0;
     const Vec3<Lanes> zero = splat3(Lanes(0.0f));

@@ -28,10 +28,12 @@ enum class Aov : int {
     uv,
     facing,
     base_color,
+    albedo,
     roughness,
     metallic,
     emission_color,
     opacity,
+    motion,
     id_node,
     id_material,
     id_triangle,
@@ -100,6 +102,12 @@ inline constexpr std::array aov_entries = {
              LayerKind::color,
              Reduction::mean,
              "the material's, with texture and vertex colours"},
+    AovEntry{Aov::albedo,
+             "albedo",
+             "RGB",
+             LayerKind::color,
+             Reduction::mean,
+             "the share of light that the first rough surface reflects, through mirrors and glass"},
     AovEntry{Aov::roughness,
              "roughness",
              "X",
@@ -124,6 +132,12 @@ inline constexpr std::array aov_entries = {
              LayerKind::data,
              Reduction::mean,
              "the share of the pixel that surfaces cover"},
+    AovEntry{Aov::motion,
+             "motion",
+             "XYZW",
+             LayerKind::data,
+             Reduction::nearest,
+             "pixels to where the surface is seen one frame before (XY) and after (ZW)"},
     AovEntry{Aov::id_node,
              "id_node",
              "X",
@@ -157,6 +171,6 @@ constexpr int channel_count(Aov aov) {
     return static_cast<int>(entry_of(aov).letters.size());
 }
 
-inline constexpr int max_aov_channels = 3;
+inline constexpr int max_aov_channels = 4;
 
 }  // namespace obscura

@@ -4,6 +4,8 @@
 #include "stages/1_shutter.h"
 #include "stages/2_probes.h"
 #include "stages/2_scatter.h"
+#include "stages/3_albedo.h"
+#include "stages/3_catcher.h"
 #include "stages/3_shade.h"
 #include "stages/4_transparent_shadows.h"
 #include "stages/5_accumulate.h"
@@ -27,10 +29,12 @@ const StageTable stage_table = {
     .scatter = scatter,
     .make_probes = make_probes,
     .shade = shade,
+    .shade_catchers = shade_catchers,
     .shade_ao = shade_ao,
     .begin_raycast = begin_raycast,
     .shade_raycast = shade_raycast,
     .aovs = write_aovs,
+    .follow_albedo = follow_albedo,
     .wireframe = write_wireframe,
     .take_waiting = take_waiting,
     .cross_thin_walls = cross_thin_walls,

@@ -5,17 +5,17 @@
 // the types of their arguments. Hits come from accel/.
 //
 //   PathColumns    68 bytes
-//     written:  camera centre_camera open_shutter begin_scatter scatter shade shade_ao
-//               begin_raycast
+//     written:  camera centre_camera open_shutter begin_scatter scatter shade shade_catchers
+//               shade_ao begin_raycast follow_albedo
 //     only read:  make_probes shade_raycast aovs wireframe
 //   HitColumns     24 bytes
-//     written:  begin_scatter scatter shade shade_ao begin_raycast
-//     only read:  make_probes shade_raycast aovs wireframe cross_thin_walls
+//     written:  begin_scatter scatter shade shade_ao begin_raycast follow_albedo
+//     only read:  make_probes shade_catchers shade_raycast aovs wireframe cross_thin_walls
 //   MissColumns    36 bytes
 //     written:  shade shade_ao begin_raycast
 //   ShadowColumns  48 bytes
-//     written:  make_probes shade shade_ao begin_raycast shade_raycast take_waiting
-//               cross_thin_walls
+//     written:  make_probes shade shade_catchers shade_ao begin_raycast shade_raycast
+//               take_waiting cross_thin_walls
 //     only read:  add_shadows
 //   SampleColumns  16 bytes
 //     written:  camera shade shade_ao begin_raycast shade_raycast wireframe cross_thin_walls

@@ -19,6 +19,9 @@ inline constexpr uint32_t first_sum_samples = 1024;
 /// constant is then right to 5e-7 after 2^20 samples, where a single sum in float is 1.4 % off.
 inline constexpr uint32_t sum_block_samples = 32;
 
+/// Above this a sample counts as not finite: the sum of a pixel's samples must stay finite too.
+inline constexpr float largest_sample = 1.0e30f;
+
 static_assert(first_sum_samples % sum_block_samples == 0);
 
 /// RGBA sum of a pixel. A sample's block follows from its index alone, so that the sum does not

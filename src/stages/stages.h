@@ -10,6 +10,8 @@
 
 namespace obscura {
 
+struct LightPathColumns;
+
 /// Sizes of the columns that shade writes.
 struct ShadeCounts {
     int next = 0;    ///< in the next paths
@@ -34,6 +36,7 @@ struct ShadeColumns {
     float* distance_since_scattering = nullptr;  ///< metres, by sample index; see 3_thin_walls.h
     float* occlusion = nullptr;  ///< by sample index, where SceneView::occludes: 3_occlusion.h
     const SharedFaces* shared = nullptr;  ///< by sample index, where SceneView::touching_media
+    const LightPathColumns* light_paths = nullptr;  ///< null: no light layers are asked for
 };
 
 /// The columns that ray casting reads and writes, once hits and misses are separated.
@@ -52,12 +55,42 @@ struct AovOutput {
     float* columns[max_aov_channels];
 };
 
+struct FrameVertices;
+
+/// The scene one frame before an image's time, at it and one frame after it: see
+/// scene/frame_motion.h.
+struct FrameView {
+    const float* positions = nullptr;         ///< null: no vertex moves
+    const FrameVertices* vertices = nullptr;  ///< by primitive
+    const Affinef* instances = nullptr;       ///< null: no instance moves
+    const int32_t* instance = nullptr;  ///< by instance: the first of three; -1: it stands still
+    Camera cameras[3];
+    Affined camera_from_world[3];
+    bool camera_moves = false;
+};
+
 /// Camera rays and what they hit, before shading: path i is sample i.
 struct AovColumns {
     PathView paths;
     HitView hits;
     const float* time = nullptr;  ///< by sample index; null: nothing moves
     std::span<const AovOutput> outputs;
+    /// Out, by sample index: 1 where mirrors or glass pass the albedo on to the path's next hit,
+    /// and the sample is 0; null: every hit tells its own.
+    float* passed_on = nullptr;
+    const FrameView* frames = nullptr;  ///< null: nothing moves from frame to frame
+};
+
+/// The paths of a later bounce, before shading, of which some look for their albedo.
+struct AlbedoColumns {
+    PathView paths;
+    HitView hits;
+    const float* time = nullptr;          ///< by sample index; null: nothing moves
+    const SharedFaces* shared = nullptr;  ///< by sample index, where SceneView::touching_media
+    PathColumns followed_paths;           ///< scratch
+    HitColumns followed_hits;             ///< scratch
+    float* passed_on;                     ///< in and out: as in AovColumns
+    AovOutput albedo;                     ///< in and out, by sample index
 };
 
 /// The columns of the wireframe: index i is pixel i.
@@ -88,6 +121,26 @@ struct ThinWallStep {
     uint32_t segment = 0;
     uint32_t number = 0;
     bool random = true;  ///< texels are drawn; else filtered
+};
+
+/// Camera rays that hit shadow catchers (docs/visibility.md), and what they become there.
+struct CatcherColumns {
+    PathView paths;
+    HitView hits;             ///< those of the ground, which is no geometry, have the primitive -1
+    PathColumns next;         ///< out, packed from index first_next on
+    PathColumns reflections;  ///< out, packed, if `reflects`
+    ShadowColumns shadows;    ///< out, packed, one per sample
+    const float* time = nullptr;  ///< by sample index; null: nothing moves
+    float ground_m = 0;           ///< height of the ground
+    int first_next = 0;
+    bool reflects = false;
+};
+
+/// Sizes of the columns that shade_catchers writes.
+struct CatcherCounts {
+    int next = 0;
+    int shadow = 0;
+    int reflections = 0;
 };
 
 /// The start of random walks inside scattering media.
@@ -172,6 +225,9 @@ struct StageTable {
     ShadeCounts (*shade)(
         const SceneView&, const BatchSettings&, int bounce, int count, const ShadeColumns&);
 
+    /// Stage 3 at shadow catchers: camera rays become shadow rays and next rays.
+    CatcherCounts (*shade_catchers)(const SceneView&, int count, const CatcherColumns&);
+
     /// Stage 3 for --integrator ao: one occlusion ray per hit.
     int (*shade_ao)(const SceneView&, const BatchSettings&, int count, const ShadeColumns&);
 
@@ -183,7 +239,12 @@ struct StageTable {
     /// Stage 3 for AOVs: every sample is written; 0 where nothing was hit.
     void (*aovs)(const SceneView&, const BatchSettings&, int count, const AovColumns&);
 
-    /// Stage 3 for --integrator wireframe: likewise.
+    /// Stage 3 for the AOV `albedo`, from the second bounce on. Returns how many paths still look
+    /// for theirs.
+    int (*follow_albedo)(
+        const SceneView&, const BatchSettings&, int bounce, int count, const AlbedoColumns&);
+
+    /// Stage 3 for --integrator wireframe: every sample is written.
     void (*wireframe)(const SceneView&, const BatchSettings&, int count, const WireframeColumns&);
 
     /// Stage 4, if there are thin walls: packs the shadow rays that wait there, then steps each.

@@ -4,7 +4,11 @@
 
 #include "base/stopwatch.h"
 #include "stages/shared_faces.h"
+#include "stages/wavefront_albedo.h"
+#include "stages/wavefront_light_paths.h"
+#include "stages/wavefront_slots.h"
 #include "stages/wavefront_splats.h"
+#include "stages/wavefront_visibility.h"
 
 #include <algorithm>
 #include <memory>
@@ -14,24 +18,9 @@ namespace obscura {
 
 namespace {
 
-/// The time of every sample, if something moves.
-const float* slot_times(const WavefrontInput& in, const Workspace& work) {
-    return moves(in.scene.motion) ? work.slot_time.data() : nullptr;
-}
-
-/// The times of rays, if something moves.
-const float* times_of(const WavefrontInput& in, const uint32_t* slot, int count, Workspace& work) {
-    if (!moves(in.scene.motion)) return nullptr;
-    for (int i = 0; i < count; ++i)
-        work.ray_time[static_cast<size_t>(i)] = work.slot_time[slot[i]];
-    return work.ray_time.data();
-}
-
-/// Adds one to the rays of each of these samples.
-void count_rays(const WavefrontInput& in, const uint32_t* slot, int count, Workspace& work) {
-    if (!in.counts_rays) return;
-    for (int i = 0; i < count; ++i)
-        ++work.rays_cast[slot[i]];
+/// Visibility flags of the surfaces that the rays of a path segment pass.
+uint8_t passed_by_segment(uint32_t segment) {
+    return segment == 0 ? camera_rays_pass : bounce_rays_pass;
 }
 
 /// Stage 2: finds the hits of rays.
@@ -41,6 +30,7 @@ void intersect_rays(const WavefrontInput& in,
                     SeeThrough see_through,
                     WavefrontCounters& c) {
     const bool camera = see_through.segment == 0;
+    see_through.passes = passed_by_segment(see_through.segment);
     const int count = rays.count;
     (camera ? c.camera_rays : c.bounce_rays) += static_cast<uint64_t>(count);
     {
@@ -73,13 +63,6 @@ void forget_passed_backs(Workspace& work) {
     work.passed_backs.clear();
 }
 
-/// The back faces that are cut away for all rays of a path but the first; null: none for any path.
-const Cutaway* cut_away(const uint32_t* slot, Workspace& work) {
-    if (work.passed_backs.empty()) return nullptr;
-    work.cutaway = {work.cut_faces.data(), slot};
-    return &work.cutaway;
-}
-
 /// Stage 2 for the paths of this bounce.
 void intersect(const WavefrontInput& in,
                int count,
@@ -104,7 +87,7 @@ void intersect(const WavefrontInput& in,
 void write_aovs(const WavefrontInput& in,
                 int count,
                 std::span<const AovOutput> outputs,
-                const Workspace& work,
+                Workspace& work,
                 WavefrontCounters& c) {
     if (outputs.empty()) return;
     const SumOfTime time(c.seconds.shade);
@@ -114,7 +97,9 @@ void write_aovs(const WavefrontInput& in,
                     {.paths = work.paths[0],
                      .hits = work.hits,
                      .time = slot_times(in, work),
-                     .outputs = outputs});
+                     .outputs = outputs,
+                     .passed_on = begin_albedo(in, count, work),
+                     .frames = in.frames});
 }
 
 /// Camera rays: their hits, the back faces that they passed, and AOVs.
@@ -127,6 +112,7 @@ void intersect_camera_rays(const WavefrontInput& in,
     see_through.passed_backs = &work.passed_backs;
     intersect(in, count, see_through, work, c);
     note_passed_backs(in, work);
+    if (in.visibility != nullptr || in.catchers.any()) part_camera_hits(in, count, work);
     if (in.aovs.empty()) return;
     work.allot_aovs(in.aovs);
     write_aovs(in, count, work.aov_outputs, work, c);
@@ -160,6 +146,7 @@ void scatter_in_media(
             random_walks = in.stages->scatter(in.scene, flight, random_walks, columns);
         }
         if (random_walks == 0) return;
+        if (number == 0) move_random_walks(in, random_walks, work);
         RayColumns rays = rays_of(columns.random_walks, random_walks);
         rays.time = times_of(in, columns.random_walks.slot, random_walks, work);
         count_rays(in, columns.random_walks.slot, random_walks, work);
@@ -176,6 +163,7 @@ void cross_shared_faces(const WavefrontInput& in,
                         Workspace& work) {
     const float* time = slot_times(in, work);
     see_through.passed_backs = nullptr;
+    see_through.passes = passed_by_segment(see_through.segment);
     work.shared_faces.assign(padded_batch_size, {});
     SharedFaces* const found = work.shared_faces.data();
     for (const SharedFaces* only :
@@ -212,6 +200,7 @@ void cross_thin_walls(
         count_rays(in, work.shadows.slot, waiting, work);
         const SeeThrough see_through{.fixed_alpha = raycast,
                                      .segment = segment,
+                                     .passes = shadow_rays_pass,
                                      .cutaway = cut_away(work.shadows.slot, work)};
         c.shadow_rays += static_cast<uint64_t>(waiting);
         {
@@ -222,7 +211,9 @@ void cross_thin_walls(
         if (in.recorder != nullptr) in.recorder->add_shadow_hits(rays, columns.hits, see_through);
         const SumOfTime timing(c.seconds.shade);
         const ThinWallStep step{.segment = segment, .number = number, .random = !raycast};
+        add_crossed_light_paths(in, waiting, work);
         waiting = in.stages->cross_thin_walls(in.scene, step, waiting, columns);
+        move_crossing_shadows(in, waiting, work);
     }
 }
 
@@ -244,9 +235,11 @@ void trace_shadows(
     count_rays(in, work.shadows.slot, count, work);
     c.shadow_rays += static_cast<uint64_t>(count);
     if (passes_thin_walls) work.thin_walls.assign(padded_batch_size, 0);
+    begin_shadow_light(in, count, bounce, work);
     const ShadowQuery query{.segment = segment,
                             .thin_walls = passes_thin_walls ? work.thin_walls.data() : nullptr,
-                            .cutaway = cut_away(work.shadows.slot, work)};
+                            .cutaway = cut_away(work.shadows.slot, work),
+                            .passes = shadow_rays_pass};
     {
         const SumOfTime time(c.seconds.shadow);
         c.refused_rays += static_cast<uint64_t>(
@@ -260,6 +253,7 @@ void trace_shadows(
     {
         const SumOfTime time(c.seconds.accumulate);
         in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
+        add_shadow_light_paths(in, count, work);
     }
     if (passes_thin_walls) cross_thin_walls(in, count, segment, work, c);
 }
@@ -275,7 +269,8 @@ ShadeColumns shade_columns(const WavefrontInput& in, Workspace& work) {
             .distance_since_scattering =
                 in.scene.thin_walls ? work.distance_since_scattering.data() : nullptr,
             .occlusion = in.scene.occludes ? work.occlusion.data() : nullptr,
-            .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
+            .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data(),
+            .light_paths = in.light_paths != nullptr ? &work.light_paths.columns() : nullptr};
 }
 
 RaycastColumns raycast_columns(const WavefrontInput& in, Workspace& work) {
@@ -287,12 +282,20 @@ RaycastColumns raycast_columns(const WavefrontInput& in, Workspace& work) {
             .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
 }
 
-void trace_paths(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
+/// Shades the catchers that camera rays met; returns the number of paths with theirs.
+int add_catcher_paths(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
+    const CatcherCounts out = leave_catchers(in, count, work);
+    if (out.shadow > 0) trace_shadows(in, out.shadow, 0, work, c);
+    return out.next;
+}
+
+/// Traces the paths in work.paths[0] from a bounce to their ends.
+void follow_paths(
+    const WavefrontInput& in, int count, int first_bounce, Workspace& work, WavefrontCounters& c) {
     // One more segment than there are bounces: the last one only collects emitted light. It passes
     // thin walls, as the shadow rays of the last bounce do.
     const int segments = in.batch.max_bounces + 2 + (in.scene.thin_walls ? max_thin_walls : 0);
-    work.clear_slots(in.scene);
-    for (int bounce = 0; count > 0 && bounce < segments; ++bounce) {
+    for (int bounce = first_bounce; count > 0 && bounce < segments; ++bounce) {
         SeeThrough see_through{.segment = 2U * static_cast<uint32_t>(bounce)};
         if (bounce == 0) {
             intersect_camera_rays(in, count, see_through, work, c);
@@ -303,15 +306,38 @@ void trace_paths(const WavefrontInput& in, int count, Workspace& work, Wavefront
         if (in.scene.scatters) scatter_in_media(in, count, bounce, work, c);
         if (in.scene.touching_media != nullptr) cross_shared_faces(in, count, see_through, work);
         if (in.accel->has_splats()) pass_splats(in, count, bounce == 0, work, c);
+        if (bounce > 0 && work.looking_for_albedo > 0) look_for_albedo(in, count, bounce, work, c);
+        if (in.light_paths != nullptr) work.light_paths.begin_bounce();
+        if (bounce > 0 && in.visibility != nullptr)
+            add_light_behind({in, bounce, shade_columns(in, work)}, count, work, c);
         ShadeCounts out;
         {
             const SumOfTime time(c.seconds.shade);
             out = in.stages->shade(in.scene, in.batch, bounce, count, shade_columns(in, work));
         }
         if (out.shadow > 0) trace_shadows(in, out.shadow, bounce, work, c);
+        move_straight_paths(in, out.next, work);
         std::swap(work.paths[0], work.paths[1]);
         count = out.next;
+        if (bounce == 0 && in.catchers.any()) count = add_catcher_paths(in, count, work, c);
     }
+}
+
+void trace_paths(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
+    work.clear_slots(in.scene);
+    begin_light_paths(in, count, work);
+    follow_paths(in, count, 0, work, c);
+    finish_light_paths(in, work);
+    if (!in.catchers.any()) return;
+    c.nonfinite_samples += settle_catchers(work);
+    int reflections = take_reflections(work);
+    if (reflections == 0) return;
+    work.clear_slots(in.scene);
+    SeeThrough see_through{.segment = 2U};
+    see_through.cutaway = cut_away(work.paths[0].slot, work);
+    intersect(in, reflections, see_through, work, c);
+    reflections = keep_hits(reflections, work);
+    follow_paths(in, reflections, 1, work, c);
 }
 
 void trace_ao(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
@@ -459,6 +485,7 @@ void trace_aov(const WavefrontInput& in, int pixels, Workspace& work, WavefrontC
     counters.paths += static_cast<uint64_t>(pixels);
     if (in.kind == WavefrontKind::heat) return count_heat(in, pixels, work, counters);
     intersect(in, pixels, {.culls_back_faces = true, .fixed_alpha = true}, work, counters);
+    if (in.visibility != nullptr) part_camera_hits(in, pixels, work);
     if (in.kind == WavefrontKind::wireframe) {
         const SumOfTime time(counters.seconds.shade);
         in.stages->wireframe(in.scene,

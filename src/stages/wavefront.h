@@ -4,12 +4,15 @@
 
 #include "accel/accel.h"
 #include "accel/ray_recording.h"
+#include "stages/catcher_work.h"
+#include "stages/light_path_state.h"
 #include "stages/raycast_notes.h"
 #include "stages/stage_seconds.h"
 #include "stages/stages.h"
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace obscura {
@@ -70,6 +73,10 @@ public:
     std::vector<float> camera_length_m;  ///< how far camera rays may go; for cameras that say it
     std::vector<AovOutput> aov_outputs;  ///< of this batch, by sample index; see allot_aovs
     std::vector<uint32_t> rays_cast;     ///< by sample index, where WavefrontInput::counts_rays
+    LightPathState light_paths;          ///< of this batch, where WavefrontInput::light_paths
+    CatcherWork catcher;                 ///< empty unless there are shadow catchers
+    std::vector<float> passed_on;        ///< by sample index: see wavefront_albedo.h
+    int looking_for_albedo = 0;          ///< likewise: paths that are still followed, at most
 
 private:
     std::vector<float> aov_memory_;
@@ -101,6 +108,15 @@ inline RayColumns rays_of(const ShadowView& s, int count) {
             .count = count};
 }
 
+/// The shadow catchers of an image.
+struct CatcherSettings {
+    bool surfaces = false;          ///< some surfaces have visibility_catcher
+    std::optional<float> ground_m;  ///< height of a plane that is one; it is no geometry
+    bool reflects = false;          ///< they reflect other surfaces
+
+    bool any() const { return surfaces || ground_m.has_value(); }
+};
+
 /// The inputs of the wavefront loop.
 struct WavefrontInput {
     const StageTable* stages;
@@ -109,15 +125,19 @@ struct WavefrontInput {
     BatchSettings batch;
     const Accel* counting = nullptr;  ///< for WavefrontKind::heat: see Accel::build_counting
     WavefrontKind kind = WavefrontKind::path;
-    std::span<const Aov> aovs = {};   ///< written beside light, or alone by trace_aov
-    bool counts_rays = false;         ///< fills Workspace::rays_cast
-    RayRecorder* recorder = nullptr;  ///< records every ray of this thread; null: no recording
-    RaycastNotes* notes = nullptr;    ///< for a raycast of one pixel; null: no notes
+    std::span<const Aov> aovs = {};     ///< written beside light, or alone by trace_aov
+    const FrameView* frames = nullptr;  ///< for Aov::motion; null: nothing moves
+    bool counts_rays = false;           ///< fills Workspace::rays_cast
+    const LightPathTable* light_paths = nullptr;  ///< for WavefrontKind::path: the light layers
+    RayRecorder* recorder = nullptr;    ///< records every ray of this thread; null: no recording
+    RaycastNotes* notes = nullptr;      ///< for a raycast of one pixel; null: no notes
+    const VisibilityFlags* visibility = nullptr;  ///< null: no surface has any
+    CatcherSettings catchers = {};                ///< for WavefrontKind::path
 };
 
 /// Makes batch.samples samples for `pixels` pixels (pixels * samples <= batch_size) and adds them
-/// to the pixels' sums; work.aov_outputs and work.rays_cast hold what was asked for beside. For
-/// every kind but AOVs and heat.
+/// to the pixels' sums; work.aov_outputs, work.rays_cast and work.light_paths hold what was asked
+/// for beside, and work.catcher what shadow catchers received. For every kind but AOVs and heat.
 void trace_batch(const WavefrontInput& in,
                  int pixels,
                  Workspace& work,

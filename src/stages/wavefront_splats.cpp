@@ -32,9 +32,12 @@ void cover_sample(const WavefrontInput& in, int index, float transmittance, Work
     const float added = transmittance > 0 ? behind : 0.0f;
     samples.a[slot] += 1.0f - transmittance * (1.0f - behind) - added;
     if (hit || transmittance == 0) return;
-    samples.r[slot] -= held * background[0];
-    samples.g[slot] -= held * background[1];
-    samples.b[slot] -= held * background[2];
+    const Vec3f hidden{held * background[0], held * background[1], held * background[2]};
+    samples.r[slot] -= hidden.x;
+    samples.g[slot] -= hidden.y;
+    samples.b[slot] -= hidden.z;
+    if (in.light_paths != nullptr)
+        work.light_paths.add_path_light(slot, background_class(*in.light_paths), -hidden);
 }
 
 SplatColumns splat_columns_of(Workspace& work) {
@@ -59,9 +62,13 @@ void pass_splats(
         const bool shows = p.tr[i] != 0;  // inside the camera's image
         if (passes == 1.0f || (camera && !shows)) continue;
         const uint32_t slot = p.slot[i];
-        work.samples.r[slot] += p.tr[i] * found.r[i];
-        work.samples.g[slot] += p.tg[i] * found.g[i];
-        work.samples.b[slot] += p.tb[i] * found.b[i];
+        const Vec3f light{p.tr[i] * found.r[i], p.tg[i] * found.g[i], p.tb[i] * found.b[i]};
+        work.samples.r[slot] += light.x;
+        work.samples.g[slot] += light.y;
+        work.samples.b[slot] += light.z;
+        if (in.light_paths != nullptr) {
+            work.light_paths.add_path_light(slot, ungrouped_emitter_class(*in.light_paths), light);
+        }
         if (camera) cover_sample(in, i, passes, work);
         p.tr[i] *= passes;
         p.tg[i] *= passes;

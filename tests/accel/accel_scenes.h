@@ -66,7 +66,9 @@ public:
             accel.occluded(rays,
                            occluded.data(),
                            coherence,
-                           {segment, passes_thin_walls ? thin_walls.data() : nullptr});
+                           {.segment = segment,
+                            .thin_walls = passes_thin_walls ? thin_walls.data() : nullptr,
+                            .passes = passes});
         unpad();
         return refused;
     }
@@ -77,6 +79,7 @@ public:
     std::vector<int32_t> instance, primitive, triangle;
     std::vector<uint8_t> occluded;
     std::vector<uint8_t> thin_walls;
+    uint8_t passes = 0;  ///< of occlude, see ShadowQuery
 
 private:
     float at(size_t column, int i) const { return ray_[column][static_cast<size_t>(i)]; }

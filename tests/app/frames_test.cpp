@@ -117,6 +117,10 @@ TEST(Frames, ContradictionsAreRefused) {
     RenderArguments rate = arguments_of({"a.exr"});
     rate.fps = "30";
     EXPECT_EQ(id_of(make_render_request(rate)), "E-USAGE-CONFLICT");
+    rate.aovs = {"motion"};
+    const Result<RenderRequest> vectors = make_render_request(rate);
+    ASSERT_TRUE(vectors) << vectors.error().message;
+    EXPECT_EQ(vectors->load.frame_step_s, 1.0 / 30);
 
     RenderArguments clash = arguments_of({"a.#.exr", "a.##.exr"});
     clash.frames = "8-11";

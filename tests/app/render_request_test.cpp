@@ -110,6 +110,43 @@ TEST(RenderRequest, LayersNeedAnExrAndFilesOfTheirOwnANamedOne) {
     EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-SAMEFILE");
 }
 
+TEST(RenderRequest, SharesOfTheLightComeFromPaths) {
+    RenderArguments arguments;
+    arguments.outputs = {"a.exr"};
+    arguments.aovs = {"diffuse_direct,shadow"};
+    arguments.layer.lpe = {"gloss=C<R[GS]>.*[LOB]"};
+    arguments.layer.light_group = {"key=Key*,Sun"};
+    const Result<RenderRequest> request = request_of(arguments);
+    ASSERT_TRUE(request) << request.error().message;
+    std::vector<std::string> names;
+    for (const Layer& layer : request->options.layers)
+        names.push_back(layer.name);
+    const std::vector<std::string> expected = {
+        "diffuse_direct", "shadow", "gloss", "light_key", "light_rest"};
+    EXPECT_EQ(names, expected);
+    arguments.integrator = "ao";
+    expect_conflict(arguments, "--aov");
+    arguments.aovs.clear();
+    expect_conflict(arguments, "--lpe");
+    arguments.layer.lpe.clear();
+    expect_conflict(arguments, "--light-group");
+    arguments.integrator = "direct";
+    EXPECT_TRUE(request_of(arguments));
+    arguments.product.catcher = {"ground"};
+    expect_conflict(arguments, "--catcher");
+    arguments.product.catcher.clear();
+    arguments.layer.lpe = {"light_key=CO"};
+    expect_conflict(arguments, "--lpe");
+    arguments.layer = {};
+    arguments.layer.light_groups = "each";
+    EXPECT_TRUE(request_of(arguments));
+    arguments.exr_layout = "separate";
+    expect_conflict(arguments, "--exr-layout");
+    arguments.layer = {};
+    arguments.layer.lpe = {"a=C("};
+    EXPECT_EQ(request_of(arguments).error().id, "E-LPE");
+}
+
 TEST(RenderRequest, AManifestIsForCryptomatteAndLiesBesideTheImage) {
     RenderArguments arguments;
     arguments.outputs = {"out/a.exr", "b.png"};
@@ -189,6 +226,9 @@ RenderArguments every_option() {
     a.occlusion = "ambient";
     a.product.lights = "Key=Light=0.5,Rim*=off";
     a.product.hide = {"Floor", "Wall*"};
+    a.product.holdout = {"Actor"};
+    a.product.camera_invisible = {"Wall"};
+    a.product.no_shadow = {"Lid", "Net"};
     a.background = "0.5,0.25,1";
     a.point_size = "0.25";
     a.line_width = "5px";
@@ -203,6 +243,32 @@ RenderArguments every_option() {
     a.float32 = true;
     a.verbose = true;
     return a;
+}
+
+TEST(RenderRequest, CatchersAreTheGroundOrParts) {
+    RenderArguments a;
+    a.scene_file = "s.glb";
+    EXPECT_FALSE(make_render_request(a)->catcher_ground);
+    a.product.catcher = {"ground", "Table*"};
+    a.product.catcher_reflections = true;
+    const Result<RenderRequest> request = make_render_request(a);
+    ASSERT_TRUE(request) << request.error().message;
+    EXPECT_TRUE(request->catcher_ground);
+    EXPECT_TRUE(request->options.catcher_reflections);
+    ASSERT_EQ(request->load.visibility.size(), 1U);
+    EXPECT_EQ(request->load.visibility[0].pattern, "Table*");
+    EXPECT_EQ(request->load.visibility[0].flag, visibility_catcher);
+    a.integrator = "direct";
+    EXPECT_TRUE(make_render_request(a));
+    for (const char* other : {"raycast", "ao", "depth"}) {
+        a.integrator = other;
+        const Result<RenderRequest> refused = make_render_request(a);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().id, "E-USAGE-CONFLICT");
+    }
+    a.product.catcher.clear();  // its reflections need one
+    a.integrator.reset();
+    EXPECT_EQ(make_render_request(a).error().id, "E-USAGE-CONFLICT");
 }
 
 TEST(RenderRequest, ImageAndSamplingOptionsArrive) {
@@ -251,6 +317,10 @@ TEST(RenderRequest, CameraLightAndDisplayOptionsArrive) {
     EXPECT_EQ(request->load.lights.factors[1].pattern, "Rim*");
     EXPECT_EQ(request->load.lights.factors[1].factor, 0);
     EXPECT_EQ(request->load.hidden, (std::vector<std::string>{"Floor", "Wall*"}));
+    std::vector<std::string> flagged;
+    for (const gltf::VisibilityRule& rule : request->load.visibility)
+        flagged.push_back(rule.pattern + " " + std::to_string(rule.flag));
+    EXPECT_EQ(flagged, (std::vector<std::string>{"Actor 1", "Wall 2", "Lid 4", "Net 4"}));
     EXPECT_EQ(options.background, BackgroundKind::color);
     EXPECT_EQ(options.background_color[1], 0.25f);
     EXPECT_EQ(request->display.view, "V");

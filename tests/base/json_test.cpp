@@ -27,6 +27,14 @@ TEST(JsonDocument, EscapesWhatJsonForbids) {
     EXPECT_EQ(json_document(std::string("nul") + '\0' + "!"), "\"nul\\u0000!\"\n");
 }
 
+/// Those that JSON allows in strings, but terminals act on.
+TEST(JsonDocument, EscapesTheOtherControlsToo) {
+    const std::string text = "a\x7F\xC2\x80\xC2\x9F\xC2\xA0\xC3\x80";
+    const std::string document = json_document(text);
+    EXPECT_EQ(document, "\"a\\u007f\\u0080\\u009f\xC2\xA0\xC3\x80\"\n");
+    EXPECT_EQ(Json::parse(document).get<std::string>(), text);
+}
+
 TEST(JsonDocument, KeepsGoodUtf8AndReplacesTheRest) {
     const std::string good = "\xC3\xA9 \xE2\x82\xAC \xF0\x9F\x98\x80";
     EXPECT_EQ(json_document(good), "\"" + good + "\"\n");

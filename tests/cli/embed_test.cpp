@@ -45,12 +45,13 @@ TEST_F(Installed, OnlyTheLibrarysOwnNamesAreSeen) {
 }
 
 TEST_F(Installed, AProgramOfAnyStandardAndMachineGetsTheBitsOfTheCommand) {
-    expect_result(
-        run({"render", "box.gltf", "--size", "96x64", "--spp", "4", "--float", "-o", "own.exr"}),
-        0,
-        "OK");
+    std::vector<std::string> own_render = {"render", "box.gltf", "--size", "96x64", "--spp", "4"};
+    for (const char* more : {"--aov", "depth,crypto_object", "--float", "-o", "own.exr"})
+        own_render.emplace_back(more);
+    expect_result(run(own_render), 0, "OK");
     const auto own = read_image_file(folder_ / "own.exr");
     ASSERT_TRUE(own);
+    ASSERT_EQ(own->channels.size(), size_t{4 + 1 + 12});
     const std::string source = "'" OBSCURA_SOURCE_DIR "/examples/embed/embed.cpp'";
     const std::string by_hand = "'" OBSCURA_CXX "' " + source +
                                 " -o embed $(pkg-config --cflags --libs obscura) -Wall -Wextra "

@@ -74,6 +74,43 @@ TEST_F(Layers, AManifestLiesBesideTheImageThatNamesIt) {
     expect_result(shot({"-o", "a.exr", "--crypto-manifest", "a.exr"}), 64, "E-USAGE-SAMEFILE");
 }
 
+/// Whatever a node is called, the manifest in the header is JSON that has the name.
+TEST_F(Layers, NamesWithControlCharactersAreInTheManifest) {
+    SmallScene scene = lit_quad_scene();
+    scene.nodes.replace(1, 0, R"("name": "a\u0007\u007f\u0085", )");
+    folder_.write("odd.gltf", gltf_text(scene));
+    expect_result(render("odd.gltf", {"-o", "a.exr", "--aov", "crypto_object"}), 0, "OK");
+    const auto image = read_image_file(folder_ / "a.exr");
+    ASSERT_TRUE(image);
+    const std::string text = attribute(*image, "/manifest");
+    const auto manifest = nlohmann::json::parse(text, nullptr, false);
+    ASSERT_FALSE(manifest.is_discarded()) << text;
+    EXPECT_TRUE(manifest.contains("/a\x07\x7F\xC2\x85")) << text;
+}
+
+TEST_F(Layers, TwoEyesAreTheViewsOfAMultipartFile) {
+    const std::vector<std::string> eyes = {"--stereo", "0.06", "--size", "8x8", "--aov", "depth"};
+    const auto rendered = [&](const std::string& layout) {
+        std::vector<std::string> options = eyes;
+        options.insert(options.end(), {"-o", layout + ".exr", "--exr-layout", layout});
+        expect_result(render("quad.gltf", options), 0, "OK");
+        return OIIO::ImageInput::open((folder_ / (layout + ".exr")).string());
+    };
+    const auto whole = rendered("single");
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(whole->spec().height, 8);
+    const auto parts = rendered("multipart");
+    ASSERT_TRUE(parts);
+    std::vector<std::string> views;
+    for (int part = 0; parts->seek_subimage(part, 0); ++part) {
+        views.push_back(parts->spec().get_string_attribute("view"));
+        EXPECT_EQ(parts->spec().height, 4);
+        EXPECT_EQ(parts->spec().get_string_attribute("oiio:subimagename"),
+                  (part % 2 == 0 ? "rgba-" : "depth-") + views.back());
+    }
+    EXPECT_EQ(views, (std::vector<std::string>{"left", "left", "right", "right"}));
+}
+
 TEST_F(Layers, ExrsAreStoredAsTheyAreAskedFor) {
     expect_result(
         shot({"-o", "a.exr", "--compression", "dwaa:30", "--exr-tiles", "8", "--exr-mipmap"}),

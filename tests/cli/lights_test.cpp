@@ -115,6 +115,9 @@ TEST_F(Lights, HiddenPartsAreLeftOut) {
     EXPECT_THAT(render("crate.gltf", {"--hide", "Crate"}).err, HasSubstr("no triangles"));
     expect_result(render("crate.gltf", {"--hide", "Create"}), 64, "E-HIDE-UNKNOWN");
     expect_result(render("crate.gltf", {"--hide", ""}), 64, "E-USAGE-CONFLICT");
+    for (const char* option : {"--holdout", "--camera-invisible", "--no-shadow", "--catcher"})
+        expect_result(render("crate.gltf", {option, "Create"}), 64, "E-VISIBILITY-UNKNOWN");
+    expect_result(render("crate.gltf", {"--catcher", "ground"}), 0, "OK");
 }
 
 TEST_F(Lights, DamagedProfilesAreRefused) {

@@ -228,6 +228,14 @@ TEST(CryptomatteManifest, IsUtf8WhateverTheNamesAre) {
     EXPECT_EQ(found.begin()->second, cryptomatte_hash(names[0]));
 }
 
+/// Headers and terminals take control characters out of texts: there must be none left to take.
+TEST(CryptomatteManifest, HasNoControlCharacters) {
+    const std::string name = std::string("\x01\x1F\x7F") + "\xC2\x80\xC2\x9F";
+    const std::string text = cryptomatte_manifest(std::vector<std::string>{name});
+    EXPECT_EQ(text.substr(0, text.find(':')), R"({"\u0001\u001f\u007f\u0080\u009f")");
+    EXPECT_EQ(read_manifest(text).at(name), cryptomatte_hash(name));
+}
+
 std::vector<float> ranks_of(const std::vector<uint32_t>& hashes, uint32_t samples, size_t levels) {
     CryptomattePixel pixel;
     for (const uint32_t hash : hashes)
@@ -273,6 +281,27 @@ TEST(CryptomattePixel, IsEmptyWithoutObjects) {
 TEST(CryptomattePixel, IsCoveredWhollyByOneObject) {
     EXPECT_EQ(ranks_of(std::vector<uint32_t>(1000, a), 1000, 1),
               (std::vector<float>{cryptomatte_id(a), 1.0f}));
+}
+
+TEST(CryptomattePixel, BelongsToWhatMostSamplesMeet) {
+    CryptomattePixel pixel;
+    const auto add = [&](uint32_t id, int times) {
+        for (int i = 0; i < times; ++i)
+            pixel.add(id);
+    };
+    EXPECT_EQ(pixel.majority(4), cryptomatte_no_object) << "nothing but background";
+    add(cryptomatte_no_object, 4);
+    add(7, 3);
+    EXPECT_EQ(pixel.majority(7), cryptomatte_no_object);
+    add(7, 1);
+    EXPECT_EQ(pixel.majority(8), 7U) << "before nothing, where they are equal";
+    add(9, 2);
+    add(5, 4);
+    EXPECT_EQ(pixel.majority(14), 5U) << "the smaller of equals";
+    for (uint32_t id = 20; id < 30; ++id)
+        add(id, 3);
+    add(25, 2);
+    EXPECT_EQ(pixel.majority(46), 25U) << "beyond the first few ids";
 }
 
 TEST(CryptomattePixel, CanBeWrittenAgainAfterMoreSamples) {

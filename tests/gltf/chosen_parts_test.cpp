@@ -122,6 +122,63 @@ TEST(HiddenParts, UnknownOnesAreErrorsWithNamesThatAreNear) {
         << loaded.text();
 }
 
+/// "node material flags" of what is drawn.
+std::multiset<std::string> flagged(const std::vector<VisibilityRule>& rules) {
+    LoadOptions options;
+    options.visibility = rules;
+    const Loaded loaded = load_tree(furniture(), options);
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    std::multiset<std::string> out;
+    if (!loaded.scene) return out;
+    const Scene& scene = *loaded.scene;
+    const auto add = [&](size_t index, int32_t instance, int32_t node) {
+        const Primitive& primitive = scene.primitives[index];
+        const uint8_t flags = scene.visibility.of(static_cast<int32_t>(index), instance);
+        if (flags == 0) return;
+        out.insert(scene.info.node_names[static_cast<size_t>(node)] + " " +
+                   scene.material_names[static_cast<size_t>(primitive.material)] + " " +
+                   std::to_string(flags));
+    };
+    for (size_t i = 0; i < static_cast<size_t>(scene.world_primitive_count); ++i)
+        add(i, -1, scene.primitives[i].node);
+    for (size_t i = 0; i < scene.instances.size(); ++i) {
+        const Mesh& mesh = scene.meshes[static_cast<size_t>(scene.instances[i].mesh)];
+        for (int32_t k = 0; k < mesh.primitive_count; ++k) {
+            add(static_cast<size_t>(mesh.first_primitive + k),
+                static_cast<int32_t>(i),
+                scene.instances[i].node);
+        }
+    }
+    return out;
+}
+
+TEST(VisibilityRules, NodesMeshesAndMaterialsGetTheirFlags) {
+    using Names = std::multiset<std::string>;
+    EXPECT_EQ(flagged({}), Names{});
+    EXPECT_EQ(flagged({{"Leg", visibility_holdout}}),
+              (Names{"Leg Steel 1", "Leg Oak 1", "Foot Steel 1", "Foot Oak 1"}));
+    EXPECT_EQ(flagged({{"Foot", visibility_catcher}}), (Names{"Foot Steel 8", "Foot Oak 8"}));
+    EXPECT_EQ(flagged({{"Board", visibility_no_shadow}}), (Names{"Table Oak 4"}));
+    EXPECT_EQ(flagged({{"St*", visibility_no_camera}, {"F?ot", visibility_no_shadow}}),
+              (Names{"Leg Steel 2", "Foot Steel 6", "Foot Oak 4"}));
+}
+
+TEST(VisibilityRules, UnknownOnesAreErrorsThatNameTheOption) {
+    const std::pair<uint8_t, const char*> options[] = {{visibility_holdout, "holdout"},
+                                                       {visibility_no_camera, "camera-invisible"},
+                                                       {visibility_no_shadow, "no-shadow"},
+                                                       {visibility_catcher, "catcher"}};
+    for (const auto& [flag, name] : options) {
+        LoadOptions load;
+        load.visibility = {{"Leg", flag}, {"tabel", flag}};
+        const Loaded loaded = load_tree(furniture(), load);
+        EXPECT_EQ(loaded.code(), 64);
+        EXPECT_EQ(loaded.id(), "E-VISIBILITY-UNKNOWN");
+        EXPECT_NE(loaded.text().find("'tabel' (did you mean 'Table'?)"), std::string::npos);
+        EXPECT_NE(loaded.text().find(name), std::string::npos) << loaded.text();
+    }
+}
+
 TEST(LightChoice, LightsAreLeftOutOrScaledByLightOrNode) {
     EXPECT_EQ(intensities({}), (std::vector<float>{10, 20, 30}));
     EXPECT_EQ(intensities({.off = true}), std::vector<float>{});

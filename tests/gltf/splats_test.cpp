@@ -140,6 +140,12 @@ TEST(Splats, WithoutAColourSpaceOfTheirOwnAreDecoded) {
     EXPECT_FALSE(scene_of(file).splats.groups[0].linear);
 }
 
+TEST(Splats, HaveTheSpaceOfTheirFileAlone) {
+    LoadOptions options;
+    options.from_rec709 = Matrix3{{{0.5, 0.3, 0.2}, {0.1, 0.8, 0.1}, {0, 0.2, 0.8}}};
+    EXPECT_EQ(load_tree(SplatFile().builder().finished(), options).id(), "E-SPLAT-SPACE");
+}
+
 TEST(Splats, HarmonicsOfEveryDegree) {
     for (int degree = 1; degree <= 3; ++degree) {
         SplatFile file;

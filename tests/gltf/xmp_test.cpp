@@ -14,13 +14,14 @@ using namespace test;
 TEST(Xmp, TheAssetsPacketIsKept) {
     json tree = triangle_asset();
     const json packet = {{"@context", {{"dc", "http://purl.org/dc/elements/1.1/"}}},
-                         {"dc:creator", "Ada \u00e9"}};
+                         {"dc:creator", "Ada \u00e9\x7F"}};
     tree["extensions"]["KHR_xmp_json_ld"]["packets"] = {json::object(), packet};
     EXPECT_EQ(load_tree(tree).scene->info.xmp, "") << "nobody names it";
     tree["asset"]["extensions"]["KHR_xmp_json_ld"]["packet"] = 1;
     const Loaded loaded = load_tree(tree);
     ASSERT_TRUE(loaded.scene) << loaded.text();
     EXPECT_EQ(json::parse(loaded.scene->info.xmp), packet);
+    EXPECT_EQ(loaded.scene->info.xmp.find('\x7F'), std::string::npos) << "headers escape it";
     EXPECT_EQ(loaded.warnings, "");
     tree["asset"]["extensions"]["KHR_xmp_json_ld"]["packet"] = 2;
     EXPECT_EQ(load_tree(tree).id(), "E-DOC-INDEX");

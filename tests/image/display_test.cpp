@@ -100,6 +100,18 @@ TEST_F(Display, PbrNeutralIsItsFormulaAndTheSrgbCurve) {
     }
 }
 
+TEST_F(Display, OtherSpacesBecomeRec709First) {
+    DisplayOptions options;
+    options.rec709_from_scene = Matrix3{{{1.5, -0.25, -0.25}, {0, 1, 0}, {-0.1, -0.2, 1.3}}};
+    for (const char* view : {"Un-tone-mapped", "Khronos PBR Neutral", "ACES 1.0 SDR"}) {
+        options.view = view;
+        const Rgb out = shown(options, {0.4f, 0.6f, 0.3f});
+        const Rgb expected = shown(view, {0.375f, 0.6f, 0.23f});
+        for (size_t i = 0; i < 3; ++i)
+            EXPECT_NEAR(out[i], expected[i], 1e-4) << view;
+    }
+}
+
 TEST_F(Display, RawIsTheIdentityInRange) {
     EXPECT_EQ(shown("Raw", {0.25f, 0.123456f, 0.9f}), (Rgb{0.25f, 0.123456f, 0.9f}));
     EXPECT_EQ(shown("Raw", {-1, 2, 0}), (Rgb{0, 1, 0}));

@@ -43,6 +43,21 @@ T value_of(const Imf::Header& header, const std::string& name) {
     return attribute ? attribute->value() : T();
 }
 
+TEST_F(ExrHeader, ColoursAreThoseOfTheirSpace) {
+    ImageMetadata metadata;
+    metadata.space.interop_id = "lin_ap1_scene";
+    metadata.space.primaries = ap1_primaries;
+    metadata.space.white = aces_white;
+    const Imf::Header header = header_of(metadata);
+    EXPECT_EQ(value_of<std::string>(header, "colorInteropID"), "lin_ap1_scene");
+    const auto found = value_of<Imf::Chromaticities>(header, "chromaticities");
+    EXPECT_EQ(found.red, Imath::V2f(0.713f, 0.293f));
+    EXPECT_EQ(found.white, Imath::V2f(0.32168f, 0.33767f));
+    metadata.space.interop_id = "";
+    const Imf::Header nameless = header_of(metadata);
+    EXPECT_TRUE(nameless.find("colorInteropID") == nameless.end());
+}
+
 TEST_F(ExrHeader, NumbersAreNumbers) {
     ImageMetadata metadata;
     metadata.samples_per_pixel = 64;
@@ -146,23 +161,26 @@ TEST_F(ExrHeader, OnlyColoursHaveAWhite) {
     EXPECT_FALSE(Imf::hasWhiteLuminance(header_of(metadata)));
 }
 
-TEST_F(ExrHeader, ViewsAreNamed) {
+/// OpenEXR, "Storing Multi-View Images": parts have `view`, and then none has `multiView`.
+TEST_F(ExrHeader, TheViewsOfAnImageArePartsOfAMultipartFile) {
     ImageMetadata metadata;
     metadata.standard.views = {"left", "right"};
-    OutputImage image = four_pixels();
-    image.layers.push_back(
-        {"right", {"right.R", "right.G", "right.B"}, LayerKind::color, image.pixels});
-    image.layers[0].view = "right";
-    using Views = std::vector<std::string>;
-    EXPECT_EQ(Imf::multiView(header_of(metadata, image)), (Views{"left", "right"}));
+    const OutputImage image = four_pixels();
     const ExrOptions parts{.layout = ExrLayout::multipart};
-    EXPECT_EQ(header_of(metadata, image, parts, 0).view(), "left");
-    EXPECT_EQ(header_of(metadata, image, parts, 1).view(), "right");
-    EXPECT_FALSE(header_of({}, image, parts, 0).hasView());
-    const ExrOptions files{.layout = ExrLayout::separate};
-    EXPECT_EQ(Imf::multiView(header_of(metadata, image, files)), Views{"left"});
-    const Imf::MultiPartInputFile right((folder_ / "a.right.exr").c_str());
-    EXPECT_EQ(Imf::multiView(right.header(0)), Views{"right"});
+    for (const auto& [part, view] : {std::pair{0, "left"}, std::pair{1, "right"}}) {
+        const Imf::Header header = header_of(metadata, image, parts, part);
+        EXPECT_EQ(header.view(), view);
+        EXPECT_EQ(header.name(), std::string("rgba-") + view);
+        EXPECT_EQ(header.displayWindow(), Imath::Box2i({0, 0}, {1, 0}));
+        EXPECT_EQ(header.dataWindow(), Imath::Box2i({0, 0}, {1, 0}));
+        EXPECT_FALSE(Imf::hasMultiView(header));
+    }
+    for (const ExrLayout layout : {ExrLayout::single, ExrLayout::separate}) {
+        const Imf::Header header = header_of(metadata, image, {.layout = layout});
+        EXPECT_EQ(header.displayWindow(), Imath::Box2i({0, 0}, {1, 1})) << "one above the other";
+        EXPECT_FALSE(header.hasView() || Imf::hasMultiView(header));
+    }
+    EXPECT_FALSE(header_of({}, image, parts).hasView());
 }
 
 TEST_F(ExrHeader, EqualImagesAreEqualFiles) {

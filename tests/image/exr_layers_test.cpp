@@ -162,6 +162,65 @@ TEST_F(ExrLayers, PartsAreNamedAfterTheLayersAndSpeakForThemselves) {
     EXPECT_EQ(text_of(file.header(3), "cryptomatte/1234567/name"), "(no cryptomatte/1234567/name)");
 }
 
+/// The rows from `first` to `end` of interleaved values.
+UnsetArray<float> rows_of(const UnsetArray<float>& values, size_t row, size_t first, size_t end) {
+    UnsetArray<float> out(row * (end - first));
+    std::copy_n(values.data() + first * row, out.size(), out.data());
+    return out;
+}
+
+TEST_F(ExrLayers, EyesAboveEachOtherBecomeViews) {
+    const OutputImage image = layered(19, 12);
+    ImageMetadata metadata;
+    metadata.standard.views = {"left", "right"};
+    for (const int tile_size : {0, 16}) {
+        const ExrOptions options{.depth = ExrDepth::float32,
+                                 .layout = ExrLayout::multipart,
+                                 .tile_size = tile_size,
+                                 .mipmap = tile_size > 0};
+        ASSERT_TRUE(write_image_file(folder_ / "out.exr", image, metadata, options, {}));
+        Imf::MultiPartInputFile file = open();
+        ASSERT_EQ(file.parts(), 10);
+        for (int part = 0; part < 10; ++part) {
+            const bool right = part >= 5;
+            EXPECT_EQ(file.header(part).view(), right ? "right" : "left");
+            const size_t first = right ? 6 : 0;
+            const bool beauty = part % 5 == 0;
+            const ImageLayer& layer = image.layers[beauty ? 0 : static_cast<size_t>(part % 5) - 1];
+            const std::vector<std::string>& names = beauty ? image.channels : layer.channels;
+            const UnsetArray<float>& values = beauty ? image.pixels : layer.pixels;
+            EXPECT_EQ(file.header(part).name(),
+                      (beauty ? "rgba" : layer.name) + (right ? "-right" : "-left"));
+            expect_exact(channels_of(file, part),
+                         names,
+                         rows_of(values, 19 * names.size(), first, first + 6));
+        }
+    }
+}
+
+TEST_F(ExrLayers, ACropMayShowOneEyeOrTheEdgeOfBoth) {
+    OutputImage image{3, 4, {"Y"}, noise(12, 1)};
+    ImageMetadata metadata;
+    metadata.standard.views = {"left", "right"};
+    const ExrOptions options{.depth = ExrDepth::float32, .layout = ExrLayout::multipart};
+    image.part_of = ImagePart{8, 20, 2, 7};  // rows 7 to 9 of the left eye, row 0 of the right one
+    ASSERT_TRUE(write_image_file(folder_ / "out.exr", image, metadata, options, {}));
+    Imf::MultiPartInputFile both = open();
+    ASSERT_EQ(both.parts(), 2);
+    for (const int part : {0, 1})
+        EXPECT_EQ(both.header(part).displayWindow(), Imath::Box2i({0, 0}, {7, 9}));
+    EXPECT_EQ(both.header(0).dataWindow(), Imath::Box2i({2, 7}, {4, 9}));
+    EXPECT_EQ(both.header(1).dataWindow(), Imath::Box2i({2, 0}, {4, 0}));
+    expect_exact(channels_of(both, 0), {"Y"}, rows_of(image.pixels, 3, 0, 3));
+    expect_exact(channels_of(both, 1), {"Y"}, rows_of(image.pixels, 3, 3, 4));
+    image.part_of->y = 16;
+    ASSERT_TRUE(write_image_file(folder_ / "out.exr", image, metadata, options, {}));
+    const Imf::MultiPartInputFile right = open();
+    ASSERT_EQ(right.parts(), 1);
+    EXPECT_EQ(right.header(0).view(), "right");
+    EXPECT_EQ(right.header(0).dataWindow(), Imath::Box2i({2, 6}, {4, 9}));
+}
+
 TEST_F(ExrLayers, ABeautyOfDataMayHaveColoursBesideIt) {
     OutputImage image = layered(4, 4);
     image.channels = {"u", "v"};

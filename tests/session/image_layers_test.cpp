@@ -63,6 +63,8 @@ TEST(ImageLayers, CryptomatteSpeaksInTheHeaderAndLeavesOutEmptyNames) {
     EXPECT_THAT(metadata[3].second, HasSubstr(R"("/b":")"));
     EXPECT_THAT(metadata[3].second, Not(HasSubstr(R"("":)")));
     EXPECT_NE(layers[2].metadata[0].first, metadata[0].first) << "a key of its own";
+    EXPECT_THAT(layers[1].names, ElementsAre("/b", "/a"));
+    EXPECT_TRUE(layers[0].names.empty());
 }
 
 TEST(ImageLayers, AManifestInAFileIsNamedAndHoldsTheNamesOfAllLayers) {

@@ -50,16 +50,20 @@ void note_members(Access& access, const Members&...) {
 
 // All members: one more would not compile.
 void note(Type<ShadeColumns>, Access& access) {
-    const auto& [a, b, c, d, e, f, g, h, i, j] = ShadeColumns{};
-    note_members(access, a, b, c, d, e, f, g, h, i, j);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k] = ShadeColumns{};
+    note_members(access, a, b, c, d, e, f, g, h, i, j, k);
 }
 void note(Type<RaycastColumns>, Access& access) {
     const auto& [a, b, c, d, e, f] = RaycastColumns{};
     note_members(access, a, b, c, d, e, f);
 }
 void note(Type<AovColumns>, Access& access) {
-    const auto& [a, b, c, d] = AovColumns{};
-    note_members(access, a, b, c, d);
+    const auto& [a, b, c, d, e, f] = AovColumns{};
+    note_members(access, a, b, c, d, e, f);
+}
+void note(Type<AlbedoColumns>, Access& access) {
+    const auto& [a, b, c, d, e, f, g, h] = AlbedoColumns{};
+    note_members(access, a, b, c, d, e, f, g, h);
 }
 void note(Type<WireframeColumns>, Access& access) {
     const auto& [a, b, c, d] = WireframeColumns{};
@@ -68,6 +72,10 @@ void note(Type<WireframeColumns>, Access& access) {
 void note(Type<ThinWallColumns>, Access& access) {
     const auto& [a, b, c, d] = ThinWallColumns{};
     note_members(access, a, b, c, d);
+}
+void note(Type<CatcherColumns>, Access& access) {
+    const auto& [a, b, c, d, e, f, g, h, i] = CatcherColumns{};
+    note_members(access, a, b, c, d, e, f, g, h, i);
 }
 void note(Type<ScatterStart>, Access& access) {
     const auto& [a, b, c, d, e] = ScatterStart{};
@@ -103,10 +111,12 @@ Table table_of_types() {
     add_stage("scatter", &S::scatter, table);
     add_stage("make_probes", &S::make_probes, table);
     add_stage("shade", &S::shade, table);
+    add_stage("shade_catchers", &S::shade_catchers, table);
     add_stage("shade_ao", &S::shade_ao, table);
     add_stage("begin_raycast", &S::begin_raycast, table);
     add_stage("shade_raycast", &S::shade_raycast, table);
     add_stage("aovs", &S::aovs, table);
+    add_stage("follow_albedo", &S::follow_albedo, table);
     add_stage("wireframe", &S::wireframe, table);
     add_stage("take_waiting", &S::take_waiting, table);
     add_stage("cross_thin_walls", &S::cross_thin_walls, table);

@@ -5,7 +5,28 @@
 namespace obscura {
 
 std::string json_document(const Json& json) {
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+    return escape_json_controls(json.dump(2, ' ', false, Json::error_handler_t::replace)) + '\n';
+}
+
+std::string escape_json_controls(std::string_view text) {
+    static constexpr char hex[] = "0123456789abcdef";
+    std::string out;
+    out.reserve(text.size());
+    for (size_t i = 0; i < text.size(); ++i) {
+        auto code = static_cast<unsigned char>(text[i]);
+        // U+0080 to U+009F are two bytes, of which the second one is the code.
+        const bool two = code == 0xC2 && i + 1 < text.size();
+        if (two) code = static_cast<unsigned char>(text[i + 1]);
+        if (two ? code < 0xA0 : code == 0x7F) {
+            out += "\\u00";
+            out += hex[code >> 4];
+            out += hex[code & 15];
+            i += two ? 1 : 0;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
 }
 
 }  // namespace obscura

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
 namespace obscura {
 
@@ -12,7 +13,13 @@ using Json = nlohmann::ordered_json;
 
 /// The document's text, indented by two spaces, with a line feed at its end; the same in every
 /// locale. Numbers keep their exact values, NaN and infinity become null. Control characters are
-/// escaped, bytes that are not UTF-8 become U+FFFD.
+/// escaped, those that JSON allows too; bytes that are not UTF-8 become U+FFFD.
 std::string json_document(const Json& json);
+
+/// JSON text whose strings have U+007F to U+009F escaped, too: JSON allows these control
+/// characters, but terminals act on them, and what escapes them for terminals writes no JSON.
+///
+/// In      text: valid JSON, UTF-8
+std::string escape_json_controls(std::string_view text);
 
 }  // namespace obscura

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "gltf/geometry/mesh_append.h"
 #include "gltf/geometry/points_lines.h"
+#include "image/rendering_space.h"
 
 #include <algorithm>
 #include <optional>
@@ -156,6 +157,7 @@ Result<void> BatchReader::append(const PrimitiveTask& task,
         if (!primitive.faults.empty()) use_material(task.name);
         return {};
     }
+    if (document().from_rec709) convert_colors(*document().from_rec709, primitive.colors, 4);
     GeometryStore* store = sources_.meshes.store;
     SphereOrders* orders = store != nullptr ? &store->sphere_orders : nullptr;
     Result<Primitive> appended =

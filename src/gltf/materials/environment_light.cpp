@@ -6,6 +6,7 @@
 #include "gltf/parse/trs.h"
 #include "image/cube_environment.h"
 #include "image/decode.h"
+#include "image/rendering_space.h"
 
 #include <array>
 #include <utility>
@@ -57,6 +58,7 @@ Result<std::shared_ptr<const ImageRgb32f>> load_map(const ImageSources& sources,
     if (!map) return fail(std::move(map.error()));
     for (float& value : map->pixels)
         value *= static_cast<float>(record.intensity);
+    if (sources.document.from_rec709) convert_colors(*sources.document.from_rec709, map->pixels);
     return std::make_shared<const ImageRgb32f>(std::move(*map));
 }
 

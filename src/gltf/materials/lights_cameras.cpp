@@ -3,6 +3,7 @@
 #include "gltf/materials/lights_cameras.h"
 
 #include "gltf/chosen_parts.h"
+#include "image/rendering_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -172,7 +173,10 @@ void LightPlacer::store(const std::optional<PunctualLight>& light,
         return;
     }
     scene_.lights.push_back(*light);
+    if (document_.from_rec709)
+        convert_colors(*document_.from_rec709, scene_.lights.back().intensity);
     scene_.info.light_names.push_back(name);
+    scene_.info.light_nodes.push_back(node);
 }
 
 void LightPlacer::add(const PlacedNode& place) {

@@ -7,6 +7,7 @@
 #include "gltf/parse/specular_glossiness.h"
 #include "gltf/parse/uri.h"
 #include "image/decode.h"
+#include "scene/texel_colors.h"
 
 #include <algorithm>
 #include <map>
@@ -46,6 +47,13 @@ private:
     }
     std::string place(size_t image) const { return document().at("images", original(image)); }
 
+    /// True when a use of an image has 16 bits: colours of another space would show the steps of
+    /// 8 bits.
+    bool is_wide(const ImageState& image, bool srgb) const {
+        return image.wide || (srgb && document().from_rec709.has_value());
+    }
+    size_t arena_texels(const ImageState& image, bool srgb) const;
+
     void find_uses();
     bool take_stored();
     Result<void> decode_afresh();
@@ -58,6 +66,7 @@ private:
     int record_index(const TextureSlot& slot, bool srgb);
     void resolve_slots();
     Result<void> decode(size_t image);
+    void store_texels(const ImageState& state, const ImageRgba8& decoded, bool srgb);
     void fill_broken(size_t image);
     void decode_all();
 
@@ -198,17 +207,18 @@ void TextureBuilder::probe_all() {
 }
 
 /// Words of the arena that one use of an image takes.
-size_t arena_texels(const ImageState& image) {
-    return (image.wide ? 2U : 1U) * mip_chain_texels(image.width, image.height);
+size_t TextureBuilder::arena_texels(const ImageState& image, bool srgb) const {
+    return (is_wide(image, srgb) ? 2U : 1U) * mip_chain_texels(image.width, image.height);
 }
 
 Result<void> TextureBuilder::lay_out() {
     size_t total = 0;
     for (size_t i = 0; i < images_.size(); ++i) {
-        for (ImageUse& use : images_[i].uses) {
+        for (size_t srgb = 0; srgb < 2; ++srgb) {
+            ImageUse& use = images_[i].uses[srgb];
             if (!use.used) continue;
             use.base = total;
-            total += arena_texels(images_[i]);
+            total += arena_texels(images_[i], srgb == 1);
             if (total <= max_texels) continue;
             return fail(ExitCode::refused,
                         "E-LIMIT-TEXELS",
@@ -237,7 +247,7 @@ int TextureBuilder::record_index(const TextureSlot& slot, bool srgb) {
     record.height = image.height;
     record.levels = mip_level_count(image.width, image.height);
     record.sampler = packed;
-    if (image.wide) {
+    if (is_wide(image, srgb)) {
         record.low_plane = static_cast<int32_t>(mip_chain_texels(image.width, image.height));
     }
     size_t offset = image.uses[srgb ? 1 : 0].base;
@@ -294,25 +304,36 @@ Result<void> TextureBuilder::decode(size_t image) {
         roughness_from_glossiness(decoded->texels, decoded->low_bytes, source.glossiness);
     }
     for (size_t srgb = 0; srgb < 2; ++srgb) {
-        if (!state.uses[srgb].used) continue;
-        uint32_t* base = scene_.textures.texels.data() + state.uses[srgb].base;
-        std::copy(decoded->texels.begin(), decoded->texels.end(), base);
-        if (!state.wide) {
-            build_mip_chain(base + last_level, width, height, srgb == 1);
-            continue;
-        }
-        uint32_t* low = base + mip_chain_texels(width, height);
-        std::copy(decoded->low_bytes.begin(), decoded->low_bytes.end(), low);
-        build_wide_mip_chain(base, low, width, height, srgb == 1);
+        if (state.uses[srgb].used) store_texels(state, *decoded, srgb == 1);
     }
     return {};
+}
+
+/// Copies an image's texels into the arena, colours in the rendering space, and completes the mip
+/// chain below its last stored level.
+void TextureBuilder::store_texels(const ImageState& state, const ImageRgba8& decoded, bool srgb) {
+    const int width = std::max(state.width >> (decoded.levels - 1), 1);
+    const int height = std::max(state.height >> (decoded.levels - 1), 1);
+    const size_t chain = mip_chain_texels(state.width, state.height);
+    const size_t last_level = chain - mip_chain_texels(width, height);
+    uint32_t* base = scene_.textures.texels.data() + state.uses[srgb ? 1 : 0].base;
+    std::copy(decoded.texels.begin(), decoded.texels.end(), base);
+    if (!is_wide(state, srgb)) return build_mip_chain(base + last_level, width, height, srgb);
+    uint32_t* low = base + chain;
+    // The low byte of an 8-bit code in 16 bits is the code itself: 255 becomes 65535.
+    const auto& low_bytes = state.wide ? decoded.low_bytes : decoded.texels;
+    std::copy(low_bytes.begin(), low_bytes.end(), low);
+    if (srgb && document().from_rec709) {
+        convert_texels(*document().from_rec709, base, low, decoded.texels.size());
+    }
+    build_wide_mip_chain(base + last_level, low + last_level, width, height, srgb);
 }
 
 void TextureBuilder::fill_broken(size_t image) {
     const ImageState& state = images_[image];
     const ImageUse& color = state.uses[1];
     if (!color.used) return;
-    const size_t texels = arena_texels(state);
+    const size_t texels = arena_texels(state, true);
     std::fill_n(scene_.textures.texels.data() + color.base, texels, magenta);
 }
 

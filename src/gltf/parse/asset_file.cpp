@@ -28,7 +28,7 @@ Result<Bytes> read_asset_file(const std::filesystem::path& file) {
 Result<OpenedAsset> open_asset(const std::filesystem::path& path,
                                Problems& problems,
                                Log& log,
-                               bool occlusion) {
+                               const MaterialReading& materials) {
     const std::string where = path.string();
     Result<Bytes> bytes = read_asset_file(path);
     if (!bytes) return fail(std::move(bytes.error()));
@@ -53,7 +53,7 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path,
     Result<nlohmann::json> tree = parse_json_text(text, where, log);
     if (!tree) return fail(std::move(tree.error()));
     if (!is_glb(all)) asset.file = Bytes();
-    Result<Document> document = read_document(std::move(*tree), where, problems, log, occlusion);
+    Result<Document> document = read_document(std::move(*tree), where, problems, log, materials);
     if (!document) return fail(std::move(document.error()));
     asset.document = std::move(*document);
     return asset;

@@ -18,11 +18,10 @@ struct OpenedAsset {
     Document document;
 };
 
-/// In      occlusion: LoadOptions::occlusion
 /// Errors  66 E-SCENE-MISSING, 65 E-GLB-*, those of parse_json_text and read_document
 Result<OpenedAsset> open_asset(const std::filesystem::path& path,
                                Problems& problems,
                                Log& log,
-                               bool occlusion);
+                               const MaterialReading& materials);
 
 }  // namespace obscura::gltf

@@ -156,11 +156,15 @@ size_t component_size(ComponentType type) {
     }
 }
 
-Result<Document> read_document(
-    nlohmann::json tree, const std::string& file, Problems& problems, Log& log, bool occlusion) {
+Result<Document> read_document(nlohmann::json tree,
+                               const std::string& file,
+                               Problems& problems,
+                               Log& log,
+                               const MaterialReading& materials) {
     Document document;
     document.file = file;
-    document.reads_occlusion = occlusion;
+    document.reads_occlusion = materials.occlusion;
+    document.from_rec709 = materials.from_rec709;
     const Result<void> checked = read_tree(tree, problems.lenient(), document, log);
     if (!checked) return fail(checked.error());
     const Result<tinygltf::Model> model = read_model(tree, file);

@@ -7,6 +7,7 @@
 #include "gltf/parse/document_animation.h"
 #include "gltf/parse/material_factors.h"
 #include "gltf/problems.h"
+#include "image/rgb_primaries.h"
 #include "math/transform.h"
 #include "scene/asset_info.h"
 #include "scene/camera_settings.h"
@@ -288,8 +289,9 @@ struct Document {
     std::string xmp;                    ///< the asset's XMP packet as JSON text
     std::vector<ExtensionInfo> extensions;
     std::vector<ReportEntry> report;
-    bool keeps_uv = false;         ///< LoadOptions::keeps_uv
-    bool reads_occlusion = false;  ///< LoadOptions::occlusion
+    bool keeps_uv = false;                    ///< LoadOptions::keeps_uv
+    bool reads_occlusion = false;             ///< LoadOptions::occlusion
+    std::optional<Matrix3> from_rec709 = {};  ///< LoadOptions::from_rec709
 
     /// "scene.glb#/accessors/12", for messages.
     std::string at(std::string_view pointer) const { return file + "#" + std::string(pointer); }
@@ -298,18 +300,23 @@ struct Document {
     }
 };
 
+/// How materials are read.
+struct MaterialReading {
+    bool occlusion = false;                   ///< LoadOptions::occlusion
+    std::optional<Matrix3> from_rec709 = {};  ///< LoadOptions::from_rec709
+};
+
 /// Reads and checks a whole asset: types, ranges, indices, version, required extensions, the node
 /// graph. Says once what is ignored. Accessors without elements go to `problems` (E-ACC-COUNT).
 ///
 /// The tree is checked and repaired (gltf/parse/preflight.h), tinygltf makes its model from it
 /// (gltf/parse/model.h), and the document is made from the model.
 ///
-/// In      occlusion: LoadOptions::occlusion
 /// Errors  65 E-JSON-TYPE, E-DOC-*, E-NODE-*; 69 E-VERSION, and E-EXT-REQUIRED unless lenient
 Result<Document> read_document(nlohmann::json tree,
                                const std::string& file,
                                Problems& problems,
                                Log& log,
-                               bool occlusion = false);
+                               const MaterialReading& materials = {});
 
 }  // namespace obscura::gltf

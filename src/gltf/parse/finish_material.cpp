@@ -123,6 +123,26 @@ std::optional<MaterialLayers> finish_layers(const MaterialFactors& from) {
     return out;
 }
 
+template <size_t N>
+void convert_color(const Matrix3& from_rec709, std::array<double, N>& color) {
+    const Xyz converted = product(from_rec709, Xyz{color[0], color[1], color[2]});
+    std::copy(converted.begin(), converted.end(), color.begin());
+}
+
+/// All colours of a material in the rendering space, before anything is computed from them.
+std::optional<MaterialFactors> in_space(MaterialFactors factors, const Matrix3& from_rec709) {
+    convert_color(from_rec709, factors.base_color);
+    convert_color(from_rec709, factors.emission);
+    convert_color(from_rec709, factors.specular_color);
+    convert_color(from_rec709, factors.sheen_color);
+    convert_color(from_rec709, factors.diffuse_transmission_color);
+    convert_color(from_rec709, factors.attenuation_color);
+    convert_color(from_rec709, factors.multiscatter_color);
+    convert_color(from_rec709, factors.diffuse);
+    convert_color(from_rec709, factors.glossy_specular);
+    return factors;
+}
+
 /// Removes the copies that specular-glossiness materials added.
 void drop_copies(Document& document) {
     const auto is_copy = [&](int image) {
@@ -151,7 +171,10 @@ TextureSlot finish_slot(const TextureFactors& from) {
     return slot;
 }
 
-GltfMaterial finish_material(const MaterialFactors& factors, Document& document) {
+GltfMaterial finish_material(const MaterialFactors& from, Document& document) {
+    const std::optional<MaterialFactors> converted =
+        document.from_rec709 ? in_space(from, *document.from_rec709) : std::nullopt;
+    const MaterialFactors& factors = converted ? *converted : from;
     GltfMaterial out;
     out.values = finish_core(factors, document.reads_occlusion);
     out.layers = finish_layers(factors);

@@ -11,6 +11,7 @@ namespace obscura::gltf {
 /// (gltf/parse/specular_glossiness.h).
 ///
 /// In      factors: their textures are those of the document
+/// Out     colours in the rendering space (Document::from_rec709)
 GltfMaterial finish_material(const MaterialFactors& factors, Document& document);
 
 /// KHR_texture_transform as a matrix: uv' = offset + rotation * scale * uv. A positive angle turns

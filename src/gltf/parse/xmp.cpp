@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/parse/xmp.h"
 
+#include "base/json/json.h"
+
 namespace obscura::gltf {
 
 std::string read_xmp(const JsonReader& root, const nlohmann::json& tree) {
@@ -17,7 +19,7 @@ std::string read_xmp(const JsonReader& root, const nlohmann::json& tree) {
         if (out.is_object() && extension.contains("@context") && !out.contains("@context")) {
             out["@context"] = extension["@context"];
         }
-        return out.dump();
+        return escape_json_controls(out.dump());
     }
     return {};
 }

@@ -11,6 +11,7 @@ inline namespace OBSCURA_ISA {
 /// Source  KHR_materials_clearcoat
 struct Coat : Lobe {
     static constexpr LobePlace place = LobePlace::layer;
+    static constexpr ScatterEvent event{'R', 'G', "coat"};
     static constexpr bool always_exists = false;
 
     template <typename F>
@@ -44,6 +45,12 @@ struct Coat : Lobe {
     template <typename F>
     OBSCURA_INLINE static bool exists(const LayeredParams<F>& p, const LayeredWeights<F>&) {
         return any(p.coat > F(0.0f));
+    }
+
+    template <typename F>
+    OBSCURA_INLINE static MaskOf<F> is_singular(const LayeredParams<F>& p,
+                                                const LayeredWeights<F>&) {
+        return p.coat_alpha <= F(min_ggx_alpha);
     }
 
     template <typename F>

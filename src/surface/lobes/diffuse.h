@@ -13,6 +13,7 @@ inline constexpr float diffuse_spread = 0.4f;
 /// Draws the directions of the sheen, too, and counts its light in its share.
 struct Diffuse : Lobe {
     static constexpr LobePlace place = LobePlace::base;
+    static constexpr ScatterEvent event{'R', 'D', "diffuse"};
 
     template <typename F>
     struct Params {};

@@ -10,6 +10,7 @@ inline namespace OBSCURA_ISA {
 /// Source  KHR_materials_diffuse_transmission: a part of what would be diffuse
 struct DiffuseTransmission : Lobe {
     static constexpr LobePlace place = LobePlace::transmitted;
+    static constexpr ScatterEvent event{'T', 'D', "diffuse_transmission"};
 
     template <typename F>
     struct Params {

@@ -14,6 +14,7 @@ inline namespace OBSCURA_ISA {
 /// Source  glTF 2.0, Appendix B; KHR_materials_specular, _ior, _iridescence, _anisotropy
 struct FacetReflection : Lobe {
     static constexpr LobePlace place = LobePlace::base;
+    static constexpr ScatterEvent event{'R', 'G', "specular"};
 
     template <typename F>
     struct Params {
@@ -35,6 +36,12 @@ struct FacetReflection : Lobe {
         const F dielectric = F(1.0f) - view.p.metallic;
         w.dielectric = dielectric * view.facets.factor;
         w.metal = view.facets.metal_factor * view.p.metallic;
+    }
+
+    template <typename F>
+    OBSCURA_INLINE static MaskOf<F> is_singular(const LayeredParams<F>& p,
+                                                const LayeredWeights<F>&) {
+        return is_smooth(p.alpha);
     }
 
     template <typename F>

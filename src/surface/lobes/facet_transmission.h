@@ -133,6 +133,7 @@ OBSCURA_INLINE Vec3<F> transmit(const LayeredParams<F>& p, const Vec3<F>& wo, co
 /// Source  KHR_materials_transmission, _volume, _ior
 struct FacetTransmission : Lobe {
     static constexpr LobePlace place = LobePlace::transmitted;
+    static constexpr ScatterEvent event{'T', 'G', "transmission"};
     static constexpr bool always_exists = false;
     static constexpr bool is_sampled = false;
 
@@ -160,6 +161,12 @@ struct FacetTransmission : Lobe {
     template <typename F>
     OBSCURA_INLINE static bool exists(const LayeredParams<F>&, const LayeredWeights<F>& w) {
         return any(w.transmitted > F(0.0f));
+    }
+
+    template <typename F>
+    OBSCURA_INLINE static MaskOf<F> is_singular(const LayeredParams<F>&,
+                                                const LayeredWeights<F>& w) {
+        return is_smooth(w.through_alpha);
     }
 
     template <typename F>

@@ -65,7 +65,9 @@ struct LobeList {
 ///
 /// To add a lobe:
 ///  1. surface/lobes/<name>.h: a struct derived from Lobe with the functions that lobe.h describes,
-///     always_exists false. Where its Params are 0 it sends nothing on and its share is 0.
+///     always_exists false. Where its Params are 0 it sends nothing on and its share is 0. Its
+///     `event` is what light path expressions call it; a new label needs its components in
+///     film/light_components.cpp, or no layer has its light.
 ///  2. Here: its include and its place in Lobes. Its Params and Weights join LayeredParams and
 ///     LayeredWeights, its probability the sums, by themselves.
 ///  3. Its reader: a function of stages/3_layers.cpp that fills its Params for each hit. New

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "surface/bsdf.h"
+#include "surface/scatter_event.h"
 
 #include <type_traits>
 
@@ -15,6 +16,11 @@ enum class LobePlace {
     layer,        ///< reflects, and covers the base and the layers before it in the list
     transmitted,  ///< leads to the transmitted side; these lobes add up
 };
+
+template <typename F>
+struct LayeredParams;
+template <typename F>
+struct LayeredWeights;
 
 /// A lobe is a struct of static functions, in a header of its own, derived from this one, which
 /// holds the defaults. lobes/list.h lists all lobes and has the recipe for one more; the loops over
@@ -31,6 +37,10 @@ enum class LobePlace {
 ///         others       void weigh(const LobeView<F>&, LayeredWeights<F>&)
 ///   bool exists(const LayeredParams<F>&, const LayeredWeights<F>&)
 ///       Whether any lane has the lobe; read where always_exists is false.
+///   ScatterEvent event
+///       What light path expressions call it where it is not singular.
+///   MaskOf<F> is_singular(const LayeredParams<F>&, const LayeredWeights<F>&)
+///       Where it is as narrow as lobes get: expressions then know it by the mode S.
 ///   evaluate
 ///       Value and density for one direction; the density holds the lobe's probability.
 ///         base         BsdfValue<F> evaluate(const Reflection<F>&), without the cosine of wi
@@ -49,6 +59,11 @@ struct Lobe {
 
     template <typename View, typename Weights>
     OBSCURA_INLINE static void weigh(const View&, Weights&) {}
+
+    template <typename F>
+    OBSCURA_INLINE static MaskOf<F> is_singular(const LayeredParams<F>&, const LayeredWeights<F>&) {
+        return MaskOf<F>(false);
+    }
 };
 
 /// What several lobes read of the material.
@@ -58,10 +73,6 @@ struct BaseParams {
     F metallic;
 };
 
-template <typename F>
-struct LayeredParams;
-template <typename F>
-struct LayeredWeights;
 template <typename F>
 struct FacetWeights;
 

@@ -12,6 +12,7 @@ inline namespace OBSCURA_ISA {
 /// Source  KHR_materials_sheen; the lobe itself is in surface/sheen.h
 struct Sheen : Lobe {
     static constexpr LobePlace place = LobePlace::layer;
+    static constexpr ScatterEvent event{'R', 'G', "sheen"};
     static constexpr bool always_exists = false;
     static constexpr bool is_sampled = false;
 

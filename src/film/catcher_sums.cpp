@@ -1,0 +1,37 @@
+// film/catcher_sums.cpp - the light that the shadow catchers of a pixel received, and its alpha.
+// SPDX-License-Identifier: Apache-2.0
+#include "film/catcher_sums.h"
+
+#include <algorithm>
+
+namespace obscura {
+
+void add_catcher_samples(const std::vector<CatcherSample>& samples,
+                         int samples_per_pixel,
+                         std::span<CatcherSum> sums) {
+    for (const CatcherSample& sample : samples) {
+        CatcherSum& sum = sums[sample.slot / static_cast<uint32_t>(samples_per_pixel)];
+        sum.shadowed += static_cast<double>(sample.shadowed);
+        sum.unshadowed += static_cast<double>(sample.unshadowed);
+        for (size_t c = 0; c < 4; ++c)
+            sum.background[c] += static_cast<double>(sample.background[c]);
+        ++sum.samples;
+    }
+}
+
+double shadow_alpha(const CatcherSum& sum) {
+    if (!(sum.unshadowed > 0)) return 0;
+    return std::clamp(1 - sum.shadowed / sum.unshadowed, 0.0, 1.0);
+}
+
+std::array<float, 4> catcher_part(const CatcherSum& sum, int samples) {
+    const double alpha = shadow_alpha(sum);
+    std::array<float, 4> out = {0, 0, 0, 0};
+    for (size_t c = 0; c < 4; ++c) {
+        const double shadow = c == 3 ? alpha * sum.samples : 0;
+        out[c] = static_cast<float>((shadow + (1 - alpha) * sum.background[c]) / samples);
+    }
+    return out;
+}
+
+}  // namespace obscura

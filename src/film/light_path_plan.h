@@ -1,0 +1,50 @@
+// film/light_path_plan.h - compiles the light layers of an image into the tables of the stages.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "film/layers.h"
+#include "film/light_groups.h"
+#include "stages/light_paths.h"
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// The layers of light groups: of each "light_<group>", and with components
+/// "diffuse_direct_<group>" and so on.
+std::vector<Layer> light_group_layers(std::span<const std::string> names, bool components);
+
+/// Owns the arrays of LightPathTable. Its light layers are numbered in the order in which they come
+/// among all layers.
+class LightPathPlan {
+public:
+    /// In      groups: those of the scene; with one name, "rest", when none are asked for
+    ///         class_of_light: by index of light sampling
+    /// Errors  64 E-LPE when the expressions need too many states
+    static Result<LightPathPlan> make(std::span<const Layer> layers,
+                                      const Scene& scene,
+                                      const LightGroups& groups,
+                                      std::vector<uint16_t> class_of_light);
+
+    LightPathTable table() const;
+
+private:
+    void group_emitters(const Scene& scene, const LightGroups& groups);
+    void find_common_states();
+    void number_sums();
+
+    std::vector<uint16_t> next_, common_next_, layers_, sum_of_class_, class_of_sum_,
+        class_of_light_;
+    std::vector<uint16_t> group_of_primitive_, group_of_instance_;
+    std::vector<uint8_t> settled_;
+    std::vector<uint32_t> layer_begin_;
+    int layer_count_ = 0;
+    uint32_t group_count_ = 1;
+    uint32_t environment_group_ = 0;
+    bool shadow_ = false;
+};
+
+}  // namespace obscura

@@ -1,0 +1,185 @@
+// stages/3_catcher.cpp - stage 3 at shadow catchers, white Lambert surfaces that receive light.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/3_catcher.h"
+
+#include "math/sampler.h"
+#include "stages/3_lights.h"
+#include "surface/fresnel.h"
+#include "surface/ggx.h"
+#include "surface/lobes/diffuse.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+/// The density of next rays, far below any of light sampling: by MIS they count where light
+/// sampling finds nothing.
+constexpr float density_below_all = 1e-30f;
+
+constexpr float catcher_f0 = 0.04f;
+
+/// Where a camera ray meets a catcher. Normals are on the viewer's side.
+struct CatcherPoint {
+    Vec3<Lanes> start;        ///< of rays, clear of the surface
+    Vec3<Lanes> light_start;  ///< of rays to lights, see ShadingPoint
+    Vec3<Lanes> ng;
+    Vec3<Lanes> normal;  ///< interpolated, without normal map
+    Lanes distance;
+    Lanes time;
+};
+
+/// One group of camera rays at their catchers.
+struct CatcherGroup {
+    Mask exists;
+    const PathLanes& path;
+    const CatcherPoint& point;
+};
+
+OBSCURA_INLINE CatcherPoint catcher_point(const SceneView& scene,
+                                          const CatcherColumns& columns,
+                                          int i,
+                                          Mask exists,
+                                          const PathLanes& path) {
+    const Vec3<Lanes> up{Lanes(0.0f), Lanes(1.0f), Lanes(0.0f)};
+    const Lanes distance = load(columns.hits.t + i);
+    Vec3<Lanes> met = path.origin + path.direction * distance;
+    met.y = Lanes(columns.ground_m);
+    CatcherPoint out{met, met, up, up, distance, Lanes(0.0f)};
+    if (columns.time != nullptr) {
+        out.time = gather<Lanes>(columns.time, select(exists, as_int(path.slot), LanesI(0)));
+    }
+    const Mask surface = exists & (load(columns.hits.primitive + i) >= LanesI(0));
+    if (none(surface)) return out;
+    HitLanes hit = hits_or_first(columns.hits, i, surface);
+    hit.time = out.time;
+    const SurfaceInteraction found = find_surface_interaction<HitUse::start_rays>(
+        scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f))});
+    const HitGeometry& g = found.g;
+    const Mask front = surface & (found.cos_front >= Lanes(0.0f));
+    const Vec3<Lanes> start = g.position + found.ng * g.offset;
+    const Vec3<Lanes> smooth = select(dot(g.normal, found.ng) < Lanes(0.0f), -g.normal, g.normal);
+    out.start = select(surface, start, out.start);
+    out.light_start = select(surface, start, out.light_start);
+    out.light_start = select(front, out.light_start + g.smooth_shift, out.light_start);
+    out.ng = select(surface, found.ng, out.ng);
+    out.normal = select(surface, smooth, out.normal);
+    return out;
+}
+
+OBSCURA_INLINE Vec2<LanesU> random_pair(const PathLanes& path, RandomUse use) {
+    return sobol_pair(path.key, path.sample, static_cast<uint32_t>(use));
+}
+
+/// One light and a point on it, by the random numbers that a first hit of a surface uses.
+OBSCURA_INLINE LightLanes sampled_light(const SceneView& scene,
+                                        const PathLanes& path,
+                                        const CatcherPoint& point) {
+    LightRandom random;
+    random.choice =
+        scene.lights.count > 1 ? random_pair(path, RandomUse::light_choice).x : LanesU(0U);
+    const Vec2<LanesU> place = random_pair(path, RandomUse::light);
+    if (scene.has_environment) {
+        random.environment = draw_block<Lanes>(scene.environment.choice, place);
+        draw_environment_pixel(scene.environment, random.environment);
+    } else {
+        random.environment.random = place;
+    }
+    const Vec2<LanesU> bits = random_pair(path, RandomUse::texture);
+    const Vec2<Lanes> texel = unit_pair<Lanes>(bits);
+    random.texture = {
+        texel.x, texel.y, unit_float<Lanes>((bits.y << 16) | (bits.x & LanesU(0xFFFFU)))};
+    ShadingPoint s;
+    s.light_start = point.light_start;
+    s.time = point.time;
+    return sample_light(scene, s, random);
+}
+
+OBSCURA_INLINE int add_shadow_rays(const ShadowColumns& columns,
+                                   int at,
+                                   const CatcherGroup& group,
+                                   const LightLanes& light) {
+    const auto& [exists, path, point] = group;
+    const Lanes cosine = dot(point.normal, light.direction);
+    const Vec3<Lanes> radiance =
+        path.throughput * light.radiance_over_pdf * (cosine * Lanes(1.0f / pi_f));
+    const Mask useful = exists & light.valid & (cosine > Lanes(0.0f)) &
+                        (dot(point.ng, light.direction) > Lanes(0.0f)) &
+                        (max_component(radiance) > Lanes(0.0f));
+    return append_shadows(columns,
+                          at,
+                          useful,
+                          {.origin = point.light_start,
+                           .direction = light.direction,
+                           .tfar = light.distance,
+                           .radiance = radiance,
+                           .slot = path.slot,
+                           .path_key = path.path_key});
+}
+
+/// A ray that goes on from a catcher, without its direction, throughput, density and spread.
+OBSCURA_INLINE PathLanes leaving(const PathLanes& path, const CatcherPoint& point) {
+    PathLanes next = path;
+    next.origin = point.start;
+    next.cone_width = path.cone_width + path.cone_spread * point.distance;
+    return next;
+}
+
+OBSCURA_INLINE int add_next_rays(const PathColumns& columns, int at, const CatcherGroup& group) {
+    const auto& [exists, path, point] = group;
+    const Vec2<Lanes> u = unit_pair<Lanes>(random_pair(path, RandomUse::bsdf));
+    PathLanes next = leaving(path, point);
+    next.direction = normalize(to_world(frame_around(point.normal), cosine_hemisphere(u)));
+    next.pdf = Lanes(density_below_all);
+    next.cone_spread = path.cone_spread + Lanes(diffuse_spread);
+    return append_paths(columns, at, exists & (dot(next.direction, point.ng) > Lanes(0.0f)), next);
+}
+
+/// Rays off the gloss: facets seen from the viewer, so that their density cancels.
+OBSCURA_INLINE int add_reflections(const PathColumns& columns, int at, const CatcherGroup& group) {
+    const auto& [exists, path, point] = group;
+    constexpr float alpha = catcher_roughness * catcher_roughness;
+    const GgxWidths<Lanes> widths{Lanes(alpha), Lanes(alpha)};
+    const Frame<Lanes> frame = frame_around(point.normal);
+    Vec3<Lanes> wo = to_local(frame, -path.direction);
+    wo.z = max(wo.z, Lanes(1e-4f));
+    const Vec2<Lanes> u = unit_pair<Lanes>(random_pair(path, RandomUse::roulette));
+    const Vec3<Lanes> facet = sample_visible_normal(wo, widths, u);
+    const Lanes cosine = dot(wo, facet);
+    const Vec3<Lanes> wi = facet * (Lanes(2.0f) * cosine) - wo;
+    const Lanes fresnel = Lanes(catcher_f0) + Lanes(1.0f - catcher_f0) * schlick_weight(cosine);
+    const Lanes shadowing =
+        smith_shadowing(wo.z, smith_length(wo, widths), wi.z, smith_length(wi, widths));
+    PathLanes next = leaving(path, point);
+    next.direction = normalize(to_world(frame, wi));
+    next.throughput = path.throughput * (fresnel * shadowing);
+    next.pdf = Lanes(0.0f);  // no light is sampled for the gloss: its rays bring all
+    next.cone_spread = path.cone_spread + Lanes(alpha);
+    const Mask leaves =
+        exists & (wi.z > Lanes(0.0f)) & (dot(next.direction, point.ng) > Lanes(0.0f));
+    return append_paths(columns, at, leaves, next);
+}
+
+}  // namespace
+
+CatcherCounts shade_catchers(const SceneView& scene, int count, const CatcherColumns& columns) {
+    CatcherCounts out{columns.first_next, 0, 0};
+    for (int i = 0; i < count; i += lane_count) {
+        const Mask exists = lanes_in_range(i, count);
+        const PathLanes path = load_paths(columns.paths, i);
+        const CatcherPoint point = catcher_point(scene, columns, i, exists, path);
+        const CatcherGroup group{exists, path, point};
+        if (scene.lights.count > 0) {
+            const LightLanes light = sampled_light(scene, path, point);
+            out.shadow = add_shadow_rays(columns.shadows, out.shadow, group, light);
+        }
+        out.next = add_next_rays(columns.next, out.next, group);
+        if (columns.reflects) {
+            out.reflections = add_reflections(columns.reflections, out.reflections, group);
+        }
+    }
+    return out;
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,51 @@
+// stages/3_light_paths.h - what shading tells the light layers: scatterings, and light that
+// arrives. SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/3_surface.h"
+#include "stages/stages.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+// Not inlined into shading, which calls them only where light layers are asked for. Radiance holds
+// the path's throughput.
+
+/// Light that a surface emits towards its path.
+void add_emitted_light(const LightPathColumns& columns,
+                       Mask lanes,
+                       const HitLanes& hit,
+                       LanesU slot,
+                       const Vec3<Lanes>& radiance);
+
+/// Light of the environment or the background, at paths that left the scene.
+void add_background_light(const LightPathColumns& columns,
+                          Mask lanes,
+                          LanesU slot,
+                          const Vec3<Lanes>& radiance);
+
+/// A scattering from one direction into another, in the shading frame.
+struct Scattering {
+    const ShadingPoint& s;
+    Vec3<Lanes> wo;
+    Vec3<Lanes> wi;
+};
+
+/// Weights of the shadow rays of a group, and the light classes that they belong to. Must come
+/// before scatter_path of the same group.
+///
+/// In   light: index by light sampling
+void scatter_shadow(const LightPathColumns& columns,
+                    Mask lanes,
+                    LanesU slot,
+                    LanesI light,
+                    const Scattering& scattering);
+
+/// Moves the weights of paths that go on into a new direction.
+void scatter_path(const LightPathColumns& columns,
+                  Mask lanes,
+                  LanesU slot,
+                  const Scattering& scattering);
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

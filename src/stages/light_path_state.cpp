@@ -1,0 +1,176 @@
+// stages/light_path_state.cpp - the memory of light layers, and what happens to it between stages.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/light_path_state.h"
+
+#include "stages/pixel_sum.h"
+#include "surface/lobe_shares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+constexpr size_t color_words = size_t{3} * padded_slots;
+
+/// Numbers of shadows_.
+constexpr uint16_t unshadowed_number = 0;
+constexpr uint16_t shadowed_number = 1;
+
+}  // namespace
+
+void LightPathState::Colors::begin(int numbers) {
+    const auto size = static_cast<size_t>(numbers);
+    if (is_used.size() != size) {
+        memory.resize(size * color_words);
+        is_used.assign(size, 0);
+        used.resize(size);
+        used_count = 0;
+    }
+    for (int k = 0; k < used_count; ++k)
+        is_used[used[static_cast<size_t>(k)]] = 0;
+    used_count = 0;
+}
+
+ColorColumns LightPathState::Colors::view() {
+    return {memory.data(), is_used.data(), used.data(), &used_count};
+}
+
+ColorView LightPathState::Colors::color(size_t number) const {
+    if (number >= is_used.size() || is_used[number] == 0) return {};
+    const float* red = memory.data() + number * color_words;
+    return {red, red + padded_slots, red + size_t{2} * padded_slots};
+}
+
+void LightPathState::begin(const LightPathTable& table, int count, bool goes_straight) {
+    count_ = count;
+    bounces_ = 0;
+    has_moved_ = false;
+    weights_.begin(table.state_count);
+    shadow_weights_.begin(table.state_count);
+    layers_.begin(table.layer_count);
+    sums_.begin(table.sum_count);
+    shadows_.begin(table.shadow ? 2 : 0);
+    words_.resize(size_t{3} * padded_slots);
+    columns_ = {.table = &table,
+                .weights = weights_.view(),
+                .shadow_weights = shadow_weights_.view(),
+                .layers = layers_.view(),
+                .sums = sums_.view(),
+                .settled = words_.data(),
+                .shadow_split = words_.data() + padded_slots,
+                .shadow_class = words_.data() + size_t{2} * padded_slots,
+                .goes_straight = goes_straight};
+    shadow_columns_ = shadows_.view();
+    std::fill_n(columns_.settled, count, table.settled[0]);
+    std::fill_n(columns_.shadow_split, count, 0U);
+    std::fill_n(use_color(columns_.weights, 0), color_words, 1.0f);
+    notes_shadows_ = false;
+}
+
+void LightPathState::begin_bounce() {
+    columns_.all_at_start = bounces_++ == 0 && !has_moved_;
+    if (shadow_weights_.used_count == 0) return;
+    shadow_weights_.begin(columns_.table->state_count);
+    std::fill_n(columns_.shadow_split, count_, 0U);
+}
+
+void LightPathState::add_path_light(uint32_t slot, uint32_t light_class, const Vec3f& radiance) {
+    add_light(columns_, columns_.weights, columns_.settled[slot] != 0, slot, light_class, radiance);
+}
+
+void LightPathState::add_shadow_light(uint32_t slot, const Vec3f& radiance) {
+    const uint32_t light_class = columns_.shadow_class[slot];
+    if (columns_.shadow_split[slot] != 0) {
+        add_light(columns_, columns_.shadow_weights, false, slot, light_class, radiance);
+    } else {
+        add_light(columns_, columns_.weights, true, slot, light_class, radiance);
+    }
+    if (notes_shadows_) add_color(shadow_columns_, shadowed_number, slot, radiance);
+}
+
+void LightPathState::move(const ColorColumns& weights, uint32_t slot, size_t event) {
+    const LightPathTable& table = *columns_.table;
+    // A chain of moves may end in a state that comes later in the list: each part moves once.
+    std::vector<std::pair<uint16_t, Vec3f>> parts;
+    for (int k = 0; k < *weights.used_count; ++k) {
+        const uint16_t state = weights.used[k];
+        if (table.settled[state] != 0) continue;
+        const Vec3f part = color_at(weights.memory + color_words * state, slot);
+        if (max_component(part) <= 0) continue;
+        parts.emplace_back(state, part);
+        clear_color(weights, state, slot);
+    }
+    for (const auto& [state, part] : parts)
+        add_color(weights, table.next[state * scatter_event_count + event], slot, part);
+}
+
+void LightPathState::move_path(uint32_t slot, size_t event) {
+    if (columns_.settled[slot] != 0) return;
+    has_moved_ = true;
+    move(columns_.weights, slot, event);
+    const LightPathTable& table = *columns_.table;
+    bool settled = true;
+    for (int k = 0; k < *columns_.weights.used_count; ++k) {
+        const uint16_t state = columns_.weights.used[k];
+        if (table.settled[state] != 0) continue;
+        settled &=
+            max_component(color_at(columns_.weights.memory + color_words * state, slot)) <= 0;
+    }
+    columns_.settled[slot] = settled ? 1 : 0;
+}
+
+void LightPathState::move_shadow(uint32_t slot, size_t event) {
+    if (columns_.shadow_split[slot] != 0) move(columns_.shadow_weights, slot, event);
+}
+
+void LightPathState::add_unshadowed(uint32_t slot, const Vec3f& radiance) {
+    add_color(shadow_columns_, unshadowed_number, slot, radiance);
+}
+
+void LightPathState::finish(const SampleView& samples) {
+    const LightPathTable& table = *columns_.table;
+    const auto count = static_cast<size_t>(count_);
+    for (int q = 0; q < weights_.used_count; ++q) {
+        const uint16_t state = weights_.used[static_cast<size_t>(q)];
+        if (table.settled[state] == 0) continue;
+        for (int k = 0; k < sums_.used_count; ++k) {
+            const uint16_t sum = sums_.used[static_cast<size_t>(k)];
+            const size_t row = state * table.class_count + table.class_of_sum[sum];
+            for (uint32_t i = table.layer_begin[row]; i < table.layer_begin[row + 1]; ++i) {
+                float* const layer = use_color(columns_.layers, table.layers[i]);
+                const float* weight = weights_.memory.data() + color_words * state;
+                const float* light = sums_.memory.data() + color_words * sum;
+                for (size_t c = 0; c < color_words; c += padded_slots) {
+                    for (size_t slot = 0; slot < count; ++slot)
+                        layer[c + slot] += weight[c + slot] * light[c + slot];
+                }
+            }
+        }
+    }
+    for (uint32_t slot = 0; slot < static_cast<uint32_t>(count_); ++slot) {
+        const float size =
+            std::fabs(samples.r[slot]) + std::fabs(samples.g[slot]) + std::fabs(samples.b[slot]);
+        if (size <= largest_sample) continue;
+        for (const ColorColumns& columns : {columns_.layers, shadow_columns_}) {
+            for (int k = 0; k < *columns.used_count; ++k)
+                clear_color(columns, columns.used[k], slot);
+        }
+    }
+}
+
+ColorView LightPathState::layer(size_t number) const {
+    return layers_.color(number);
+}
+
+ColorView LightPathState::unshadowed() const {
+    return shadows_.color(unshadowed_number);
+}
+
+ColorView LightPathState::shadowed() const {
+    return shadows_.color(shadowed_number);
+}
+
+}  // namespace obscura

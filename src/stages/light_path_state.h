@@ -1,0 +1,83 @@
+// stages/light_path_state.h - the memory of light layers, and what happens to it between stages.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/light_paths.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace obscura {
+
+/// What has arrived in one layer, by sample index.
+struct ColorView {
+    const float* r = nullptr;  ///< null: nothing
+    const float* g = nullptr;
+    const float* b = nullptr;
+};
+
+/// The light layers of one batch. One per thread, reused from batch to batch.
+class LightPathState {
+public:
+    /// Begins a batch: all paths are in the first state.
+    ///
+    /// In      goes_straight: paths may pass thin walls
+    void begin(const LightPathTable& table, int count, bool goes_straight);
+
+    /// Begins a bounce: no shadow ray has weights of its own.
+    void begin_bounce();
+
+    const LightPathColumns& columns() const { return columns_; }
+
+    /// Adds light along a path that no stage of shading tells of.
+    void add_path_light(uint32_t slot, uint32_t light_class, const Vec3f& radiance);
+
+    /// Adds what a shadow ray brings.
+    void add_shadow_light(uint32_t slot, const Vec3f& radiance);
+
+    /// Moves all weights of a path by one event, or those of its shadow ray.
+    void move_path(uint32_t slot, size_t event);
+    void move_shadow(uint32_t slot, size_t event);
+
+    /// Notes the light of a first hit's shadow ray, as if nothing were in its way.
+    void add_unshadowed(uint32_t slot, const Vec3f& radiance);
+    /// Whether what shadow rays bring now belongs to the first hits.
+    void note_shadows(bool first_hits) { notes_shadows_ = first_hits; }
+
+    /// Shares out the light of settled paths. Samples that are not finite, which the beauty leaves
+    /// out, are left out here too.
+    void finish(const SampleView& samples);
+
+    ColorView layer(size_t number) const;
+    ColorView unshadowed() const;  ///< light of shadow rays of first hits
+    ColorView shadowed() const;    ///< the part of it that arrives
+
+private:
+    /// Owns what ColorColumns points to.
+    struct Colors {
+        std::vector<float> memory;
+        std::vector<uint8_t> is_used;
+        std::vector<uint16_t> used;
+        int used_count = 0;
+
+        /// All numbers become unused.
+        void begin(int numbers);
+        ColorColumns view();
+        ColorView color(size_t number) const;
+    };
+
+    void move(const ColorColumns& weights, uint32_t slot, size_t event);
+
+    Colors weights_, shadow_weights_, layers_, sums_, shadows_;
+    std::vector<uint32_t> words_;  ///< the columns of numbers
+    LightPathColumns columns_;
+    ColorColumns shadow_columns_;
+    int count_ = 0;
+    int bounces_ = 0;
+    bool has_moved_ = false;  ///< a path, between stages
+    bool notes_shadows_ = false;
+};
+
+}  // namespace obscura

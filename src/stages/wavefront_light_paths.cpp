@@ -1,0 +1,71 @@
+// stages/wavefront_light_paths.cpp - light layers between the stages: shadow rays, media, thin
+// walls. SPDX-License-Identifier: Apache-2.0
+#include "stages/wavefront_light_paths.h"
+
+#include "surface/lobe_shares.h"
+
+namespace obscura {
+
+namespace {
+
+Vec3f shadow_radiance(const Workspace& work, int i) {
+    return {work.shadows.r[i], work.shadows.g[i], work.shadows.b[i]};
+}
+
+}  // namespace
+
+void begin_light_paths(const WavefrontInput& in, int count, Workspace& work) {
+    if (in.light_paths == nullptr) return;
+    work.light_paths.begin(*in.light_paths, count, in.scene.thin_walls);
+}
+
+void finish_light_paths(const WavefrontInput& in, Workspace& work) {
+    if (in.light_paths != nullptr) work.light_paths.finish(work.samples);
+}
+
+void begin_shadow_light(const WavefrontInput& in, int count, int bounce, Workspace& work) {
+    if (in.light_paths == nullptr || !in.light_paths->shadow) return;
+    work.light_paths.note_shadows(bounce == 0);
+    if (bounce > 0) return;
+    for (int i = 0; i < count; ++i)
+        work.light_paths.add_unshadowed(work.shadows.slot[i], shadow_radiance(work, i));
+}
+
+void add_shadow_light_paths(const WavefrontInput& in, int count, Workspace& work) {
+    if (in.light_paths == nullptr) return;
+    for (int i = 0; i < count; ++i) {
+        if (work.occluded[static_cast<size_t>(i)] != 0) continue;
+        work.light_paths.add_shadow_light(work.shadows.slot[i], shadow_radiance(work, i));
+    }
+}
+
+void add_crossed_light_paths(const WavefrontInput& in, int count, Workspace& work) {
+    if (in.light_paths == nullptr) return;
+    for (int i = 0; i < count; ++i) {
+        if (work.random_walk_hits.primitive[i] >= 0) continue;
+        work.light_paths.add_shadow_light(work.shadows.slot[i], shadow_radiance(work, i));
+    }
+}
+
+void move_crossing_shadows(const WavefrontInput& in, int count, Workspace& work) {
+    if (in.light_paths == nullptr) return;
+    for (int i = 0; i < count; ++i)
+        work.light_paths.move_shadow(work.shadows.slot[i], straight_event);
+}
+
+void move_random_walks(const WavefrontInput& in, int count, Workspace& work) {
+    if (in.light_paths == nullptr) return;
+    for (int i = 0; i < count; ++i)
+        work.light_paths.move_path(work.paths[1].slot[i], volume_event);
+}
+
+void move_straight_paths(const WavefrontInput& in, int count, Workspace& work) {
+    if (in.light_paths == nullptr || !in.scene.thin_walls) return;
+    for (int i = 0; i < count; ++i) {
+        const uint32_t slot = work.paths[1].slot[i];
+        if (work.distance_since_scattering[slot] > 0)
+            work.light_paths.move_path(slot, straight_event);
+    }
+}
+
+}  // namespace obscura

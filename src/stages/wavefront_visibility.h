@@ -1,0 +1,45 @@
+// stages/wavefront_visibility.h - holdouts, shadow catchers and light behind what casts no shadow.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "stages/wavefront.h"
+
+namespace obscura {
+
+/// After stage 2 of camera rays: those that hit a holdout or a catcher count as misses. Behind a
+/// holdout there is nothing, not even the background; those at catchers wait in work.catcher.
+void part_camera_hits(const WavefrontInput& in, int count, Workspace& work);
+
+/// After stage 3 of camera rays: shades the catchers, whose next rays follow the `count` paths of
+/// work.paths[0]. Moves the background behind the catchers out of work.samples.
+///
+/// Out     work.shadows; sizes of columns
+CatcherCounts leave_catchers(const WavefrontInput& in, int count, Workspace& work);
+
+/// When all light has arrived: moves that of catchers from work.samples to work.catcher. Returns
+/// how many of their samples were not finite; each counts as unlit.
+uint64_t settle_catchers(Workspace& work);
+
+/// Makes the reflections of catchers the paths of work.paths[0]; returns their number.
+int take_reflections(Workspace& work);
+
+/// Keeps the paths that hit something; returns their number.
+int keep_hits(int count, Workspace& work);
+
+/// A bounce whose paths in work.paths[0] have their hits, before they are shaded.
+struct LitBounce {
+    const WavefrontInput& in;
+    int bounce = 0;
+    ShadeColumns columns;
+};
+
+/// Adds the light that bounced rays would find without the surfaces that cast no shadow, as the
+/// shadow rays of light sampling do, so that both strategies of MIS find the same light. Rays off
+/// smooth surfaces find less of it, or mirrors would show a surface and the light behind it at
+/// once: beyond a density of 1/sr, they count in inverse proportion to it. None of these rays is
+/// recorded.
+///
+/// Out     work.samples; work.paths[1] is overwritten
+void add_light_behind(const LitBounce& lit, int count, Workspace& work, WavefrontCounters& c);
+
+}  // namespace obscura

@@ -1,0 +1,136 @@
+// surface/lobe_shares.h - which part of the scattered light each lobe sends; events by number.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "surface/layered_bsdf.h"
+
+#include <array>
+
+namespace obscura {
+
+/// The scatterings of paths, which light path expressions tell apart, are known by numbers: lobe k
+/// of the list is k, and where it is singular k + singular_events; then these two.
+inline constexpr size_t singular_events = Lobes::count;
+inline constexpr size_t straight_event = 2 * singular_events;  ///< through a smooth thin wall
+inline constexpr size_t volume_event = straight_event + 1;     ///< a random walk within a medium
+inline constexpr size_t scatter_event_count = volume_event + 1;
+
+template <typename... L>
+constexpr std::array<ScatterEvent, scatter_event_count> list_scatter_events(LobeList<L...>) {
+    return {L::event...,
+            ScatterEvent{L::event.type, 'S', L::event.lobe}...,
+            ScatterEvent{'T', 'S', "straight"},
+            ScatterEvent{'V', 'D', "volume"}};
+}
+
+/// By number.
+inline constexpr std::array<ScatterEvent, scatter_event_count> scatter_events =
+    list_scatter_events(Lobes{});
+
+inline namespace OBSCURA_ISA {
+
+/// What each lobe of the list makes of the light from one direction, and where it is singular.
+template <typename F>
+struct LobeShares {
+    Vec3<F> share[Lobes::count];  ///< of the sum: they add up to 1 in each channel
+    MaskOf<F> singular[Lobes::count];
+    MaskOf<F> exists[Lobes::count];  ///< where the share is above 0 in some channel
+};
+
+/// Turns the lobes' values into shares. Where no lobe sends light, the first one takes all.
+template <typename F>
+OBSCURA_INLINE void normalize_shares(LobeShares<F>& out) {
+    const F zero(0.0f);
+    const F one(1.0f);
+    Vec3<F> sum = splat3(zero);
+    for (const Vec3<F>& value : out.share)
+        sum = sum + value;
+    const auto scale = [&](const F& total) {
+        return select(total > zero, one / max(total, F(1e-37f)), zero);
+    };
+    const Vec3<F> scales{scale(sum.x), scale(sum.y), scale(sum.z)};
+    for (Vec3<F>& share : out.share)
+        share = share * scales;
+    const auto dark = [&](const F& total, const F& share) {
+        return select(total > zero, share, one);
+    };
+    Vec3<F>& first = out.share[0];
+    first = {dark(sum.x, first.x), dark(sum.y, first.y), dark(sum.z, first.z)};
+    for (int k = 0; k < Lobes::count; ++k)
+        out.exists[k] = max_component(out.share[k]) > zero;
+}
+
+/// The shares of evaluate_bsdf's two lobes.
+template <typename F>
+OBSCURA_INLINE void share_bsdf(const BsdfParams<F>& p,
+                               const LobeWeights<F>& lobes,
+                               const Vec3<F>& wo,
+                               const Vec3<F>& wi,
+                               LobeShares<F>& out) {
+    for (int k = 0; k < Lobes::count; ++k) {
+        out.share[k] = splat3(F(0.0f));
+        out.singular[k] = MaskOf<F>(false);
+    }
+    const Vec3<F> h = normalize(wo + wi);
+    const Vec3<F> fresnel = lobes.specular_f0 + lobes.specular_rise * schlick_weight(dot(wo, h));
+    const F length_o = smith_length(wo.z, p.alpha);
+    const F length_i = smith_length(wi.z, p.alpha);
+    const F facets =
+        ggx_distribution(h, p.alpha) * smith_visibility(wo.z, length_o, wi.z, length_i);
+    constexpr int specular = Lobes::index<FacetReflection>();
+    out.share[Lobes::index<Diffuse>()] = p.base_color * (lobes.diffuse * F(1.0f / pi_f));
+    out.share[specular] = fresnel * facets;
+    out.singular[specular] = p.alpha <= F(min_ggx_alpha);
+    normalize_shares(out);
+}
+
+/// Adds one lobe's value, and dims those before it where it is a layer over them.
+template <typename L, typename F>
+OBSCURA_INLINE void share_lobe(const Reflection<F>& reflected,
+                               const Transmission<F>& transmitted,
+                               LobeShares<F>& out) {
+    constexpr int k = Lobes::index<L>();
+    const F zero(0.0f);
+    out.share[k] = splat3(zero);
+    out.singular[k] = MaskOf<F>(false);
+    if constexpr (!L::always_exists) {
+        if (!L::exists(reflected.p, reflected.w)) return;
+    }
+    const auto above = reflected.wi.z > zero;
+    out.singular[k] = L::is_singular(reflected.p, reflected.w);
+    if constexpr (L::place == LobePlace::transmitted) {
+        out.share[k] = select(above, splat3(zero), L::evaluate(transmitted).value_cos);
+    } else if constexpr (L::place == LobePlace::base) {
+        const Vec3<F> value = L::evaluate(reflected).value_cos * reflected.wi.z;
+        out.share[k] = select(above, value, splat3(zero));
+    } else {
+        const LayerValue<F> layer = L::evaluate(reflected);
+        for (int below = 0; below < k; ++below)
+            out.share[below] = out.share[below] * select(above, layer.passes, F(1.0f));
+        out.share[k] = select(above, layer.value_cos, splat3(zero));
+    }
+}
+
+template <typename F, typename... L>
+OBSCURA_INLINE void share_lobes(LobeList<L...>,
+                                const Reflection<F>& reflected,
+                                const Transmission<F>& transmitted,
+                                LobeShares<F>& out) {
+    (share_lobe<L>(reflected, transmitted, out), ...);
+}
+
+/// The shares of evaluate_layered's lobes.
+template <typename F>
+OBSCURA_INLINE void share_layered(const LayeredParams<F>& p,
+                                  const LayeredWeights<F>& w,
+                                  const Vec3<F>& wo,
+                                  const Vec3<F>& wi,
+                                  LobeShares<F>& out) {
+    const Reflection<F> reflected{p, w, wo, wi, normalize(wo + wi)};
+    const Transmission<F> transmitted{p, w, wo, wi, abs(wi.z)};
+    share_lobes(Lobes{}, reflected, transmitted, out);
+    normalize_shares(out);
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura

@@ -1,0 +1,65 @@
+// tests/film/catcher_sums_test.cpp - the alpha of a shadow, and what lies behind it.
+// SPDX-License-Identifier: Apache-2.0
+#include "film/catcher_sums.h"
+
+#include <gtest/gtest.h>
+
+namespace obscura {
+namespace {
+
+/// Sample `slot` of a batch, with light and a background that cancels nothing.
+CatcherSample sample(uint32_t slot, float shadowed, float unshadowed) {
+    return {slot, shadowed, unshadowed, {0, 0, 0, 0}};
+}
+
+TEST(CatcherSums, AlphaIsARatioOfSumsNotAMeanOfRatios) {
+    CatcherSum sum;
+    add_catcher_samples({sample(0, 0, 3), sample(1, 1, 1)}, 2, std::span(&sum, 1));
+    EXPECT_DOUBLE_EQ(shadow_alpha(sum), 0.75);  // the mean of 1 and 0 is 0.5
+    EXPECT_EQ(sum.samples, 2);
+}
+
+TEST(CatcherSums, AlphaStaysWithinItsRange) {
+    EXPECT_EQ(shadow_alpha({}), 0);  // no light: nothing can be darker
+    EXPECT_EQ(shadow_alpha({.shadowed = 2, .unshadowed = 1}), 0);
+    EXPECT_EQ(shadow_alpha({.shadowed = 0, .unshadowed = 1}), 1);
+    EXPECT_EQ(shadow_alpha({.shadowed = 0.1 + 0.2, .unshadowed = 0.1 + 0.2}), 0);
+}
+
+TEST(CatcherSums, SamplesGoToTheirPixels) {
+    std::vector<CatcherSum> sums(3);
+    add_catcher_samples({sample(1, 1, 2), sample(8, 3, 4), sample(11, 5, 6)}, 4, sums);
+    EXPECT_EQ(sums[0].shadowed, 1);
+    EXPECT_EQ(sums[1].samples, 0);
+    EXPECT_EQ(sums[2].shadowed, 8);
+    EXPECT_EQ(sums[2].unshadowed, 10);
+}
+
+TEST(CatcherSums, BatchesAddUpToTheSame) {
+    const std::vector<CatcherSample> all = {
+        sample(0, 0.1f, 0.3f), sample(1, 0.7f, 0.9f), sample(2, 1e-3f, 5)};
+    CatcherSum once;
+    add_catcher_samples(all, 3, std::span(&once, 1));
+    CatcherSum bit_by_bit;
+    for (const CatcherSample& one : all)
+        add_catcher_samples(
+            {sample(0, one.shadowed, one.unshadowed)}, 1, std::span(&bit_by_bit, 1));
+    EXPECT_EQ(once.shadowed, bit_by_bit.shadowed);
+    EXPECT_EQ(once.unshadowed, bit_by_bit.unshadowed);
+}
+
+/// A half dark catcher in three of four samples, before an opaque red.
+TEST(CatcherSums, TheShadowLiesOverWhatIsBehind) {
+    const CatcherSum sum{.shadowed = 1, .unshadowed = 2, .background = {3, 0, 0, 3}, .samples = 3};
+    const std::array<float, 4> part = catcher_part(sum, 4);
+    EXPECT_FLOAT_EQ(part[0], 0.375f);
+    EXPECT_FLOAT_EQ(part[1], 0);
+    EXPECT_FLOAT_EQ(part[3], 0.75f);
+    const std::array<float, 4> alone =
+        catcher_part({.shadowed = 1, .unshadowed = 2, .samples = 3}, 4);
+    EXPECT_FLOAT_EQ(alone[0], 0);
+    EXPECT_FLOAT_EQ(alone[3], 0.375f);
+}
+
+}  // namespace
+}  // namespace obscura
