@@ -28,7 +28,7 @@ Result<Overscan> parse_overscan(const std::string& text, const std::string& opti
 /// Errors  64 E-USAGE-CONFLICT an integrator without layers; E-OUT-FORMAT another ending
 Result<void> check_segmentation_request(const RenderRequest& request);
 
-/// For the group "Picture".
+/// For the help group of the image.
 OptionGroup<RenderArguments, RenderRequest> overscan_group();
 
 /// With a heading of its own.

@@ -64,10 +64,10 @@ constexpr Entry layers[] = {
               "key_gloss=C<R[GS]>+<L'key'>. May be given several times", .fallback = "none"},
      text_at<&A::layer, &L::lpe>},
     {{.name = "--light-group", .argument = "NAME=PATTERN[,PATTERN...]",
-      .help = "A layer light_NAME of the light that comes from these: lights, materials, nodes with "
-              "all below them, or env, the environment. * and ? stand for any text and letter. May "
-              "be given several times; a light is in the first group that it fits, and light_rest "
-              "has what fits none", .fallback = "none", .excludes = {"--light-groups"}},
+      .help = "A layer light_NAME of the light that comes from these: lights, materials, nodes "
+              "with all below them, or env, the environment. * and ? stand for any text and letter. "
+              "May be given several times; a light is in the first group that it fits, and "
+              "light_rest has what fits none", .fallback = "none", .excludes = {"--light-groups"}},
      text_at<&A::layer, &L::light_group>},
     {{.name = "--light-groups", .argument = "each",
       .help = "A layer for every light, every material that emits, and the environment",

@@ -90,12 +90,12 @@ std::vector<CryptomatteAttribute> cryptomatte_file_attributes(std::string_view l
 /// addition. Up to four ids live in the 64 bytes; further ones are allocated.
 class CryptomattePixel {
 public:
-    /// Counts one sample.
+    /// Counts samples.
     ///
     /// In      hash: of cryptomatte_hash, or cryptomatte_no_object
-    void add(uint32_t hash) {
+    void add(uint32_t hash, uint32_t samples) {
         if (hash != run_.hash) start_run(hash);
-        ++run_.count;
+        run_.count += samples;
     }
 
     /// Writes the ids of largest coverage in descending order; of equal ones the smaller hash comes

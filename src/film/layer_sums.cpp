@@ -5,6 +5,7 @@
 #include "math/vec.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -33,6 +34,17 @@ constexpr size_t light_channels = 3;
 /// 1 where no light could arrive.
 float ratio(double arrived, double unoccluded) {
     return unoccluded > 0 ? static_cast<float>(arrived / unoccluded) : 1.0f;
+}
+
+/// Writes the pixels of one layer.
+///
+/// In      at: as of store
+///         value: writes the channels of a pixel of the tile
+template <typename Value>
+void write_pixels(std::span<const size_t> at, FilmLayer& layer, const Value& value) {
+    const size_t channels = layer.layer.channels.size();
+    for (size_t p = 0; p < at.size(); ++p)
+        value(p, std::span(layer.pixels.data() + at[p] * channels, channels));
 }
 
 }  // namespace
@@ -73,7 +85,7 @@ void LayerPlan::add_layer(const Layer& layer) {
         source.hashes = hashes.data();
         source.hash_count = hashes.size();
         source.matte = mattes_++;
-    } else if (std::holds_alternative<LightShare>(layer.source)) {
+    } else if (std::holds_alternative<LightLayer>(layer.source)) {
         source.light = lights_++;
         source.first_sum = std::exchange(sums_, sums_ + light_channels);
     } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
@@ -113,26 +125,36 @@ void LayerSums::add(const LayerPlan& plan,
     if (plan.has_variance_ || plan.counts_rays_) add_statistics(plan, first_pixel, batch, work);
 }
 
-/// Adds one channel of a batch's samples to a sum of each pixel.
-void LayerSums::add_column(const LayerPlan& plan,
-                           size_t first_pixel,
-                           const BatchShape& batch,
-                           const float* column,
-                           size_t sum) {
-    if (column == nullptr) return;
-    for (size_t p = 0; p < batch.pixels; ++p, column += batch.samples) {
-        double* const parts = sums_[(first_pixel + p) * plan.sums_ + sum].parts;
+/// Adds channels of a batch's samples to sums of each pixel.
+template <size_t N>
+void LayerSums::add_columns(const LayerPlan& plan,
+                            size_t first_pixel,
+                            const BatchShape& batch,
+                            const std::array<const float*, N>& columns,
+                            size_t sum) {
+    for (size_t p = 0; p < batch.pixels; ++p) {
+        Sum* const sums = &sums_[(first_pixel + p) * plan.sums_ + sum];
+        std::array<Sum, N> at;
+        std::copy_n(sums, N, at.begin());
+        const size_t begin = p * batch.samples;
+        const auto add = [&](size_t i, size_t part) {
+            for (size_t c = 0; c < N; ++c)
+                at[c].parts[part] += static_cast<double>(columns[c][begin + i]);
+        };
         size_t i = 0;
         for (; i < batch.samples && (batch.first_sample + i) % 4 != 0; ++i)
-            parts[(batch.first_sample + i) % 4] += static_cast<double>(column[i]);
-        double at[4] = {parts[0], parts[1], parts[2], parts[3]};
+            add(i, (batch.first_sample + i) % 4);
         for (; i + 4 <= batch.samples; i += 4) {
-            for (size_t k = 0; k < 4; ++k)
-                at[k] += static_cast<double>(column[i + k]);
+            // The channels side by side: one alone would wait for each of its additions.
+            for (size_t c = 0; c < N; ++c) {
+                const float* const from = columns[c] + begin + i;
+                for (size_t k = 0; k < 4; ++k)
+                    at[c].parts[k] += static_cast<double>(from[k]);
+            }
         }
         for (size_t k = 0; i < batch.samples; ++i, ++k)
-            at[k] += static_cast<double>(column[i]);
-        std::copy_n(at, 4, parts);
+            add(i, k);
+        std::copy_n(at.begin(), N, sums);
     }
 }
 
@@ -141,13 +163,12 @@ void LayerSums::add_light(const LayerPlan& plan,
                           const BatchShape& batch,
                           const Workspace& work) {
     const auto add = [&](const ColorView& color, size_t sum) {
-        add_column(plan, first_pixel, batch, color.r, sum);
-        add_column(plan, first_pixel, batch, color.g, sum + 1);
-        add_column(plan, first_pixel, batch, color.b, sum + 2);
+        if (color.r == nullptr) return;
+        add_columns<3>(plan, first_pixel, batch, {color.r, color.g, color.b}, sum);
     };
     for (size_t k = 0; k < plan.layers_.size(); ++k) {
         const LayerPlan::Source& source = plan.sources_[k];
-        if (std::holds_alternative<LightShare>(plan.layers_[k].source)) {
+        if (std::holds_alternative<LightLayer>(plan.layers_[k].source)) {
             add(work.light_paths.layer(source.light), source.first_sum);
         } else if (std::holds_alternative<ShadowRatio>(plan.layers_[k].source)) {
             add(work.light_paths.shadowed(), source.first_sum);
@@ -164,8 +185,14 @@ void LayerSums::add_means(const LayerPlan& plan,
         if (!is_reduced(plan.layers_[k], Reduction::mean)) continue;
         const LayerPlan::Source& source = plan.sources_[k];
         const AovOutput& output = work.aov_outputs[source.aov];
-        for (size_t c = 0; c < static_cast<size_t>(channel_count(output.aov)); ++c)
-            add_column(plan, first_pixel, batch, output.columns[c], source.first_sum + c);
+        const auto channels = static_cast<size_t>(channel_count(output.aov));
+        const float* const* from = output.columns;
+        if (channels == 3) {
+            add_columns<3>(plan, first_pixel, batch, {from[0], from[1], from[2]}, source.first_sum);
+            continue;
+        }
+        for (size_t c = 0; c < channels; ++c)
+            add_columns<1>(plan, first_pixel, batch, {from[c]}, source.first_sum + c);
     }
 }
 
@@ -206,14 +233,26 @@ void LayerSums::add_mattes(const LayerPlan& plan,
     for (const LayerPlan::Source& source : plan.sources_) {
         if (source.hashes == nullptr) continue;
         const float* id = work.aov_outputs[source.aov].columns[0];
-        size_t slot = 0;
-        for (size_t p = first_pixel; p < first_pixel + batch.pixels; ++p) {
-            CryptomattePixel& matte = mattes_[p * plan.mattes_ + source.matte];
-            for (const size_t end = slot + batch.samples; slot < end; ++slot) {
+        for (size_t p = 0; p < batch.pixels; ++p) {
+            CryptomattePixel& matte = mattes_[(first_pixel + p) * plan.mattes_ + source.matte];
+            const size_t begin = p * batch.samples;
+            const auto hash_of = [&](size_t slot) {
                 const auto number = static_cast<size_t>(id[slot]);
                 const bool named = hit[slot] != 0.0f && number < source.hash_count;
-                matte.add(named ? source.hashes[number] : cryptomatte_no_object);
+                return named ? source.hashes[number] : cryptomatte_no_object;
+            };
+            const auto bits = [](float value) { return std::bit_cast<uint32_t>(value); };
+            uint32_t differences = 0;
+            for (size_t slot = begin; slot < begin + batch.samples; ++slot) {
+                differences |= bits(id[slot]) ^ bits(id[begin]);
+                differences |= bits(hit[slot]) ^ bits(hit[begin]);
             }
+            if (differences == 0) {  // most pixels show one object
+                matte.add(hash_of(begin), static_cast<uint32_t>(batch.samples));
+                continue;
+            }
+            for (size_t slot = begin; slot < begin + batch.samples; ++slot)
+                matte.add(hash_of(slot), 1);
         }
     }
 }
@@ -242,35 +281,40 @@ void LayerSums::store(const LayerPlan& plan,
                       int samples,
                       Film& film) const {
     const double n = samples;
+    const auto count = static_cast<uint32_t>(samples);
     for (size_t k = 0; k < plan.layers_.size(); ++k) {
         const Layer& layer = plan.layers_[k];
         const LayerPlan::Source& source = plan.sources_[k];
-        const size_t channels = layer.channels.size();
-        float* const pixels = film.layers[k].pixels.data();
-        for (size_t p = 0; p < at.size(); ++p) {
-            float* const out = pixels + at[p] * channels;
-            if (is_reduced(layer, Reduction::mean) ||
-                std::holds_alternative<LightShare>(layer.source)) {
-                for (size_t c = 0; c < channels; ++c) {
-                    const Sum& sum = sums_[p * plan.sums_ + source.first_sum + c];
-                    out[c] = static_cast<float>(sum.total() / n);
-                }
-            } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
-                const Sum* arrived = &sums_[p * plan.sums_ + source.first_sum];
-                for (size_t c = 0; c < channels; ++c)
-                    out[c] = ratio(arrived[c].total(), arrived[c + channels].total());
-            } else if (is_reduced(layer, Reduction::nearest)) {
+        const auto write = [&](const auto& value) { write_pixels(at, film.layers[k], value); };
+        const auto matte = [&](size_t p) -> const CryptomattePixel& {
+            return mattes_[p * plan.mattes_ + source.matte];
+        };
+        const auto sums = [&](size_t p) { return &sums_[p * plan.sums_ + source.first_sum]; };
+        if (is_reduced(layer, Reduction::mean) ||
+            std::holds_alternative<LightLayer>(layer.source)) {
+            write([&](size_t p, std::span<float> out) {
+                for (size_t c = 0; c < out.size(); ++c)
+                    out[c] = static_cast<float>(sums(p)[c].total() / n);
+            });
+        } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
+            write([&](size_t p, std::span<float> out) {
+                for (size_t c = 0; c < out.size(); ++c)
+                    out[c] = ratio(sums(p)[c].total(), sums(p)[c + out.size()].total());
+            });
+        } else if (is_reduced(layer, Reduction::nearest)) {
+            write([&](size_t p, std::span<float> out) {
                 const float* from = &nearest_values_[p * plan.values_ + source.first_value];
-                std::copy_n(from, channels, out);
-            } else if (is_majority(layer)) {
-                const CryptomattePixel& counts = mattes_[p * plan.mattes_ + source.matte];
-                out[0] = static_cast<float>(counts.majority(static_cast<uint32_t>(samples)));
-            } else if (source.hashes != nullptr) {
-                mattes_[p * plan.mattes_ + source.matte].write_ranks(static_cast<uint32_t>(samples),
-                                                                     {out, channels});
-            } else {
-                out[0] = statistic(std::get<SampleStatistic>(layer.source), p, n);
-            }
+                std::copy_n(from, out.size(), out.begin());
+            });
+        } else if (is_majority(layer)) {
+            write([&](size_t p, std::span<float> out) {
+                out[0] = static_cast<float>(matte(p).majority(count));
+            });
+        } else if (source.hashes != nullptr) {
+            write([&](size_t p, std::span<float> out) { matte(p).write_ranks(count, out); });
+        } else {
+            const auto wanted = std::get<SampleStatistic>(layer.source);
+            write([&](size_t p, std::span<float> out) { out[0] = statistic(wanted, p, n); });
         }
     }
 }

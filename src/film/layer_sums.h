@@ -6,6 +6,7 @@
 #include "film/film.h"
 #include "stages/wavefront.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -98,11 +99,12 @@ private:
     };
 
     float statistic(SampleStatistic statistic, size_t pixel, double samples) const;
-    void add_column(const LayerPlan& plan,
-                    size_t first_pixel,
-                    const BatchShape&,
-                    const float* column,
-                    size_t sum);
+    template <size_t N>
+    void add_columns(const LayerPlan& plan,
+                     size_t first_pixel,
+                     const BatchShape&,
+                     const std::array<const float*, N>& columns,
+                     size_t sum);
     void add_means(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
     void add_light(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
     void add_nearest(const LayerPlan& plan,

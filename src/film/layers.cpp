@@ -154,7 +154,7 @@ Layer light_layer(const std::string& name,
             channels_of(name, "RGB"),
             LayerKind::color,
             "mean",
-            LightShare{std::move(expression), group}};
+            LightLayer{std::move(expression), group}};
 }
 
 Result<Layer> light_layer_of(const std::string& text) {
@@ -175,7 +175,7 @@ Result<Layer> light_layer_of(const std::string& text) {
 
 bool has_light_layers(std::span<const Layer> layers) {
     return std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
-        return std::holds_alternative<LightShare>(layer.source) ||
+        return std::holds_alternative<LightLayer>(layer.source) ||
                std::holds_alternative<ShadowRatio>(layer.source);
     });
 }

@@ -25,7 +25,7 @@ enum class CryptomatteNames { objects, materials, assets };
 struct ShadowRatio {};
 
 /// A share of the light.
-struct LightShare {
+struct LightLayer {
     LightPathExpression expression;
     std::optional<size_t> group = {};  ///< light group that it is limited to, by index
 };
@@ -41,7 +41,7 @@ struct Layer {
     std::vector<std::string> channels;
     LayerKind kind = LayerKind::data;
     std::string reduction;  ///< how samples become a pixel, for headers: "mean"
-    std::variant<Aov, SampleStatistic, CryptomatteNames, LightShare, ShadowRatio, MajorityNode>
+    std::variant<Aov, SampleStatistic, CryptomatteNames, LightLayer, ShadowRatio, MajorityNode>
         source;
 };
 

@@ -28,7 +28,7 @@ struct LightShares {
 LightShares shares_in(std::span<const Layer> layers) {
     LightShares out;
     for (const Layer& layer : layers) {
-        const auto* share = std::get_if<LightShare>(&layer.source);
+        const auto* share = std::get_if<LightLayer>(&layer.source);
         if (share == nullptr) continue;
         const auto found = std::find_if(
             out.expressions.begin(), out.expressions.end(), [&](const LightPathExpression& known) {

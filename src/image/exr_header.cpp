@@ -133,6 +133,7 @@ void insert_storage(Imf::Header& header, const ExrPart& part, const ExrOptions& 
     constexpr int default_tile = 64;
     header.compression() = codec_of(part.compression);
     header.dwaCompressionLevel() = options.dwa_level;
+    header.zipCompressionLevel() = 3;  // 4, the default, takes half as long again for 4 % less
     const bool is_tiled = options.tile_size > 0 || options.mipmap;
     header.setType(is_tiled ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
     if (is_tiled) {

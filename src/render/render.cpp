@@ -301,6 +301,15 @@ Result<Supplies> make_supplies(const PreparedScene::Impl& scene, const RenderOpt
     return out;
 }
 
+void use_supplies(const Supplies& supplies, WavefrontInput& in) {
+    in.scene.raycast = supplies.raycast.view();
+    if (!supplies.camera.empty()) {
+        in.scene.motion.camera = supplies.camera.data();
+        in.scene.motion.camera_steps = static_cast<int>(supplies.camera.size());
+    }
+    in.counting = supplies.counting ? &*supplies.counting : nullptr;
+}
+
 /// True when a layer counts the samples of ids.
 bool counts_ids(const std::vector<Layer>& layers) {
     return std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
@@ -402,18 +411,13 @@ Result<RenderResult> render(const PreparedScene& scene,
     const std::vector<float> filter = make_filter_table(options.filter);
     WavefrontInput wavefront_input = make_wavefront_input(scene.impl(), camera, options);
     wavefront_input.batch.filter = filter.empty() ? nullptr : filter.data();
-    wavefront_input.scene.raycast = supplies->raycast.view();
     wavefront_input.notes = options.notes;
     if (!layers.empty()) wavefront_input.aovs = layers.aovs();
     wavefront_input.counts_rays = layers.counts_rays();
     if (plans->light) wavefront_input.light_paths = &light_paths;
     const std::optional<FrameView> frames = frame_view(scene.scene(), camera, options);
     wavefront_input.frames = frames ? &*frames : nullptr;
-    if (!supplies->camera.empty()) {
-        wavefront_input.scene.motion.camera = supplies->camera.data();
-        wavefront_input.scene.motion.camera_steps = static_cast<int>(supplies->camera.size());
-    }
-    wavefront_input.counting = supplies->counting ? &*supplies->counting : nullptr;
+    use_supplies(*supplies, wavefront_input);
     const bool aov = is_aov(options.integrator);
     const int samples = samples_taken(options);
     const PixelRect whole{0, 0, options.width, options.height};

@@ -43,7 +43,7 @@ ImageLayer image_layer(FilmLayer&& from, const std::string& manifest) {
     out.channels = std::move(from.layer.channels);
     out.kind = from.layer.kind;
     out.pixels = std::move(from.pixels);
-    if (const auto* share = std::get_if<LightShare>(&from.layer.source))
+    if (const auto* share = std::get_if<LightLayer>(&from.layer.source))
         out.expression = share->expression.text;
     out.reduction = std::move(from.layer.reduction);
     return out;

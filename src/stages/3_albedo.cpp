@@ -26,13 +26,17 @@ OBSCURA_INLINE InsideLanes look_inside(const SceneView& scene, Mask exist, Lanes
     return {select(scatters_here, deep, white), scatters_here};
 }
 
+/// What albedo_at gets.
+struct AlbedoQuery {
+    const SceneView& scene;
+    const HitLanes& hit;
+    const PathLanes& path;
+    const SurfaceInteraction& interaction;
+};
+
 /// Replaces the albedo of the lanes that have layers.
-void add_layers(const SceneView& scene,
-                const HitLanes& hit,
-                const PathLanes& path,
-                const SurfaceInteraction& interaction,
-                const BsdfParams<Lanes>& base,
-                HitAlbedo& out) {
+void add_layers(const AlbedoQuery& query, const BsdfParams<Lanes>& base, HitAlbedo& out) {
+    const auto& [scene, hit, path, interaction] = query;
     const HitGeometry& g = interaction.g;
     const Mask layered = g.material.integer<&Material::layers>() >= LanesI(0);
     if (none(layered)) return;
@@ -49,7 +53,7 @@ void add_layers(const SceneView& scene,
     const SurfaceAlbedo<Lanes> albedo =
         surface_albedo(point.params, point.weights, inside.reflectance);
     out.color = select(layered, albedo.all, out.color);
-    const Mask clear = (albedo.spread < Lanes(least_spread)) & (!inside.scatters);
+    const Mask clear = (albedo.spread < Lanes(min_spread)) & (!inside.scatters);
     out.passed_on = (layered & (clear | point.boundary.hidden)) | ((!layered) & out.passed_on);
 }
 
@@ -89,8 +93,8 @@ HitAlbedo albedo_at(const SceneView& scene,
     const FoundSlots slots = find_slots(scene, g, interaction.filter);
     const BsdfParams<Lanes> base = bsdf_params(scene, g, interaction.filter, slots);
     const SurfaceAlbedo<Lanes> core = surface_albedo(base);
-    HitAlbedo out{core.all, core.spread < Lanes(least_spread)};
-    add_layers(scene, hit, path, interaction, base, out);
+    HitAlbedo out{core.all, core.spread < Lanes(min_spread)};
+    add_layers({scene, hit, path, interaction}, base, out);
     if (scene.scatters) {  // what scatters on its way is not followed
         const Mask around = look_inside(scene, Mask(true), path.medium_stack).scatters;
         out.passed_on = out.passed_on & (!around);

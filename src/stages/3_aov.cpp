@@ -1,6 +1,5 @@
 // stages/3_aov.cpp - stage 3 for AOVs: what the first hits tell, without light or randomness.
 // SPDX-License-Identifier: Apache-2.0
-#include "stages/3_aov_beyond.h"
 #include "stages/3_shade.h"
 #include "stages/3_surface.h"
 
@@ -114,8 +113,6 @@ constexpr bool needs_surface(Aov aov) {
         case Aov::id_material:
         case Aov::id_triangle:
         case Aov::instance:
-        case Aov::albedo:
-        case Aov::motion:
             return false;
         default:
             return true;
@@ -194,32 +191,26 @@ OBSCURA_INLINE Vec3<Lanes> aov_of_surface(const AovGroup& at,
 
 /// Writes an AOV of the hits of one group; 0 elsewhere.
 OBSCURA_INLINE void store_aov(const AovOutput& out, int i, Mask hits, const Vec3<Lanes>& value) {
-    const Lanes lanes[3] = {value.x, value.y, value.z};
+    const Lanes lanes[] = {value.x, value.y, value.z};
     for (int c = 0; c < channel_count(out.aov); ++c)
         store(out.columns[c] + i, select(hits, lanes[c], Lanes(0.0f)));
 }
 
 }  // namespace
 
-void write_aovs(const SceneView& scene,
-                const BatchSettings& batch,
-                int count,
-                const AovColumns& columns) {
+void write_hit_aovs(const SceneView& scene,
+                    const BatchSettings& batch,
+                    int count,
+                    const AovColumns& columns) {
     bool any_surface = false;
-    bool any_beyond = false;
-    for (const AovOutput& out : columns.outputs) {
+    for (const AovOutput& out : columns.outputs)
         any_surface |= needs_surface(out.aov);
-        any_beyond |= looks_beyond(out.aov);
-    }
-    // Apart: within the loop over the others, these would round differently.
-    if (any_beyond) write_aovs_beyond(scene, batch, count, columns);
     for (int i = 0; i < count; i += lane_count) {
         const Mask hits =
             lanes_in_range(i, count) & (load(columns.hits.primitive + i) >= LanesI(0));
         if (none(hits)) {
-            for (const AovOutput& out : columns.outputs) {
-                if (!looks_beyond(out.aov)) store_aov(out, i, hits, splat3(Lanes(0.0f)));
-            }
+            for (const AovOutput& out : columns.outputs)
+                store_aov(out, i, hits, splat3(Lanes(0.0f)));
             continue;
         }
         HitLanes hit = hits_or_first(columns.hits, i, hits);
@@ -227,8 +218,7 @@ void write_aovs(const SceneView& scene,
         const PathLanes path = load_paths(columns.paths, i);
         const AovGroup group{scene, batch, path, hit};
         for (const AovOutput& out : columns.outputs) {
-            if (!needs_surface(out.aov) && !looks_beyond(out.aov))
-                store_aov(out, i, hits, aov_of_hit(group, out.aov));
+            if (!needs_surface(out.aov)) store_aov(out, i, hits, aov_of_hit(group, out.aov));
         }
         if (!any_surface) continue;
         const SurfaceInteraction interaction = find_surface_interaction<HitUse::attributes>(

@@ -1,15 +1,21 @@
 // stages/3_aov_beyond.cpp - AOVs that look beyond the hit: what mirrors show, neighbouring frames.
 // SPDX-License-Identifier: Apache-2.0
-#include "stages/3_aov_beyond.h"
-
 #include "stages/3_albedo.h"
 #include "stages/3_frame_motion.h"
+#include "stages/3_shade.h"
 #include "stages/3_surface.h"
+
+#include <algorithm>
+#include <array>
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
 namespace {
+
+constexpr bool looks_beyond(Aov aov) {
+    return aov == Aov::albedo || aov == Aov::motion;
+}
 
 /// One group of hits.
 struct BeyondGroup {
@@ -54,14 +60,11 @@ OBSCURA_INLINE void store_motion(const BeyondGroup& at,
 /// Writes 0 for the group that starts at index i, without hits.
 OBSCURA_INLINE void store_nothing(const AovColumns& columns, int i) {
     for (const AovOutput& out : columns.outputs) {
-        if (!looks_beyond(out.aov)) continue;
         for (int c = 0; c < channel_count(out.aov); ++c)
             store(out.columns[c] + i, Lanes(0.0f));
     }
     if (columns.passed_on != nullptr) store(columns.passed_on + i, Lanes(0.0f));
 }
-
-}  // namespace
 
 void write_aovs_beyond(const SceneView& scene,
                        const BatchSettings& batch,
@@ -86,6 +89,26 @@ void write_aovs_beyond(const SceneView& scene,
                 store_motion(group, interaction.g.position, columns.frames, out);
         }
     }
+}
+
+}  // namespace
+
+void write_aovs(const SceneView& scene,
+                const BatchSettings& batch,
+                int count,
+                const AovColumns& columns) {
+    std::array<AovOutput, aov_entries.size()> outputs;
+    const auto beyond =
+        std::partition_copy(columns.outputs.begin(),
+                            columns.outputs.end(),
+                            outputs.begin(),
+                            outputs.rbegin(),
+                            [](const AovOutput& o) { return !looks_beyond(o.aov); });
+    AovColumns part = columns;
+    part.outputs = {outputs.begin(), beyond.first};
+    if (!part.outputs.empty()) write_hit_aovs(scene, batch, count, part);
+    part.outputs = {beyond.second.base(), outputs.end()};
+    if (!part.outputs.empty()) write_aovs_beyond(scene, batch, count, part);
 }
 
 }  // namespace OBSCURA_ISA

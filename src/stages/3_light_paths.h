@@ -1,5 +1,5 @@
-// stages/3_light_paths.h - what shading tells the light layers: scatterings, and light that
-// arrives. SPDX-License-Identifier: Apache-2.0
+// stages/3_light_paths.h - what shading tells the light layers: scatterings and arriving light.
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "stages/3_surface.h"

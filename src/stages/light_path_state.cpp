@@ -78,15 +78,19 @@ void LightPathState::begin_bounce() {
 }
 
 void LightPathState::add_path_light(uint32_t slot, uint32_t light_class, const Vec3f& radiance) {
-    add_light(columns_, columns_.weights, columns_.settled[slot] != 0, slot, light_class, radiance);
+    if (columns_.settled[slot] != 0) {
+        add_settled_light(columns_, {slot, light_class, radiance});
+    } else {
+        add_light(columns_, columns_.weights, {slot, light_class, radiance});
+    }
 }
 
 void LightPathState::add_shadow_light(uint32_t slot, const Vec3f& radiance) {
     const uint32_t light_class = columns_.shadow_class[slot];
     if (columns_.shadow_split[slot] != 0) {
-        add_light(columns_, columns_.shadow_weights, false, slot, light_class, radiance);
+        add_light(columns_, columns_.shadow_weights, {slot, light_class, radiance});
     } else {
-        add_light(columns_, columns_.weights, true, slot, light_class, radiance);
+        add_settled_light(columns_, {slot, light_class, radiance});
     }
     if (notes_shadows_) add_color(shadow_columns_, shadowed_number, slot, radiance);
 }

@@ -147,29 +147,34 @@ OBSCURA_INLINE Vec3<float> color_at(const float* red, uint32_t slot) {
     return {red[slot], red[padded_slots + slot], red[size_t{2} * padded_slots + slot]};
 }
 
-/// Adds light that arrives at a path, or by its shadow ray, to the layers.
+/// Light that arrives at a path, or by its shadow ray.
+struct ArrivingLight {
+    uint32_t slot;
+    uint32_t light_class;
+    Vec3<float> radiance;
+};
+
+/// Adds light at a path whose weights are settled.
+OBSCURA_INLINE void add_settled_light(const LightPathColumns& columns, const ArrivingLight& light) {
+    const uint16_t sum = columns.table->sum_of_class[light.light_class];
+    if (sum != no_light_sum) add_color(columns.sums, sum, light.slot, light.radiance);
+}
+
+/// Adds light to the layers of the states of a path.
 ///
-/// In   weights: columns.weights or columns.shadow_weights; settled: the path's weights are
+/// In   weights: columns.weights or columns.shadow_weights
 OBSCURA_INLINE void add_light(const LightPathColumns& columns,
                               const ColorColumns& weights,
-                              bool settled,
-                              uint32_t slot,
-                              uint32_t light_class,
-                              const Vec3<float>& radiance) {
+                              const ArrivingLight& light) {
     const LightPathTable& table = *columns.table;
-    if (settled) {
-        const uint16_t sum = table.sum_of_class[light_class];
-        if (sum != no_light_sum) add_color(columns.sums, sum, slot, radiance);
-        return;
-    }
     for (int k = 0; k < *weights.used_count; ++k) {
         const uint16_t state = weights.used[k];
         const float* red = weights.memory + size_t{3} * padded_slots * state;
-        const Vec3<float> weight = color_at(red, slot);
+        const Vec3<float> weight = color_at(red, light.slot);
         if (weight.x == 0 && weight.y == 0 && weight.z == 0) continue;
-        const size_t row = state * table.class_count + light_class;
+        const size_t row = state * table.class_count + light.light_class;
         for (uint32_t i = table.layer_begin[row]; i < table.layer_begin[row + 1]; ++i)
-            add_color(columns.layers, table.layers[i], slot, weight * radiance);
+            add_color(columns.layers, table.layers[i], light.slot, weight * light.radiance);
     }
 }
 

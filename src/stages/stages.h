@@ -49,8 +49,8 @@ struct RaycastColumns {
     const SharedFaces* shared = nullptr;
 };
 
-/// An AOV and the columns that it is written to, as many as it has channels.
-struct AovOutput {
+/// An AOV and the columns that it is written to, as many as it has channels. A cache line each.
+struct alignas(64) AovOutput {
     Aov aov;
     float* columns[max_aov_channels];
 };

@@ -4,7 +4,7 @@
 
 #include "base/stopwatch.h"
 #include "stages/shared_faces.h"
-#include "stages/wavefront_albedo.h"
+#include "stages/wavefront_aov.h"
 #include "stages/wavefront_light_paths.h"
 #include "stages/wavefront_slots.h"
 #include "stages/wavefront_splats.h"
@@ -81,25 +81,6 @@ void intersect(const WavefrontInput& in,
         count_rays(in, work.paths[0].slot, count, work);
     }
     intersect_rays(in, rays, work.hits, see_through, c);
-}
-
-/// Stage 3 for AOVs, before shading moves the paths: path i is sample i.
-void write_aovs(const WavefrontInput& in,
-                int count,
-                std::span<const AovOutput> outputs,
-                Workspace& work,
-                WavefrontCounters& c) {
-    if (outputs.empty()) return;
-    const SumOfTime time(c.seconds.shade);
-    in.stages->aovs(in.scene,
-                    in.batch,
-                    count,
-                    {.paths = work.paths[0],
-                     .hits = work.hits,
-                     .time = slot_times(in, work),
-                     .outputs = outputs,
-                     .passed_on = begin_albedo(in, count, work),
-                     .frames = in.frames});
 }
 
 /// Camera rays: their hits, the back faces that they passed, and AOVs.
@@ -411,21 +392,6 @@ void count_heat(const WavefrontInput& in, int pixels, Workspace& work, Wavefront
     c.camera_rays += static_cast<uint64_t>(pixels);
     const SumOfTime time(c.seconds.intersect_camera);
     c.refused_rays += static_cast<uint64_t>(in.counting->count_tests(rays, work.samples.r));
-}
-
-/// AOVs whose channels are written to the samples, one after the other.
-std::span<const AovOutput> aovs_in_samples(std::span<const Aov> aovs, Workspace& work) {
-    const SampleColumns& samples = work.samples;
-    float* const columns[] = {samples.r, samples.g, samples.b, samples.a};
-    size_t next = 0;
-    work.aov_outputs.clear();
-    for (const Aov aov : aovs) {
-        AovOutput output{aov, {}};
-        for (int c = 0; c < channel_count(aov); ++c)
-            output.columns[c] = columns[next++];
-        work.aov_outputs.push_back(output);
-    }
-    return work.aov_outputs;
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ public:
     std::vector<uint32_t> rays_cast;     ///< by sample index, where WavefrontInput::counts_rays
     LightPathState light_paths;          ///< of this batch, where WavefrontInput::light_paths
     CatcherWork catcher;                 ///< empty unless there are shadow catchers
-    std::vector<float> passed_on;        ///< by sample index: see wavefront_albedo.h
+    std::vector<float> passed_on;        ///< by sample index: see wavefront_aov.h
     int looking_for_albedo = 0;          ///< likewise: paths that are still followed, at most
 
 private:

@@ -1,5 +1,5 @@
-// stages/wavefront_light_paths.cpp - light layers between the stages: shadow rays, media, thin
-// walls. SPDX-License-Identifier: Apache-2.0
+// stages/wavefront_light_paths.cpp - light layers between the stages: shadow rays, media, walls.
+// SPDX-License-Identifier: Apache-2.0
 #include "stages/wavefront_light_paths.h"
 
 #include "surface/lobe_shares.h"

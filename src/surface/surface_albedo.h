@@ -16,7 +16,7 @@ struct SurfaceAlbedo {
 
 /// Surfaces that spread less light than this are mirrors or clear glass: an 8-bit texture misses
 /// such a bound by one step at most.
-inline constexpr float least_spread = 1.0f / 128;
+inline constexpr float min_spread = 1.0f / 128;
 
 inline namespace OBSCURA_ISA {
 

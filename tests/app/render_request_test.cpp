@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_request.h"
 
+#include "base/setting_names.h"
+
 #include <gtest/gtest.h>
 
 #include "support/temp_folder.h"
@@ -21,7 +23,7 @@ void expect_conflict(const RenderArguments& arguments, const std::string& where)
     ASSERT_FALSE(request) << where;
     EXPECT_EQ(request.error().code, ExitCode::usage);
     EXPECT_EQ(request.error().id, "E-USAGE-CONFLICT");
-    EXPECT_EQ(request.error().where, where);
+    EXPECT_EQ(spell_settings(request.error().where, SettingNames::options), where);
 }
 
 TEST(RenderRequest, ImagesForDisplaysAreAskedForByFourOptions) {

@@ -239,7 +239,7 @@ TEST(CryptomatteManifest, HasNoControlCharacters) {
 std::vector<float> ranks_of(const std::vector<uint32_t>& hashes, uint32_t samples, size_t levels) {
     CryptomattePixel pixel;
     for (const uint32_t hash : hashes)
-        pixel.add(hash);
+        pixel.add(hash, 1);
     std::vector<float> out(2 * levels, -1.0f);
     pixel.write_ranks(samples, out);
     return out;
@@ -287,7 +287,7 @@ TEST(CryptomattePixel, BelongsToWhatMostSamplesMeet) {
     CryptomattePixel pixel;
     const auto add = [&](uint32_t id, int times) {
         for (int i = 0; i < times; ++i)
-            pixel.add(id);
+            pixel.add(id, 1);
     };
     EXPECT_EQ(pixel.majority(4), cryptomatte_no_object) << "nothing but background";
     add(cryptomatte_no_object, 4);
@@ -307,12 +307,12 @@ TEST(CryptomattePixel, BelongsToWhatMostSamplesMeet) {
 TEST(CryptomattePixel, CanBeWrittenAgainAfterMoreSamples) {
     CryptomattePixel pixel;
     std::vector<float> ranks(2);
-    pixel.add(a);
+    pixel.add(a, 1);
     for (int round = 0; round < 2; ++round) {
         pixel.write_ranks(4, ranks);
         EXPECT_EQ(ranks[1], 0.25f);
     }
-    pixel.add(a);
+    pixel.add(a, 1);
     pixel.write_ranks(4, ranks);
     EXPECT_EQ(ranks[1], 0.5f);
 }
@@ -425,7 +425,7 @@ void add_layer(FilePixel& file,
     for (const auto& [name, count] : objects) {
         names.push_back(name);
         for (int i = 0; i < count; ++i)
-            pixel.add(cryptomatte_hash(name));
+            pixel.add(cryptomatte_hash(name), 1);
     }
     const auto channels = cryptomatte_channels(layer, default_cryptomatte_levels);
     std::vector<float> ranks(channels.size());

@@ -1,5 +1,5 @@
 // tests/image/rendering_space_test.cpp - spaces by name and by config, against published matrices.
-// matrices. SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0
 #include "image/rendering_space.h"
 
 #include "base/setting_names.h"

@@ -91,7 +91,7 @@ inline constexpr std::array retired_words = {
     RetiredWord{"EmissionLook", "EmissionContext"},
     RetiredWord{"AlphaPlace", "AlphaCandidate"},
     RetiredWord{"LayerPlace", "LayerContext"},
-    RetiredWord{"LightShare", "LightContribution"},
+    RetiredWord{"LightPathSum", "LightContribution"},
     RetiredWord{"FacetShares", "FacetWeights"},
     RetiredWord{"ReplayWay", "ReplayMode"},
     RetiredWord{"*_picture*", "image"},

@@ -252,6 +252,7 @@ TEST(MotionLayer, OfAPanoramaGoesTheShorterWayRound) {
     AssetBuilder builder = square_asset();
     // Around the seam of the image, behind the camera: 2 m a second at a distance of 5 m.
     builder.tree["nodes"][0]["translation"] = {0, 0, 10};
+    builder.tree["nodes"][0]["rotation"] = {0, 1, 0, 0};  // its front side towards the camera
     slide(builder, 0, 10);
     MotionView view;
     view.camera.settings.model = CameraModel::environment;
