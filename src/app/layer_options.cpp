@@ -65,8 +65,8 @@ constexpr Entry layers[] = {
      text_at<&A::layer, &L::lpe>},
     {{.name = "--light-group", .argument = "NAME=PATTERN[,PATTERN...]",
       .help = "A layer light_NAME of the light that comes from these: lights, materials, nodes "
-              "with all below them, or env, the environment. * and ? stand for any text and letter. "
-              "May be given several times; a light is in the first group that it fits, and "
+              "with all below them, or env, the environment. * and ? stand for any text and "
+              "letter. May be given several times; a light is in the first group that it fits, and "
               "light_rest has what fits none", .fallback = "none", .excludes = {"--light-groups"}},
      text_at<&A::layer, &L::light_group>},
     {{.name = "--light-groups", .argument = "each",

@@ -37,7 +37,7 @@ struct OutputImage {
     /// None: the pixels are all there is. With overscan the part begins before the whole image and
     /// ends behind it.
     std::optional<ImagePart> part_of = {};
-    std::vector<ImageLayer> layers = {};    ///< of the same part; only EXR files have them
+    std::vector<ImageLayer> layers = {};  ///< of the same part; only EXR files have them
 };
 
 }  // namespace obscura

@@ -7,10 +7,9 @@
 #include "render/integrators.h"
 
 #include <algorithm>
-#include <variant>
-
 #include <cmath>
 #include <utility>
+#include <variant>
 
 namespace obscura {
 

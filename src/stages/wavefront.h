@@ -125,12 +125,12 @@ struct WavefrontInput {
     BatchSettings batch;
     const Accel* counting = nullptr;  ///< for WavefrontKind::heat: see Accel::build_counting
     WavefrontKind kind = WavefrontKind::path;
-    std::span<const Aov> aovs = {};     ///< written beside light, or alone by trace_aov
-    const FrameView* frames = nullptr;  ///< for Aov::motion; null: nothing moves
-    bool counts_rays = false;           ///< fills Workspace::rays_cast
+    std::span<const Aov> aovs = {};               ///< written beside light, or alone by trace_aov
+    const FrameView* frames = nullptr;            ///< for Aov::motion; null: nothing moves
+    bool counts_rays = false;                     ///< fills Workspace::rays_cast
     const LightPathTable* light_paths = nullptr;  ///< for WavefrontKind::path: the light layers
-    RayRecorder* recorder = nullptr;    ///< records every ray of this thread; null: no recording
-    RaycastNotes* notes = nullptr;      ///< for a raycast of one pixel; null: no notes
+    RayRecorder* recorder = nullptr;  ///< records every ray of this thread; null: no recording
+    RaycastNotes* notes = nullptr;    ///< for a raycast of one pixel; null: no notes
     const VisibilityFlags* visibility = nullptr;  ///< null: no surface has any
     CatcherSettings catchers = {};                ///< for WavefrontKind::path
 };
