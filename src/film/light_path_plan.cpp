@@ -93,7 +93,8 @@ Result<LightPathPlan> LightPathPlan::make(std::span<const Layer> layers,
         return std::holds_alternative<ShadowRatio>(layer.source);
     });
     out.layer_begin_.push_back(0);
-    for (uint16_t state = 0; state < automaton->state_count(); ++state) {
+    const auto states = static_cast<uint16_t>(automaton->state_count());  // max_path_states at most
+    for (uint16_t state = 0; state < states; ++state) {
         out.settled_.push_back(automaton->is_settled(state) ? 1 : 0);
         for (size_t event = 0; event < scatter_event_count; ++event)
             out.next_.push_back(automaton->after_scattering(state, event));

@@ -5,6 +5,7 @@
 #include "stages/light_paths.h"
 
 #include <algorithm>
+#include <span>
 
 namespace obscura {
 
@@ -42,8 +43,10 @@ std::vector<uint16_t> light_classes(const Scene& scene,
         add(scene.primitives[static_cast<size_t>(i)], nullptr);
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        for (int32_t i = 0; i < mesh.primitive_count; ++i)
-            add(scene.primitives[static_cast<size_t>(mesh.first_primitive + i)], &instance);
+        const Primitive* const first = &scene.primitives[static_cast<size_t>(mesh.first_primitive)];
+        for (const Primitive& primitive :
+             std::span(first, static_cast<size_t>(mesh.primitive_count)))
+            add(primitive, &instance);
     }
     return out;
 }

@@ -3,6 +3,7 @@
 #include "scene/frame_motion.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace obscura {
@@ -35,7 +36,8 @@ void add_vertices(const Scene& scene, Frames frames, size_t index, FrameMotion& 
 }
 
 bool is_same_place(const Affinef& a, const Affinef& b) {
-    return std::memcmp(&a, &b, sizeof(Affinef)) == 0;
+    using Words = std::array<uint32_t, sizeof(Affinef) / sizeof(uint32_t)>;
+    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
 }
 
 /// Adds the placings of one instance, if it moves.

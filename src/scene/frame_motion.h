@@ -4,6 +4,7 @@
 
 #include "scene/motion.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -24,7 +25,7 @@ struct FrameMotion {
     std::vector<FrameVertices> vertices;  ///< by primitive
     std::vector<Affinef> instances;       ///< world_from_object of moving instances, three each
     std::vector<int32_t> instance;        ///< by instance: the first of its three; -1: it stands
-    std::vector<SceneCamera> cameras[3];
+    std::array<std::vector<SceneCamera>, 3> cameras;
 };
 
 /// Finds what moves between three poses of a scene.

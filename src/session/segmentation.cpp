@@ -67,11 +67,10 @@ void find_materials(const Scene& scene, VisibleById& visible) {
     }
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        for (int32_t i = 0; i < mesh.primitive_count; ++i) {
-            const Primitive& primitive =
-                scene.primitives[static_cast<size_t>(mesh.first_primitive + i)];
+        const Primitive* const first = &scene.primitives[static_cast<size_t>(mesh.first_primitive)];
+        for (const Primitive& primitive :
+             std::span(first, static_cast<size_t>(mesh.primitive_count)))
             note(std::max(instance.node, primitive.node), primitive);
-        }
     }
 }
 
@@ -88,7 +87,7 @@ std::string document_of(const OutputImage& ids, const Scene& scene) {
     for (const auto& [id, seen] : visible) {
         Json materials = Json::array();
         for (const int32_t number : seen.materials)
-            materials.push_back(names.materials[static_cast<size_t>(number + 1)]);
+            materials.push_back(names.materials[static_cast<size_t>(number) + 1]);
         segments.push_back({{"id", id},
                             {"node", names.objects[static_cast<size_t>(id)]},
                             {"mesh", mesh_name(scene.info, static_cast<size_t>(id) - 1)},
