@@ -41,14 +41,14 @@ struct StoredGroup {
     const ExrGroup& group;
     PixelView floats;
     UnsetArray<float> level = {};  ///< what `floats` looks at, below the first level
-    std::vector<half> halves = {};
+    UnsetArray<half> halves = {};  ///< reused from rows to rows
 };
 
-/// The rows of a part.
-StoredGroup stored_group(const ExrGroup& group, const ExrRows& rows, int width) {
+/// Rows of a group in memory.
+PixelView rows_of(const ExrGroup& group, int first, int count, int width) {
     const size_t channels = group.channels->size();
-    const size_t before = static_cast<size_t>(rows.first) * static_cast<size_t>(width) * channels;
-    return {group, {group.pixels->data() + before, width, rows.count, channels}};
+    const size_t before = static_cast<size_t>(first) * static_cast<size_t>(width) * channels;
+    return {group.pixels->data() + before, width, count, channels};
 }
 
 /// Adds a group's channels to what OpenEXR writes, as halves if they are stored so.
@@ -64,9 +64,8 @@ uint64_t add_channels(StoredGroup& stored,
     const bool is_half = depth_of(stored.group, options) == ExrDepth::half;
     uint64_t clamped = 0;
     if (is_half) {
-        Halves made = halves_of({view.pixels, count});
-        stored.halves = std::move(made.values);
-        clamped = made.clamped;
+        stored.halves.resize(count);
+        clamped = store_halves({view.pixels, count}, stored.halves);
     }
     const size_t value_bytes = is_half ? sizeof(half) : sizeof(float);
     const void* data = is_half ? static_cast<const void*>(stored.halves.data())
@@ -97,8 +96,13 @@ void shrink(StoredGroup& stored) {
 std::vector<StoredGroup> stored_groups(const ExrPart& part, const OutputImage& image) {
     std::vector<StoredGroup> groups;
     for (const ExrGroup& group : part.groups)
-        groups.push_back(stored_group(group, part.rows, image.width));
+        groups.push_back({group, rows_of(group, part.rows.first, part.rows.count, image.width)});
     return groups;
+}
+
+/// Rows that are made halves at once: enough blocks of the codec for all threads.
+int rows_at_once(ExrCompression codec) {
+    return codec == ExrCompression::dwab ? 4096 : 512;  // blocks of 256 rows, and of at most 32
 }
 
 /// Writes scan lines.
@@ -106,12 +110,22 @@ std::vector<StoredGroup> stored_groups(const ExrPart& part, const OutputImage& i
 /// Out     how many values were clamped
 uint64_t write_lines(Imf::OutputPart out, const ExrPart& part, const ExrContent& content) {
     std::vector<StoredGroup> groups = stored_groups(part, content.image);
-    Imf::FrameBuffer buffer;
     uint64_t clamped = 0;
-    for (StoredGroup& group : groups)
-        clamped += add_channels(group, content.options, out.header().dataWindow(), buffer);
-    out.setFrameBuffer(buffer);
-    out.writePixels(part.rows.count);
+    const int step = rows_at_once(part.compression);
+    for (int first = 0; first < part.rows.count; first += step) {
+        const int count = std::min(step, part.rows.count - first);
+        Imath::Box2i window = out.header().dataWindow();
+        window.min.y += first;
+        window.max.y = window.min.y + count - 1;
+        Imf::FrameBuffer buffer;
+        for (StoredGroup& stored : groups) {
+            stored.floats =
+                rows_of(stored.group, part.rows.first + first, count, content.image.width);
+            clamped += add_channels(stored, content.options, window, buffer);
+        }
+        out.setFrameBuffer(buffer);
+        out.writePixels(count);
+    }
     return clamped;
 }
 

@@ -10,23 +10,20 @@
 
 namespace obscura {
 
-Halves halves_of(std::span<const float> values) {
+uint64_t store_halves(std::span<const float> values, std::span<half> halves) {
     constexpr float largest = 65504;
     constexpr size_t grain = 1 << 16;
-    Halves halves{std::vector<half>(values.size())};
     std::atomic<uint64_t> all_clamped = 0;
     parallel_ranges(values.size(), grain, [&](size_t begin, size_t end) {
         uint64_t clamped = 0;
         for (size_t i = begin; i < end; ++i) {
             const float value = values[i];
             clamped += std::abs(value) > largest ? 1 : 0;
-            halves.values[i] =
-                half(std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest));
+            halves[i] = half(std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest));
         }
         all_clamped += clamped;
     });
-    halves.clamped = all_clamped;
-    return halves;
+    return all_clamped;
 }
 
 UnsetArray<float> half_as_large(const PixelView& image, bool averaged) {

@@ -12,13 +12,11 @@
 
 namespace obscura {
 
-/// Values as halves, and how many had to be clamped to +-65504. NaN becomes 0.
-struct Halves {
-    std::vector<half> values;
-    uint64_t clamped = 0;
-};
-
-Halves halves_of(std::span<const float> values);
+/// Makes values halves. NaN becomes 0.
+///
+/// In      halves: as many as values
+/// Out     how many had to be clamped to +-65504
+uint64_t store_halves(std::span<const float> values, std::span<half> halves);
 
 /// Interleaved pixels in memory.
 struct PixelView {
