@@ -3,6 +3,7 @@
 #include "light/cdf_table.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace obscura {
@@ -81,6 +82,16 @@ std::vector<double> cdf_probabilities(std::span<const CdfEntry> entries) {
         begin = end;
     }
     return probabilities;
+}
+
+CdfSpread cdf_spread(std::span<const CdfEntry> entries, size_t index) {
+    const uint32_t first = entries[index].first_random;
+    const uint64_t end = entries[index + 1].first_random;
+    const uint64_t numbers = (end == 0 ? all_randoms : end) - first;
+    const uint64_t fitting = std::min(numbers, all_randoms - 1);
+    const auto shift = static_cast<uint32_t>(std::countl_zero(static_cast<uint32_t>(fitting)));
+    const uint64_t factor = (uint64_t{1} << 63) / (numbers << shift);
+    return {first, shift, static_cast<uint32_t>(std::min(factor, all_randoms - 1))};
 }
 
 }  // namespace obscura

@@ -4,6 +4,7 @@
 
 #include "light/record_words.h"
 #include "math/gather4.h"
+#include "math/sampler.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,17 @@ std::vector<CdfEntry> build_cdf_table(std::span<const double> weights);
 /// about count * 2^-32, relative to the mean probability.
 std::vector<double> cdf_probabilities(std::span<const CdfEntry> entries);
 
+/// Spreads the random numbers of one index over all 32-bit numbers, so that what chose the index
+/// can choose again within it. In integers: tables with many small shares need every bit.
+struct CdfSpread {
+    uint32_t first = 0;   ///< of the index' numbers
+    uint32_t shift = 0;   ///< moves their count to between 2^31 and 2^32
+    uint32_t factor = 0;  ///< 2^63 / that
+};
+
+/// In      index: with a probability above 0
+CdfSpread cdf_spread(std::span<const CdfEntry> entries, size_t index);
+
 inline namespace OBSCURA_ISA {
 
 /// Bits 32 to 63 of a * b.
@@ -82,6 +94,35 @@ OBSCURA_INLINE IntOf<F> sample_cdf(const CdfEntry* entries, int count, const Uin
         low = select(beyond, low, middle);
     }
     return low;
+}
+
+/// A drawn index and where the random number lies among those that lead to it.
+template <typename F>
+struct CdfDraw {
+    IntOf<F> index;
+    F place;  ///< in [0, 1): as uniform and as well stratified as the random number was
+};
+
+/// As sample_cdf.
+template <typename F>
+OBSCURA_INLINE CdfDraw<F> draw_cdf(const CdfEntry* entries, int count, const UintOf<F>& random) {
+    using I = IntOf<F>;
+    using U = UintOf<F>;
+    const I index = sample_cdf<F>(entries, count, random);
+    const auto bounds = gather4<F>(member_words<int32_t>(entries, 0), I(index * I(2)));
+    const U first = as_uint(bounds.x);
+    const U numbers = as_uint(bounds.z) - first;  // 0: all 2^32
+    const F all = select(as_int(numbers) == I(0), F(0x1p32f), float_from_uint<F>(numbers));
+    const F place = (float_from_uint<F>(U(random - first)) + F(0.5f)) / all;
+    return {index, min(place, F(0x1.fffffep-1f))};
+}
+
+/// In      random: one that leads to the index of `spread`; low_bit: of another random number
+/// Out     uniform 32 bits
+template <typename U>
+OBSCURA_INLINE U spread_random(const CdfSpread& spread, const U& random, const U& low_bit) {
+    const U place = (random - U(spread.first)) << static_cast<int>(spread.shift);
+    return (multiply_high(place, spread.factor) << 1) | (low_bit & U(1U));
 }
 
 }  // namespace OBSCURA_ISA

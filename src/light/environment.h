@@ -17,7 +17,7 @@ struct EnvironmentView {
     /// 4 floats a pixel, so that a look-up reads one cache line: the radiance, and the density per
     /// solid angle with which the pixel is sampled, times sin(theta)
     const float* pixels = nullptr;
-    PixelChoiceView choice;  ///< draws a pixel in proportion to its light
+    PixelChoiceView choice;  ///< draws a pixel, bright ones most often
     int32_t width = 1;
     int32_t height = 1;
     float cos_rotation = 1;  ///< of the map's rotation about +Y,
@@ -190,12 +190,12 @@ OBSCURA_INLINE void draw_environment_pixel(const EnvironmentView& view, PixelDra
     prefetch<F>(view.pixels, IntOf<F>(pixel * IntOf<F>(4)));
 }
 
-/// Chooses a pixel in proportion to its light, and a position around it with the pixel's bilinear
+/// Chooses a pixel by its sampling weight, and a position around it with the pixel's bilinear
 /// weight as density. The map is a sum of weighted pixels: this draws one term of the sum together
-/// with a direction. So radiance / pdf is nearly constant, even where bright and dark pixels meet,
-/// and one pixel is read. BSDF sampling draws the direction first; its density of a term is that of
-/// the direction times the weight. The weight cancels in the ratio of both densities: multiple
-/// importance sampling compares the chosen pixel's pdf with the BSDF's pdf.
+/// with a direction. So radiance / pdf is that of one pixel, even where bright and dark pixels
+/// meet, and one pixel is read. BSDF sampling draws the direction first; its density of a term is
+/// that of the direction times the weight. The weight cancels in the ratio of both densities:
+/// multiple importance sampling compares the chosen pixel's pdf with the BSDF's pdf.
 ///
 /// Out     radiance and pdf of the chosen pixel, both without its weight, which cancels too
 /// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 12.5, for

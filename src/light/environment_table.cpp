@@ -34,6 +34,16 @@ double importance_of(const float* rgb) {
     return 0.5 * (luminance_of(rgb) + std::max({rgb[0], rgb[1], rgb[2]}));
 }
 
+/// How often light sampling draws directions of this importance. BSDF sampling finds the evenly
+/// lit part of a map well by itself, so the light samples go to what stands out from it. Half the
+/// mean is taken off, and no direction loses more than nine tenths: where geometry hides the bright
+/// part, as a room with one window does, the rest is all there is to find.
+/// Source  Karlik, Sik, Vevoda, Skrivan, Krivanek, "MIS Compensation: Optimizing Sampling Techniques
+///         in Multiple Importance Sampling", ACM TOG 38(6), 2019, section 5, with half its offset
+double sampling_weight(double importance, double mean) {
+    return std::max(importance - 0.5 * mean, 0.1 * importance);
+}
+
 /// Solid angle of one pixel of row y.
 double pixel_steradians(int width, int height, int y) {
     const double top = std::cos(pi_d * y / height);
@@ -123,8 +133,10 @@ void EnvironmentTable::build_tables() {
     const auto pixel_at = [&](int x, int y) {
         return &pixels_[4 * (static_cast<size_t>(y) * width + static_cast<size_t>(x))];
     };
+    const double mean = sum_of(importance) / (4 * pi_d);
     const auto weight = [&](int x, int y) {
-        return importance_of(pixel_at(x, y)) * steradians[static_cast<size_t>(y)];
+        return sampling_weight(importance_of(pixel_at(x, y)), mean) *
+               steradians[static_cast<size_t>(y)];
     };
     const auto set = [&](int x, int y, double probability) {
         pixel_at(x, y)[3] = static_cast<float>(black_ ? 0.0 : probability * spread);

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "light/cdf_table.h"
 #include "light/light_profile.h"
 
 #include <cstdint>
 
 namespace obscura {
 
-struct CdfEntry;
 struct MovingTriangle;
 struct PunctualLight;
 struct ShapeLight;
@@ -27,6 +27,7 @@ struct LightView {
     int32_t shape_count = 0;
     const ShapeLight* shapes = nullptr;
     float environment_select = 0;  ///< probability of choosing the environment
+    CdfSpread environment_spread;  ///< of the random numbers that choose it
     LightProfileView profiles;     ///< of punctual lights
     /// Lights at each of MotionView::steps times: `steps` records for every punctual light, and for
     /// every triangle that moves. Null: nothing moves.

@@ -11,7 +11,7 @@ namespace obscura {
 /// use`; bounce 0 is the camera's.
 ///
 /// To add a use: append it before `count`. This changes the noise of every image, not its mean.
-enum class RandomUse : uint32_t { film, bsdf, roulette, light, light_choice, texture, count };
+enum class RandomUse : uint32_t { film, bsdf, roulette, light, texture, count };
 
 inline constexpr uint32_t pairs_per_bounce = static_cast<uint32_t>(RandomUse::count);
 

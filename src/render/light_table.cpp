@@ -307,7 +307,11 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     const size_t first_shape = punctual.size() + table.triangles.size();
     for (size_t i = 0; i < table.shapes.size(); ++i)
         table.shapes[i].select = static_cast<float>(pdf[first_shape + i]);
-    if (has_environment) table.environment_select = table.select_pdf.back();
+    if (has_environment) {
+        table.environment_select = table.select_pdf.back();
+        table.environment_spread =
+            cdf_spread(std::span<const CdfEntry>(table.choice), weights.size() - 1);
+    }
     return table;
 }
 
@@ -357,6 +361,7 @@ LightView LightTable::view() const {
             static_cast<int32_t>(shapes.size()),
             shapes.data(),
             environment_select,
+            environment_spread,
             profiles.view(),
             moving_punctual,
             moving_triangles.empty() ? nullptr : moving_triangles.data()};

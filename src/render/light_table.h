@@ -25,6 +25,7 @@ struct LightTable {
     std::vector<float> select_pdf;
     std::vector<CdfEntry> choice;
     float environment_select = 0;
+    CdfSpread environment_spread;
 
     LightView view() const;
 };

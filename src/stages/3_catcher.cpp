@@ -75,24 +75,16 @@ OBSCURA_INLINE Vec2<LanesU> random_pair(const PathLanes& path, RandomUse use) {
 OBSCURA_INLINE LightLanes sampled_light(const SceneView& scene,
                                         const PathLanes& path,
                                         const CatcherPoint& point) {
-    LightRandom random;
-    random.choice =
-        scene.lights.count > 1 ? random_pair(path, RandomUse::light_choice).x : LanesU(0U);
-    const Vec2<LanesU> place = random_pair(path, RandomUse::light);
-    if (scene.has_environment) {
-        random.environment = draw_block<Lanes>(scene.environment.choice, place);
-        draw_environment_pixel(scene.environment, random.environment);
-    } else {
-        random.environment.random = place;
-    }
+    LightDraw draw = draw_light(scene, random_pair(path, RandomUse::light));
+    draw_light_pixel(scene, draw);
     const Vec2<LanesU> bits = random_pair(path, RandomUse::texture);
     const Vec2<Lanes> texel = unit_pair<Lanes>(bits);
-    random.texture = {
+    const Vec3<Lanes> texture{
         texel.x, texel.y, unit_float<Lanes>((bits.y << 16) | (bits.x & LanesU(0xFFFFU)))};
     ShadingPoint s;
     s.light_start = point.light_start;
     s.time = point.time;
-    return sample_light(scene, s, random);
+    return sample_light(scene, s, draw, texture);
 }
 
 OBSCURA_INLINE int add_shadow_rays(const ShadowColumns& columns,

@@ -91,26 +91,57 @@ OBSCURA_INLINE LightLanes sample_shapes(const SceneView& scene,
             s.pdf > Lanes(0.0f)};
 }
 
-/// The random numbers that choose a light and a point on it.
-struct LightRandom {
-    LanesU choice;
-    Vec3<Lanes> texture;
-    PixelDraw<Lanes> environment;  ///< drawn ahead; its random numbers serve other lights too
+/// A light for each lane, drawn ahead of the point that it lights, and where on it to sample.
+struct LightDraw {
+    LanesI light;                  ///< number, see LightView
+    Vec2<Lanes> place;             ///< in [0, 1)^2; for lights other than the environment
+    PixelDraw<Lanes> environment;  ///< in lanes whose light is the environment
 };
 
-/// Index of the light that each lane samples: punctual lights, triangles, shapes, the environment.
-OBSCURA_INLINE LanesI choose_light(const LightView& lights, LanesU random) {
-    if (lights.count <= 1) return LanesI(lights.count - 1);
-    return sample_cdf<Lanes>(lights.choice, lights.count, random);
+OBSCURA_INLINE Mask is_environment(const SceneView& scene, LanesI light) {
+    return Mask(scene.lights.environment_select > 0) & (light == LanesI(scene.lights.count - 1));
 }
 
-/// Chooses one light for every lane and a point on it.
+/// Chooses the lights, by their power, and the environment's block. One pair of random numbers
+/// chooses the light and the place on it: what the choice leaves of the first number is as well
+/// stratified as the number was, so that a few lights, or the triangles of one, are sampled as
+/// evenly as a single light.
+///
+/// In      lights: at least one
+OBSCURA_INLINE LightDraw draw_light(const SceneView& scene, const Vec2<LanesU>& random) {
+    const LightView& lights = scene.lights;
+    const bool is_choice = lights.count > 1;
+    LightDraw draw;
+    draw.place = unit_pair<Lanes>(random);
+    draw.light = LanesI(lights.count - 1);
+    if (is_choice) {
+        const CdfDraw<Lanes> drawn = draw_cdf<Lanes>(lights.choice, lights.count, random.x);
+        draw.light = drawn.index;
+        draw.place.x = drawn.place;
+    }
+    if (none(is_environment(scene, draw.light))) return draw;
+    Vec2<LanesU> left = random;
+    if (is_choice) left.x = spread_random(lights.environment_spread, random.x, random.y);
+    draw.environment = draw_block<Lanes>(scene.environment.choice, left);
+    return draw;
+}
+
+/// Chooses the environment's pixel, and prefetches it.
+OBSCURA_INLINE void draw_light_pixel(const SceneView& scene, LightDraw& draw) {
+    if (none(is_environment(scene, draw.light))) return;
+    draw_environment_pixel(scene.environment, draw.environment);
+}
+
+/// The light that every lane has drawn, at a point on it.
+///
+/// In      texture: uniform random numbers that choose a texel
 OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                                        const ShadingPoint& point,
-                                       const LightRandom& random) {
+                                       const LightDraw& draw,
+                                       const Vec3<Lanes>& texture) {
     const LightView& lights = scene.lights;
     LightLanes out{splat3(Lanes(0.0f)), Lanes(0.0f), splat3(Lanes(0.0f)), Lanes(0.0f), Mask(false)};
-    const LanesI index = choose_light(lights, random.choice);
+    const LanesI index = draw.light;
     const Mask punctual = index < LanesI(lights.punctual_count);
     const LanesI triangle_index = index - LanesI(lights.punctual_count);
     const Mask triangle = (!punctual) & (triangle_index < LanesI(lights.triangle_count));
@@ -119,7 +150,7 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     const Mask environment = !(punctual | triangle | shape);
     if (scene.has_environment && any(environment)) {
         const EnvironmentSample<Lanes> s =
-            finish_environment_draw(scene.environment, random.environment);
+            finish_environment_draw(scene.environment, draw.environment);
         const Lanes pdf = s.pdf * Lanes(lights.environment_select);
         choose(out,
                environment,
@@ -132,17 +163,12 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
     if (any(triangle)) {
         choose(out,
                triangle,
-               sample_triangle_lights(scene,
-                                      select(triangle, triangle_index, LanesI(0)),
-                                      unit_pair<Lanes>(random.environment.random),
-                                      point,
-                                      random.texture));
+               sample_triangle_lights(
+                   scene, select(triangle, triangle_index, LanesI(0)), draw.place, point, texture));
     }
     if (any(shape)) {
         const LanesI in_range = select(shape, shape_index, LanesI(0));
-        choose(out,
-               shape,
-               sample_shapes(scene, in_range, unit_pair<Lanes>(random.environment.random), point));
+        choose(out, shape, sample_shapes(scene, in_range, draw.place, point));
     }
     if (any(punctual)) {
         const LanesI in_range = select(punctual, index, LanesI(0));

@@ -21,7 +21,6 @@ constexpr int bounces_before_roulette = 2;
 struct BounceRandom {
     Vec2<Lanes> bsdf;
     Lanes roulette;
-    LightRandom light;
     Vec3<Lanes> texture;
 };
 
@@ -31,10 +30,7 @@ OBSCURA_INLINE Vec2<LanesU> random_pair(LanesU key, LanesU sample, int bounce, R
     return sobol_pair(key, sample, number);
 }
 
-OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
-                                          int bounce,
-                                          int light_count,
-                                          const PixelDraw<Lanes>& draw) {
+OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path, int bounce) {
     const auto pair = [&](RandomUse use) {
         return random_pair(path.key, path.sample, bounce, use);
     };
@@ -42,13 +38,10 @@ OBSCURA_INLINE BounceRandom bounce_random(const PathLanes& path,
     r.bsdf = unit_pair<Lanes>(pair(RandomUse::bsdf));
     r.roulette = bounce < bounces_before_roulette ? Lanes(0.0f)
                                                   : unit_float<Lanes>(pair(RandomUse::roulette).x);
-    r.light.choice = light_count > 1 ? pair(RandomUse::light_choice).x : LanesU(0U);
-    r.light.environment = draw;
     // A position between texels, and from the remaining bits one between mip levels.
     const Vec2<LanesU> bits = pair(RandomUse::texture);
     const Vec2<Lanes> texel = unit_pair<Lanes>(bits);
     r.texture = {texel.x, texel.y, unit_float<Lanes>((bits.y << 16) | (bits.x & LanesU(0xFFFFU)))};
-    r.light.texture = r.texture;
     return r;
 }
 
@@ -66,29 +59,26 @@ struct ShadedGroup {
     const PathLanes& path;
     ShadingPoint& s;
     BounceRandom& random;
+    const LightDraw& light;
     const HitLanes& hit;
 };
 
-/// Draws pixels of the environment for the groups that start at index `first`.
+/// Draws lights for the groups that start at index `first`.
 OBSCURA_INLINE void draw_ahead(const Bounce& bounce,
                                const PathView& paths,
                                int first,
                                int groups,
-                               PixelDraw<Lanes> (&draws)[groups_ahead]) {
+                               LightDraw (&draws)[groups_ahead]) {
     const SceneView& scene = bounce.scene;
+    if (scene.lights.count == 0) return;
     for (int g = 0; g < groups; ++g) {
         const int i = first + g * lane_count;
         const Vec2<LanesU> random = random_pair(
             load(paths.key + i), load(paths.sample + i), bounce.number, RandomUse::light);
-        if (scene.has_environment) {
-            draws[g] = draw_block<Lanes>(scene.environment.choice, random);
-        } else {
-            draws[g].random = random;
-        }
+        draws[g] = draw_light(scene, random);
     }
-    if (!scene.has_environment) return;
     for (int g = 0; g < groups; ++g)
-        draw_environment_pixel(scene.environment, draws[g]);
+        draw_light_pixel(scene, draws[g]);
 }
 
 /// Adds the emission of the hit surfaces.
@@ -162,7 +152,7 @@ OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
     const BatchSettings& batch = bounce.batch;
     const PathLanes& path = group.path;
     const ShadingPoint& s = group.s;
-    const LightLanes light = sample_light(scene, s, group.random.light);
+    const LightLanes light = sample_light(scene, s, group.light, group.random.texture);
     const Vec3<Lanes> wo = to_local(s.frame, -path.direction);
     const Vec3<Lanes> wi = to_local(s.frame, light.direction);
     const Mask reflected_side = dot(light.direction, s.ng) > Lanes(0.0f);
@@ -187,8 +177,7 @@ OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
     if (bounce.light_paths != nullptr && any(useful)) {
-        const LanesI index = choose_light(scene.lights, group.random.light.choice);
-        scatter_shadow(*bounce.light_paths, useful, path.slot, index, {s, wo, wi});
+        scatter_shadow(*bounce.light_paths, useful, path.slot, group.light.light, {s, wo, wi});
     }
     const Vec3<Lanes> start =
         s.any_layers ? select(reflected_side, s.light_start, s.transmitted_start) : s.light_start;
@@ -332,7 +321,7 @@ ShadeCounts shade(const SceneView& scene,
     if (number == 0) set_camera_alpha(batch, count_in, columns);
     const SortedCounts sorted = sort_hits_from_misses(count_in, columns);
     shade_misses(scene, batch, number, sorted.misses, columns);
-    PixelDraw<Lanes> draws[groups_ahead];
+    LightDraw draws[groups_ahead];
     ShadeCounts out;
     for (int i = 0; i < sorted.hits; i += lane_count) {
         const int k = i / lane_count % groups_ahead;
@@ -344,10 +333,10 @@ ShadeCounts shade(const SceneView& scene,
         PathLanes path = load_paths(columns.paths, i);
         const HitLanes hit = hits_of_paths(columns, i, exists, path);
         if (scene.media != nullptr) absorb(scene, exists, hit.t, path);
-        BounceRandom random = bounce_random(path, number, scene.lights.count, draws[k]);
+        BounceRandom random = bounce_random(path, number);
         ShadingPoint s = shading_point(
             scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_fraction});
-        const ShadedGroup group{path, s, random, hit};
+        const ShadedGroup group{path, s, random, draws[k], hit};
         add_emission(bounce, columns, exists, group);
         Mask scatters = exists & (!s.unlit);
         Mask turns = scatters;
@@ -385,7 +374,7 @@ int shade_ao(const SceneView& scene,
         const Mask exists = lanes_in_range(i, sorted.hits);
         const PathLanes path = load_paths(columns.paths, i);
         const HitLanes hit = hits_of_paths(columns, i, exists, path);
-        const BounceRandom random = bounce_random(path, 0, 0, {});
+        const BounceRandom random = bounce_random(path, 0);
         const ShadingPoint s = shading_point(
             scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_fraction});
         const Vec3<Lanes> direction = normalize(to_world(s.frame, cosine_hemisphere(random.bsdf)));

@@ -177,6 +177,47 @@ TEST(CdfTable, TheIndexGrowsWithTheRandomNumber) {
     EXPECT_EQ(index, 300);
 }
 
+TEST(CdfTable, ADrawTellsThePlaceAmongTheNumbersOfItsIndex) {
+    const std::vector<CdfEntry> table = table_for(random_weights(50, 6));
+    const std::vector<double> shares = shares_of(table);
+    Pcg32 random(2);
+    for (int i = 0; i < 10000; ++i) {
+        const uint32_t bits = random.next_uint();
+        const CdfDraw<float> draw = draw_cdf<float>(table.data(), 50, bits);
+        ASSERT_EQ(draw.index, sample_cdf<float>(table.data(), 50, bits));
+        const auto index = static_cast<size_t>(draw.index);
+        const double from_first = bits - double{table[index].first_random};
+        ASSERT_NEAR(draw.place, from_first / (shares[index] * 0x1p32), 1e-5);
+        ASSERT_LT(draw.place, 1.0f);
+    }
+}
+
+TEST(CdfTable, TheOnlyPossibleIndexHasAllNumbers) {
+    const std::vector<CdfEntry> table = table_for({0, 3, 0});
+    EXPECT_EQ(draw_cdf<float>(table.data(), 3, 0x80000000U).index, 1);
+    EXPECT_NEAR(draw_cdf<float>(table.data(), 3, 0x80000000U).place, 0.5f, 1e-6f);
+    EXPECT_LT(draw_cdf<float>(table.data(), 3, 0xFFFFFFFFU).place, 1.0f);
+}
+
+/// The numbers of an index, evenly over all numbers: a chain of choices is as exact as one.
+TEST(CdfTable, SpreadNumbersCoverTheWholeRangeEvenly) {
+    for (const std::vector<double>& weights :
+         {std::vector<double>{1, 1}, {0, 1}, {1e9, 1}, {1, 1e9}, {3, 2, 7}, {1, 0x1p-20, 1}}) {
+        const std::vector<CdfEntry> table = table_for(weights);
+        for (size_t i = 0; i < weights.size(); ++i) {
+            if (weights[i] == 0) continue;
+            const double numbers = shares_of(table)[i] * 0x1p32;
+            const CdfSpread spread = cdf_spread(std::span<const CdfEntry>(table), i);
+            for (const double place : {0.0, 0.001, 0.25, 0.5, 0.9, 1.0}) {
+                const auto offset = static_cast<uint32_t>(place * (numbers - 1));
+                const uint32_t random = table[i].first_random + offset;
+                const double expected = offset / numbers * 0x1p32;
+                EXPECT_NEAR(spread_random(spread, random, 1U), expected, 4) << i << ", " << place;
+            }
+        }
+    }
+}
+
 TEST(CdfTable, LanesEqualScalars) {
     const std::vector<CdfEntry> table = table_for(random_weights(5000, 9));
     Pcg32 random(1);

@@ -1,0 +1,190 @@
+#!/usr/bin/env python3
+# benchmarks/hard_scenes.py - makes scenes whose light is hard to find, for versus_cycles.sh.
+# SPDX-License-Identifier: Apache-2.0
+"""usage: python3 benchmarks/hard_scenes.py FOLDER [NAME ...]
+
+Writes FOLDER/NAME/NAME.gltf, the same bytes every time. Without names, all are made. Each has a
+camera and its own lights; docs/performance.md says what is measured with them.
+"""
+import math
+import os
+import random
+import sys
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'assets'))
+
+from generator import shapes, textures  # noqa: E402
+from generator.gltf import GltfFile  # noqa: E402
+from generator.vectors import look_at  # noqa: E402
+
+GREY = (0.6, 0.6, 0.6)
+
+
+class Scene:
+    """A glTF file with a camera, to which meshes are added by name."""
+
+    def __init__(self, eye, target, yfov_deg=40.0):
+        self.gltf = GltfFile('Obscura authors, CC0-1.0')
+        camera = self.gltf.perspective_camera('Camera', math.radians(yfov_deg), aspect=16 / 9)
+        self.gltf.node(name='Camera', camera=camera, translation=eye,
+                       rotation=look_at(eye, target))
+
+    def add(self, name, mesh, material, **node):
+        primitive = self.gltf.primitive(mesh, material)
+        self.gltf.node(name=name, mesh=self.gltf.mesh(name, [primitive]), **node)
+
+    def floor(self, half=4.0, color=GREY):
+        mesh = shapes.quad((-half, 0, half), (half, 0, half), (half, 0, -half), (-half, 0, -half))
+        self.add('Floor', mesh, self.gltf.material('Floor', color=color))
+
+    def point(self, name, where, candela):
+        light = self.gltf.light(type='point', name=name, color=[1, 1, 1], intensity=candela)
+        self.gltf.node(name=name, translation=where, extensions=light)
+
+    def glass(self, name, ior=1.5):
+        material = self.gltf.material(name, roughness=0.0)
+        self.gltf.json['materials'][material]['extensions'] = {
+            'KHR_materials_transmission': {'transmissionFactor': 1.0},
+            'KHR_materials_volume': {'thicknessFactor': 1.0},
+            'KHR_materials_ior': {'ior': ior}}
+        for extension in ('transmission', 'volume', 'ior'):
+            self.gltf.use('KHR_materials_' + extension)
+        return material
+
+
+def downward(centre, half):
+    x, y, z = centre
+    return shapes.quad((x - half, y, z - half), (x + half, y, z - half),
+                       (x + half, y, z + half), (x - half, y, z + half))
+
+
+def cloud():
+    """A medium that scatters, index of refraction 1, under a lamp and the sky."""
+    scene = Scene((0, 1.2, 4.5), (0, 0.9, 0))
+    scene.floor()
+    material = scene.glass('Cloud', ior=1.0)
+    extensions = scene.gltf.json['materials'][material]['extensions']
+    extensions['KHR_materials_volume'].update(attenuationColor=[0.5, 0.5, 0.5],
+                                              attenuationDistance=0.4)
+    extensions['KHR_materials_volume_scatter'] = {'multiscatterColor': [0.95, 0.95, 0.95],
+                                                  'scatterAnisotropy': 0.3}
+    scene.gltf.use('KHR_materials_volume_scatter')
+    scene.add('Cloud', shapes.sphere(0.8, 64, 32), material, translation=(0, 1, 0))
+    lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(20, 18, 15))
+    scene.add('Lamp', downward((1.2, 2.8, 0.6), 0.3), lamp)
+    return scene
+
+
+def mask_emitter():
+    """A lamp behind a stencil that is its own alpha."""
+    scene = Scene((0, 1.6, 4.5), (0, 0.9, 0))
+    scene.floor()
+    scene.add('Ball', shapes.sphere(0.5, 48, 24), scene.gltf.material('Ball', color=GREY),
+              translation=(0, 0.5, 0))
+    probe = scene.gltf.texture('alpha_probe.png', textures.alpha_probe(), clamp=True)
+    lamp = scene.gltf.material('Lamp', color=(1, 1, 1), emission=(40, 36, 30), color_texture=probe,
+                               alpha_mode='MASK', alpha_cutoff=0.5, double_sided=True)
+    scene.add('Lamp', downward((0.3, 2.2, 0.3), 0.35), lamp)
+    return scene
+
+
+def soft_floor():
+    """Smooth, evenly lit surfaces: a large lamp of two triangles over a floor and a wall."""
+    scene = Scene((0, 1.5, 4.5), (0, 0.7, 0))
+    scene.floor()
+    wall = shapes.quad((-4, 0, -2), (4, 0, -2), (4, 4, -2), (-4, 4, -2))
+    scene.add('Wall', wall, scene.gltf.material('Wall', color=GREY))
+    lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(4, 4, 4))
+    scene.add('Lamp', downward((0, 3.5, 1), 1.0), lamp)
+    return scene
+
+
+def glass_ball():
+    """A ball of clear glass on a floor, a point light beside it."""
+    scene = Scene((0, 1.4, 4.0), (0, 0.6, 0))
+    scene.floor()
+    scene.add('Ball', shapes.sphere(0.6, 96, 48), scene.glass('Glass'), translation=(0, 0.6, 0))
+    scene.point('Point', (1.5, 2.2, 0.5), 60.0)
+    return scene
+
+
+def lamps(kind):
+    """500 lamps over a floor with balls; kind: points or quads."""
+    def make():
+        scene = Scene((0, 3.2, 9), (0, 0.6, 0))
+        scene.floor(8)
+        numbers = random.Random(1)
+        for k in range(24):
+            where = (numbers.uniform(-5, 5), 0.4, numbers.uniform(-5, 4))
+            scene.add('Ball %d' % k, shapes.sphere(0.4, 24, 12),
+                      scene.gltf.material('Ball %d' % k, color=GREY, roughness=0.4),
+                      translation=where)
+        for k in range(500):
+            where = (numbers.uniform(-7, 7), numbers.uniform(1.2, 1.8), numbers.uniform(-7, 7))
+            if kind == 'points':
+                scene.point('Point %d' % k, where, numbers.uniform(0.05, 0.4))
+                continue
+            glow = numbers.uniform(5, 30)
+            material = scene.gltf.material('Lamp %d' % k, color=(0, 0, 0),
+                                           emission=(glow, glow * 0.9, glow * 0.8))
+            scene.add('Lamp %d' % k, downward(where, 0.04), material)
+        return scene
+    return make
+
+
+def room():
+    """A room lit by the environment through a window."""
+    scene = Scene((0, 1.5, 3.6), (-0.5, 1.1, 0), 50.0)
+    wall = scene.gltf.material('Walls', color=(0.75, 0.73, 0.7), double_sided=True)
+    corners = [(-2.5, 0, -3), (2.5, 0, -3), (2.5, 0, 4), (-2.5, 0, 4)]
+    top = [(x, 2.6, z) for x, _, z in corners]
+    faces = [corners[::-1], top, [corners[0], corners[1], top[1], top[0]],
+             [corners[1], corners[2], top[2], top[1]], [corners[2], corners[3], top[3], top[2]]]
+    # The wall with the window, in four parts around it.
+    low, high, near, far = 0.9, 2.0, 1.0, -1.0
+    faces += [[(-2.5, 0, 4), (-2.5, 0, -3), (-2.5, low, -3), (-2.5, low, 4)],
+              [(-2.5, high, 4), (-2.5, high, -3), (-2.5, 2.6, -3), (-2.5, 2.6, 4)],
+              [(-2.5, low, 4), (-2.5, low, near), (-2.5, high, near), (-2.5, high, 4)],
+              [(-2.5, low, far), (-2.5, low, -3), (-2.5, high, -3), (-2.5, high, far)]]
+    scene.add('Room', shapes.facets(faces), wall)
+    scene.add('Ball', shapes.sphere(0.5, 48, 24), scene.gltf.material('Ball', color=GREY),
+              translation=(-0.4, 0.5, 0))
+    return scene
+
+
+def foliage():
+    """Leaves under the sky: many small double-sided surfaces."""
+    scene = Scene((0, 1.6, 4.2), (0, 1.0, 0))
+    scene.floor()
+    leaves = shapes.Mesh()
+    numbers = random.Random(2)
+    for _ in range(4000):
+        angle, height = numbers.uniform(0, 2 * math.pi), numbers.uniform(0.3, 1.9)
+        radius = numbers.uniform(0.1, 0.9) * (1.2 - abs(height - 1.1))
+        turn = [numbers.gauss(0, 1) for _ in range(4)]
+        size = math.sqrt(sum(x * x for x in turn))
+        leaf = shapes.quad((-0.05, -0.03, 0), (0.05, -0.03, 0), (0.05, 0.03, 0), (-0.05, 0.03, 0))
+        leaves.append(leaf.moved((radius * math.cos(angle), height, radius * math.sin(angle)),
+                                 tuple(x / size for x in turn)))
+    scene.add('Leaves', leaves, scene.gltf.material('Leaves', color=(0.15, 0.4, 0.08),
+                                                    roughness=0.6, double_sided=True))
+    return scene
+
+
+SCENES = {'cloud': cloud, 'mask_emitter': mask_emitter, 'soft_floor': soft_floor,
+          'glass_ball': glass_ball, 'points': lamps('points'), 'quads': lamps('quads'),
+          'room': room, 'foliage': foliage}
+
+
+def main():
+    if len(sys.argv) < 2 or any(name not in SCENES for name in sys.argv[2:]):
+        print(__doc__ + '\nNAME is one of ' + ', '.join(SCENES))
+        return 64
+    for name in sys.argv[2:] or SCENES:
+        SCENES[name]().gltf.write_gltf(os.path.join(sys.argv[1], name), name)
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
