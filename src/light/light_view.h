@@ -9,6 +9,7 @@
 namespace obscura {
 
 struct CdfEntry;
+struct LightAlpha;
 struct MovingTriangle;
 struct PunctualLight;
 struct ShapeLight;
@@ -32,6 +33,7 @@ struct LightView {
     /// every triangle that moves. Null: nothing moves.
     const PunctualLight* moving_punctual = nullptr;
     const MovingTriangle* moving_triangles = nullptr;
+    const LightAlpha* alphas = nullptr;  ///< of triangles and shapes; null: all are opaque
 };
 
 }  // namespace obscura
