@@ -111,6 +111,13 @@ struct Sampling {
     PixelFilter filter = PixelFilter::box;
     std::optional<double> ao_distance_m;  ///< none: a fifth of the asset's diagonal
     double wire_width_px = 1;
+    /// Against fireflies, each at the price of a bias: see docs/fireflies.md. The most that any
+    /// channel of one contribution may have, in the scene's radiance, where light comes straight to
+    /// the first surface and where it comes by way of others; 0: anything.
+    double clamp_direct = 0;
+    double clamp_indirect = 0;
+    bool caustics = true;     ///< false: no light by way of mirrors and glass to rough surfaces
+    bool regularize = false;  ///< smooth surfaces are rougher to light that goes on to rough ones
     /// Layers beside the beauty, by the names of docs/layers.md: "depth", "crypto_object". They go
     /// with path, direct, raycast and ao.
     std::vector<std::string> aov;

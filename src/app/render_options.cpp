@@ -59,6 +59,7 @@ constexpr std::array<Choice<PixelFilter>, 3> filters = {
      {"gaussian", PixelFilter::gaussian},
      {"blackman-harris", PixelFilter::blackman_harris}}};
 constexpr std::array<Choice<bool>, 2> occlusions = {{{"off", false}, {"ambient", true}}};
+constexpr std::array<Choice<bool>, 2> caustics = {{{"on", true}, {"off", false}}};
 constexpr std::array<Choice<BackgroundKind>, 2> backgrounds = {
     {{"env", BackgroundKind::environment}, {"transparent", BackgroundKind::transparent}}};
 
@@ -250,7 +251,26 @@ constexpr Entry sampling[] = {
      text_at<&A::ao_distance>, number_at<&R::options, &O::ao_distance_m>},
     {{.name = "--wire-width", .argument = "PIXELS", .help = "Lines of wireframe",
       .range = {0.01, 1000}, .needs = {"--integrator wireframe"}},
-     text_at<&A::wire_width>, number_at<&R::options, &O::wire_width_px>}};
+     text_at<&A::wire_width>, number_at<&R::options, &O::wire_width_px>},
+    {{.name = "--clamp-indirect", .argument = "X",
+      .help = "Against fireflies, at the price of a darker picture: no channel of what one path "
+              "brings by way of several surfaces is more than X, in the scene's radiance; "
+              "0: anything",
+      .range = {0, 1e12}},
+     text_at<&A::clamp_indirect>, number_at<&R::options, &O::clamp_indirect>},
+    {{.name = "--clamp-direct", .argument = "X",
+      .help = "The same for light that comes straight to the first surface; what the camera sees "
+              "itself stays",
+      .range = {0, 1e12}},
+     text_at<&A::clamp_direct>, number_at<&R::options, &O::clamp_direct>},
+    {{.name = "--caustics", .argument = "on|off",
+      .help = "Light that mirrors and glass throw on rough surfaces; off: it is left out, and with "
+              "it most fireflies"},
+     text_at<&A::caustics>, choice_at<caustics, &R::options, &O::caustics>},
+    {{.name = "--regularize",
+      .help = "Once a path has met a rough surface, smooth ones are rougher to it: caustics are "
+              "blurred and less noisy"},
+     text_at<&A::regularize>, flag_at<&R::options, &O::regularize>}};
 
 constexpr Entry camera[] = {
     {{.name = "--camera", .argument = "NAME|INDEX|auto",

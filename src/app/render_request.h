@@ -27,11 +27,13 @@ struct RenderArguments {
     DeliveryArguments delivery;
     std::optional<std::string> env, env_intensity, env_rotation, background, occlusion;
     std::optional<std::string> integrator, ao_distance, wire_width, filter, crypto_levels;
+    std::optional<std::string> clamp_direct, clamp_indirect, caustics;
     std::optional<std::string> crypto_manifest, exr_layout, compression, exr_tiles;
     std::optional<std::string> point_size, line_width;
     std::optional<std::string> view, display, ocio, exposure, stats;
     std::optional<std::string> format, bits, quality, page;
     bool no_dither = false;
+    bool regularize = false;
     std::optional<std::string> animation, time, frames, fps;
     bool float32 = false;
     bool exr_mipmap = false;

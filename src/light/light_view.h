@@ -9,6 +9,7 @@
 
 namespace obscura {
 
+struct LightAlpha;
 struct MovingTriangle;
 struct PunctualLight;
 struct ShapeLight;
@@ -33,6 +34,7 @@ struct LightView {
     /// every triangle that moves. Null: nothing moves.
     const PunctualLight* moving_punctual = nullptr;
     const MovingTriangle* moving_triangles = nullptr;
+    const LightAlpha* alphas = nullptr;  ///< of triangles and shapes; null: all are opaque
 };
 
 }  // namespace obscura

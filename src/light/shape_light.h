@@ -36,9 +36,10 @@ struct ShapeLight {
     float uv_from_shape[6] = {1, 0, 0, 0, 1, 0};
     float select = 0;  ///< probability of choosing this light
     int32_t two_sided = 0;
+    int32_t alpha = -1;  ///< as TriangleLight::alpha
 };
 
-static_assert(sizeof(ShapeLight) == 28 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(ShapeLight) == 29 * 4, "read as 32-bit words: no padding");
 
 inline namespace OBSCURA_ISA {
 

@@ -26,9 +26,10 @@ struct TriangleLight {
     float pdf_area = 0;     ///< probability of choosing this triangle / area; 0 when area is 0
     int32_t two_sided = 0;  ///< 1: also emits from the back
     int32_t motion = -1;    ///< first index in LightView::moving_triangles; -1: it stands still
+    int32_t alpha = -1;     ///< index in LightView::alphas; -1: it is opaque
 };
 
-static_assert(sizeof(TriangleLight) == 24 * 4, "read as 32-bit words: no padding");
+static_assert(sizeof(TriangleLight) == 25 * 4, "read as 32-bit words: no padding");
 
 /// Corner and edges of a moving triangle at one time.
 struct MovingTriangle {
@@ -52,7 +53,8 @@ struct TriangleLightSample {
     F cosine;           ///< between normal and -direction: negative when seen from behind
     /// 1/sr, the choice of the triangle included (it is part of pdf_area); 0: no light from here
     F pdf;
-    Vec3<F> emission;  ///< before the texture, behind the coat
+    Vec3<F> emission;  ///< before texture and alpha, behind the coat
+    Vec2<F> weight;    ///< barycentric, of the second and the third corner
     Vec2<F> uv;
     IntOf<F> texture;
 };
@@ -134,6 +136,7 @@ OBSCURA_INLINE TriangleLightSample<F> sample_triangle_light(const TriangleLight*
     const Vec3<F>& e1 = corners.e1;
     const Vec3<F>& e2 = corners.e2;
     TriangleLightSample<F> sample;
+    sample.weight = weight;
     sample.point = corners.p0 + weight.x * e1 + weight.y * e2;
 
     // Divided by the area first: the square of a tiny triangle's cross product would underflow.

@@ -4,10 +4,12 @@
 
 #include "base/parallel.h"
 #include "math/warp.h"
+#include "render/light_alphas.h"
 #include "render/shape_light_table.h"
 #include "surface/texture.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace obscura {
@@ -38,15 +40,12 @@ struct Emitter {
     const Instance* instance;
 };
 
-Vec2f corner_uv(const Emitter& e, uint32_t vertex) {
-    const TextureSlot& slot = e.material.emissive_texture;
-    const int32_t base = e.primitive.uv_base[slot.uv_set];
-    if (base == no_attribute) return {0, 0};
-    const auto word = static_cast<size_t>(base + static_cast<int64_t>(vertex) * 2);
-    const float u = e.scene.attributes[word];
-    const float v = e.scene.attributes[word + 1];
-    const float* m = slot.uv_from_mesh;
-    return {m[0] * u + m[1] * v + m[2], m[3] * u + m[4] * v + m[5]};
+/// The vertices of a triangle, in the order of its record: a mirroring instance turns it round.
+std::array<uint32_t, 3> corners_of(const Emitter& e, int32_t triangle) {
+    const uint32_t* corners =
+        &e.scene.indices[3 * static_cast<size_t>(e.primitive.first_triangle + triangle)];
+    const bool mirrored = e.instance != nullptr && e.instance->mirrored != 0;
+    return {corners[0], corners[mirrored ? 2 : 1], corners[mirrored ? 1 : 2]};
 }
 
 /// Mean emission of a triangle's texture, by a small grid of look-ups at a fitting mip level.
@@ -73,17 +72,14 @@ Vec3f mean_texture(const Scene& scene, const TriangleLight& record) {
 }
 
 TriangleLight light_record(const Emitter& e, int32_t triangle) {
-    const uint32_t* corners =
-        &e.scene.indices[3 * static_cast<size_t>(e.primitive.first_triangle + triangle)];
+    const std::array<uint32_t, 3> corners = corners_of(e, triangle);
     Vec3f p[3];
-    for (int k = 0; k < 3; ++k) {
+    for (size_t k = 0; k < 3; ++k) {
         const float* at = &e.scene.positions[3 * static_cast<size_t>(corners[k])];
         p[k] = {at[0], at[1], at[2]};
         if (e.instance != nullptr) p[k] = transform_point(e.instance->world_from_object, p[k]);
     }
-    const bool mirrored = e.instance != nullptr && e.instance->mirrored != 0;
-    TriangleLight record =
-        mirrored ? make_triangle_light(p[0], p[2], p[1]) : make_triangle_light(p[0], p[1], p[2]);
+    TriangleLight record = make_triangle_light(p[0], p[1], p[2]);
     std::copy_n(e.material.emission, 3, record.emission);
     record.coat = mean_coat(e.scene, e.material);
     record.two_sided = (e.material.flags & material_double_sided) != 0 ? 1 : 0;
@@ -91,12 +87,11 @@ TriangleLight light_record(const Emitter& e, int32_t triangle) {
     const bool has_uv = e.primitive.uv_base[slot.uv_set] != no_attribute;
     record.texture = has_uv ? slot.texture : -1;
     if (record.texture >= 0) {
-        const Vec2f uv[3] = {corner_uv(e, corners[0]),
-                             corner_uv(e, corners[mirrored ? 2 : 1]),
-                             corner_uv(e, corners[mirrored ? 1 : 2])};
-        std::copy_n(&uv[0].x, 2, record.uv0);
-        std::copy_n(&uv[1].x, 2, record.uv1);
-        std::copy_n(&uv[2].x, 2, record.uv2);
+        float* const uv[3] = {record.uv0, record.uv1, record.uv2};
+        for (size_t k = 0; k < 3; ++k) {
+            const Vec2f corner = texture_corner(e.scene, e.primitive, slot, corners[k]);
+            std::copy_n(&corner.x, 2, uv[k]);
+        }
     }
     return record;
 }
@@ -108,8 +103,12 @@ Vec3f emission_of(const Scene& scene, const TriangleLight& record, float least) 
     return record.texture < 0 ? below : below * (mean_texture(scene, record) + splat3(least));
 }
 
-double triangle_power(const Scene& scene, const TriangleLight& record, float least) {
-    const Vec3f emission = emission_of(scene, record, least);
+double triangle_power(const Scene& scene,
+                      const LightTable& table,
+                      const TriangleLight& record,
+                      float least) {
+    const Vec3f emission =
+        emission_of(scene, record, least) * mean_alpha(table.alphas, record.alpha);
     const double sides = record.two_sided != 0 ? 2.0 : 1.0;
     return sides * pi_d * static_cast<double>(record.area) *
            static_cast<double>(max_component(emission));
@@ -140,14 +139,12 @@ void store(const Vec3f& v, float* out) {
 
 /// Position of a triangle of the table, with its corners in the record's order.
 MovingTriangle triangle_at(const Emitter& e, int32_t triangle, int32_t step) {
-    const uint32_t* corners =
-        &e.scene.indices[3 * static_cast<size_t>(e.primitive.first_triangle + triangle)];
-    const bool mirrored = e.instance != nullptr && e.instance->mirrored != 0;
+    const std::array<uint32_t, 3> corners = corners_of(e, triangle);
     const Vec3f p0 = corner_at(e, corners[0], step);
     MovingTriangle out;
     store(p0, out.p0);
-    store(corner_at(e, corners[mirrored ? 2 : 1], step) - p0, out.e1);
-    store(corner_at(e, corners[mirrored ? 1 : 2], step) - p0, out.e2);
+    store(corner_at(e, corners[1], step) - p0, out.e1);
+    store(corner_at(e, corners[2], step) - p0, out.e2);
     return out;
 }
 
@@ -159,6 +156,23 @@ bool is_sampled(const Emitter& e) {
         e.instance == nullptr ? -1 : static_cast<int32_t>(e.instance - e.scene.instances.data());
     if (is_catcher(e.scene, primitive, instance)) return false;
     return e.instance == nullptr || !moves(*e.instance) || !moves(e.primitive);
+}
+
+/// Appends the alpha of an emitter's triangles, from number `first` of the lights on.
+void append_alphas(const Emitter& e, size_t first, LightTable& table) {
+    if (!has_alpha(e.material)) return;
+    const auto count = static_cast<size_t>(e.primitive.triangle_count);
+    std::vector<std::optional<LightAlpha>> alphas(count);
+    parallel_ranges(count, 64, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i)
+            alphas[i] =
+                triangle_alpha(e.scene, e.primitive, corners_of(e, static_cast<int32_t>(i)));
+    });
+    for (size_t i = 0; i < count; ++i) {
+        if (!alphas[i]) continue;
+        table.triangles[first + i].alpha = static_cast<int32_t>(table.alphas.size());
+        table.alphas.push_back(*alphas[i]);
+    }
 }
 
 /// Appends the lights of one instance of a primitive; those that are not sampled have no area.
@@ -184,6 +198,7 @@ void append_records(const Emitter& e, LightTable& table) {
             }
         }
     });
+    append_alphas(e, first, table);
 }
 
 void collect_world_emitters(Scene& scene, LightTable& table) {
@@ -263,8 +278,7 @@ bool is_catcher(const Scene& scene, int32_t primitive, int32_t instance) {
 }
 
 bool emits(const Material& material) {
-    constexpr uint32_t unsampled = material_unlit | material_alpha_mask | material_alpha_blend;
-    return (material.flags & unsampled) == 0 && largest_emission(material) > 0;
+    return (material.flags & material_unlit) == 0 && largest_emission(material) > 0;
 }
 
 LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
@@ -274,7 +288,7 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     if (!scene.motion.lights.empty()) table.moving_punctual = scene.motion.lights.data();
     collect_world_emitters(scene, table);
     collect_instance_emitters(scene, table);
-    table.shapes = collect_shape_lights(scene, static_cast<int32_t>(table.triangles.size()));
+    collect_shape_lights(scene, table);
 
     const double radius = scene_radius(scene.bounds);
     std::vector<double> punctual;
@@ -285,11 +299,11 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     parallel_ranges(triangles.size(), 1024, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             // A dark texel grid must not hide a bright spot: every triangle keeps a little.
-            triangles[i] = triangle_power(scene, table.triangles[i], 1e-3f);
+            triangles[i] = triangle_power(scene, table, table.triangles[i], 1e-3f);
         }
     });
     for (const ShapeLight& light : table.shapes)
-        triangles.push_back(shape_light_power(light));
+        triangles.push_back(shape_light_power(table, light));
     const bool has_environment = environment != nullptr && !environment->black();
     const double environment_power =
         has_environment ? pi_d * radius * radius * environment->power() : 0.0;
@@ -326,8 +340,8 @@ float mean_coat(const Scene& scene, const Material& material) {
     return layers.clearcoat * texel_channel(scene.textures, record, last, 0);
 }
 
-Vec3f mean_emission(const Scene& scene, const TriangleLight& record) {
-    return emission_of(scene, record, 0.0f);
+Vec3f mean_emission(const Scene& scene, const LightTable& table, const TriangleLight& record) {
+    return emission_of(scene, record, 0.0f) * mean_alpha(table.alphas, record.alpha);
 }
 
 double brightest_mean_radiance(const Scene& scene, const LightTable& table) {
@@ -341,7 +355,7 @@ double brightest_mean_radiance(const Scene& scene, const LightTable& table) {
     for (size_t i = 0; i < table.triangles.size(); ++i) {
         const TriangleLight& record = table.triangles[i];
         if (i > 0 && !same_surface(record, table.triangles[i - 1])) power = area = 0;
-        power += triangle_power(scene, record, 0.0f);
+        power += triangle_power(scene, table, record, 0.0f);
         area += (record.two_sided != 0 ? 2.0 : 1.0) * static_cast<double>(record.area);
         const bool is_last =
             i + 1 == table.triangles.size() || !same_surface(record, table.triangles[i + 1]);
@@ -364,7 +378,8 @@ LightView LightTable::view() const {
             environment_spread,
             profiles.view(),
             moving_punctual,
-            moving_triangles.empty() ? nullptr : moving_triangles.data()};
+            moving_triangles.empty() ? nullptr : moving_triangles.data(),
+            alphas.empty() ? nullptr : alphas.data()};
 }
 
 }  // namespace obscura

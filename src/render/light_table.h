@@ -4,6 +4,7 @@
 
 #include "light/cdf_table.h"
 #include "light/environment_table.h"
+#include "light/light_alpha.h"
 #include "light/light_view.h"
 #include "light/shape_light.h"
 #include "light/triangle_light.h"
@@ -20,6 +21,7 @@ struct LightTable {
     std::vector<TriangleLight> triangles;
     std::vector<ShapeLight> shapes;
     std::vector<MovingTriangle> moving_triangles;    ///< see LightView
+    std::vector<LightAlpha> alphas;                  ///< of triangles and shapes
     const PunctualLight* moving_punctual = nullptr;  ///< of the scene
     LightProfileTable profiles;                      ///< of punctual lights
     std::vector<float> select_pdf;
@@ -39,8 +41,7 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment);
 /// The material's emission in its brightest channel, without texture.
 float largest_emission(const Material& material);
 
-/// True for emitters that light sampling can use. Alpha cut-outs are left to BSDF sampling: a point
-/// sampled on a triangle does not know its alpha.
+/// True for materials whose surfaces are lights: all that glow but the unlit ones.
 bool emits(const Material& material);
 
 /// True for shadow catchers, which are no lights whatever their material.
@@ -49,8 +50,11 @@ bool is_catcher(const Scene& scene, int32_t primitive, int32_t instance);
 /// A material's clearcoat factor times the mean of its texture.
 float mean_coat(const Scene& scene, const Material& material);
 
-/// Radiance of a light, with its texture and coat, averaged over the triangle and all directions.
-Vec3f mean_emission(const Scene& scene, const TriangleLight& record);
+/// Radiance of a light, with its texture, coat and alpha, averaged over the triangle and all
+/// directions.
+///
+/// In      record: of the table
+Vec3f mean_emission(const Scene& scene, const LightTable& table, const TriangleLight& record);
 
 /// The maximum over emissive surfaces of the radiance, averaged over area and texture: low if the
 /// textures are black but for a few small spots.

@@ -21,7 +21,8 @@ namespace {
 /// Surfaces with a lower mean radiance do not count as lights (the studio's is about 0.7).
 constexpr double min_lamp_radiance = 0.05;
 
-/// True when an emitter may be missing in the light table: with alpha, or with too complex motion.
+/// True when the light table may not tell how bright an emitter is: with alpha, of which it knows a
+/// mean of samples, or with too complex motion, which it leaves out.
 bool has_unlisted_emitter(const Scene& scene) {
     return std::any_of(
         scene.primitives.begin(), scene.primitives.end(), [&](const Primitive& primitive) {

@@ -3,6 +3,7 @@
 #include "render/raycast_lights.h"
 
 #include "base/parallel.h"
+#include "render/light_alphas.h"
 #include "render/store_vector.h"
 #include "surface/texture.h"
 
@@ -44,18 +45,19 @@ Vec3d vector(const float* v) {
 /// Triangles whose normals stay within about 8 degrees of their mean count as one flat lamp.
 constexpr double flat_fraction = 0.99;
 
-CentreLight centre_of(const Scene& scene, const TriangleLight* lights, size_t count) {
+CentreLight centre_of(const PreparedScene::Impl& impl, const EmitterRange& emitter) {
+    const TriangleLight* const lights = impl.lights.triangles.data() + emitter.first;
     Vec3d flux = splat3(0.0);        // radiance times area
     Vec3d centre_sum = splat3(0.0);  // of triangle centres times their weights
     Vec3d normal = splat3(0.0);
     double weights = 0;
     double area = 0;
     const auto for_each = [&](const auto& use) {
-        for (size_t i = 0; i < count; ++i)
+        for (size_t i = 0; i < emitter.count; ++i)
             use(lights[i], vector(lights[i].p0), vector(lights[i].e1), vector(lights[i].e2));
     };
     for_each([&](const TriangleLight& light, const Vec3d& p0, const Vec3d& e1, const Vec3d& e2) {
-        const Vec3f mean = mean_emission(scene, light);
+        const Vec3f mean = mean_emission(impl.scene, impl.lights, light);
         const Vec3d emission{mean.x, mean.y, mean.z};
         const Vec3d face = cross(e1, e2) * 0.5;
         const double weight = max_component(emission);
@@ -86,7 +88,7 @@ CentreLight centre_of(const Scene& scene, const TriangleLight* lights, size_t co
     return out;
 }
 
-/// Mean of a shape light's texture over its surface.
+/// Mean over a shape light's surface of what it sends out, before its alpha.
 Vec3d mean_shape_emission(const Scene& scene, const ShapeLight& light) {
     const double below_coat = 1 - static_cast<double>(light.coat * mean_coat_reflectance);
     const Vec3d emission = vector(light.emission) * below_coat;
@@ -111,14 +113,15 @@ Vec3d mean_shape_emission(const Scene& scene, const ShapeLight& light) {
     return emission * sum * (1.0 / weights);
 }
 
-CentreLight centre_of(const Scene& scene, const ShapeLight& light) {
+CentreLight centre_of(const PreparedScene::Impl& impl, const ShapeLight& light) {
     CentreLight out;
     const bool sphere = light.kind == static_cast<int32_t>(ShapeLightKind::sphere);
     const double area = static_cast<double>(light.area) * (sphere ? 0.25 : 1.0);
     const double size = sphere ? static_cast<double>(light.radius) : std::sqrt(area);
     std::copy_n(light.centre, 3, out.position);
     std::copy_n(light.y, 3, out.normal);
-    store(mean_shape_emission(scene, light) * area, out.intensity);
+    const double alpha = static_cast<double>(mean_alpha(impl.lights.alphas, light.alpha));
+    store(mean_shape_emission(impl.scene, light) * (area * alpha), out.intensity);
     out.min_distance_squared = static_cast<float>(area / pi_d);
     out.flat = sphere ? 0 : 1;
     out.two_sided = light.two_sided;
@@ -194,13 +197,9 @@ RaycastLights make_raycast_lights(const PreparedScene::Impl& impl) {
     RaycastLights out;
     const std::vector<EmitterRange> emitters = list_emitters(impl.scene);
     out.centres.resize(emitters.size());
-    parallel_for(emitters.size(), [&](size_t i) {
-        const EmitterRange& emitter = emitters[i];
-        out.centres[i] =
-            centre_of(impl.scene, impl.lights.triangles.data() + emitter.first, emitter.count);
-    });
+    parallel_for(emitters.size(), [&](size_t i) { out.centres[i] = centre_of(impl, emitters[i]); });
     for (const ShapeLight& light : impl.lights.shapes)
-        out.centres.push_back(centre_of(impl.scene, light));
+        out.centres.push_back(centre_of(impl, light));
     out.centres.erase(std::remove_if(out.centres.begin(),
                                      out.centres.end(),
                                      [](const CentreLight& light) { return !shines(light); }),

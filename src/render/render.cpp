@@ -68,6 +68,10 @@ WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
         options.ao_distance_m > 0 ? static_cast<float>(options.ao_distance_m) : 0.2f * diagonal;
     batch.footprint_fraction = footprint_fraction(samples_taken(options));
     batch.wire_width_px = static_cast<float>(options.wire_width_px);
+    batch.clamp_direct = static_cast<float>(options.clamp_direct);
+    batch.clamp_indirect = static_cast<float>(options.clamp_indirect);
+    batch.caustics = options.caustics;
+    batch.regularize = options.regularize && options.caustics;
     const auto& eye = camera.world_from_camera.m;
     batch.medium_stack =
         medium_stack_around(*scene.accel, scene.scene, {eye[0][3], eye[1][3], eye[2][3]});

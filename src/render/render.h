@@ -87,6 +87,12 @@ struct RenderOptions {
     bool catcher_reflections = false;  ///< shadow catchers reflect other surfaces
     double ao_distance_m = 0;          ///< 0: a fifth of the scene's diagonal
     double wire_width_px = 1;
+    /// The most that a contribution to a sample may have in any channel, where light comes straight
+    /// to the first surface and where it comes by way of others; 0: anything. They darken the
+    /// image.
+    double clamp_direct = 0, clamp_indirect = 0;
+    bool caustics = true;     ///< false: no light by way of smooth surfaces to rough ones
+    bool regularize = false;  ///< smooth surfaces are rougher to light that goes on to rough ones
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
     int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling
     /// Memory of an earlier film, to reuse; null or empty: new memory.

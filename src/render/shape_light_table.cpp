@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/shape_light_table.h"
 
-#include "render/light_table.h"
+#include "render/light_alphas.h"
 #include "render/store_vector.h"
 
 #include <algorithm>
@@ -94,18 +94,34 @@ std::optional<ShapeLight> light_of(const Scene& scene,
     return light;
 }
 
+/// Adds a light with its alpha, and returns its number; nothing where it is not sampled.
+std::optional<int32_t> add_light(const Scene& scene,
+                                 const Primitive& primitive,
+                                 std::optional<ShapeLight> light,
+                                 LightTable& table) {
+    if (!light) return std::nullopt;
+    const Material& material = scene.materials[static_cast<size_t>(primitive.material)];
+    const bool sphere = light->kind == static_cast<int32_t>(ShapeLightKind::sphere);
+    const auto alpha =
+        has_alpha(material) ? shape_alpha(scene, material, sphere) : std::optional<LightAlpha>();
+    if (alpha && sphere && light->two_sided != 0) return std::nullopt;
+    if (alpha) {
+        light->alpha = static_cast<int32_t>(table.alphas.size());
+        table.alphas.push_back(*alpha);
+    }
+    table.shapes.push_back(*light);
+    return static_cast<int32_t>(table.triangles.size() + table.shapes.size() - 1);
+}
+
 }  // namespace
 
-std::vector<ShapeLight> collect_shape_lights(Scene& scene, int32_t first) {
-    std::vector<ShapeLight> lights;
-    const auto next = [&] { return first + static_cast<int32_t>(lights.size()); };
+void collect_shape_lights(Scene& scene, LightTable& table) {
     for (int32_t i = 0; i < scene.world_primitive_count; ++i) {
         Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
         if (is_mesh(primitive)) continue;
         auto light = light_of(scene, primitive, {});
         if (is_catcher(scene, i, -1)) light.reset();
-        primitive.light_base = light ? next() : -1;
-        if (light) lights.push_back(*light);
+        primitive.light_base = add_light(scene, primitive, light, table).value_or(-1);
     }
     for (Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
@@ -113,22 +129,19 @@ std::vector<ShapeLight> collect_shape_lights(Scene& scene, int32_t first) {
         Primitive& primitive = scene.primitives[static_cast<size_t>(mesh.first_primitive)];
         if (primitive.geometry != static_cast<int32_t>(GeometryKind::shapes)) continue;
         // Whether a shape can be sampled depends on its instance's transform.
-        const auto light =
-            light_of(scene, primitive, affine_cast<double>(instance.world_from_object));
+        auto light = light_of(scene, primitive, affine_cast<double>(instance.world_from_object));
         primitive.light_base = 0;
         const auto number = static_cast<int32_t>(&instance - scene.instances.data());
-        const bool known =
-            light && !moves(instance) && !is_catcher(scene, mesh.first_primitive, number);
-        instance.light_base = known ? next() : no_light_base;
-        if (known) lights.push_back(*light);
+        if (moves(instance) || is_catcher(scene, mesh.first_primitive, number)) light.reset();
+        instance.light_base = add_light(scene, primitive, light, table).value_or(no_light_base);
     }
-    return lights;
 }
 
-double shape_light_power(const ShapeLight& light) {
+double shape_light_power(const LightTable& table, const ShapeLight& light) {
     const double sides = light.two_sided != 0 ? 2.0 : 1.0;
     const float most = std::max({light.emission[0], light.emission[1], light.emission[2]});
-    return sides * pi_d * static_cast<double>(light.area) * static_cast<double>(most);
+    return sides * pi_d * static_cast<double>(light.area) * static_cast<double>(most) *
+           static_cast<double>(mean_alpha(table.alphas, light.alpha));
 }
 
 double brightest_shape_radiance(const Scene& scene) {

@@ -239,6 +239,8 @@ void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& che
     checks.real("max-bounces", sampling.max_bounces, 0, 1000);
     checks.real("ao-distance", sampling.ao_distance_m, 1e-9, 1e12);
     checks.real("wire-width", sampling.wire_width_px, 0.01, 1000);
+    checks.real("clamp-direct", sampling.clamp_direct, 0, 1e12);
+    checks.real("clamp-indirect", sampling.clamp_indirect, 0, 1e12);
     checks.real("crypto-levels", sampling.crypto_levels, 1, 64);
     out.integrator = static_cast<Integrator>(sampling.integrator);
     out.samples_per_pixel = sampling.samples_per_pixel;
@@ -247,6 +249,10 @@ void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& che
     out.filter = static_cast<PixelFilter>(sampling.filter);
     out.ao_distance_m = sampling.ao_distance_m.value_or(0);
     out.wire_width_px = sampling.wire_width_px;
+    out.clamp_direct = sampling.clamp_direct;
+    out.clamp_indirect = sampling.clamp_indirect;
+    out.caustics = sampling.caustics;
+    out.regularize = sampling.regularize;
 }
 
 }  // namespace

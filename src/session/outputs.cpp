@@ -146,6 +146,15 @@ void warn_of(const WriteReport& report, const std::string& file, Log& log) {
     }
 }
 
+/// What is asked for against fireflies at the price of a bias; nothing where there is none.
+void add_bias(const RenderOptions& options, std::vector<ImageAttribute>& extra) {
+    if (options.clamp_direct > 0) extra.push_back({"obscura:clampDirect", options.clamp_direct});
+    if (options.clamp_indirect > 0)
+        extra.push_back({"obscura:clampIndirect", options.clamp_indirect});
+    if (!options.caustics) extra.push_back({"obscura:caustics", "off"});
+    if (options.regularize) extra.push_back({"obscura:regularize", "on"});
+}
+
 }  // namespace
 
 Result<void> check_outputs(const RenderRequest& request) {
@@ -225,6 +234,7 @@ ImageMetadata make_metadata(const RenderRequest& request,
                       {"obscura:xmp", info.xmp},
                       {"obscura:variant", info.variant}};
     if (info.time_s) metadata.extra.push_back({"obscura:timeSeconds", *info.time_s});
+    if (has_catchers(options.integrator)) add_bias(options, metadata.extra);
     if (chosen.ev100) {
         metadata.extra.push_back({"obscura:ev100", *chosen.ev100});
         metadata.extra.push_back({"obscura:exposureScale", exposure_scale(*chosen.ev100)});

@@ -10,6 +10,7 @@
 #include "light/punctual_sample.h"
 #include "light/record_words.h"
 #include "light/triangle_light.h"
+#include "stages/3_light_alpha.h"
 #include "stages/3_moving_lights.h"
 #include "stages/3_shape_lights.h"
 #include "stages/3_surface.h"
@@ -65,6 +66,12 @@ OBSCURA_INLINE LightLanes sample_triangle_lights(const SceneView& scene,
         const Rgba<Lanes> texel =
             sample_texture_stochastic<Lanes>(scene.textures, texture, s.uv, Lanes(0.0f), random);
         emission = select(textured, emission * texel.rgb, emission);
+    }
+    if (scene.lights.alphas != nullptr) {
+        const TableRecord<Lanes, TriangleLight> record(lights, index);
+        const Vec2<Lanes> weight = s.weight;  // only a copy has an address
+        emission =
+            emission * sampled_light_alpha(scene, record.integer<&TriangleLight::alpha>(), weight);
     }
     // End before the light's own triangle by the rounding error and no more: geometry that covers
     // the light closely must still be hit.

@@ -10,11 +10,13 @@ inline namespace OBSCURA_ISA {
 
 // The medium stack: the media that a path is inside of, as nested dielectrics with priorities.
 // PathColumns::medium_stack holds, from the upper end:
-//   bits 31-24  1 once the path has been given one wavelength (dispersion)
+//   bit  25     1 once the path has scattered roughly, where BatchSettings asks for that
+//   bit  24     1 once the path has been given one wavelength (dispersion)
 //   bits 23-0   the numbers of up to three media that overlap here, the greatest first; 0: none
 // The greatest number dominates (scene/media.h). Of more than three, the least is dropped.
 
 inline constexpr uint32_t one_wavelength = 1U << 24;
+inline constexpr uint32_t scattered_roughly = 1U << 25;
 
 /// Number of the dominant medium.
 OBSCURA_INLINE LanesI dominant_medium(LanesU medium_stack) {

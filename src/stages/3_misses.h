@@ -6,6 +6,7 @@
 #include "stages/3_light_paths.h"
 #include "stages/3_lights.h"
 #include "stages/3_shade.h"
+#include "stages/contribution_limit.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -68,6 +69,7 @@ inline void shade_misses(const SceneView& scene,
         if (batch.background_visible) add_background(environment, count_in, columns);
         return;
     }
+    const float limit = contribution_limit(batch, bounce);
     MetPixel met[groups_ahead];
     for (int first = 0; first < count_in; first += groups_ahead * lane_count) {
         const int end = min(first + groups_ahead * lane_count, count_in);
@@ -82,7 +84,7 @@ inline void shade_misses(const SceneView& scene,
             const LanesU slot = load(m.slot + i);
             Vec3<Lanes> light = Vec3<Lanes>{pixel.x, pixel.y, pixel.z} * weight;
             if (scene.occludes) light = light * last_occlusion(columns, exists, slot);
-            light = light * load3(m.tr, m.tg, m.tb, i);
+            light = limit_contribution(light * load3(m.tr, m.tg, m.tb, i), limit);
             add_radiance(columns.samples, exists, slot, light);
             if (columns.light_paths != nullptr)
                 add_background_light(*columns.light_paths, exists, slot, light);

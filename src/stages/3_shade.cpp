@@ -5,8 +5,10 @@
 #include "math/sampler.h"
 #include "stages/3_lights.h"
 #include "stages/3_misses.h"
+#include "stages/3_rough_paths.h"
 #include "stages/3_scatter.h"
 #include "stages/3_thin_walls.h"
+#include "stages/contribution_limit.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -52,7 +54,24 @@ struct Bounce {
     int number;
     bool is_over;                         ///< paths do not scatter any more
     const LightPathColumns* light_paths;  ///< null: no light layers are asked for
+    float limit_of_found;                 ///< contribution_limit of light that the paths met
+    float limit_of_sampled;               ///< and of what their shadow rays bring
+    bool marks_rough;                     ///< rough scatterings are noted: scattered_roughly
 };
+
+OBSCURA_INLINE Bounce begin_bounce(const SceneView& scene,
+                                   const BatchSettings& batch,
+                                   int number,
+                                   const ShadeColumns& columns) {
+    return {.scene = scene,
+            .batch = batch,
+            .number = number,
+            .is_over = number > batch.max_bounces,
+            .light_paths = columns.light_paths,
+            .limit_of_found = contribution_limit(batch, number),
+            .limit_of_sampled = contribution_limit(batch, number + 1),
+            .marks_rough = batch.regularize || !batch.caustics};
+}
 
 /// One group of paths at their hits.
 struct ShadedGroup {
@@ -122,7 +141,7 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
     light = select(unlit, light + s.bsdf.base_color, light);
     const Mask any_light = glows | unlit;
     if (none(any_light)) return;
-    light = path.throughput * light;
+    light = limit_contribution(path.throughput * light, bounce.limit_of_found);
     add_radiance(columns.samples, any_light, path.slot, light);
     if (bounce.light_paths != nullptr)
         add_emitted_light(*bounce.light_paths, any_light, group.hit, path.slot, light);
@@ -174,6 +193,7 @@ OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
                 : path.medium_stack;
         radiance = radiance * transmittance_to_light(scene, useful, medium_stack, light.distance);
     }
+    radiance = limit_contribution(radiance, bounce.limit_of_sampled);
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
     if (bounce.light_paths != nullptr && any(useful)) {
@@ -252,6 +272,10 @@ OBSCURA_INLINE int add_next_rays(const Bounce& bounce,
         next.origin = select(reflected_side, next.origin, s.transmitted_start);
         next.medium_stack = medium_stack_towards(s, path.medium_stack, reflected_side);
     }
+    if (bounce.marks_rough) {
+        const LanesU mark(scattered_roughly);
+        next.medium_stack = next.medium_stack | select(is_rough(sample.spread), mark, LanesU(0U));
+    }
     return append_paths(columns, at, goes_on, next);
 }
 
@@ -295,6 +319,21 @@ OBSCURA_INLINE PassedThinWalls add_straight_rays(const ShadeColumns& columns,
     return passed;
 }
 
+/// Changes the lobes of the paths that have scattered roughly.
+///
+/// In      change: regularize or remove_smooth_lobes
+OBSCURA_INLINE void change_lobes(const PathLanes& path,
+                                 void (*change)(RoughPathHit&, LayeredPoint*),
+                                 ShadingPoint& s) {
+    const Mask rough = (path.medium_stack & LanesU(scattered_roughly)) != LanesU(0U);
+    if (none(rough)) return;
+    // A copy: else all of `s` would have an address, and live in memory.
+    RoughPathHit hit{rough, to_local(s.frame, -path.direction), s.bsdf, s.lobes};
+    change(hit, s.any_layers ? &s.layers : nullptr);
+    s.bsdf = hit.bsdf;
+    s.lobes = hit.lobes;
+}
+
 /// Attenuates the paths by the absorption of the medium they came through. In scattering media
 /// stage 2 has already done so.
 OBSCURA_INLINE void absorb(const SceneView& scene, Mask exists, Lanes distance, PathLanes& path) {
@@ -313,11 +352,7 @@ ShadeCounts shade(const SceneView& scene,
                   int number,
                   int count_in,
                   const ShadeColumns& columns) {
-    const Bounce bounce{.scene = scene,
-                        .batch = batch,
-                        .number = number,
-                        .is_over = number > batch.max_bounces,
-                        .light_paths = columns.light_paths};
+    const Bounce bounce = begin_bounce(scene, batch, number, columns);
     if (number == 0) set_camera_alpha(batch, count_in, columns);
     const SortedCounts sorted = sort_hits_from_misses(count_in, columns);
     shade_misses(scene, batch, number, sorted.misses, columns);
@@ -336,6 +371,7 @@ ShadeCounts shade(const SceneView& scene,
         BounceRandom random = bounce_random(path, number);
         ShadingPoint s = shading_point(
             scene, hit, path, {Filtering::stochastic, random.texture, batch.footprint_fraction});
+        if (batch.regularize) change_lobes(path, regularize, s);
         const ShadedGroup group{path, s, random, draws[k], hit};
         add_emission(bounce, columns, exists, group);
         Mask scatters = exists & (!s.unlit);
@@ -347,6 +383,7 @@ ShadeCounts shade(const SceneView& scene,
             turns = passed.others;
         }
         if (bounce.is_over || none(scatters)) continue;
+        if (!batch.caustics) change_lobes(path, remove_smooth_lobes, s);
         if (s.any_layers) {
             out.next = add_passing_rays(columns.next, out.next, scatters, group);
             const Mask hidden = s.layers.layered & s.layers.boundary.hidden;

@@ -4,6 +4,7 @@
 
 #include "light/light_view.h"
 #include "light/shape_light.h"
+#include "stages/3_light_alpha.h"
 #include "stages/column_lanes.h"
 #include "surface/texture.h"
 
@@ -41,6 +42,11 @@ inline __attribute__((noinline)) void sample_shape_lights(const SceneView& scene
         const Rgba<Lanes> texel = sample_texture_bilinear<Lanes>(
             scene.textures, select(textured, texture, LanesI(0)), uv, Lanes(0.0f));
         out.emission = select(textured, out.emission * texel.rgb, out.emission);
+    }
+    if (scene.lights.alphas != nullptr) {
+        const LanesI alpha = record.integer<&ShapeLight::alpha>();
+        const Vec2<Lanes> uv = s.uv;  // only a copy has an address
+        out.emission = out.emission * sampled_light_alpha(scene, alpha, uv);
     }
     const Lanes size = dot(abs(s.normal), abs(s.point) + abs(from));
     const Lanes clear = Lanes(32.0f / 16777216.0f) * (size + s.distance * Lanes(0.25f));

@@ -184,6 +184,12 @@ struct BatchSettings {
     bool through_centres = false;      ///< all samples go through the centres of pixel and lens
     float film_offset_px[2] = {0, 0};  ///< of centre rays, from the pixel's centre
     float wire_width_px = 1;
+    /// The most that a contribution may have, after one scattering and after several; 0: anything.
+    /// See stages/contribution_limit.h.
+    float clamp_direct = 0, clamp_indirect = 0;
+    /// What smooth lobes do after a rough scattering: see stages/3_rough_paths.h.
+    bool caustics = true;     ///< false: nothing
+    bool regularize = false;  ///< they are widened, where there are caustics
 };
 
 inline constexpr int filter_entries = 256;

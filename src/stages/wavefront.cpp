@@ -286,7 +286,7 @@ void follow_paths(
         }
         if (in.scene.scatters) scatter_in_media(in, count, bounce, work, c);
         if (in.scene.touching_media != nullptr) cross_shared_faces(in, count, see_through, work);
-        if (in.accel->has_splats()) pass_splats(in, count, bounce == 0, work, c);
+        if (in.accel->has_splats()) pass_splats(in, count, bounce, work, c);
         if (bounce > 0 && work.looking_for_albedo > 0) look_for_albedo(in, count, bounce, work, c);
         if (in.light_paths != nullptr) work.light_paths.begin_bounce();
         if (bounce > 0 && in.visibility != nullptr)
@@ -336,7 +336,7 @@ void trace_ao(const WavefrontInput& in, int count, Workspace& work, WavefrontCou
 void trace_raycast(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
     const int max_lights = in.notes != nullptr ? 1 : batch_size / 16;
     intersect_camera_rays(in, count, {.fixed_alpha = true}, work, c);
-    if (in.accel->has_splats()) pass_splats(in, count, true, work, c);
+    if (in.accel->has_splats()) pass_splats(in, count, 0, work, c);
     int hits = 0;
     {
         if (in.notes != nullptr) in.notes->add_ray(work.paths[0], work.hits);

@@ -3,6 +3,7 @@
 #include "stages/wavefront_splats.h"
 
 #include "base/stopwatch.h"
+#include "stages/contribution_limit.h"
 
 namespace obscura {
 
@@ -48,7 +49,9 @@ SplatColumns splat_columns_of(Workspace& work) {
 }  // namespace
 
 void pass_splats(
-    const WavefrontInput& in, int count, bool camera, Workspace& work, WavefrontCounters& c) {
+    const WavefrontInput& in, int count, int bounce, Workspace& work, WavefrontCounters& c) {
+    const bool camera = bounce == 0;
+    const float limit = contribution_limit(in.batch, bounce);
     const SumOfTime time(camera ? c.seconds.intersect_camera : c.seconds.intersect_bounce);
     const PathColumns& p = work.paths[0];
     RayColumns rays = rays_of(p, count);
@@ -62,7 +65,8 @@ void pass_splats(
         const bool shows = p.tr[i] != 0;  // inside the camera's image
         if (passes == 1.0f || (camera && !shows)) continue;
         const uint32_t slot = p.slot[i];
-        const Vec3f light{p.tr[i] * found.r[i], p.tg[i] * found.g[i], p.tb[i] * found.b[i]};
+        const Vec3f light = limit_contribution(
+            Vec3f{p.tr[i] * found.r[i], p.tg[i] * found.g[i], p.tb[i] * found.b[i]}, limit);
         work.samples.r[slot] += light.x;
         work.samples.g[slot] += light.y;
         work.samples.b[slot] += light.z;

@@ -187,6 +187,10 @@ TEST(RenderRequest, TheDefaultsAreTheDocumentedOnes) {
     EXPECT_EQ(request->options.filter, PixelFilter::box);
     EXPECT_EQ(request->options.background, BackgroundKind::environment);
     EXPECT_EQ(request->options.tile_size, 16);
+    EXPECT_EQ(request->options.clamp_direct, 0);
+    EXPECT_EQ(request->options.clamp_indirect, 0);
+    EXPECT_TRUE(request->options.caustics);
+    EXPECT_FALSE(request->options.regularize);
     EXPECT_FALSE(request->options.crop);
     EXPECT_EQ(request->threads, 0);
     EXPECT_EQ(request->isa, Isa::automatic);
@@ -236,6 +240,10 @@ RenderArguments every_option() {
     a.line_width = "5px";
     a.integrator = "ao";
     a.ao_distance = "0.5";
+    a.clamp_direct = "20";
+    a.clamp_indirect = "2.5";
+    a.caustics = "off";
+    a.regularize = true;
     a.filter = "gaussian";
     a.view = "V";
     a.display = "D";
@@ -292,6 +300,10 @@ TEST(RenderRequest, ImageAndSamplingOptionsArrive) {
     EXPECT_EQ(request->load.scene, 3);
     EXPECT_EQ(options.integrator, Integrator::ao);
     EXPECT_EQ(options.ao_distance_m, 0.5);
+    EXPECT_EQ(options.clamp_direct, 20);
+    EXPECT_EQ(options.clamp_indirect, 2.5);
+    EXPECT_FALSE(options.caustics);
+    EXPECT_TRUE(options.regularize);
     EXPECT_EQ(request->points_lines.points.diameter, 0.25);
     EXPECT_EQ(request->points_lines.points.unit, LengthUnit::metres);
     EXPECT_EQ(request->points_lines.lines.diameter, 5);

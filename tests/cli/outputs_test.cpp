@@ -77,6 +77,34 @@ TEST_F(Outputs, TheExrSpeaksAboutItself) {
     EXPECT_NE(spec.find_attribute("worldToNDC", OIIO::TypeMatrix44), nullptr);
 }
 
+TEST_F(Outputs, TheExrNamesWhatMakesItBiased) {
+    expect_result(render("box.gltf", {"-o", "a.exr"}), 0, "OK");
+    const std::vector<std::string> options = {"--clamp-direct",
+                                              "20",
+                                              "--clamp-indirect",
+                                              "2.5",
+                                              "--caustics",
+                                              "off",
+                                              "--regularize",
+                                              "-o",
+                                              "b.exr"};
+    expect_result(render("box.gltf", options), 0, "OK");
+    const auto plain = read_image_file(folder_ / "a.exr");
+    const auto biased = read_image_file(folder_ / "b.exr");
+    ASSERT_TRUE(plain && biased);
+    for (const char* name : {"clampDirect", "clampIndirect", "caustics", "regularize"})
+        EXPECT_EQ(plain->spec.find_attribute("obscura:" + std::string(name)), nullptr) << name;
+    const OIIO::ImageSpec& spec = biased->spec;
+    const auto number = [&](const char* name) {
+        const OIIO::ParamValue* value = spec.find_attribute(name);
+        return value == nullptr ? 0.0F : value->get_float();
+    };
+    EXPECT_EQ(number("obscura:clampDirect"), 20);
+    EXPECT_EQ(number("obscura:clampIndirect"), 2.5F);
+    EXPECT_EQ(spec.get_string_attribute("obscura:caustics"), "off");
+    EXPECT_EQ(spec.get_string_attribute("obscura:regularize"), "on");
+}
+
 TEST_F(Outputs, AovsAreFloatsInExrAndReadableInPng) {
     const std::vector<std::pair<std::string, size_t>> aovs = {
         {"normal", 3}, {"depth", 1}, {"id", 3}, {"facing", 1}, {"distance", 1}, {"heat", 1}};

@@ -186,7 +186,7 @@ TEST(CdfTable, ADrawTellsThePlaceAmongTheNumbersOfItsIndex) {
         const CdfDraw<float> draw = draw_cdf<float>(table.data(), 50, bits);
         ASSERT_EQ(draw.index, sample_cdf<float>(table.data(), 50, bits));
         const auto index = static_cast<size_t>(draw.index);
-        const double from_first = bits - double{table[index].first_random};
+        const double from_first = bits - static_cast<double>(table[index].first_random);
         ASSERT_NEAR(draw.place, from_first / (shares[index] * 0x1p32), 1e-5);
         ASSERT_LT(draw.place, 1.0f);
     }

@@ -183,6 +183,19 @@ TEST_P(EverySurface, ComponentsAddUpToTheBeauty) {
     EXPECT_EQ(mean_of(result, "volume"), 0);
 }
 
+TEST_P(EverySurface, ComponentsAddUpWithOptionsAgainstFireflies) {
+    for (const bool caustics : {false, true}) {
+        RenderOptions options = light_options(components(), 8);
+        options.clamp_direct = 0.5;
+        options.clamp_indirect = 0.05;
+        options.caustics = caustics;
+        options.regularize = true;
+        const RenderResult result = render_scene(
+            lit_room(GetParam()), {constant_environment(0.3f)}, room_camera(), options);
+        expect_sum(result, is_any);
+    }
+}
+
 TEST_P(EverySurface, BeautyKeepsItsBits) {
     const auto render = [&](std::vector<Layer> layers) {
         return render_scene(lit_room(GetParam()),

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/arena_images.h"
 #include "support/scene_builder.h"
 #include <numeric>
 
@@ -208,6 +209,69 @@ TEST(LightTable, AHalfBlackTextureHalvesThePower) {
     EXPECT_LT(chosen(table, 4, 2), 0.01 * white);
     // The white half lies in one triangle of the square for three quarters.
     EXPECT_NEAR(table.select_pdf[2], 3 * table.select_pdf[3], 0.1f * table.select_pdf[2]);
+    expect_whole(table);
+}
+
+TEST(LightTable, AlphaTakesItsShareOfThePower) {
+    const auto with_alpha = [](uint32_t mode, float alpha) {
+        Material m = lamp(5);
+        m.flags |= mode;
+        m.base_color[3] = alpha;
+        return m;
+    };
+    SceneBuilder builder;
+    const Material cases[] = {lamp(5),
+                              with_alpha(material_alpha_blend, 0.25f),
+                              with_alpha(material_alpha_blend, 1),
+                              with_alpha(material_alpha_mask, 0.5f),
+                              with_alpha(material_alpha_mask, 0.49f)};
+    for (size_t i = 0; i < std::size(cases); ++i)
+        add_lamp(builder, 1 + static_cast<float>(i), 1, cases[i]);
+    Scene scene = builder.take();
+    const LightTable table = make_light_table(scene, nullptr);
+    ASSERT_EQ(table.select_pdf.size(), 10U);
+    const double whole = chosen(table, 0, 2);
+    const double shares[] = {1, 0.25, 1, 1, 0};
+    for (size_t i = 0; i < 5; ++i) {
+        EXPECT_NEAR(chosen(table, 2 * i, 2), shares[i] * whole, 1e-5 * whole) << i;
+        EXPECT_EQ(table.triangles[2 * i].alpha >= 0, shares[i] < 1) << i;
+    }
+    EXPECT_EQ(table.alphas.size(), 4U) << "what is opaque throughout has none";
+    expect_whole(table);
+}
+
+TEST(LightTable, AlphaOfATextureAndOfVertices) {
+    SceneBuilder builder;
+    TextureArena& arena = builder.scene().textures;
+    const uint32_t sharp =
+        pack_sampler(Wrap::clamp, Wrap::clamp, true, true, MipMode::nearest, false);
+    // Clear for u below a quarter, and in all of the second one.
+    const int32_t images[] = {
+        test::add_image(arena, 8, sharp, [](int x, int) { return x < 2 ? 0U : 0xFF000000U; }),
+        test::add_image(arena, 8, sharp, [](int, int) { return 0U; })};
+    for (const int32_t image : images) {
+        Material m = lamp(5);
+        m.flags |= material_alpha_mask;
+        m.base_color_texture.texture = image;
+        add_lamp(builder, 1 + static_cast<float>(image), 1, m);
+    }
+    Material faded = lamp(5);
+    faded.flags |= material_alpha_blend;
+    add_lamp(builder, 4, 1, faded);
+    add_lamp(builder, 5, 1, lamp(5));
+    Scene scene = builder.take();
+    add_uv(scene, 0);
+    add_uv(scene, 1);
+    Primitive& p = scene.primitives[2];
+    p.color_base = static_cast<int32_t>(scene.attributes.size()) - 4 * 8;
+    for (const float alpha : {0.2f, 0.8f, 0.8f, 0.2f})
+        scene.attributes.insert(scene.attributes.end(), {1, 1, 1, alpha});
+    const LightTable table = make_light_table(scene, nullptr);
+    const double whole = chosen(table, 6, 2);
+    EXPECT_NEAR(chosen(table, 0, 2), 0.75 * whole, 0.04 * whole);
+    EXPECT_GT(chosen(table, 2, 2), 0.0) << "the look-ups may have missed something";
+    EXPECT_LT(chosen(table, 2, 2), 0.01 * whole);
+    EXPECT_NEAR(chosen(table, 4, 2), 0.5 * whole, 0.02 * whole);
     expect_whole(table);
 }
 
