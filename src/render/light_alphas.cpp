@@ -12,7 +12,7 @@ namespace obscura {
 namespace {
 
 /// A hole may be all that the look-ups for the mean find: what varies keeps a little of its power.
-constexpr float least_mean = 1e-3f;
+constexpr float min_mean = 1e-3f;
 
 /// Look-ups for the mean, along a side of the square that they are spread over.
 constexpr int mean_side = 8;
@@ -34,7 +34,7 @@ void set_mean(const Scene& scene, const Map& weight, LightAlpha& out) {
                       (static_cast<float>(row) + 0.5f) / mean_side};
         sum += light_alpha<float>(textures, values, weight(u));
     }
-    out.mean = std::max(sum / (mean_side * mean_side), least_mean);
+    out.mean = std::max(sum / (mean_side * mean_side), min_mean);
 }
 
 /// The same where alpha is one number; nothing if that is opaque.

@@ -11,8 +11,8 @@ namespace {
 
 OBSCURA_INLINE Lanes widened(Mask rough, Lanes width) {
     const Lanes wide =
-        clamp(width * Lanes(2.0f), Lanes(1.0f / 3 * least_rough_width), Lanes(least_rough_width));
-    return select(rough & (width < Lanes(least_rough_width)), wide, width);
+        clamp(width * Lanes(2.0f), Lanes(1.0f / 3 * min_rough_width), Lanes(min_rough_width));
+    return select(rough & (width < Lanes(min_rough_width)), wide, width);
 }
 
 void regularize_layers(const RoughPathHit& hit, LayeredPoint& point) {
@@ -41,7 +41,7 @@ void remove_smooth_layers(Mask rough, LayeredPoint& point) {
     const LayeredParams<Lanes>& p = point.params;
     LayeredWeights<Lanes>& w = point.weights;
     const Lanes before = sum_of_probabilities(SampledLobes{}, w);
-    const Lanes smooth_square(least_rough_width * least_rough_width);
+    const Lanes smooth_square(min_rough_width * min_rough_width);
     const Mask facets = rough & point.layered & (p.alpha.x * p.alpha.y < smooth_square);
     w.dielectric = select(facets, zero, w.dielectric);
     w.metal = select(facets, splat3(zero), w.metal);
@@ -50,7 +50,7 @@ void remove_smooth_layers(Mask rough, LayeredPoint& point) {
     w.through_factor = select(facets, zero, w.through_factor);
     w.reflects = select(facets, Lanes(1.0f), w.reflects);
     w.facetwise = w.facetwise & (!facets);
-    const Mask coat = rough & point.layered & (p.coat_alpha < Lanes(least_rough_width));
+    const Mask coat = rough & point.layered & (p.coat_alpha < Lanes(min_rough_width));
     w.coat_factor = select(coat, zero, w.coat_factor);
     w.p_coat = select(coat, zero, w.p_coat);
     const Lanes after = sum_of_probabilities(SampledLobes{}, w);
@@ -68,7 +68,7 @@ void regularize(RoughPathHit& hit, LayeredPoint* layers) {
 
 void remove_smooth_lobes(RoughPathHit& hit, LayeredPoint* layers) {
     const Lanes zero(0.0f);
-    const Mask smooth = hit.rough & (hit.bsdf.alpha < Lanes(least_rough_width));
+    const Mask smooth = hit.rough & (hit.bsdf.alpha < Lanes(min_rough_width));
     LobeWeights<Lanes>& w = hit.lobes;
     w.specular_f0 = select(smooth, splat3(zero), w.specular_f0);
     w.specular_rise = select(smooth, splat3(zero), w.specular_rise);

@@ -12,13 +12,13 @@ namespace obscura {
 inline namespace OBSCURA_ISA {
 
 /// Lobes of this GGX width and wider, and all that have none, are rough; the others are smooth.
-inline constexpr float least_rough_width = 0.3f;
+inline constexpr float min_rough_width = 0.3f;
 
 /// True where a sampled lobe is rough.
 ///
 /// In      spread: as BsdfSample has it, half the GGX width
 OBSCURA_INLINE Mask is_rough(Lanes spread) {
-    return spread >= Lanes(0.5f * least_rough_width);
+    return spread >= Lanes(0.5f * min_rough_width);
 }
 
 /// Hits whose lobes may change.
