@@ -9,9 +9,9 @@
 namespace obscura::test {
 namespace {
 
-constexpr int side = 16;
+constexpr int fireflies_side = 16;
 
-Material plain(float base, float roughness, float metallic) {
+Material two_sided(float base, float roughness, float metallic) {
     Material m;
     std::fill_n(m.base_color, 3, base);
     m.roughness = roughness;
@@ -26,7 +26,7 @@ Scene floor_by_a_wall(const Material& wall, const MaterialLayers* layers = nullp
     const int32_t index =
         layers != nullptr ? scene.add(wall, *layers) : scene.builder.material(wall);
     scene.builder.quad({0.5f, 0, -1}, {0, 2, 0}, {0, 0, 2}, index);
-    Material lamp = plain(0, 1, 0);
+    Material lamp = two_sided(0, 1, 0);
     std::fill_n(lamp.emission, 3, 5.0f);
     scene.builder.quad({-0.5f, 1.5f, -0.5f}, {0.5f, 0, 0}, {0, 0, 1}, scene.builder.material(lamp));
     scene.light(lamp_at({-0.3f, 1, 0.2f}));
@@ -35,7 +35,7 @@ Scene floor_by_a_wall(const Material& wall, const MaterialLayers* layers = nullp
 
 RenderOptions few_samples() {
     RenderOptions options;
-    options.width = options.height = side;
+    options.width = options.height = fireflies_side;
     options.samples_per_pixel = 64;
     options.max_bounces = 3;
     return options;
@@ -43,7 +43,7 @@ RenderOptions few_samples() {
 
 /// The pixels of a view of the floor alone.
 std::vector<float> floor_pixels(Scene scene, const RenderOptions& options) {
-    const Camera camera = look_at({0, 1, 0.8f}, {0, 0, 0}, 0.2f, side, side);
+    const Camera camera = look_at({0, 1, 0.8f}, {0, 0, 0}, 0.2f, fireflies_side, fireflies_side);
     const Film film = render_scene(std::move(scene), {}, camera, options).film;
     return {film.pixels.begin(), film.pixels.end()};
 }
@@ -74,7 +74,7 @@ TEST(Clamping, TheGreatestChannelKeepsToTheLimitAndTheColourStays) {
 }
 
 TEST(Clamping, WithoutIndirectLightTheDirectLightIsLeft) {
-    const Material wall = plain(0.8f, 0.2f, 1);
+    const Material wall = two_sided(0.8f, 0.2f, 1);
     RenderOptions options = few_samples();
     options.clamp_indirect = 1e-9;
     const std::vector<float> limited = floor_pixels(floor_by_a_wall(wall), options);
@@ -87,17 +87,19 @@ TEST(Clamping, WithoutIndirectLightTheDirectLightIsLeft) {
 TEST(Clamping, WhatTheCameraSeesItselfStays) {
     RenderOptions options = few_samples();
     options.clamp_direct = options.clamp_indirect = 1e-9;
-    const std::vector<float> dark = floor_pixels(floor_by_a_wall(plain(0.8f, 0.2f, 1)), options);
+    const std::vector<float> dark =
+        floor_pixels(floor_by_a_wall(two_sided(0.8f, 0.2f, 1)), options);
     for (size_t i = 0; i < dark.size(); i += 4)
         ASSERT_LT(dark[i], 1e-8f);
-    const Camera up = look_at({-0.25f, 0.5f, 0}, {-0.25f, 1.5f, 0}, 0.2f, side, side);
-    const Film film = render_scene(floor_by_a_wall(plain(0.8f, 1, 0)), {}, up, options).film;
+    const Camera up =
+        look_at({-0.25f, 0.5f, 0}, {-0.25f, 1.5f, 0}, 0.2f, fireflies_side, fireflies_side);
+    const Film film = render_scene(floor_by_a_wall(two_sided(0.8f, 1, 0)), {}, up, options).film;
     EXPECT_FLOAT_EQ(film.pixels[0], 5.0f);
 }
 
 /// A surface that nothing leaves.
 Material black_wall() {
-    Material m = plain(0, 1, 0);
+    Material m = two_sided(0, 1, 0);
     m.flags |= material_unlit;
     return m;
 }
@@ -108,7 +110,7 @@ TEST(Caustics, OffMakesSmoothWallsBlackToTheFloor) {
     MaterialLayers glass = glass_layers();
     glass.clearcoat = 1;
     for (const bool layered : {false, true}) {
-        Material wall = layered ? glass_material() : plain(0.9f, 0, 1);
+        Material wall = layered ? glass_material() : two_sided(0.9f, 0, 1);
         // Of index 1.5 and rough behind its coat, no smooth thin wall: all of it is caustics.
         if (layered) wall.roughness = 0.4f;
         const MaterialLayers* const layers = layered ? &glass : nullptr;
@@ -131,10 +133,12 @@ TEST(Caustics, OffLeavesRoughSurfacesAndMirrorsBeforeTheEye) {
         }
         expect_near(out[0], out[1], 1e-6f);
     };
-    both(plain(0.9f, 0.6f, 1), look_at({0, 1, 0.8f}, {0, 0, 0}, 0.2f, side, side));
+    both(two_sided(0.9f, 0.6f, 1),
+         look_at({0, 1, 0.8f}, {0, 0, 0}, 0.2f, fireflies_side, fireflies_side));
     // The mirror shows the floor; one more bounce would come to it again.
     options.max_bounces = 1;
-    both(plain(0.9f, 0, 1), look_at({0, 0.6f, 0}, {0.5f, 0.3f, 0}, 0.2f, side, side));
+    both(two_sided(0.9f, 0, 1),
+         look_at({0, 0.6f, 0}, {0.5f, 0.3f, 0}, 0.2f, fireflies_side, fireflies_side));
 }
 
 TEST(Caustics, OffLeavesWhatComesStraightThroughWindows) {
@@ -157,7 +161,7 @@ TEST(Regularization, MirrorsAreAsWideAsOneOfTheLeastWidth) {
     options.max_bounces = 1;
     const auto lit = [&](float roughness, bool regularize, const MaterialLayers* layers) {
         options.regularize = regularize;
-        return floor_pixels(floor_by_a_wall(plain(0.9f, roughness, 1), layers), options);
+        return floor_pixels(floor_by_a_wall(two_sided(0.9f, roughness, 1), layers), options);
     };
     MaterialLayers coated;
     coated.clearcoat = 0.8f;

@@ -66,7 +66,7 @@ TEST(Strategies, LightSamplingBsdfSamplingAndBothAgree) {
     // Independent runs give the standard error of the image's mean.
     const auto measure = [&](int strategies) {
         options.strategies = strategies;
-        constexpr int runs = 8;
+        constexpr int runs = 24;
         double sum = 0;
         double squares = 0;
         for (int run = 0; run < runs; ++run) {
