@@ -38,8 +38,8 @@ double importance_of(const float* rgb) {
 /// lit part of a map well by itself, so the light samples go to what stands out from it. Half the
 /// mean is taken off, and no direction loses more than nine tenths: where geometry hides the bright
 /// part, as a room with one window does, the rest is all there is to find.
-/// Source  Karlik, Sik, Vevoda, Skrivan, Krivanek, "MIS Compensation: Optimizing Sampling Techniques
-///         in Multiple Importance Sampling", ACM TOG 38(6), 2019, section 5, with half its offset
+/// Source  Karlik et al., "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance
+///         Sampling", ACM TOG 38(6), 2019, section 5, with half its offset
 double sampling_weight(double importance, double mean) {
     return std::max(importance - 0.5 * mean, 0.1 * importance);
 }
