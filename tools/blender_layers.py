@@ -99,7 +99,7 @@ def layer_fault(file: pathlib.Path, part: int, channels: list, written: str) -> 
     """What is wrong with a layer that Blender has read and written; empty: nothing."""
     if written is None:
         return "Blender does not find it"
-    channels = sorted(channels, key=lambda name: "RGBXYZUVA".index(name[-1].upper()))
+    channels = sorted(channels, key=lambda name: "RGBXYZWUVA".index(name[-1].upper()))
     places = "RGBA"[: len(channels)]
     run = subprocess.run(
         ["oiiotool", file, "--subimage", str(part), "--ch", ",".join(channels)]

@@ -92,6 +92,19 @@ Result<void> require_curves(const Scene& scene, bool has_curves) {
                 "EMBREE_GEOMETRY_CURVE is needed");
 }
 
+Error device_failure(RTCError code) {
+    if (code == RTC_ERROR_OUT_OF_MEMORY) {
+        return Error{ExitCode::out_of_memory,
+                     "E-MEM",
+                     "Embree",
+                     "there is no memory for its device; a smaller scene or a higher limit helps"};
+    }
+    return Error{ExitCode::internal,
+                 "E-EMBREE",
+                 "Embree",
+                 "it makes no device: its error " + std::to_string(code)};
+}
+
 void commit_scene(RTCScene scene) {
     run_in_arena([&] { rtcJoinCommitScene(scene); });
 }
@@ -104,9 +117,7 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     impl->kernels = kernels;
     const std::string config = kernels.isa.empty() ? "" : "isa=" + kernels.isa;
     impl->device = rtcNewDevice(config.c_str());
-    if (impl->device == nullptr) {
-        return fail(ExitCode::internal, "E-EMBREE", "rtcNewDevice", "no Embree device: " + config);
-    }
+    if (impl->device == nullptr) return fail(device_failure(rtcGetDeviceError(nullptr)));
     const auto property =
         rtcGetDeviceProperty(impl->device, RTC_DEVICE_PROPERTY_CURVE_GEOMETRY_SUPPORTED);
     if (auto done = require_curves(scene, property != 0); !done) return fail(done.error());

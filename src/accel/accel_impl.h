@@ -50,6 +50,9 @@ struct SharedArrays {
 /// Errors  69 E-EMBREE-CURVES
 Result<void> require_curves(const Scene& scene, bool has_curves);
 
+/// Why there is no device. Embree has a code for it, but no text.
+Error device_failure(RTCError code);
+
 /// Builds a scene's BVH on the threads that our loops use, not on all that Embree finds.
 void commit_scene(RTCScene scene);
 

@@ -222,6 +222,7 @@ Result<void> check_counters(const RenderCounters& counters, const RenderRequest&
 Result<void> execute(const RenderRequest& request, Log& log) {
     const Stopwatch total;
     if (auto writable = check_outputs(request); !writable) return writable;
+    warn_of_lost_alpha(request, log);
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <set>
 #include <utility>
 
 namespace obscura {
@@ -23,6 +24,14 @@ std::vector<size_t> chain_to(const AssetInfo& info, size_t node) {
     return chain;
 }
 
+/// The path, with a number if it is taken already: siblings may have one name.
+std::string unlike_all(const std::string& path, std::set<std::string>& taken) {
+    std::string unlike = path;
+    for (int number = 2; !taken.insert(unlike).second; ++number)
+        unlike = path + " (" + std::to_string(number) + ")";
+    return unlike;
+}
+
 std::vector<uint32_t> hashes_of(const std::vector<std::string>& names) {
     std::vector<uint32_t> hashes;
     for (const std::string& name : names)
@@ -34,10 +43,11 @@ std::vector<uint32_t> hashes_of(const std::vector<std::string>& names) {
 
 std::vector<std::string> node_paths(const AssetInfo& info) {
     std::vector<std::string> paths(info.node_names.size());
+    std::set<std::string> taken;
     for (size_t node = 0; node < paths.size(); ++node) {
         std::string path;
         for (const size_t at : chain_to(info, node)) {
-            if (paths[at].empty()) paths[at] = path + "/" + info.node_names[at];
+            if (paths[at].empty()) paths[at] = unlike_all(path + "/" + info.node_names[at], taken);
             path = paths[at];
         }
     }

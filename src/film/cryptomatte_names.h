@@ -10,7 +10,8 @@
 
 namespace obscura {
 
-/// The path of every glTF node, from its root: "/lamp/shade".
+/// The path of every glTF node, from its root: "/lamp/shade". No two are alike: of siblings of one
+/// name the second is "/lamp (2)".
 std::vector<std::string> node_paths(const AssetInfo& info);
 
 /// The name that every number of an id AOV (index plus 1) stands for in a Cryptomatte layer.

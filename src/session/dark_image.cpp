@@ -26,6 +26,19 @@ std::optional<size_t> find_channel(const OutputImage& image, const char* name) {
     return static_cast<size_t>(found - image.channels.begin());
 }
 
+/// Whether surfaces emit: they keep the studio away, which lights scenes without any light.
+bool glows(const Scene& scene) {
+    return std::any_of(
+        scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+            return *std::max_element(std::begin(material.emission), std::end(material.emission)) >
+                   0;
+        });
+}
+
+bool has_environment(const RenderRequest& request, const Scene& scene) {
+    return request.environment.has_value() || scene.environment != nullptr;
+}
+
 std::string lights_text(const RenderRequest& request, const Scene& scene) {
     std::string out;
     const auto add = [&](const std::string& text) { out += (out.empty() ? "" : " and ") + text; };
@@ -41,7 +54,14 @@ std::string lights_text(const RenderRequest& request, const Scene& scene) {
     } else if (count > 1) {
         add("the file's " + std::to_string(count) + " lights");
     }
-    return out.empty() ? "what glows in the scene, or the studio" : out;
+    if (glows(scene)) add("what glows in it");
+    if (!out.empty()) return out;
+    const bool all_unlit =
+        std::all_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
+            return (material.flags & material_unlit) != 0;
+        });
+    return all_unlit && !scene.materials.empty() ? "nothing, as its materials are unlit"
+                                                 : "the studio";
 }
 
 /// Sums over all pixels.
@@ -95,12 +115,17 @@ void warn_of_dark_image(const OutputImage& image,
     const double of_image = sum->luminance / sum->pixels * std::exp2(exposure_ev);
     if (!(of_image < darkest && shown < darkest_covered)) return;
     std::string help;
-    if (!scene.lights.empty() && !request.environment && !scene.environment)
-        help += setting("lights") + " off lights it by the studio instead; ";
+    if (!has_environment(request, scene)) {
+        if (glows(scene)) {
+            help += setting("env") + " studio lights it by the studio, too; ";
+        } else if (!scene.lights.empty()) {
+            help += setting("lights") + " off lights it by the studio instead; ";
+        }
+    }
     if (shown > 0) {
         const double stops = request.display.exposure_ev + std::log2(middle_grey / shown);
         help += setting("exposure") + " " + shortest(std::round(10 * stops) / 10) +
-                " makes its mean a middle grey";
+                " makes the mean of what it shows a middle grey";
     } else {
         help += "no light reaches what is seen";
     }

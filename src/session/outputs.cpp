@@ -185,6 +185,22 @@ Result<void> check_outputs(const RenderRequest& request) {
     return {};
 }
 
+void warn_of_lost_alpha(const RenderRequest& request, Log& log) {
+    if (request.options.background != BackgroundKind::transparent || request.encoding.page) return;
+    const auto check = [&](OutputFormat format, const std::string& name) {
+        if (entry_of(format).has_alpha) return;
+        log.warn(name,
+                 fmt::format("{} has no alpha, so what is transparent becomes black; {} white lays "
+                             "the image over white",
+                             entry_of(format).name,
+                             setting("page")));
+    };
+    for (const std::filesystem::path& output : request.outputs) {
+        if (const auto format = output_format_of(output)) check(*format, output.string());
+    }
+    if (request.standard_output) check(*request.standard_output, standard_output_name);
+}
+
 Result<std::optional<DisplayTransform>> make_display(const RenderRequest& request, Log& log) {
     const bool all_exr = std::all_of(request.outputs.begin(), request.outputs.end(), is_exr) &&
                          request.standard_output.value_or(OutputFormat::exr) == OutputFormat::exr;

@@ -21,6 +21,10 @@ inline constexpr const char* standard_output_name = "standard output";
 /// Errors  64 E-OUT-FORMAT, E-USAGE-CONFLICT; 73 E-OUT-CREATE
 Result<void> check_outputs(const RenderRequest& request);
 
+/// Warns of files whose format has no alpha, when the image is transparent and no page lies behind
+/// it: they show black there.
+void warn_of_lost_alpha(const RenderRequest& request, Log& log);
+
 /// The display transform, where an output of colours that is no EXR needs one.
 ///
 /// Errors  78 E-OCIO-*

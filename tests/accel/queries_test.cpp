@@ -44,6 +44,16 @@ TEST(Accel, LinesNeedAnEmbreeWithCurves) {
     EXPECT_EQ(without.error().code, ExitCode::unsupported);
 }
 
+TEST(Accel, ADeviceThatFindsNoMemoryIsNoBug) {
+    const Error memory = device_failure(RTC_ERROR_OUT_OF_MEMORY);
+    EXPECT_EQ(memory.id, "E-MEM");
+    EXPECT_EQ(memory.code, ExitCode::out_of_memory);
+    const Error other = device_failure(RTC_ERROR_UNSUPPORTED_CPU);
+    EXPECT_EQ(other.id, "E-EMBREE");
+    EXPECT_EQ(other.code, ExitCode::internal);
+    EXPECT_EQ(other.message, "it makes no device: its error 5");
+}
+
 /// Origins and directions that Embree must never get.
 std::vector<std::pair<Vec3f, Vec3f>> unsafe_rays() {
     std::vector<std::pair<Vec3f, Vec3f>> unsafe;

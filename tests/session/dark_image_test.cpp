@@ -85,6 +85,26 @@ TEST(DarkImage, ItSaysWhatWouldHelp) {
     EXPECT_THAT(warnings(grey(0)), ElementsAre(HasSubstr("no light reaches")));
 }
 
+TEST(DarkImage, WhatGlowsKeepsTheStudioAway) {
+    Scene scene = lit_scene();
+    scene.materials.resize(2);
+    EXPECT_THAT(warnings(grey(0.001F), {}, scene), ElementsAre(HasSubstr("--lights off")));
+    scene.materials[1].emission[2] = 0.5F;
+    EXPECT_THAT(warnings(grey(0.001F), {}, scene),
+                ElementsAre(testing::AllOf(HasSubstr("light 'Lamp' and what glows in it; --env "
+                                                     "studio lights it by the studio, too; --exp"),
+                                           Not(HasSubstr("--lights off")))));
+    scene.lights.clear();
+    EXPECT_THAT(warnings(grey(0.001F), {}, scene),
+                ElementsAre(HasSubstr("lit by what glows in it; --env studio lights")));
+    scene.materials.assign(1, {});
+    EXPECT_THAT(warnings(grey(0.001F), {}, scene),
+                ElementsAre(HasSubstr("lit by the studio; --exposure")));
+    scene.materials[0].flags |= material_unlit;
+    EXPECT_THAT(warnings(grey(0.001F), {}, scene),
+                ElementsAre(HasSubstr("lit by nothing, as its materials are unlit; --exposure")));
+}
+
 TEST(DarkImage, DataAndColouredBackgroundsAreNotJudged) {
     RenderRequest request;
     request.options.integrator = Integrator::depth;
