@@ -3,7 +3,7 @@
 FROM debian:12-slim AS build
 COPY . /source
 WORKDIR /source
-RUN bash -c 'source scripts/setup.sh && install_packages build test && apt-get install -y --no-install-recommends file dpkg-dev' \
+RUN bash -c 'source scripts/setup.sh && install_packages build package' \
     && cmake --preset release -DOBSCURA_TESTS=OFF -DOBSCURA_WERROR=OFF -DCMAKE_INSTALL_PREFIX=/usr \
     && cmake --build --preset release \
     && cd build/release && cpack -G DEB && mkdir /packages && mv ./*.deb /packages

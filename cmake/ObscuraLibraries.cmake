@@ -6,8 +6,10 @@ find_package(TBB REQUIRED)
 find_package(nlohmann_json REQUIRED)
 find_package(tl-expected REQUIRED)
 find_package(xsimd REQUIRED)
-# Debian 12's xsimd target links xtl, which it neither needs nor depends on.
-set_target_properties(xsimd PROPERTIES INTERFACE_LINK_LIBRARIES "")
+# Debian's xsimd target links xtl, which it neither needs nor depends on; Debian 13's asks for xtl's
+# headers as well, by a definition that precompiled headers would have to share.
+set_target_properties(xsimd PROPERTIES
+  INTERFACE_LINK_LIBRARIES "" INTERFACE_COMPILE_DEFINITIONS "")
 find_package(CLI11 REQUIRED)
 find_package(fmt REQUIRED)
 find_package(PkgConfig REQUIRED)

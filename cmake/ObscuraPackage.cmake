@@ -1,7 +1,5 @@
 # `cpack -G DEB` in the build folder: a Debian package of what `cmake --install` installs.
 # SPDX-License-Identifier: Apache-2.0
-install(FILES ${CMAKE_SOURCE_DIR}/LICENSE RENAME copyright
-  DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 install(FILES ${CMAKE_SOURCE_DIR}/CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
 
 set(CPACK_GENERATOR DEB)
@@ -19,4 +17,6 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)  # the libraries that the program was lin
 # The package's own library is no dependency of it.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/lib)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/triggers)
+set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/DebianFiles.cmake)
 include(CPack)
