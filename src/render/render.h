@@ -195,11 +195,12 @@ struct FinishedTile {
     const Film* film;  ///< other threads may be writing its pixels outside `area`
 };
 
-/// Called from any thread after every tile.
+/// Called from any thread after every tile; with RenderOptions::adaptive in each pass, and at last
+/// with all of the image done.
 using ProgressFunction = std::function<void(const FinishedTile&)>;
 
 /// Renders one image on all threads. The same arguments give the same bits for any number of
-/// threads, any tile size and any crop.
+/// threads, any tile size and any crop; with RenderOptions::adaptive a crop is an image of its own.
 ///
 /// In      stop: when it becomes true, tiles end after their current batch
 /// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM; 70 E-EMBREE (heat builds a hierarchy)
