@@ -28,7 +28,8 @@ struct Control {
     const std::atomic<bool>* cancel = nullptr;
     /// Called with the finished share in [0, 1], from any thread, by one at a time.
     std::function<void(double)> progress;
-    /// Called with each tile when it is finished, in no particular order; likewise.
+    /// Called with each tile when it is finished, in no particular order; likewise. With
+    /// Sampling::noise_target each comes several times, in every pass with less noise.
     std::function<void(const Tile&)> tile;
 };
 

@@ -105,7 +105,11 @@ enum class PixelFilter { box, gaussian, blackman_harris };
 /// What is computed and how well.
 struct Sampling {
     Integrator integrator = Integrator::path;
-    int samples_per_pixel = 64;
+    int samples_per_pixel = 64;  ///< with `noise_target` the most
+    /// Adaptive sampling, for path, direct and ao: pixels are sampled, more where they are noisy,
+    /// until the relative error of the image is about this. docs/sampling.md explains it.
+    std::optional<double> noise_target;
+    int spp_min = 16;  ///< samples that every pixel takes at least, with `noise_target`
     int max_bounces = 8;
     std::uint64_t seed = 0;
     PixelFilter filter = PixelFilter::box;

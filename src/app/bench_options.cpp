@@ -92,7 +92,10 @@ Command bench_command(BenchArguments& arguments) {
     add_render_option(command, render, "--verbose", "Report");
     add_render_group(command, render, "Sampling");
     for (BoundOption& option : command.options) {
-        if (long_name(option.info) == "--spp") option.fallback = bench_spp;
+        if (long_name(option.info) != "--spp") continue;
+        option.info.argument = "N";
+        option.info.help = "Samples per pixel";
+        option.fallback = bench_spp;
     }
     add_render_group(command, render, "Camera");
     add_render_group(command, render, "Light");

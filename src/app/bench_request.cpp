@@ -57,6 +57,10 @@ Result<RenderRequest> request_for(const BenchArguments& arguments, const std::st
     if (!render.spp) render.spp = bench_spp;
     Result<RenderRequest> request = make_render_request(render);
     if (!request) return request;
+    if (request->options.adaptive) {
+        return conflict("--spp",
+                        "speed is measured with equally many samples a pixel; give a number");
+    }
     if (!render.size) {
         const bool aov = is_aov(request->options.integrator);
         const auto& [width, height] = aov ? bench_aov_size : bench_size;

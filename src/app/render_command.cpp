@@ -194,6 +194,14 @@ void log_summary(const RenderRequest& request, const RenderStatistics& statistic
     };
     const std::string what =
         request.frames ? fmt::format("rendered {} frames", request.frames->count()) : "rendered";
+    if (statistics.adaptive) {
+        const SamplesTaken& taken = *statistics.adaptive;
+        log.info(fmt::format("{} to {} samples a pixel, {:.1f} in the mean, to a noise of {:.4f}",
+                             taken.least,
+                             taken.most,
+                             taken.mean(),
+                             taken.noise));
+    }
     log.info(fmt::format("{} in {:.2f} s: {:.2f} M paths/s, {:.2f} M rays/s; wrote {}",
                          what,
                          statistics.render_s,

@@ -109,6 +109,43 @@ constexpr OptionReader<R> background = {
     .show = show_choice<backgrounds, &R::options, &O::background>,
     .names = background_names};
 
+/// The settings of adaptive sampling, which asking for any of them turns on.
+AdaptiveOptions& adaptive_sampling(R& request) {
+    if (!request.options.adaptive) request.options.adaptive.emplace();
+    return *request.options.adaptive;
+}
+
+constexpr OptionReader<R> samples = {
+    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
+        if (text == "auto") {
+            adaptive_sampling(r);
+            return {};
+        }
+        const auto read = read_number<&R::options, &O::samples_per_pixel>(info, text, r);
+        if (read || read.error().id != "E-USAGE-NUMBER") return read;
+        Error error = read.error();
+        error.message += ", or auto";
+        return fail(std::move(error));
+    },
+    .show = show_number<&R::options, &O::samples_per_pixel>};
+
+constexpr OptionReader<R> noise_target = {
+    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
+        const auto& [low, high] = info.range;
+        const Result<double> target = parse_real(text, long_name(info), low, high);
+        if (!target) return fail(target.error());
+        adaptive_sampling(r).noise_target = *target;
+        return {};
+    }};
+
+constexpr OptionReader<R> least_samples = {
+    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
+        const Result<int64_t> least = parse_integer(text, long_name(info), 2, 1 << 20);
+        if (!least) return fail(least.error());
+        adaptive_sampling(r).least_samples = static_cast<int>(*least);
+        return {};
+    }};
+
 Result<PixelRect> parse_crop(const std::string& text, const std::string& option) {
     const Result<std::array<int, 4>> r = parse_rectangle(text, option);
     if (!r) return fail(r.error());
@@ -234,8 +271,10 @@ constexpr Entry time[] = {
      text_at<&A::fps>, number_at<&R::fps>}};
 
 constexpr Entry sampling[] = {
-    {{.name = "--spp", .argument = "N", .help = "Samples per pixel", .range = {1, 1 << 20}},
-     text_at<&A::spp>, number_at<&R::options, &O::samples_per_pixel>},
+    {{.name = "--spp", .argument = "N|auto",
+      .help = "Samples per pixel; with --noise-target the most. auto: as many as that asks for",
+      .range = {1, 1 << 20}},
+     text_at<&A::spp>, samples},
     {{.name = "--depth", .argument = "N", .help = "Most bounces of a path", .range = {0, 1000}},
      text_at<&A::depth>, number_at<&R::options, &O::max_bounces>},
     {{.name = "--seed", .argument = "N", .help = "Random numbers; equal seeds, equal pictures"},
@@ -271,6 +310,16 @@ constexpr Entry sampling[] = {
       .help = "Once a path has met a rough surface, smooth ones are rougher to it: caustics are "
               "blurred and less noisy"},
      text_at<&A::regularize>, flag_at<&R::options, &O::regularize>}};
+
+constexpr Entry adaptive[] = {
+    {{.name = "--noise-target", .argument = "X",
+      .help = "Sample each pixel until the relative error of the picture is about X, more where it "
+              "is noisy; up to --spp, or 4096 without it",
+      .range = {1e-4, 1}, .fallback = "0.01 with --spp auto"},
+     text_at<&A::noise_target>, noise_target},
+    {{.name = "--spp-min", .argument = "N", .help = "Samples that every pixel takes at least",
+      .range = {2, 1 << 20}, .fallback = "16", .needs = {"--noise-target", "--spp auto"}},
+     text_at<&A::spp_min>, least_samples}};
 
 constexpr Entry camera[] = {
     {{.name = "--camera", .argument = "NAME|INDEX|auto",
@@ -399,6 +448,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                  segmentation_group(),
                                                  {"Time", time},
                                                  {"Sampling", sampling},
+                                                 {"Adaptive sampling", adaptive},
                                                  {"Camera", camera},
                                                  framing_group()};
         const auto lens = lens_option_groups();

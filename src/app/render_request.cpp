@@ -150,6 +150,16 @@ Result<void> complete_page(const RenderArguments& arguments, RenderRequest& requ
                     "transparent");
 }
 
+/// --noise-target and --spp auto: how many samples a pixel may have.
+Result<void> complete_sampling(const RenderArguments& arguments, RenderOptions& options) {
+    if (!options.adaptive) return {};
+    if (arguments.spp.value_or("auto") == "auto") {
+        options.samples_per_pixel =
+            std::max(most_samples_unless_told, options.adaptive->least_samples);
+    }
+    return check_adaptive(options);
+}
+
 /// Values that depend on several options, which an entry of the table cannot express.
 Result<void> complete(const RenderArguments& arguments, RenderRequest& request) {
     if (auto done = complete_lens(arguments.lens, request.camera.model, request.camera.settings);
@@ -160,6 +170,7 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     if (auto done = complete_framing(arguments.product, arguments.camera, request.camera); !done) {
         return done;
     }
+    if (auto fits = complete_sampling(arguments, request.options); !fits) return fits;
     if (auto fits = check_catchers(arguments.product, request); !fits) return fits;
     // Without --size, --camera-json may set the image size; it is checked later.
     const bool size_is_known = request.size_is_given || !request.camera_json;

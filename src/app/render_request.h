@@ -19,7 +19,8 @@ namespace obscura::app {
 struct RenderArguments {
     std::string scene_file;
     std::vector<std::string> outputs, aovs;
-    std::optional<std::string> size, spp, depth, seed, threads, isa, tile_size, crop;
+    std::optional<std::string> size, spp, noise_target, spp_min, depth, seed, threads, isa;
+    std::optional<std::string> tile_size, crop;
     std::optional<std::string> scene, variant, camera, camera_model, eye, target, up, fov;
     LensArguments lens;
     ProductArguments product;

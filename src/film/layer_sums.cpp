@@ -114,26 +114,22 @@ void LayerSums::begin(const LayerPlan& plan, size_t pixels) {
     mattes_.assign(pixels * plan.mattes_, {});
 }
 
-void LayerSums::add(const LayerPlan& plan,
-                    size_t first_pixel,
-                    const BatchShape& batch,
-                    const Workspace& work) {
-    if (plan.sums_ > 0) add_means(plan, first_pixel, batch, work);
-    if (plan.lights_ > 0 || plan.has_shadow_) add_light(plan, first_pixel, batch, work);
-    if (plan.has_nearest_) add_nearest(plan, first_pixel, batch, work);
-    if (plan.mattes_ > 0) add_mattes(plan, first_pixel, batch, work);
-    if (plan.has_variance_ || plan.counts_rays_) add_statistics(plan, first_pixel, batch, work);
+void LayerSums::add(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
+    if (plan.sums_ > 0) add_means(plan, batch, work);
+    if (plan.lights_ > 0 || plan.has_shadow_) add_light(plan, batch, work);
+    if (plan.has_nearest_) add_nearest(plan, batch, work);
+    if (plan.mattes_ > 0) add_mattes(plan, batch, work);
+    if (plan.has_variance_ || plan.counts_rays_) add_statistics(plan, batch, work);
 }
 
 /// Adds channels of a batch's samples to sums of each pixel.
 template <size_t N>
 void LayerSums::add_columns(const LayerPlan& plan,
-                            size_t first_pixel,
                             const BatchShape& batch,
                             const std::array<const float*, N>& columns,
                             size_t sum) {
-    for (size_t p = 0; p < batch.pixels; ++p) {
-        Sum* const sums = &sums_[(first_pixel + p) * plan.sums_ + sum];
+    for (size_t p = 0; p < batch.pixels.size(); ++p) {
+        Sum* const sums = &sums_[batch.pixels[p] * plan.sums_ + sum];
         std::array<Sum, N> at;
         std::copy_n(sums, N, at.begin());
         const size_t begin = p * batch.samples;
@@ -158,13 +154,10 @@ void LayerSums::add_columns(const LayerPlan& plan,
     }
 }
 
-void LayerSums::add_light(const LayerPlan& plan,
-                          size_t first_pixel,
-                          const BatchShape& batch,
-                          const Workspace& work) {
+void LayerSums::add_light(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
     const auto add = [&](const ColorView& color, size_t sum) {
         if (color.r == nullptr) return;
-        add_columns<3>(plan, first_pixel, batch, {color.r, color.g, color.b}, sum);
+        add_columns<3>(plan, batch, {color.r, color.g, color.b}, sum);
     };
     for (size_t k = 0; k < plan.layers_.size(); ++k) {
         const LayerPlan::Source& source = plan.sources_[k];
@@ -177,10 +170,7 @@ void LayerSums::add_light(const LayerPlan& plan,
     }
 }
 
-void LayerSums::add_means(const LayerPlan& plan,
-                          size_t first_pixel,
-                          const BatchShape& batch,
-                          const Workspace& work) {
+void LayerSums::add_means(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
     for (size_t k = 0; k < plan.layers_.size(); ++k) {
         if (!is_reduced(plan.layers_[k], Reduction::mean)) continue;
         const LayerPlan::Source& source = plan.sources_[k];
@@ -188,22 +178,19 @@ void LayerSums::add_means(const LayerPlan& plan,
         const auto channels = static_cast<size_t>(channel_count(output.aov));
         const float* const* from = output.columns;
         if (channels == 3) {
-            add_columns<3>(plan, first_pixel, batch, {from[0], from[1], from[2]}, source.first_sum);
+            add_columns<3>(plan, batch, {from[0], from[1], from[2]}, source.first_sum);
             continue;
         }
         for (size_t c = 0; c < channels; ++c)
-            add_columns<1>(plan, first_pixel, batch, {from[c]}, source.first_sum + c);
+            add_columns<1>(plan, batch, {from[c]}, source.first_sum + c);
     }
 }
 
-void LayerSums::add_nearest(const LayerPlan& plan,
-                            size_t first_pixel,
-                            const BatchShape& batch,
-                            const Workspace& work) {
+void LayerSums::add_nearest(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
     const float* hit = work.aov_outputs[plan.opacity_].columns[0];
     const float* distance_m = work.aov_outputs[plan.distance_].columns[0];
     size_t slot = 0;
-    for (size_t p = first_pixel; p < first_pixel + batch.pixels; ++p) {
+    for (const uint32_t p : batch.pixels) {
         const size_t end = slot + batch.samples;
         size_t best = end;
         for (; slot < end; ++slot) {
@@ -225,16 +212,13 @@ void LayerSums::add_nearest(const LayerPlan& plan,
     }
 }
 
-void LayerSums::add_mattes(const LayerPlan& plan,
-                           size_t first_pixel,
-                           const BatchShape& batch,
-                           const Workspace& work) {
+void LayerSums::add_mattes(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
     const float* hit = work.aov_outputs[plan.opacity_].columns[0];
     for (const LayerPlan::Source& source : plan.sources_) {
         if (source.hashes == nullptr) continue;
         const float* id = work.aov_outputs[source.aov].columns[0];
-        for (size_t p = 0; p < batch.pixels; ++p) {
-            CryptomattePixel& matte = mattes_[(first_pixel + p) * plan.mattes_ + source.matte];
+        for (size_t p = 0; p < batch.pixels.size(); ++p) {
+            CryptomattePixel& matte = mattes_[batch.pixels[p] * plan.mattes_ + source.matte];
             const size_t begin = p * batch.samples;
             const auto hash_of = [&](size_t slot) {
                 const auto number = static_cast<size_t>(id[slot]);
@@ -258,11 +242,10 @@ void LayerSums::add_mattes(const LayerPlan& plan,
 }
 
 void LayerSums::add_statistics(const LayerPlan& plan,
-                               size_t first_pixel,
                                const BatchShape& batch,
                                const Workspace& work) {
     size_t slot = 0;
-    for (size_t p = first_pixel; p < first_pixel + batch.pixels; ++p) {
+    for (const uint32_t p : batch.pixels) {
         for (const size_t end = slot + batch.samples; slot < end; ++slot) {
             if (plan.has_variance_) {
                 const SampleColumns& from = work.samples;
@@ -278,10 +261,9 @@ void LayerSums::add_statistics(const LayerPlan& plan,
 
 void LayerSums::store(const LayerPlan& plan,
                       std::span<const size_t> at,
-                      int samples,
+                      std::span<const int> samples,
                       Film& film) const {
-    const double n = samples;
-    const auto count = static_cast<uint32_t>(samples);
+    const auto count = [&](size_t p) { return static_cast<uint32_t>(samples[p]); };
     for (size_t k = 0; k < plan.layers_.size(); ++k) {
         const Layer& layer = plan.layers_[k];
         const LayerPlan::Source& source = plan.sources_[k];
@@ -294,7 +276,7 @@ void LayerSums::store(const LayerPlan& plan,
             std::holds_alternative<LightLayer>(layer.source)) {
             write([&](size_t p, std::span<float> out) {
                 for (size_t c = 0; c < out.size(); ++c)
-                    out[c] = static_cast<float>(sums(p)[c].total() / n);
+                    out[c] = static_cast<float>(sums(p)[c].total() / samples[p]);
             });
         } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
             write([&](size_t p, std::span<float> out) {
@@ -308,13 +290,14 @@ void LayerSums::store(const LayerPlan& plan,
             });
         } else if (is_majority(layer)) {
             write([&](size_t p, std::span<float> out) {
-                out[0] = static_cast<float>(matte(p).majority(count));
+                out[0] = static_cast<float>(matte(p).majority(count(p)));
             });
         } else if (source.hashes != nullptr) {
-            write([&](size_t p, std::span<float> out) { matte(p).write_ranks(count, out); });
+            write([&](size_t p, std::span<float> out) { matte(p).write_ranks(count(p), out); });
         } else {
             const auto wanted = std::get<SampleStatistic>(layer.source);
-            write([&](size_t p, std::span<float> out) { out[0] = statistic(wanted, p, n); });
+            write(
+                [&](size_t p, std::span<float> out) { out[0] = statistic(wanted, p, samples[p]); });
         }
     }
 }

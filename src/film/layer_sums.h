@@ -24,7 +24,7 @@ struct CryptomatteHashes {
 
 /// The pixels of a batch, with so many samples each.
 struct BatchShape {
-    size_t pixels = 0;
+    std::span<const uint32_t> pixels;  ///< their numbers in the tile
     size_t samples = 0;
     size_t first_sample = 0;  ///< number of the first of them
 };
@@ -80,12 +80,15 @@ public:
     void begin(const LayerPlan& plan, size_t pixels);
 
     /// Adds a batch: sample i of pixel p of the batch is at p * samples + i.
-    void add(const LayerPlan& plan, size_t first_pixel, const BatchShape& batch, const Workspace&);
+    void add(const LayerPlan& plan, const BatchShape& batch, const Workspace&);
 
     /// Writes the tile's pixels to the film's layers.
     ///
-    /// In      at: index in the film of each pixel of the tile
-    void store(const LayerPlan& plan, std::span<const size_t> at, int samples, Film& film) const;
+    /// In      at: index in the film of each pixel of the tile; samples: how many it has
+    void store(const LayerPlan& plan,
+               std::span<const size_t> at,
+               std::span<const int> samples,
+               Film& film) const;
 
 private:
     /// A sum in four parts, each of every fourth sample: they need not wait for each other.
@@ -101,18 +104,14 @@ private:
     float statistic(SampleStatistic statistic, size_t pixel, double samples) const;
     template <size_t N>
     void add_columns(const LayerPlan& plan,
-                     size_t first_pixel,
                      const BatchShape&,
                      const std::array<const float*, N>& columns,
                      size_t sum);
-    void add_means(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
-    void add_light(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
-    void add_nearest(const LayerPlan& plan,
-                     size_t first_pixel,
-                     const BatchShape&,
-                     const Workspace&);
-    void add_mattes(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
-    void add_statistics(const LayerPlan&, size_t first_pixel, const BatchShape&, const Workspace&);
+    void add_means(const LayerPlan& plan, const BatchShape&, const Workspace&);
+    void add_light(const LayerPlan& plan, const BatchShape&, const Workspace&);
+    void add_nearest(const LayerPlan& plan, const BatchShape&, const Workspace&);
+    void add_mattes(const LayerPlan& plan, const BatchShape&, const Workspace&);
+    void add_statistics(const LayerPlan&, const BatchShape&, const Workspace&);
 
     std::vector<Sum> sums_;
     std::vector<float> nearest_values_;

@@ -54,6 +54,12 @@ constexpr bool is_aov(Integrator integrator) {
     return kind == WavefrontKind::aov || kind == WavefrontKind::heat;
 }
 
+/// True for integrators that take samples_per_pixel samples.
+constexpr bool takes_samples(Integrator integrator) {
+    const WavefrontKind kind = entry_of(integrator).kind;
+    return kind == WavefrontKind::path || kind == WavefrontKind::ao;
+}
+
 /// True for integrators beside whose image layers can stand.
 constexpr bool has_layers(Integrator integrator) {
     return !is_aov(integrator) && integrator != Integrator::wireframe;

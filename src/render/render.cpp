@@ -4,16 +4,14 @@
 
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "film/catcher_sums.h"
 #include "film/cryptomatte_names.h"
-#include "film/layer_sums.h"
 #include "film/light_path_plan.h"
 #include "render/camera_media.h"
-#include "render/film_rows.h"
 #include "render/filter_table.h"
 #include "render/frame_view.h"
 #include "render/integrators.h"
 #include "render/light_classes.h"
+#include "render/passes.h"
 #include "render/prepared_scene.h"
 #include "render/raycast_lights.h"
 #include "stages/wavefront.h"
@@ -89,163 +87,12 @@ WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
     return input;
 }
 
-/// One tile of the film.
-struct Tile {
-    int x, y, width, height;
-};
-
-std::vector<Tile> cut_tiles(const PixelRect& area, int size) {
-    std::vector<Tile> tiles;
-    for (int y = 0; y < area.height; y += size) {
-        for (int x = 0; x < area.width; x += size) {
-            tiles.push_back({area.x + x,
-                             area.y + y,
-                             std::min(size, area.width - x),
-                             std::min(size, area.height - y)});
-        }
-    }
-    return tiles;
-}
-
 /// Side of a tile. AOVs take one ray per pixel and need larger tiles to fill a batch.
 int tile_side(const RenderOptions& options) {
     constexpr int side_for_aovs = 32;
     static_assert(side_for_aovs * side_for_aovs == aov_batch_size);
     return is_aov(options.integrator) ? std::max(options.tile_size, side_for_aovs)
                                       : options.tile_size;
-}
-
-/// Order of a tile's pixels: 4x4 blocks, row by row within a block, so that packets of 16 rays are
-/// square.
-struct TilePattern {
-    int width = 0, height = 0;
-    std::vector<int32_t> dx, dy;  ///< from the tile's corner
-};
-
-void fill_pattern(int width, int height, TilePattern& pattern) {
-    if (pattern.width == width && pattern.height == height) return;
-    pattern = {width, height, {}, {}};
-    for (int block_y = 0; block_y < height; block_y += 4) {
-        for (int block_x = 0; block_x < width; block_x += 4) {
-            for (int y = block_y; y < std::min(block_y + 4, height); ++y) {
-                for (int x = block_x; x < std::min(block_x + 4, width); ++x) {
-                    pattern.dx.push_back(x);
-                    pattern.dy.push_back(y);
-                }
-            }
-        }
-    }
-}
-
-/// State that one thread keeps from tile to tile.
-struct ThreadState {
-    Workspace work;
-    TilePattern pattern;
-    std::vector<int32_t> xs, ys;
-    std::vector<PixelSum> sums;
-    std::vector<CatcherSum> catchers;  ///< as `sums`; empty: there are no catchers
-    LayerSums layers;
-    WavefrontCounters counters;
-    std::unique_ptr<RayRecorder> recorder;  ///< null: no recording
-};
-
-/// Lists the tile's pixels, padded by 16 because stages read whole registers. Returns their number
-/// without the padding.
-int list_pixels(const Tile& tile, ThreadState& state) {
-    fill_pattern(tile.width, tile.height, state.pattern);
-    const size_t count = state.pattern.dx.size();
-    state.xs.resize(count + 16);
-    state.ys.resize(count + 16);
-    for (size_t i = 0; i < count; ++i) {
-        state.xs[i] = tile.x + state.pattern.dx[i];
-        state.ys[i] = tile.y + state.pattern.dy[i];
-    }
-    return static_cast<int>(count);
-}
-
-/// What is done in every tile.
-struct TileWork {
-    const WavefrontInput& wavefront;
-    const LayerPlan& layers;
-    int samples;
-};
-
-/// Renders all samples of one tile into state.sums; leaves early when `stop` is set.
-void render_tile(const TileWork& tile_work,
-                 const Tile& tile,
-                 const std::atomic<bool>& stop,
-                 ThreadState& state) {
-    const LayerPlan& plan = tile_work.layers;
-    const int samples = tile_work.samples;
-    const int pixels = list_pixels(tile, state);
-    state.sums.assign(static_cast<size_t>(pixels), {});
-    const bool catches = tile_work.wavefront.catchers.any();
-    if (catches) state.catchers.assign(static_cast<size_t>(pixels), {});
-    state.layers.begin(plan, static_cast<size_t>(pixels));
-    WavefrontInput in = tile_work.wavefront;
-    in.recorder = state.recorder.get();
-    const int per_batch = std::max(1, batch_size / pixels);
-    const int pixels_per_batch = std::min(pixels, batch_size);
-    for (int first = 0; first < pixels; first += pixels_per_batch) {
-        in.batch.pixel_x = state.xs.data() + first;
-        in.batch.pixel_y = state.ys.data() + first;
-        for (int sample = 0; sample < samples; sample += per_batch) {
-            if (stop.load(std::memory_order_relaxed)) return;
-            in.batch.first_sample = static_cast<uint32_t>(sample);
-            in.batch.samples = std::min(per_batch, samples - sample);
-            const int count = std::min(pixels_per_batch, pixels - first);
-            trace_batch(in, count, state.work, state.sums.data() + first, state.counters);
-            if (catches) {
-                add_catcher_samples(state.work.catcher.samples,
-                                    in.batch.samples,
-                                    std::span(state.catchers).subspan(static_cast<size_t>(first)));
-            }
-            if (plan.empty()) continue;
-            const SumOfTime time(state.counters.seconds.accumulate);
-            const BatchShape shape{static_cast<size_t>(count),
-                                   static_cast<size_t>(in.batch.samples),
-                                   static_cast<size_t>(sample)};
-            state.layers.add(plan, static_cast<size_t>(first), shape, state.work);
-        }
-    }
-}
-
-/// Computes an AOV in one tile and writes it into the film.
-void render_aov_tile(const WavefrontInput& wavefront_input,
-                     const Tile& tile,
-                     const std::atomic<bool>& stop,
-                     ThreadState& state,
-                     Film& film) {
-    const int pixels = list_pixels(tile, state);
-    WavefrontInput in = wavefront_input;
-    in.recorder = state.recorder.get();
-    for (int first = 0; first < pixels; first += aov_batch_size) {
-        if (stop.load(std::memory_order_relaxed)) return;
-        const int count = std::min(aov_batch_size, pixels - first);
-        in.batch.pixel_x = state.xs.data() + first;
-        in.batch.pixel_y = state.ys.data() + first;
-        trace_aov(in, count, state.work, state.counters);
-        const SumOfTime time(state.counters.seconds.accumulate);
-        write_film(state.work.samples, {in.batch.pixel_x, in.batch.pixel_y, count}, film);
-    }
-}
-
-/// Writes a tile's means into the film.
-void store_tile(const ThreadState& state, const LayerPlan& layers, int samples, Film& film) {
-    const size_t channels = film.channels.size();
-    std::vector<size_t> at;
-    for (size_t i = 0; i < state.pattern.dx.size(); ++i) {
-        const size_t pixel = pixel_index(film, state.xs[i], state.ys[i]);
-        at.push_back(pixel);
-        for (size_t c = 0; c < channels; ++c) {
-            film.pixels[pixel * channels + c] = state.sums[i].mean(static_cast<int>(c), samples);
-        }
-        if (state.catchers.empty()) continue;
-        const std::array<float, 4> part = catcher_part(state.catchers[i], samples);
-        for (size_t c = 0; c < channels; ++c)
-            film.pixels[pixel * channels + c] += part[c];
-    }
-    if (!layers.empty()) state.layers.store(layers, at, samples, film);
 }
 
 RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& states) {
@@ -261,13 +108,6 @@ RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& sta
         total.stages.add(state->counters.seconds);
     }
     return total;
-}
-
-/// reach: of the rays to record; null: none are recorded
-std::unique_ptr<ThreadState> make_state(const RayReach* reach) {
-    auto state = std::make_unique<ThreadState>();
-    if (reach != nullptr) state->recorder = std::make_unique<RayRecorder>(*reach);
-    return state;
 }
 
 void hand_over(std::vector<std::unique_ptr<ThreadState>>& states, RayRecording& recording) {
@@ -395,6 +235,36 @@ Film make_film(const RenderOptions& options) {
     return film;
 }
 
+/// Renders tile after tile, each with all of its samples.
+void render_tiles(const FilmWork& work) {
+    const RenderOptions& options = work.options;
+    const TileWork& tile_work = work.tile_work;
+    const PixelRect whole{0, 0, options.width, options.height};
+    const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), tile_side(options));
+    const bool aov = is_aov(options.integrator);
+    const SampleRange samples{0, samples_taken(options)};
+    std::atomic<size_t> finished = 0;
+    parallel_for(tiles.size(), [&](size_t i) {
+        if (tile_work.stop.load(std::memory_order_relaxed)) return;
+        ThreadState& state = thread_state(work);
+        const Tile& tile = tiles[i];
+        if (aov) {
+            render_aov_tile(tile_work, tile, state, work.film);
+        } else {
+            begin_tile(tile_work, tile, state.sums);
+            sample_pixels(tile_work, pattern_of(tile, state).all, samples, state, state.sums);
+            if (tile_work.stop.load(std::memory_order_relaxed)) return;
+            store_beauty(state.sums, state, work.film);
+            store_layers(tile_work.layers, state.sums, state, work.film);
+        }
+        const size_t done = ++finished;
+        if (!work.progress || tile_work.stop.load(std::memory_order_relaxed)) return;
+        work.progress({static_cast<double>(done) / static_cast<double>(tiles.size()),
+                       {tile.x, tile.y, tile.width, tile.height},
+                       &work.film});
+    });
+}
+
 }  // namespace
 
 Result<RenderResult> render(const PreparedScene& scene,
@@ -422,31 +292,14 @@ Result<RenderResult> render(const PreparedScene& scene,
     const std::optional<FrameView> frames = frame_view(scene.scene(), camera, options);
     wavefront_input.frames = frames ? &*frames : nullptr;
     use_supplies(*supplies, wavefront_input);
-    const bool aov = is_aov(options.integrator);
-    const int samples = samples_taken(options);
-    const PixelRect whole{0, 0, options.width, options.height};
-    const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), tile_side(options));
-
-    const RayReach reach = scene.accel().ray_reach();
+    const TileWork tile_work{wavefront_input, layers, stop};
     std::vector<std::unique_ptr<ThreadState>> states(max_thread_index());
-    std::atomic<size_t> finished = 0;
-    parallel_for(tiles.size(), [&](size_t i) {
-        if (stop.load(std::memory_order_relaxed)) return;
-        std::unique_ptr<ThreadState>& state = states[thread_index()];
-        if (!state) state = make_state(options.recording != nullptr ? &reach : nullptr);
-        if (aov) {
-            render_aov_tile(wavefront_input, tiles[i], stop, *state, result.film);
-        } else {
-            render_tile({wavefront_input, layers, samples}, tiles[i], stop, *state);
-            store_tile(*state, layers, samples, result.film);
-        }
-        const size_t done = ++finished;
-        if (!progress || stop.load(std::memory_order_relaxed)) return;
-        const Tile& tile = tiles[i];
-        progress({static_cast<double>(done) / static_cast<double>(tiles.size()),
-                  {tile.x, tile.y, tile.width, tile.height},
-                  &result.film});
-    });
+    const FilmWork film_work{tile_work, options, progress, states, result.film};
+    if (options.adaptive) {
+        result.adaptive = render_passes(film_work);
+    } else {
+        render_tiles(film_work);
+    }
     if (stop.load()) {
         return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
     }

@@ -61,10 +61,23 @@ struct LightingOptions {
     double environment_rotation_deg = 0;     ///< about +Y, counter-clockwise seen from above
 };
 
+/// Adaptive sampling: samples are taken where they lower the noise of the picture. See
+/// render/passes.h.
+struct AdaptiveOptions {
+    double noise_target = 0.01;  ///< relative error of the picture; see film/noise.h
+    int least_samples = 16;      ///< of every pixel, from 2 to samples_per_pixel
+    double white = 1;            ///< radiance that is displayed as white
+};
+
+/// RenderOptions::samples_per_pixel with adaptive sampling where nobody says how many.
+inline constexpr int most_samples_unless_told = 4096;
+
 struct RenderOptions {
     int width = 1280;
     int height = 720;
     int samples_per_pixel = 64;
+    /// For path, direct and ao: samples_per_pixel is the most; none: every pixel takes so many.
+    std::optional<AdaptiveOptions> adaptive;
     int max_bounces = 8;
     uint64_t seed = 0;
     int tile_size = 16;  ///< pixels; any value gives the same image; at least 32 for AOVs
@@ -115,9 +128,21 @@ struct RenderCounters {
     StageSeconds stages;
 };
 
+/// What adaptive sampling did.
+struct SamplesTaken {
+    int passes = 0;
+    uint64_t total = 0;
+    uint64_t pixels = 0;
+    int least = 0, most = 0;  ///< of a pixel
+    double noise = 0;         ///< relative error of the picture, by its own estimate
+
+    double mean() const { return static_cast<double>(total) / static_cast<double>(pixels); }
+};
+
 struct RenderResult {
     Film film;
     RenderCounters counters;
+    std::optional<SamplesTaken> adaptive = {};  ///< with RenderOptions::adaptive
     double render_seconds = 0;
 };
 
@@ -176,11 +201,12 @@ struct FinishedTile {
     const Film* film;  ///< other threads may be writing its pixels outside `area`
 };
 
-/// Called from any thread after every tile.
+/// Called from any thread after every tile; with RenderOptions::adaptive in each pass, and at last
+/// with all of the image done.
 using ProgressFunction = std::function<void(const FinishedTile&)>;
 
 /// Renders one image on all threads. The same arguments give the same bits for any number of
-/// threads, any tile size and any crop.
+/// threads, any tile size and any crop; with RenderOptions::adaptive a crop is an image of its own.
 ///
 /// In      stop: when it becomes true, tiles end after their current batch
 /// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM; 70 E-EMBREE (heat builds a hierarchy)

@@ -3,6 +3,7 @@
 #include "session/asset_renderer.h"
 
 #include "base/stopwatch.h"
+#include "camera/exposure.h"
 #include "render/enclosed_lights.h"
 #include "render/integrators.h"
 #include "scene/scene_memory.h"
@@ -11,6 +12,7 @@
 #include "session/image_layers.h"
 #include "session/lighting.h"
 
+#include <cmath>
 #include <utility>
 
 namespace obscura {
@@ -133,6 +135,10 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     if (!frame_cameras) return fail(frame_cameras.error());
     options.frame_cameras = std::move(*frame_cameras);
     options.film_memory = &film_memory_;
+    if (options.adaptive) {
+        const double camera_scale = camera.ev100 ? exposure_scale(*camera.ev100) : 1;
+        options.adaptive->white = std::exp2(-request.display.exposure_ev) / camera_scale;
+    }
     const std::atomic<bool> never = false;
     Result<RenderResult> result = obscura::render(*prepared_,
                                                   camera.camera,
@@ -142,11 +148,15 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     if (!result) return fail(result.error());
     statistics_.render_s += result->render_seconds;
     add_counters(result->counters, statistics_.counters);
+    if (result->adaptive) add_samples(*result->adaptive, statistics_.adaptive);
     Film& film = result->film;
     statistics_.film_bytes = film.pixels.size() * sizeof(float) + layer_bytes(film.layers);
 
     FinishedImage finished;
     finished.metadata = make_metadata(request, *prepared_, camera, log);
+    if (result->adaptive) {
+        add_samples_taken(*options.adaptive, *result->adaptive, finished.metadata);
+    }
     finished.render_seconds = result->render_seconds;
     if (request.load.lenient) {
         finished.metadata.extra.push_back({"obscura:degraded", degraded_text(degraded_)});

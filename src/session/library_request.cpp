@@ -236,6 +236,8 @@ void read_look(const v0::Look& look, RenderRequest& out, Checks& checks) {
 
 void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& checks) {
     checks.real("samples-per-pixel", sampling.samples_per_pixel, 1, 1 << 20);
+    checks.real("noise-target", sampling.noise_target, 1e-4, 1);
+    checks.real("spp-min", sampling.spp_min, 2, 1 << 20);
     checks.real("max-bounces", sampling.max_bounces, 0, 1000);
     checks.real("ao-distance", sampling.ao_distance_m, 1e-9, 1e12);
     checks.real("wire-width", sampling.wire_width_px, 0.01, 1000);
@@ -244,6 +246,7 @@ void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& che
     checks.real("crypto-levels", sampling.crypto_levels, 1, 64);
     out.integrator = static_cast<Integrator>(sampling.integrator);
     out.samples_per_pixel = sampling.samples_per_pixel;
+    if (sampling.noise_target) out.adaptive = {*sampling.noise_target, sampling.spp_min};
     out.max_bounces = sampling.max_bounces;
     out.seed = sampling.seed;
     out.filter = static_cast<PixelFilter>(sampling.filter);
@@ -294,6 +297,7 @@ Result<RenderRequest> request_of(const v0::View& view,
     out.options.tile_size = control.tile_size;
     if (checks.error()) return fail(*checks.error());
     if (const Result<void> fits = check_crop(out.options); !fits) return fail(fits.error());
+    if (const Result<void> fits = check_adaptive(out.options); !fits) return fail(fits.error());
     out.crypto_levels = sampling.crypto_levels;
     if (auto chosen = choose_layers(sampling.aov, out); !chosen) return fail(chosen.error());
     return out;

@@ -258,6 +258,19 @@ ImageMetadata make_metadata(const RenderRequest& request,
     return metadata;
 }
 
+void add_samples_taken(const AdaptiveOptions& asked,
+                       const SamplesTaken& taken,
+                       ImageMetadata& metadata) {
+    const std::initializer_list<ImageAttribute> added = {
+        {"obscura:noiseTarget", asked.noise_target},
+        {"obscura:noise", taken.noise},
+        {"obscura:samplesMin", taken.least},
+        {"obscura:samplesMax", taken.most},
+        {"obscura:samplesMean", taken.mean()},
+        {"obscura:samplesTotal", static_cast<double>(taken.total)}};
+    metadata.extra.insert(metadata.extra.end(), added);
+}
+
 std::string degraded_text(const gltf::Degraded& degraded) {
     return fmt::format("textures={} primitives={} triangles={}",
                        degraded.textures,

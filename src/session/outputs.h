@@ -44,6 +44,11 @@ ImageMetadata make_metadata(const RenderRequest& request,
                             const ChosenCamera& chosen,
                             const Log& log);
 
+/// Attributes that say what adaptive sampling was to reach and what it did.
+void add_samples_taken(const AdaptiveOptions& asked,
+                       const SamplesTaken& taken,
+                       ImageMetadata& metadata);
+
 /// The EXR attribute `obscura:degraded`: "textures=2 primitives=0 triangles=17".
 std::string degraded_text(const gltf::Degraded& degraded);
 

@@ -80,6 +80,25 @@ Result<void> check_crop(const RenderOptions& options) {
                     std::to_string(options.width) + "x" + std::to_string(options.height));
 }
 
+Result<void> check_adaptive(const RenderOptions& options) {
+    if (!options.adaptive) return {};
+    const IntegratorEntry& integrator = entry_of(options.integrator);
+    if (!takes_samples(integrator.value)) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-CONFLICT",
+                    setting("noise-target"),
+                    setting("integrator") + " " + integrator.name +
+                        " has no noise to lower; use path, direct or ao");
+    }
+    if (options.adaptive->least_samples <= options.samples_per_pixel) return {};
+    return fail(ExitCode::usage,
+                "E-USAGE-CONFLICT",
+                setting("spp-min"),
+                std::to_string(options.adaptive->least_samples) +
+                    " is more than the most samples of a pixel, which are " +
+                    std::to_string(options.samples_per_pixel) + "; lower it or raise those");
+}
+
 Result<void> choose_layers(std::span<const std::string> names, RenderRequest& request) {
     Result<std::vector<Layer>> layers = layers_of(names, request.crypto_levels);
     if (!layers) return fail(layers.error());

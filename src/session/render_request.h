@@ -84,6 +84,12 @@ Result<void> use_color_space(RenderRequest& request, Log& log);
 /// 64 E-USAGE-CONFLICT when the part to render reaches beyond the image.
 Result<void> check_crop(const RenderOptions& options);
 
+/// Whether adaptive sampling, if it is asked for, fits the rest.
+///
+/// Errors  64 E-USAGE-CONFLICT the integrator takes a fixed number of samples; the least number of
+///         samples is more than the most
+Result<void> check_adaptive(const RenderOptions& options);
+
 /// Asks for layers, of as many Cryptomatte levels as the request says.
 ///
 /// In      names: those of `--list-aovs`

@@ -48,6 +48,16 @@ void add_memory(const RenderStatistics& statistics, Json& json) {
                       {"film", statistics.film_bytes}};
 }
 
+Json samples_json(const AdaptiveOptions& asked, const SamplesTaken& taken) {
+    return {{"noise_target", asked.noise_target},
+            {"noise", taken.noise},
+            {"passes", taken.passes},
+            {"total", taken.total},
+            {"min", taken.least},
+            {"max", taken.most},
+            {"mean", taken.mean()}};
+}
+
 Json degraded_json(const gltf::Degraded& degraded) {
     return {{"textures", degraded.textures},
             {"primitives", degraded.primitives},
@@ -79,6 +89,19 @@ void add_counters(const RenderCounters& from, RenderCounters& to) {
     to.stages.add(from.stages);
 }
 
+void add_samples(const SamplesTaken& from, std::optional<SamplesTaken>& to) {
+    if (!to) {
+        to = from;
+        return;
+    }
+    to->passes = std::max(from.passes, to->passes);
+    to->total += from.total;
+    to->pixels += from.pixels;
+    to->least = std::min(from.least, to->least);
+    to->most = std::max(from.most, to->most);
+    to->noise = std::max(from.noise, to->noise);
+}
+
 void add_degraded(const gltf::Degraded& from, gltf::Degraded& to) {
     to.textures = std::max(from.textures, to.textures);
     to.primitives = std::max(from.primitives, to.primitives);
@@ -101,6 +124,8 @@ std::string statistics_json(const RenderRequest& request, const RenderStatistics
     json["width"] = options.width;
     json["height"] = options.height;
     json["spp"] = samples_taken(options);
+    if (options.adaptive && statistics.adaptive)
+        json["samples"] = samples_json(*options.adaptive, *statistics.adaptive);
     json["seed"] = options.seed;
     json["depth"] = options.max_bounces;
     json["integrator"] = entry_of(options.integrator).name;

@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct RenderStatistics {
     double write_s = 0;
     double total_s = 0;
     RenderCounters counters;
+    std::optional<SamplesTaken> adaptive;  ///< of a sequence the sums, and the extremes
     size_t bvh_bytes = 0;
     size_t geometry_bytes = 0;
     size_t texture_bytes = 0;
@@ -47,6 +49,9 @@ struct RenderStatistics {
 
 /// Adds the counters of one more frame.
 void add_counters(const RenderCounters& from, RenderCounters& to);
+
+/// Adds the samples of one more frame.
+void add_samples(const SamplesTaken& from, std::optional<SamplesTaken>& to);
 
 /// Keeps the greater of each count.
 void add_degraded(const gltf::Degraded& from, gltf::Degraded& to);

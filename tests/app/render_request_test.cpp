@@ -90,6 +90,41 @@ TEST(RenderRequest, ExrsAreStoredAsTheOptionsSay) {
     EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-RANGE");
 }
 
+TEST(RenderRequest, ANoiseTargetAsksForAsManySamplesAsItNeeds) {
+    RenderArguments arguments;
+    EXPECT_FALSE(request_of(arguments)->options.adaptive);
+    arguments.spp = "auto";
+    Result<RenderRequest> request = request_of(arguments);
+    ASSERT_TRUE(request && request->options.adaptive);
+    EXPECT_EQ(request->options.samples_per_pixel, most_samples_unless_told);
+    EXPECT_EQ(request->options.adaptive->noise_target, 0.01);
+    EXPECT_EQ(request->options.adaptive->least_samples, 16);
+    arguments.spp.reset();
+    arguments.noise_target = "0.05";
+    arguments.spp_min = "5000";
+    request = request_of(arguments);
+    ASSERT_TRUE(request && request->options.adaptive);
+    EXPECT_EQ(request->options.samples_per_pixel, 5000) << "at least the least";
+    EXPECT_EQ(request->options.adaptive->noise_target, 0.05);
+    arguments.spp = "300";
+    expect_conflict(arguments, "--spp-min");
+    arguments.spp_min = "300";
+    EXPECT_EQ(request_of(arguments)->options.samples_per_pixel, 300);
+    arguments.integrator = "raycast";
+    expect_conflict(arguments, "--noise-target");
+    arguments.integrator = "ao";
+    EXPECT_TRUE(request_of(arguments));
+    arguments.spp_min = "1";
+    EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-RANGE");
+    arguments.spp_min = "32";
+    arguments.noise_target = "0";
+    EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-RANGE");
+    arguments.noise_target.reset();
+    expect_conflict(arguments, "--spp-min");
+    arguments.spp = "automatic";
+    EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-NUMBER");
+}
+
 TEST(RenderRequest, LayersNeedAnExrAndFilesOfTheirOwnANamedOne) {
     RenderArguments arguments;
     arguments.aovs = {"depth,normal"};

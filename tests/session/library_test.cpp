@@ -24,8 +24,10 @@
 namespace obscura {
 namespace {
 
+using testing::Contains;
 using testing::HasSubstr;
 using testing::Not;
+using testing::Pair;
 
 const std::string assets = OBSCURA_SOURCE_DIR "/assets/";
 
@@ -298,6 +300,31 @@ TEST(Library, TilesCoverTheImageWithItsPixels) {
     EXPECT_EQ(image.width, 40);
     const Image whole = fresh_image(assets + "cornell/cornell.gltf", small_view());
     EXPECT_EQ(image.pixels[0], whole.pixels[size_t{(2 * 40 + 3) * 4}]);
+}
+
+TEST(Library, ANoiseTargetIsReachedWithinItsNumbersOfSamples) {
+    Session session;
+    const Result<Asset> asset = session.open(assets + "cornell/cornell.gltf");
+    ASSERT_TRUE(asset);
+    Sampling sampling = few_samples();
+    sampling.samples_per_pixel = 32;
+    sampling.noise_target = 0.1;
+    sampling.spp_min = 4;
+    sampling.aov = {"sample_count"};
+    const Image image = image_of(session.render(*asset, small_view(), {}, sampling));
+    const std::vector<float>& counts = image.layers.at(0).pixels;
+    EXPECT_EQ(*std::min_element(counts.begin(), counts.end()), 4);
+    EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 4);
+    EXPECT_LE(*std::max_element(counts.begin(), counts.end()), 32);
+    EXPECT_THAT(image.attributes, Contains(Pair("obscura:noiseTarget", "0.1")));
+    EXPECT_THAT(image.attributes, Contains(Pair("obscura:samplesMin", "4")));
+    sampling.spp_min = 33;
+    const Result<Image> refused = session.render(*asset, small_view(), {}, sampling);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().id, "E-USAGE-CONFLICT");
+    EXPECT_EQ(refused.error().place, "spp_min");
+    sampling.noise_target = 2;
+    EXPECT_EQ(session.render(*asset, small_view(), {}, sampling).error().id, "E-USAGE-RANGE");
 }
 
 TEST(Library, ACancelledImageIsAnErrorAndTheAssetGoesOn) {

@@ -1,0 +1,85 @@
+// render/tile.h - a tile of the film: its pixels, the sums over their samples, and how they grow.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "film/catcher_sums.h"
+#include "film/film.h"
+#include "film/layer_sums.h"
+#include "render/render.h"
+#include "stages/wavefront.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace obscura {
+
+/// One tile of the film.
+struct Tile {
+    int x = 0, y = 0, width = 0, height = 0;
+};
+
+std::vector<Tile> cut_tiles(const PixelRect& area, int size);
+
+/// Order of a tile's pixels: 4x4 blocks, row by row within a block, so that packets of 16 rays are
+/// square.
+struct TilePattern {
+    int width = 0, height = 0;
+    std::vector<int32_t> dx, dy;  ///< from the tile's corner
+    std::vector<uint32_t> all;    ///< 0, 1, 2, ...: every pixel
+};
+
+/// Sums over the samples of a tile's pixels, in the order of its pattern. They may grow in several
+/// steps, of some pixels more than of others.
+struct TileSums {
+    Tile tile;
+    std::vector<PixelSum> beauty;
+    std::vector<CatcherSum> catchers;  ///< empty: there are no catchers
+    LayerSums layers;
+    std::vector<int> samples;  ///< of each pixel, so far
+};
+
+/// State that one thread keeps from tile to tile.
+struct ThreadState {
+    Workspace work;
+    TilePattern pattern;
+    std::vector<int32_t> xs, ys;       ///< of the pixels that are sampled
+    std::vector<PixelSum> beauty;      ///< of the same
+    std::vector<CatcherSum> catchers;  ///< likewise
+    TileSums sums;                     ///< of a tile that is finished at once
+    WavefrontCounters counters;
+    std::unique_ptr<RayRecorder> recorder;  ///< null: no recording
+};
+
+/// What is done in every tile.
+struct TileWork {
+    const WavefrontInput& wavefront;
+    const LayerPlan& layers;
+    const std::atomic<bool>& stop;  ///< when it becomes true, tiles end after their current batch
+};
+
+/// The pattern of a tile; valid until the next call.
+const TilePattern& pattern_of(const Tile& tile, ThreadState& state);
+
+/// Clears the sums for a tile.
+void begin_tile(const TileWork& work, const Tile& tile, TileSums& sums);
+
+/// Takes samples of some pixels of a tile: of each the same range, which follows those it has.
+///
+/// In      pixels: by their numbers in the pattern, ascending
+void sample_pixels(const TileWork& work,
+                   std::span<const uint32_t> pixels,
+                   const SampleRange& range,
+                   ThreadState& state,
+                   TileSums& sums);
+
+/// Computes an AOV in one tile and writes it into the film.
+void render_aov_tile(const TileWork& work, const Tile& tile, ThreadState& state, Film& film);
+
+/// Write the means of a tile's samples into the film: the beauty; the layers beside it.
+void store_beauty(const TileSums& sums, ThreadState& state, Film& film);
+void store_layers(const LayerPlan& plan, const TileSums& sums, ThreadState& state, Film& film);
+
+}  // namespace obscura
