@@ -65,6 +65,7 @@ private:
     size_t values_ = 0;                  ///< a pixel's nearest values
     size_t mattes_ = 0;                  ///< layers that count ids
     size_t lights_ = 0;                  ///< light layers
+    size_t parts_ = 0;                   ///< layers of a part of the samples
     size_t opacity_ = 0, distance_ = 0;  ///< in aovs_
     bool has_nearest_ = false;
     bool counts_rays_ = false;
@@ -107,6 +108,7 @@ private:
                      size_t sum);
     void add_means(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
     void add_light(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
+    void add_parts(const LayerPlan& plan, size_t first_pixel, const BatchShape&, const Workspace&);
     void add_nearest(const LayerPlan& plan,
                      size_t first_pixel,
                      const BatchShape&,
