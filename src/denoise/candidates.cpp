@@ -106,7 +106,7 @@ Plane error_scale(const FilteredHalves& from) {
 }
 
 Plane smoothed(const Plane& error) {
-    constexpr int radius = 3;
+    constexpr int radius = 2;
     return box_blur(box_blur(error, radius), radius);
 }
 
@@ -156,7 +156,7 @@ Mix mix_candidates(const FilterGuides& guides, const Candidates& candidates) {
     mix.noisy = Plane(width, height, scale.border());
     mix.filtered.fill(mix.noisy);
     // Weights have seen the noise that they filter: the estimates of filters are a little too low.
-    constexpr float caution = 0.7f;
+    constexpr float caution = 0.8f;
     for_rows(height, [&](int y) {
         for (int x = 0; x < width; ++x) {
             const float unfiltered = caution * noise.row(y)[x];

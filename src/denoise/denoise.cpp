@@ -16,10 +16,10 @@ namespace obscura {
 namespace {
 
 /// Features this far apart are different: a weight of 1 / e.
-constexpr float different_normal = 0.15f;
+constexpr float different_normal = 0.12f;
 constexpr float different_albedo = 0.1f;
 /// Colours are divided by no less: what dark surfaces show is light that they mirror or emit.
-constexpr float darkest_albedo = 0.15f;
+constexpr float darkest_albedo = 0.2f;
 /// Of the square that the variance is a mean over; one pixel's has one degree of freedom.
 constexpr int variance_radius = 3;
 

@@ -81,7 +81,7 @@ std::vector<double> GiveBack::merged(const std::vector<double>& sums, const Leve
 GiveBack::GiveBack(const Rgb& taken, const Plane& light, Plane receives)
     : receives_(std::move(receives)) {
     constexpr int smallest_cell = 16;
-    constexpr double most = 0.05;
+    constexpr double most = 0.03;
     Level level{smallest_cell,
                 (receives_.width() + smallest_cell - 1) / smallest_cell,
                 (receives_.height() + smallest_cell - 1) / smallest_cell,

@@ -204,7 +204,7 @@ TEST(Denoise, PixelsWithoutAlphaAreLeftAloneAndTellNothing) {
             error += std::pow(static_cast<double>(out[3 * i]) - 2, 2) / pixels;
         }
     }
-    EXPECT_LT(error, 0.05 * 0.05);
+    EXPECT_LT(error, 0.08 * 0.08) << "of a variance of 0.42 * 0.42";
 }
 
 /// Premultiplied: a pixel that is half covered keeps half of the light.
