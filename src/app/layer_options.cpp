@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "film/layers.h"
 #include "film/light_path_plan.h"
+#include "session/denoising.h"
 
 #include <fmt/format.h>
 #include <set>
@@ -94,12 +95,22 @@ constexpr Entry layers[] = {
       .prints = list_of_layers},
      text_at<&A::list_aovs>}};
 
+constexpr Entry denoising[] = {
+    {{.name = "--denoise",
+      .help = "Take the noise out of the beauty and of the layers of the light, guided by albedo, "
+              "normal and depth and by the difference of two halves of the samples"},
+     text_at<&A::layer, &L::denoise>},
+    {{.name = "--keep-noisy",
+      .help = "And keep the beauty as it was in the layer noisy", .needs = {"--denoise"}},
+     text_at<&A::layer, &L::keep_noisy>}};
+
 // clang-format on
 
 /// One of the options that ask for layers.
 const char* option_of(const RenderArguments& arguments) {
     if (!arguments.aovs.empty()) return "--aov";
     if (!arguments.layer.lpe.empty()) return "--lpe";
+    if (arguments.layer.keep_noisy) return "--keep-noisy";
     return arguments.layer.light_groups ? "--light-groups" : "--light-group";
 }
 
@@ -147,6 +158,9 @@ Result<void> read_light_groups(const LayerArguments& arguments, RenderRequest& r
 Result<void> read_layers(const RenderArguments& arguments, RenderRequest& request) {
     const Result<void> named = read_named_layers(arguments, request);
     if (!named) return named;
+    request.denoise = arguments.layer.denoise;
+    if (auto fits = check_denoising(request); !fits) return fits;
+    if (arguments.layer.keep_noisy) request.options.layers.push_back(noisy_layer());
     const Result<void> grouped = read_light_groups(arguments.layer, request);
     if (!grouped) return grouped;
     std::set<std::string> names;
@@ -166,6 +180,10 @@ Result<void> read_layers(const RenderArguments& arguments, RenderRequest& reques
 
 OptionGroup<A, R> layer_group() {
     return {"Layers", layers};
+}
+
+OptionGroup<A, R> denoising_group() {
+    return {"Denoising", denoising};
 }
 
 }  // namespace obscura::app

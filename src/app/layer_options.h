@@ -15,6 +15,7 @@ struct LayerArguments {
     std::vector<std::string> lpe, light_group;
     OptionText light_groups;
     bool light_groups_components = false;
+    bool denoise = false, keep_noisy = false;
 };
 
 struct RenderArguments;
@@ -26,5 +27,6 @@ struct RenderArguments;
 Result<void> read_layers(const RenderArguments& arguments, RenderRequest& request);
 
 OptionGroup<RenderArguments, RenderRequest> layer_group();
+OptionGroup<RenderArguments, RenderRequest> denoising_group();
 
 }  // namespace obscura::app

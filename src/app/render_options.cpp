@@ -445,6 +445,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                  {"Picture", image},
                                                  overscan_group(),
                                                  layer_group(),
+                                                 denoising_group(),
                                                  segmentation_group(),
                                                  {"Time", time},
                                                  {"Sampling", sampling},

@@ -31,6 +31,13 @@ bool is_reduced(const Layer& layer, Reduction reduction) {
 /// Light layers are red, green and blue.
 constexpr size_t light_channels = 3;
 
+/// Whether a sample belongs to the part.
+bool is_in(const PartMean& mean, size_t sample) {
+    if (mean.part == SamplePart::all) return true;
+    const bool second = (sample / mean.run) % 2 == 1;
+    return second == (mean.part == SamplePart::second_half);
+}
+
 /// 1 where no light could arrive.
 float ratio(double arrived, double unoccluded) {
     return unoccluded > 0 ? static_cast<float>(arrived / unoccluded) : 1.0f;
@@ -91,6 +98,10 @@ void LayerPlan::add_layer(const Layer& layer) {
     } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
         source.first_sum = std::exchange(sums_, sums_ + 2 * light_channels);
         has_shadow_ = true;
+    } else if (const auto* mean = std::get_if<PartMean>(&layer.source)) {
+        if (mean->aov) source.aov = written_aov(*mean->aov);
+        source.first_sum = std::exchange(sums_, sums_ + layer.channels.size());
+        ++parts_;
     } else if (is_majority(layer)) {
         source.aov = written_aov(Aov::id_node);
         source.hashes = hashes_.nodes.data();
@@ -117,6 +128,7 @@ void LayerSums::begin(const LayerPlan& plan, size_t pixels) {
 void LayerSums::add(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
     if (plan.sums_ > 0) add_means(plan, batch, work);
     if (plan.lights_ > 0 || plan.has_shadow_) add_light(plan, batch, work);
+    if (plan.parts_ > 0) add_parts(plan, batch, work);
     if (plan.has_nearest_) add_nearest(plan, batch, work);
     if (plan.mattes_ > 0) add_mattes(plan, batch, work);
     if (plan.has_variance_ || plan.counts_rays_) add_statistics(plan, batch, work);
@@ -183,6 +195,27 @@ void LayerSums::add_means(const LayerPlan& plan, const BatchShape& batch, const 
         }
         for (size_t c = 0; c < channels; ++c)
             add_columns<1>(plan, batch, {from[c]}, source.first_sum + c);
+    }
+}
+
+void LayerSums::add_parts(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
+    for (size_t k = 0; k < plan.layers_.size(); ++k) {
+        const auto* mean = std::get_if<PartMean>(&plan.layers_[k].source);
+        if (mean == nullptr) continue;
+        const LayerPlan::Source& source = plan.sources_[k];
+        const SampleColumns& beauty = work.samples;
+        const float* const colors[] = {beauty.r, beauty.g, beauty.b};
+        const float* const* from = mean->aov ? work.aov_outputs[source.aov].columns : colors;
+        for (size_t i = 0; i < batch.samples; ++i) {
+            const size_t sample = batch.first_sample + i;
+            if (!is_in(*mean, sample)) continue;
+            for (size_t p = 0; p < batch.pixels.size(); ++p) {
+                Sum* const sums = &sums_[batch.pixels[p] * plan.sums_ + source.first_sum];
+                for (size_t c = 0; c < plan.layers_[k].channels.size(); ++c)
+                    sums[c].parts[sample % 4] +=
+                        static_cast<double>(from[c][p * batch.samples + i]);
+            }
+        }
     }
 }
 
@@ -277,6 +310,13 @@ void LayerSums::store(const LayerPlan& plan,
             write([&](size_t p, std::span<float> out) {
                 for (size_t c = 0; c < out.size(); ++c)
                     out[c] = static_cast<float>(sums(p)[c].total() / samples[p]);
+            });
+        } else if (const auto* mean = std::get_if<PartMean>(&layer.source)) {
+            write([&](size_t p, std::span<float> out) {
+                const size_t part = samples_in(*mean, static_cast<size_t>(samples[p]));
+                const double inverse = part > 0 ? 1.0 / static_cast<double>(part) : 0.0;
+                for (size_t c = 0; c < out.size(); ++c)
+                    out[c] = static_cast<float>(sums(p)[c].total() * inverse);
             });
         } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
             write([&](size_t p, std::span<float> out) {

@@ -65,6 +65,7 @@ private:
     size_t values_ = 0;                  ///< a pixel's nearest values
     size_t mattes_ = 0;                  ///< layers that count ids
     size_t lights_ = 0;                  ///< light layers
+    size_t parts_ = 0;                   ///< layers of a part of the samples
     size_t opacity_ = 0, distance_ = 0;  ///< in aovs_
     bool has_nearest_ = false;
     bool counts_rays_ = false;
@@ -109,6 +110,7 @@ private:
                      size_t sum);
     void add_means(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_light(const LayerPlan& plan, const BatchShape&, const Workspace&);
+    void add_parts(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_nearest(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_mattes(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_statistics(const LayerPlan&, const BatchShape&, const Workspace&);

@@ -46,6 +46,45 @@ constexpr std::array cryptomatte_entries = {
     CryptomatteEntry{CryptomatteNames::materials, "crypto_material", "mattes by materials"},
     CryptomatteEntry{CryptomatteNames::assets, "crypto_asset", "mattes by root nodes"}};
 
+struct PartEntry {
+    PartMean source;
+    const char* name;
+    const char* letters;
+    LayerKind kind;
+    const char* help;
+};
+
+constexpr std::array part_entries = {PartEntry{{{}, SamplePart::first_half},
+                                               "half_1",
+                                               "RGB",
+                                               LayerKind::color,
+                                               "the beauty of one half of the samples"},
+                                     PartEntry{{{}, SamplePart::second_half},
+                                               "half_2",
+                                               "RGB",
+                                               LayerKind::color,
+                                               "the beauty of the other half"},
+                                     PartEntry{{Aov::albedo, SamplePart::first_half},
+                                               "albedo_half_1",
+                                               "RGB",
+                                               LayerKind::color,
+                                               "the albedo of one half of the samples"},
+                                     PartEntry{{Aov::albedo, SamplePart::second_half},
+                                               "albedo_half_2",
+                                               "RGB",
+                                               LayerKind::color,
+                                               "the albedo of the other half"},
+                                     PartEntry{{Aov::normal, SamplePart::first_half},
+                                               "normal_half_1",
+                                               "XYZ",
+                                               LayerKind::data,
+                                               "the normal of one half of the samples"},
+                                     PartEntry{{Aov::normal, SamplePart::second_half},
+                                               "normal_half_2",
+                                               "XYZ",
+                                               LayerKind::data,
+                                               "the normal of the other half"}};
+
 constexpr const char* shadow_name = "shadow";
 constexpr const char* shadow_reduction = "ratio";
 
@@ -84,6 +123,10 @@ Layer layer_named(const std::string& name, int crypto_levels) {
                 "cryptomatte",
                 entry.names};
     }
+    for (const PartEntry& entry : part_entries) {
+        if (entry.name != name) continue;
+        return {name, channels_of(name, entry.letters), entry.kind, "mean", entry.source};
+    }
     for (const LightComponent& component : light_components()) {
         if (component.name != name) continue;
         return light_layer(name, parse_light_path_expression(component.expression).value());
@@ -106,6 +149,8 @@ std::vector<LayerDescription> all_layers() {
         out.push_back({entry.name, "X", entry.reduction, entry.help});
     for (const CryptomatteEntry& entry : cryptomatte_entries)
         out.push_back({entry.name, "rgba", "cryptomatte", entry.help});
+    for (const PartEntry& entry : part_entries)
+        out.push_back({entry.name, entry.letters, "mean", entry.help});
     for (const LightComponent& one : light_components())
         out.push_back({one.name, "RGB", "mean", one.help, one.expression});
     out.push_back({shadow_name,
@@ -117,6 +162,33 @@ std::vector<LayerDescription> all_layers() {
 
 Layer segmentation_layer() {
     return {"segmentation", {"segmentation.X"}, LayerKind::id, "majority", MajorityNode{}};
+}
+
+size_t samples_in(const PartMean& mean, size_t samples) {
+    if (mean.part == SamplePart::all) return samples;
+    const size_t pair = 2 * mean.run;
+    const size_t first = samples / pair * mean.run + std::min(samples % pair, mean.run);
+    return mean.part == SamplePart::first_half ? first : samples - first;
+}
+
+size_t half_run(int samples_per_pixel) {
+    size_t run = 8;
+    while (run > 1 && 2 * run > static_cast<size_t>(samples_per_pixel))
+        run /= 2;
+    return run;
+}
+
+std::vector<Layer> denoising_layers() {
+    std::vector<Layer> out;
+    for (const PartEntry& entry : part_entries)
+        out.push_back(layer_named(entry.name, 0));
+    for (const Aov aov : {Aov::depth, Aov::opacity})
+        out.push_back(layer_named(entry_of(aov).name, 0));
+    return out;
+}
+
+Layer noisy_layer() {
+    return {"noisy", channels_of("noisy", "RGB"), LayerKind::color, "mean", PartMean{}};
 }
 
 Result<std::vector<Layer>> layers_of(std::span<const std::string> names, int crypto_levels) {

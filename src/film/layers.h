@@ -33,6 +33,23 @@ struct LightLayer {
 /// equal counts the smaller number goes first, and any node before nothing.
 struct MajorityNode {};
 
+/// Which of a pixel's samples a mean is taken over. Halves are alternate runs of samples rather
+/// than every other sample: runs of a power of two keep the stratification of Sobol points.
+enum class SamplePart { all, first_half, second_half };
+
+/// The mean over some of the samples, of an AOV or, without one, of the beauty's colour.
+struct PartMean {
+    std::optional<Aov> aov = {};
+    SamplePart part = SamplePart::all;
+    size_t run = 8;  ///< samples in a row that belong to one half; see half_run
+};
+
+/// How many of so many samples belong to the part.
+size_t samples_in(const PartMean& mean, size_t samples);
+
+/// The longest run, up to 8, with which both halves of so many samples have some.
+size_t half_run(int samples_per_pixel);
+
 /// A layer that an image is asked for.
 struct Layer {
     std::string name;  ///< "normal"
@@ -41,7 +58,13 @@ struct Layer {
     std::vector<std::string> channels;
     LayerKind kind = LayerKind::data;
     std::string reduction;  ///< how samples become a pixel, for headers: "mean"
-    std::variant<Aov, SampleStatistic, CryptomatteNames, LightLayer, ShadowRatio, MajorityNode>
+    std::variant<Aov,
+                 SampleStatistic,
+                 CryptomatteNames,
+                 LightLayer,
+                 ShadowRatio,
+                 MajorityNode,
+                 PartMean>
         source;
 };
 
@@ -56,6 +79,12 @@ std::vector<LayerDescription> all_layers();
 
 /// The layer of `--segmentation`, which no name asks for: a file of its own holds it.
 Layer segmentation_layer();
+
+/// The layers that denoising needs besides the beauty.
+std::vector<Layer> denoising_layers();
+
+/// Of `--keep-noisy`: the beauty before denoising.
+Layer noisy_layer();
 
 /// The layers with these names, in this order; a name that comes twice counts once.
 ///

@@ -7,6 +7,7 @@
 #include "render/enclosed_lights.h"
 #include "render/integrators.h"
 #include "scene/scene_memory.h"
+#include "session/denoising.h"
 #include "session/focus.h"
 #include "session/framed_geometry.h"
 #include "session/image_layers.h"
@@ -125,6 +126,8 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     RenderOptions options = request.options;
     options.crop = rendered_part(request);
     if (request.segmentation) options.layers.push_back(segmentation_layer());
+    if (request.denoise) add_denoising_layers(options);
+    set_half_runs(options);
     if (request.catcher_ground) {
         const FramedGeometry geometry(prepared_->scene(), request.camera.framed_nodes);
         options.catcher_ground_m = static_cast<float>(geometry.farthest({0, -1, 0}).y);
@@ -160,6 +163,10 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     finished.render_seconds = result->render_seconds;
     if (request.load.lenient) {
         finished.metadata.extra.push_back({"obscura:degraded", degraded_text(degraded_)});
+    }
+    if (request.denoise) {
+        const std::string done = denoise_film(options, request.options, film);
+        finished.metadata.extra.push_back({"obscura:denoise", done});
     }
     if (request.segmentation) {
         finished.segmentation = segmentation_of(film, prepared_->scene());

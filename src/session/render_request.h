@@ -53,6 +53,7 @@ struct RenderRequest {
     DisplayOptions display;
     DisplayEncoding encoding;  ///< --bits, --quality, --no-dither, --page; without its transform
     ExrOptions exr;            ///< --float, --compression, --exr-layout and the like
+    bool denoise = false;      ///< --denoise
     std::optional<Overscan> overscan;
     std::optional<std::filesystem::path> segmentation;  ///< --segmentation, a PNG
     int crypto_levels = 6;                              ///< of Cryptomatte layers in options.layers

@@ -17,7 +17,7 @@ inline constexpr size_t max_columns = 100;
 inline constexpr size_t max_parameters = 5;
 
 /// The rooms in order of data flow: each may include itself and those before it.
-inline constexpr std::array<std::string_view, 18> rooms{"base",
+inline constexpr std::array<std::string_view, 19> rooms{"base",
                                                         "math",
                                                         "shape",
                                                         "camera",
@@ -30,6 +30,7 @@ inline constexpr std::array<std::string_view, 18> rooms{"base",
                                                         "stages",
                                                         "film",
                                                         "render",
+                                                        "denoise",
                                                         "session",
                                                         "crosscheck",
                                                         "explain",

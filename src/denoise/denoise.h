@@ -1,0 +1,45 @@
+// denoise/denoise.h - takes the noise out of an image, guided by its features and two half images.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <span>
+
+namespace obscura {
+
+/// Both halves of the samples: interleaved, three channels, rows from the top.
+using Halves = std::array<std::span<const float>, 2>;
+
+/// What the filter learns its weights from.
+struct DenoiseInput {
+    int width = 0, height = 0;
+    Halves color;                    ///< premultiplied
+    Halves albedo, normal;           ///< 0 where a sample hits nothing
+    std::span<const float> depth;    ///< metres, one channel; 0: nothing
+    std::span<const float> opacity;  ///< one channel: the share of samples that hit something
+    std::span<const float> alpha;    ///< one channel; empty: 1 everywhere
+    float first_share = 0.5f;        ///< of the samples that are in the first half
+};
+
+/// An image of light that is filtered in place: its first three channels.
+struct LightImage {
+    std::span<float> pixels;
+    size_t channels = 3;
+};
+
+struct DenoiseReport {
+    double outlier_share = 0;  ///< of the pixels: with light that was given to their neighbours
+};
+
+/// Filters the beauty, and with the beauty's weights its layers, so that those that added up to it
+/// still do: all that is done is linear in the light once the input is given. The light of the
+/// whole image stays the same. Pixels whose halves are equal are not changed by their neighbours,
+/// and those without alpha not at all. Any number of threads gives the same bits.
+///
+/// In      images: the mean of both halves, then shares of it
+/// Source  Rousselle, Manzi, Zwicker, "Robust Denoising using Feature and Color Information", 2013;
+///         Bitterli et al., "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo
+///         Renderings", 2016 (features cleaned first, candidates chosen by their estimated errors)
+DenoiseReport denoise(const DenoiseInput& input, std::span<const LightImage> images);
+
+}  // namespace obscura

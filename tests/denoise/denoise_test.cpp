@@ -1,0 +1,249 @@
+// tests/denoise/denoise_test.cpp - noise goes, the light stays, and so do edges and clean pixels.
+// SPDX-License-Identifier: Apache-2.0
+#include "denoise/denoise.h"
+
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <random>
+#include <vector>
+
+namespace obscura {
+namespace {
+
+constexpr int width = 96;
+constexpr int height = 80;
+constexpr size_t pixels = size_t{width} * height;
+
+/// A flat grey wall that faces the camera, 4 m away, and its two half images.
+struct Wall {
+    std::vector<float> halves[2];
+    std::vector<float> albedo = std::vector<float>(3 * pixels, 0.5f);
+    std::vector<float> normal = std::vector<float>(3 * pixels, 0.0f);
+    std::vector<float> depth = std::vector<float>(pixels, 4.0f);
+    std::vector<float> opacity = std::vector<float>(pixels, 1.0f);
+    std::vector<float> alpha = std::vector<float>(pixels, 1.0f);
+
+    Wall() {
+        for (size_t i = 0; i < pixels; ++i)
+            normal[3 * i + 2] = 1;
+        for (std::vector<float>& half : halves)
+            half.assign(3 * pixels, 0.0f);
+    }
+
+    /// Sets both halves to `truth(x, y)` times 1 with exponential noise, the same in all channels.
+    void light(const std::function<float(int, int)>& truth, float noise) {
+        std::mt19937 random(7);
+        std::exponential_distribution<float> spread(1);
+        for (std::vector<float>& half : halves) {
+            for (size_t i = 0; i < pixels; ++i) {
+                const float value = truth(static_cast<int>(i % width), static_cast<int>(i / width));
+                const float factor = noise > 0 ? 1 + noise * (spread(random) - 1) : 1.0f;
+                for (size_t c = 0; c < 3; ++c)
+                    half[3 * i + c] = value * factor;
+            }
+        }
+    }
+
+    DenoiseInput input() const {
+        DenoiseInput out;
+        out.width = width;
+        out.height = height;
+        out.color = {halves[0], halves[1]};
+        out.albedo = {albedo, albedo};
+        out.normal = {normal, normal};
+        out.depth = depth;
+        out.opacity = opacity;
+        out.alpha = alpha;
+        return out;
+    }
+
+    std::vector<float> mean() const {
+        std::vector<float> out(3 * pixels);
+        for (size_t i = 0; i < out.size(); ++i)
+            out[i] = 0.5f * (halves[0][i] + halves[1][i]);
+        return out;
+    }
+
+    std::vector<float> denoised() const {
+        std::vector<float> out = mean();
+        denoise(input(), std::vector<LightImage>{{out, 3}});
+        return out;
+    }
+};
+
+double sum(const std::vector<float>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+double mean_square(const std::vector<float>& values, const std::function<float(int, int)>& truth) {
+    double total = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        const float value = truth(static_cast<int>(i % width), static_cast<int>(i / width));
+        total += std::pow(static_cast<double>(values[3 * i] - value), 2);
+    }
+    return total / pixels;
+}
+
+float even(int /*x*/, int /*y*/) {
+    return 2;
+}
+
+TEST(Denoise, WhatHasNoNoiseStays) {
+    Wall wall;
+    wall.light([](int x, int y) { return x / 7 % 2 == y / 5 % 2 ? 1.0f : 30.0f; }, 0);
+    const std::vector<float> out = wall.denoised();
+    for (size_t i = 0; i < out.size(); ++i)
+        ASSERT_NEAR(out[i], wall.halves[0][i], 1e-5f * wall.halves[0][i]) << i;
+}
+
+TEST(Denoise, NoiseFallsByAnOrderOfMagnitudeAndTheLightStays) {
+    Wall wall;
+    wall.light(even, 0.3f);
+    const std::vector<float> out = wall.denoised();
+    EXPECT_LT(mean_square(out, even), mean_square(wall.mean(), even) / 30);
+    EXPECT_NEAR(sum(out) / sum(wall.mean()), 1, 1e-5);
+}
+
+/// Two walls with a corner between them: the features show the edge that the noise hides.
+TEST(Denoise, EdgesOfFeaturesStaySharp) {
+    const auto truth = [](int x, int /*y*/) { return x < width / 2 ? 1.0f : 1.3f; };
+    Wall wall;
+    wall.light(truth, 0.3f);
+    for (size_t i = 0; i < pixels; ++i) {
+        if (i % width >= width / 2) std::swap(wall.normal[3 * i], wall.normal[3 * i + 2]);
+    }
+    const std::vector<float> out = wall.denoised();
+    for (const int x : {width / 2 - 1, width / 2}) {
+        double column = 0;
+        for (size_t y = 0; y < height; ++y)
+            column += static_cast<double>(out[3 * (y * width + static_cast<size_t>(x))]) / height;
+        EXPECT_NEAR(column, static_cast<double>(truth(x, 0)), 0.06) << x;
+    }
+}
+
+/// A shadow's edge that no feature shows.
+TEST(Denoise, EdgesOfLightStay) {
+    const auto truth = [](int x, int /*y*/) { return x < width / 2 ? 0.2f : 2.0f; };
+    Wall wall;
+    wall.light(truth, 0.3f);
+    const std::vector<float> out = wall.denoised();
+    EXPECT_LT(mean_square(out, truth), mean_square(wall.mean(), truth) / 5);
+}
+
+TEST(Denoise, TextureComesBackAsItWas) {
+    const auto paint = [](int x, int y) { return (x + y) % 2 == 0 ? 0.3f : 0.8f; };
+    Wall wall;
+    for (size_t i = 0; i < wall.albedo.size(); ++i) {
+        const size_t pixel = i / 3;
+        wall.albedo[i] = paint(static_cast<int>(pixel % width), static_cast<int>(pixel / width));
+    }
+    wall.light(paint, 0.3f);
+    const std::vector<float> out = wall.denoised();
+    EXPECT_LT(mean_square(out, paint), mean_square(wall.mean(), paint) / 20);
+}
+
+TEST(Denoise, AnOutliersLightGoesToItsNeighbourhood) {
+    Wall wall;
+    wall.light(even, 0.1f);
+    const size_t middle = 3 * (40 * width + 48);
+    for (size_t c = 0; c < 3; ++c)
+        wall.halves[0][middle + c] = 1000;
+    std::vector<float> out = wall.mean();
+    const DenoiseReport report = denoise(wall.input(), std::vector<LightImage>{{out, 3}});
+    EXPECT_GT(report.outlier_share, 0);
+    EXPECT_LT(out[middle], 3.0f);
+    EXPECT_NEAR(sum(out) / sum(wall.mean()), 1, 1e-5);
+}
+
+TEST(Denoise, AHighlightInBothHalvesStays) {
+    Wall wall;
+    wall.light([](int x, int y) { return x == 48 && y == 40 ? 100.0f : 2.0f; }, 0.1f);
+    EXPECT_GT(wall.denoised()[3 * (40 * width + 48)], 70);
+}
+
+/// Layers that add up to the beauty still do, whatever the noise and the outliers in them.
+TEST(Denoise, LayersStillAddUp) {
+    Wall wall;
+    wall.light(even, 0.5f);
+    wall.halves[1][3 * 777] = 500;
+    std::vector<float> beauty = wall.mean();
+    std::vector<float> one(beauty.size());
+    std::vector<float> other(4 * pixels, 0.25f);  // a fourth channel is nobody's business
+    for (size_t i = 0; i < beauty.size(); ++i) {
+        one[i] = beauty[i] * static_cast<float>(i % 97) / 97.0f;
+        other[i / 3 * 4 + i % 3] = beauty[i] - one[i];
+    }
+    denoise(wall.input(), std::vector<LightImage>{{beauty, 3}, {one, 3}, {other, 4}});
+    for (size_t i = 0; i < beauty.size(); ++i)
+        ASSERT_NEAR(one[i] + other[i / 3 * 4 + i % 3], beauty[i], 2e-5f * beauty[i]) << i;
+    for (size_t i = 3; i < other.size(); i += 4)
+        ASSERT_EQ(other[i], 0.25f);
+}
+
+TEST(Denoise, PixelsWithoutAlphaAreLeftAloneAndTellNothing) {
+    Wall wall;
+    wall.light(even, 0.3f);
+    for (size_t i = 0; i < pixels; ++i) {
+        if (i % width >= 20) continue;
+        wall.alpha[i] = wall.opacity[i] = 0;
+        for (size_t c = 0; c < 3; ++c)
+            wall.albedo[3 * i + c] = wall.normal[3 * i + c] = wall.halves[0][3 * i + c] =
+                wall.halves[1][3 * i + c] = 0;
+    }
+    const std::vector<float> out = wall.denoised();
+    double error = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        if (i % width < 20) {
+            ASSERT_EQ(out[3 * i], 0) << i;
+        } else {
+            error += std::pow(static_cast<double>(out[3 * i]) - 2, 2) / pixels;
+        }
+    }
+    EXPECT_LT(error, 0.08 * 0.08) << "of a variance of 0.42 * 0.42";
+}
+
+/// Premultiplied: a pixel that is half covered keeps half of the light.
+TEST(Denoise, HalfCoveredPixelsKeepTheirShare) {
+    const auto truth = [](int x, int /*y*/) { return x == 48 ? 1.0f : 2.0f; };
+    Wall wall;
+    wall.light(truth, 0.2f);
+    for (size_t y = 0; y < height; ++y)
+        wall.alpha[y * width + 48] = 0.5f;
+    const std::vector<float> out = wall.denoised();
+    double column = 0;
+    for (size_t y = 0; y < height; ++y)
+        column += static_cast<double>(out[3 * (y * width + 48)]) / height;
+    EXPECT_NEAR(column, 1, 0.02);
+}
+
+TEST(Denoise, AnyNumberOfThreadsGivesTheSameBits) {
+    Wall wall;
+    wall.light([](int x, int y) { return 1 + 0.01f * static_cast<float>(x * y % 50); }, 0.6f);
+    std::vector<float> alone;
+    {
+        const ThreadArena one(1);
+        alone = wall.denoised();
+    }
+    const ThreadLimit many(5);
+    EXPECT_EQ(wall.denoised(), alone);
+}
+
+TEST(Denoise, TinyImagesAreImages) {
+    const std::vector<float> three(3, 1.0f);
+    const std::vector<float> one(1, 1.0f);
+    std::vector<float> out = three;
+    DenoiseInput input;
+    input.width = input.height = 1;
+    input.color = input.albedo = input.normal = {three, three};
+    input.depth = input.opacity = one;
+    denoise(input, std::vector<LightImage>{{out, 3}});
+    EXPECT_EQ(out, three);
+}
+
+}  // namespace
+}  // namespace obscura
