@@ -210,7 +210,7 @@ TEST(MediaLights, LightSamplingAndThePhaseFunctionFindTheSameLight) {
     ImageRgb32f sky{64, 32, {}};
     sky.pixels.assign(64 * 32 * 3, 0.2f);
     std::fill_n(sky.pixels.begin() + (6 * 64 + 20) * 3, 3, 100.0f);
-    FrontView view{.samples = 2048};
+    FrontView view{.samples = 256};
     view.lighting.environment = sky;
     for (const float g : {0.0f, 0.7f}) {
         SCOPED_TRACE(g);
@@ -219,14 +219,14 @@ TEST(MediaLights, LightSamplingAndThePhaseFunctionFindTheSameLight) {
             FrontView one = view;
             one.strategies = strategies;
             one.seed = static_cast<uint64_t>(strategies);
-            one.samples = strategies == sample_bsdfs ? 8192 : 2048;
+            one.samples = strategies == sample_bsdfs ? 2048 : 256;
             const Film film = film_from_front(lit_clouds(g), one);
             for (const size_t c : {0U, 1U, 2U}) {
                 const Mean a = film_mean(both, c);
                 const Mean b = film_mean(film, c);
                 const double sigma = std::hypot(a.error, b.error);
                 EXPECT_NEAR(b.value, a.value, 4 * sigma) << strategies << ", " << c;
-                EXPECT_LT(sigma, 0.02 * a.value) << "too noisy to tell anything";
+                EXPECT_LT(sigma, 0.05 * a.value) << "too noisy to tell anything";
             }
         }
     }
