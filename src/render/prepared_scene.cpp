@@ -154,6 +154,7 @@ SceneView PreparedScene::Impl::view() const {
     out.touching_media = touching_media.empty() ? nullptr : touching_media.data();
     out.scatters = std::any_of(scene.media.begin(), scene.media.end(), scatters);
     out.thin_walls = accel && (accel->has_thin_walls() || has_media_like_air(scene));
+    out.passable_media = accel && has_passable_boundaries(scene);
     out.occludes =
         std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& material) {
             return material.occlusion_texture.texture >= 0;

@@ -3,6 +3,7 @@
 #include "stages/2_scatter.h"
 
 #include "math/sampler.h"
+#include "stages/2_scatter_lights.h"
 #include "stages/3_media.h"
 #include "surface/scattering.h"
 
@@ -46,7 +47,7 @@ OBSCURA_INLINE PathLanes scattered_path(const PathLanes& path,
     next.direction = scatter_direction(
         path.direction, anisotropy, {random(FlightUse::angle), random(FlightUse::turn)});
     next.throughput = path.throughput * free.scattered;
-    next.pdf = Lanes(0.0f);  // no light is sampled here: emission that the ray finds counts in full
+    next.pdf = Lanes(0.0f);  // unless light is sampled here, emission that it finds counts in full
     next.cone_width = path.cone_width + path.cone_spread * free.distance_m;
     next.cone_spread = max(path.cone_spread, Lanes(0.5f));
     return next;
@@ -125,11 +126,12 @@ int begin_scatter(const SceneView& scene, int count, const ScatterStart& columns
     return random_walks;
 }
 
-int scatter(const SceneView& scene,
-            const Flight& flight,
-            int count,
-            const ScatterColumns& columns) {
-    int stay = 0;
+ScatterCounts scatter(const SceneView& scene,
+                      const BatchSettings& batch,
+                      const Flight& flight,
+                      int count,
+                      const ScatterColumns& columns) {
+    ScatterCounts out;
     for (int i = 0; i < count; i += lane_count) {
         const Mask exists = lanes_in_range(i, count);
         PathLanes path = load_paths(columns.random_walks, i);
@@ -149,6 +151,19 @@ int scatter(const SceneView& scene,
         const Mask has_end = exists & (hit.primitive >= LanesI(0));
         const Mask turns = has_end & (free.distance_m < hit.t);
         PathLanes next = scattered_path(path, free, scattering.w, flight);
+        if (flight.samples_lights && !flight.last) {
+            const WalkingBatch walk{scene, batch, flight};
+            const Mask sampled = turns & samples_lights(walk, medium, extinction.w);
+            if (any(sampled)) {
+                const PathLanes here = path;  // only a copy has an address
+                const Lanes cosine = dot(path.direction, next.direction);
+                next.pdf = select(sampled, henyey_greenstein(scattering.w, cosine), next.pdf);
+                add_light_samples(walk,
+                                  {sampled, next.origin, next.throughput, scattering.w, here},
+                                  columns,
+                                  out.shadow);
+            }
+        }
         const Mask alive =
             turns & survives(flight, next) & (max_component(next.throughput) > Lanes(0.0f));
         const Mask goes_on = flight.last ? Mask(false) : alive;
@@ -160,9 +175,10 @@ int scatter(const SceneView& scene,
         alignas(64) uint32_t path_indices[lane_count];
         store(path_indices, path_index);
         give_back(columns, {path_indices, exists & (!goes_on)}, path, hit);
-        stay = append_random_walks(columns, stay, goes_on, next, path_index);
+        out.random_walks =
+            append_random_walks(columns, out.random_walks, goes_on, next, path_index);
     }
-    return stay;
+    return out;
 }
 
 }  // namespace OBSCURA_ISA

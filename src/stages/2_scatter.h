@@ -16,9 +16,14 @@ int begin_scatter(const SceneView& scene, int count, const ScatterStart& columns
 /// back; paths that scatter first stay, packed, with a new ray to trace.
 ///
 /// In      flight.last: paths that would scatter again end
-/// Out     columns.paths, columns.hits: of the paths that reached a surface. Returns how many stay.
+/// Out     columns.paths, columns.hits: of the paths that reached a surface; columns.shadows: of
+///         those that scattered, at most one per sample. Returns how many stay.
 /// Source  random walk with chromatic extinction: see surface/scattering.h
-int scatter(const SceneView& scene, const Flight& flight, int count, const ScatterColumns& columns);
+ScatterCounts scatter(const SceneView& scene,
+                      const BatchSettings& batch,
+                      const Flight& flight,
+                      int count,
+                      const ScatterColumns& columns);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

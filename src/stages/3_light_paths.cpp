@@ -270,6 +270,17 @@ void add_background_light(const LightPathColumns& columns,
     add_light_lanes(columns, lanes, slot, background_class(*columns.table), radiance);
 }
 
+void note_shadow_class(const LightPathColumns& columns, Mask lanes, LanesU slot, LanesI light) {
+    alignas(64) uint32_t slots[lane_count];
+    alignas(64) int32_t lights[lane_count];
+    store(slots, slot);
+    store(lights, light);
+    for (uint32_t bits = mask_bits(lanes); bits != 0; bits &= bits - 1) {
+        const int lane = __builtin_ctz(bits);
+        columns.shadow_class[slots[lane]] = columns.table->class_of_light[lights[lane]];
+    }
+}
+
 void scatter_shadow(const LightPathColumns& columns,
                     Mask lanes,
                     LanesU slot,
@@ -277,13 +288,8 @@ void scatter_shadow(const LightPathColumns& columns,
                     const Scattering& scattering) {
     const LightPathTable& table = *columns.table;
     alignas(64) uint32_t slots[lane_count];
-    alignas(64) int32_t lights[lane_count];
     store(slots, slot);
-    store(lights, light);
-    for (uint32_t bits = mask_bits(lanes); bits != 0; bits &= bits - 1) {
-        const int lane = __builtin_ctz(bits);
-        columns.shadow_class[slots[lane]] = table.class_of_light[lights[lane]];
-    }
+    note_shadow_class(columns, lanes, slot, light);
     const Mask moving = moving_lanes(columns, lanes, slot);
     if (none(moving)) return;
     StoredShares shares;

@@ -41,6 +41,11 @@ void scatter_shadow(const LightPathColumns& columns,
                     LanesI light,
                     const Scattering& scattering);
 
+/// The light classes of the shadow rays of a group.
+///
+/// In   light: index by light sampling
+void note_shadow_class(const LightPathColumns& columns, Mask lanes, LanesU slot, LanesI light);
+
 /// Moves the weights of paths that go on into a new direction.
 void scatter_path(const LightPathColumns& columns,
                   Mask lanes,

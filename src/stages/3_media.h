@@ -89,13 +89,42 @@ OBSCURA_INLINE Vec3<Lanes> transmittance(const SceneView& scene,
             exp(-(medium.z * distance_m))};
 }
 
+/// True for media with the index of air.
+///
+/// In      ior: from read_medium
+OBSCURA_INLINE Mask is_like_air(Lanes ior) {
+    return abs(ior - Lanes(1.0f)) < Lanes(min_refraction);
+}
+
+/// Longer rays end at lights at infinity; see directional_distance_m.
+inline constexpr float farthest_lamp_m = 1e18f;
+
+/// Transmittance of the medium around a path towards a light, or towards a hit before it. Lights at
+/// infinity get 1: they lie outside of all media, and the shadow ray meets the medium's boundary.
+OBSCURA_INLINE Vec3<Lanes> transmittance_to_light(const SceneView& scene,
+                                                  Mask useful,
+                                                  LanesU medium_stack,
+                                                  Lanes distance) {
+    const Mask inside =
+        useful & (dominant_medium(medium_stack) > LanesI(0)) & (distance < Lanes(farthest_lamp_m));
+    if (none(inside)) return splat3(Lanes(1.0f));
+    const Lanes path_length = select(inside, distance, Lanes(0.0f));
+    return transmittance(scene, select(inside, medium_stack, LanesU(0U)), path_length);
+}
+
 /// The boundary of a medium as a path meets it.
 struct Boundary {
     LanesU transmitted_stack;  ///< the medium stack on the transmitted side
     Lanes eta;                 ///< index of refraction there / here
     Mask hidden;               ///< inside a denser medium: nothing happens here
     Mask matched;  ///< between equal indices: light passes straight; where SceneView::thin_walls
+    Mask passable = Mask(false);  ///< where matched or hidden, shadow rays pass it
 };
+
+/// Boundaries inside a denser medium that neither paths nor shadow rays notice.
+OBSCURA_INLINE Mask is_passed_unseen(const Boundary& b) {
+    return b.hidden & b.passable;
+}
 
 /// Sets how the boundary refracts light between the dominant media of its two sides.
 ///
@@ -124,6 +153,7 @@ OBSCURA_INLINE Boundary boundary_at(const SceneView& scene,
     const LanesI within = max(dominant_medium(inside), medium);
     const LanesI around = dominant_medium(outside);
     b.hidden = exists & (within > medium);
+    if (scene.passable_media) b.passable = exists & is_like_air(read_medium(scene, medium).w);
     set_refraction(
         scene, exists, select(entering, around, within), select(entering, within, around), b);
     return b;
@@ -172,6 +202,7 @@ OBSCURA_INLINE void join_boundaries(const SceneView& scene,
     const LanesI there = dominant_medium(stack);
     b.transmitted_stack = select(shared.exist, stack, b.transmitted_stack);
     b.hidden = (shared.exist & (here == there)) | ((!shared.exist) & b.hidden);
+    b.passable = b.passable & (!shared.exist);  // shadow rays meet one face at a time
     set_refraction(scene, shared.exist, here, there, b);
 }
 

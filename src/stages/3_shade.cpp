@@ -147,23 +147,9 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
         add_emitted_light(*bounce.light_paths, any_light, group.hit, path.slot, light);
 }
 
-/// Transmittance of the medium around the path towards a light. Lights at infinity get 1: they lie
-/// outside of all media, and the shadow ray meets the medium's boundary.
-OBSCURA_INLINE Vec3<Lanes> transmittance_to_light(const SceneView& scene,
-                                                  Mask useful,
-                                                  LanesU medium_stack,
-                                                  Lanes distance) {
-    const Lanes farthest(1e18f);
-    const Mask inside =
-        useful & (dominant_medium(medium_stack) > LanesI(0)) & (distance < farthest);
-    if (none(inside)) return splat3(Lanes(1.0f));
-    const Lanes path_length = select(inside, distance, Lanes(0.0f));
-    return transmittance(scene, select(inside, medium_stack, LanesU(0U)), path_length);
-}
-
 /// Writes the shadow rays of one group; returns their new count.
 OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
-                                   const ShadowColumns& columns,
+                                   const ShadeColumns& columns,
                                    int at,
                                    Mask active,
                                    const ShadedGroup& group) {
@@ -191,7 +177,12 @@ OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
             s.any_layers
                 ? select(reflected_side, path.medium_stack, s.layers.boundary.transmitted_stack)
                 : path.medium_stack;
-        radiance = radiance * transmittance_to_light(scene, useful, medium_stack, light.distance);
+        if (columns.shadow_media != nullptr) {  // stage 4 attenuates
+            store_by_slot(columns.shadow_media, useful, path.slot, medium_stack);
+        } else {
+            radiance =
+                radiance * transmittance_to_light(scene, useful, medium_stack, light.distance);
+        }
     }
     radiance = limit_contribution(radiance, bounce.limit_of_sampled);
     useful = useful & (max_component(radiance) > Lanes(0.0f));
@@ -201,7 +192,7 @@ OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
     }
     const Vec3<Lanes> start =
         s.any_layers ? select(reflected_side, s.light_start, s.transmitted_start) : s.light_start;
-    return append_shadows(columns,
+    return append_shadows(columns.shadows,
                           at,
                           useful,
                           {.origin = start,
@@ -291,7 +282,8 @@ OBSCURA_INLINE int add_passing_rays(const PathColumns& columns,
     PathLanes next = path;
     next.origin = s.transmitted_start;
     next.medium_stack = s.layers.boundary.transmitted_stack;
-    next.pdf = Lanes(0.0f);  // light sampling does not reach through the surface
+    // Elsewhere, light sampling does not reach through the surface.
+    next.pdf = select(s.layers.boundary.passable, path.pdf, Lanes(0.0f));
     next.cone_width = path.cone_width + path.cone_spread * group.hit.t;
     return append_paths(columns, at, passes, next);
 }
@@ -382,10 +374,14 @@ ShadeCounts shade(const SceneView& scene,
             out.next = passed.next;
             turns = passed.others;
         }
+        if (s.any_layers) {
+            const Mask unseen = scatters & is_passed_unseen(s.layers.boundary);
+            out.next =
+                add_passing_rays(columns.next, out.next, bounce.is_over ? unseen : scatters, group);
+        }
         if (bounce.is_over || none(scatters)) continue;
         if (!batch.caustics) change_lobes(path, remove_smooth_lobes, s);
         if (s.any_layers) {
-            out.next = add_passing_rays(columns.next, out.next, scatters, group);
             const Mask hidden = s.layers.layered & s.layers.boundary.hidden;
             scatters = scatters & (!hidden);
             turns = turns & (!hidden);
@@ -393,7 +389,7 @@ ShadeCounts shade(const SceneView& scene,
         if (scene.occludes) store_by_slot(columns.occlusion, turns, path.slot, s.occlusion);
         // Before the paths turn: light layers split the shadow rays' light by where the paths were.
         if (scene.lights.count > 0) {
-            out.shadow = add_shadow_rays(bounce, columns.shadows, out.shadow, scatters, group);
+            out.shadow = add_shadow_rays(bounce, columns, out.shadow, scatters, group);
         }
         out.next = add_next_rays(bounce, columns.next, out.next, turns, group);
     }

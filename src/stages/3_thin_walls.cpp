@@ -14,6 +14,7 @@ PassedThinWalls pass_thin_walls(const ShadeColumns& columns,
     const Lanes zero(0.0f);
     PassedThinWalls out{at, hit.scatters, one};
     Mask passes(false);
+    Mask straight(false);
     if (hit.any_layers) {
         const StraightLight<Lanes> light = take_straight(layers, hit.wo);
         out.left = one - light.probability;
@@ -22,16 +23,18 @@ PassedThinWalls pass_thin_walls(const ShadeColumns& columns,
         const Lanes chance = hit.only_passes ? one : light.probability;
         passes = lets_pass & (hit.choice < chance);
         out.others = hit.scatters & (!passes);
+        straight = passes | (hit.scatters & layers.layered & is_passed_unseen(layers.boundary));
         if (any(passes)) {
             PathLanes next = path;
             next.origin = hit.transmitted_start;
             next.throughput =
                 path.throughput * light.transmittance * (one / select(passes, chance, one));
             next.cone_width = path.cone_width + path.cone_spread * hit.distance;
-            // Light sampling does not see through a medium's boundary: what lies on the
+            // Where light sampling does not see through a medium's boundary, what lies on the
             // transmitted side counts whole.
-            next.medium_stack = layers.boundary.transmitted_stack;
-            next.pdf = select(layers.boundary.matched, zero, path.pdf);
+            const Boundary& boundary = layers.boundary;
+            next.medium_stack = boundary.transmitted_stack;
+            next.pdf = select(boundary.matched & (!boundary.passable), zero, path.pdf);
             out.next = append_paths(columns.next, at, passes, next);
         }
     }
@@ -40,7 +43,7 @@ PassedThinWalls pass_thin_walls(const ShadeColumns& columns,
     store_by_slot(columns.distance_since_scattering,
                   hit.scatters,
                   path.slot,
-                  select(passes, path_length, zero));
+                  select(straight, path_length, zero));
     return out;
 }
 

@@ -10,9 +10,6 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// Shorter rays end at a light at a finite distance; see directional_distance_m.
-constexpr float farthest_lamp_m = 1e18f;
-
 /// A random position between texels and between mip levels. It is hashed: the pixel's Sobol points
 /// have none for thin walls.
 OBSCURA_INLINE Vec3<Lanes> texture_random(LanesU path_key, const ThinWallStep& step) {
@@ -25,8 +22,14 @@ OBSCURA_INLINE Vec3<Lanes> texture_random(LanesU path_key, const ThinWallStep& s
             unit_float<Lanes>((y << 16) | (x & LanesU(0xFFFFU)))};
 }
 
+/// The medium stack of every ray; 0 where they have none.
+OBSCURA_INLINE LanesU read_stack(const uint32_t* shadow_media, Mask exists, LanesU slot) {
+    if (shadow_media == nullptr) return LanesU(0U);
+    return gather<Lanes>(shadow_media, select(exists, as_int(slot), LanesI(0)));
+}
+
 /// A shadow ray as shading takes it. Light sampling reads the finest texels: it has no footprint.
-OBSCURA_INLINE PathLanes as_path(const ShadowLanes& ray) {
+OBSCURA_INLINE PathLanes as_path(const ShadowLanes& ray, LanesU medium_stack) {
     const Lanes zero(0.0f);
     const LanesU none_yet(0U);
     return {.origin = ray.origin,
@@ -39,7 +42,7 @@ OBSCURA_INLINE PathLanes as_path(const ShadowLanes& ray) {
             .key = none_yet,
             .sample = none_yet,
             .path_key = ray.path_key,
-            .medium_stack = none_yet};
+            .medium_stack = medium_stack};
 }
 
 /// The rest of a shadow ray, from `start` to its old end. It is aimed anew because the end is clear
@@ -60,6 +63,28 @@ OBSCURA_INLINE ShadowLanes restart_on_transmitted_side(const ShadowLanes& ray,
 }
 
 }  // namespace
+
+void absorb_shadows(const SceneView& scene, int count_in, const ShadowMediaColumns& columns) {
+    const ShadowColumns& shadows = columns.shadows;
+    for (int i = 0; i < count_in; i += lane_count) {
+        Mask exists = lanes_in_range(i, count_in);
+        if (columns.occluded != nullptr) {
+            alignas(64) int32_t blocked[lane_count];
+            for (int lane = 0; lane < lane_count; ++lane)
+                blocked[lane] = columns.occluded[i + lane];
+            exists = exists & (load(blocked) == LanesI(0));
+        }
+        const LanesU stack = read_stack(columns.shadow_media, exists, load(shadows.slot + i));
+        Lanes distance = load(shadows.tfar + i);
+        if (columns.hits.primitive != nullptr) {
+            const Mask met = load(columns.hits.primitive + i) >= LanesI(0);
+            distance = select(met, load(columns.hits.t + i), distance);
+        }
+        const Vec3<Lanes> passes = transmittance_to_light(scene, exists, stack, distance);
+        const Vec3<Lanes> radiance = load3(shadows.r, shadows.g, shadows.b, i);
+        store3(shadows.r, shadows.g, shadows.b, i, radiance * passes);
+    }
+}
 
 int take_waiting(int count, const uint8_t* occluded, const ShadowColumns& columns) {
     uint16_t index[batch_size];
@@ -89,15 +114,24 @@ int cross_thin_walls(const SceneView& scene,
         if (columns.time != nullptr) {
             hit.time = gather<Lanes>(columns.time, select(met, as_int(ray.slot), LanesI(0)));
         }
+        const LanesU stack = read_stack(columns.shadow_media, met, ray.slot);
         ShadingPoint s = shading_point(
-            scene, hit, as_path(ray), {filtering, texture_random(ray.path_key, step)});
+            scene, hit, as_path(ray, stack), {filtering, texture_random(ray.path_key, step)});
         if (!s.any_layers) continue;
-        const StraightLight<Lanes> light =
-            take_straight(s.layers, to_local(s.frame, -ray.direction));
+        Vec3<Lanes> transmittance =
+            take_straight(s.layers, to_local(s.frame, -ray.direction)).transmittance;
+        const Boundary& boundary = s.layers.boundary;
+        Mask open = s.layers.layered & (!boundary.matched);
+        if (columns.shadow_media != nullptr) {
+            const Mask unseen = is_passed_unseen(boundary);
+            transmittance = select(unseen, splat3(Lanes(1.0f)), transmittance);
+            open = s.layers.layered & ((!boundary.matched) | boundary.passable);
+        }
         ShadowLanes next = restart_on_transmitted_side(ray, s.transmitted_start);
-        next.radiance = ray.radiance * light.transmittance;
-        const Mask passes = met & (!s.unlit) & (max_component(next.radiance) > Lanes(0.0f)) &
-                            s.layers.layered & (!s.layers.boundary.matched);
+        next.radiance = ray.radiance * transmittance;
+        const Mask passes = met & open & (!s.unlit) & (max_component(next.radiance) > Lanes(0.0f));
+        if (columns.shadow_media != nullptr)
+            store_by_slot(columns.shadow_media, passes, ray.slot, boundary.transmitted_stack);
         // In place: the entries written here have all been read.
         out = append_shadows(columns.shadows, out, passes, next);
     }

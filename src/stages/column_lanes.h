@@ -188,10 +188,11 @@ OBSCURA_INLINE void add_to_slots(Mask mask, LanesU slot, const SlotColumn (&to)[
     }
 }
 
-/// Writes one number by sample index, for the lanes of `mask`.
-OBSCURA_INLINE void store_by_slot(float* column, Mask mask, LanesU slot, Lanes value) {
+/// Writes one word by sample index, for the lanes of `mask`.
+template <typename L, typename Word>
+OBSCURA_INLINE void store_by_slot(Word* column, Mask mask, LanesU slot, L value) {
     alignas(64) uint32_t slots[lane_count];
-    alignas(64) float values[lane_count];
+    alignas(64) Word values[lane_count];
     store(slots, slot);
     store(values, value);
     for (uint32_t bits = mask_bits(mask); bits != 0; bits &= bits - 1) {

@@ -36,6 +36,7 @@ const StageTable stage_table = {
     .aovs = write_aovs,
     .follow_albedo = follow_albedo,
     .wireframe = write_wireframe,
+    .absorb_shadows = absorb_shadows,
     .take_waiting = take_waiting,
     .cross_thin_walls = cross_thin_walls,
     .add_shadows = add_shadow_light,

@@ -72,6 +72,15 @@ void LightPathState::begin(const LightPathTable& table, int count, bool goes_str
 
 void LightPathState::begin_bounce() {
     columns_.all_at_start = bounces_++ == 0 && !has_moved_;
+    forget_shadows();
+}
+
+void LightPathState::begin_flight() {
+    notes_shadows_ = false;
+    forget_shadows();
+}
+
+void LightPathState::forget_shadows() {
     if (shadow_weights_.used_count == 0) return;
     shadow_weights_.begin(columns_.table->state_count);
     std::fill_n(columns_.shadow_split, count_, 0U);
@@ -128,6 +137,16 @@ void LightPathState::move_path(uint32_t slot, size_t event) {
 
 void LightPathState::move_shadow(uint32_t slot, size_t event) {
     if (columns_.shadow_split[slot] != 0) move(columns_.shadow_weights, slot, event);
+}
+
+void LightPathState::split_shadow(uint32_t slot) {
+    if (columns_.settled[slot] != 0) return;
+    columns_.shadow_split[slot] = 1;
+    for (int k = 0; k < *columns_.weights.used_count; ++k) {
+        const uint16_t state = columns_.weights.used[k];
+        const Vec3f part = color_at(columns_.weights.memory + color_words * state, slot);
+        if (max_component(part) > 0) add_color(columns_.shadow_weights, state, slot, part);
+    }
 }
 
 void LightPathState::add_unshadowed(uint32_t slot, const Vec3f& radiance) {

@@ -29,6 +29,9 @@ public:
     /// Begins a bounce: no shadow ray has weights of its own.
     void begin_bounce();
 
+    /// Begins the shadow rays of a flight inside a medium: none has weights of its own.
+    void begin_flight();
+
     const LightPathColumns& columns() const { return columns_; }
 
     /// Adds light along a path that no stage of shading tells of.
@@ -40,6 +43,9 @@ public:
     /// Moves all weights of a path by one event, or those of its shadow ray.
     void move_path(uint32_t slot, size_t event);
     void move_shadow(uint32_t slot, size_t event);
+
+    /// Gives a shadow ray the weights of its path, which has moved already.
+    void split_shadow(uint32_t slot);
 
     /// Notes the light of a first hit's shadow ray, as if nothing were in its way.
     void add_unshadowed(uint32_t slot, const Vec3f& radiance);
@@ -68,6 +74,7 @@ private:
         ColorView color(size_t number) const;
     };
 
+    void forget_shadows();
     void move(const ColorColumns& weights, uint32_t slot, size_t event);
 
     Colors weights_, shadow_weights_, layers_, sums_, shadows_;

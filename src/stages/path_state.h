@@ -10,12 +10,13 @@
 //     only read:  make_probes shade_raycast aovs wireframe
 //   HitColumns     24 bytes
 //     written:  begin_scatter scatter shade shade_ao begin_raycast follow_albedo
-//     only read:  make_probes shade_catchers shade_raycast aovs wireframe cross_thin_walls
+//     only read:  make_probes shade_catchers shade_raycast aovs wireframe absorb_shadows
+//               cross_thin_walls
 //   MissColumns    36 bytes
 //     written:  shade shade_ao begin_raycast
 //   ShadowColumns  48 bytes
-//     written:  make_probes shade shade_catchers shade_ao begin_raycast shade_raycast
-//               take_waiting cross_thin_walls
+//     written:  scatter make_probes shade shade_catchers shade_ao begin_raycast shade_raycast
+//               take_waiting absorb_shadows cross_thin_walls
 //     only read:  add_shadows
 //   SampleColumns  16 bytes
 //     written:  camera shade shade_ao begin_raycast shade_raycast wireframe cross_thin_walls
@@ -134,8 +135,9 @@ struct SceneView {
     const Medium* media = nullptr;            ///< null: no mesh bounds a medium
     const int32_t* touching_media = nullptr;  ///< by primitive; null: no faces are shared
     bool scatters = false;                    ///< some medium scatters light
-    bool occludes = false;    ///< some material has an occlusion texture: stages/3_occlusion.h
-    bool thin_walls = false;  ///< some may let light straight through: scene/thin_walls.h
+    bool occludes = false;        ///< some material has an occlusion texture: stages/3_occlusion.h
+    bool thin_walls = false;      ///< some may let light straight through: scene/thin_walls.h
+    bool passable_media = false;  ///< shadow rays pass the boundary of some medium: likewise
     const int32_t* material_numbers = nullptr;  ///< glTF index of each material; -1: none
     MotionView motion;
     TextureView textures;

@@ -37,6 +37,7 @@ struct ShadeColumns {
     float* occlusion = nullptr;  ///< by sample index, where SceneView::occludes: 3_occlusion.h
     const SharedFaces* shared = nullptr;  ///< by sample index, where SceneView::touching_media
     const LightPathColumns* light_paths = nullptr;  ///< null: no light layers are asked for
+    uint32_t* shadow_media = nullptr;  ///< out, by sample index: see ShadowMediaColumns
 };
 
 /// The columns that ray casting reads and writes, once hits and misses are separated.
@@ -112,8 +113,19 @@ inline constexpr uint8_t waits_at_thin_wall = 2;
 struct ThinWallColumns {
     ShadowColumns shadows;  ///< in and out, packed in place
     HitView hits;
-    SampleColumns samples;        ///< in and out
-    const float* time = nullptr;  ///< by sample index; null: nothing moves
+    SampleColumns samples;             ///< in and out
+    const float* time = nullptr;       ///< by sample index; null: nothing moves
+    uint32_t* shadow_media = nullptr;  ///< in and out: see ShadowMediaColumns
+};
+
+/// Shadow rays on their way through media. Where SceneView::passable_media, they have a medium
+/// stack each (stages/3_media.h) and are attenuated from one boundary to the next. Elsewhere they
+/// end in the medium in which they begin, and what makes them attenuates them.
+struct ShadowMediaColumns {
+    ShadowColumns shadows;  ///< in and out
+    HitView hits;           ///< nearest ones; without columns: the rays reach their lights
+    const uint8_t* occluded = nullptr;  ///< only rays with 0 count; null: all
+    const uint32_t* shadow_media;       ///< by sample index: medium stack where the ray begins
 };
 
 /// One step of transparent shadow rays: up to the next thin wall.
@@ -152,13 +164,23 @@ struct ScatterStart {
     uint32_t* path_index;         ///< out: of a random walk, in `paths`
 };
 
-/// One flight of random-walk paths.
+/// One flight of random-walk paths, and the shadow rays of those that scatter.
 struct ScatterColumns {
-    PathColumns paths;         ///< out, by index: random walks that are done
-    HitColumns hits;           ///< out: what they hit
-    PathColumns random_walks;  ///< in and out, packed in place
-    HitView random_walk_hits;  ///< what these hit
-    uint32_t* path_index;      ///< in and out: of a random walk, in `paths`
+    PathColumns paths;                    ///< out, by index: random walks that are done
+    HitColumns hits;                      ///< out: what they hit
+    PathColumns random_walks;             ///< in and out, packed in place
+    HitView random_walk_hits;             ///< what these hit
+    uint32_t* path_index;                 ///< in and out: of a random walk, in `paths`
+    ShadowColumns shadows;                ///< out, packed, where Flight::samples_lights
+    uint32_t* shadow_media;               ///< as in ShadeColumns
+    const float* time;                    ///< likewise
+    const LightPathColumns* light_paths;  ///< likewise
+};
+
+/// Sizes of the columns that a flight writes.
+struct ScatterCounts {
+    int random_walks = 0;
+    int shadow = 0;
 };
 
 /// Paths whose hit may coincide with faces of other media, and the probe rays that find those:
@@ -193,6 +215,7 @@ struct Flight {
     int bounce = 0;
     int number = 0;  ///< since the last surface
     bool last = false;
+    bool samples_lights = false;  ///< in media like air, and in the one around the camera
 };
 
 /// One instruction set's stages. To add a stage: declare it here, define it in its own numbered
@@ -216,7 +239,8 @@ struct StageTable {
 
     /// Stage 2, inside scattering media: finds the paths there, then makes one flight of each.
     int (*begin_scatter)(const SceneView&, int count, const ScatterStart&);
-    int (*scatter)(const SceneView&, const Flight&, int count, const ScatterColumns&);
+    ScatterCounts (*scatter)(
+        const SceneView&, const BatchSettings&, const Flight&, int count, const ScatterColumns&);
 
     /// Stage 2, where media touch: probe rays that find coincident faces. Returns how many.
     int (*make_probes)(const SceneView&, int count, const ProbeColumns&);
@@ -246,6 +270,9 @@ struct StageTable {
 
     /// Stage 3 for --integrator wireframe: every sample is written.
     void (*wireframe)(const SceneView&, const BatchSettings&, int count, const WireframeColumns&);
+
+    /// Stage 4, if shadow rays pass the boundaries of media: attenuates them up to the next one.
+    void (*absorb_shadows)(const SceneView&, int count, const ShadowMediaColumns&);
 
     /// Stage 4, if there are thin walls: packs the shadow rays that wait there, then steps each.
     int (*take_waiting)(int count, const uint8_t* occluded, const ShadowColumns&);

@@ -6,6 +6,7 @@
 #include "stages/shared_faces.h"
 #include "stages/wavefront_aov.h"
 #include "stages/wavefront_light_paths.h"
+#include "stages/wavefront_shadows.h"
 #include "stages/wavefront_slots.h"
 #include "stages/wavefront_splats.h"
 #include "stages/wavefront_visibility.h"
@@ -99,6 +100,40 @@ void intersect_camera_rays(const WavefrontInput& in,
     write_aovs(in, count, work.aov_outputs, work, c);
 }
 
+const LightPathColumns* light_path_columns(const WavefrontInput& in, const Workspace& work) {
+    return in.light_paths != nullptr ? &work.light_paths.columns() : nullptr;
+}
+
+ScatterColumns scatter_columns(const WavefrontInput& in, Workspace& work) {
+    return {.paths = work.paths[0],
+            .hits = work.hits,
+            .random_walks = work.paths[1],
+            .random_walk_hits = work.random_walk_hits,
+            .path_index = work.random_walk_path.data(),
+            .shadows = work.shadows,
+            .shadow_media = shadow_media(in, work),
+            .time = slot_times(in, work),
+            .light_paths = light_path_columns(in, work)};
+}
+
+/// Whether random walks sample lights: out of media like air, and in the one around the camera.
+bool walks_sample_lights(const WavefrontInput& in) {
+    const bool from_camera = (in.batch.medium_stack & 0xFFFFFFU) != 0;
+    return in.scene.lights.count > 0 && (in.scene.passable_media || from_camera);
+}
+
+/// After the first flight: these paths have begun a random walk. Where they sample lights, what
+/// samples keep of the last surface ends.
+void begin_random_walks(const WavefrontInput& in, int count, bool sample, Workspace& work) {
+    move_random_walks(in, count, work);
+    if (!sample) return;
+    for (int i = 0; i < count; ++i) {
+        const uint32_t slot = work.paths[1].slot[i];
+        if (in.scene.thin_walls) work.distance_since_scattering[slot] = 0;
+        if (in.scene.occludes) work.occlusion[slot] = 1;
+    }
+}
+
 /// Stage 2 inside scattering media: a random walk from scattering to scattering until the path
 /// reaches a surface. However many flights it takes, it counts as one bounce.
 void scatter_in_media(
@@ -109,28 +144,27 @@ void scatter_in_media(
                              .random_walks = work.paths[1],
                              .random_walk_hits = work.random_walk_hits,
                              .path_index = work.random_walk_path.data()};
-    const ScatterColumns columns{.paths = work.paths[0],
-                                 .hits = work.hits,
-                                 .random_walks = work.paths[1],
-                                 .random_walk_hits = work.random_walk_hits,
-                                 .path_index = work.random_walk_path.data()};
+    const ScatterColumns columns = scatter_columns(in, work);
     SeeThrough see_through{.segment = 2U * static_cast<uint32_t>(bounce)};
-    int random_walks = 0;
+    ScatterCounts out;
     {
         const SumOfTime time(c.seconds.shade);
-        random_walks = in.stages->begin_scatter(in.scene, count, start);
+        out.random_walks = in.stages->begin_scatter(in.scene, count, start);
     }
-    for (int number = 0; random_walks > 0; ++number) {
+    Flight flight{.bounce = bounce, .samples_lights = walks_sample_lights(in)};
+    for (; out.random_walks > 0; ++flight.number) {
         {
             const SumOfTime time(c.seconds.shade);
-            const Flight flight{bounce, number, number + 1 == max_flights};
-            random_walks = in.stages->scatter(in.scene, flight, random_walks, columns);
+            flight.last = flight.number + 1 == max_flights;
+            out = in.stages->scatter(in.scene, in.batch, flight, out.random_walks, columns);
         }
-        if (random_walks == 0) return;
-        if (number == 0) move_random_walks(in, random_walks, work);
-        RayColumns rays = rays_of(columns.random_walks, random_walks);
-        rays.time = times_of(in, columns.random_walks.slot, random_walks, work);
-        count_rays(in, columns.random_walks.slot, random_walks, work);
+        if (flight.number == 0)
+            begin_random_walks(in, out.random_walks, flight.samples_lights, work);
+        if (out.shadow > 0) trace_walk_shadows(in, out.shadow, flight, work, c);
+        if (out.random_walks == 0) return;
+        RayColumns rays = rays_of(columns.random_walks, out.random_walks);
+        rays.time = times_of(in, columns.random_walks.slot, out.random_walks, work);
+        count_rays(in, columns.random_walks.slot, out.random_walks, work);
         see_through.cutaway = cut_away(columns.random_walks.slot, work);
         intersect_rays(in, rays, work.random_walk_hits, see_through, c);
     }
@@ -163,82 +197,6 @@ void cross_shared_faces(const WavefrontInput& in,
     }
 }
 
-/// Stage 4 for shadow rays that wait at thin walls: they need the nearest hit, one thin
-/// wall after the other.
-void cross_thin_walls(
-    const WavefrontInput& in, int count, uint32_t segment, Workspace& work, WavefrontCounters& c) {
-    const bool raycast = in.kind == WavefrontKind::raycast;
-    const float* time = slot_times(in, work);
-    const ThinWallColumns columns{.shadows = work.shadows,
-                                  .hits = work.random_walk_hits,
-                                  .samples = work.samples,
-                                  .time = time};
-    int waiting = in.stages->take_waiting(count, work.occluded.data(), work.shadows);
-    for (uint32_t number = 0; waiting > 0 && number <= max_thin_walls; ++number) {
-        RayColumns rays = rays_of(work.shadows, waiting);
-        if (raycast) rays.key = nullptr;
-        rays.time = times_of(in, work.shadows.slot, waiting, work);
-        count_rays(in, work.shadows.slot, waiting, work);
-        const SeeThrough see_through{.fixed_alpha = raycast,
-                                     .segment = segment,
-                                     .passes = shadow_rays_pass,
-                                     .cutaway = cut_away(work.shadows.slot, work)};
-        c.shadow_rays += static_cast<uint64_t>(waiting);
-        {
-            const SumOfTime timing(c.seconds.shadow);
-            c.refused_rays += static_cast<uint64_t>(in.accel->intersect(
-                rays, work.random_walk_hits, Coherence::incoherent, see_through));
-        }
-        if (in.recorder != nullptr) in.recorder->add_shadow_hits(rays, columns.hits, see_through);
-        const SumOfTime timing(c.seconds.shade);
-        const ThinWallStep step{.segment = segment, .number = number, .random = !raycast};
-        add_crossed_light_paths(in, waiting, work);
-        waiting = in.stages->cross_thin_walls(in.scene, step, waiting, columns);
-        move_crossing_shadows(in, waiting, work);
-    }
-}
-
-/// Marks the shadow rays that reached their light but met possible thin walls.
-void keep_waiting(int count, Workspace& work) {
-    for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-        if (work.thin_walls[i] != 0 && work.occluded[i] == 0) work.occluded[i] = waits_at_thin_wall;
-    }
-}
-
-/// Stage 4, and adds its light to the samples.
-void trace_shadows(
-    const WavefrontInput& in, int count, int bounce, Workspace& work, WavefrontCounters& c) {
-    const auto segment = 2U * static_cast<uint32_t>(bounce) + 1U;
-    const bool passes_thin_walls = in.scene.thin_walls && in.kind != WavefrontKind::ao;
-    RayColumns rays = rays_of(work.shadows, count);
-    if (in.kind == WavefrontKind::raycast) rays.key = nullptr;
-    rays.time = times_of(in, work.shadows.slot, count, work);
-    count_rays(in, work.shadows.slot, count, work);
-    c.shadow_rays += static_cast<uint64_t>(count);
-    if (passes_thin_walls) work.thin_walls.assign(padded_batch_size, 0);
-    begin_shadow_light(in, count, bounce, work);
-    const ShadowQuery query{.segment = segment,
-                            .thin_walls = passes_thin_walls ? work.thin_walls.data() : nullptr,
-                            .cutaway = cut_away(work.shadows.slot, work),
-                            .passes = shadow_rays_pass};
-    {
-        const SumOfTime time(c.seconds.shadow);
-        c.refused_rays += static_cast<uint64_t>(
-            in.accel->occluded(rays, work.occluded.data(), Coherence::incoherent, query));
-    }
-    if (in.recorder != nullptr) {
-        in.recorder->add_shadows(rays, work.occluded.data(), query);
-    }
-    if (passes_thin_walls) keep_waiting(count, work);
-    if (in.accel->has_splats() && in.kind != WavefrontKind::ao) dim_shadows(in, rays, work, c);
-    {
-        const SumOfTime time(c.seconds.accumulate);
-        in.stages->add_shadows(count, work.shadows, work.occluded.data(), work.samples);
-        add_shadow_light_paths(in, count, work);
-    }
-    if (passes_thin_walls) cross_thin_walls(in, count, segment, work, c);
-}
-
 ShadeColumns shade_columns(const WavefrontInput& in, Workspace& work) {
     return {.paths = work.paths[0],
             .hits = work.hits,
@@ -251,7 +209,8 @@ ShadeColumns shade_columns(const WavefrontInput& in, Workspace& work) {
                 in.scene.thin_walls ? work.distance_since_scattering.data() : nullptr,
             .occlusion = in.scene.occludes ? work.occlusion.data() : nullptr,
             .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data(),
-            .light_paths = in.light_paths != nullptr ? &work.light_paths.columns() : nullptr};
+            .light_paths = light_path_columns(in, work),
+            .shadow_media = shadow_media(in, work)};
 }
 
 RaycastColumns raycast_columns(const WavefrontInput& in, Workspace& work) {

@@ -31,6 +31,13 @@ void begin_shadow_light(const WavefrontInput& in, int count, int bounce, Workspa
         work.light_paths.add_unshadowed(work.shadows.slot[i], shadow_radiance(work, i));
 }
 
+void begin_walk_shadow_light(const WavefrontInput& in, int count, Workspace& work) {
+    if (in.light_paths == nullptr) return;
+    work.light_paths.begin_flight();
+    for (int i = 0; i < count; ++i)
+        work.light_paths.split_shadow(work.shadows.slot[i]);
+}
+
 void add_shadow_light_paths(const WavefrontInput& in, int count, Workspace& work) {
     if (in.light_paths == nullptr) return;
     for (int i = 0; i < count; ++i) {

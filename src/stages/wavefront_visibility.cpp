@@ -3,6 +3,7 @@
 #include "stages/wavefront_visibility.h"
 
 #include "math/vec.h"
+#include "stages/wavefront_shadows.h"
 #include "stages/wavefront_slots.h"
 
 #include <algorithm>
@@ -126,9 +127,11 @@ CatcherCounts leave_catchers(const WavefrontInput& in, int count, Workspace& wor
         in.stages->shade_catchers(in.scene, static_cast<int>(catcher.samples.size()), columns);
     catcher.reflection_count = out.reflections;
     const ShadowColumns& s = work.shadows;
+    uint32_t* const media = shadow_media(in, work);
     for (int i = 0; i < out.shadow; ++i) {
         const auto number = static_cast<size_t>(catcher.by_slot[s.slot[i]]);
         catcher.samples[number].unshadowed = luminance(Vec3f{s.r[i], s.g[i], s.b[i]});
+        if (media != nullptr) media[s.slot[i]] = catcher.paths.medium_stack[number];
     }
     return out;
 }

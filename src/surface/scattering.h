@@ -33,6 +33,18 @@ OBSCURA_INLINE F sample_henyey_greenstein(const F& g, const F& u) {
     return clamp(select(isotropic, one - F(2.0f) * u, cosine), F(-1.0f), one);
 }
 
+/// Value of the phase function, 1/sr: also the density with which scatter_direction turns a path.
+/// In      g: as for sample_henyey_greenstein; cosine: between the directions of travel before and
+///         after
+/// Source  as above
+template <typename F>
+OBSCURA_INLINE F henyey_greenstein(const F& g, const F& cosine) {
+    const F one(1.0f);
+    const F some = select(abs(g) < F(1e-3f), F(0.0f), g);  // sampled as if isotropic
+    const F square = max(one + some * (some - F(2.0f) * cosine), F(1e-12f));
+    return exact_constant<F>(0.25 / pi_d) * (one - some * some) / (square * sqrt(square));
+}
+
 /// Direction after a scattering.
 /// In      direction: unit, of travel; u: uniform in [0, 1)^2
 template <typename F>

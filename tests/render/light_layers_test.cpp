@@ -218,19 +218,26 @@ INSTANTIATE_TEST_SUITE_P(LightLayers,
                          [](const auto& info) { return std::string(info.param.name); });
 
 TEST(LightLayers, AddUpInAndAroundScatteringMedia) {
-    for (const bool inside : {false, true}) {
-        SCOPED_TRACE(inside);
-        DielectricScene scene;
-        MaterialLayers cloud = dielectric(1.3f, {0.8f, 1.2f, 2.0f});
+    const auto expect_parts = [](float ior, bool inside) {
+        DielectricScene dielectrics;
+        MaterialLayers cloud = dielectric(ior, {0.8f, 1.2f, 2.0f});
         std::fill_n(cloud.scatter_albedo, 3, 0.9f);
-        scene.builder.sphere({0, 0, 0}, 1, 48, scene.add(cloud));
+        dielectrics.builder.sphere({0, 0, 0}, 1, 48, dielectrics.add(cloud));
+        Scene scene = dielectrics.take();
+        scene.lights = {lamp_at({2, 2, 2}), slanting_sun()};
         const Camera camera =
             look_at({0, 0, inside ? 0.5f : 3}, {0, 0, 0}, 0.7f, room_side, room_side);
         const RenderResult result = render_scene(
-            scene.take(), {constant_environment(1)}, camera, light_options(components()));
+            std::move(scene), {constant_environment(1)}, camera, light_options(components()));
         expect_sum(result, is_any);
         EXPECT_GT(mean_of(result, inside ? "volume" : "subsurface"), 0.05);
         EXPECT_EQ(mean_of(result, inside ? "subsurface" : "volume"), 0);
+    };
+    for (const float ior : {1.0f, 1.3f}) {  // the boundary of the first one does not refract
+        for (const bool inside : {false, true}) {
+            SCOPED_TRACE(testing::Message() << ior << ", " << inside);
+            expect_parts(ior, inside);
+        }
     }
 }
 

@@ -42,6 +42,11 @@ TEST(ThinWallMaterials, AreSmoothThinAndLetLightThrough) {
     EXPECT_FALSE(may_pass([](Scene& s) { s.materials[0].flags = material_unlit; }));
     EXPECT_FALSE(may_pass([](Scene& s) { s.materials[0].layers = -1; }));
     EXPECT_FALSE(may_pass([](Scene& s) { s.layers[0].medium = 1; }));
+    EXPECT_TRUE(may_pass([](Scene& s) {  // a cloud, whose boundary blurs nothing
+        s.layers[0].medium = 1;
+        s.layers[0].ior = 1.0005F;
+        s.materials[0].roughness = 1;
+    }));
     EXPECT_FALSE(may_pass([](Scene& s) { s.layers[0].transmission = 0; }));
 }
 

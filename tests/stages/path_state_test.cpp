@@ -50,8 +50,8 @@ void note_members(Access& access, const Members&...) {
 
 // All members: one more would not compile.
 void note(Type<ShadeColumns>, Access& access) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k] = ShadeColumns{};
-    note_members(access, a, b, c, d, e, f, g, h, i, j, k);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = ShadeColumns{};
+    note_members(access, a, b, c, d, e, f, g, h, i, j, k, l);
 }
 void note(Type<RaycastColumns>, Access& access) {
     const auto& [a, b, c, d, e, f] = RaycastColumns{};
@@ -70,7 +70,11 @@ void note(Type<WireframeColumns>, Access& access) {
     note_members(access, a, b, c, d);
 }
 void note(Type<ThinWallColumns>, Access& access) {
-    const auto& [a, b, c, d] = ThinWallColumns{};
+    const auto& [a, b, c, d, e] = ThinWallColumns{};
+    note_members(access, a, b, c, d, e);
+}
+void note(Type<ShadowMediaColumns>, Access& access) {
+    const auto& [a, b, c, d] = ShadowMediaColumns{};
     note_members(access, a, b, c, d);
 }
 void note(Type<CatcherColumns>, Access& access) {
@@ -82,8 +86,8 @@ void note(Type<ScatterStart>, Access& access) {
     note_members(access, a, b, c, d, e);
 }
 void note(Type<ScatterColumns>, Access& access) {
-    const auto& [a, b, c, d, e] = ScatterColumns{};
-    note_members(access, a, b, c, d, e);
+    const auto& [a, b, c, d, e, f, g, h, i] = ScatterColumns{};
+    note_members(access, a, b, c, d, e, f, g, h, i);
 }
 void note(Type<ProbeColumns>, Access& access) {
     const auto& [a, b, c, d, e, f] = ProbeColumns{};
@@ -118,6 +122,7 @@ Table table_of_types() {
     add_stage("aovs", &S::aovs, table);
     add_stage("follow_albedo", &S::follow_albedo, table);
     add_stage("wireframe", &S::wireframe, table);
+    add_stage("absorb_shadows", &S::absorb_shadows, table);
     add_stage("take_waiting", &S::take_waiting, table);
     add_stage("cross_thin_walls", &S::cross_thin_walls, table);
     add_stage("add_shadows", &S::add_shadows, table);

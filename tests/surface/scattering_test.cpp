@@ -39,6 +39,37 @@ TEST(HenyeyGreenstein, DirectionsAreUnitAndTurnByTheSampledCosine) {
     }
 }
 
+/// Integral 1 over all directions, mean cosine g, and the density of what is sampled.
+TEST(HenyeyGreenstein, IsTheDensityOfItsSamples) {
+    for (const double g : {-0.9, -0.3, 0.0, 0.0005, 0.5, 0.95}) {
+        SCOPED_TRACE(g);
+        constexpr int steps = 200000;
+        double sum = 0;
+        double cosines = 0;
+        for (int i = 0; i < steps; ++i) {
+            const double cosine = -1 + 2 * (i + 0.5) / steps;
+            const double value = henyey_greenstein(g, cosine) * 2 * pi_d * 2 / steps;
+            sum += value;
+            cosines += value * cosine;
+        }
+        EXPECT_NEAR(sum, 1, 1e-5);
+        EXPECT_NEAR(cosines, std::abs(g) < 1e-3 ? 0 : g, 1e-5);
+        for (int i = 1; i < 100; ++i) {
+            // A sample's density is one over how much its number changes the cosine.
+            const double u = i / 100.0;
+            const double step = 1e-5;
+            const double change =
+                sample_henyey_greenstein(g, u - step) - sample_henyey_greenstein(g, u + step);
+            const double density = henyey_greenstein(g, sample_henyey_greenstein(g, u));
+            EXPECT_NEAR(density * 2 * pi_d * std::abs(change) / (2 * step), 1, 1e-4) << u;
+            const auto cosine = static_cast<float>(sample_henyey_greenstein(g, u));
+            const auto single =
+                static_cast<double>(henyey_greenstein(static_cast<float>(g), cosine));
+            EXPECT_NEAR(single / density, 1, 1e-3) << u;
+        }
+    }
+}
+
 /// Means of both weights over all random numbers: light that scatters before the surface, and light
 /// that arrives at it.
 TEST(FreeFlight, WeightsMeanWhatBeerAndLambertSay) {

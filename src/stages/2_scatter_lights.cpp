@@ -1,0 +1,122 @@
+// stages/2_scatter_lights.cpp - stage 2, inside scattering media: next-event estimation.
+// SPDX-License-Identifier: Apache-2.0
+#include "stages/2_scatter_lights.h"
+
+#include "math/sampler.h"
+#include "stages/3_light_paths.h"
+#include "stages/3_lights.h"
+#include "surface/scattering.h"
+
+namespace obscura {
+inline namespace OBSCURA_ISA {
+
+namespace {
+
+/// The uses of the random numbers with which a flight's end samples lights.
+enum class LightUse : uint32_t { choice, x, y, texture_x, texture_y, texture_level, count };
+
+OBSCURA_INLINE LanesU hashed(LanesU path_key, const Flight& flight, LightUse use) {
+    const uint32_t number =
+        (static_cast<uint32_t>(flight.bounce) << 20U) +
+        static_cast<uint32_t>(flight.number) * static_cast<uint32_t>(LightUse::count) +
+        static_cast<uint32_t>(use);
+    return hash_word(LanesU(path_key ^ LanesU(hash_word(number ^ 0x4C414D50U))));
+}
+
+/// The first scattering has the pixel's Sobol points, of which surfaces use those of a bounce too;
+/// later ones have none.
+OBSCURA_INLINE Vec2<LanesU> random_pair(const PathLanes& path,
+                                        const Flight& flight,
+                                        RandomUse use) {
+    const uint32_t number =
+        static_cast<uint32_t>(flight.bounce) * pairs_per_bounce + static_cast<uint32_t>(use);
+    return sobol_pair(path.key, path.sample, number);
+}
+
+OBSCURA_INLINE LightRandom light_random(const SceneView& scene,
+                                        const PathLanes& path,
+                                        const Flight& flight) {
+    const auto hash = [&](LightUse use) { return hashed(path.path_key, flight, use); };
+    const auto texture = [&](LightUse use) { return unit_float<Lanes>(hash(use)); };
+    LightRandom random;
+    Vec2<LanesU> place;
+    if (flight.number == 0) {
+        random.choice = random_pair(path, flight, RandomUse::light_choice).x;
+        place = random_pair(path, flight, RandomUse::light);
+    } else {
+        random.choice = hash(LightUse::choice);
+        place = {hash(LightUse::x), hash(LightUse::y)};
+    }
+    random.texture = {texture(LightUse::texture_x),
+                      texture(LightUse::texture_y),
+                      texture(LightUse::texture_level)};
+    random.environment.random = place;
+    if (scene.has_environment) {
+        random.environment = draw_block<Lanes>(scene.environment.choice, place);
+        draw_environment_pixel(scene.environment, random.environment);
+    }
+    return random;
+}
+
+/// A scattering as light sampling takes it. Lanes without one lie at the origin.
+OBSCURA_INLINE ShadingPoint point_to_light(const ScatteringPoint& at, const float* time) {
+    const Vec3<Lanes> zero = splat3(Lanes(0.0f));
+    ShadingPoint point{};
+    point.light_start = select(at.exists, at.position, zero);
+    point.time = Lanes(0.0f);
+    if (time != nullptr) {
+        point.time = gather<Lanes>(time, select(at.exists, as_int(at.path.slot), LanesI(0)));
+    }
+    return point;
+}
+
+}  // namespace
+
+Mask samples_lights(const WalkingBatch& walk, LanesI medium, Lanes ior) {
+    const auto around = static_cast<int32_t>(walk.batch.medium_stack >> 16U & 255U);
+    const Mask passable = Mask(walk.scene.passable_media) & is_like_air(ior);
+    return passable | (medium == LanesI(around));
+}
+
+void add_light_samples(const WalkingBatch& walk,
+                       const ScatteringPoint& at,
+                       const ScatterColumns& columns,
+                       int& count) {
+    const SceneView& scene = walk.scene;
+    const PathLanes& path = at.path;
+    const ShadingPoint point = point_to_light(at, columns.time);
+    const LightRandom random = light_random(scene, path, walk.flight);
+    const LightLanes light = sample_light(scene, point, random);
+    const Lanes phase = henyey_greenstein(at.anisotropy, dot(path.direction, light.direction));
+    const int strategies = walk.batch.strategies;
+    Lanes weight(1.0f);
+    if (strategies == (sample_lights | sample_bsdfs))
+        weight = select(light.pdf > Lanes(0.0f), mis_weight(light.pdf, phase), weight);
+    Vec3<Lanes> radiance = at.throughput * light.radiance_over_pdf * (phase * weight);
+    Mask useful = at.exists & light.valid;
+    if (strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
+    if (columns.shadow_media == nullptr) {
+        radiance =
+            radiance * transmittance_to_light(scene, useful, path.medium_stack, light.distance);
+    }
+    useful = useful & (max_component(radiance) > Lanes(0.0f));
+    if (none(useful)) return;
+    if (columns.shadow_media != nullptr)
+        store_by_slot(columns.shadow_media, useful, path.slot, path.medium_stack);
+    if (columns.light_paths != nullptr) {
+        const LanesI index = choose_light(scene.lights, random.choice);
+        note_shadow_class(*columns.light_paths, useful, path.slot, index);
+    }
+    count = append_shadows(columns.shadows,
+                           count,
+                           useful,
+                           {.origin = point.light_start,
+                            .direction = light.direction,
+                            .tfar = light.distance,
+                            .radiance = radiance,
+                            .slot = path.slot,
+                            .path_key = path.path_key});
+}
+
+}  // namespace OBSCURA_ISA
+}  // namespace obscura
