@@ -48,6 +48,18 @@ std::vector<float> alpha_of(const Film& film) {
     return alpha;
 }
 
+/// Samples in a row that go to one half. Adaptive sampling stops pixels at different numbers of
+/// samples, the least one, its doubles and the most one: each must have halves of equal size.
+size_t run_of(const RenderOptions& options) {
+    if (!options.adaptive) return half_run(options.samples_per_pixel);
+    size_t run = 8;
+    const auto splits = [&](int samples) { return static_cast<size_t>(samples) % (2 * run) == 0; };
+    while (run > 1 &&
+           !(splits(options.adaptive->least_samples) && splits(options.samples_per_pixel)))
+        run /= 2;
+    return run;
+}
+
 /// What the beauty has beside the mean of its samples: shadow catchers, which are ratios of sums.
 ///
 /// In      halves: of the samples; first_share: how many of them are in the first
@@ -94,6 +106,12 @@ Result<void> check_denoising(const RenderRequest& request) {
         return conflict("it compares two halves of the samples; use " + setting("spp") +
                         " 2 or more");
     }
+    if (options.adaptive &&
+        (options.adaptive->least_samples % 2 != 0 || options.samples_per_pixel % 2 != 0)) {
+        return conflict("it compares two halves of each pixel's samples; with " +
+                        setting("noise-target") + ", " + setting("spp") + " and " +
+                        setting("spp-min") + " must be even");
+    }
     return {};
 }
 
@@ -105,8 +123,7 @@ void add_denoising_layers(RenderOptions& options) {
 
 void set_half_runs(RenderOptions& options) {
     for (Layer& layer : options.layers) {
-        if (auto* mean = std::get_if<PartMean>(&layer.source))
-            mean->run = half_run(options.samples_per_pixel);
+        if (auto* mean = std::get_if<PartMean>(&layer.source)) mean->run = run_of(options);
     }
 }
 
@@ -135,10 +152,12 @@ std::string denoise_film(const RenderOptions& options, const RenderOptions& aske
     input.depth = layer(Aov::depth);
     input.opacity = layer(Aov::opacity);
     input.alpha = alpha;
-    const auto samples = static_cast<size_t>(options.samples_per_pixel);
-    const PartMean first{{}, SamplePart::first_half, half_run(options.samples_per_pixel)};
-    input.first_share =
-        static_cast<float>(samples_in(first, samples)) / static_cast<float>(samples);
+    if (!options.adaptive) {  // else one half: see run_of
+        const auto samples = static_cast<size_t>(options.samples_per_pixel);
+        const PartMean first{{}, SamplePart::first_half, run_of(options)};
+        input.first_share =
+            static_cast<float>(samples_in(first, samples)) / static_cast<float>(samples);
+    }
     std::vector<LightImage> images = {{film.pixels, film.channels.size()}};
     for (FilmLayer& layer : film.layers) {
         if (std::holds_alternative<LightLayer>(layer.layer.source))

@@ -66,8 +66,26 @@ TEST_F(DenoiseOption, LeavesLayersOfDataAndKeepsWhatWasAskedFor) {
     EXPECT_NE(values(clean, "diffuse_direct"), values(noisy, "diffuse_direct"));
 }
 
+/// Pixels that stop at 4, 8, 16 and 20 samples: with halves of different size the beauty would seem
+/// to have light beside its samples, which would stay noisy.
+TEST_F(DenoiseOption, TakesPixelsOfDifferentNumbersOfSamples) {
+    const std::vector<std::string> adaptive = {
+        "--noise-target", "0.02", "--spp-min", "4", "--spp", "20", "--float", "--size", "40x30"};
+    std::vector<std::string> layers = {"--aov", "half_1,half_2", "-o", "noisy.exr"};
+    layers.insert(layers.end(), adaptive.begin(), adaptive.end());
+    expect_result(render("box.gltf", layers), 0, "OK");
+    const ReadImage noisy = read_image_file(folder_ / "noisy.exr").value();
+    std::vector<std::string> denoised = {"--denoise", "-o", "clean.exr"};
+    denoised.insert(denoised.end(), adaptive.begin(), adaptive.end());
+    expect_result(render("box.gltf", denoised), 0, "OK");
+    const ReadImage clean = read_image_file(folder_ / "clean.exr").value();
+    EXPECT_EQ(values(clean, "A"), values(noisy, "A"));
+    EXPECT_NE(values(clean, "R"), values(noisy, "R"));
+}
+
 TEST_F(DenoiseOption, NeedsLightAndTwoSamples) {
     for (const std::vector<std::string>& more : {std::vector<std::string>{"--spp", "1"},
+                                                 {"--noise-target", "0.1", "--spp-min", "3"},
                                                  {"--integrator", "normal"},
                                                  {"--integrator", "ao"}}) {
         std::vector<std::string> all = {"--denoise", "-o", "a.exr"};
