@@ -13,10 +13,27 @@
 #include "session/image_layers.h"
 #include "session/lighting.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 namespace obscura {
+
+namespace {
+
+/// The masks of `--segmentation`, whose layer leaves the film.
+Segmentation take_segmentation(Film& film, const Scene& scene) {
+    const auto masks = std::find_if(film.layers.begin(), film.layers.end(), [](const auto& one) {
+        return std::holds_alternative<MajorityNode>(one.layer.source);
+    });
+    std::rotate(masks, masks + 1, film.layers.end());  // behind it were the scene's light groups
+    Segmentation out = segmentation_of(film, scene);
+    film.layers.pop_back();
+    return out;
+}
+
+}  // namespace
 
 Result<AssetRenderer> AssetRenderer::open(const std::filesystem::path& file,
                                           const gltf::LoadOptions& options,
@@ -169,8 +186,7 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
         finished.metadata.extra.push_back({"obscura:denoise", done});
     }
     if (request.segmentation) {
-        finished.segmentation = segmentation_of(film, prepared_->scene());
-        film.layers.pop_back();
+        finished.segmentation = take_segmentation(film, prepared_->scene());
     }
     std::string manifest;
     if (request.crypto_manifest) {

@@ -8,6 +8,7 @@ namespace {
 
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 class DenoiseOption : public Cli {
 protected:
@@ -81,6 +82,25 @@ TEST_F(DenoiseOption, TakesPixelsOfDifferentNumbersOfSamples) {
     const ReadImage clean = read_image_file(folder_ / "clean.exr").value();
     EXPECT_EQ(values(clean, "A"), values(noisy, "A"));
     EXPECT_NE(values(clean, "R"), values(noisy, "R"));
+}
+
+/// The scene names layers of its own, behind those that were asked for; masks are in a file.
+TEST_F(DenoiseOption, GoesWithLightGroupsAndMasks) {
+    const ReadImage clean =
+        shot({"--denoise", "--light-groups", "each", "--segmentation", "m.png"}, "a.exr");
+    EXPECT_THAT(clean.channels, Contains(testing::StartsWith("light_")));
+    EXPECT_THAT(clean.channels, Not(Contains(testing::StartsWith("half_"))));
+    EXPECT_THAT(clean.channels, Not(Contains(testing::StartsWith("segmentation"))));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "m.json"));
+    const std::vector<float> beauty = values(clean, "R");
+    std::vector<float> sum(beauty.size());
+    for (size_t i = 0; i < clean.pixels.size(); ++i) {
+        const std::string& channel = clean.channels[i % clean.channels.size()];
+        if (channel.starts_with("light_") && channel.ends_with(".R"))
+            sum[i / clean.channels.size()] += clean.pixels[i];
+    }
+    for (size_t i = 0; i < sum.size(); ++i)
+        ASSERT_NEAR(sum[i], beauty[i], 1e-5f * beauty[i]) << i;
 }
 
 TEST_F(DenoiseOption, NeedsLightAndTwoSamples) {
