@@ -62,6 +62,7 @@ struct OptionReader {
 /// for its text in the arguments that the entry names, a member for its value in the request; then
 /// use the value, and test it in tests/app or tests/cli. Parser, checks, --help, --config, man page
 /// and completion use the entry; `obscura print-docs markdown -o docs/cli.md` updates the manual.
+/// For the library, a member in include/obscura/ and its check in session/library_request.cpp.
 template <typename Arguments, typename Request>
 struct OptionEntry {
     OptionInfo info;

@@ -11,6 +11,7 @@
 #include "app/scene_choice.h"
 #include "film/layers.h"
 #include "math/warp.h"
+#include "session/model_settings.h"
 #include "session/segmentation.h"
 
 #include <algorithm>
@@ -28,10 +29,8 @@ tl::unexpected<Error> usage(const char* id, const std::string& where, const std:
 /// --fov: its range depends on the camera model.
 Result<void> read_fov(const OptionText& text, CameraRequest& camera) {
     if (!text) return {};
-    const CameraModel model =
-        camera.model.value_or(implied_model(camera.settings).value_or(CameraModel::pinhole));
     const Result<double> degrees =
-        parse_real(*text, "--fov", 0.01, model == CameraModel::fisheye ? 360 : 179);
+        parse_real(*text, "--fov", 0.01, max_fov_deg(camera.model, camera.settings));
     if (!degrees) return fail(degrees.error());
     camera.yfov_rad = *degrees * radians_per_degree;
     return {};

@@ -12,13 +12,15 @@
 namespace obscura {
 
 /// To add a model: write camera/<model>.h with its parameters, `generate_ray`, its inverse and the
-/// source of the formula; append a name here and in camera/names.h, a member to Camera, a case
-/// to local_ray and visit_model below, to project in camera/project.h, to camera_matrices in
-/// camera/matrices.cpp and to make_camera in session/camera_build.cpp. The compiler names the other
-/// switches: render/points_lines_sizes.cpp, session/camera_parameters.cpp,
-/// explain/camera_working.cpp. Its settings go into scene/camera_settings.h; its public name into
-/// include/obscura/view.h and session/library_request.cpp. Then a test against the closed form in
-/// tests/camera and a section in docs/cameras.md.
+/// source of the formula; append a name here, in camera/names.h and in include/obscura/view.h, a
+/// member to Camera, a case to local_ray and visit_model below, to project_local in
+/// camera/project.cpp, to camera_matrices in camera/matrices.cpp and to make_camera in
+/// session/camera_build.cpp. The compiler names the other switches: session/camera_choice.cpp,
+/// session/camera_parameters.cpp, render/points_lines_sizes.cpp, explain/camera_working.cpp. What
+/// no switch asks: measures_from_eye and limits_rays below, and max_fov_deg in
+/// session/model_settings.h. Settings go into scene/camera_settings.h, by its recipe. Then a test
+/// against the closed form in tests/camera, a section in docs/cameras.md, docs/cli.md by `obscura
+/// print-docs`, and the name in README.md and schema.json of docs/extensions/OBSCURA_camera.
 enum class CameraModel : int { pinhole = 0, orthographic, thin_lens, fisheye, environment };
 
 /// A camera in the world. Only the member that `model` names is used, except that thin lenses also
@@ -37,8 +39,8 @@ struct Camera {
 };
 
 /// True when near and far are distances from the eye; else they are planes across the view.
-OBSCURA_INLINE bool measures_from_eye(const Camera& camera) {
-    return camera.model == CameraModel::fisheye || camera.model == CameraModel::environment;
+OBSCURA_INLINE constexpr bool measures_from_eye(CameraModel model) {
+    return model == CameraModel::fisheye || model == CameraModel::environment;
 }
 
 OBSCURA_INLINE bool is_distorted(const Camera& camera) {
@@ -131,8 +133,7 @@ struct WorldRay {
 /// Out     unit direction; footprint of one pixel for texture filtering
 template <typename Maker, typename F>
 OBSCURA_INLINE WorldRay<F> world_ray(const Camera& camera, const FilmPoint<F>& point) {
-    constexpr bool round =
-        Maker::model == CameraModel::fisheye || Maker::model == CameraModel::environment;
+    constexpr bool round = measures_from_eye(Maker::model);
     const CameraRay<F> local = local_ray<Maker>(camera, point);
     Affine<F> world_from_camera;
     for (int r = 0; r < 3; ++r) {

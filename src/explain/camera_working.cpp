@@ -261,7 +261,7 @@ CameraWorking work_out_camera(const Camera& camera, const PixelPlace& pixel) {
     out.terms.emplace_back("R_d in the camera's space", own.direction);
     const Affined world = affine_cast<double>(camera.world_from_camera);
     out.ray = {transform_point(world, own.origin), unit(transform_vector(world, own.direction))};
-    clip(camera, measures_from_eye(camera) ? 1 : -own.direction.z, out);
+    clip(camera, measures_from_eye(camera.model) ? 1 : -own.direction.z, out);
     out.terms.emplace_back("R_o in the world", out.ray.origin);
     out.terms.emplace_back("R_d in the world", out.ray.direction);
     return out;

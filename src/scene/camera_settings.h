@@ -32,9 +32,11 @@ enum class EnvironmentAlign : int { world, view };
 /// Empty: not given. docs/extensions/OBSCURA_camera/README.md has the meaning of each.
 ///
 /// To add one: append it here and to scene/camera_setting_table.h, use it in
-/// session/camera_build.cpp, give it an entry in app/lens_options.cpp for an option and, for the
-/// library, a member in include/obscura/view.h and a check in session/library_request.cpp. Describe
-/// it in docs/cameras.md and in README.md and schema.json of docs/extensions/OBSCURA_camera.
+/// session/camera_build.cpp, and name the model in implied_model of scene/camera_settings.cpp if
+/// the setting alone asks for it. An option is a text in app/lens_options.h and an entry in
+/// app/lens_options.cpp; for the library, a member in include/obscura/view.h and a check in
+/// session/library_request.cpp. Describe it in docs/cameras.md and in README.md and schema.json of
+/// docs/extensions/OBSCURA_camera; docs/cli.md is printed by `obscura print-docs`.
 struct CameraSettings {
     std::optional<CameraModel> model = {};
     std::optional<double> near_m = {};

@@ -197,19 +197,29 @@ void choose_planes(const Placed& placed, const BoundingSphere& sphere, ChosenCam
     if (!(out.zfar_m > out.znear_m)) out.zfar_m = 1e4 * out.znear_m;
 }
 
-bool fits_float(const Camera& camera) {
-    const auto positive = [](float f) { return f > 0 && std::isfinite(f); };
+bool film_fits_float(const Camera& camera) {
+    const auto positive = [](auto... numbers) {
+        return ((numbers > 0 && std::isfinite(numbers)) && ...);
+    };
     const OrthographicCamera& parallel = camera.orthographic;
-    const FisheyeCamera& round = camera.fisheye;
-    const bool lens =
-        camera.model == CameraModel::orthographic
-            ? positive(parallel.half_width_m) && positive(parallel.half_height_m) &&
-                  positive(parallel.pixel_width_m)
-        : camera.model == CameraModel::fisheye
-            ? positive(round.half_width) && positive(round.half_height)
-            : positive(camera.pinhole.tan_half_yfov) && positive(camera.pinhole.aspect);
+    switch (camera.model) {
+        case CameraModel::pinhole:
+        case CameraModel::thin_lens:
+            return positive(camera.pinhole.tan_half_yfov, camera.pinhole.aspect);
+        case CameraModel::orthographic:
+            return positive(parallel.half_width_m, parallel.half_height_m, parallel.pixel_width_m);
+        case CameraModel::fisheye:
+            return positive(camera.fisheye.half_width, camera.fisheye.half_height);
+        case CameraModel::environment:
+            break;
+    }
+    return true;
+}
+
+bool fits_float(const Camera& camera) {
     const auto& m = camera.world_from_camera.m;
-    return lens && std::isfinite(m[0][3]) && std::isfinite(m[1][3]) && std::isfinite(m[2][3]);
+    return film_fits_float(camera) && std::isfinite(m[0][3]) && std::isfinite(m[1][3]) &&
+           std::isfinite(m[2][3]);
 }
 
 /// The requested settings override those of the file; an angle counts where the model has an angle.

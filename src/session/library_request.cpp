@@ -21,16 +21,14 @@ namespace {
 /// The library's enumerations have the same order as ours.
 static_assert(static_cast<int>(v0::Integrator::heat) == static_cast<int>(Integrator::heat) &&
               static_cast<int>(v0::Integrator::depth) == static_cast<int>(Integrator::depth) &&
-              static_cast<int>(v0::CameraModel::fisheye) == 3 &&
+              static_cast<int>(v0::CameraModel::thin_lens) ==
+                  static_cast<int>(CameraModel::thin_lens) &&
+              static_cast<int>(v0::CameraModel::environment) ==
+                  static_cast<int>(CameraModel::environment) &&
               static_cast<int>(v0::PixelFilter::blackman_harris) ==
                   static_cast<int>(PixelFilter::blackman_harris) &&
               static_cast<int>(v0::Background::color) == static_cast<int>(BackgroundKind::color) &&
               static_cast<int>(v0::ExrLayout::separate) == static_cast<int>(ExrLayout::separate));
-constexpr std::array<CameraModel, 5> camera_models = {CameraModel::pinhole,
-                                                      CameraModel::orthographic,
-                                                      CameraModel::thin_lens,
-                                                      CameraModel::fisheye,
-                                                      CameraModel::environment};
 constexpr std::array<Named<Isa>, 4> isa_names = {{{"auto", Isa::automatic},
                                                   {"baseline", Isa::baseline},
                                                   {"avx2", Isa::avx2},
@@ -202,13 +200,10 @@ void read_camera(const v0::View& view, CameraRequest& out, Checks& checks) {
     out.eye_m = point_of(view.eye);
     out.target_m = point_of(view.target);
     out.up = point_of(view.up);
-    if (view.camera_model) out.model = camera_models[static_cast<size_t>(*view.camera_model)];
+    if (view.camera_model) out.model = static_cast<CameraModel>(*view.camera_model);
     read_lens(view, out.settings, checks);
     checks.take(check_settings_agree(out.settings));
-    const bool fisheye =
-        out.model.value_or(implied_model(out.settings).value_or(CameraModel::pinhole)) ==
-        CameraModel::fisheye;
-    checks.real("fov", view.fov_deg, 0.01, fisheye ? 360 : 179);
+    checks.real("fov", view.fov_deg, 0.01, max_fov_deg(out.model, out.settings));
     if (view.fov_deg) out.yfov_rad = *view.fov_deg * radians_per_degree;
     if (view.world_from_camera) out.loaded = placed_camera(*view.world_from_camera, view);
     if (view.focus_on_px) {

@@ -20,6 +20,12 @@ Result<void> check_model_has(const CameraSettings& settings, CameraModel model) 
                     " does not have it; leave it out or choose another " + setting("camera-model"));
 }
 
+double max_fov_deg(const std::optional<CameraModel>& model, const CameraSettings& settings) {
+    const CameraModel meant =
+        model.value_or(implied_model(settings).value_or(CameraModel::pinhole));
+    return meant == CameraModel::fisheye ? 360 : 179;
+}
+
 Result<void> check_settings_agree(const CameraSettings& settings) {
     const auto conflict = [](const char* name, const std::string& message) {
         return fail(ExitCode::usage, "E-USAGE-CONFLICT", setting(name), message);

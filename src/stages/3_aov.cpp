@@ -11,7 +11,7 @@ namespace {
 /// Cosine between the ray and the axis along which depth and near are measured: 1 where the camera
 /// has no image plane.
 OBSCURA_INLINE Lanes cosine_to_axis(const Camera& camera, const PathLanes& path) {
-    if (measures_from_eye(camera)) return Lanes(1.0f);
+    if (measures_from_eye(camera.model)) return Lanes(1.0f);
     const auto& m = camera.world_from_camera.m;
     const Vec3<Lanes> forward{Lanes(-m[0][2]), Lanes(-m[1][2]), Lanes(-m[2][2])};
     return dot(path.direction, forward);

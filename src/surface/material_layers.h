@@ -10,11 +10,13 @@ namespace obscura {
 /// materials that use one have such a record (Material::layers); the defaults equal the core.
 /// Read word by word by the shading lanes: every member is 32 bits wide, there is no padding.
 ///
-/// To add a number or a texture of a lobe: append it here (slots at the end, layer_slot_count says
-/// how many); a member of MaterialFactors and its entry in gltf/parse/material_factors.h and .cpp
-/// read it, gltf/parse/finish_material.cpp copies it, slot_entries in gltf/materials/materials.cpp
-/// names a slot (with slot_count), gltf/parse/extensions.cpp knows a new extension.
-/// stages/3_layers.cpp makes LayeredParams of it. The recipe for the lobe itself is in
+/// To add a number or a texture of a lobe: append it here (numbers before slots; below are
+/// layer_slot_count and the size); a member of MaterialFactors and its entry in
+/// gltf/parse/material_factors.h and .cpp read it, gltf/parse/finish_material.cpp copies it and
+/// converts a colour (in_space), slot_entries in gltf/materials/materials.cpp names a slot.
+/// stages/3_layers.cpp makes LayeredParams of it. A new extension has an entry in
+/// gltf/parse/extensions.cpp, its name in material_extensions of gltf/parse/tree_rules.cpp, and its
+/// lines in docs/gltf.md: tests compare the three lists. The recipe for the lobe itself is in
 /// surface/lobes/list.h.
 struct MaterialLayers {
     float ior = 1.5f;  ///< KHR_materials_ior; 0: always reflects

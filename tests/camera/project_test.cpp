@@ -146,7 +146,7 @@ TEST(Clipping, RaysBeginAtTheNearDistanceAndEndAtTheFarOne) {
             const double skipped = dot(ray.origin - whole.origin, whole.direction);
             const auto& m = lens.world_from_camera.m;
             const Vec3d forward{-m[0][2], -m[1][2], -m[2][2]};
-            const double along = measures_from_eye(lens) ? 1 : dot(whole.direction, forward);
+            const double along = measures_from_eye(lens.model) ? 1 : dot(whole.direction, forward);
             EXPECT_NEAR(skipped * along, 2, 1e-5);
             EXPECT_NEAR(length_of(lens, made) * along, 3, 1e-5);
             EXPECT_NEAR(ray.cone_width, whole.cone_width + whole.cone_spread * skipped, 1e-6);

@@ -43,7 +43,7 @@ TEST(CameraWorking, NearAndFarCutPiecesOffTheRay) {
         const auto& m = named.camera.world_from_camera.m;
         const Vec3d eye{m[0][3], m[1][3], m[2][3]};
         const Vec3d back{m[0][2], m[1][2], m[2][2]};
-        if (measures_from_eye(named.camera)) {
+        if (measures_from_eye(named.camera.model)) {
             EXPECT_NEAR(length(got.ray.origin - whole.origin), 2, 1e-6) << named.name;
             EXPECT_NEAR(length(end - whole.origin), 7, 1e-6) << named.name;
         } else {

@@ -3,6 +3,8 @@
 #include "gltf/parse/extensions.h"
 
 #include "gltf/gltf_files.h"
+#include "gltf/parse/material_factors.h"
+#include "gltf/parse/tree_rules.h"
 
 #include <gtest/gtest.h>
 
@@ -29,6 +31,24 @@ TEST(Extensions, RequiredUnknownOnesAreAllListed) {  // F1
     EXPECT_EQ(loaded.id(), "E-EXT-REQUIRED");
     EXPECT_NE(loaded.text().find("A_one, B_two"), std::string::npos) << loaded.text();
     EXPECT_EQ(loaded.text().find("KHR_materials_unlit"), std::string::npos);
+}
+
+/// Three tables name what is read of materials: what reads it, what the checks leave in the tree,
+/// and what is said to be supported.
+TEST(Extensions, ThoseOfMaterialsAreInAllTables) {
+    const auto left = material_rules.extensions;
+    constexpr std::string_view folder = "extensions/";
+    for (const MaterialEntry& entry : material_entries) {
+        const std::string_view place = entry.object.place;
+        if (!place.starts_with(folder)) continue;
+        const std::string_view name = place.substr(folder.size());
+        EXPECT_NE(std::find(left.begin(), left.end(), name), left.end()) << name;
+    }
+    for (const std::string_view name : left) {
+        const ExtensionEntry* entry = find_extension(name);
+        ASSERT_NE(entry, nullptr) << name;
+        EXPECT_TRUE(entry->supported) << name;
+    }
 }
 
 /// A required extension may change what the rest means: it is looked at first.

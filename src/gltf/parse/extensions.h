@@ -10,8 +10,9 @@
 
 namespace obscura::gltf {
 
-/// To support one more: set `supported` in the table in extensions.cpp, read it where its object is
-/// read, and change its line in docs/gltf.md, which a test compares. An extension that is not in
+/// To support one more: set `supported` in the table in extensions.cpp, name it with its object in
+/// tree_rules.cpp, for what is not named there is taken out, read it where the object is read, and
+/// change its line in docs/gltf.md, which a test compares. An extension that is not in
 /// the table is ignored like any other.
 struct ExtensionEntry {
     std::string_view name;

@@ -67,13 +67,17 @@ struct LobeList {
 ///  1. surface/lobes/<name>.h: a struct derived from Lobe with the functions that lobe.h describes,
 ///     always_exists false. Where its Params are 0 it sends nothing on and its share is 0. Its
 ///     `event` is what light path expressions call it; a new label needs its components in
-///     film/light_components.cpp, or no layer has its light.
+///     film/light_components.cpp, or no layer has its light, and a word in docs/layers.md.
 ///  2. Here: its include and its place in Lobes. Its Params and Weights join LayeredParams and
 ///     LayeredWeights, its probability the sums, by themselves.
 ///  3. Its reader: a function of stages/3_layers.cpp that fills its Params for each hit. New
 ///     numbers and textures are members of MaterialLayers: surface/material_layers.h says which
 ///     places read them from glTF.
-///  4. Its test: a case in tests/statistics/layered_bsdf_test.cpp and one in
+///  4. What knows the lobes one by one: surface/surface_albedo.h (the layer `albedo`) and
+///     ambient_layers of stages/3_raycast.cpp. A layer takes its part of what lies below it, beside
+///     below_coat and below_sheen, in layered_bsdf.h, straight_transmission.h and the lobes of the
+///     base.
+///  5. Its test: a case in tests/statistics/layered_bsdf_test.cpp and one in
 ///     tests/surface/layered_bsdf_test.cpp; its Params in tests/support/layered_materials.h.
 using Lobes =
     LobeList<Diffuse, DiffuseTransmission, FacetTransmission, FacetReflection, Sheen, Coat>;
