@@ -13,7 +13,7 @@ inline namespace OBSCURA_ISA {
 namespace {
 
 /// The uses of the random numbers with which a flight's end samples lights.
-enum class LightUse : uint32_t { choice, x, y, texture_x, texture_y, texture_level, count };
+enum class LightUse : uint32_t { x, y, texture_x, texture_y, texture_level, count };
 
 OBSCURA_INLINE LanesU hashed(LanesU path_key, const Flight& flight, LightUse use) {
     const uint32_t number =
@@ -23,39 +23,31 @@ OBSCURA_INLINE LanesU hashed(LanesU path_key, const Flight& flight, LightUse use
     return hash_word(LanesU(path_key ^ LanesU(hash_word(number ^ 0x4C414D50U))));
 }
 
-/// The first scattering has the pixel's Sobol points, of which surfaces use those of a bounce too;
-/// later ones have none.
-OBSCURA_INLINE Vec2<LanesU> random_pair(const PathLanes& path,
-                                        const Flight& flight,
-                                        RandomUse use) {
-    const uint32_t number =
-        static_cast<uint32_t>(flight.bounce) * pairs_per_bounce + static_cast<uint32_t>(use);
-    return sobol_pair(path.key, path.sample, number);
+/// The light that each path samples. The first scattering has the pixel's Sobol points, of which
+/// surfaces use those of a bounce too; later ones have none.
+OBSCURA_INLINE LightDraw draw_walk_light(const SceneView& scene,
+                                         const PathLanes& path,
+                                         const Flight& flight) {
+    Vec2<LanesU> random;
+    if (flight.number == 0) {
+        const uint32_t pair = static_cast<uint32_t>(flight.bounce) * pairs_per_bounce +
+                              static_cast<uint32_t>(RandomUse::light);
+        random = sobol_pair(path.key, path.sample, pair);
+    } else {
+        random = {hashed(path.path_key, flight, LightUse::x),
+                  hashed(path.path_key, flight, LightUse::y)};
+    }
+    LightDraw draw = draw_light(scene, random);
+    draw_light_pixel(scene, draw);
+    return draw;
 }
 
-OBSCURA_INLINE LightRandom light_random(const SceneView& scene,
-                                        const PathLanes& path,
-                                        const Flight& flight) {
-    const auto hash = [&](LightUse use) { return hashed(path.path_key, flight, use); };
-    const auto texture = [&](LightUse use) { return unit_float<Lanes>(hash(use)); };
-    LightRandom random;
-    Vec2<LanesU> place;
-    if (flight.number == 0) {
-        random.choice = random_pair(path, flight, RandomUse::light_choice).x;
-        place = random_pair(path, flight, RandomUse::light);
-    } else {
-        random.choice = hash(LightUse::choice);
-        place = {hash(LightUse::x), hash(LightUse::y)};
-    }
-    random.texture = {texture(LightUse::texture_x),
-                      texture(LightUse::texture_y),
-                      texture(LightUse::texture_level)};
-    random.environment.random = place;
-    if (scene.has_environment) {
-        random.environment = draw_block<Lanes>(scene.environment.choice, place);
-        draw_environment_pixel(scene.environment, random.environment);
-    }
-    return random;
+OBSCURA_INLINE Vec3<Lanes> texture_random(const PathLanes& path, const Flight& flight) {
+    const auto random = [&](LightUse use) {
+        return unit_float<Lanes>(hashed(path.path_key, flight, use));
+    };
+    return {
+        random(LightUse::texture_x), random(LightUse::texture_y), random(LightUse::texture_level)};
 }
 
 /// A scattering as light sampling takes it. Lanes without one lie at the origin.
@@ -85,8 +77,8 @@ void add_light_samples(const WalkingBatch& walk,
     const SceneView& scene = walk.scene;
     const PathLanes& path = at.path;
     const ShadingPoint point = point_to_light(at, columns.time);
-    const LightRandom random = light_random(scene, path, walk.flight);
-    const LightLanes light = sample_light(scene, point, random);
+    const LightDraw draw = draw_walk_light(scene, path, walk.flight);
+    const LightLanes light = sample_light(scene, point, draw, texture_random(path, walk.flight));
     const Lanes phase = henyey_greenstein(at.anisotropy, dot(path.direction, light.direction));
     const int strategies = walk.batch.strategies;
     Lanes weight(1.0f);
@@ -103,10 +95,8 @@ void add_light_samples(const WalkingBatch& walk,
     if (none(useful)) return;
     if (columns.shadow_media != nullptr)
         store_by_slot(columns.shadow_media, useful, path.slot, path.medium_stack);
-    if (columns.light_paths != nullptr) {
-        const LanesI index = choose_light(scene.lights, random.choice);
-        note_shadow_class(*columns.light_paths, useful, path.slot, index);
-    }
+    if (columns.light_paths != nullptr)
+        note_shadow_class(*columns.light_paths, useful, path.slot, draw.light);
     count = append_shadows(columns.shadows,
                            count,
                            useful,
