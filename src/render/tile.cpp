@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/tile.h"
 
+#include "base/stopwatch.h"
 #include "render/film_rows.h"
 
 #include <algorithm>
