@@ -108,6 +108,12 @@ TEST(RenderRequest, ANoiseTargetAsksForAsManySamplesAsItNeeds) {
     EXPECT_EQ(request->options.adaptive->noise_target, 0.05);
     arguments.spp = "300";
     expect_conflict(arguments, "--spp-min");
+    arguments.spp_min.reset();
+    arguments.spp = "8";
+    EXPECT_EQ(request_of(arguments)->options.adaptive->least_samples, 8);
+    arguments.spp = "1";
+    expect_conflict(arguments, "--spp-min");
+    arguments.spp = "300";
     arguments.spp_min = "300";
     EXPECT_EQ(request_of(arguments)->options.samples_per_pixel, 300);
     arguments.integrator = "raycast";
