@@ -180,7 +180,7 @@ TEST(Passes, CleanPicturesStopAtTheLeast) {
     EXPECT_EQ(result.film.pixels[0], 0.5f);
 }
 
-TEST(Passes, ProgressGrowsWhileThePicturesOfPassesAreWhole) {
+TEST(Passes, ProgressGrowsToTheWholeAndStopsOnRequest) {
     RenderOptions options = ball_options();
     Log log(Verbosity::quiet);
     LightingOptions light;
