@@ -138,11 +138,11 @@ constexpr OptionReader<R> noise_target = {
         return {};
     }};
 
-constexpr OptionReader<R> least_samples = {
+constexpr OptionReader<R> min_samples = {
     .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
         const Result<int64_t> least = parse_integer(text, long_name(info), 2, 1 << 20);
         if (!least) return fail(least.error());
-        adaptive_sampling(r).least_samples = static_cast<int>(*least);
+        adaptive_sampling(r).min_samples = static_cast<int>(*least);
         return {};
     }};
 
@@ -319,7 +319,7 @@ constexpr Entry adaptive[] = {
      text_at<&A::noise_target>, noise_target},
     {{.name = "--spp-min", .argument = "N", .help = "Samples that every pixel takes at least",
       .range = {2, 1 << 20}, .fallback = "16", .needs = {"--noise-target", "--spp auto"}},
-     text_at<&A::spp_min>, least_samples}};
+     text_at<&A::spp_min>, min_samples}};
 
 constexpr Entry camera[] = {
     {{.name = "--camera", .argument = "NAME|INDEX|auto",

@@ -152,9 +152,11 @@ Result<void> complete_page(const RenderArguments& arguments, RenderRequest& requ
 /// --noise-target and --spp auto: how many samples a pixel may have.
 Result<void> complete_sampling(const RenderArguments& arguments, RenderOptions& options) {
     if (!options.adaptive) return {};
+    int& least = options.adaptive->min_samples;
     if (arguments.spp.value_or("auto") == "auto") {
-        options.samples_per_pixel =
-            std::max(most_samples_unless_told, options.adaptive->least_samples);
+        options.samples_per_pixel = std::max(default_max_samples, least);
+    } else if (!arguments.spp_min) {
+        least = std::clamp(options.samples_per_pixel, 2, least);
     }
     return check_adaptive(options);
 }

@@ -14,7 +14,7 @@ namespace {
 
 /// Side of a tile, at least: in late passes few pixels of a tile are left, and small batches are
 /// slow.
-constexpr int least_tile_side = 32;
+constexpr int min_tile_side = 32;
 
 /// What is kept of the film's pixels between passes, by their index in it.
 struct PassState {
@@ -153,9 +153,9 @@ SamplesTaken render_passes(const FilmWork& work) {
     const PixelRect whole{0, 0, options.width, options.height};
     PassTiles film;
     film.tiles =
-        cut_tiles(options.crop.value_or(whole), std::max(options.tile_size, least_tile_side));
+        cut_tiles(options.crop.value_or(whole), std::max(options.tile_size, min_tile_side));
     film.sums.resize(film.tiles.size());
-    film.levels = sample_levels(options.adaptive->least_samples, options.samples_per_pixel);
+    film.levels = sample_levels(options.adaptive->min_samples, options.samples_per_pixel);
     PassState passes = begin_passes(work.film);
     SamplesTaken taken;
     do {

@@ -65,12 +65,12 @@ struct LightingOptions {
 /// render/passes.h.
 struct AdaptiveOptions {
     double noise_target = 0.01;  ///< relative error of the picture; see film/noise.h
-    int least_samples = 16;      ///< of every pixel, from 2 to samples_per_pixel
+    int min_samples = 16;        ///< of every pixel, from 2 to samples_per_pixel
     double white = 1;            ///< radiance that is displayed as white
 };
 
 /// RenderOptions::samples_per_pixel with adaptive sampling where nobody says how many.
-inline constexpr int most_samples_unless_told = 4096;
+inline constexpr int default_max_samples = 4096;
 
 struct RenderOptions {
     int width = 1280;

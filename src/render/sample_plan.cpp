@@ -19,7 +19,7 @@ constexpr double worth_doubling = 1.4142135623730951;
 /// counts as if its deviation were at most the one that the most samples serve, which depends on f:
 /// the right side falls as f grows, so that bisection finds where both are equal.
 double samples_per_deviation(std::span<const float> deviations, const NoiseGoal& goal) {
-    const double most = goal.most_samples;
+    const double most = goal.max_samples;
     const double square = goal.noise * goal.noise;
     // All pixels at the most: f = most / s and f = s / square, whence f = sqrt(most / square).
     double high = std::sqrt(most / square);
@@ -51,7 +51,7 @@ std::vector<uint8_t> pixels_in_need(std::span<const float> deviations,
     const double factor = samples_per_deviation(deviations, goal);
     std::vector<uint8_t> out(deviations.size());
     for (size_t i = 0; i < out.size(); ++i) {
-        const bool has_all = samples[i] >= goal.most_samples;
+        const bool has_all = samples[i] >= goal.max_samples;
         const double wanted = factor * static_cast<double>(deviations[i]);
         out[i] = !has_all && wanted > worth_doubling * samples[i] ? 1 : 0;
     }

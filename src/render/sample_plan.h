@@ -18,7 +18,7 @@ std::vector<int> sample_levels(int least, int most);
 /// What a picture's samples are to reach.
 struct NoiseGoal {
     double noise = 0.01;  ///< relative error of the picture, as image_noise
-    int most_samples = 1;
+    int max_samples = 1;
 };
 
 /// Marks the pixels that get more samples. The error of a picture falls fastest for a number of

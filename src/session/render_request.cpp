@@ -90,11 +90,11 @@ Result<void> check_adaptive(const RenderOptions& options) {
                     setting("integrator") + " " + integrator.name +
                         " has no noise to lower; use path, direct or ao");
     }
-    if (options.adaptive->least_samples <= options.samples_per_pixel) return {};
+    if (options.adaptive->min_samples <= options.samples_per_pixel) return {};
     return fail(ExitCode::usage,
                 "E-USAGE-CONFLICT",
                 setting("spp-min"),
-                std::to_string(options.adaptive->least_samples) +
+                std::to_string(options.adaptive->min_samples) +
                     " is more than the most samples of a pixel, which are " +
                     std::to_string(options.samples_per_pixel) + "; lower it or raise those");
 }

@@ -96,9 +96,9 @@ TEST(RenderRequest, ANoiseTargetAsksForAsManySamplesAsItNeeds) {
     arguments.spp = "auto";
     Result<RenderRequest> request = request_of(arguments);
     ASSERT_TRUE(request && request->options.adaptive);
-    EXPECT_EQ(request->options.samples_per_pixel, most_samples_unless_told);
+    EXPECT_EQ(request->options.samples_per_pixel, default_max_samples);
     EXPECT_EQ(request->options.adaptive->noise_target, 0.01);
-    EXPECT_EQ(request->options.adaptive->least_samples, 16);
+    EXPECT_EQ(request->options.adaptive->min_samples, 16);
     arguments.spp.reset();
     arguments.noise_target = "0.05";
     arguments.spp_min = "5000";
@@ -108,6 +108,12 @@ TEST(RenderRequest, ANoiseTargetAsksForAsManySamplesAsItNeeds) {
     EXPECT_EQ(request->options.adaptive->noise_target, 0.05);
     arguments.spp = "300";
     expect_conflict(arguments, "--spp-min");
+    arguments.spp_min.reset();
+    arguments.spp = "8";
+    EXPECT_EQ(request_of(arguments)->options.adaptive->min_samples, 8);
+    arguments.spp = "1";
+    expect_conflict(arguments, "--spp-min");
+    arguments.spp = "300";
     arguments.spp_min = "300";
     EXPECT_EQ(request_of(arguments)->options.samples_per_pixel, 300);
     arguments.integrator = "raycast";

@@ -30,7 +30,7 @@ RenderOptions ball_options() {
     options.height = 43;
     options.max_bounces = 3;
     options.samples_per_pixel = 128;
-    options.adaptive = AdaptiveOptions{.noise_target = 0.03, .least_samples = 8};
+    options.adaptive = AdaptiveOptions{.noise_target = 0.03, .min_samples = 8};
     return options;
 }
 
@@ -149,7 +149,7 @@ TEST(Passes, ReachTheNoiseThatIsAskedFor) {
     EXPECT_GT(error, 0.3 * result.adaptive->noise);
 }
 
-TEST(Passes, TheMeanOfThePictureHasNoBias) {
+TEST(Passes, TheMeanOfTheImageHasNoBias) {
     RenderOptions exact = ball_options();
     exact.adaptive.reset();
     exact.samples_per_pixel = 4096;
@@ -165,7 +165,7 @@ TEST(Passes, TheMeanOfThePictureHasNoBias) {
     EXPECT_NEAR(sum / seeds / reference, 1, 1e-3);
 }
 
-TEST(Passes, CleanPicturesStopAtTheLeast) {
+TEST(Passes, CleanImagesStopAtTheLeast) {
     RenderOptions options = ball_options();
     SceneBuilder builder;
     builder.quad({90, 90, 90}, {1, 0, 0}, {0, 1, 0}, builder.material({}));
@@ -180,7 +180,7 @@ TEST(Passes, CleanPicturesStopAtTheLeast) {
     EXPECT_EQ(result.film.pixels[0], 0.5f);
 }
 
-TEST(Passes, ProgressGrowsWhileThePicturesOfPassesAreWhole) {
+TEST(Passes, ProgressGrowsToTheWholeAndStopsOnRequest) {
     RenderOptions options = ball_options();
     Log log(Verbosity::quiet);
     LightingOptions light;
