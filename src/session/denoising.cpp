@@ -54,8 +54,7 @@ size_t run_of(const RenderOptions& options) {
     if (!options.adaptive) return half_run(options.samples_per_pixel);
     size_t run = 8;
     const auto splits = [&](int samples) { return static_cast<size_t>(samples) % (2 * run) == 0; };
-    while (run > 1 &&
-           !(splits(options.adaptive->least_samples) && splits(options.samples_per_pixel)))
+    while (run > 1 && !(splits(options.adaptive->min_samples) && splits(options.samples_per_pixel)))
         run /= 2;
     return run;
 }
@@ -107,7 +106,7 @@ Result<void> check_denoising(const RenderRequest& request) {
                         " 2 or more");
     }
     if (options.adaptive &&
-        (options.adaptive->least_samples % 2 != 0 || options.samples_per_pixel % 2 != 0)) {
+        (options.adaptive->min_samples % 2 != 0 || options.samples_per_pixel % 2 != 0)) {
         return conflict("it compares two halves of each pixel's samples; with " +
                         setting("noise-target") + ", " + setting("spp") + " and " +
                         setting("spp-min") + " must be even");
