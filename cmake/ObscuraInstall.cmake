@@ -10,7 +10,7 @@ set_target_properties(obscura_library PROPERTIES
   OUTPUT_NAME obscura EXPORT_NAME obscura LINKER_LANGUAGE CXX LINK_DEPENDS ${symbols}
   VERSION ${PROJECT_VERSION} SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
   LIBRARY_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/lib)
-target_link_libraries(obscura_library PRIVATE obscura_options obscura_render obscura_gltf fmt::fmt)
+target_link_libraries(obscura_library PRIVATE obscura_options obscura_render obscura_denoise obscura_gltf fmt::fmt)
 target_link_options(obscura_library PRIVATE -Wl,--version-script=${symbols} -Wl,--no-undefined)
 target_include_directories(obscura_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_compile_features(obscura_library INTERFACE cxx_std_17)
