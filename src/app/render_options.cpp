@@ -7,6 +7,7 @@
 #include "app/frames.h"
 #include "app/layer_options.h"
 #include "app/lens_options.h"
+#include "app/noise_options.h"
 #include "app/option_readers.h"
 #include "app/product_options.h"
 #include "app/render_command.h"
@@ -59,7 +60,6 @@ constexpr std::array<Choice<PixelFilter>, 3> filters = {
      {"gaussian", PixelFilter::gaussian},
      {"blackman-harris", PixelFilter::blackman_harris}}};
 constexpr std::array<Choice<bool>, 2> occlusions = {{{"off", false}, {"ambient", true}}};
-constexpr std::array<Choice<bool>, 2> caustics = {{{"on", true}, {"off", false}}};
 constexpr std::array<Choice<BackgroundKind>, 2> backgrounds = {
     {{"env", BackgroundKind::environment}, {"transparent", BackgroundKind::transparent}}};
 
@@ -108,43 +108,6 @@ constexpr OptionReader<R> background = {
     },
     .show = show_choice<backgrounds, &R::options, &O::background>,
     .names = background_names};
-
-/// The settings of adaptive sampling, which asking for any of them turns on.
-AdaptiveOptions& adaptive_sampling(R& request) {
-    if (!request.options.adaptive) request.options.adaptive.emplace();
-    return *request.options.adaptive;
-}
-
-constexpr OptionReader<R> samples = {
-    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
-        if (text == "auto") {
-            adaptive_sampling(r);
-            return {};
-        }
-        const auto read = read_number<&R::options, &O::samples_per_pixel>(info, text, r);
-        if (read || read.error().id != "E-USAGE-NUMBER") return read;
-        Error error = read.error();
-        error.message += ", or auto";
-        return fail(std::move(error));
-    },
-    .show = show_number<&R::options, &O::samples_per_pixel>};
-
-constexpr OptionReader<R> noise_target = {
-    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
-        const auto& [low, high] = info.range;
-        const Result<double> target = parse_real(text, long_name(info), low, high);
-        if (!target) return fail(target.error());
-        adaptive_sampling(r).noise_target = *target;
-        return {};
-    }};
-
-constexpr OptionReader<R> min_samples = {
-    .read = [](const OptionInfo& info, const std::string& text, R& r) -> Result<void> {
-        const Result<int64_t> least = parse_integer(text, long_name(info), 2, 1 << 20);
-        if (!least) return fail(least.error());
-        adaptive_sampling(r).min_samples = static_cast<int>(*least);
-        return {};
-    }};
 
 Result<PixelRect> parse_crop(const std::string& text, const std::string& option) {
     const Result<std::array<int, 4>> r = parse_rectangle(text, option);
@@ -274,7 +237,7 @@ constexpr Entry sampling[] = {
     {{.name = "--spp", .argument = "N|auto",
       .help = "Samples per pixel; with --noise-target the most. auto: as many as that asks for",
       .range = {1, 1 << 20}},
-     text_at<&A::spp>, samples},
+     text_at<&A::spp>, samples_or_auto},
     {{.name = "--depth", .argument = "N", .help = "Most bounces of a path", .range = {0, 1000}},
      text_at<&A::depth>, number_at<&R::options, &O::max_bounces>},
     {{.name = "--seed", .argument = "N", .help = "Random numbers; equal seeds, equal pictures"},
@@ -290,36 +253,7 @@ constexpr Entry sampling[] = {
      text_at<&A::ao_distance>, number_at<&R::options, &O::ao_distance_m>},
     {{.name = "--wire-width", .argument = "PIXELS", .help = "Lines of wireframe",
       .range = {0.01, 1000}, .needs = {"--integrator wireframe"}},
-     text_at<&A::wire_width>, number_at<&R::options, &O::wire_width_px>},
-    {{.name = "--clamp-indirect", .argument = "X",
-      .help = "Against fireflies, at the price of a darker picture: no channel of what one path "
-              "brings by way of several surfaces is more than X, in the scene's radiance; "
-              "0: anything",
-      .range = {0, 1e12}},
-     text_at<&A::clamp_indirect>, number_at<&R::options, &O::clamp_indirect>},
-    {{.name = "--clamp-direct", .argument = "X",
-      .help = "The same for light that comes straight to the first surface; what the camera sees "
-              "itself stays",
-      .range = {0, 1e12}},
-     text_at<&A::clamp_direct>, number_at<&R::options, &O::clamp_direct>},
-    {{.name = "--caustics", .argument = "on|off",
-      .help = "Light that mirrors and glass throw on rough surfaces; off: it is left out, and with "
-              "it most fireflies"},
-     text_at<&A::caustics>, choice_at<caustics, &R::options, &O::caustics>},
-    {{.name = "--regularize",
-      .help = "Once a path has met a rough surface, smooth ones are rougher to it: caustics are "
-              "blurred and less noisy"},
-     text_at<&A::regularize>, flag_at<&R::options, &O::regularize>}};
-
-constexpr Entry adaptive[] = {
-    {{.name = "--noise-target", .argument = "X",
-      .help = "Sample each pixel until the relative error of the picture is about X, more where it "
-              "is noisy; up to --spp, or 4096 without it",
-      .range = {1e-4, 1}, .fallback = "0.01 with --spp auto"},
-     text_at<&A::noise_target>, noise_target},
-    {{.name = "--spp-min", .argument = "N", .help = "Samples that every pixel takes at least",
-      .range = {2, 1 << 20}, .fallback = "16", .needs = {"--noise-target", "--spp auto"}},
-     text_at<&A::spp_min>, min_samples}};
+     text_at<&A::wire_width>, number_at<&R::options, &O::wire_width_px>}};
 
 constexpr Entry camera[] = {
     {{.name = "--camera", .argument = "NAME|INDEX|auto",
@@ -449,7 +383,8 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                  segmentation_group(),
                                                  {"Time", time},
                                                  {"Sampling", sampling},
-                                                 {"Adaptive sampling", adaptive},
+                                                 adaptive_group(),
+                                                 fireflies_group(),
                                                  {"Camera", camera},
                                                  framing_group()};
         const auto lens = lens_option_groups();

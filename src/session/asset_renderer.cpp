@@ -136,10 +136,8 @@ Result<ChosenCamera> AssetRenderer::look_again(const RenderRequest& request, Log
     return camera;
 }
 
-Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
-                                            const ChosenCamera& camera,
-                                            const RenderHooks& hooks,
-                                            const Log& log) {
+Result<RenderOptions> AssetRenderer::options_of_image(const RenderRequest& request,
+                                                      const ChosenCamera& camera) {
     RenderOptions options = request.options;
     options.crop = rendered_part(request);
     if (request.segmentation) options.layers.push_back(segmentation_layer());
@@ -159,10 +157,19 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
         const double camera_scale = camera.ev100 ? exposure_scale(*camera.ev100) : 1;
         options.adaptive->white = std::exp2(-request.display.exposure_ev) / camera_scale;
     }
+    return options;
+}
+
+Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
+                                            const ChosenCamera& camera,
+                                            const RenderHooks& hooks,
+                                            const Log& log) {
+    Result<RenderOptions> options = options_of_image(request, camera);
+    if (!options) return fail(options.error());
     const std::atomic<bool> never = false;
     Result<RenderResult> result = obscura::render(*prepared_,
                                                   camera.camera,
-                                                  options,
+                                                  *options,
                                                   hooks.progress,
                                                   hooks.stop != nullptr ? *hooks.stop : never);
     if (!result) return fail(result.error());
@@ -175,14 +182,14 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     FinishedImage finished;
     finished.metadata = make_metadata(request, *prepared_, camera, log);
     if (result->adaptive) {
-        add_samples_taken(*options.adaptive, *result->adaptive, finished.metadata);
+        add_samples_taken(*options->adaptive, *result->adaptive, finished.metadata);
     }
     finished.render_seconds = result->render_seconds;
     if (request.load.lenient) {
         finished.metadata.extra.push_back({"obscura:degraded", degraded_text(degraded_)});
     }
     if (request.denoise) {
-        const std::string done = denoise_film(options, request.options, film);
+        const std::string done = denoise_film(*options, request.options, film);
         finished.metadata.extra.push_back({"obscura:denoise", done});
     }
     if (request.segmentation) {

@@ -90,6 +90,12 @@ public:
 private:
     explicit AssetRenderer(gltf::PosedAsset asset) : asset_(std::move(asset)) {}
 
+    /// The request's options, with what the prepared pose and the camera add.
+    ///
+    /// Errors  those of choose_frame_cameras
+    Result<RenderOptions> options_of_image(const RenderRequest& request,
+                                           const ChosenCamera& camera);
+
     std::optional<gltf::PosedAsset> asset_;  ///< until the last pose
     std::optional<Scene> scene_;             ///< posed, not yet prepared
     std::optional<PreparedScene> prepared_;  ///< of the latest image

@@ -72,7 +72,7 @@ TEST_F(OptionDocs, BashCompletesCommandsOptionsValuesAndFiles) {
     EXPECT_EQ(complete({"ren"}), std::vector<std::string>{"render"});
     EXPECT_THAT(complete({""}), Contains("explain-pixel"));
     EXPECT_THAT(complete({""}), Not(Contains("print-docs")));
-    EXPECT_EQ(complete({"render", "box.gltf", "--sp"}), std::vector<std::string>{"--spp"});
+    EXPECT_EQ(complete({"render", "box.gltf", "--spp-"}), std::vector<std::string>{"--spp-min"});
     EXPECT_THAT(complete({"crosscheck", "--r"}), testing::ElementsAre("--rays", "--ray"));
     EXPECT_EQ(complete({"render", "--filter", "g"}), std::vector<std::string>{"gaussian"});
     EXPECT_THAT(complete({"render", "--fisheye", ""}), Contains("equisolid"));
