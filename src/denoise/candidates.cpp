@@ -34,7 +34,7 @@ void filter_tile(const FilterGuides& guides, const WeightTile& tile, Candidates&
         for (size_t candidate = 0; candidate < candidate_count; ++candidate) {
             for (int row = 0; row < tile.height; ++row) {
                 const float* const weight = weights.row(static_cast<Candidate>(candidate), row);
-                float* sum = sums.data() + candidate * 7 * area + row * side;
+                float* sum = sums.data() + candidate * 7 * area + static_cast<size_t>(row * side);
                 for (int i = 0; i < tile.width; ++i)
                     sum[i] += weight[i];
                 for (size_t k = 0; k < 6; ++k) {
@@ -49,12 +49,14 @@ void filter_tile(const FilterGuides& guides, const WeightTile& tile, Candidates&
     for (size_t candidate = 0; candidate < candidate_count; ++candidate) {
         FilteredHalves& to = out[candidate];
         for (int row = 0; row < tile.height; ++row) {
-            const float* const weight = sums.data() + candidate * 7 * area + row * side;
+            const float* const weight =
+                sums.data() + candidate * 7 * area + static_cast<size_t>(row * side);
             std::copy_n(weight, tile.width, to.weight.row(tile.y + row) + tile.x);
             for (size_t k = 0; k < 6; ++k) {
                 float* const value = to.halves[k / 3][k % 3].row(tile.y + row) + tile.x;
+                const float* const sum = weight + (k + 1) * area;
                 for (int i = 0; i < tile.width; ++i)
-                    value[i] = weight[i] > 0 ? weight[(k + 1) * area + i] / weight[i] : 0.0f;
+                    value[i] = weight[i] > 0 ? sum[i] / weight[i] : 0.0f;
             }
         }
     }

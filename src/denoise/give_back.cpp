@@ -13,6 +13,15 @@ int half_up(int count) {
     return (count + 1) / 2;
 }
 
+/// Number of a cell in rows of `width` cells.
+size_t cell_number(int x, int y, int width) {
+    return static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x);
+}
+
+size_t cell_count(int width, int height) {
+    return static_cast<size_t>(width) * static_cast<size_t>(height);
+}
+
 /// The value between the middles of four cells.
 struct Between {
     size_t cells[4];
@@ -22,12 +31,12 @@ struct Between {
         const double left = std::floor(x);
         const double top = std::floor(y);
         for (int i = 0; i < 4; ++i) {
-            const double column = left + i % 2;
-            const double row = top + i / 2;
+            const double column = left + static_cast<double>(i & 1);
+            const double row = top + static_cast<double>(i >> 1);
             shares[i] = (1 - std::abs(x - column)) * (1 - std::abs(y - row));
             const int in_x = std::clamp(static_cast<int>(column), 0, width - 1);
             const int in_y = std::clamp(static_cast<int>(row), 0, height - 1);
-            cells[i] = static_cast<size_t>(in_y * width + in_x);
+            cells[i] = cell_number(in_x, in_y, width);
         }
     }
 };
@@ -36,12 +45,12 @@ struct Between {
 
 GiveBack::CellSums GiveBack::gather(const Rgb& taken) const {
     const Level& level = levels_.front();
-    CellSums sums(static_cast<size_t>(level.width * level.height));
+    CellSums sums(cell_count(level.width, level.height));
     for_rows(level.height, [&](int row) {
         const int end = std::min((row + 1) * level.size, receives_.height());
         for (int y = row * level.size; y < end; ++y) {
             for (int x = 0; x < receives_.width(); ++x) {
-                auto& cell = sums[static_cast<size_t>(row * level.width + x / level.size)];
+                auto& cell = sums[cell_number(x / level.size, row, level.width)];
                 for (size_t c = 0; c < 3; ++c)
                     cell[c] += static_cast<double>(taken[c].row(y)[x]);
             }
@@ -52,13 +61,12 @@ GiveBack::CellSums GiveBack::gather(const Rgb& taken) const {
 
 GiveBack::CellSums GiveBack::hand_on(const CellSums& sums, const Level& level) {
     const int width = half_up(level.width);
-    CellSums out(static_cast<size_t>(width * half_up(level.height)));
+    CellSums out(cell_count(width, half_up(level.height)));
     for (int y = 0; y < level.height; ++y) {
         for (int x = 0; x < level.width; ++x) {
-            const auto cell = static_cast<size_t>(y * level.width + x);
+            const size_t cell = cell_number(x, y, level.width);
             for (size_t c = 0; c < 3; ++c) {
-                out[static_cast<size_t>(y / 2 * width + x / 2)][c] +=
-                    sums[cell][c] * (1 - level.kept[cell]);
+                out[cell_number(x / 2, y / 2, width)][c] += sums[cell][c] * (1 - level.kept[cell]);
             }
         }
     }
@@ -68,11 +76,10 @@ GiveBack::CellSums GiveBack::hand_on(const CellSums& sums, const Level& level) {
 /// Sums of the cells twice as large.
 std::vector<double> GiveBack::merged(const std::vector<double>& sums, const Level& level) {
     const int width = half_up(level.width);
-    std::vector<double> out(static_cast<size_t>(width * half_up(level.height)));
+    std::vector<double> out(cell_count(width, half_up(level.height)));
     for (int y = 0; y < level.height; ++y) {
         for (int x = 0; x < level.width; ++x) {
-            out[static_cast<size_t>(y / 2 * width + x / 2)] +=
-                sums[static_cast<size_t>(y * level.width + x)];
+            out[cell_number(x / 2, y / 2, width)] += sums[cell_number(x, y, level.width)];
         }
     }
     return out;
@@ -88,11 +95,11 @@ GiveBack::GiveBack(const Rgb& taken, const Plane& light, Plane receives)
                 {},
                 {},
                 {}};
-    level.light.resize(static_cast<size_t>(level.width * level.height));
+    level.light.resize(cell_count(level.width, level.height));
     level.receives = level.light;
     for (int y = 0; y < receives_.height(); ++y) {
         for (int x = 0; x < receives_.width(); ++x) {
-            const auto cell = static_cast<size_t>(y / level.size * level.width + x / level.size);
+            const size_t cell = cell_number(x / level.size, y / level.size, level.width);
             level.light[cell] += static_cast<double>(light.row(y)[x]);
             level.receives[cell] += static_cast<double>(receives_.row(y)[x]);
         }

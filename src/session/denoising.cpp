@@ -158,9 +158,9 @@ std::string denoise_film(const RenderOptions& options, const RenderOptions& aske
             static_cast<float>(samples_in(first, samples)) / static_cast<float>(samples);
     }
     std::vector<LightImage> images = {{film.pixels, film.channels.size()}};
-    for (FilmLayer& layer : film.layers) {
-        if (std::holds_alternative<LightLayer>(layer.layer.source))
-            images.push_back({layer.pixels, layer.layer.channels.size()});
+    for (FilmLayer& one : film.layers) {
+        if (std::holds_alternative<LightLayer>(one.layer.source))
+            images.push_back({one.pixels, one.layer.channels.size()});
     }
     const std::vector<float> rest = beside_samples(film, input.color, input.first_share);
     add_to_colors(rest, -1, film);
