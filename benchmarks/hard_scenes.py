@@ -71,7 +71,8 @@ def cloud():
                                                   'scatterAnisotropy': 0.3}
     scene.gltf.use('KHR_materials_volume_scatter')
     scene.add('Cloud', shapes.sphere(0.8, 64, 32), material, translation=(0, 1, 0))
-    lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(20, 18, 15))
+    lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(20, 18, 15),
+                               double_sided=True)
     scene.add('Lamp', downward((1.2, 2.8, 0.6), 0.3), lamp)
     return scene
 
@@ -95,7 +96,7 @@ def soft_floor():
     scene.floor()
     wall = shapes.quad((-4, 0, -2), (4, 0, -2), (4, 4, -2), (-4, 4, -2))
     scene.add('Wall', wall, scene.gltf.material('Wall', color=GREY))
-    lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(4, 4, 4))
+    lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(4, 4, 4), double_sided=True)
     scene.add('Lamp', downward((0, 3.5, 1), 1.0), lamp)
     return scene
 
@@ -127,7 +128,8 @@ def lamps(kind):
                 continue
             glow = numbers.uniform(5, 30)
             material = scene.gltf.material('Lamp %d' % k, color=(0, 0, 0),
-                                           emission=(glow, glow * 0.9, glow * 0.8))
+                                           emission=(glow, glow * 0.9, glow * 0.8),
+                                           double_sided=True)
             scene.add('Lamp %d' % k, downward(where, 0.04), material)
         return scene
     return make
