@@ -109,7 +109,9 @@ struct Sampling {
     /// Adaptive sampling, for path, direct and ao: pixels are sampled, more where they are noisy,
     /// until the relative error of the image is about this. docs/sampling.md explains it.
     std::optional<double> noise_target;
-    int spp_min = 16;  ///< samples that every pixel takes at least, with `noise_target`
+    /// Samples that every pixel takes at least, with `noise_target`; none: 16, or
+    /// samples_per_pixel where that is less.
+    std::optional<int> spp_min;
     int max_bounces = 8;
     std::uint64_t seed = 0;
     PixelFilter filter = PixelFilter::box;

@@ -3,6 +3,7 @@
 #include "denoise/candidates.h"
 
 #include "denoise/features.h"
+
 #include <cmath>
 
 namespace obscura {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "denoise/weights.h"
+
 #include <span>
 
 namespace obscura {

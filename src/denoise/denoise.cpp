@@ -6,6 +6,7 @@
 #include "denoise/features.h"
 #include "denoise/give_back.h"
 #include "denoise/outliers.h"
+
 #include <cmath>
 #include <optional>
 #include <utility>

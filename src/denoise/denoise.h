@@ -33,8 +33,8 @@ struct DenoiseReport {
 
 /// Filters the beauty, and with the beauty's weights its layers, so that those that added up to it
 /// still do: all that is done is linear in the light once the input is given. The light of the
-/// whole image stays the same. Pixels whose halves are equal are not changed by their neighbours,
-/// and those without alpha not at all. Any number of threads gives the same bits.
+/// whole image stays the same. Where the halves are equal in a pixel and around it, it is not
+/// changed, and pixels without alpha never are. Any number of threads gives the same bits.
 ///
 /// In      images: the mean of both halves, then shares of it
 /// Source  Rousselle, Manzi, Zwicker, "Robust Denoising using Feature and Color Information", 2013;

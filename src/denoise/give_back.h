@@ -3,6 +3,7 @@
 #pragma once
 
 #include "denoise/planes.h"
+
 #include <vector>
 
 namespace obscura {

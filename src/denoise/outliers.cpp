@@ -24,16 +24,18 @@ Plane brightness(const Rgb& from) {
 /// For a row of pixels the `rank`-brightest value around each, without its own.
 void rank_row(const Plane* halves, int y, std::array<std::vector<float>, rank>& brightest) {
     const int width = halves[0].width();
+    const int height = halves[0].height();
     for (std::vector<float>& values : brightest)
         values.assign(static_cast<size_t>(width), 0.0f);
     for (int step = 0; step < 2 * (2 * radius + 1) * (2 * radius + 1); ++step) {
         const int dx = step / 2 % (2 * radius + 1) - radius;
         const int dy = step / 2 / (2 * radius + 1) - radius;
-        if (dx == 0 && dy == 0) continue;
+        // Beyond its edges the image repeats itself: no pixel may vouch for itself there.
+        if ((dx == 0 && dy == 0) || y + dy < 0 || y + dy >= height) continue;
         const float* const in = halves[step % 2].row(y + dy) + dx;
         float* const top[rank] = {
             brightest[0].data(), brightest[1].data(), brightest[2].data(), brightest[3].data()};
-        for (int x = 0; x < width; ++x) {
+        for (int x = std::max(0, -dx); x < std::min(width, width - dx); ++x) {
             float value = in[x];
             for (float* const sorted : top) {
                 const float larger = std::max(sorted[x], value);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numeric>
-#include <set>
 #include <utility>
 
 namespace obscura {
@@ -25,11 +25,15 @@ std::vector<size_t> chain_to(const AssetInfo& info, size_t node) {
 }
 
 /// The path, with a number if it is taken already: siblings may have one name.
-std::string unlike_all(const std::string& path, std::set<std::string>& taken) {
-    std::string unlike = path;
-    for (int number = 2; !taken.insert(unlike).second; ++number)
-        unlike = path + " (" + std::to_string(number) + ")";
-    return unlike;
+///
+/// In/Out  taken: the numbers that paths have got so far
+std::string unlike_all(const std::string& path, std::map<std::string, int>& taken) {
+    const auto [at, is_new] = taken.try_emplace(path, 1);
+    if (is_new) return path;
+    for (;;) {
+        std::string unlike = path + " (" + std::to_string(++at->second) + ")";
+        if (taken.try_emplace(unlike, 1).second) return unlike;
+    }
 }
 
 std::vector<uint32_t> hashes_of(const std::vector<std::string>& names) {
@@ -43,7 +47,7 @@ std::vector<uint32_t> hashes_of(const std::vector<std::string>& names) {
 
 std::vector<std::string> node_paths(const AssetInfo& info) {
     std::vector<std::string> paths(info.node_names.size());
-    std::set<std::string> taken;
+    std::map<std::string, int> taken;
     for (size_t node = 0; node < paths.size(); ++node) {
         std::string path;
         for (const size_t at : chain_to(info, node)) {

@@ -50,20 +50,20 @@ WindowRange around(int center, int size) {
 float deviation(std::span<const PixelNoise> noise, const SampledImage& image, int x, int y) {
     const WindowRange rows = around(y, image.height);
     const WindowRange columns = around(x, image.width);
+    const int count = (rows.end - rows.begin) * (columns.end - columns.begin);
     std::array<double, noise_colors> mean = {};
     std::array<double, noise_colors> variance = {};
     for (int row = rows.begin; row < rows.end; ++row) {
         for (int column = columns.begin; column < columns.end; ++column) {
             const auto at = static_cast<size_t>(row) * static_cast<size_t>(image.width) +
                             static_cast<size_t>(column);
-            const bool own = row == y && column == x;
+            const bool own = row == y && column == x && count > 1;
             for (size_t c = 0; c < noise_colors; ++c) {
                 mean[c] += static_cast<double>(noise[at].mean[c]);
                 if (!own) variance[c] += static_cast<double>(noise[at].variance[c]);
             }
         }
     }
-    const int count = (rows.end - rows.begin) * (columns.end - columns.begin);
     const double darkest = darkest_error_white * image.white;
     double sum = 0;
     for (size_t c = 0; c < noise_colors; ++c) {

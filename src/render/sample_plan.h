@@ -27,7 +27,7 @@ struct NoiseGoal {
 /// not enough count as far as these go: they do not make the others take more.
 ///
 /// In      deviations: of film/noise.h; samples: of each pixel, so far
-/// Out     1 for pixels that get more, by half of their samples at least; else 0
+/// Out     1 for pixels whose share is more than the square root of 2 times their samples; else 0
 /// Source  Neyman, "On the Two Different Aspects of the Representative Method", 1934
 std::vector<uint8_t> pixels_in_need(std::span<const float> deviations,
                                     std::span<const int> samples,

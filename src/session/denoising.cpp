@@ -4,8 +4,8 @@
 
 #include "base/parallel.h"
 #include "base/setting_names.h"
-
 #include "denoise/denoise.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

@@ -10,6 +10,7 @@
 #include "session/framing.h"
 #include "session/model_settings.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -241,7 +242,10 @@ void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& che
     checks.real("crypto-levels", sampling.crypto_levels, 1, 64);
     out.integrator = static_cast<Integrator>(sampling.integrator);
     out.samples_per_pixel = sampling.samples_per_pixel;
-    if (sampling.noise_target) out.adaptive = {*sampling.noise_target, sampling.spp_min};
+    if (sampling.noise_target) {
+        const int usual = std::clamp(sampling.samples_per_pixel, 2, AdaptiveOptions{}.min_samples);
+        out.adaptive = {*sampling.noise_target, sampling.spp_min.value_or(usual)};
+    }
     out.max_bounces = sampling.max_bounces;
     out.seed = sampling.seed;
     out.filter = static_cast<PixelFilter>(sampling.filter);

@@ -90,6 +90,13 @@ Result<void> check_adaptive(const RenderOptions& options) {
                     setting("integrator") + " " + integrator.name +
                         " has no noise to lower; use path, direct or ao");
     }
+    if (options.samples_per_pixel < 2) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-CONFLICT",
+                    setting("noise-target"),
+                    "it compares two halves of a pixel's samples; " + setting("spp") +
+                        " must be 2 or more");
+    }
     if (options.adaptive->min_samples <= options.samples_per_pixel) return {};
     return fail(ExitCode::usage,
                 "E-USAGE-CONFLICT",

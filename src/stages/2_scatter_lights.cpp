@@ -5,6 +5,7 @@
 #include "math/sampler.h"
 #include "stages/3_light_paths.h"
 #include "stages/3_lights.h"
+#include "stages/contribution_limit.h"
 #include "surface/scattering.h"
 
 namespace obscura {
@@ -91,6 +92,8 @@ void add_light_samples(const WalkingBatch& walk,
         radiance =
             radiance * transmittance_to_light(scene, useful, path.medium_stack, light.distance);
     }
+    // All flights of a bounce count as one scattering.
+    radiance = limit_contribution(radiance, contribution_limit(walk.batch, walk.flight.bounce + 1));
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (none(useful)) return;
     if (columns.shadow_media != nullptr)

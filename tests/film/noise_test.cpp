@@ -52,6 +52,12 @@ TEST(Noise, IsRelativeToWhatIsDisplayedAsWhite) {
     EXPECT_LT(sample_deviations(image.view())[0], 0.1f) << "nearly black";
 }
 
+TEST(Noise, APixelWithoutNeighboursIsJudgedByItself) {
+    GreyImage image(1, 0.5f, 48, 16);
+    image.set(image.before, 0, 0.6f);
+    EXPECT_GT(sample_deviations(image.view())[0], 0.1f);
+}
+
 TEST(Noise, APixelIsJudgedByItsNeighboursAlone) {
     GreyImage image(21, 0.0f, 32, 16);
     const size_t center = 10 * 21 + 10;
