@@ -112,7 +112,7 @@ TEST(RenderRequest, ANoiseTargetAsksForAsManySamplesAsItNeeds) {
     arguments.spp = "8";
     EXPECT_EQ(request_of(arguments)->options.adaptive->min_samples, 8);
     arguments.spp = "1";
-    expect_conflict(arguments, "--spp-min");
+    expect_conflict(arguments, "--noise-target");
     arguments.spp = "300";
     arguments.spp_min = "300";
     EXPECT_EQ(request_of(arguments)->options.samples_per_pixel, 300);
