@@ -47,7 +47,9 @@ if(OBSCURA_SANITIZE)
     target_compile_options(obscura_options INTERFACE -Wno-maybe-uninitialized)
   endif()
 else()
+  # Targets that take longer to compile than to run set OBSCURA_UNOPTIMIZED: it halves the former.
+  set(unoptimized $<BOOL:$<TARGET_PROPERTY:OBSCURA_UNOPTIMIZED>>)
   target_compile_options(obscura_options INTERFACE -fstack-protector-strong
-    $<$<CONFIG:Release>:-D_FORTIFY_SOURCE=2>)
+    $<$<CONFIG:Release>:$<IF:${unoptimized},-O0,-D_FORTIFY_SOURCE=2>>)
   target_link_options(obscura_options INTERFACE -Wl,-z,relro,-z,now)
 endif()

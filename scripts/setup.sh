@@ -91,6 +91,17 @@ configure() {
     fi
 }
 
+# reconfigure PRESET NAME VALUE - sets one of CMake's options in build/PRESET, unless it is so.
+reconfigure() {
+    local folder="$OBSCURA_ROOT/build/$1" name="$2" value="$3"
+    grep -q "^$name:[A-Z]*=$value\$" "$folder/CMakeCache.txt" && return 0
+    say "configuring build/$1 with $name=$value"
+    if ! cmake -D "$name=$value" "$folder" >"$folder/configure.log" 2>&1; then
+        cat "$folder/configure.log" >&2
+        stop "configuring failed"
+    fi
+}
+
 # Options for presets that are configured for the first time.
 OBSCURA_CONFIGURE=()
 

@@ -178,7 +178,10 @@ Error missing_isa() {
     return {ExitCode::unsupported,
             "E-ISA",
             setting("isa"),
-            "this CPU does not have that instruction set; auto or baseline always work"};
+            has_isa(Isa::automatic)
+                ? "this CPU or this build does not have that instruction set; auto always works"
+                : "this build has no instruction set that this CPU has; build it with "
+                  "-DOBSCURA_ISAS=all, or here"};
 }
 
 Result<PreparedScene> PreparedScene::create(Scene scene,

@@ -6,23 +6,35 @@
 
 namespace obscura {
 
+namespace {
+
+// The build says by OBSCURA_HAS_... which instruction sets it compiled the stages for.
+const StageTable* built_stages(Isa isa) {
+#if defined(OBSCURA_HAS_avx512)
+    if (isa == Isa::avx512 && cpu_has_avx512()) return &isa_avx512::stage_table;
+#endif
+#if defined(OBSCURA_HAS_avx2)
+    if (isa == Isa::avx2 && cpu_has_avx2()) return &isa_avx2::stage_table;
+#endif
+#if defined(OBSCURA_HAS_baseline)
+    if (isa == Isa::baseline) return &isa_baseline::stage_table;
+#endif
+    if (isa == Isa::automatic) {
+        for (const Isa widest : {Isa::avx512, Isa::avx2, Isa::baseline}) {
+            if (const StageTable* stages = built_stages(widest)) return stages;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace
+
 bool has_isa(Isa isa) {
-    if (isa == Isa::avx2) return cpu_has_avx2();
-    if (isa == Isa::avx512) return cpu_has_avx512();
-    return isa == Isa::automatic || isa == Isa::baseline;
+    return built_stages(isa) != nullptr;
 }
 
 const StageTable& stage_table_for(Isa isa) {
-#if defined(__x86_64__)
-    if (isa == Isa::avx512 || (isa == Isa::automatic && has_isa(Isa::avx512))) {
-        return isa_avx512::stage_table;
-    }
-    if (isa == Isa::avx2 || (isa == Isa::automatic && has_isa(Isa::avx2))) {
-        return isa_avx2::stage_table;
-    }
-#endif
-    (void)isa;
-    return isa_baseline::stage_table;
+    return *built_stages(isa);
 }
 
 const char* embree_isa_for(Isa isa) {

@@ -20,7 +20,7 @@ extern const StageTable stage_table;
 /// Which lanes the stages run on.
 enum class Isa { automatic, baseline, avx2, avx512 };
 
-/// True when this program and this CPU have it.
+/// True when this build (OBSCURA_ISAS) and this CPU have it; automatic: when they share any.
 bool has_isa(Isa isa);
 
 /// The stages for `isa`; automatic takes the widest that has_isa. has_isa(isa) must hold.

@@ -65,9 +65,7 @@ TEST(ObjectSymbols, MissingObjectsAreAnError) {
 }
 
 /// The object files that CMake lists for an instruction set, one a line.
-std::vector<std::string> listed_objects(const InstructionSet& isa) {
-    std::ifstream list(std::string(OBSCURA_BINARY_DIR "/isa_objects_") + std::string(isa.name) +
-                       ".txt");
+std::vector<std::string> listed_objects(std::istream& list) {
     std::vector<std::string> objects;
     for (std::string line; std::getline(list, line);) {
         if (!line.empty()) objects.push_back(line);
@@ -79,7 +77,10 @@ void expect_safe_objects(const InstructionSet& isa) {
 #if !defined(__x86_64__)
     GTEST_SKIP() << "one instruction set only";
 #endif
-    const std::vector<std::string> objects = listed_objects(isa);
+    std::ifstream list(std::string(OBSCURA_BINARY_DIR "/isa_objects_") + std::string(isa.name) +
+                       ".txt");
+    if (!list) GTEST_SKIP() << "this build leaves " << isa.name << " out (OBSCURA_ISAS)";
+    const std::vector<std::string> objects = listed_objects(list);
     ASSERT_FALSE(objects.empty()) << "CMake lists no object files for " << isa.name;
     bool found_own = false;
     for (const std::string& object : objects) {

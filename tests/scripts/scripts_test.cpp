@@ -254,6 +254,30 @@ TEST_F(Scripts, SetupNamesThePackageListOnOtherSystems) {
     EXPECT_EQ(run_with_setup(code).output, "") << "said once only";
 }
 
+TEST_F(Scripts, SetupChangesAnOptionOfABuildOnce) {
+    write("build/release/CMakeCache.txt", "OBSCURA_ISAS:STRING=native\n");
+    write_program("bin/cmake", "printf '%s|' \"$@\"");
+    write_program("bin/grep", "exec /bin/grep \"$@\"");
+    const std::string code = "OBSCURA_ROOT=\"$PWD\"; reconfigure release OBSCURA_ISAS ";
+    EXPECT_EQ(run_with_setup(code + "native").output, "");
+    const Outcome changed = run_with_setup(code + "all && /bin/cat build/release/configure.log");
+    EXPECT_EQ(changed.code, 0) << changed.output;
+    EXPECT_THAT(changed.output, HasSubstr("configuring build/release with OBSCURA_ISAS=all"));
+    EXPECT_THAT(changed.output, HasSubstr("-D|OBSCURA_ISAS=all|"));
+}
+
+TEST_F(Scripts, SetupShowsWhatCMakeSaysWhenItFails) {
+    write("build/release/CMakeCache.txt", "OBSCURA_ISAS:STRING=native\n");
+    write_program("bin/cmake", "echo REASON; exit 1");
+    for (const std::string program : {"grep", "cat"}) {
+        write_program("bin/" + program, "exec /bin/" + program + " \"$@\"");
+    }
+    const Outcome outcome =
+        run_with_setup("OBSCURA_ROOT=\"$PWD\"; reconfigure release OBSCURA_ISAS all");
+    EXPECT_EQ(outcome.code, 1);
+    EXPECT_THAT(outcome.output, HasSubstr("REASON"));
+}
+
 /// Stands in for Blender: repeats its arguments where people see them.
 constexpr const char* fake_blender = R"sh(
 echo "log line"
