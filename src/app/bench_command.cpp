@@ -206,6 +206,8 @@ Result<void> execute(const BenchRequest& request, Log& log) {
     const ThreadLimit threads(request.threads.front());
     bench::BenchReport report;
     report.machine = bench::describe_machine();
+    for (const std::string& doubt : bench::doubts_about(report.machine, request.threads))
+        log.warn("bench", doubt);
     report.settings = settings_of(request);
     bool nonfinite = false;
     SkippedScenes skipped(request.scenes.size(), log);

@@ -15,6 +15,7 @@ namespace obscura::bench {
 namespace {
 
 constexpr double min_change = 0.02;
+constexpr size_t min_count = 3;
 
 void add_view(const std::string& prefix, const ViewFigures& view, std::vector<Figure>& out) {
     out.push_back({prefix + "of_bare", view.of_bare});
@@ -26,7 +27,7 @@ void add_view(const std::string& prefix, const ViewFigures& view, std::vector<Fi
 
 Spread exactly(size_t bytes) {
     const auto value = static_cast<double>(bytes);
-    return {value, value, value};
+    return {value, value, value, 1};
 }
 
 bool is_bytes(const Change& change) {
@@ -110,8 +111,10 @@ Result<OldReport> read_old_report(const std::filesystem::path& file) {
     root.each("figures", [&](const JsonReader& figure, size_t) {
         for (const char* key : {"name", "median", "low", "high"})
             figure.require(key);
-        const Spread value{
-            figure.number("median", 0), figure.number("low", 0), figure.number("high", 0)};
+        const Spread value{figure.number("median", 0),
+                           figure.number("low", 0),
+                           figure.number("high", 0),
+                           static_cast<size_t>(figure.number("count", 0))};
         old.figures.push_back({figure.text("name"), value});
     });
     old.circumstances = root.text("circumstances");
@@ -134,6 +137,9 @@ std::string_view verdict(const Change& change) {
     if (is_bytes(change)) {
         if (change.after.median == change.before.median) return "the same";
         return rose ? "larger" : "smaller";
+    }
+    if (std::min(change.before.count, change.after.count) < min_count) {
+        return "too few measurements";
     }
     const bool counts = ranges_apart(change.before, change.after) &&
                         std::fabs(relative_change(change)) > min_change;

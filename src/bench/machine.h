@@ -9,7 +9,12 @@ namespace obscura::bench {
 /// "GCC 12.2.0" or "clang 14.0.6".
 std::string compiler_name();
 
-/// The CPU's own name where the system tells it; all but `embree`.
+/// The CPU's own name, clock, caches and NUMA nodes where the system tells them, and the load at
+/// this moment; all but `embree`.
 Machine describe_machine();
+
+/// What makes times on this machine doubtful, as sentences: other programs at work, more threads
+/// than cores. Empty: nothing.
+std::vector<std::string> doubts_about(const Machine& machine, const std::vector<int>& threads);
 
 }  // namespace obscura::bench

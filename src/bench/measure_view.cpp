@@ -3,6 +3,7 @@
 #include "bench/measure_view.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <span>
 
 namespace obscura::bench {
@@ -164,6 +165,14 @@ Result<ViewFigures> measure_view(const ViewTask& task, const std::atomic<bool>& 
 
 std::vector<std::string> doubts_about(const ViewFigures& view) {
     std::vector<std::string> doubts;
+    // Beside starting and ending the threads, a shorter rendering has too few rays to measure.
+    constexpr double min_render_s = 0.05;
+    if (view.render_s.count > 0 && view.render_s.median < min_render_s) {
+        doubts.push_back(
+            fmt::format("a rendering takes {:.0f} ms, too little to measure well; more "
+                        "--spp or a larger --size help",
+                        1000 * view.render_s.median));
+    }
     if (view.recording_changed_image) doubts.push_back("recording the rays changed the picture");
     for (size_t k = 0; k < ray_kinds; ++k) {
         const KindFigures& kind = view.kinds[k];

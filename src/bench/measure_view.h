@@ -29,8 +29,8 @@ struct ViewTask {
 /// Errors  75 E-STOPPED; 33 E-MEM
 Result<ViewFigures> measure_view(const ViewTask& task, const std::atomic<bool>& stop);
 
-/// Faults of a measurement, as sentences: hits that differ between rendering and replay, an image
-/// that recording has changed. Empty: none.
+/// Faults of a measurement, as sentences: less than 50 ms a rendering, hits that differ between
+/// rendering and replay, an image that recording has changed. Empty: none.
 std::vector<std::string> doubts_about(const ViewFigures& view);
 
 }  // namespace obscura::bench

@@ -13,9 +13,20 @@
 
 namespace obscura::bench {
 
+/// A cache of the first core. Source: Linux, /sys/devices/system/cpu/cpu0/cache.
+struct CpuCache {
+    int level = 0;
+    std::string type;  ///< "Data", "Instruction" or "Unified"
+    std::string size;  ///< as Linux says it: "512K"
+};
+
 struct Machine {
     std::string cpu;
-    int cores = 0;  ///< that this process may use
+    int cores = 0;         ///< that this process may use
+    double clock_mhz = 0;  ///< the greatest that the system tells; 0: it tells none
+    std::vector<CpuCache> caches;
+    int numa_nodes = 0;  ///< 0: not known
+    double load = 0;     ///< mean number of running threads in the minute before; -1: not known
     std::string embree;
     std::string compiler;
     std::string build_type;

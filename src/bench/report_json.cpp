@@ -28,8 +28,15 @@ void add_head(const BenchReport& report, Json& json) {
     const Machine& m = report.machine;
     json["version"] = m.version;
     json["circumstances"] = circumstances_of(report);
+    Json caches = Json::array();
+    for (const CpuCache& cache : m.caches)
+        caches.push_back({{"level", cache.level}, {"type", cache.type}, {"size", cache.size}});
     json["machine"] = {{"cpu", m.cpu},
                        {"cores", m.cores},
+                       {"clock_mhz", m.clock_mhz},
+                       {"caches", std::move(caches)},
+                       {"numa_nodes", m.numa_nodes},
+                       {"load", m.load},
                        {"embree", m.embree},
                        {"compiler", m.compiler},
                        {"build_type", m.build_type}};
@@ -170,7 +177,8 @@ Json figures_json(const BenchReport& report) {
         out.push_back({{"name", figure.name},
                        {"median", figure.value.median},
                        {"low", figure.value.low},
-                       {"high", figure.value.high}});
+                       {"high", figure.value.high},
+                       {"count", figure.value.count}});
     }
     return out;
 }

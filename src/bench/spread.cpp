@@ -12,7 +12,7 @@ Spread spread_of(std::vector<double> values) {
     const size_t middle = values.size() / 2;
     const double median =
         values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-    return {median, values.front(), values.back()};
+    return {median, values.front(), values.back(), values.size()};
 }
 
 }  // namespace obscura::bench

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace obscura::bench {
@@ -11,6 +12,7 @@ struct Spread {
     double median = 0;
     double low = 0;
     double high = 0;
+    size_t count = 0;  ///< of measurements; 0: not measured, or not known
 
     /// Width of the range relative to the median; 0 when that is 0.
     double relative() const { return median != 0 ? (high - low) / median : 0; }

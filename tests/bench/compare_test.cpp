@@ -27,18 +27,26 @@ TEST(Spread, OfNoneOneAndMany) {
 }
 
 TEST(Compare, TellsSecondsFromNoise) {
-    const Spread before{1.00, 0.97, 1.03};
-    EXPECT_EQ(verdict({"a/render_s", before, {1.30, 1.25, 1.33}}), "slower");
-    EXPECT_EQ(verdict({"a/render_s", before, {0.70, 0.65, 0.75}}), "faster");
-    EXPECT_EQ(verdict({"a/render_s", before, {1.10, 1.02, 1.15}}), "within noise")
+    const Spread before{1.00, 0.97, 1.03, 5};
+    EXPECT_EQ(verdict({"a/render_s", before, {1.30, 1.25, 1.33, 5}}), "slower");
+    EXPECT_EQ(verdict({"a/render_s", before, {0.70, 0.65, 0.75, 5}}), "faster");
+    EXPECT_EQ(verdict({"a/render_s", before, {1.10, 1.02, 1.15, 5}}), "within noise")
         << "the ranges overlap";
-    EXPECT_EQ(verdict({"a/render_s", {1, 1, 1}, {1.015, 1.015, 1.015}}), "within noise")
+    EXPECT_EQ(verdict({"a/render_s", {1, 1, 1, 5}, {1.015, 1.015, 1.015, 5}}), "within noise")
         << "machines drift by more than that";
 }
 
+TEST(Compare, NeedsThreeMeasurementsOfEach) {
+    const Spread once = spread_of({1});
+    const Spread slow = spread_of({4.6, 4.7, 4.8});
+    EXPECT_EQ(verdict({"a/render_s", once, slow}), "too few measurements");
+    EXPECT_EQ(verdict({"a/render_s", slow, once}), "too few measurements");
+    EXPECT_EQ(verdict({"a/render_s", spread_of({1, 1, 1}), slow}), "slower");
+}
+
 TEST(Compare, MoreOfBareEmbreeIsFaster) {
-    EXPECT_EQ(verdict({"a/of_bare", {0.5, 0.5, 0.5}, {0.6, 0.6, 0.6}}), "faster");
-    EXPECT_EQ(verdict({"a/load_of_bare", {0.5, 0.5, 0.5}, {0.4, 0.4, 0.4}}), "slower");
+    EXPECT_EQ(verdict({"a/of_bare", {0.5, 0.5, 0.5, 3}, {0.6, 0.6, 0.6, 3}}), "faster");
+    EXPECT_EQ(verdict({"a/load_of_bare", {0.5, 0.5, 0.5, 3}, {0.4, 0.4, 0.4, 3}}), "slower");
 }
 
 TEST(Compare, BytesAreExact) {
