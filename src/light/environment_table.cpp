@@ -34,13 +34,14 @@ double importance_of(const float* rgb) {
     return 0.5 * (luminance_of(rgb) + std::max({rgb[0], rgb[1], rgb[2]}));
 }
 
-/// How often light sampling draws directions of this importance. BSDF sampling finds the evenly
-/// lit part of a map well by itself, so the light samples go to what stands out from it. Half the
-/// mean is taken off, and no direction loses more than nine tenths: where geometry hides the bright
-/// part, as a room with one window does, the rest is all there is to find.
+/// MIS compensation: how often light sampling draws directions of this importance. BSDF sampling
+/// finds the evenly lit part of a map well by itself, so the light samples go to what stands out
+/// from it. Half the mean is taken off, and no direction loses more than nine tenths: where
+/// geometry hides the bright part, as a room with one window does, the rest is all there is to
+/// find.
 /// Source  Karlik et al., "MIS Compensation: Optimizing Sampling Techniques in Multiple Importance
 ///         Sampling", ACM TOG 38(6), 2019, section 5, with half its offset
-double sampling_weight(double importance, double mean) {
+double compensated_importance(double importance, double mean) {
     return std::max(importance - 0.5 * mean, 0.1 * importance);
 }
 
@@ -85,7 +86,8 @@ Result<void> check(const EnvironmentImage& image, double intensity, double rotat
 
 Result<EnvironmentTable> EnvironmentTable::create(const EnvironmentImage& image,
                                                   double intensity,
-                                                  double rotation_deg) {
+                                                  double rotation_deg,
+                                                  EnvironmentSampling sampling) {
     if (Result<void> checked = check(image, intensity, rotation_deg); !checked) {
         return fail(std::move(checked.error()));
     }
@@ -96,7 +98,7 @@ Result<EnvironmentTable> EnvironmentTable::create(const EnvironmentImage& image,
     table.cos_rotation_ = std::cos(rotation_rad);
     table.sin_rotation_ = std::sin(rotation_rad);
     table.copy_pixels(image.rgb, intensity);
-    table.build_tables();
+    table.build_tables(sampling);
     return table;
 }
 
@@ -112,7 +114,7 @@ void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {
     }
 }
 
-void EnvironmentTable::build_tables() {
+void EnvironmentTable::build_tables(EnvironmentSampling sampling) {
     const auto width = static_cast<size_t>(width_);
     const auto height = static_cast<size_t>(height_);
     std::vector<double> steradians(height);  // of one pixel
@@ -135,7 +137,9 @@ void EnvironmentTable::build_tables() {
     };
     const double mean = sum_of(importance) / (4 * pi_d);
     const auto weight = [&](int x, int y) {
-        return sampling_weight(importance_of(pixel_at(x, y)), mean) *
+        const double own = importance_of(pixel_at(x, y));
+        const bool compensated = sampling == EnvironmentSampling::compensated;
+        return (compensated ? compensated_importance(own, mean) : own) *
                steradians[static_cast<size_t>(y)];
     };
     const auto set = [&](int x, int y, double probability) {

@@ -24,6 +24,12 @@ inline constexpr int max_environment_side = 16384;
 /// Radiance of a pixel after scaling never exceeds this, so that sums of squares stay finite.
 inline constexpr float max_environment_radiance = 1e12f;
 
+/// What light samples of an environment are drawn by.
+enum class EnvironmentSampling {
+    compensated,  ///< what stands out of it: BSDF samples are taken too, and find the rest
+    by_radiance,  ///< its radiance: light samples are all there is, as on shadow catchers
+};
+
 class EnvironmentTable {
 public:
     /// Copies the map, scaled by `intensity`, and builds its tables.
@@ -33,9 +39,11 @@ public:
     ///         repaired_values()
     /// Errors  67 E-ENV-SIZE sides not in [1, 16384] or more than 2^28 pixels;
     ///         64 E-ENV-OPTION intensity negative or not finite, rotation not finite
-    static Result<EnvironmentTable> create(const EnvironmentImage& image,
-                                           double intensity,
-                                           double rotation_deg);
+    static Result<EnvironmentTable> create(
+        const EnvironmentImage& image,
+        double intensity,
+        double rotation_deg,
+        EnvironmentSampling sampling = EnvironmentSampling::compensated);
 
     /// Valid for as long as the table lives, wherever it is moved.
     EnvironmentView view() const;
@@ -52,7 +60,7 @@ public:
 private:
     EnvironmentTable() = default;
     void copy_pixels(const float* rgb, double intensity);
-    void build_tables();
+    void build_tables(EnvironmentSampling sampling);
 
     LargeArray<float> pixels_;  ///< see EnvironmentView
     PixelChoice choice_;

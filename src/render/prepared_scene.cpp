@@ -53,6 +53,18 @@ EnvironmentImage image_of(const ImageRgb32f& image) {
     return {image.width, image.height, image.pixels.data()};
 }
 
+/// Shadow catchers take light samples alone.
+EnvironmentSampling environment_sampling(const Scene& scene, const LightingOptions& lighting) {
+    const auto has_catcher = [](const std::vector<uint8_t>& flags) {
+        return std::any_of(flags.begin(), flags.end(), [](uint8_t surface) {
+            return (surface & visibility_catcher) != 0;
+        });
+    };
+    const bool alone = lighting.catcher_ground || has_catcher(scene.visibility.primitives) ||
+                       has_catcher(scene.visibility.instances);
+    return alone ? EnvironmentSampling::by_radiance : EnvironmentSampling::compensated;
+}
+
 /// Makes the environment's table, unless the old one has the same source.
 Result<void> make_environment(PreparedScene::Impl& impl,
                               const LightingOptions& lighting,
@@ -69,7 +81,7 @@ Result<void> make_environment(PreparedScene::Impl& impl,
         image = {studio_width, studio_height, studio_pixels.data()};
     }
     auto environment = EnvironmentTable::create(
-        image, lighting.environment_intensity, lighting.environment_rotation_deg);
+        image, lighting.environment_intensity, lighting.environment_rotation_deg, source.sampling);
     if (!environment) return fail(environment.error());
     impl.environment = std::move(*environment);
     impl.environment_source = source;
@@ -81,7 +93,8 @@ Result<void> make_environment(PreparedScene::Impl& impl,
 Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
     const EnvironmentSource source{lighting.environment.has_value(),
                                    impl.scene.environment,
-                                   lighting.environment_rotation_deg};
+                                   lighting.environment_rotation_deg,
+                                   environment_sampling(impl.scene, lighting)};
     if (source.chosen && source.own) {
         log.info(setting("env") + " takes the place of the environment that the file brings");
     }

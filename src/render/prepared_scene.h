@@ -11,12 +11,13 @@
 
 namespace obscura {
 
-/// Where an environment comes from: the user's choice, else the scene's own, else the studio; and
-/// how it is turned.
+/// Where an environment comes from: the user's choice, else the scene's own, else the studio; how
+/// it is turned and sampled.
 struct EnvironmentSource {
     bool chosen = false;
     std::shared_ptr<const ImageRgb32f> own;
     double rotation_deg = 0;
+    EnvironmentSampling sampling = EnvironmentSampling::compensated;
 
     bool operator==(const EnvironmentSource&) const = default;
 };

@@ -59,6 +59,7 @@ struct LightingOptions {
     std::optional<ImageRgb32f> environment;  ///< none: the scene's own, else the studio
     double environment_intensity = 1;        ///< of any environment
     double environment_rotation_deg = 0;     ///< about +Y, counter-clockwise seen from above
+    bool catcher_ground = false;             ///< RenderOptions::catcher_ground_m will be set
 };
 
 /// Adaptive sampling: samples are taken where they lower the noise of the picture. See

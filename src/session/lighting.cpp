@@ -13,6 +13,7 @@ Result<LightingOptions> load_lighting(const RenderRequest& request, Log& log) {
     LightingOptions lighting;
     lighting.environment_intensity = request.environment_intensity;
     lighting.environment_rotation_deg = request.environment_rotation_deg;
+    lighting.catcher_ground = request.catcher_ground;
     if (request.environment) {
         const Result<std::optional<BuiltInEnvironment>> built_in =
             parse_built_in_environment(request.environment->string());

@@ -234,6 +234,25 @@ TEST(EnvironmentTable, IntensityScalesLightAndNotDensity) {
     EXPECT_TRUE(EnvironmentTable::create(map.image(), 0, 0).value().black());
 }
 
+/// A sky of 2 above ground of 1. What stands out of half the mean, 0.75, is 1.25 and 0.25.
+TEST(EnvironmentTable, CompensationLeavesTheEvenPartToBsdfSamples) {
+    TestMap map(16, 8);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 16; ++x) {
+            const float grey = y < 4 ? 2.0F : 1.0F;
+            map.set(x, y, {grey, grey, grey});
+        }
+    }
+    const auto sky_over_ground = [&](EnvironmentSampling sampling) {
+        const auto table = EnvironmentTable::create(map.image(), 1, 0, sampling).value();
+        const Vec3d up = normalize(Vec3d{0.3, 0.9, 0.2});
+        const Vec3d down = {up.x, -up.y, up.z};
+        return environment_pdf(table.view(), up) / environment_pdf(table.view(), down);
+    };
+    EXPECT_NEAR(sky_over_ground(EnvironmentSampling::compensated), 5, 1e-4);
+    EXPECT_NEAR(sky_over_ground(EnvironmentSampling::by_radiance), 2, 1e-4);
+}
+
 TEST(EnvironmentTable, RefusesSizesOutOfRange) {
     const float pixel[3] = {1, 1, 1};
     const EnvironmentImage images[] = {

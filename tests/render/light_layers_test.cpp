@@ -37,11 +37,11 @@ Camera room_camera() {
     return look_at({0, 0.6f, 3}, {0, 0.2f, 0}, 0.7f, room_side, room_side);
 }
 
-const FilmLayer& layer_of(const RenderResult& result, const std::string& name) {
+const FilmLayer& layer_of(const RenderResult& result, std::string_view name) {
     for (const FilmLayer& one : result.film.layers) {
         if (one.layer.name == name) return one;
     }
-    throw std::runtime_error("no layer " + name);
+    throw std::runtime_error("no layer " + std::string(name));
 }
 
 double mean_of(const RenderResult& result, const std::string& name, size_t channel = 0) {

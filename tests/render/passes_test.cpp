@@ -45,11 +45,11 @@ std::vector<Layer> layers(const std::vector<std::string>& names) {
     return layers_of(names, 2).value();
 }
 
-const FilmLayer& layer(const RenderResult& result, const std::string& name) {
+const FilmLayer& layer(const RenderResult& result, std::string_view name) {
     for (const FilmLayer& one : result.film.layers) {
         if (one.layer.name == name) return one;
     }
-    throw std::runtime_error("no layer " + name);
+    throw std::runtime_error("no layer " + std::string(name));
 }
 
 double mean_color(const Film& film) {
