@@ -58,7 +58,7 @@ TEST_F(Installed, AProgramOfAnyStandardAndMachineGetsTheBitsOfTheCommand) {
                                 "-Werror ";
     const std::string by_cmake =
         "'" OBSCURA_CMAKE "' -S '" OBSCURA_SOURCE_DIR
-        "/examples/embed' -B build -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" "
+        "/examples/embed' -B build -G Ninja -DCMAKE_PREFIX_PATH=\"$PWD/prefix\" "
         "-DCMAKE_CXX_COMPILER='" OBSCURA_CXX
         "' -DCMAKE_CXX_STANDARD=17 -DCMAKE_CXX_FLAGS=-O2 > log\n"
         "'" OBSCURA_CMAKE "' --build build > log; mv build/embed embed; unset LD_LIBRARY_PATH\n";
