@@ -3,6 +3,8 @@
 #include "app/info_report.h"
 #include "base/json/json.h"
 #include "camera/matrices.h"
+#include "film/cryptomatte_names.h"
+#include "scene/node_primitives.h"
 #include "session/camera_build.h"
 #include "session/framing.h"
 
@@ -17,6 +19,26 @@ Json counts_json(const char* count_key, const std::vector<NamedCount>& items) {
     Json out = Json::array();
     for (const NamedCount& item : items)
         out.push_back({{"name", item.name}, {count_key, item.count}});
+    return out;
+}
+
+/// What the numbers of the layers id_node and instance stand for.
+Json nodes_json(const Scene& scene) {
+    const std::vector<std::string> paths = node_paths(scene.info);
+    std::vector<std::vector<int32_t>> instances(paths.size());
+    for_each_node_primitive(scene, [&](int32_t node, int32_t instance, const Primitive&) {
+        if (node < 0 || instance < 0) return;
+        std::vector<int32_t>& numbers = instances[static_cast<size_t>(node)];
+        const bool is_new = numbers.empty() || numbers.back() != instance + 1;
+        if (is_new) numbers.push_back(instance + 1);
+    });
+    Json out = Json::array();
+    for (size_t node = 0; node < paths.size(); ++node) {
+        out.push_back({{"id_node", node + 1},
+                       {"path", paths[node]},
+                       {"mesh", mesh_name(scene.info, node)},
+                       {"instances", instances[node]}});
+    }
     return out;
 }
 
@@ -178,6 +200,7 @@ std::string info_json(const Scene& scene, const std::vector<std::string>& warnin
     json["variants"] = info.variants;
     json["variant"] = info.variant;
     json["bounds"] = bounds_json(scene);
+    json["nodes"] = nodes_json(scene);
     json["meshes"] = counts_json("triangles", info.meshes);
     json["triangles_in_file"] = triangles_in_file(info);
     json["triangles_in_world"] = info.triangles_in_world;

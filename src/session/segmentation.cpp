@@ -6,6 +6,7 @@
 #include "base/json/json.h"
 #include "film/cryptomatte_names.h"
 #include "image/write.h"
+#include "scene/node_primitives.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,28 +56,13 @@ VisibleById find_visible(const OutputImage& ids) {
 
 /// Notes the materials of the primitives that visible nodes consist of.
 void find_materials(const Scene& scene, VisibleById& visible) {
-    const auto note = [&](int32_t node, const Primitive& primitive) {
+    const auto note = [&](int32_t node, int32_t /*instance*/, const Primitive& primitive) {
         const auto found = visible.find(node + 1);
         if (found == visible.end()) return;
         found->second.materials.insert(
             scene.material_numbers[static_cast<size_t>(primitive.material)]);
     };
-    for (int32_t i = 0; i < scene.world_primitive_count; ++i) {
-        const Primitive& primitive = scene.primitives[static_cast<size_t>(i)];
-        note(primitive.node, primitive);
-    }
-    for (const Instance& instance : scene.instances) {
-        const Mesh& mesh = scene.meshes[static_cast<size_t>(instance.mesh)];
-        const Primitive* const first = &scene.primitives[static_cast<size_t>(mesh.first_primitive)];
-        for (const Primitive& primitive :
-             std::span(first, static_cast<size_t>(mesh.primitive_count)))
-            note(std::max(instance.node, primitive.node), primitive);
-    }
-}
-
-std::string mesh_name(const AssetInfo& info, size_t node) {
-    const int32_t mesh = info.node_meshes[node];
-    return mesh < 0 ? "" : info.meshes[static_cast<size_t>(mesh)].name;
+    for_each_node_primitive(scene, note);
 }
 
 std::string document_of(const OutputImage& ids, const Scene& scene) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include <nlohmann/json.hpp>
+#include <set>
 
 namespace obscura {
 namespace {
@@ -86,6 +87,60 @@ TEST_F(Layers, NamesWithControlCharactersAreInTheManifest) {
     const auto manifest = nlohmann::json::parse(text, nullptr, false);
     ASSERT_FALSE(manifest.is_discarded()) << text;
     EXPECT_TRUE(manifest.contains("/a\x07\x7F\xC2\x85")) << text;
+}
+
+/// Four quads that one node places beside each other, and a small one in front of their middle.
+SmallScene tiles_scene() {
+    SmallScene scene = lit_quad_scene();
+    scene.nodes = R"({"name": "shelf", "children": [3]}, {"camera": 0, "translation": [0, 0, 3]},
+{"extensions": {"KHR_lights_punctual": {"light": 0}}},
+{"name": "tiles", "mesh": 0, "extensions":
+{"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}},
+{"name": "lone", "mesh": 0, "translation": [0, 0, 1], "scale": [0.2, 0.2, 0.2]})";
+    scene.roots = "0, 1, 2, 4";
+    const std::string used = R"("extensionsUsed": [)";
+    scene.more.insert(scene.more.find(used) + used.size(), R"("EXT_mesh_gpu_instancing", )");
+    return scene;
+}
+
+TEST_F(Layers, InfoNamesTheNumbersOfNodesAndInstances) {
+    folder_.write("tiles.gltf", gltf_text(tiles_scene()));
+    expect_result(
+        render("tiles.gltf", {"-o", "a.exr", "--aov", "id_node,instance,id_material"}), 0, "OK");
+    const auto image = read_image_file(folder_ / "a.exr");
+    ASSERT_TRUE(image);
+    const auto number_at = [&](int x, int y, const std::string& layer) {
+        const auto& names = image->channels;
+        const auto channel = std::find_if(names.begin(), names.end(), [&](const std::string& name) {
+            return name.starts_with(layer + ".");
+        });
+        if (channel == names.end()) return -1;
+        const auto at = static_cast<size_t>(y * image->width + x) * names.size();
+        return static_cast<int>(image->pixels[at + static_cast<size_t>(channel - names.begin())]);
+    };
+    const auto info = nlohmann::json::parse(run({"info", "tiles.gltf", "--json"}).out);
+    ASSERT_EQ(info.at("nodes").size(), 5U);
+    const auto node_at = [&](int x, int y) {
+        for (const auto& node : info.at("nodes"))
+            if (node.at("id_node") == number_at(x, y, "id_node")) return node;
+        return nlohmann::json();
+    };
+    std::set<int> tiles;
+    for (const auto& [x, y] : {std::pair{6, 3}, {18, 3}, {6, 12}, {18, 12}}) {
+        const nlohmann::json node = node_at(x, y);
+        EXPECT_EQ(node.at("path"), "/shelf/tiles");
+        EXPECT_EQ(node.at("mesh"), "Mesh");
+        tiles.insert(number_at(x, y, "instance"));
+    }
+    EXPECT_EQ(tiles.size(), 4U);
+    EXPECT_EQ(node_at(6, 3).at("instances"), nlohmann::json(tiles));
+    const nlohmann::json lone = node_at(12, 8);
+    EXPECT_EQ(lone.at("path"), "/lone");
+    EXPECT_EQ(lone.at("instances"), nlohmann::json::array({number_at(12, 8, "instance")}));
+    EXPECT_EQ(info.at("nodes").at(0).at("mesh"), "");
+    EXPECT_EQ(info.at("nodes").at(0).at("instances"), nlohmann::json::array());
+    EXPECT_EQ(number_at(12, 8, "id_material"), 1);
+    EXPECT_EQ(info.at("materials").at(0), "Paint");
 }
 
 TEST_F(Layers, TwoEyesAreTheViewsOfAMultipartFile) {

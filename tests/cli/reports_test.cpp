@@ -111,6 +111,11 @@ TEST_F(Reports, InfoAsJson) {
     EXPECT_EQ(info.at("generator"), "obscura tests");
     EXPECT_EQ(info.at("copyright"), "CC0");
     EXPECT_EQ(info.at("scenes"), json::array({"Main"}));
+    EXPECT_EQ(info.at("nodes").size(), 5U);
+    EXPECT_EQ(
+        info.at("nodes").at(0),
+        json(
+            {{"id_node", 1}, {"path", "/node 0"}, {"mesh", "Mesh"}, {"instances", json::array()}}));
     EXPECT_EQ(info.at("meshes").at(0).at("triangles"), 12);
     EXPECT_EQ(info.at("triangles_in_file"), 12);
     EXPECT_EQ(info.at("triangles_in_world"), 12);
