@@ -7,7 +7,7 @@ source "$(dirname -- "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
 install_packages build test
 if [[ -f "$OBSCURA_ROOT/build/release/build.ninja" ]]; then
-    reconfigure release OBSCURA_ISAS all  # run.sh builds for this machine alone
+    reconfigure release OBSCURA_ISAS all  # run.sh leaves out those of other CPUs
 fi
 build release
 ctest --test-dir "$OBSCURA_ROOT/build/release" -j "$(nproc)" --output-on-failure "$@"

@@ -12,19 +12,19 @@ if(OBSCURA_ISAS STREQUAL all)
 elseif(OBSCURA_ISAS STREQUAL native)
   # The program itself is asked, by the file that it decides with.
   try_run(native_ran native_compiled ${CMAKE_BINARY_DIR}/native_isa
-    SOURCES ${CMAKE_SOURCE_DIR}/cmake/native_isa.cpp ${CMAKE_SOURCE_DIR}/src/base/cpu.cpp
+    SOURCES ${CMAKE_SOURCE_DIR}/tools/native_isa.cpp ${CMAKE_SOURCE_DIR}/src/base/cpu.cpp
     CMAKE_FLAGS -DINCLUDE_DIRECTORIES=${CMAKE_SOURCE_DIR}/src
     RUN_OUTPUT_VARIABLE obscura_stage_isas)
   if(NOT native_ran EQUAL 0)
-    message(FATAL_ERROR "cmake/native_isa.cpp could not be built and run; try -DOBSCURA_ISAS=all")
+    message(FATAL_ERROR "tools/native_isa.cpp could not be built and run; try -DOBSCURA_ISAS=all")
   endif()
 else()
   set(obscura_stage_isas ${OBSCURA_ISAS})
 endif()
 
-foreach(isa IN LISTS obscura_stage_isas)
-  if(NOT isa IN_LIST known_isas)
-    list(JOIN known_isas ", " known)
-    message(FATAL_ERROR "OBSCURA_ISAS is all, native, or a list of ${known}; it is '${OBSCURA_ISAS}'")
-  endif()
-endforeach()
+set(unknown_isas ${obscura_stage_isas})
+list(REMOVE_ITEM unknown_isas ${known_isas})
+if(unknown_isas OR NOT obscura_stage_isas)
+  list(JOIN known_isas ", " known)
+  message(FATAL_ERROR "OBSCURA_ISAS is all, native, or a list of ${known}; it is '${OBSCURA_ISAS}'")
+endif()

@@ -43,13 +43,12 @@ struct Change {
 /// The figures that both have, in the order of `after`.
 std::vector<Change> compare(const std::vector<Figure>& before, const std::vector<Figure>& after);
 
-/// "faster", "slower" or "within noise"; for bytes "larger", "smaller" or "the same". "too few
-/// measurements" of fewer than three on either side, for two pairs are apart by chance one time in
-/// three, two triples one in ten, two fives one in 126.
+/// "faster", "slower" or "within noise"; for bytes "larger", "smaller" or "the same".
 ///
 /// A change counts when the two ranges of measurements have nothing in common and the medians
 /// differ by more than 2 %: of 5 + 5 measurements of the same thing, one pair of ranges in 126
-/// comes apart by chance alone, and machines drift a little between two runs.
+/// comes apart by chance alone, and machines drift a little between two runs. Of 3 + 3 it is one in
+/// ten, of fewer one in three or all: those are "too few measurements".
 std::string_view verdict(const Change& change);
 
 /// The comparison as a table for people.

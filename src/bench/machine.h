@@ -13,7 +13,7 @@ std::string compiler_name();
 /// this moment; all but `embree`.
 Machine describe_machine();
 
-/// What makes times on this machine doubtful, as sentences: other programs at work, more threads
+/// What makes times on this machine doubtful, as sentences: the CPU was busy before, more threads
 /// than cores. Empty: nothing.
 std::vector<std::string> doubts_about(const Machine& machine, const std::vector<int>& threads);
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <gmock/gmock.h>
 
 namespace obscura::bench {
@@ -16,8 +17,17 @@ TEST(Machine, IsDescribed) {
     const Machine machine = describe_machine();
     EXPECT_FALSE(machine.cpu.empty());
     EXPECT_GE(machine.cores, 1);
-    EXPECT_GE(machine.clock_mhz, 0);
     EXPECT_GE(machine.load, 0) << "Linux tells it";
+    const std::filesystem::path system = "/sys/devices/system";
+    if (std::filesystem::exists(system / "cpu/cpu0/cache/index0/level")) {
+        EXPECT_GE(machine.caches.size(), 1U);
+    }
+    if (std::filesystem::exists(system / "node/node0")) {
+        EXPECT_GE(machine.numa_nodes, 1);
+    }
+    if (machine.clock_mhz != 0) {  // emulators tell none
+        EXPECT_THAT(machine.clock_mhz, testing::AllOf(testing::Gt(100), testing::Lt(20000)));
+    }
     for (const CpuCache& cache : machine.caches) {
         EXPECT_THAT(cache.level, testing::AllOf(testing::Ge(1), testing::Le(4)));
         EXPECT_FALSE(cache.type.empty());

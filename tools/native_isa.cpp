@@ -1,4 +1,4 @@
-// cmake/native_isa.cpp - prints the widest instruction set of this CPU that the stages know.
+// tools/native_isa.cpp - prints the widest instruction set of this CPU that the stages know.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/cpu.h"
 
