@@ -27,6 +27,11 @@ constexpr double percent = 0.01;
 constexpr std::array<Choice<FrameFit>, 2> frame_fits = {
     {{"tight", FrameFit::tight}, {"sphere", FrameFit::sphere}}};
 
+constexpr std::array<Choice<TransparentGlass>, 3> glass_kinds = {
+    {{"auto", TransparentGlass::automatic},
+     {"on", TransparentGlass::on},
+     {"off", TransparentGlass::off}}};
+
 /// "Lamp=0.5" or "Lamp=off".
 Result<gltf::LightChoice::Factor> parse_light_factor(const std::string& text,
                                                      const std::string& option) {
@@ -142,7 +147,17 @@ constexpr Entry parts[] = {
     {{.name = "--catcher-reflections",
       .help = "Catchers reflect the rest, as a lacquer of roughness 0.2 does",
       .fallback = "shadows alone", .needs = {"--catcher"}},
-     text_at<&A::product, &P::catcher_reflections>, flag_at<&R::options, &O::catcher_reflections>}};
+     text_at<&A::product, &P::catcher_reflections>, flag_at<&R::options, &O::catcher_reflections>},
+    {{.name = "--transparent-glass", .argument = "KIND",
+      .help = "Clear glass shows catchers and a transparent background: what it lets through, the "
+              "mean of red, green and blue, leaves the image's alpha, and its colour is what it "
+              "reflects. auto is on where there are catchers. One of:"},
+     text_at<&A::product, &P::transparent_glass>,
+     choice_at<glass_kinds, &R::options, &O::transparent_glass>},
+    {{.name = "--transparent-glass-roughness", .argument = "X",
+      .help = "Glass of this roughness at most counts as clear", .range = {0, 1}},
+     text_at<&A::product, &P::transparent_glass_roughness>,
+     number_at<&R::options, &O::clear_roughness>}};
 // clang-format on
 
 }  // namespace

@@ -17,6 +17,7 @@ struct ProductArguments {
     OptionText lights, margin, frame, azimuth, elevation, roll, zoom, focus_node;
     std::vector<std::string> hide, holdout, camera_invisible, no_shadow, catcher;
     bool catcher_reflections = false;
+    OptionText transparent_glass, transparent_glass_roughness;
 };
 
 struct RenderArguments;

@@ -15,7 +15,7 @@ void add_catcher_samples(const std::vector<CatcherSample>& samples,
         sum.unshadowed += static_cast<double>(sample.unshadowed);
         for (size_t c = 0; c < 4; ++c)
             sum.background[c] += static_cast<double>(sample.background[c]);
-        ++sum.samples;
+        sum.transmitted += static_cast<double>(sample.transmitted);
     }
 }
 
@@ -28,7 +28,7 @@ std::array<float, 4> catcher_part(const CatcherSum& sum, int samples) {
     const double alpha = shadow_alpha(sum);
     std::array<float, 4> out = {0, 0, 0, 0};
     for (size_t c = 0; c < 4; ++c) {
-        const double shadow = c == 3 ? alpha * sum.samples : 0;
+        const double shadow = c == 3 ? alpha * sum.transmitted : 0;
         out[c] = static_cast<float>((shadow + (1 - alpha) * sum.background[c]) / samples);
     }
     return out;

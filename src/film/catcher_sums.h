@@ -10,12 +10,12 @@
 
 namespace obscura {
 
-/// Sums over the samples of a pixel that hit a shadow catcher, in the order of the samples.
+/// Sums over the samples of a pixel that show a shadow catcher, in the order of the samples.
 struct CatcherSum {
     double shadowed = 0;                              ///< luminance
     double unshadowed = 0;                            ///< likewise, with nothing in the way
     std::array<double, 4> background = {0, 0, 0, 0};  ///< premultiplied RGBA behind the catcher
-    int samples = 0;
+    double transmitted = 0;  ///< by the clear glass in front of it; 1 a sample where there is none
 };
 
 /// Adds the samples of a batch.

@@ -15,6 +15,7 @@
 #include "render/prepared_scene.h"
 #include "render/raycast_lights.h"
 #include "stages/wavefront.h"
+#include "surface/bsdf.h"
 
 #include <algorithm>
 #include <memory>
@@ -36,6 +37,21 @@ bool any_catcher(const VisibilityFlags& visibility) {
     const auto is_one = [](uint8_t flags) { return (flags & visibility_catcher) != 0; };
     return std::any_of(visibility.primitives.begin(), visibility.primitives.end(), is_one) ||
            std::any_of(visibility.instances.begin(), visibility.instances.end(), is_one);
+}
+
+/// Whether paths through clear glass see something else than the environment that lights the scene.
+bool sees_through_glass(const WavefrontInput& input, const RenderOptions& options) {
+    const bool caught = input.catchers.any();
+    const bool wanted = options.transparent_glass == TransparentGlass::on ||
+                        (options.transparent_glass == TransparentGlass::automatic && caught);
+    const bool environment = input.batch.background_visible && input.scene.has_environment;
+    return wanted && (caught || !environment);
+}
+
+/// How much glass of a roughness spreads light, with room for rounding; see BsdfSample::spread.
+double clear_spread(double roughness) {
+    const double alpha = std::max(roughness * roughness, static_cast<double>(min_ggx_alpha));
+    return 0.5 * alpha * (1 + 1e-5);
 }
 
 WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
@@ -80,6 +96,9 @@ WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
         input.catchers.surfaces = any_catcher(visibility);
         input.catchers.ground_m = options.catcher_ground_m;
         input.catchers.reflects = options.catcher_reflections;
+        if (sees_through_glass(input, options)) {
+            batch.clear_spread = static_cast<float>(clear_spread(options.clear_roughness));
+        }
     }
     input.kind = entry_of(options.integrator).kind;
     input.aovs = entry_of(options.integrator).aovs;

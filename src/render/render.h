@@ -51,6 +51,10 @@ enum class PixelFilter { box, gaussian, blackman_harris };
 
 enum class BackgroundKind { environment, transparent, color };
 
+/// Whether clear glass shows shadow catchers and the background, in alpha: where there are
+/// catchers, always, never.
+enum class TransparentGlass { automatic, on, off };
+
 struct PixelRect {
     int x = 0, y = 0, width = 0, height = 0;
 };
@@ -99,6 +103,8 @@ struct RenderOptions {
     /// the surfaces with visibility_catcher; none: there is no such plane.
     std::optional<float> catcher_ground_m;
     bool catcher_reflections = false;  ///< shadow catchers reflect other surfaces
+    TransparentGlass transparent_glass = TransparentGlass::automatic;
+    double clear_roughness = 0.1;  ///< of glass that counts as clear, at most
     double ao_distance_m = 0;          ///< 0: a fifth of the scene's diagonal
     double wire_width_px = 1;
     /// The most that a contribution to a sample may have in any channel, where light comes straight

@@ -166,10 +166,13 @@ void store_beauty(const TileSums& sums, ThreadState& state, Film& film) {
             channels * pixel_index(film, sums.tile.x + pattern.dx[i], sums.tile.y + pattern.dy[i]);
         for (size_t c = 0; c < channels; ++c)
             out[c] = sums.beauty[i].mean(static_cast<int>(c), sums.samples[i]);
-        if (sums.catchers.empty()) continue;
-        const std::array<float, 4> part = catcher_part(sums.catchers[i], sums.samples[i]);
-        for (size_t c = 0; c < channels; ++c)
-            out[c] += part[c];
+        if (!sums.catchers.empty()) {
+            const std::array<float, 4> part = catcher_part(sums.catchers[i], sums.samples[i]);
+            for (size_t c = 0; c < channels; ++c)
+                out[c] += part[c];
+        }
+        // Few paths through tinted glass may weigh more than all of the pixel.
+        if (channels == 4) out[3] = std::max(out[3], 0.0f);
     }
 }
 

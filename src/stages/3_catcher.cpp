@@ -19,7 +19,7 @@ constexpr float density_below_all = 1e-30f;
 
 constexpr float catcher_f0 = 0.04f;
 
-/// Where a camera ray meets a catcher. Normals are on the viewer's side.
+/// Where a path from the camera meets a catcher. Normals are on the viewer's side.
 struct CatcherPoint {
     Vec3<Lanes> start;        ///< of rays, clear of the surface
     Vec3<Lanes> light_start;  ///< of rays to lights, see ShadingPoint
@@ -29,11 +29,12 @@ struct CatcherPoint {
     Lanes time;
 };
 
-/// One group of camera rays at their catchers.
+/// One group of paths at their catchers.
 struct CatcherGroup {
     Mask exists;
     const PathLanes& path;
     const CatcherPoint& point;
+    int bounce;
 };
 
 OBSCURA_INLINE CatcherPoint catcher_point(const SceneView& scene,
@@ -44,7 +45,8 @@ OBSCURA_INLINE CatcherPoint catcher_point(const SceneView& scene,
     const Vec3<Lanes> up{Lanes(0.0f), Lanes(1.0f), Lanes(0.0f)};
     const Lanes distance = load(columns.hits.t + i);
     Vec3<Lanes> met = path.origin + path.direction * distance;
-    met.y = Lanes(columns.ground_m);
+    // Glass that stands on the ground lets rays out below it, clear of the glass.
+    met.y = min(Lanes(columns.ground_m), path.origin.y);
     CatcherPoint out{met, met, up, up, distance, Lanes(0.0f)};
     if (columns.time != nullptr) {
         out.time = gather<Lanes>(columns.time, select(exists, as_int(path.slot), LanesI(0)));
@@ -67,17 +69,18 @@ OBSCURA_INLINE CatcherPoint catcher_point(const SceneView& scene,
     return out;
 }
 
-OBSCURA_INLINE Vec2<LanesU> random_pair(const PathLanes& path, RandomUse use) {
-    return sobol_pair(path.key, path.sample, static_cast<uint32_t>(use));
+OBSCURA_INLINE Vec2<LanesU> random_pair(const CatcherGroup& group, RandomUse use) {
+    const uint32_t number =
+        static_cast<uint32_t>(group.bounce) * pairs_per_bounce + static_cast<uint32_t>(use);
+    return sobol_pair(group.path.key, group.path.sample, number);
 }
 
-/// One light and a point on it, by the random numbers that a first hit of a surface uses.
-OBSCURA_INLINE LightLanes sampled_light(const SceneView& scene,
-                                        const PathLanes& path,
-                                        const CatcherPoint& point) {
-    LightDraw draw = draw_light(scene, random_pair(path, RandomUse::light));
+/// One light and a point on it, by the random numbers that a surface uses there.
+OBSCURA_INLINE LightLanes sampled_light(const SceneView& scene, const CatcherGroup& group) {
+    const CatcherPoint& point = group.point;
+    LightDraw draw = draw_light(scene, random_pair(group, RandomUse::light));
     draw_light_pixel(scene, draw);
-    const Vec2<LanesU> bits = random_pair(path, RandomUse::texture);
+    const Vec2<LanesU> bits = random_pair(group, RandomUse::texture);
     const Vec2<Lanes> texel = unit_pair<Lanes>(bits);
     const Vec3<Lanes> texture{
         texel.x, texel.y, unit_float<Lanes>((bits.y << 16) | (bits.x & LanesU(0xFFFFU)))};
@@ -91,7 +94,7 @@ OBSCURA_INLINE int add_shadow_rays(const ShadowColumns& columns,
                                    int at,
                                    const CatcherGroup& group,
                                    const LightLanes& light) {
-    const auto& [exists, path, point] = group;
+    const auto& [exists, path, point, bounce] = group;
     const Lanes cosine = dot(point.normal, light.direction);
     const Vec3<Lanes> radiance =
         path.throughput * light.radiance_over_pdf * (cosine * Lanes(1.0f / pi_f));
@@ -113,13 +116,14 @@ OBSCURA_INLINE int add_shadow_rays(const ShadowColumns& columns,
 OBSCURA_INLINE PathLanes leaving(const PathLanes& path, const CatcherPoint& point) {
     PathLanes next = path;
     next.origin = point.start;
+    next.medium_stack = path.medium_stack | LanesU(seen_unclearly);
     next.cone_width = path.cone_width + path.cone_spread * point.distance;
     return next;
 }
 
 OBSCURA_INLINE int add_next_rays(const PathColumns& columns, int at, const CatcherGroup& group) {
-    const auto& [exists, path, point] = group;
-    const Vec2<Lanes> u = unit_pair<Lanes>(random_pair(path, RandomUse::bsdf));
+    const auto& [exists, path, point, bounce] = group;
+    const Vec2<Lanes> u = unit_pair<Lanes>(random_pair(group, RandomUse::bsdf));
     PathLanes next = leaving(path, point);
     next.direction = normalize(to_world(frame_around(point.normal), cosine_hemisphere(u)));
     next.pdf = Lanes(density_below_all);
@@ -129,13 +133,13 @@ OBSCURA_INLINE int add_next_rays(const PathColumns& columns, int at, const Catch
 
 /// Rays off the gloss: facets seen from the viewer, so that their density cancels.
 OBSCURA_INLINE int add_reflections(const PathColumns& columns, int at, const CatcherGroup& group) {
-    const auto& [exists, path, point] = group;
+    const auto& [exists, path, point, bounce] = group;
     constexpr float alpha = catcher_roughness * catcher_roughness;
     const GgxWidths<Lanes> widths{Lanes(alpha), Lanes(alpha)};
     const Frame<Lanes> frame = frame_around(point.normal);
     Vec3<Lanes> wo = to_local(frame, -path.direction);
     wo.z = max(wo.z, Lanes(1e-4f));
-    const Vec2<Lanes> u = unit_pair<Lanes>(random_pair(path, RandomUse::roulette));
+    const Vec2<Lanes> u = unit_pair<Lanes>(random_pair(group, RandomUse::roulette));
     const Vec3<Lanes> facet = sample_visible_normal(wo, widths, u);
     const Lanes cosine = dot(wo, facet);
     const Vec3<Lanes> wi = facet * (Lanes(2.0f) * cosine) - wo;
@@ -155,14 +159,14 @@ OBSCURA_INLINE int add_reflections(const PathColumns& columns, int at, const Cat
 }  // namespace
 
 CatcherCounts shade_catchers(const SceneView& scene, int count, const CatcherColumns& columns) {
-    CatcherCounts out{columns.first_next, 0, 0};
+    CatcherCounts out{columns.first_next, 0, columns.first_reflection};
     for (int i = 0; i < count; i += lane_count) {
         const Mask exists = lanes_in_range(i, count);
         const PathLanes path = load_paths(columns.paths, i);
         const CatcherPoint point = catcher_point(scene, columns, i, exists, path);
-        const CatcherGroup group{exists, path, point};
+        const CatcherGroup group{exists, path, point, columns.bounce};
         if (scene.lights.count > 0) {
-            const LightLanes light = sampled_light(scene, path, point);
+            const LightLanes light = sampled_light(scene, group);
             out.shadow = add_shadow_rays(columns.shadows, out.shadow, group, light);
         }
         out.next = add_next_rays(columns.next, out.next, group);

@@ -14,7 +14,7 @@ inline constexpr float catcher_roughness = 0.2f;
 /// alone: next rays bring only light that comes by way of other surfaces. So a catcher that nothing
 /// shadows gets the same light with and without its shadow rays, in every sample.
 ///
-/// In      columns.paths, columns.hits: `count` camera rays
+/// In      columns.paths, columns.hits: `count` paths from the camera
 /// Out     columns.shadows: with the light of an unoccluded white Lambert surface; columns.next;
 ///         columns.reflections: rays off a dielectric above it
 /// Units   radiance; distance m

@@ -10,6 +10,7 @@ inline namespace OBSCURA_ISA {
 
 // The medium stack: the media that a path is inside of, as nested dielectrics with priorities.
 // PathColumns::medium_stack holds, from the upper end:
+//   bit  26     seen_unclearly, of path_state.h
 //   bit  25     1 once the path has scattered roughly, where BatchSettings asks for that
 //   bit  24     1 once the path has been given one wavelength (dispersion)
 //   bits 23-0   the numbers of up to three media that overlap here, the greatest first; 0: none

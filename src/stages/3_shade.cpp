@@ -56,7 +56,7 @@ struct Bounce {
     const LightPathColumns* light_paths;  ///< null: no light layers are asked for
     float limit_of_found;                 ///< contribution_limit of light that the paths met
     float limit_of_sampled;               ///< and of what their shadow rays bring
-    bool marks_rough;                     ///< rough scatterings are noted: scattered_roughly
+    bool marks_paths;                     ///< by their scatterings: scattered_roughly and others
 };
 
 OBSCURA_INLINE Bounce begin_bounce(const SceneView& scene,
@@ -70,7 +70,7 @@ OBSCURA_INLINE Bounce begin_bounce(const SceneView& scene,
             .light_paths = columns.light_paths,
             .limit_of_found = contribution_limit(batch, number),
             .limit_of_sampled = contribution_limit(batch, number + 1),
-            .marks_rough = batch.regularize || !batch.caustics};
+            .marks_paths = batch.regularize || !batch.caustics || batch.clear_spread >= 0.0f};
 }
 
 /// One group of paths at their hits.
@@ -263,9 +263,12 @@ OBSCURA_INLINE int add_next_rays(const Bounce& bounce,
         next.origin = select(reflected_side, next.origin, s.transmitted_start);
         next.medium_stack = medium_stack_towards(s, path.medium_stack, reflected_side);
     }
-    if (bounce.marks_rough) {
-        const LanesU mark(scattered_roughly);
-        next.medium_stack = next.medium_stack | select(is_rough(sample.spread), mark, LanesU(0U));
+    if (bounce.marks_paths) {
+        const LanesU none(0U);
+        const Mask unclear = reflected_side | (sample.spread > Lanes(bounce.batch.clear_spread));
+        next.medium_stack = next.medium_stack |
+                            select(is_rough(sample.spread), LanesU(scattered_roughly), none) |
+                            select(unclear, LanesU(seen_unclearly), none);
     }
     return append_paths(columns, at, goes_on, next);
 }

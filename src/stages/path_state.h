@@ -165,6 +165,10 @@ inline constexpr uint32_t faces_shared = 1U << 31;
 /// Which light transport strategies count; bit 0 light sampling, bit 1 BSDF sampling.
 inline constexpr int sample_lights = 1, sample_bsdfs = 2;
 
+/// Bit in PathColumns::medium_stack: where BatchSettings::clear_spread asks for it, the path has
+/// done something else than to pass clear glass.
+inline constexpr uint32_t seen_unclearly = 1U << 26;
+
 /// Settings of a whole batch.
 struct BatchSettings {
     Camera camera;
@@ -192,6 +196,9 @@ struct BatchSettings {
     /// What smooth lobes do after a rough scattering: see stages/3_rough_paths.h.
     bool caustics = true;     ///< false: nothing
     bool regularize = false;  ///< they are widened, where there are caustics
+    /// Transmission counts as clear where it spreads light no more than this, in metres per metre;
+    /// below 0: no paths are told apart by that. See seen_unclearly.
+    float clear_spread = -1;
 };
 
 inline constexpr int filter_entries = 256;

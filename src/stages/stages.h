@@ -135,16 +135,19 @@ struct ThinWallStep {
     bool random = true;  ///< texels are drawn; else filtered
 };
 
-/// Camera rays that hit shadow catchers (docs/visibility.md), and what they become there.
+/// Camera rays that hit shadow catchers (docs/visibility.md), maybe through clear glass, and what
+/// they become there.
 struct CatcherColumns {
     PathView paths;
     HitView hits;             ///< those of the ground, which is no geometry, have the primitive -1
     PathColumns next;         ///< out, packed from index first_next on
-    PathColumns reflections;  ///< out, packed, if `reflects`
+    PathColumns reflections;  ///< out, packed from first_reflection on, if `reflects`
     ShadowColumns shadows;    ///< out, packed, one per sample
     const float* time = nullptr;  ///< by sample index; null: nothing moves
     float ground_m = 0;           ///< height of the ground
+    int bounce = 0;               ///< surfaces that the paths have met before
     int first_next = 0;
+    int first_reflection = 0;
     bool reflects = false;
 };
 
@@ -152,7 +155,7 @@ struct CatcherColumns {
 struct CatcherCounts {
     int next = 0;
     int shadow = 0;
-    int reflections = 0;
+    int reflections = 0;  ///< with those before first_reflection
 };
 
 /// The start of random walks inside scattering media.

@@ -5,6 +5,7 @@
 #include "base/stopwatch.h"
 #include "stages/shared_faces.h"
 #include "stages/wavefront_aov.h"
+#include "stages/wavefront_catchers.h"
 #include "stages/wavefront_light_paths.h"
 #include "stages/wavefront_shadows.h"
 #include "stages/wavefront_slots.h"
@@ -94,7 +95,8 @@ void intersect_camera_rays(const WavefrontInput& in,
     see_through.passed_backs = &work.passed_backs;
     intersect(in, count, see_through, work, c);
     note_passed_backs(in, work);
-    if (in.visibility != nullptr || in.catchers.any()) part_camera_hits(in, count, work);
+    if (in.visibility != nullptr || in.catchers.any() || looks_through_glass(in))
+        part_camera_hits(in, count, work);
     if (in.aovs.empty()) return;
     work.allot_aovs(in.aovs);
     write_aovs(in, count, work.aov_outputs, work, c);
@@ -126,6 +128,10 @@ bool walks_sample_lights(const WavefrontInput& in) {
 /// samples keep of the last surface ends.
 void begin_random_walks(const WavefrontInput& in, int count, bool sample, Workspace& work) {
     move_random_walks(in, count, work);
+    if (looks_through_glass(in)) {
+        for (int i = 0; i < count; ++i)
+            work.paths[1].medium_stack[i] |= seen_unclearly;
+    }
     if (!sample) return;
     for (int i = 0; i < count; ++i) {
         const uint32_t slot = work.paths[1].slot[i];
@@ -222,10 +228,13 @@ RaycastColumns raycast_columns(const WavefrontInput& in, Workspace& work) {
             .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data()};
 }
 
-/// Shades the catchers that camera rays met; returns the number of paths with theirs.
-int add_catcher_paths(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {
-    const CatcherCounts out = leave_catchers(in, count, work);
-    if (out.shadow > 0) trace_shadows(in, out.shadow, 0, work, c);
+/// Shades the catchers that paths met at a bounce; returns the number of paths with theirs.
+int add_catcher_paths(
+    const WavefrontInput& in, int bounce, int count, Workspace& work, WavefrontCounters& c) {
+    const CatcherWork& catcher = work.catcher;
+    if (static_cast<size_t>(catcher.first) == catcher.samples.size()) return count;
+    const CatcherCounts out = leave_catchers(in, bounce, count, work);
+    if (out.shadow > 0) trace_shadows(in, out.shadow, bounce, work, c);
     return out.next;
 }
 
@@ -246,7 +255,10 @@ void follow_paths(
         if (in.scene.scatters) scatter_in_media(in, count, bounce, work, c);
         if (in.scene.touching_media != nullptr) cross_shared_faces(in, count, see_through, work);
         if (in.accel->has_splats()) pass_splats(in, count, bounce, work, c);
+        const bool through_glass = bounce > 0 && looks_through_glass(in);
+        if (through_glass) look_through_glass(in, bounce, count, work, c);
         if (bounce > 0 && work.looking_for_albedo > 0) look_for_albedo(in, count, bounce, work, c);
+        if (through_glass) end_behind_glass(work);
         if (in.light_paths != nullptr) work.light_paths.begin_bounce();
         if (bounce > 0 && in.visibility != nullptr)
             add_light_behind({in, bounce, shade_columns(in, work)}, count, work, c);
@@ -259,7 +271,20 @@ void follow_paths(
         move_straight_paths(in, out.next, work);
         std::swap(work.paths[0], work.paths[1]);
         count = out.next;
-        if (bounce == 0 && in.catchers.any()) count = add_catcher_paths(in, count, work, c);
+        if (in.catchers.any()) count = add_catcher_paths(in, bounce, count, work, c);
+    }
+}
+
+/// Traces what shadow catchers reflect; of that, other surfaces are shown alone.
+void follow_reflections(const WavefrontInput& in, Workspace& work, WavefrontCounters& c) {
+    for (const CatcherReflections& reflections : work.catcher.reflected) {
+        const int bounce = reflections.bounce + 1;
+        take_reflections(reflections, work);
+        work.clear_slots(in.scene);
+        SeeThrough see_through{.segment = 2U * static_cast<uint32_t>(bounce)};
+        see_through.cutaway = cut_away(work.paths[0].slot, work);
+        intersect(in, reflections.count, see_through, work, c);
+        follow_paths(in, keep_hits(reflections.count, work), bounce, work, c);
     }
 }
 
@@ -270,14 +295,7 @@ void trace_paths(const WavefrontInput& in, int count, Workspace& work, Wavefront
     finish_light_paths(in, work);
     if (!in.catchers.any()) return;
     c.nonfinite_samples += settle_catchers(work);
-    int reflections = take_reflections(work);
-    if (reflections == 0) return;
-    work.clear_slots(in.scene);
-    SeeThrough see_through{.segment = 2U};
-    see_through.cutaway = cut_away(work.paths[0].slot, work);
-    intersect(in, reflections, see_through, work, c);
-    reflections = keep_hits(reflections, work);
-    follow_paths(in, reflections, 1, work, c);
+    follow_reflections(in, work, c);
 }
 
 void trace_ao(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {

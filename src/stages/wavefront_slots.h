@@ -6,6 +6,13 @@
 
 namespace obscura {
 
+/// Copies entry `from` of columns to entry `to` of others.
+template <typename Columns>
+void copy_entry(const Columns& columns, int from, const Columns& out, int to) {
+    const auto column = [&](const auto* source, auto* target) { target[to] = source[from]; };
+    Columns::for_each_column(column, columns, out);
+}
+
 /// The time of every sample, if something moves.
 inline const float* slot_times(const WavefrontInput& in, const Workspace& work) {
     return moves(in.scene.motion) ? work.slot_time.data() : nullptr;

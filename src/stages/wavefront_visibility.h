@@ -1,4 +1,4 @@
-// stages/wavefront_visibility.h - holdouts, shadow catchers and light behind what casts no shadow.
+// stages/wavefront_visibility.h - holdouts, and light behind what casts no shadow.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -6,25 +6,15 @@
 
 namespace obscura {
 
+/// Visibility flags of what ray i hit; 0: none.
+inline uint8_t flags_of_hit(const WavefrontInput& in, const HitColumns& hits, int i) {
+    if (in.visibility == nullptr || hits.primitive[i] < 0) return 0;
+    return in.visibility->of(hits.primitive[i], hits.instance[i]);
+}
+
 /// After stage 2 of camera rays: those that hit a holdout or a catcher count as misses. Behind a
 /// holdout there is nothing, not even the background; those at catchers wait in work.catcher.
 void part_camera_hits(const WavefrontInput& in, int count, Workspace& work);
-
-/// After stage 3 of camera rays: shades the catchers, whose next rays follow the `count` paths of
-/// work.paths[0]. Moves the background behind the catchers out of work.samples.
-///
-/// Out     work.shadows; sizes of columns
-CatcherCounts leave_catchers(const WavefrontInput& in, int count, Workspace& work);
-
-/// When all light has arrived: moves that of catchers from work.samples to work.catcher. Returns
-/// how many of their samples were not finite; each counts as unlit.
-uint64_t settle_catchers(Workspace& work);
-
-/// Makes the reflections of catchers the paths of work.paths[0]; returns their number.
-int take_reflections(Workspace& work);
-
-/// Keeps the paths that hit something; returns their number.
-int keep_hits(int count, Workspace& work);
 
 /// A bounce whose paths in work.paths[0] have their hits, before they are shaded.
 struct LitBounce {

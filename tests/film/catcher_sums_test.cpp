@@ -9,14 +9,14 @@ namespace {
 
 /// Sample `slot` of a batch, with light and a background that cancels nothing.
 CatcherSample sample(uint32_t slot, float shadowed, float unshadowed) {
-    return {slot, shadowed, unshadowed, {0, 0, 0, 0}};
+    return {.slot = slot, .shadowed = shadowed, .unshadowed = unshadowed};
 }
 
 TEST(CatcherSums, AlphaIsARatioOfSumsNotAMeanOfRatios) {
     CatcherSum sum;
     add_catcher_samples({sample(0, 0, 3), sample(1, 1, 1)}, 2, std::span(&sum, 1));
     EXPECT_DOUBLE_EQ(shadow_alpha(sum), 0.75);  // the mean of 1 and 0 is 0.5
-    EXPECT_EQ(sum.samples, 2);
+    EXPECT_EQ(sum.transmitted, 2);
 }
 
 TEST(CatcherSums, AlphaStaysWithinItsRange) {
@@ -30,7 +30,7 @@ TEST(CatcherSums, SamplesGoToTheirPixels) {
     std::vector<CatcherSum> sums(3);
     add_catcher_samples({sample(1, 1, 2), sample(8, 3, 4), sample(11, 5, 6)}, 4, sums);
     EXPECT_EQ(sums[0].shadowed, 1);
-    EXPECT_EQ(sums[1].samples, 0);
+    EXPECT_EQ(sums[1].transmitted, 0);
     EXPECT_EQ(sums[2].shadowed, 8);
     EXPECT_EQ(sums[2].unshadowed, 10);
 }
@@ -50,13 +50,13 @@ TEST(CatcherSums, BatchesAddUpToTheSame) {
 
 /// A half dark catcher in three of four samples, before an opaque red.
 TEST(CatcherSums, TheShadowLiesOverWhatIsBehind) {
-    const CatcherSum sum{.shadowed = 1, .unshadowed = 2, .background = {3, 0, 0, 3}, .samples = 3};
+    const CatcherSum sum{.shadowed = 1, .unshadowed = 2, .background = {3, 0, 0, 3}, .transmitted = 3};
     const std::array<float, 4> part = catcher_part(sum, 4);
     EXPECT_FLOAT_EQ(part[0], 0.375f);
     EXPECT_FLOAT_EQ(part[1], 0);
     EXPECT_FLOAT_EQ(part[3], 0.75f);
     const std::array<float, 4> alone =
-        catcher_part({.shadowed = 1, .unshadowed = 2, .samples = 3}, 4);
+        catcher_part({.shadowed = 1, .unshadowed = 2, .transmitted = 3}, 4);
     EXPECT_FLOAT_EQ(alone[0], 0);
     EXPECT_FLOAT_EQ(alone[3], 0.375f);
 }

@@ -78,8 +78,8 @@ void note(Type<ShadowMediaColumns>, Access& access) {
     note_members(access, a, b, c, d);
 }
 void note(Type<CatcherColumns>, Access& access) {
-    const auto& [a, b, c, d, e, f, g, h, i] = CatcherColumns{};
-    note_members(access, a, b, c, d, e, f, g, h, i);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k] = CatcherColumns{};
+    note_members(access, a, b, c, d, e, f, g, h, i, j, k);
 }
 void note(Type<ScatterStart>, Access& access) {
     const auto& [a, b, c, d, e] = ScatterStart{};
