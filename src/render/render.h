@@ -105,7 +105,7 @@ struct RenderOptions {
     bool catcher_reflections = false;  ///< shadow catchers reflect other surfaces
     TransparentGlass transparent_glass = TransparentGlass::automatic;
     double clear_roughness = 0.1;  ///< of glass that counts as clear, at most
-    double ao_distance_m = 0;          ///< 0: a fifth of the scene's diagonal
+    double ao_distance_m = 0;      ///< 0: a fifth of the scene's diagonal
     double wire_width_px = 1;
     /// The most that a contribution to a sample may have in any channel, where light comes straight
     /// to the first surface and where it comes by way of others; 0: anything. They darken the

@@ -50,7 +50,8 @@ TEST(CatcherSums, BatchesAddUpToTheSame) {
 
 /// A half dark catcher in three of four samples, before an opaque red.
 TEST(CatcherSums, TheShadowLiesOverWhatIsBehind) {
-    const CatcherSum sum{.shadowed = 1, .unshadowed = 2, .background = {3, 0, 0, 3}, .transmitted = 3};
+    const CatcherSum sum{
+        .shadowed = 1, .unshadowed = 2, .background = {3, 0, 0, 3}, .transmitted = 3};
     const std::array<float, 4> part = catcher_part(sum, 4);
     EXPECT_FLOAT_EQ(part[0], 0.375f);
     EXPECT_FLOAT_EQ(part[1], 0);
