@@ -168,13 +168,6 @@ Result<void> read_layers(const RenderArguments& arguments, RenderRequest& reques
         if (!names.insert(layer.name).second)
             return conflict("--lpe", "two layers are called " + in_quotes(layer.name));
     }
-    const RenderOptions& options = request.options;
-    const bool has_light = has_light_layers(options.layers) || !options.light_groups.empty();
-    if (has_light && !arguments.product.catcher.empty()) {
-        return conflict("--catcher",
-                        "what a catcher shows is no share of the light; render the layers of the "
-                        "light without it");
-    }
     return check_layers(request, option_of(arguments));
 }
 

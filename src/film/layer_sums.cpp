@@ -56,8 +56,8 @@ void write_pixels(std::span<const size_t> at, FilmLayer& layer, const Value& val
 
 }  // namespace
 
-LayerPlan::LayerPlan(std::span<const Layer> layers, CryptomatteHashes hashes)
-    : hashes_(std::move(hashes)) {
+LayerPlan::LayerPlan(std::span<const Layer> layers, CryptomatteHashes hashes, bool catches)
+    : hashes_(std::move(hashes)), catches_(catches) {
     for (const Layer& layer : layers)
         add_layer(layer);
     if (has_nearest_ || mattes_ > 0) opacity_ = written_aov(Aov::opacity);
@@ -95,6 +95,7 @@ void LayerPlan::add_layer(const Layer& layer) {
     } else if (std::holds_alternative<LightLayer>(layer.source)) {
         source.light = lights_++;
         source.first_sum = std::exchange(sums_, sums_ + light_channels);
+        if (catches_) source.first_behind = std::exchange(sums_, sums_ + light_channels);
     } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
         source.first_sum = std::exchange(sums_, sums_ + 2 * light_channels);
         has_shadow_ = true;
@@ -175,6 +176,7 @@ void LayerSums::add_light(const LayerPlan& plan, const BatchShape& batch, const 
         const LayerPlan::Source& source = plan.sources_[k];
         if (std::holds_alternative<LightLayer>(plan.layers_[k].source)) {
             add(work.light_paths.layer(source.light), source.first_sum);
+            if (plan.catches_) add(work.light_paths.behind(source.light), source.first_behind);
         } else if (std::holds_alternative<ShadowRatio>(plan.layers_[k].source)) {
             add(work.light_paths.shadowed(), source.first_sum);
             add(work.light_paths.unshadowed(), source.first_sum + light_channels);
@@ -292,10 +294,9 @@ void LayerSums::add_statistics(const LayerPlan& plan,
     }
 }
 
-void LayerSums::store(const LayerPlan& plan,
-                      std::span<const size_t> at,
-                      std::span<const int> samples,
-                      Film& film) const {
+void LayerSums::store(const LayerPlan& plan, const SampledPixels& pixels, Film& film) const {
+    const std::span<const size_t> at = pixels.at;
+    const std::span<const int> samples = pixels.samples;
     const auto count = [&](size_t p) { return static_cast<uint32_t>(samples[p]); };
     for (size_t k = 0; k < plan.layers_.size(); ++k) {
         const Layer& layer = plan.layers_[k];
@@ -305,8 +306,12 @@ void LayerSums::store(const LayerPlan& plan,
             return mattes_[p * plan.mattes_ + source.matte];
         };
         const auto sums = [&](size_t p) { return &sums_[p * plan.sums_ + source.first_sum]; };
-        if (is_reduced(layer, Reduction::mean) ||
-            std::holds_alternative<LightLayer>(layer.source)) {
+        if (std::holds_alternative<LightLayer>(layer.source)) {
+            write([&](size_t p, std::span<float> out) {
+                for (size_t c = 0; c < out.size(); ++c)
+                    out[c] = static_cast<float>(light(plan, k, pixels, p, c) / samples[p]);
+            });
+        } else if (is_reduced(layer, Reduction::mean)) {
             write([&](size_t p, std::span<float> out) {
                 for (size_t c = 0; c < out.size(); ++c)
                     out[c] = static_cast<float>(sums(p)[c].total() / samples[p]);
@@ -340,6 +345,17 @@ void LayerSums::store(const LayerPlan& plan,
                 [&](size_t p, std::span<float> out) { out[0] = statistic(wanted, p, samples[p]); });
         }
     }
+}
+
+/// The sum of a channel of a light layer: of what a shadow catcher hides, the part that shows.
+double LayerSums::light(
+    const LayerPlan& plan, size_t layer, const SampledPixels& pixels, size_t p, size_t c) const {
+    const LayerPlan::Source& source = plan.sources_[layer];
+    const Sum* const sums = &sums_[p * plan.sums_];
+    const double front = sums[source.first_sum + c].total();
+    if (!plan.catches_) return front;
+    const double passes = 1 - shadow_alpha(pixels.catchers[p]);
+    return front + passes * sums[source.first_behind + c].total();
 }
 
 float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double samples) const {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "film/catcher_sums.h"
 #include "film/cryptomatte.h"
 #include "film/film.h"
 #include "stages/wavefront.h"
@@ -29,11 +30,19 @@ struct BatchShape {
     size_t first_sample = 0;  ///< number of the first of them
 };
 
+/// The pixels of a tile.
+struct SampledPixels {
+    std::span<const size_t> at;            ///< index of each in the film
+    std::span<const int> samples;          ///< how many it has
+    std::span<const CatcherSum> catchers;  ///< what its shadow catchers received; empty: none
+};
+
 /// What the layers of an image need from the wavefront loop; the same for all tiles.
 class LayerPlan {
 public:
     LayerPlan() = default;
-    explicit LayerPlan(std::span<const Layer> layers, CryptomatteHashes hashes);
+    /// In      catches: the image has shadow catchers
+    LayerPlan(std::span<const Layer> layers, CryptomatteHashes hashes, bool catches = false);
 
     /// The AOVs to write for every sample, each once.
     std::span<const Aov> aovs() const { return aovs_; }
@@ -47,6 +56,7 @@ private:
     struct Source {
         size_t aov = 0;                    ///< index in aovs_, for AOVs and Cryptomatte
         size_t first_sum = 0;              ///< of a pixel's sums, for means
+        size_t first_behind = 0;           ///< likewise, of light behind shadow catchers
         size_t first_value = 0;            ///< of a pixel's nearest values
         const uint32_t* hashes = nullptr;  ///< for Cryptomatte and MajorityNode
         size_t hash_count = 0;
@@ -71,6 +81,7 @@ private:
     bool counts_rays_ = false;
     bool has_variance_ = false;
     bool has_shadow_ = false;
+    bool catches_ = false;
 };
 
 /// The sums of one tile's pixels; reused from tile to tile. Samples are added in the order of their
@@ -85,11 +96,7 @@ public:
 
     /// Writes the tile's pixels to the film's layers.
     ///
-    /// In      at: index in the film of each pixel of the tile; samples: how many it has
-    void store(const LayerPlan& plan,
-               std::span<const size_t> at,
-               std::span<const int> samples,
-               Film& film) const;
+    void store(const LayerPlan& plan, const SampledPixels& pixels, Film& film) const;
 
 private:
     /// A sum in four parts, each of every fourth sample: they need not wait for each other.
@@ -102,6 +109,8 @@ private:
         double sum = 0, squares = 0;
     };
 
+    double light(
+        const LayerPlan& plan, size_t layer, const SampledPixels& pixels, size_t p, size_t c) const;
     float statistic(SampleStatistic statistic, size_t pixel, double samples) const;
     template <size_t N>
     void add_columns(const LayerPlan& plan,

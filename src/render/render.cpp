@@ -39,6 +39,17 @@ bool any_catcher(const VisibilityFlags& visibility) {
            std::any_of(visibility.instances.begin(), visibility.instances.end(), is_one);
 }
 
+CatcherSettings catchers_of(const Scene& scene, const RenderOptions& options) {
+    if (!has_catchers(options.integrator)) return {};
+    constexpr float rounding = 1e-5f;  // of coordinates; more than rays start clear of surfaces
+    const Bounds& bounds = scene.bounds;
+    const Vec3f farthest = bounds.empty() ? Vec3f{} : max3(bounds.high, -bounds.low);
+    return {.surfaces = any_catcher(scene.visibility),
+            .ground_m = options.catcher_ground_m,
+            .below_ground_m = rounding * max_component(farthest),
+            .reflects = options.catcher_reflections};
+}
+
 /// Whether paths through clear glass see something else than the environment that lights the scene.
 bool sees_through_glass(const WavefrontInput& input, const RenderOptions& options) {
     const bool caught = input.catchers.any();
@@ -92,14 +103,9 @@ WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
     if (options.integrator == Integrator::direct) batch.max_bounces = 0;
     const VisibilityFlags& visibility = scene.scene.visibility;
     if (!visibility.empty()) input.visibility = &visibility;
-    if (has_catchers(options.integrator)) {
-        input.catchers.surfaces = any_catcher(visibility);
-        input.catchers.ground_m = options.catcher_ground_m;
-        input.catchers.reflects = options.catcher_reflections;
-        if (sees_through_glass(input, options)) {
-            batch.clear_spread = static_cast<float>(clear_spread(options.clear_roughness));
-        }
-    }
+    input.catchers = catchers_of(scene.scene, options);
+    if (has_catchers(options.integrator) && sees_through_glass(input, options))
+        batch.clear_spread = static_cast<float>(clear_spread(options.clear_roughness));
     input.kind = entry_of(options.integrator).kind;
     input.aovs = entry_of(options.integrator).aovs;
     batch.through_centres = input.kind == WavefrontKind::raycast;
@@ -203,7 +209,10 @@ struct LayerPlans {
 };
 
 /// Adds layers to a film.
-LayerPlan add_layers(const Scene& scene, const std::vector<Layer>& layers, Film& film) {
+LayerPlan add_layers(const Scene& scene,
+                     const std::vector<Layer>& layers,
+                     bool catches,
+                     Film& film) {
     CryptomatteTables tables;
     if (counts_ids(layers)) tables = cryptomatte_tables(scene);
     const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
@@ -211,7 +220,7 @@ LayerPlan add_layers(const Scene& scene, const std::vector<Layer>& layers, Film&
         film.layers.push_back({layer, {}, names_of(layer, tables)});
         film.layers.back().pixels.resize(pixels * layer.channels.size());
     }
-    return LayerPlan(layers, cryptomatte_hashes(tables));
+    return LayerPlan(layers, cryptomatte_hashes(tables), catches);
 }
 
 /// Adds the layers that were asked for to a film.
@@ -234,7 +243,7 @@ Result<LayerPlans> plan_layers(const PreparedScene::Impl& prepared,
         if (!light) return fail(light.error());
         out.light = std::move(*light);
     }
-    out.layers = add_layers(scene, layers, film);
+    out.layers = add_layers(scene, layers, catchers_of(scene, options).any(), film);
     return out;
 }
 

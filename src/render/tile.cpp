@@ -183,7 +183,7 @@ void store_layers(const LayerPlan& plan, const TileSums& sums, ThreadState& stat
     for (size_t i = 0; i < sums.samples.size(); ++i) {
         at.push_back(pixel_index(film, sums.tile.x + pattern.dx[i], sums.tile.y + pattern.dy[i]));
     }
-    sums.layers.store(plan, at, sums.samples, film);
+    sums.layers.store(plan, {at, sums.samples, sums.catchers}, film);
 }
 
 }  // namespace obscura

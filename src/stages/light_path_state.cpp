@@ -44,7 +44,10 @@ ColorView LightPathState::Colors::color(size_t number) const {
     return {red, red + padded_slots, red + size_t{2} * padded_slots};
 }
 
-void LightPathState::begin(const LightPathTable& table, int count, bool goes_straight) {
+void LightPathState::begin(const LightPathTable& table,
+                           int count,
+                           bool goes_straight,
+                           bool catches) {
     count_ = count;
     bounces_ = 0;
     has_moved_ = false;
@@ -53,6 +56,8 @@ void LightPathState::begin(const LightPathTable& table, int count, bool goes_str
     layers_.begin(table.layer_count);
     sums_.begin(table.sum_count);
     shadows_.begin(table.shadow ? 2 : 0);
+    behind_.begin(catches ? table.layer_count : 0);
+    held_.clear();
     words_.resize(size_t{3} * padded_slots);
     columns_ = {.table = &table,
                 .weights = weights_.view(),
@@ -153,6 +158,66 @@ void LightPathState::add_unshadowed(uint32_t slot, const Vec3f& radiance) {
     add_color(shadow_columns_, unshadowed_number, slot, radiance);
 }
 
+/// The light of a sample whose path may not stay settled goes to its layers.
+void LightPathState::share_out(uint32_t slot) {
+    const LightPathTable& table = *columns_.table;
+    for (int q = 0; q < weights_.used_count; ++q) {
+        const uint16_t state = weights_.used[static_cast<size_t>(q)];
+        if (table.settled[state] == 0) continue;
+        const Vec3f weight = color_at(weights_.memory.data() + color_words * state, slot);
+        for (int k = 0; k < sums_.used_count; ++k) {
+            const uint16_t sum = sums_.used[static_cast<size_t>(k)];
+            const Vec3f light = color_at(sums_.memory.data() + color_words * sum, slot);
+            const size_t row = state * table.class_count + table.class_of_sum[sum];
+            for (uint32_t i = table.layer_begin[row]; i < table.layer_begin[row + 1]; ++i)
+                add_color(columns_.layers, table.layers[i], slot, weight * light);
+        }
+    }
+    for (int k = 0; k < sums_.used_count; ++k)
+        clear_color(columns_.sums, sums_.used[static_cast<size_t>(k)], slot);
+}
+
+void LightPathState::move_behind(uint32_t slot) {
+    share_out(slot);
+    const ColorColumns behind = behind_.view();
+    for (int k = 0; k < layers_.used_count; ++k) {
+        const uint16_t layer = layers_.used[static_cast<size_t>(k)];
+        add_color(behind, layer, slot, color_at(layers_.memory.data() + color_words * layer, slot));
+        clear_color(columns_.layers, layer, slot);
+    }
+}
+
+void LightPathState::add_behind(uint32_t slot, uint32_t light_class, const Vec3f& radiance) {
+    LightPathColumns columns = columns_;
+    columns.layers = behind_.view();
+    add_light(columns, columns.weights, {slot, light_class, radiance});
+}
+
+void LightPathState::hold(uint32_t slot) {
+    share_out(slot);
+    for (int k = 0; k < weights_.used_count; ++k) {
+        const uint16_t state = weights_.used[static_cast<size_t>(k)];
+        const Vec3f weight = color_at(weights_.memory.data() + color_words * state, slot);
+        if (weight.x == 0 && weight.y == 0 && weight.z == 0) continue;
+        held_.push_back({slot, state, weight});
+        clear_color(columns_.weights, state, slot);
+    }
+    // Without a weight, and settled: what arrives is summed, and shared out to nobody.
+    columns_.settled[slot] = 1;
+}
+
+void LightPathState::release(size_t event) {
+    const LightPathTable& table = *columns_.table;
+    for (const auto& [slot, state, weight] : held_) {
+        for (int k = 0; k < sums_.used_count; ++k)
+            clear_color(columns_.sums, sums_.used[static_cast<size_t>(k)], slot);
+        const uint16_t next = table.next[state * scatter_event_count + event];
+        add_color(columns_.weights, next, slot, weight);
+        if (table.settled[next] == 0) columns_.settled[slot] = 0;
+    }
+    held_.clear();
+}
+
 void LightPathState::finish(const SampleView& samples) {
     const LightPathTable& table = *columns_.table;
     const auto count = static_cast<size_t>(count_);
@@ -186,6 +251,10 @@ void LightPathState::finish(const SampleView& samples) {
 
 ColorView LightPathState::layer(size_t number) const {
     return layers_.color(number);
+}
+
+ColorView LightPathState::behind(size_t number) const {
+    return behind_.color(number);
 }
 
 ColorView LightPathState::unshadowed() const {

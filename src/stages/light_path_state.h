@@ -23,8 +23,8 @@ class LightPathState {
 public:
     /// Begins a batch: all paths are in the first state.
     ///
-    /// In      goes_straight: paths may pass thin walls
-    void begin(const LightPathTable& table, int count, bool goes_straight);
+    /// In      goes_straight: paths may pass thin walls; catches: they may meet shadow catchers
+    void begin(const LightPathTable& table, int count, bool goes_straight, bool catches);
 
     /// Begins a bounce: no shadow ray has weights of its own.
     void begin_bounce();
@@ -52,13 +52,26 @@ public:
     /// Whether what shadow rays bring now belongs to the first hits.
     void note_shadows(bool first_hits) { notes_shadows_ = first_hits; }
 
+    // A shadow catcher shows shadow: the light that it receives belongs to no layer. What lies
+    // behind it does, as far as the catcher lets it through, and what it reflects.
+
+    /// Moves all that has arrived at a sample behind the catcher that its camera ray met.
+    void move_behind(uint32_t slot);
+    /// Adds light behind a catcher that a path has met.
+    void add_behind(uint32_t slot, uint32_t light_class, const Vec3f& radiance);
+    /// A path has met a catcher: no more light counts.
+    void hold(uint32_t slot);
+    /// When catchers have received all light: the paths that were held have left by an event.
+    void release(size_t event);
+
     /// Shares out the light of settled paths. Samples that are not finite, which the beauty leaves
     /// out, are left out here too.
     void finish(const SampleView& samples);
 
     ColorView layer(size_t number) const;
-    ColorView unshadowed() const;  ///< light of shadow rays of first hits
-    ColorView shadowed() const;    ///< the part of it that arrives
+    ColorView behind(size_t number) const;  ///< of a layer, what lies behind catchers
+    ColorView unshadowed() const;           ///< light of shadow rays of first hits
+    ColorView shadowed() const;             ///< the part of it that arrives
 
 private:
     /// Owns what ColorColumns points to.
@@ -74,10 +87,19 @@ private:
         ColorView color(size_t number) const;
     };
 
+    /// A part of the weight of a path that is held.
+    struct HeldWeight {
+        uint32_t slot;
+        uint16_t state;
+        Vec3f weight;
+    };
+
     void forget_shadows();
+    void share_out(uint32_t slot);
     void move(const ColorColumns& weights, uint32_t slot, size_t event);
 
-    Colors weights_, shadow_weights_, layers_, sums_, shadows_;
+    Colors weights_, shadow_weights_, layers_, sums_, shadows_, behind_;
+    std::vector<HeldWeight> held_;
     std::vector<uint32_t> words_;  ///< the columns of numbers
     LightPathColumns columns_;
     ColorColumns shadow_columns_;

@@ -234,7 +234,9 @@ int add_catcher_paths(
     const CatcherWork& catcher = work.catcher;
     if (static_cast<size_t>(catcher.first) == catcher.samples.size()) return count;
     const CatcherCounts out = leave_catchers(in, bounce, count, work);
-    if (out.shadow > 0) trace_shadows(in, out.shadow, bounce, work, c);
+    WavefrontInput own = in;
+    own.light_paths = nullptr;  // what a catcher receives is no share of the light
+    if (out.shadow > 0) trace_shadows(own, out.shadow, bounce, work, c);
     return out.next;
 }
 
@@ -292,10 +294,12 @@ void trace_paths(const WavefrontInput& in, int count, Workspace& work, Wavefront
     work.clear_slots(in.scene);
     begin_light_paths(in, count, work);
     follow_paths(in, count, 0, work, c);
+    if (in.catchers.any()) {
+        c.nonfinite_samples += settle_catchers(work);
+        release_catchers(in, work);
+        follow_reflections(in, work, c);
+    }
     finish_light_paths(in, work);
-    if (!in.catchers.any()) return;
-    c.nonfinite_samples += settle_catchers(work);
-    follow_reflections(in, work, c);
 }
 
 void trace_ao(const WavefrontInput& in, int count, Workspace& work, WavefrontCounters& c) {

@@ -114,6 +114,7 @@ inline RayColumns rays_of(const ShadowView& s, int count) {
 struct CatcherSettings {
     bool surfaces = false;          ///< some surfaces have visibility_catcher
     std::optional<float> ground_m;  ///< height of a plane that is one; it is no geometry
+    float below_ground_m = 0;       ///< how far below it glass that stands on it may let rays out
     bool reflects = false;          ///< they reflect other surfaces
 
     bool any() const { return surfaces || ground_m.has_value(); }

@@ -12,6 +12,9 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 namespace obscura {
 
@@ -86,11 +89,6 @@ std::optional<float> distance_to_ground(const PathColumns& p, int i, float groun
     return std::max((ground_m - p.oy[i]) / p.dy[i], 0.0f);
 }
 
-/// How far below the ground glass that stands on it may let rays out.
-float reach_below_ground(const PathColumns& p, int i) {
-    return ground_clearance * (std::fabs(p.ox[i]) + std::fabs(p.oy[i]) + std::fabs(p.oz[i]));
-}
-
 /// What a medium that does not scatter leaves of the light on the way to a catcher.
 Vec3f transmittance_to_catcher(const SceneView& scene, uint32_t medium_stack, float distance) {
     const Vec3f all{1, 1, 1};
@@ -143,7 +141,7 @@ bool meet_beyond_glass(
     const float nearest = hits.primitive[at] >= 0 ? hits.t[at] : unlimited;
     std::optional<float> ground;
     if (in.catchers.ground_m)
-        ground = distance_to_ground(p, i, *in.catchers.ground_m, reach_below_ground(p, i));
+        ground = distance_to_ground(p, i, *in.catchers.ground_m, in.catchers.below_ground_m);
     const bool on_ground = ground && *ground * (1.0f + ground_clearance) < nearest;
     if (!on_ground && (flags_of_hit(in, hits, at) & visibility_catcher) == 0) return false;
     const int number = add_catcher_path(i, work);
@@ -200,41 +198,56 @@ void see_environment_behind(const WavefrontInput& in, int count, Workspace& work
                       .samples = work.samples});
 }
 
-/// Moves what lies in front of and behind the catchers of a bounce out of work.samples, where their
-/// own light is to arrive.
-void clear_catcher_samples(const WavefrontInput& in, int bounce, Workspace& work) {
-    CatcherWork& catcher = work.catcher;
+/// The catchers that paths met at the latest bounce.
+std::span<CatcherSample> latest(CatcherWork& catcher) {
+    return std::span(catcher.samples).subspan(static_cast<size_t>(catcher.first));
+}
+
+/// Takes a colour out of work.samples.
+void take_color(const SampleColumns& samples, uint32_t slot, float* color) {
+    color[0] = std::exchange(samples.r[slot], 0.0f);
+    color[1] = std::exchange(samples.g[slot], 0.0f);
+    color[2] = std::exchange(samples.b[slot], 0.0f);
+}
+
+/// Camera rays at catchers were shaded as misses: what their samples have lies behind the catchers.
+void take_background(const WavefrontInput& in, Workspace& work) {
+    for (CatcherSample& sample : latest(work.catcher)) {
+        take_color(work.samples, sample.slot, sample.background);
+        sample.background[3] = std::exchange(work.samples.a[sample.slot], 0.0f);
+        if (in.light_paths != nullptr) work.light_paths.move_behind(sample.slot);
+    }
+}
+
+/// What lies behind catchers that are seen through glass; their samples have what lies in front.
+void find_background(const WavefrontInput& in, Workspace& work) {
+    const std::span<CatcherSample> met = latest(work.catcher);
     const SampleColumns& samples = work.samples;
-    float* const colors[] = {samples.r, samples.g, samples.b};
-    const std::span met(catcher.samples.begin() + catcher.first, catcher.samples.end());
-    if (bounce == 0) {  // shaded as a miss
-        for (CatcherSample& sample : met) {
-            sample.background[3] = std::exchange(samples.a[sample.slot], 0.0f);
-            for (size_t c = 0; c < 3; ++c)
-                sample.background[c] = std::exchange(colors[c][sample.slot], 0.0f);
-        }
-        return;
-    }
-    for (size_t k = 0; k < met.size(); ++k) {
-        CatcherSample& sample = met[k];
-        const Vec3f throughput = throughput_of(catcher.paths, static_cast<int>(k));
-        const float* const background = in.batch.background;
-        sample.background[0] = throughput.x * background[0];
-        sample.background[1] = throughput.y * background[1];
-        sample.background[2] = throughput.z * background[2];
-        sample.background[3] = sample.transmitted * background[3];
-        for (size_t c = 0; c < 3; ++c)
-            sample.front[c] = std::exchange(colors[c][sample.slot], 0.0f);
-    }
-    if (!shows_environment(in)) return;
+    const float* const background = in.batch.background;
     std::vector<float> alpha;
-    for (const CatcherSample& sample : met)
+    for (CatcherSample& sample : met) {
+        take_color(samples, sample.slot, sample.front);
         alpha.push_back(samples.a[sample.slot]);
-    see_environment_behind(in, static_cast<int>(met.size()), work);
-    for (size_t k = 0; k < met.size(); ++k) {
-        for (size_t c = 0; c < 3; ++c)
-            met[k].background[c] = std::exchange(colors[c][met[k].slot], 0.0f);
-        samples.a[met[k].slot] = alpha[k];
+        const Vec3f through =
+            throughput_of(work.catcher.paths, static_cast<int>(&sample - met.data()));
+        const Vec3f seen = through * Vec3f{background[0], background[1], background[2]};
+        sample.background[0] = seen.x;
+        sample.background[1] = seen.y;
+        sample.background[2] = seen.z;
+        sample.background[3] = sample.transmitted * background[3];
+    }
+    if (shows_environment(in)) {
+        see_environment_behind(in, static_cast<int>(met.size()), work);
+        for (size_t k = 0; k < met.size(); ++k) {
+            take_color(samples, met[k].slot, met[k].background);
+            samples.a[met[k].slot] = alpha[k];
+        }
+    }
+    if (in.light_paths == nullptr) return;
+    for (const CatcherSample& sample : met) {
+        const float* const seen = sample.background;
+        work.light_paths.add_behind(
+            sample.slot, background_class(*in.light_paths), {seen[0], seen[1], seen[2]});
     }
 }
 
@@ -295,7 +308,11 @@ void end_behind_glass(Workspace& work) {
 CatcherCounts leave_catchers(const WavefrontInput& in, int bounce, int count, Workspace& work) {
     CatcherWork& catcher = work.catcher;
     const int met = static_cast<int>(catcher.samples.size()) - catcher.first;
-    clear_catcher_samples(in, bounce, work);
+    if (bounce == 0) {
+        take_background(in, work);
+    } else {
+        find_background(in, work);
+    }
     const int reflections = catcher.reflected.empty()
                                 ? 0
                                 : catcher.reflected.back().first + catcher.reflected.back().count;
@@ -321,11 +338,11 @@ CatcherCounts leave_catchers(const WavefrontInput& in, int bounce, int count, Wo
             luminance(Vec3f{s.r[i], s.g[i], s.b[i]});
         if (media != nullptr) media[s.slot[i]] = catcher.paths.medium_stack[number - catcher.first];
     }
-    for (auto sample = catcher.samples.begin() + catcher.first; sample != catcher.samples.end();
-         ++sample) {
+    for (const CatcherSample& sample : latest(catcher)) {
         // What samples keep of the glass in front of the catcher ends.
-        if (in.scene.thin_walls) work.distance_since_scattering[sample->slot] = 0;
-        if (in.scene.occludes) work.occlusion[sample->slot] = 1;
+        if (in.scene.thin_walls) work.distance_since_scattering[sample.slot] = 0;
+        if (in.scene.occludes) work.occlusion[sample.slot] = 1;
+        if (in.light_paths != nullptr) work.light_paths.hold(sample.slot);
     }
     catcher.first += met;
     return out;

@@ -12,15 +12,29 @@ Vec3f shadow_radiance(const Workspace& work, int i) {
     return {work.shadows.r[i], work.shadows.g[i], work.shadows.b[i]};
 }
 
+/// A catcher's gloss is a rough reflection.
+constexpr size_t gloss_event() {
+    size_t event = 0;
+    while (scatter_events[event].lobe != "specular")
+        ++event;
+    return event;
+}
+static_assert(scatter_events[gloss_event()].mode == 'G');
+
 }  // namespace
 
 void begin_light_paths(const WavefrontInput& in, int count, Workspace& work) {
     if (in.light_paths == nullptr) return;
-    work.light_paths.begin(*in.light_paths, count, in.scene.thin_walls);
+    work.light_paths.begin(*in.light_paths, count, in.scene.thin_walls, in.catchers.any());
 }
 
 void finish_light_paths(const WavefrontInput& in, Workspace& work) {
     if (in.light_paths != nullptr) work.light_paths.finish(work.samples);
+}
+
+void release_catchers(const WavefrontInput& in, Workspace& work) {
+    if (in.light_paths == nullptr) return;
+    work.light_paths.release(gloss_event());
 }
 
 void begin_shadow_light(const WavefrontInput& in, int count, int bounce, Workspace& work) {

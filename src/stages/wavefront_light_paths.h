@@ -8,9 +8,12 @@ namespace obscura {
 
 // All do nothing where no light layers are asked for.
 
-/// Before and after all bounces of a batch. Shadow catchers have no light layers.
+/// Before and after all bounces of a batch.
 void begin_light_paths(const WavefrontInput& in, int count, Workspace& work);
 void finish_light_paths(const WavefrontInput& in, Workspace& work);
+
+/// Paths that met shadow catchers have left them by their gloss.
+void release_catchers(const WavefrontInput& in, Workspace& work);
 
 /// Notes the shadow rays of first hits, which are to be traced.
 void begin_shadow_light(const WavefrontInput& in, int count, int bounce, Workspace& work);

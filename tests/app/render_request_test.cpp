@@ -176,7 +176,7 @@ TEST(RenderRequest, SharesOfTheLightComeFromPaths) {
     arguments.integrator = "direct";
     EXPECT_TRUE(request_of(arguments));
     arguments.product.catcher = {"ground"};
-    expect_conflict(arguments, "--catcher");
+    EXPECT_TRUE(request_of(arguments));
     arguments.product.catcher.clear();
     arguments.layer.lpe = {"light_key=CO"};
     expect_conflict(arguments, "--lpe");
@@ -320,6 +320,24 @@ TEST(RenderRequest, CatchersAreTheGroundOrParts) {
     a.product.catcher.clear();  // its reflections need one
     a.integrator.reset();
     EXPECT_EQ(make_render_request(a).error().id, "E-USAGE-CONFLICT");
+}
+
+TEST(RenderRequest, GlassIsTransparentWhereThereAreCatchersUnlessItIsSaid) {
+    RenderArguments a;
+    a.scene_file = "s.glb";
+    EXPECT_EQ(make_render_request(a)->options.transparent_glass, TransparentGlass::automatic);
+    EXPECT_EQ(make_render_request(a)->options.clear_roughness, 0.1);
+    a.product.transparent_glass = "on";
+    a.product.transparent_glass_roughness = "0.25";
+    EXPECT_EQ(make_render_request(a)->options.transparent_glass, TransparentGlass::on);
+    EXPECT_EQ(make_render_request(a)->options.clear_roughness, 0.25);
+    a.product.transparent_glass = "off";
+    EXPECT_EQ(make_render_request(a)->options.transparent_glass, TransparentGlass::off);
+    a.product.transparent_glass = "clear";
+    EXPECT_EQ(make_render_request(a).error().id, "E-USAGE-CHOICE");
+    a.product.transparent_glass = "auto";
+    a.product.transparent_glass_roughness = "1.5";
+    EXPECT_EQ(make_render_request(a).error().id, "E-USAGE-RANGE");
 }
 
 TEST(RenderRequest, ImageAndSamplingOptionsArrive) {

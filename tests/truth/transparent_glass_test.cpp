@@ -6,25 +6,28 @@
 
 #include "support/thin_wall_scenes.h"
 #include "truth/dielectric_scene.h"
+#include <optional>
 
 namespace obscura::test {
 namespace {
 
 constexpr int side = 32;
 
-enum class Body { none, ball, pane, cube };
+enum class Form { none, ball, pane, cube };
 
-/// A body of glass, above or on a floor y = 0.
+/// A form of glass, above or on a floor y = 0.
 struct GlassScene {
-    Body body = Body::ball;
+    Form form = Form::ball;
     MaterialLayers glass = {};  ///< smooth
     float roughness = 0;
     Vec3f color{1, 1, 1};
-    std::optional<Vec3f> plate;    ///< a floor that shines by itself
-    std::optional<float> matt;     ///< a white floor of this albedo
-    bool dark_ball = false;        ///< at the origin
-    bool casts_no_shadow = false;  ///< the body
+    std::optional<Vec3f> plate = {};  ///< a floor that shines by itself
+    std::optional<float> matt = {};   ///< a white floor of this albedo
+    bool dark_ball = false;           ///< at the origin
+    bool casts_no_shadow = false;     ///< the form
+    float bottom = 0.01f;             ///< of the cube, metres
     bool sun = false;
+    bool lamp = false;  ///< a panel that shines, for the glass to reflect
 };
 
 MaterialLayers clear(float ior, bool solid) {
@@ -60,18 +63,25 @@ Scene build(const GlassScene& wanted) {
     }
     at(dark).flags = material_unlit;
     std::fill_n(at(dark).base_color, 3, 0.0f);
-    if (wanted.body == Body::ball) builder.sphere({0, 0.7f, 0}, 0.6f, 32, glass);
-    if (wanted.body == Body::pane)
+    if (wanted.form == Form::ball) builder.sphere({0, 0.7f, 0}, 0.6f, 32, glass);
+    if (wanted.form == Form::pane)
         builder.quad({-0.8f, 0.5f, 0.8f}, {1.6f, 0, 0}, {0, 0, -1.6f}, glass);
-    if (wanted.body == Body::cube) scene.box({-0.7f, 0, -0.7f}, {0.7f, 1.4f, 0.7f}, glass);
-    const size_t body = builder.scene().primitives.size();
+    if (wanted.form == Form::cube)
+        scene.box({-0.7f, wanted.bottom, -0.7f}, {0.7f, 1.4f, 0.7f}, glass);
+    const size_t form = builder.scene().primitives.size();
     if (wanted.plate || wanted.matt) builder.quad({-90, 0, 90}, {180, 0, 0}, {0, 0, -180}, floor);
     if (wanted.dark_ball) builder.sphere({0, 0.4f, 0}, 0.3f, 16, dark, false, true);
+    if (wanted.lamp) {
+        Material lamp;
+        lamp.flags = material_double_sided;
+        std::copy_n(std::array{4.0f, 3.0f, 2.0f}.data(), 3, lamp.emission);
+        builder.quad({-1.5f, 2, 0.5f}, {1.2f, 0.5f, 0}, {0, 0, -2}, builder.material(lamp));
+    }
     Scene out = scene.take();
     if (wanted.sun) out.lights = {slanting_sun()};
     if (wanted.casts_no_shadow) {
         out.visibility.primitives.assign(out.primitives.size(), 0);
-        std::fill_n(out.visibility.primitives.begin(), body, visibility_no_shadow);
+        std::fill_n(out.visibility.primitives.begin(), form, visibility_no_shadow);
     }
     return out;
 }
@@ -91,6 +101,14 @@ LightingOptions sky_over(const Vec3f& below) {
         }
     }
     out.environment = image;
+    return out;
+}
+
+LightingOptions all_around(const Vec3f& color) {
+    LightingOptions out;
+    out.environment = ImageRgb32f{4, 2, {}};
+    for (int i = 0; i < 8; ++i)
+        out.environment->pixels.insert(out.environment->pixels.end(), {color.x, color.y, color.z});
     return out;
 }
 
@@ -139,11 +157,11 @@ Difference over(const Film& film, const Plate& plate, const Film& direct) {
     return out;
 }
 
-/// Bodies that cast no shadow, over a plate that the environment continues: the composition is the
-/// plate seen directly, refractions and reflections of it included.
-void expect_plate_through(const MaterialLayers& glass, Body body, const Vec3f& plate) {
-    GlassScene scene{.body = body, .glass = glass, .casts_no_shadow = true};
-    const LightingOptions light = sky_over(plate);
+/// Glass that casts no shadow, over a plate that the environment continues all around: the
+/// composition is the plate seen directly, with what the glass reflects of plate and lamp.
+void expect_plate_through(const MaterialLayers& glass, Form form, const Vec3f& plate) {
+    GlassScene scene{.form = form, .glass = glass, .casts_no_shadow = true, .lamp = true};
+    const LightingOptions light = all_around(plate);
     const Film caught = film_of(scene, light, catching(settings(256)));
     RenderOptions opaque = catching(settings(256));
     opaque.transparent_glass = TransparentGlass::off;
@@ -155,20 +173,20 @@ void expect_plate_through(const MaterialLayers& glass, Body body, const Vec3f& p
     };
     const Difference difference = over(caught, color, direct);
     EXPECT_LT(difference.rms, 0.01);
-    EXPECT_LT(std::abs(difference.bias), 0.001);
+    EXPECT_LT(std::abs(difference.bias), 0.004);  // noise of shadows is one-sided
     // Over another plate, it shows that one.
     const auto black = [](int, int) { return 0.0; };
     EXPECT_LT(over(caught, black, direct).bias, over(today, black, direct).bias - 0.02);
 }
 
 TEST(TransparentGlass, APlateThroughABallIsThePlate) {
-    expect_plate_through(clear(1.5f, true), Body::ball, {0.4f, 0.4f, 0.4f});
-    expect_plate_through(clear(1.5f, true), Body::ball, {0.7f, 0.3f, 0.1f});
+    expect_plate_through(clear(1.5f, true), Form::ball, {0.4f, 0.4f, 0.4f});
+    expect_plate_through(clear(1.5f, true), Form::ball, {0.7f, 0.3f, 0.1f});
 }
 
 TEST(TransparentGlass, AndThroughAThinPane) {
-    expect_plate_through(clear(1.5f, false), Body::pane, {0.4f, 0.4f, 0.4f});
-    expect_plate_through(clear(1.5f, false), Body::pane, {0.1f, 0.3f, 0.7f});
+    expect_plate_through(clear(1.5f, false), Form::pane, {0.4f, 0.4f, 0.4f});
+    expect_plate_through(clear(1.5f, false), Form::pane, {0.1f, 0.3f, 0.7f});
 }
 
 /// What absorbs and shadows, but reflects nothing that a catcher would lack: over the lit floor it
@@ -179,7 +197,7 @@ void expect_floor_through(GlassScene scene, double noise) {
     const Film caught = film_of(scene, light, catching(settings(1024)));
     scene.matt = 0.5f;
     const Film direct = film_of(scene, light, settings(1024));
-    scene.body = Body::none;
+    scene.form = Form::none;
     scene.dark_ball = false;
     const Film plate = film_of(scene, light, settings(1024));
     const auto color = [&](int p, int c) { return at(plate, p, c); };
@@ -190,21 +208,33 @@ void expect_floor_through(GlassScene scene, double noise) {
 }
 
 TEST(TransparentGlass, ItIsAsDarkAsItAbsorbs) {
-    GlassScene pane{.body = Body::pane, .glass = clear(1, false), .color = {0.5f, 0.5f, 0.5f}};
+    GlassScene pane{.form = Form::pane, .glass = clear(1, false), .color = {0.5f, 0.5f, 0.5f}};
     expect_floor_through(pane, 0.02);
-    GlassScene cube{.body = Body::cube, .glass = dielectric(1, {0.7f, 0.7f, 0.7f})};
+    GlassScene cube{.form = Form::cube, .glass = dielectric(1, {0.7f, 0.7f, 0.7f})};
     expect_floor_through(cube, 0.02);
 }
 
-/// The bottom of the cube lies in the ground.
 TEST(TransparentGlass, ItShowsTheShadowOfWhatIsInIt) {
-    const GlassScene cube{.body = Body::cube, .glass = clear(1, true), .dark_ball = true};
+    const GlassScene cube{.form = Form::cube, .glass = clear(1, true), .dark_ball = true};
     expect_floor_through(cube, 0.02);
+}
+
+/// Glass on the ground is as glass just above it.
+TEST(TransparentGlass, ItMayStandOnTheGround) {
+    GlassScene cube{.form = Form::cube, .glass = clear(1.5f, true), .dark_ball = true, .sun = true};
+    const LightingOptions light = sky_over({0, 0, 0});
+    const Film above = film_of(cube, light, catching(settings(256)));
+    cube.bottom = 0;
+    const Film on = film_of(cube, light, catching(settings(256)));
+    double difference = 0;
+    for (int p = 0; p < side * side; ++p)
+        difference += std::abs(at(on, p, 3) - at(above, p, 3)) / (side * side);
+    EXPECT_LT(difference, 0.02);
 }
 
 /// Over grey plates the mean of the channels is right, over any the tint is lost.
 TEST(TransparentGlass, AlphaHoldsTheMeanOfATint) {
-    GlassScene scene{.body = Body::pane,
+    GlassScene scene{.form = Form::pane,
                      .glass = clear(1, false),
                      .color = {0.9f, 0.5f, 0.1f},
                      .casts_no_shadow = true};
@@ -216,7 +246,7 @@ TEST(TransparentGlass, AlphaHoldsTheMeanOfATint) {
 }
 
 TEST(TransparentGlass, RoughGlassIsOpaque) {
-    GlassScene scene{.body = Body::ball, .glass = clear(1.5f, true), .roughness = 0.3f};
+    GlassScene scene{.form = Form::ball, .glass = clear(1.5f, true), .roughness = 0.3f};
     RenderOptions options = catching(settings(16));
     const int middle = side / 2 * side + side / 2;
     EXPECT_EQ(at(film_of(scene, sky_over({1, 1, 1}), options), middle, 3), 1);
@@ -226,7 +256,7 @@ TEST(TransparentGlass, RoughGlassIsOpaque) {
 
 /// Without catchers all is as before, unless it is asked for.
 TEST(TransparentGlass, WithoutCatchersItIsAskedFor) {
-    const GlassScene scene{.body = Body::ball, .glass = clear(1.5f, true), .sun = true};
+    const GlassScene scene{.form = Form::ball, .glass = clear(1.5f, true), .sun = true};
     const LightingOptions light = sky_over({0.2f, 0.4f, 0.6f});
     RenderOptions options = settings(64);
     const Film plain = film_of(scene, light, options);
@@ -248,9 +278,9 @@ TEST(TransparentGlass, WithoutCatchersItIsAskedFor) {
 
 /// A colour behind the scene is what glass shows of it; the environment, too.
 TEST(TransparentGlass, TheBackgroundBehindCatchersIsSeenThroughIt) {
-    GlassScene scene{.glass = clear(1.5f, true), .casts_no_shadow = true};
+    GlassScene scene{.glass = clear(1.5f, true), .casts_no_shadow = true, .lamp = true};
     const Vec3f plate{0.7f, 0.3f, 0.1f};
-    const LightingOptions light = sky_over(plate);
+    const LightingOptions light = all_around(plate);
     GlassScene shining = scene;
     shining.plate = plate;
     const Film direct = film_of(shining, light, settings(256));
