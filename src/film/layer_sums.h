@@ -95,7 +95,6 @@ public:
     void add(const LayerPlan& plan, const BatchShape& batch, const Workspace&);
 
     /// Writes the tile's pixels to the film's layers.
-    ///
     void store(const LayerPlan& plan, const SampledPixels& pixels, Film& film) const;
 
 private:

@@ -19,6 +19,12 @@ constexpr size_t color_words = size_t{3} * padded_slots;
 constexpr uint16_t unshadowed_number = 0;
 constexpr uint16_t shadowed_number = 1;
 
+/// The layers that a settled state's part of a sum belongs to.
+std::span<const uint16_t> layers_of_sum(const LightPathTable& table, size_t state, uint16_t sum) {
+    const size_t row = state * table.class_count + table.class_of_sum[sum];
+    return {table.layers + table.layer_begin[row], table.layers + table.layer_begin[row + 1]};
+}
+
 }  // namespace
 
 void LightPathState::Colors::begin(int numbers) {
@@ -168,9 +174,8 @@ void LightPathState::share_out(uint32_t slot) {
         for (int k = 0; k < sums_.used_count; ++k) {
             const uint16_t sum = sums_.used[static_cast<size_t>(k)];
             const Vec3f light = color_at(sums_.memory.data() + color_words * sum, slot);
-            const size_t row = state * table.class_count + table.class_of_sum[sum];
-            for (uint32_t i = table.layer_begin[row]; i < table.layer_begin[row + 1]; ++i)
-                add_color(columns_.layers, table.layers[i], slot, weight * light);
+            for (const uint16_t layer : layers_of_sum(table, state, sum))
+                add_color(columns_.layers, layer, slot, weight * light);
         }
     }
     for (int k = 0; k < sums_.used_count; ++k)
@@ -226,9 +231,8 @@ void LightPathState::finish(const SampleView& samples) {
         if (table.settled[state] == 0) continue;
         for (int k = 0; k < sums_.used_count; ++k) {
             const uint16_t sum = sums_.used[static_cast<size_t>(k)];
-            const size_t row = state * table.class_count + table.class_of_sum[sum];
-            for (uint32_t i = table.layer_begin[row]; i < table.layer_begin[row + 1]; ++i) {
-                float* const layer = use_color(columns_.layers, table.layers[i]);
+            for (const uint16_t number : layers_of_sum(table, state, sum)) {
+                float* const layer = use_color(columns_.layers, number);
                 const float* weight = weights_.memory.data() + color_words * state;
                 const float* light = sums_.memory.data() + color_words * sum;
                 for (size_t c = 0; c < color_words; c += padded_slots) {

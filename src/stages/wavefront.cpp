@@ -128,9 +128,10 @@ bool walks_sample_lights(const WavefrontInput& in) {
 /// samples keep of the last surface ends.
 void begin_random_walks(const WavefrontInput& in, int count, bool sample, Workspace& work) {
     move_random_walks(in, count, work);
-    if (looks_through_glass(in)) {
+    if (looks_through_glass(in)) {  // the paths that they return to: walks give no marks back
         for (int i = 0; i < count; ++i)
-            work.paths[1].medium_stack[i] |= seen_unclearly;
+            work.paths[0].medium_stack[work.random_walk_path[static_cast<size_t>(i)]] |=
+                seen_unclearly;
     }
     if (!sample) return;
     for (int i = 0; i < count; ++i) {

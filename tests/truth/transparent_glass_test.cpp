@@ -254,6 +254,19 @@ TEST(TransparentGlass, RoughGlassIsOpaque) {
     EXPECT_LT(at(film_of(scene, sky_over({1, 1, 1}), options), middle, 3), 0.7);
 }
 
+/// Hardly a path crosses it without scattering, and what scatters has no clear view of the floor.
+TEST(TransparentGlass, MediaThatScatterAreOpaque) {
+    for (const float ior : {1.0f, 1.5f}) {
+        MaterialLayers milk = dielectric(ior, {20, 20, 20});
+        std::fill_n(milk.scatter_albedo, 3, 0.99f);
+        const GlassScene scene{.form = Form::ball, .glass = milk};
+        RenderOptions options = catching(settings(64));
+        options.max_bounces = 64;
+        const Film film = film_of(scene, sky_over({1, 1, 1}), options);
+        EXPECT_EQ(at(film, side / 2 * side + side / 2, 3), 1) << ior;
+    }
+}
+
 /// Without catchers all is as before, unless it is asked for.
 TEST(TransparentGlass, WithoutCatchersItIsAskedFor) {
     const GlassScene scene{.form = Form::ball, .glass = clear(1.5f, true), .sun = true};
