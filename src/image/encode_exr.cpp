@@ -100,18 +100,23 @@ std::vector<StoredGroup> stored_groups(const ExrPart& part, const OutputImage& i
     return groups;
 }
 
-/// Rows that are made halves at once: enough blocks of the codec for all threads.
-int rows_at_once(ExrCompression codec) {
-    return codec == ExrCompression::dwab ? 4096 : 512;  // blocks of 256 rows, and of at most 32
+/// Rows that are made halves at once: a few blocks of the codec for each thread. More would only
+/// be more memory to clear.
+int rows_at_once(ExrCompression codec, int threads) {
+    const int block = codec == ExrCompression::dwab ? 256 : 32;  // at most
+    return 2 * block * std::max(threads, 1);
 }
 
 /// Writes scan lines.
 ///
 /// Out     how many values were clamped
-uint64_t write_lines(Imf::OutputPart out, const ExrPart& part, const ExrContent& content) {
+uint64_t write_lines(Imf::OutputPart out,
+                     const ExrPart& part,
+                     const ExrContent& content,
+                     int threads) {
     std::vector<StoredGroup> groups = stored_groups(part, content.image);
     uint64_t clamped = 0;
-    const int step = rows_at_once(part.compression);
+    const int step = rows_at_once(part.compression, threads);
     for (int first = 0; first < part.rows.count; first += step) {
         const int count = std::min(step, part.rows.count - first);
         Imath::Box2i window = out.header().dataWindow();
@@ -153,20 +158,18 @@ EncodedFile encode_parts(const ExrContent& content,
                          const std::vector<ExrPart>& parts,
                          const std::string& name) {
     const std::vector<Imf::Header> headers = headers_of(content, parts);
+    const int threads = compression_threads(content.image);
     EncodedFile out;
     ExrMemoryWriter stream(name.c_str());
     {
-        Imf::MultiPartOutputFile file(stream,
-                                      headers.data(),
-                                      static_cast<int>(headers.size()),
-                                      false,
-                                      compression_threads(content.image));
+        Imf::MultiPartOutputFile file(
+            stream, headers.data(), static_cast<int>(headers.size()), false, threads);
         for (size_t i = 0; i < parts.size(); ++i) {
             const int index = static_cast<int>(i);
             out.report.clamped_values +=
                 headers[i].type() == Imf::TILEDIMAGE
                     ? write_tiles(Imf::TiledOutputPart(file, index), parts[i], content)
-                    : write_lines(Imf::OutputPart(file, index), parts[i], content);
+                    : write_lines(Imf::OutputPart(file, index), parts[i], content, threads);
             out.report.lossless_instead |= is_lossless_instead(parts[i], content.options);
         }
     }  // the tables of offsets are written here
