@@ -78,11 +78,12 @@ tl::unexpected<Error> worded(const CLI::App& app,
         const std::vector<std::string> extras = app.remaining();
         const std::string got =
             extras.empty() ? "no command was given" : in_quotes(extras.front()) + " is no command";
-        return usage("command-line",
-                     got +
-                         "; expected `obscura render SCENE`, `obscura info SCENE`, "
-                         "`obscura bench`, `obscura crosscheck` or `obscura explain-pixel "
-                         "SCENE X,Y`, see `obscura --help`");
+        return usage(
+            "command-line",
+            got +
+                "; expected `obscura render SCENE`, `obscura denoise IN.exr`, `obscura info "
+                "SCENE`, `obscura bench`, `obscura crosscheck` or `obscura explain-pixel "
+                "SCENE X,Y`, see `obscura --help`");
     }
     const std::string name = chosen.front()->get_name();
     const std::string hint = "; `obscura " + name + " --help` lists what is accepted";

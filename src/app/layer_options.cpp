@@ -102,7 +102,13 @@ constexpr Entry denoising[] = {
      text_at<&A::layer, &L::denoise>},
     {{.name = "--keep-noisy",
       .help = "And keep the beauty as it was in the layer noisy", .needs = {"--denoise"}},
-     text_at<&A::layer, &L::keep_noisy>}};
+     text_at<&A::layer, &L::keep_noisy>},
+    {{.name = "--denoising-data",
+      .help = "Store what `obscura denoise` needs later: half_1 and half_2, albedo_half_1, "
+              "albedo_half_2, normal_half_1, normal_half_2, depth and opacity, and all colours as "
+              "32-bit floats",
+      .excludes = {"--denoise"}},
+     text_at<&A::layer, &L::denoising_data>}};
 
 // clang-format on
 
@@ -111,6 +117,7 @@ const char* option_of(const RenderArguments& arguments) {
     if (!arguments.aovs.empty()) return "--aov";
     if (!arguments.layer.lpe.empty()) return "--lpe";
     if (arguments.layer.keep_noisy) return "--keep-noisy";
+    if (arguments.layer.denoising_data) return "--denoising-data";
     return arguments.layer.light_groups ? "--light-groups" : "--light-group";
 }
 
@@ -129,6 +136,26 @@ Result<void> read_named_layers(const RenderArguments& arguments, RenderRequest& 
         if (!layer) return fail(layer.error());
         request.options.layers.push_back(std::move(*layer));
     }
+    return {};
+}
+
+/// --denoising-data: one file that has all that --denoise takes from the samples, and not rounded.
+Result<void> add_denoising_data(RenderRequest& request) {
+    const ExrCompression codec = request.exr.compression;
+    if (codec == ExrCompression::pxr24 || codec == ExrCompression::dwaa ||
+        codec == ExrCompression::dwab) {
+        return conflict("--compression",
+                        "it would round what --denoising-data stores; use none, rle, zips, zip, "
+                        "piz, b44 or b44a");
+    }
+    if (request.exr.layout == ExrLayout::separate) {
+        return conflict("--exr-layout",
+                        "`obscura denoise` reads one file; use single or multipart with "
+                        "--denoising-data");
+    }
+    if (auto fits = check_denoising(request.options, "--denoising-data"); !fits) return fits;
+    add_denoising_layers(request.options);
+    request.exr.depth = ExrDepth::float32;
     return {};
 }
 
@@ -159,7 +186,12 @@ Result<void> read_layers(const RenderArguments& arguments, RenderRequest& reques
     const Result<void> named = read_named_layers(arguments, request);
     if (!named) return named;
     request.denoise = arguments.layer.denoise;
-    if (auto fits = check_denoising(request); !fits) return fits;
+    if (request.denoise) {
+        if (auto fits = check_denoising(request.options, "--denoise"); !fits) return fits;
+    }
+    if (arguments.layer.denoising_data) {
+        if (auto stored = add_denoising_data(request); !stored) return stored;
+    }
     if (arguments.layer.keep_noisy) request.options.layers.push_back(noisy_layer());
     const Result<void> grouped = read_light_groups(arguments.layer, request);
     if (!grouped) return grouped;

@@ -15,7 +15,7 @@ struct LayerArguments {
     std::vector<std::string> lpe, light_group;
     OptionText light_groups;
     bool light_groups_components = false;
-    bool denoise = false, keep_noisy = false;
+    bool denoise = false, denoising_data = false, keep_noisy = false;
 };
 
 struct RenderArguments;

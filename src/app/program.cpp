@@ -6,6 +6,7 @@
 #include "app/command_line.h"
 #include "app/config_file.h"
 #include "app/crosscheck_options.h"
+#include "app/denoise_options.h"
 #include "app/explain_pixel_options.h"
 #include "app/info_options.h"
 #include "app/outcome.h"
@@ -24,6 +25,7 @@ namespace {
 constexpr const char* notes = R"(
 Examples:
   obscura render helmet.glb --env sky.hdr -o helmet.exr -o helmet.png
+  obscura denoise helmet.exr -o clean.exr
   obscura info helmet.glb --json
   obscura bench helmet.glb --json helmet.json
   obscura crosscheck helmet.glb --rays 10M
@@ -34,6 +36,7 @@ Examples:
 /// The texts of all subcommands' options.
 struct Arguments {
     RenderArguments render;
+    DenoiseArguments denoise;
     InfoArguments info;
     BenchArguments bench;
     CrosscheckArguments crosscheck;
@@ -52,6 +55,7 @@ Program describe(Arguments& arguments) {
                       "\ncompiled by " +
                       bench::compiler_name();
     program.commands = {render_command(arguments.render),
+                        denoise_command(arguments.denoise),
                         info_command(arguments.info),
                         bench_command(arguments.bench),
                         crosscheck_command(arguments.crosscheck),

@@ -1,17 +1,14 @@
 // image/encode_exr.cpp - encodes finished images as OpenEXR.
 // SPDX-License-Identifier: Apache-2.0
-#include "base/parallel.h"
 #include "image/encode.h"
 #include "image/exr_parts.h"
 #include "image/exr_pixels.h"
 #include "image/exr_stream.h"
-#include "image/process_settings.h"
 
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
-#include <OpenEXR/ImfThreading.h>
 #include <OpenEXR/ImfTiledOutputPart.h>
 
 #include <Imath/ImathBox.h>
@@ -21,19 +18,11 @@ namespace obscura {
 
 namespace {
 
-/// Large images are compressed on OpenEXR's threads; for small ones starting them does not pay.
-int compression_threads(const OutputImage& image) {
-    constexpr size_t large = 1 << 20;
-    constexpr size_t max_threads = 16;
+size_t values_of(const OutputImage& image) {
     size_t values = image.pixels.size();
     for (const ImageLayer& layer : image.layers)
         values += layer.pixels.size();
-    if (values < large) return 0;
-    const int threads = static_cast<int>(std::min(max_thread_index(), max_threads));
-    if (owns_process_settings() && Imf::globalThreadCount() < threads) {
-        Imf::setGlobalThreadCount(threads);
-    }
-    return std::min(threads, Imf::globalThreadCount());
+    return values;
 }
 
 /// The values of a group at one level of a mipmap.
@@ -158,7 +147,7 @@ EncodedFile encode_parts(const ExrContent& content,
                          const std::vector<ExrPart>& parts,
                          const std::string& name) {
     const std::vector<Imf::Header> headers = headers_of(content, parts);
-    const int threads = compression_threads(content.image);
+    const int threads = compression_threads(values_of(content.image));
     EncodedFile out;
     ExrMemoryWriter stream(name.c_str());
     {

@@ -3,6 +3,7 @@
 #include "image/corrupt.h"
 #include "image/decode.h"
 #include "image/environment_exr.h"
+#include "image/exr_sizes.h"
 #include "image/image_header.h"
 #include "image/oiio_input.h"
 

@@ -3,6 +3,7 @@
 #include "image/environment_exr.h"
 
 #include "image/corrupt.h"
+#include "image/exr_sizes.h"
 #include "image/exr_stream.h"
 
 #include <OpenEXR/ImfChannelList.h>
@@ -15,9 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstring>
-#include <optional>
-#include <string_view>
 
 namespace obscura {
 
@@ -26,88 +24,17 @@ namespace {
 using ByteSpan = std::span<const std::byte>;
 using Names = std::array<std::string, 3>;
 
-/// Reads the bytes of a header; after the end everything is empty or 0.
-struct HeaderReader {
-    ByteSpan rest;
-
-    std::string_view text() {
-        const auto* begin = reinterpret_cast<const char*>(rest.data());
-        const std::string_view all(begin, rest.size());
-        const std::string_view found = all.substr(0, all.find('\0'));
-        rest = rest.subspan(std::min(found.size() + 1, rest.size()));
-        return found;
-    }
-    int32_t number() {
-        int32_t value = 0;
-        if (rest.size() >= sizeof value) std::memcpy(&value, rest.data(), sizeof value);
-        skip(sizeof value);
-        return value;
-    }
-    void skip(size_t count) { rest = rest.subspan(std::min(count, rest.size())); }
-};
-
-/// The sizes in one part's header, by which OpenEXR allocates memory when it opens a file.
-struct PartSize {
-    bool is_whole = false;  ///< its end was found
-    std::optional<std::array<int64_t, 2>> window;
-    std::array<uint32_t, 2> tile = {1, 1};
-};
-
-PartSize read_part(HeaderReader& reader) {
-    PartSize part;
-    while (!reader.rest.empty()) {
-        const std::string_view name = reader.text();
-        if (name.empty()) {
-            part.is_whole = true;
-            break;
-        }
-        const std::string_view type = reader.text();
-        const int32_t size = reader.number();
-        if (size < 0 || static_cast<size_t>(size) > reader.rest.size()) break;
-        HeaderReader value{reader.rest.first(static_cast<size_t>(size))};
-        reader.skip(static_cast<size_t>(size));
-        if (name == "dataWindow" && type == "box2i" && size == 16) {
-            const int64_t left = value.number();
-            const int64_t top = value.number();
-            const int64_t right = value.number();
-            const int64_t bottom = value.number();
-            part.window = {right - left + 1, bottom - top + 1};
-        } else if (name == "tiles" && type == "tiledesc") {
-            const auto width = static_cast<uint32_t>(value.number());
-            part.tile = {width, static_cast<uint32_t>(value.number())};
-        }
-    }
-    return part;
-}
-
-/// Checks the sizes of all parts and tiles first, because OpenEXR allocates tables in proportion to
-/// them. Its own limits are process-wide, which a library must not change.
+/// Checks the sizes of all parts and tiles before OpenEXR sees them.
 Result<void> check_sizes(ByteSpan bytes, const std::string& where) {
-    constexpr size_t magic_and_flags = 8;
-    constexpr int32_t several_parts = 0x1000;
     constexpr int64_t longest_side = 65536;
-    HeaderReader reader{bytes};
-    reader.skip(magic_and_flags / 2);
-    const bool has_parts = (reader.number() & several_parts) != 0;
-    for (bool is_first = true; is_first || has_parts; is_first = false) {
-        const PartSize part = read_part(reader);
-        if (is_first) {
-            if (!part.window) {
-                return corrupt_environment(where,
-                                           "the OpenEXR header is cut off or has no data window");
-            }
-            auto fits = check_environment_size((*part.window)[0], (*part.window)[1], where);
-            if (!fits) return fits;
-        }
-        const std::array<int64_t, 2> window = part.window.value_or(std::array<int64_t, 2>{1, 1});
-        if (std::max(window[0], window[1]) > longest_side ||
-            std::max(part.tile[0], part.tile[1]) > longest_side) {
-            return corrupt_environment(where,
-                                       "a part or a tile is wider or higher than 65536 pixels");
-        }
-        if (!part.is_whole || reader.rest.empty() || reader.rest.front() == std::byte{0}) break;
+    const ExrSizes sizes = read_exr_sizes(bytes);
+    if (!sizes.window) {
+        return corrupt_environment(where, "the OpenEXR header is cut off or has no data window");
     }
-    return {};
+    auto fits = check_environment_size((*sizes.window)[0], (*sizes.window)[1], where);
+    if (!fits) return fits;
+    if (sizes.longest_side <= longest_side) return {};
+    return corrupt_environment(where, "a part or a tile is wider or higher than 65536 pixels");
 }
 
 /// The channels of red, green and blue; all the same for a luminance image; empty if none.
@@ -187,11 +114,6 @@ Result<ImageRgb32f> read_pixels(Imf::InputFile& file, const std::string& where) 
 }
 
 }  // namespace
-
-bool is_exr(ByteSpan bytes) {
-    constexpr unsigned char magic[] = {0x76, 0x2F, 0x31, 0x01};
-    return bytes.size() >= sizeof magic && std::memcmp(bytes.data(), magic, sizeof magic) == 0;
-}
 
 Result<ImageRgb32f> read_exr(ByteSpan bytes, const std::string& where, Log& log) {
     if (auto fits = check_sizes(bytes, where); !fits) return fail(std::move(fits.error()));

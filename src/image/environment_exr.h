@@ -12,9 +12,6 @@
 
 namespace obscura {
 
-/// True when the bytes begin like an OpenEXR file.
-bool is_exr(std::span<const std::byte> bytes);
-
 /// Reads R, G, B (of the file itself, else of its first layer that has them) or Y of the first
 /// part's data window. Values are not changed.
 ///

@@ -81,7 +81,7 @@ void insert_time(Imf::Header& header, const StandardAttributes& standard) {
 void insert_origin(Imf::Header& header, const ImageMetadata& metadata) {
     // First, so that they cannot replace an attribute below.
     for (const ImageAttribute& attribute : metadata.extra)
-        std::visit(InsertValue{header, attribute.name}, attribute.value);
+        insert_attribute(header, attribute);
     insert_text(header, "Software", metadata.software);
     insert_text(header, "copyright", metadata.copyright);
     insert_text(header, "owner", metadata.copyright);
@@ -186,6 +186,10 @@ Imf::Header header_of(const ExrContent& content, const ExrPart& part) {
 }
 
 }  // namespace
+
+void insert_attribute(Imf::Header& header, const ImageAttribute& attribute) {
+    std::visit(InsertValue{header, attribute.name}, attribute.value);
+}
 
 std::vector<Imf::Header> headers_of(const ExrContent& content, const std::vector<ExrPart>& parts) {
     std::vector<Imf::Header> headers;

@@ -64,6 +64,9 @@ bool is_averaged(const ExrGroup& group);
 /// True when the codec for colour would have rounded data in the same part.
 bool is_lossless_instead(const ExrPart& part, const ExrOptions& options);
 
+/// Sets an attribute; an empty text is left out.
+void insert_attribute(Imf::Header& header, const ImageAttribute& attribute);
+
 /// The headers of a file's parts, with their names where there are several.
 std::vector<Imf::Header> headers_of(const ExrContent& content, const std::vector<ExrPart>& parts);
 

@@ -3,12 +3,26 @@
 #include "image/exr_pixels.h"
 
 #include "base/parallel.h"
+#include "image/process_settings.h"
+
+#include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
 
 namespace obscura {
+
+int compression_threads(size_t values) {
+    constexpr size_t large = 1 << 20;
+    constexpr size_t max_threads = 16;
+    if (values < large) return 0;
+    const int threads = static_cast<int>(std::min(max_thread_index(), max_threads));
+    if (owns_process_settings() && Imf::globalThreadCount() < threads) {
+        Imf::setGlobalThreadCount(threads);
+    }
+    return std::min(threads, Imf::globalThreadCount());
+}
 
 uint64_t store_halves(std::span<const float> values, std::span<half> halves) {
     constexpr float largest = 65504;

@@ -12,6 +12,9 @@
 
 namespace obscura {
 
+/// How many of OpenEXR's threads compress so many values: for few starting them does not pay.
+int compression_threads(size_t values);
+
 /// Makes values halves. NaN becomes 0.
 ///
 /// In      halves: as many as values

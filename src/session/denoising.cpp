@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <span>
 #include <variant>
 #include <vector>
@@ -33,10 +34,24 @@ bool has_same(const std::vector<Layer>& layers, const Layer& wanted) {
         layers.begin(), layers.end(), [&](const Layer& one) { return is_same(one, wanted); });
 }
 
-FilmLayer& find_same(Film& film, const Layer& wanted) {
-    return *std::find_if(film.layers.begin(), film.layers.end(), [&](const FilmLayer& one) {
-        return is_same(one.layer, wanted);
-    });
+/// The pixels of the layer with this source; none if the film has no such layer.
+template <typename Source>
+std::span<const float> layer_pixels(const Film& film, const Source& source) {
+    Layer wanted;
+    wanted.source = source;
+    for (const FilmLayer& one : film.layers) {
+        if (is_same(one.layer, wanted)) return one.pixels;
+    }
+    return {};
+}
+
+Halves both_halves(const Film& film, std::optional<Aov> aov) {
+    return {layer_pixels(film, PartMean{aov, SamplePart::first_half}),
+            layer_pixels(film, PartMean{aov, SamplePart::second_half})};
+}
+
+bool is_whole(const Halves& halves) {
+    return !halves[0].empty() && !halves[1].empty();
 }
 
 std::vector<float> alpha_of(const Film& film) {
@@ -59,17 +74,28 @@ size_t run_of(const RenderOptions& options) {
     return run;
 }
 
+/// By how much a beauty may differ from the mean of its halves because numbers were rounded.
+struct Rounding {
+    float relative, absolute;
+    float largest;  ///< what is beyond was lowered to this
+};
+constexpr Rounding rounding_of_sums = {1e-4f, 0, std::numeric_limits<float>::infinity()};
+constexpr Rounding rounding_of_halves = {2e-3f, 2e-7f, 65504};  // 16 bits, twice
+
 /// What the beauty has beside the mean of its samples: shadow catchers, which are ratios of sums.
-///
-/// In      halves: of the samples; first_share: how many of them are in the first
-std::vector<float> beside_samples(const Film& film, const Halves& halves, float first_share) {
+std::vector<float> beside_samples(const Film& film,
+                                  const Halves& halves,
+                                  const HalvesOfSamples& samples) {
+    const Rounding& rounding = samples.is_rounded ? rounding_of_halves : rounding_of_sums;
+    const float first_share = samples.first_share;
     const size_t channels = film.channels.size();
     std::vector<float> rest(halves[0].size());
     for (size_t i = 0; i < rest.size(); ++i) {
         const float mean = first_share * halves[0][i] + (1 - first_share) * halves[1][i];
         const float value = film.pixels[i / 3 * channels + i % 3];
-        // Less than this is how the sums were rounded.
-        if (std::abs(value - mean) > 1e-4f * std::abs(mean)) rest[i] = value - mean;
+        if (std::max({value, halves[0][i], halves[1][i]}) >= rounding.largest) continue;
+        const float rounded = rounding.relative * std::abs(mean) + rounding.absolute;
+        if (std::abs(value - mean) > rounded) rest[i] = value - mean;
     }
     return rest;
 }
@@ -91,11 +117,9 @@ void keep_noisy(Film& film) {
 
 }  // namespace
 
-Result<void> check_denoising(const RenderRequest& request) {
-    if (!request.denoise) return {};
-    const RenderOptions& options = request.options;
-    const auto conflict = [](const std::string& message) {
-        return fail(ExitCode::usage, "E-USAGE-CONFLICT", setting("denoise"), message);
+Result<void> check_denoising(const RenderOptions& options, const std::string& asked_by) {
+    const auto conflict = [&](const std::string& message) {
+        return fail(ExitCode::usage, "E-USAGE-CONFLICT", asked_by, message);
     };
     if (options.integrator != Integrator::path && options.integrator != Integrator::direct) {
         return conflict("it takes the noise out of light; use " + setting("integrator") +
@@ -126,51 +150,63 @@ void set_half_runs(RenderOptions& options) {
     }
 }
 
-std::string denoise_film(const RenderOptions& options, const RenderOptions& asked, Film& film) {
+HalvesOfSamples halves_of(const RenderOptions& options) {
+    HalvesOfSamples out;
+    if (options.adaptive) return out;  // see run_of
+    const auto samples = static_cast<size_t>(options.samples_per_pixel);
+    const PartMean first{{}, SamplePart::first_half, run_of(options)};
+    out.first_share = static_cast<float>(samples_in(first, samples)) / static_cast<float>(samples);
+    return out;
+}
+
+std::string denoise_light(const HalvesOfSamples& halves, Film& film) {
     keep_noisy(film);
-    const auto values = [&](std::optional<Aov> aov, SamplePart part) {
-        Layer wanted;
-        wanted.source = PartMean{aov, part};
-        return std::span<const float>(find_same(film, wanted).pixels);
-    };
-    const auto halves = [&](std::optional<Aov> aov) {
-        return Halves{values(aov, SamplePart::first_half), values(aov, SamplePart::second_half)};
-    };
-    const auto layer = [&](Aov aov) {
-        Layer wanted;
-        wanted.source = aov;
-        return std::span<const float>(find_same(film, wanted).pixels);
-    };
+    const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
+    const std::vector<float> nothing(3 * pixels);
     const std::vector<float> alpha = alpha_of(film);
+    std::string guides;
     DenoiseInput input;
     input.width = film.width;
     input.height = film.height;
-    input.color = halves({});
-    input.albedo = halves(Aov::albedo);
-    input.normal = halves(Aov::normal);
-    input.depth = layer(Aov::depth);
-    input.opacity = layer(Aov::opacity);
+    input.color = both_halves(film, {});
+    input.albedo = input.normal = {nothing, nothing};
+    input.depth = input.opacity = std::span(nothing).first(pixels);
     input.alpha = alpha;
-    if (!options.adaptive) {  // else one half: see run_of
-        const auto samples = static_cast<size_t>(options.samples_per_pixel);
-        const PartMean first{{}, SamplePart::first_half, run_of(options)};
-        input.first_share =
-            static_cast<float>(samples_in(first, samples)) / static_cast<float>(samples);
+    input.first_share = halves.first_share;
+    const auto opacity = layer_pixels(film, Aov::opacity);
+    if (const Halves albedo = both_halves(film, Aov::albedo);
+        is_whole(albedo) && !opacity.empty()) {
+        input.albedo = albedo;
+        input.opacity = opacity;
+        guides += " albedo";
+    }
+    if (const Halves normal = both_halves(film, Aov::normal); is_whole(normal)) {
+        input.normal = normal;
+        guides += " normal";
+    }
+    if (const auto depth = layer_pixels(film, Aov::depth); !depth.empty()) {
+        input.depth = depth;
+        guides += " depth";
     }
     std::vector<LightImage> images = {{film.pixels, film.channels.size()}};
     for (FilmLayer& one : film.layers) {
         if (std::holds_alternative<LightLayer>(one.layer.source))
             images.push_back({one.pixels, one.layer.channels.size()});
     }
-    const std::vector<float> rest = beside_samples(film, input.color, input.first_share);
+    const std::vector<float> rest = beside_samples(film, input.color, halves);
     add_to_colors(rest, -1, film);
     const DenoiseReport report = denoise(input, images);
     add_to_colors(rest, 1, film);
+    return fmt::format(
+        "halves{}; outliers in {:.3g} % of the pixels", guides, 100 * report.outlier_share);
+}
+
+std::string denoise_film(const RenderOptions& options, const RenderOptions& asked, Film& film) {
+    std::string done = denoise_light(halves_of(options), film);
     std::erase_if(film.layers, [&](const FilmLayer& one) {
         return has_same(denoising_layers(), one.layer) && !has_same(asked.layers, one.layer);
     });
-    return fmt::format("halves albedo normal depth; outliers in {:.3g} % of the pixels",
-                       100 * report.outlier_share);
+    return done;
 }
 
 }  // namespace obscura

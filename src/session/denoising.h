@@ -4,7 +4,6 @@
 
 #include "film/film.h"
 #include "render/render.h"
-#include "session/render_request.h"
 
 #include <string>
 
@@ -12,14 +11,32 @@ namespace obscura {
 
 /// Refuses what cannot be denoised.
 ///
+/// In      asked_by: the option, for messages
 /// Errors  64 E-USAGE-CONFLICT: the integrator makes no noise of light, or one sample has no halves
-Result<void> check_denoising(const RenderRequest& request);
+Result<void> check_denoising(const RenderOptions& options, const std::string& asked_by);
 
 /// Adds the layers that denoising needs and that are not asked for anyway.
 void add_denoising_layers(RenderOptions& options);
 
 /// Sets the runs of the layers of halves by the number of samples.
 void set_half_runs(RenderOptions& options);
+
+/// What is known of the samples of a film that is denoised.
+struct HalvesOfSamples {
+    float first_share = 0.5f;  ///< of the samples that are in the first half
+    bool is_rounded = false;   ///< the beauty or its halves have been stored in 16 bits
+};
+
+/// Of a film that has the layers of these options, none of them rounded.
+HalvesOfSamples halves_of(const RenderOptions& options);
+
+/// Denoises the beauty and the layers of the light, and keeps the noisy beauty in the layer `noisy`
+/// if there is one.
+///
+/// In      film: with the colours of both halves. It does without guides that are not there; of
+///         albedo, normal and depth, and with them opacity, for which albedo has no use
+/// Returns the EXR attribute obscura:denoise
+std::string denoise_light(const HalvesOfSamples& halves, Film& film);
 
 /// Denoises the beauty and the layers of the light, keeps the noisy beauty in the layer `noisy` if
 /// there is one, and takes away the layers that add_denoising_layers added.

@@ -129,23 +129,6 @@ StandardAttributes standard_attributes(const RenderRequest& request, const Chose
     return out;
 }
 
-/// Warns of what a file could not keep.
-void warn_of(const WriteReport& report, const std::string& file, Log& log) {
-    if (report.clamped_values > 0) {
-        log.warn(
-            file,
-            fmt::format("{} values beyond 65504, the largest of 16 bits, are clamped; {} keeps "
-                        "them",
-                        report.clamped_values,
-                        setting("float")));
-    }
-    if (report.lossless_instead) {
-        log.warn(file,
-                 "its colours are compressed by ZIP: the codec would round the data beside them; "
-                 "give layers parts or files of their own");
-    }
-}
-
 /// What is asked for against fireflies at the price of a bias; nothing where there is none.
 void add_bias(const RenderOptions& options, std::vector<ImageAttribute>& extra) {
     if (options.clamp_direct > 0) extra.push_back({"obscura:clampDirect", options.clamp_direct});
@@ -183,6 +166,22 @@ Result<void> check_outputs(const RenderRequest& request) {
     }
     if (request.statistics) return check_file_can_be_written(*request.statistics);
     return {};
+}
+
+void warn_of(const WriteReport& report, const std::string& file, Log& log) {
+    if (report.clamped_values > 0) {
+        log.warn(
+            file,
+            fmt::format("{} values beyond 65504, the largest of 16 bits, are clamped; {} keeps "
+                        "them",
+                        report.clamped_values,
+                        setting("float")));
+    }
+    if (report.lossless_instead) {
+        log.warn(file,
+                 "its colours are compressed by ZIP: the codec would round the data beside them; "
+                 "give layers parts or files of their own");
+    }
 }
 
 void warn_of_lost_alpha(const RenderRequest& request, Log& log) {

@@ -21,6 +21,9 @@ inline constexpr const char* standard_output_name = "standard output";
 /// Errors  64 E-OUT-FORMAT, E-USAGE-CONFLICT; 73 E-OUT-CREATE
 Result<void> check_outputs(const RenderRequest& request);
 
+/// Warns of what a file could not keep.
+void warn_of(const WriteReport& report, const std::string& file, Log& log);
+
 /// Warns of files whose format has no alpha, when the image is transparent and no page lies behind
 /// it: they show black there.
 void warn_of_lost_alpha(const RenderRequest& request, Log& log);

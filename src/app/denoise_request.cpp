@@ -1,0 +1,56 @@
+// app/denoise_request.cpp - turns the option texts of `obscura denoise` into a request.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/denoise_request.h"
+
+#include "app/denoise_options.h"
+
+#include <algorithm>
+
+namespace obscura::app {
+
+namespace {
+
+/// Sorts the outputs by what writes them.
+Result<void> choose_outputs(const DenoiseArguments& arguments, DenoiseRequest& request) {
+    if (arguments.outputs.empty())
+        return conflict("--output", "it is missing; give -o OUT.exr, which may be IN.exr itself");
+    std::vector<std::filesystem::path> all;
+    for (const std::string& name : arguments.outputs) {
+        const std::filesystem::path file = name;
+        const bool is_known = std::any_of(
+            all.begin(), all.end(), [&](const auto& other) { return same_file(file, other); });
+        if (is_known) {
+            return fail(ExitCode::usage,
+                        "E-USAGE-SAMEFILE",
+                        name,
+                        "two outputs are the same file; give different names");
+        }
+        all.push_back(file);
+        const Result<OutputTarget> target = check_output(file);
+        if (!target) return fail(target.error());
+        const bool is_exr = target->format == OutputFormat::exr;
+        (is_exr ? request.exrs : request.render.outputs).push_back(file);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<DenoiseRequest> make_denoise_request(const DenoiseArguments& arguments) {
+    DenoiseArguments texts = arguments;
+    const Command command = denoise_command(texts);
+    if (auto fit = check_combinations(command.options); !fit) return fail(fit.error());
+    RenderArguments render = arguments.render;
+    render.scene_file = arguments.file;
+    render.writes_images = false;
+    Result<RenderRequest> display = make_render_request(render);
+    if (!display) return fail(display.error());
+    DenoiseRequest request;
+    request.file = arguments.file;
+    request.keep_noisy = arguments.keep_noisy;
+    request.render = std::move(*display);
+    if (auto chosen = choose_outputs(arguments, request); !chosen) return fail(chosen.error());
+    return request;
+}
+
+}  // namespace obscura::app
