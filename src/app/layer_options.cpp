@@ -112,15 +112,6 @@ constexpr Entry denoising[] = {
 
 // clang-format on
 
-/// One of the options that ask for layers.
-const char* option_of(const RenderArguments& arguments) {
-    if (!arguments.aovs.empty()) return "--aov";
-    if (!arguments.layer.lpe.empty()) return "--lpe";
-    if (arguments.layer.keep_noisy) return "--keep-noisy";
-    if (arguments.layer.denoising_data) return "--denoising-data";
-    return arguments.layer.light_groups ? "--light-groups" : "--light-group";
-}
-
 /// The layers of --aov and --lpe.
 Result<void> read_named_layers(const RenderArguments& arguments, RenderRequest& request) {
     std::vector<std::string> names;
@@ -182,6 +173,14 @@ Result<void> read_light_groups(const LayerArguments& arguments, RenderRequest& r
 
 }  // namespace
 
+const char* layer_option_of(const RenderArguments& arguments) {
+    if (!arguments.aovs.empty()) return "--aov";
+    if (!arguments.layer.lpe.empty()) return "--lpe";
+    if (arguments.layer.keep_noisy) return "--keep-noisy";
+    if (arguments.layer.denoising_data) return "--denoising-data";
+    return arguments.layer.light_groups ? "--light-groups" : "--light-group";
+}
+
 Result<void> read_layers(const RenderArguments& arguments, RenderRequest& request) {
     const Result<void> named = read_named_layers(arguments, request);
     if (!named) return named;
@@ -200,7 +199,7 @@ Result<void> read_layers(const RenderArguments& arguments, RenderRequest& reques
         if (!names.insert(layer.name).second)
             return conflict("--lpe", "two layers are called " + in_quotes(layer.name));
     }
-    return check_layers(request, option_of(arguments));
+    return check_layers(request, layer_option_of(arguments));
 }
 
 OptionGroup<A, R> layer_group() {

@@ -20,6 +20,9 @@ struct LayerArguments {
 
 struct RenderArguments;
 
+/// One of the options that ask for layers, for messages; layers are asked for.
+const char* layer_option_of(const RenderArguments& arguments);
+
 /// Sets the layers that --aov, --lpe and --light-group name.
 ///
 /// Errors  64 E-AOV-NAME, E-LPE, E-LAYER-NAME, E-LIGHT-GROUP; E-USAGE-CONFLICT when the integrator

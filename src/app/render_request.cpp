@@ -91,7 +91,9 @@ bool is_exr(const std::filesystem::path& file) {
 }
 
 /// Layers need an EXR, and those in files of their own one that has a name.
-Result<void> check_layer_outputs(const RenderRequest& request) {
+///
+/// In      asked_by: an option that asks for layers, for messages
+Result<void> check_layer_outputs(const RenderRequest& request, const char* asked_by) {
     const bool to_pipe = request.standard_output == OutputFormat::exr;
     const std::vector<std::filesystem::path>& files = request.outputs;
     const bool has_output = !files.empty() || request.standard_output;
@@ -99,8 +101,7 @@ Result<void> check_layer_outputs(const RenderRequest& request) {
     const bool has_layers =
         !request.options.layers.empty() || !request.options.light_groups.empty();
     if (has_layers && has_output && !has_exr) {
-        return conflict(request.options.light_groups.empty() ? "--aov" : "--light-group",
-                        "only EXRs hold layers; give an output that ends in .exr");
+        return conflict(asked_by, "only EXRs hold layers; give an output that ends in .exr");
     }
     if (to_pipe && request.exr.layout == ExrLayout::separate) {
         return conflict("--exr-layout",
@@ -177,7 +178,7 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     const bool size_is_known = request.size_is_given || !request.camera_json;
     if (auto fits = check_crop(request.options); size_is_known && !fits) return fits;
     if (auto chosen = read_layers(arguments, request); !chosen) return chosen;
-    if (auto fit = check_layer_outputs(request); !fit) return fit;
+    if (auto fit = check_layer_outputs(request, layer_option_of(arguments)); !fit) return fit;
     if (auto fit = check_manifest(request); !fit) return fit;
     if (auto fit = check_segmentation_request(request); !fit) return fit;
     request.load.keeps_uv = wants_uv(request.options);

@@ -153,6 +153,16 @@ TEST(RenderRequest, LayersNeedAnExrAndFilesOfTheirOwnANamedOne) {
     EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-SAMEFILE");
 }
 
+TEST(RenderRequest, NamesTheOptionThatAsksForLayers) {
+    RenderArguments arguments;
+    arguments.outputs = {"a.png"};
+    EXPECT_TRUE(request_of(arguments));
+    arguments.layer.denoising_data = true;
+    expect_conflict(arguments, "--denoising-data");
+    arguments.layer.lpe = {"gloss=C<R[GS]>.*[LOB]"};
+    expect_conflict(arguments, "--lpe");
+}
+
 TEST(RenderRequest, SharesOfTheLightComeFromPaths) {
     RenderArguments arguments;
     arguments.outputs = {"a.exr"};

@@ -84,7 +84,7 @@ protected:
 
 TEST_F(DenoiseCommand, GivesTheBitsOfRenderDenoise) {
     expect_bits_of_render({});
-    expect_bits_of_render({"--spp", "6", "--background", "transparent"});
+    expect_bits_of_render({"--spp", "5", "--background", "transparent"});
     expect_bits_of_render({"--crop", "5,6,30,20", "--exr-layout", "multipart"});
 }
 
@@ -105,7 +105,7 @@ TEST_F(DenoiseCommand, FiltersLayersOfTheLightAndNoOthers) {
 
 TEST_F(DenoiseCommand, TakesAdaptiveSamplesCatchersTilesAndTwoEyes) {
     expect_bits_of_render({"--noise-target", "0.02", "--spp-min", "4", "--spp", "20"});
-    expect_bits_of_render({"--catcher", "ground"});
+    expect_bits_of_render({"--catcher", "ground", "--light-groups", "each"});
     expect_bits_of_render({"--exr-tiles", "16", "--exr-mipmap"});
     expect_bits_of_render({"--camera-model",
                            "environment",
