@@ -18,10 +18,11 @@ bool is_shutter_interval(std::string_view text);
 /// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE: two numbers from -1000 to 1000, the second the greater
 Result<ShutterFractions> parse_shutter_interval(const std::string& text);
 
-/// "1-120", or "7" for one frame.
+/// "1-120"; "7" for one frame; "1-10x2" for every second one; several of these, as "1,120,2-119".
+/// A frame that is named again is not rendered again.
 ///
 /// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE: numbers from 0 to 999999, the second not below the
-///         first
-Result<FrameRange> parse_frames(std::string_view text, std::string_view option);
+///         first, steps from 1
+Result<FrameList> parse_frames(std::string_view text, std::string_view option);
 
 }  // namespace obscura::app

@@ -153,10 +153,8 @@ Result<void> render_all(Job& job, Progress& progress) {
         if (!done) return done;
         if (!frames[i].number) continue;
         statistics.frames.push_back(frame_statistics(frames[i], before, statistics));
-        job.log.info(fmt::format("frame {} of {} to {} is written",
-                                 *frames[i].number,
-                                 job.request.frames->first,
-                                 job.request.frames->last));
+        job.log.info(
+            fmt::format("frame {} is written, {} of {}", *frames[i].number, i + 1, frames.size()));
     }
     progress.finish();
     return {};
@@ -192,8 +190,9 @@ void log_summary(const RenderRequest& request, const RenderStatistics& statistic
     const auto millions = [&](uint64_t count) {
         return static_cast<double>(count) / seconds * 1e-6;
     };
-    const std::string what =
-        request.frames ? fmt::format("rendered {} frames", request.frames->count()) : "rendered";
+    const std::string what = request.frames
+                                 ? fmt::format("rendered {} frames", request.frames->numbers.size())
+                                 : "rendered";
     if (statistics.adaptive) {
         const SamplesTaken& taken = *statistics.adaptive;
         log.info(fmt::format("{} to {} samples a pixel, {:.1f} in the mean, to a noise of {:.4f}",

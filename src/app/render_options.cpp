@@ -224,9 +224,9 @@ constexpr Entry time[] = {
       .help = "Which animation plays: a name or an index, all, or none",
       .fallback = "the first with --time or --frames, else none"},
      text_at<&A::animation>, name_at<&R::load, &L::animation>},
-    {{.name = "--frames", .argument = "FIRST-LAST",
-      .help = "Render a sequence; the ### in the names of outputs become each frame's number. "
-              "Frame n is at n / fps seconds",
+    {{.name = "--frames", .argument = "FIRST-LAST[xSTEP][,...]",
+      .help = "Render a sequence, such as 1-48 or 1-10x2,15; the ### in the names of outputs become "
+              "each frame's number. Frame n is at n / fps seconds",
       .excludes = {"--time"}},
      text_at<&A::frames>, parsed_at<parse_frames, &R::frames>},
     {{.name = "--fps", .argument = "X",

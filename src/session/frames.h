@@ -9,12 +9,10 @@
 namespace obscura {
 
 /// Frame n is at n / fps seconds.
-struct FrameRange {
-    int first = 0;
-    int last = 0;  ///< inclusive
+struct FrameList {
+    std::vector<int> numbers;  ///< in the order of rendering, each once
     double fps = 24;
 
-    int count() const { return last - first + 1; }
     double time_s(int frame) const { return frame / fps; }
 };
 

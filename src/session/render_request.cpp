@@ -18,7 +18,7 @@ std::vector<MovieFrame> frames_of(const RenderRequest& request) {
         return {{{}, request.load.time_s.value_or(0), request.outputs, request.segmentation}};
     }
     std::vector<MovieFrame> out;
-    for (int number = request.frames->first; number <= request.frames->last; ++number) {
+    for (const int number : request.frames->numbers) {
         MovieFrame frame{number, request.frames->time_s(number), {}, request.segmentation};
         for (const std::filesystem::path& pattern : request.outputs)
             frame.outputs.push_back(frame_file(pattern, number).value_or(pattern));

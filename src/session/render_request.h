@@ -32,7 +32,7 @@ struct RenderRequest {
     std::optional<OutputFormat> standard_output;  ///< -o -: the image goes there, too
     gltf::LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
     /// Then the outputs and `segmentation` are patterns; see frame_file.
-    std::optional<FrameRange> frames;
+    std::optional<FrameList> frames;
     std::optional<int> frame;                 ///< of them, the one that is rendered
     std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
     double fps = 24;

@@ -11,6 +11,7 @@
 namespace obscura::app {
 namespace {
 
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 RenderArguments arguments_of(const std::vector<std::string>& outputs) {
@@ -25,14 +26,39 @@ std::string id_of(const Result<RenderRequest>& request) {
 }
 
 TEST(Frames, RangesAreRead) {
-    const Result<FrameRange> range = parse_frames("3-120", "--frames");
+    const Result<FrameList> range = parse_frames("3-120", "--frames");
     ASSERT_TRUE(range);
-    EXPECT_EQ(range->first, 3);
-    EXPECT_EQ(range->last, 120);
-    EXPECT_EQ(range->count(), 118);
+    EXPECT_EQ(range->numbers.size(), 118U);
+    EXPECT_EQ(range->numbers.front(), 3);
+    EXPECT_EQ(range->numbers.back(), 120);
     EXPECT_EQ(range->time_s(12), 0.5);
-    EXPECT_EQ(parse_frames("7", "--frames")->last, 7);
-    for (const char* text : {"", "-", "1-", "-4", "5-4", "1-2-3", "a-b", "1000000", "0x1-3"})
+    const auto numbers = [](const char* text) {
+        const Result<FrameList> list = parse_frames(text, "--frames");
+        return list ? list->numbers : std::vector<int>{};
+    };
+    EXPECT_THAT(numbers("7"), ElementsAre(7));
+    EXPECT_THAT(numbers("1-10x3"), ElementsAre(1, 4, 7, 10));
+    EXPECT_THAT(numbers("1-10x2,15"), ElementsAre(1, 3, 5, 7, 9, 15));
+    EXPECT_THAT(numbers("9,1-3x5,8-10"), ElementsAre(9, 1, 8, 10)) << "each once, as ordered";
+    EXPECT_THAT(numbers("999990-999999x9"), ElementsAre(999990, 999999));
+    for (const char* text : {"",
+                             "-",
+                             "1-",
+                             "-4",
+                             "5-4",
+                             "1-2-3",
+                             "a-b",
+                             "0x1-3",
+                             "1000000",
+                             "1-9x0",
+                             "1-9x",
+                             "1-9x-2",
+                             "7x2",
+                             "1,",
+                             ",1",
+                             "1,,2",
+                             "1, 2",
+                             "1-9x2x2"})
         EXPECT_FALSE(parse_frames(text, "--frames")) << text;
 }
 
