@@ -353,7 +353,7 @@ constexpr Entry program[] = {
       .help = "Look of a product, as `obscura info` lists them",
       .fallback = "the file's own materials"},
      text_at<&A::variant>},
-    {{.name = "--threads", .argument = "N", .help = "Threads; 0 is every core",
+    {{.name = "--threads", .argument = "N", .help = "Threads; 0 is every core that the process may use",
       .range = {0, 1024}},
      text_at<&A::threads>, number_at<&R::threads>},
     {{.name = "--isa", .argument = "NAME", .help = "Instruction set:"},

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
 
+#include "base/cpu_quota.h"
+
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -9,6 +11,8 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -21,8 +25,16 @@ namespace {
 /// The arena of this thread's ThreadArena; null: the thread's current one.
 thread_local tbb::task_arena* own_arena = nullptr;
 
+/// As many as there are cores that the process may use, by affinity and by quota.
+int default_threads() {
+    const int cores = tbb::info::default_concurrency();
+    static const std::optional<double> quota = cpu_quota();
+    if (!quota || *quota >= cores) return cores;
+    return std::max(static_cast<int>(std::ceil(*quota)), 1);
+}
+
 int threads_of(int threads) {
-    return threads > 0 ? threads : tbb::info::default_concurrency();
+    return threads > 0 ? threads : default_threads();
 }
 
 template <typename Body>

@@ -11,7 +11,7 @@ namespace obscura {
 /// the process are not affected. The latest one of a thread counts.
 class ThreadArena {
 public:
-    /// threads: 1 or more; 0 takes every core that the process may use.
+    /// threads: 1 or more; 0 takes every core that the process may use, by affinity and cpu_quota.
     explicit ThreadArena(int threads);
     ~ThreadArena();
     ThreadArena(const ThreadArena&) = delete;
