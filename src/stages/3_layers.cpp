@@ -132,9 +132,10 @@ OBSCURA_INLINE void read_thin_film(const LayerReader& layers, LayeredParams<Lane
 OBSCURA_INLINE void read_anisotropy(const LayerReader& layers,
                                     LayerContext& at,
                                     LayeredParams<Lanes>& p) {
-    const Mask stretched = at.tangents.known;
     Lanes strength = layers.number<&MaterialLayers::anisotropy>();
-    if (none(stretched & (strength > Lanes(0.0f)))) return;
+    // Round highlights keep their frames beside stretched ones: the same bits in any tile.
+    const Mask stretched = at.tangents.known & (strength > Lanes(0.0f));
+    if (none(stretched)) return;
     Vec2<Lanes> along{Lanes(1.0f), Lanes(0.0f)};
     const FoundSlot slot = layers.find<&MaterialLayers::anisotropy_texture>();
     if (any(slot.used)) {
