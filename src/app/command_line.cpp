@@ -81,9 +81,9 @@ tl::unexpected<Error> worded(const CLI::App& app,
         return usage(
             "command-line",
             got +
-                "; expected `obscura render SCENE`, `obscura denoise IN.exr`, `obscura info "
-                "SCENE`, `obscura bench`, `obscura crosscheck` or `obscura explain-pixel "
-                "SCENE X,Y`, see `obscura --help`");
+                "; expected `obscura render SCENE`, `obscura merge PART...`, `obscura denoise "
+                "IN.exr`, `obscura info SCENE`, `obscura bench`, `obscura crosscheck` or `obscura "
+                "explain-pixel SCENE X,Y`, see `obscura --help`");
     }
     const std::string name = chosen.front()->get_name();
     const std::string hint = "; `obscura " + name + " --help` lists what is accepted";

@@ -9,6 +9,7 @@
 #include "app/denoise_options.h"
 #include "app/explain_pixel_options.h"
 #include "app/info_options.h"
+#include "app/merge_command.h"
 #include "app/outcome.h"
 #include "app/print_docs.h"
 #include "app/render_options.h"
@@ -26,6 +27,7 @@ constexpr const char* notes = R"(
 Examples:
   obscura render helmet.glb --env sky.hdr -o helmet.exr -o helmet.png
   obscura denoise helmet.exr -o clean.exr
+  obscura merge helmet.exr.*-of-4.film
   obscura info helmet.glb --json
   obscura bench helmet.glb --json helmet.json
   obscura crosscheck helmet.glb --rays 10M
@@ -37,6 +39,7 @@ Examples:
 struct Arguments {
     RenderArguments render;
     DenoiseArguments denoise;
+    MergeArguments merge;
     InfoArguments info;
     BenchArguments bench;
     CrosscheckArguments crosscheck;
@@ -56,6 +59,7 @@ Program describe(Arguments& arguments) {
                       bench::compiler_name();
     program.commands = {render_command(arguments.render),
                         denoise_command(arguments.denoise),
+                        merge_command(arguments.merge),
                         info_command(arguments.info),
                         bench_command(arguments.bench),
                         crosscheck_command(arguments.crosscheck),

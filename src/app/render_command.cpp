@@ -12,6 +12,7 @@
 #include "session/asset_renderer.h"
 #include "session/dark_image.h"
 #include "session/focus.h"
+#include "session/image_parts.h"
 #include "session/lighting.h"
 #include "session/outputs.h"
 #include "session/repeated_log.h"
@@ -32,6 +33,8 @@ namespace {
 struct Job {
     Log& log;               ///< the command's; frames may have their own
     RenderRequest request;  ///< its outputs, frame and what its camera keeps change by frame
+    NamedTexts options;     ///< as they were given, for --part
+    const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     std::optional<DisplayTransform> display = {};
     std::optional<AssetRenderer> renderer = {};
     LightingOptions lighting = {};
@@ -57,6 +60,46 @@ PoseTimes times_of(const RenderRequest& request, const MovieFrame& frame, bool i
     return times;
 }
 
+/// The facts that a picture's pixels depend on.
+NamedTexts facts_of(Job& job) {
+    const RenderStatistics& statistics = job.renderer->statistics();
+    return facts_of(job.request, statistics.isa, statistics.embree);
+}
+
+/// --part of a picture: renders it and writes its file.
+Result<void> render_part(Job& job, const ChosenCamera& camera, RenderHooks hooks) {
+    const RenderRequest& request = job.request;
+    const FilmShare share{request.part};
+    hooks.share = &share;
+    const Result<RenderedFilm> film = job.renderer->render_film(request, camera, hooks);
+    if (!film) return fail(film.error());
+    FilmStateHead head;
+    head.part = *request.part;
+    head.options = job.options;
+    head.facts = facts_of(job);
+    head.counters = counters_in_file(film->result.counters);
+    return write_film_state(
+        part_file(request.outputs.front(), *request.part), std::move(head), film->result.film);
+}
+
+/// Renders the image, or takes its pixels from parts.
+Result<FinishedImage> make_image(Job& job, const ChosenCamera& camera, RenderHooks hooks) {
+    const RenderRequest& request = job.request;
+    if (job.parts == nullptr) return job.renderer->render(request, camera, hooks, job.log);
+    if (auto same = job.parts->check_facts(facts_of(job)); !same) return fail(same.error());
+    const FilmShare share{{}, [&](Film& film) { return job.parts->fill(film); }};
+    hooks.share = &share;
+    Result<RenderedFilm> film = job.renderer->render_film(request, camera, hooks);
+    if (!film) return fail(film.error());
+    film->result.counters = job.parts->counters();
+    add_counters(job.parts->counters(), job.renderer->statistics().counters);
+    return job.renderer->finish(request, camera, std::move(*film), job.log);
+}
+
+bool is_part_of_image(const RenderRequest& request) {
+    return request.part && request.part_by == PartBy::tiles;
+}
+
 /// Renders, then writes the files; a signal stops it between two tiles or two files.
 Result<void> render_and_write(
     Job& job, const ChosenCamera& camera, const Turn& turn, Log& log, Progress& progress) {
@@ -72,7 +115,8 @@ Result<void> render_and_write(
         progress.update((static_cast<double>(turn.index) + tile.done) /
                         static_cast<double>(turn.count));
     };
-    Result<FinishedImage> finished = job.renderer->render(request, camera, hooks, job.log);
+    if (is_part_of_image(request)) return render_part(job, camera, hooks);
+    Result<FinishedImage> finished = make_image(job, camera, hooks);
     if (!finished) return fail(finished.error());
     const double camera_ev = camera.ev100 ? std::log2(exposure_scale(*camera.ev100)) : 0;
     const double exposure_ev = request.display.exposure_ev + camera_ev;
@@ -122,7 +166,7 @@ Result<void> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log)
     if (job.request.segmentation) {
         if (auto fits = check_segmentation(job.renderer->scene()); !fits) return fits;
     }
-    if (turn.count > 1 && turn.index == 0) {
+    if (job.request.frames && job.request.frames->numbers.size() > 1 && turn.index == 0) {
         const Scene& scene = job.renderer->scene();
         const RenderOptions& options = job.request.options;
         CameraRequest& camera = job.request.camera;
@@ -133,9 +177,28 @@ Result<void> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log)
     return {};
 }
 
+/// Whether --part-by frames leaves the frame with this index to another part.
+bool is_of_another_part(const RenderRequest& request, size_t index) {
+    if (!request.part || request.part_by != PartBy::frames) return false;
+    return index % static_cast<size_t>(request.part->count) !=
+           static_cast<size_t>(request.part->index);
+}
+
+/// The images to render. All parts of a sequence keep the view of its first frame, so that this is
+/// posed though another part renders it.
+std::vector<MovieFrame> frames_to_pose(const RenderRequest& request) {
+    std::vector<MovieFrame> all = frames_of(request);
+    std::vector<MovieFrame> out = {all.front()};
+    for (size_t i = 1; i < all.size(); ++i) {
+        if (!is_of_another_part(request, i)) out.push_back(std::move(all[i]));
+    }
+    return out;
+}
+
 /// Renders the images in turn.
 Result<void> render_all(Job& job, Progress& progress) {
-    const std::vector<MovieFrame> frames = frames_of(job.request);
+    const std::vector<MovieFrame> frames = frames_to_pose(job.request);
+    const bool skips_first = is_of_another_part(job.request, 0);
     if (const Result<void> loaded = load(job); !loaded) return loaded;
     RenderStatistics& statistics = job.renderer->statistics();
     RepeatedLog later(job.log, SettingNames::options);
@@ -147,14 +210,17 @@ Result<void> render_all(Job& job, Progress& progress) {
         job.request.segmentation = frames[i].segmentation;
         job.request.frame = frames[i].number;
         if (auto posed = pose(job, frames[i], turn, log); !posed) return posed;
+        if (i == 0 && skips_first) continue;
         const Result<ChosenCamera> camera = job.renderer->prepare(job.request, job.lighting, log);
         if (!camera) return fail(camera.error());
         const Result<void> done = render_and_write(job, *camera, turn, log, progress);
         if (!done) return done;
         if (!frames[i].number) continue;
         statistics.frames.push_back(frame_statistics(frames[i], before, statistics));
-        job.log.info(
-            fmt::format("frame {} is written, {} of {}", *frames[i].number, i + 1, frames.size()));
+        job.log.info(fmt::format("frame {} is written, {} of {}",
+                                 *frames[i].number,
+                                 statistics.frames.size(),
+                                 frames.size() - (skips_first ? 1 : 0)));
     }
     progress.finish();
     return {};
@@ -181,8 +247,11 @@ Result<void> check_all(Job& job) {
 
 void log_summary(const RenderRequest& request, const RenderStatistics& statistics, Log& log) {
     std::string names;
-    for (const std::filesystem::path& output : request.outputs) {
-        names += (names.empty() ? "" : ", ") + output.string();
+    if (is_part_of_image(request)) {
+        names = part_file(request.outputs.front(), *request.part).string();
+    } else {
+        for (const std::filesystem::path& output : request.outputs)
+            names += (names.empty() ? "" : ", ") + output.string();
     }
     if (request.standard_output)
         names += (names.empty() ? "" : ", ") + std::string(standard_output_name);
@@ -190,9 +259,8 @@ void log_summary(const RenderRequest& request, const RenderStatistics& statistic
     const auto millions = [&](uint64_t count) {
         return static_cast<double>(count) / seconds * 1e-6;
     };
-    const std::string what = request.frames
-                                 ? fmt::format("rendered {} frames", request.frames->numbers.size())
-                                 : "rendered";
+    const std::string what =
+        request.frames ? fmt::format("rendered {} frames", statistics.frames.size()) : "rendered";
     if (statistics.adaptive) {
         const SamplesTaken& taken = *statistics.adaptive;
         log.info(fmt::format("{} to {} samples a pixel, {:.1f} in the mean, to a noise of {:.4f}",
@@ -226,14 +294,21 @@ Result<void> check_counters(const RenderCounters& counters, const RenderRequest&
                             counters.paths));
 }
 
-Result<void> execute(const RenderRequest& request, Log& log) {
+Result<void> execute(const RenderRequest& request,
+                     const NamedTexts& options,
+                     const ImageParts* parts,
+                     Log& log) {
     const Stopwatch total;
     if (auto writable = check_outputs(request); !writable) return writable;
     warn_of_lost_alpha(request, log);
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);
-    Job job{.log = log, .request = request, .display = std::move(*display)};
+    Job job{.log = log,
+            .request = request,
+            .options = options,
+            .parts = parts,
+            .display = std::move(*display)};
     if (request.check) return check_all(job);
     Progress progress(request.verbosity, request.standard_output ? stderr : stdout);
     const Result<void> done = render_all(job, progress);
@@ -249,7 +324,7 @@ Result<void> execute(const RenderRequest& request, Log& log) {
 
 }  // namespace
 
-int run_render(const RenderArguments& arguments) {
+int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     TerminalLog log(verbosity_of(arguments));
     Result<RenderRequest> request = make_render_request(arguments);
     if (!request) return report_failure(request.error(), log);
@@ -257,7 +332,7 @@ int run_render(const RenderArguments& arguments) {
     if (!loaded) return report_failure(loaded.error(), log);
     const Result<void> colored = use_color_space(*request, log);
     if (!colored) return report_failure(colored.error(), log);
-    const Result<void> done = execute(*request, log);
+    const Result<void> done = execute(*request, options_for_merge(arguments), parts, log);
     if (done) return report_success(request->scene.string(), log);
     if (done.error().id == "E-STOPPED" && received_stop_signal() != 0) {
         return report_stop(received_stop_signal(), request->scene.string(), log);

@@ -9,6 +9,7 @@
 #include "app/lens_options.h"
 #include "app/noise_options.h"
 #include "app/option_readers.h"
+#include "app/part_options.h"
 #include "app/product_options.h"
 #include "app/render_command.h"
 #include "camera/names.h"
@@ -52,7 +53,7 @@ Examples:
 Exit codes: 0 done, 33 out of memory, 64 usage, 65 bad scene data, 66 scene missing,
 67 referenced file missing or corrupt, 69 unsupported, 70 internal error, 73 output
 cannot be created, 74 I/O error, 76 too many non-finite samples, 77 refused by a limit
-or a policy, 78 colour configuration, 128+N stopped by signal N.
+or a policy, 78 colour configuration or parts that do not fit, 128+N stopped by signal N.
 Names that begin with a dash: obscura render -o ./-out.exr -- -scene.glb)";
 
 constexpr std::array<Choice<PixelFilter>, 3> filters = {
@@ -395,6 +396,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                                color_group(),
                                                                {"Display (all but EXR)", display},
                                                                {"Faulty scenes", faults},
+                                                               part_of_work_group(),
                                                                {"Program", program}};
         groups.insert(groups.end(), rest);
         return groups;
@@ -405,7 +407,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
 Command render_command(RenderArguments& arguments) {
     Command command{"render", "Render a scene to EXR, PNG, JPEG, TIFF, WebP or AVIF", notes};
     command.options = bind_all(std::span(render_option_groups()), arguments);
-    command.run = [&arguments] { return run_render(arguments); };
+    command.run = [&arguments] { return run_render(arguments, nullptr); };
     return command;
 }
 

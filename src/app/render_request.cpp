@@ -184,7 +184,8 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     request.load.keeps_uv = wants_uv(request.options);
     request.verbosity = verbosity_of(arguments);
     if (auto done = complete_page(arguments, request); !done) return done;
-    return complete_time(arguments, request);
+    if (auto done = complete_time(arguments, request); !done) return done;
+    return complete_part(arguments.part, request);
 }
 
 /// No output may overwrite an input or another output.

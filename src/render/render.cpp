@@ -263,12 +263,25 @@ Film make_film(const RenderOptions& options) {
     return film;
 }
 
+/// The tiles that are rendered.
+std::vector<Tile> tiles_of(const RenderOptions& options) {
+    const PixelRect whole = options.crop.value_or(PixelRect{0, 0, options.width, options.height});
+    if (options.share == nullptr) return cut_tiles(whole, tile_side(options));
+    std::vector<Tile> out;
+    if (!options.share->part) return out;
+    for (const RowRange& rows : rows_of_part(whole.height, *options.share->part)) {
+        const PixelRect band{whole.x, whole.y + rows.first, whole.width, rows.count};
+        const std::vector<Tile> tiles = cut_tiles(band, tile_side(options));
+        out.insert(out.end(), tiles.begin(), tiles.end());
+    }
+    return out;
+}
+
 /// Renders tile after tile, each with all of its samples.
 void render_tiles(const FilmWork& work) {
     const RenderOptions& options = work.options;
     const TileWork& tile_work = work.tile_work;
-    const PixelRect whole{0, 0, options.width, options.height};
-    const std::vector<Tile> tiles = cut_tiles(options.crop.value_or(whole), tile_side(options));
+    const std::vector<Tile> tiles = tiles_of(options);
     const bool aov = is_aov(options.integrator);
     const SampleRange samples{0, samples_taken(options)};
     std::atomic<size_t> finished = 0;
@@ -307,6 +320,9 @@ Result<RenderResult> render(const PreparedScene& scene,
     result.film = make_film(options);
     const Result<LayerPlans> plans = plan_layers(scene.impl(), options, result.film);
     if (!plans) return fail(plans.error());
+    if (options.share != nullptr && options.share->fill) {
+        if (auto filled = options.share->fill(result.film); !filled) return fail(filled.error());
+    }
     const LayerPlan& layers = plans->layers;
     const LightPathTable light_paths = plans->light ? plans->light->table() : LightPathTable{};
 

@@ -8,6 +8,7 @@
 #include "base/unset_array.h"
 #include "camera/camera.h"
 #include "film/film.h"
+#include "film/film_state.h"
 #include "film/light_groups.h"
 #include "image/pixels.h"
 #include "scene/scene.h"
@@ -77,6 +78,12 @@ struct AdaptiveOptions {
 /// RenderOptions::samples_per_pixel with adaptive sampling where nobody says how many.
 inline constexpr int default_max_samples = 4096;
 
+/// Which rows of a film are rendered, and where the others come from.
+struct FilmShare {
+    std::optional<FilmPart> part;                  ///< none: no row is rendered
+    std::function<Result<void>(Film&)> fill = {};  ///< called before rendering
+};
+
 struct RenderOptions {
     int width = 1280;
     int height = 720;
@@ -115,6 +122,8 @@ struct RenderOptions {
     bool regularize = false;  ///< smooth surfaces are rougher to light that goes on to rough ones
     /// For tests of the estimator: which strategies sample light. 3 is both, with MIS.
     int strategies = 3;  ///< bit 0 light sampling, bit 1 BSDF sampling
+    /// Null: all rows are rendered. Not with adaptive sampling, which looks at all of the film.
+    const FilmShare* share = nullptr;
     /// Memory of an earlier film, to reuse; null or empty: new memory.
     UnsetArray<float>* film_memory = nullptr;
     /// Filled with every traced ray, about 32 bytes each; null: no recording.

@@ -164,8 +164,17 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
                                             const ChosenCamera& camera,
                                             const RenderHooks& hooks,
                                             const Log& log) {
+    Result<RenderedFilm> film = render_film(request, camera, hooks);
+    if (!film) return fail(film.error());
+    return finish(request, camera, std::move(*film), log);
+}
+
+Result<RenderedFilm> AssetRenderer::render_film(const RenderRequest& request,
+                                                const ChosenCamera& camera,
+                                                const RenderHooks& hooks) {
     Result<RenderOptions> options = options_of_image(request, camera);
     if (!options) return fail(options.error());
+    options->share = hooks.share;
     const std::atomic<bool> never = false;
     Result<RenderResult> result = obscura::render(*prepared_,
                                                   camera.camera,
@@ -176,20 +185,29 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
     statistics_.render_s += result->render_seconds;
     add_counters(result->counters, statistics_.counters);
     if (result->adaptive) add_samples(*result->adaptive, statistics_.adaptive);
-    Film& film = result->film;
+    const Film& film = result->film;
     statistics_.film_bytes = film.pixels.size() * sizeof(float) + layer_bytes(film.layers);
+    return RenderedFilm{std::move(*options), std::move(*result)};
+}
 
+FinishedImage AssetRenderer::finish(const RenderRequest& request,
+                                    const ChosenCamera& camera,
+                                    RenderedFilm&& rendered,
+                                    const Log& log) {
+    const RenderOptions& options = rendered.options;
+    RenderResult& result = rendered.result;
+    Film& film = result.film;
     FinishedImage finished;
     finished.metadata = make_metadata(request, *prepared_, camera, log);
-    if (result->adaptive) {
-        add_samples_taken(*options->adaptive, *result->adaptive, finished.metadata);
+    if (result.adaptive) {
+        add_samples_taken(*options.adaptive, *result.adaptive, finished.metadata);
     }
-    finished.render_seconds = result->render_seconds;
+    finished.render_seconds = result.render_seconds;
     if (request.load.lenient) {
         finished.metadata.extra.push_back({"obscura:degraded", degraded_text(degraded_)});
     }
     if (request.denoise) {
-        const std::string done = denoise_film(*options, request.options, film);
+        const std::string done = denoise_film(options, request.options, film);
         finished.metadata.extra.push_back({"obscura:denoise", done});
     }
     if (request.segmentation) {
@@ -200,7 +218,7 @@ Result<FinishedImage> AssetRenderer::render(const RenderRequest& request,
         manifest = request.crypto_manifest->filename().string();
         finished.crypto_manifest = cryptomatte_document(film.layers);
     }
-    finished.counters = result->counters;
+    finished.counters = result.counters;
     finished.image = {
         film.width, film.height, std::move(film.channels), std::move(film.pixels), film.part_of};
     finished.image.layers = image_layers(std::move(film.layers), manifest);

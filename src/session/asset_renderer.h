@@ -24,6 +24,13 @@ struct PoseTimes {
 struct RenderHooks {
     ProgressFunction progress;
     const std::atomic<bool>* stop = nullptr;  ///< null: nobody stops it
+    const FilmShare* share = nullptr;         ///< null: all rows are rendered
+};
+
+/// A film as it is before denoising, with the options that it was rendered with.
+struct RenderedFilm {
+    RenderOptions options;
+    RenderResult result;
 };
 
 /// Makes images of an asset, one after the other; each reuses what the previous one built. Used by
@@ -80,6 +87,15 @@ public:
                                  const ChosenCamera& camera,
                                  const RenderHooks& hooks,
                                  const Log& log);
+
+    /// The two halves of render(): the film, and what is made of a whole one.
+    Result<RenderedFilm> render_film(const RenderRequest& request,
+                                     const ChosenCamera& camera,
+                                     const RenderHooks& hooks);
+    FinishedImage finish(const RenderRequest& request,
+                         const ChosenCamera& camera,
+                         RenderedFilm&& rendered,
+                         const Log& log);
 
     /// Memory of an image that is no longer needed, for the next one.
     void recycle(OutputImage&& image) { film_memory_ = std::move(image.pixels); }

@@ -26,6 +26,9 @@ struct Overscan {
     bool is_fraction = false;  ///< of the image's width and height; else pixels
 };
 
+/// How work is divided into parts; automatic: a sequence by frames, a picture by tiles.
+enum class PartBy { automatic, tiles, frames };
+
 struct RenderRequest {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> outputs;
@@ -61,6 +64,8 @@ struct RenderRequest {
     std::optional<std::filesystem::path> crypto_manifest;
     std::optional<std::filesystem::path> statistics;
     Verbosity verbosity = Verbosity::normal;
+    std::optional<FilmPart> part;  ///< --part: only this share is rendered
+    PartBy part_by = PartBy::automatic;
     bool check = false;  ///< --check: nothing is built, rendered or written
 };
 

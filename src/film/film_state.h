@@ -1,0 +1,65 @@
+// film/film_state.h - finished rows of a film in a file, with what their pixels depend on.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "film/film.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace obscura {
+
+/// One of several equal shares of a film.
+struct FilmPart {
+    int index = 0;  ///< from 0
+    int count = 1;
+};
+
+struct RowRange {
+    int first = 0, count = 0;
+};
+
+/// The rows of a part: bands, dealt out in turn, so that parts take about as long. Of many parts
+/// bands are thin, so that each part still has several. A part has no rows when there are more
+/// parts than rows.
+std::vector<RowRange> rows_of_part(int height, const FilmPart& part);
+
+/// Names with texts, in the order of the command line; a name may come twice.
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
+/// What a file holds beside pixels.
+struct FilmStateHead {
+    FilmPart part;
+    NamedTexts options;  ///< of the command, as they were given
+    NamedTexts facts;    ///< program, instruction set, checksums of files
+    std::array<uint64_t, 6> counters = {};
+    int width = 0, height = 0;
+    NamedTexts images;  ///< the beauty's and each layer's name, with its channels
+};
+
+/// A film's beauty and layers as FilmStateHead::images names them.
+NamedTexts images_of(const Film& film);
+
+/// Writes the rows of head.part, whole or not at all: magic, size and checksum of what follows,
+/// then the head, then float32 pixels, image by image, row by row. All numbers are little-endian.
+///
+/// In      head: its size and images are set from the film
+/// Errors  those of write_file_atomically
+Result<void> write_film_state(const std::filesystem::path& file,
+                              FilmStateHead head,
+                              const Film& film);
+
+/// Reads a file and checks all of it.
+///
+/// In      film: null: the head is wanted alone; else as large, and with the images, that the head
+///         names; its rows are filled
+/// Errors  74 E-PART-DAMAGED the file cannot be read, is cut off, or its checksum does not fit;
+///         78 E-PART-MIX it is of another version, or of another film
+Result<FilmStateHead> read_film_state(const std::filesystem::path& file, Film* film);
+
+}  // namespace obscura

@@ -1,0 +1,197 @@
+// session/image_parts.cpp - parts of one picture in files, and the picture made of all of them.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/image_parts.h"
+
+#include "base/checksum.h"
+#include "base/file_bytes.h"
+#include "gltf/asset_files.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fmt/format.h>
+
+namespace obscura {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void add_file(const std::string& name, const fs::path& file, NamedTexts& facts) {
+    const FileBytes read = read_file_bytes(file, {});
+    if (read.fault == FileFault::none)
+        facts.emplace_back(name, fmt::format("{:016x}", checksum(read.bytes)));
+}
+
+tl::unexpected<Error> refuse_parts(const char* id,
+                                   const std::string& where,
+                                   const std::string& message) {
+    return fail(ExitCode::configuration, id, where, message);
+}
+
+/// All texts of a name, in order.
+std::string texts_of(const NamedTexts& all, const std::string& name) {
+    std::string out;
+    for (const auto& [key, text] : all) {
+        if (key == name) out += (out.empty() ? "" : ", ") + (text.empty() ? "on" : text);
+    }
+    return out.empty() ? "nothing" : out;
+}
+
+/// What differs between two lists: "--spp: 16 and 64; ..."; "": nothing does.
+std::string differences(const NamedTexts& a, const NamedTexts& b) {
+    if (a == b) return "";
+    std::string out;
+    std::vector<std::string> told;
+    for (const NamedTexts* list : {&a, &b}) {
+        for (const auto& [name, text] : *list) {
+            if (std::find(told.begin(), told.end(), name) != told.end()) continue;
+            told.push_back(name);
+            const std::string of_a = texts_of(a, name);
+            const std::string of_b = texts_of(b, name);
+            if (of_a == of_b) continue;
+            out += fmt::format("{}{}: {} and {}", out.empty() ? "" : "; ", name, of_a, of_b);
+        }
+    }
+    return out.empty() ? "the order of options" : out;
+}
+
+/// A list without the names of outputs, which no pixel depends on.
+NamedTexts without_outputs(const NamedTexts& options) {
+    NamedTexts out;
+    for (const auto& option : options) {
+        if (option.first != "--output") out.push_back(option);
+    }
+    return out;
+}
+
+/// 78 E-PART-MIX when two parts are of different pictures.
+Result<void> check_alike(const fs::path& file, const FilmStateHead& one, const FilmStateHead& two) {
+    std::string differs = differences(without_outputs(one.options), without_outputs(two.options));
+    if (differs.empty()) differs = differences(one.facts, two.facts);
+    if (differs.empty()) differs = differences(one.images, two.images);
+    if (differs.empty() && (one.width != two.width || one.height != two.height))
+        differs = "the picture's size";
+    if (differs.empty() && one.part.count != two.part.count)
+        differs = fmt::format("--part: of {} and of {}", one.part.count, two.part.count);
+    if (differs.empty()) return {};
+    return refuse_parts(
+        "E-PART-MIX",
+        file.string(),
+        "it is not of the same picture as the parts before it; these differ: " + differs);
+}
+
+/// 78 E-PART-SET unless every part is there once.
+Result<void> check_complete(const std::vector<fs::path>& files,
+                            const std::vector<FilmPart>& parts) {
+    const int count = parts.front().count;
+    std::string faults;
+    for (int index = 0; index < count; ++index) {
+        std::string names;
+        for (size_t i = 0; i < parts.size(); ++i) {
+            if (parts[i].index == index) names += (names.empty() ? "" : ", ") + files[i].string();
+        }
+        const auto times = std::count_if(
+            parts.begin(), parts.end(), [&](const FilmPart& part) { return part.index == index; });
+        if (times == 1) continue;
+        faults += fmt::format("{}part {} of {} is {}",
+                              faults.empty() ? "" : "; ",
+                              index + 1,
+                              count,
+                              times == 0 ? "missing" : "there more than once: " + names);
+    }
+    if (faults.empty()) return {};
+    return refuse_parts("E-PART-SET", files.front().string(), faults + "; expected each part once");
+}
+
+}  // namespace
+
+fs::path part_file(const fs::path& output, const FilmPart& part) {
+    fs::path out = output;
+    out += fmt::format(".{}-of-{}.film", part.index + 1, part.count);
+    return out;
+}
+
+NamedTexts facts_of(const RenderRequest& request,
+                    const std::string& isa,
+                    const std::string& embree) {
+    NamedTexts facts = {{"the program's version", OBSCURA_VERSION},
+                        {"Embree's version", embree},
+                        {"the instruction set", isa}};
+    for (const fs::path& file : gltf::files_of_asset(request.scene))
+        add_file("the file " + file.filename().string(), file, facts);
+    if (request.environment) add_file("the environment's file", *request.environment, facts);
+    if (request.camera_json) add_file("the camera's file", *request.camera_json, facts);
+    if (request.camera.settings.aperture_file)
+        add_file("the aperture's file", *request.camera.settings.aperture_file, facts);
+    const char* const ocio = std::getenv("OCIO");
+    if (!request.display.ocio_file.empty()) {
+        add_file("the OpenColorIO config", request.display.ocio_file, facts);
+    } else if (ocio != nullptr) {
+        add_file("the OpenColorIO config", ocio, facts);
+    }
+    return facts;
+}
+
+std::array<uint64_t, 6> counters_in_file(const RenderCounters& counters) {
+    return {counters.paths,
+            counters.camera_rays,
+            counters.bounce_rays,
+            counters.shadow_rays,
+            counters.refused_rays,
+            counters.nonfinite_samples};
+}
+
+RenderCounters counters_from_file(const std::array<uint64_t, 6>& counters) {
+    RenderCounters out;
+    out.paths = counters[0];
+    out.camera_rays = counters[1];
+    out.bounce_rays = counters[2];
+    out.shadow_rays = counters[3];
+    out.refused_rays = counters[4];
+    out.nonfinite_samples = counters[5];
+    return out;
+}
+
+Result<ImageParts> ImageParts::open(const std::vector<fs::path>& files) {
+    ImageParts out;
+    out.files_ = files;
+    std::optional<FilmStateHead> first;
+    std::vector<FilmPart> parts;
+    std::array<uint64_t, 6> sums = {};
+    for (const fs::path& file : files) {
+        Result<FilmStateHead> head = read_film_state(file, nullptr);
+        if (!head) return fail(head.error());
+        for (size_t i = 0; i < sums.size(); ++i)
+            sums[i] += head->counters[i];
+        parts.push_back(head->part);
+        if (!first) {
+            first = std::move(*head);
+        } else if (auto alike = check_alike(file, *first, *head); !alike) {
+            return fail(alike.error());
+        }
+    }
+    if (auto complete = check_complete(files, parts); !complete) return fail(complete.error());
+    out.options_ = std::move(first->options);
+    out.facts_ = std::move(first->facts);
+    out.counters_ = counters_from_file(sums);
+    return out;
+}
+
+Result<void> ImageParts::check_facts(const NamedTexts& facts) const {
+    const std::string differs = differences(facts_, facts);
+    if (differs.empty()) return {};
+    return refuse_parts(
+        "E-PART-MIX",
+        files_.front().string(),
+        "the parts were rendered from something else than what is here; these differ: " + differs);
+}
+
+Result<void> ImageParts::fill(Film& film) const {
+    for (const fs::path& file : files_) {
+        const Result<FilmStateHead> head = read_film_state(file, &film);
+        if (!head) return fail(head.error());
+    }
+    return {};
+}
+
+}  // namespace obscura

@@ -1,0 +1,61 @@
+// session/image_parts.h - parts of one picture in files, and the picture made of all of them.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "film/film_state.h"
+#include "render/render.h"
+#include "session/render_request.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// The file of a part, beside the picture: "shot.exr.2-of-7.film".
+std::filesystem::path part_file(const std::filesystem::path& output, const FilmPart& part);
+
+/// What the pixels depend on beside the options: the program's and Embree's versions, the
+/// instruction set, and the checksum of every file that is read. A file that cannot be read is
+/// missing among them; loading reports it.
+///
+/// In      isa, embree: of the prepared scene
+NamedTexts facts_of(const RenderRequest& request,
+                    const std::string& isa,
+                    const std::string& embree);
+
+/// Counters of a film state's head, and back.
+std::array<uint64_t, 6> counters_in_file(const RenderCounters& counters);
+RenderCounters counters_from_file(const std::array<uint64_t, 6>& counters);
+
+/// The parts of one picture, in any order.
+class ImageParts {
+public:
+    /// Reads the files once, to see that they belong together and are complete.
+    ///
+    /// Errors  those of read_film_state; 78 E-PART-MIX parts of different pictures, with what
+    ///         differs; 78 E-PART-SET parts that are missing or there twice
+    static Result<ImageParts> open(const std::vector<std::filesystem::path>& files);
+
+    /// The options of the command that rendered them.
+    const NamedTexts& options() const { return options_; }
+    /// Sums over all parts.
+    const RenderCounters& counters() const { return counters_; }
+
+    /// Whether they were rendered from what is there now.
+    ///
+    /// Errors  78 E-PART-MIX
+    Result<void> check_facts(const NamedTexts& facts) const;
+
+    /// Fills all pixels of a film.
+    ///
+    /// Errors  those of read_film_state
+    Result<void> fill(Film& film) const;
+
+private:
+    std::vector<std::filesystem::path> files_;
+    NamedTexts options_, facts_;
+    RenderCounters counters_;
+};
+
+}  // namespace obscura
