@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_command.h"
 
+#include "app/bench_standard.h"
 #include "app/outcome.h"
 #include "app/signals.h"
 #include "app/skipped_scenes.h"
@@ -203,6 +204,7 @@ Result<void> deliver(const BenchRequest& request,
 Result<void> execute(const BenchRequest& request, Log& log) {
     const Result<bench::OldReport> old = check_files(request);
     if (!old) return fail(old.error());
+    if (request.standard) return run_standard(request, *old, log);
     const ThreadLimit threads(request.threads.front());
     bench::BenchReport report;
     report.machine = bench::describe_machine();

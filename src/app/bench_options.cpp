@@ -25,6 +25,8 @@ Examples:
   obscura bench helmet.glb --env sky.hdr --json now.json --compare before.json
       says which figures have changed and which of that is noise
   obscura bench helmet.glb --threads 1,2,4,8 --isa all --plot scaling.svg
+  obscura bench --standard --json score.json
+      a score by docs/scores.md
   obscura bench helmet.glb --integrator normal
       camera rays only)";
 
@@ -38,6 +40,10 @@ constexpr Entry scenes[] = {
      text_at<&A::scenes>}};
 
 constexpr Entry measurement[] = {
+    {{.name = "--standard",
+      .help = "Measure three scenes that the program makes, and give a score to compare and to "
+              "publish; with --threads, --isa (one each), --json and --compare alone"},
+     text_at<&A::standard>, flag_at<&R::standard>},
     {{.name = "--view", .argument = "NAME",
       .help = "whole: the file's camera or all in view; close: at least 70 % of the frame covered; "
               "both",

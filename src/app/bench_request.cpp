@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <string_view>
 
 namespace obscura::app {
 
@@ -44,6 +45,27 @@ Result<void> check_sense(const BenchArguments& arguments, const BenchRequest& re
                         "--isa (all)");
     }
     return {};
+}
+
+/// What --standard measures is fixed.
+Result<void> check_standard(const Command& command, const BenchRequest& request) {
+    constexpr std::array<std::string_view, 8> allowed = {"--standard",
+                                                         "--threads",
+                                                         "--isa",
+                                                         "--json",
+                                                         "--compare",
+                                                         "--quiet",
+                                                         "--verbose",
+                                                         "--config"};
+    for (const BoundOption& option : command.options) {
+        const std::string name = long_name(option.info);
+        if (!is_given(option) || std::find(allowed.begin(), allowed.end(), name) != allowed.end())
+            continue;
+        return conflict(name, "what --standard measures is fixed; leave it out");
+    }
+    if (request.threads.size() == 1 && request.isas.size() == 1) return {};
+    return conflict(request.isas.size() == 1 ? "--threads" : "--isa",
+                    "a score of --standard is for one of them; give one");
 }
 
 /// One scene's request.
@@ -119,6 +141,11 @@ Result<BenchRequest> make_bench_request(const BenchArguments& arguments) {
     if (auto read = read_options(table, texts, request); !read) return fail(read.error());
     const Command command = bench_command(texts);
     if (auto fit = check_combinations(command.options); !fit) return fail(fit.error());
+    if (request.standard) {
+        if (auto sound = check_standard(command, request); !sound) return fail(sound.error());
+        request.verbosity = verbosity_of(arguments.render);
+        return request;
+    }
     if (auto sound = check_sense(arguments, request); !sound) return fail(sound.error());
     Result<std::vector<RenderRequest>> scenes =
         requests_for(arguments.scenes, arguments.assets, [&](const std::string& scene) {

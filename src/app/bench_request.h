@@ -18,10 +18,12 @@ struct BenchArguments {
     std::vector<std::string> scenes;
     RenderArguments render;
     std::optional<std::string> assets, json, compare, plot, view, repeat, threads, isa;
+    bool standard = false;
 };
 
 struct BenchRequest {
-    std::vector<RenderRequest> scenes;  ///< at least one; they differ in the scene alone
+    bool standard = false;              ///< --standard: its scenes, not those below
+    std::vector<RenderRequest> scenes;  ///< else at least one; they differ in the scene alone
     ViewChoice views = ViewChoice::both;
     int repeat = 5;
     std::vector<int> threads;  ///< at least one; the first gives the main figures

@@ -35,7 +35,7 @@ bool is_bytes(const Change& change) {
 }
 
 bool more_is_better(const Change& change) {
-    return change.name.ends_with("of_bare");
+    return change.name.ends_with("of_bare") || change.name.ends_with("per_s");
 }
 
 bool ranges_apart(const Spread& a, const Spread& b) {
@@ -118,6 +118,7 @@ Result<OldReport> read_old_report(const std::filesystem::path& file) {
         old.figures.push_back({figure.text("name"), value});
     });
     old.circumstances = root.text("circumstances");
+    old.standard = static_cast<int>(root.number("standard", 0));
     if (fault.error) return not_a_report(file, fault.error->message);
     return old;
 }

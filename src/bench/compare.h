@@ -13,7 +13,8 @@
 namespace obscura::bench {
 
 /// One measured number under a name that is the same in every run. Its suffix is its unit: "_s"
-/// seconds, "_bytes" bytes, "of_bare" a fraction of bare Embree's speed.
+/// seconds, "_bytes" bytes, "of_bare" a fraction of bare Embree's speed,
+/// "per_s" a number a second.
 struct Figure {
     std::string name;
     Spread value;
@@ -26,6 +27,7 @@ std::vector<Figure> comparable_figures(const BenchReport& report);
 struct OldReport {
     std::vector<Figure> figures;
     std::string circumstances;
+    int standard = 0;  ///< of `bench --standard`: its number; 0: another bench
 };
 
 /// Settings and machine as text: equal for reports measured alike.

@@ -3,6 +3,7 @@
 #include "bench/report_json.h"
 
 #include "base/json/json.h"
+#include "bench/machine_json.h"
 
 namespace obscura::bench {
 
@@ -28,18 +29,7 @@ void add_head(const BenchReport& report, Json& json) {
     const Machine& m = report.machine;
     json["version"] = m.version;
     json["circumstances"] = circumstances_of(report);
-    Json caches = Json::array();
-    for (const CpuCache& cache : m.caches)
-        caches.push_back({{"level", cache.level}, {"type", cache.type}, {"size", cache.size}});
-    json["machine"] = {{"cpu", m.cpu},
-                       {"cores", m.cores},
-                       {"clock_mhz", m.clock_mhz},
-                       {"caches", std::move(caches)},
-                       {"numa_nodes", m.numa_nodes},
-                       {"load", m.load},
-                       {"embree", m.embree},
-                       {"compiler", m.compiler},
-                       {"build_type", m.build_type}};
+    json["machine"] = machine_json(m);
     const BenchSettings& s = report.settings;
     json["settings"] = {{"width", s.width},
                         {"height", s.height},
@@ -171,18 +161,6 @@ Json scene_json(const SceneFigures& scene) {
     return out;
 }
 
-Json figures_json(const BenchReport& report) {
-    Json out = Json::array();
-    for (const Figure& figure : comparable_figures(report)) {
-        out.push_back({{"name", figure.name},
-                       {"median", figure.value.median},
-                       {"low", figure.value.low},
-                       {"high", figure.value.high},
-                       {"count", figure.value.count}});
-    }
-    return out;
-}
-
 }  // namespace
 
 std::string bench_json(const BenchReport& report, const std::vector<Change>& changes) {
@@ -191,14 +169,8 @@ std::string bench_json(const BenchReport& report, const std::vector<Change>& cha
     Json& scenes = json["scenes"] = Json::array();
     for (const SceneFigures& scene : report.scenes)
         scenes.push_back(scene_json(scene));
-    json["figures"] = figures_json(report);
-    Json& verdicts = json["changes"] = Json::array();
-    for (const Change& change : changes) {
-        verdicts.push_back({{"name", change.name},
-                            {"verdict", verdict(change)},
-                            {"old_median", change.before.median},
-                            {"new_median", change.after.median}});
-    }
+    json["figures"] = figures_json(comparable_figures(report));
+    json["changes"] = changes_json(changes);
     json["warnings"] = report.warnings;
     return json_document(json);
 }

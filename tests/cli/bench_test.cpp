@@ -167,5 +167,24 @@ TEST_F(Bench, SaysWhatIsMissing) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "no"));
 }
 
+/// What it measures is tested in tests/bench/standard_test.cpp; here, what it refuses.
+TEST_F(Bench, TheStandardIsFixed) {
+    const auto refused = [&](std::vector<std::string> more, const std::string& named) {
+        more.insert(more.begin(), {"bench", "--standard"});
+        const ProgramRun got = run(more);
+        expect_result(got, 64, "E-USAGE-CONFLICT");
+        EXPECT_THAT(got.err, HasSubstr("where=" + named));
+    };
+    refused({"--spp", "8"}, "--spp");
+    refused({"--repeat", "3"}, "--repeat");
+    refused({"box.gltf"}, "SCENE");
+    refused({"--threads", "1,2"}, "--threads");
+    refused({"--plot", "p.svg"}, "--plot");
+    folder_.write("old.json", R"({"figures": [], "circumstances": "other"})");
+    const ProgramRun got = run({"bench", "--standard", "--compare", "old.json"});
+    expect_result(got, 67, "E-BENCH-OLD");
+    EXPECT_THAT(got.err, HasSubstr("it is of no standard"));
+}
+
 }  // namespace
 }  // namespace obscura

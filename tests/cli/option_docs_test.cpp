@@ -79,6 +79,8 @@ TEST_F(OptionDocs, BashCompletesCommandsOptionsValuesAndFiles) {
     EXPECT_THAT(complete({"bench", "--isa", ""}), Contains("avx2"));
     EXPECT_EQ(complete({"render", "--env", "s"}), std::vector<std::string>{"sky.hdr"});
     EXPECT_EQ(complete({"info", "b"}), std::vector<std::string>{"box.gltf"});
+    folder_.write("box.exr", "");
+    EXPECT_EQ(complete({"denoise", "b"}), std::vector<std::string>{"box.exr"});
     EXPECT_THAT(complete({"render", "--spp", ""}), testing::ElementsAre("")) << "any number";
 }
 
