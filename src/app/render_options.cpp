@@ -226,8 +226,8 @@ constexpr Entry time[] = {
       .fallback = "the first with --time or --frames, else none"},
      text_at<&A::animation>, name_at<&R::load, &L::animation>},
     {{.name = "--frames", .argument = "FIRST-LAST[xSTEP][,...]",
-      .help = "Render a sequence, such as 1-48 or 1-10x2,15; the ### in the names of outputs become "
-              "each frame's number. Frame n is at n / fps seconds",
+      .help = "Render a sequence, such as 1-48 or 1-10x2,15; the ### in the names of outputs "
+              "become each frame's number. Frame n is at n / fps seconds",
       .excludes = {"--time"}},
      text_at<&A::frames>, parsed_at<parse_frames, &R::frames>},
     {{.name = "--fps", .argument = "X",
@@ -354,8 +354,8 @@ constexpr Entry program[] = {
       .help = "Look of a product, as `obscura info` lists them",
       .fallback = "the file's own materials"},
      text_at<&A::variant>},
-    {{.name = "--threads", .argument = "N", .help = "Threads; 0 is every core that the process may use",
-      .range = {0, 1024}},
+    {{.name = "--threads", .argument = "N",
+      .help = "Threads; 0 is every core that the process may use", .range = {0, 1024}},
      text_at<&A::threads>, number_at<&R::threads>},
     {{.name = "--isa", .argument = "NAME", .help = "Instruction set:"},
      text_at<&A::isa>, choice_at<instruction_sets, &R::isa>},

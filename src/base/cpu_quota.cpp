@@ -36,7 +36,7 @@ std::optional<double> quota_of(const Path& group) {
 
 /// The least quota of a group and of those above it, down to the folder of a mount. A container may
 /// see its own group as the mount, and still be told the group's name outside.
-std::optional<double> least_quota(const Path& mount, const Path& group) {
+std::optional<double> min_quota(const Path& mount, const Path& group) {
     std::optional<double> least = quota_of(mount);
     Path at = mount;
     for (const Path& name : group.relative_path()) {
@@ -58,7 +58,7 @@ std::optional<double> cpu_quota(const Path& root) {
     const Path mounts = root / "sys/fs/cgroup";
     std::optional<double> least;
     const auto consider = [&](const Path& mount, const Path& group) {
-        const std::optional<double> found = least_quota(mount, group);
+        const std::optional<double> found = min_quota(mount, group);
         if (found) least = std::min(*found, least.value_or(*found));
     };
     std::ifstream groups(root / "proc/self/cgroup");
