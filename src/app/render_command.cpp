@@ -79,7 +79,7 @@ Result<void> render_part(Job& job, const ChosenCamera& camera, RenderHooks hooks
     head.facts = facts_of(job);
     head.counters = counters_in_file(film->result.counters);
     return write_film_state(
-        part_file(request.outputs.front(), *request.part), std::move(head), film->result.film);
+        part_file(request.outputs.front(), *request.part), head, film->result.film);
 }
 
 /// Renders the image, or takes its pixels from parts.

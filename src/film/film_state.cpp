@@ -155,7 +155,7 @@ NamedTexts images_of(const Film& film) {
 }
 
 Result<void> write_film_state(const std::filesystem::path& file,
-                              FilmStateHead head,
+                              const FilmStateHead& head,
                               const Film& film) {
     Bytes out(head_at);
     put_number(out, static_cast<uint64_t>(head.part.index));

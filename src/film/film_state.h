@@ -48,10 +48,10 @@ NamedTexts images_of(const Film& film);
 /// Writes the rows of head.part, whole or not at all: magic, size and checksum of what follows,
 /// then the head, then float32 pixels, image by image, row by row. All numbers are little-endian.
 ///
-/// In      head: its size and images are set from the film
+/// In      head: the size and the images that are written are the film's
 /// Errors  those of write_file_atomically
 Result<void> write_film_state(const std::filesystem::path& file,
-                              FilmStateHead head,
+                              const FilmStateHead& head,
                               const Film& film);
 
 /// Reads a file and checks all of it.

@@ -156,8 +156,14 @@ private:
     static size_t value_bytes(Imf::PixelType type) {
         return type == Imf::HALF ? sizeof(half) : sizeof(float);  // whole numbers have four, too
     }
-    size_t width() const { return static_cast<size_t>(window_.max.x - window_.min.x + 1); }
-    size_t height() const { return static_cast<size_t>(window_.max.y - window_.min.y + 1); }
+    size_t width() const {
+        const int width = window_.max.x - window_.min.x + 1;
+        return static_cast<size_t>(width);
+    }
+    size_t height() const {
+        const int height = window_.max.y - window_.min.y + 1;
+        return static_cast<size_t>(height);
+    }
 
     const Imf::ChannelList& channels_;
     Imath::Box2i window_;
@@ -176,7 +182,8 @@ uint64_t rewrite_lines(const Files& files, int index, const PlannedPart& part) {
     Imf::OutputPart out(files.out, index);
     const Imath::Box2i whole = part.header.dataWindow();
     const int height = whole.max.y - whole.min.y + 1;
-    const auto width = static_cast<size_t>(whole.max.x - whole.min.x + 1);
+    const int columns = whole.max.x - whole.min.x + 1;
+    const auto width = static_cast<size_t>(columns);
     // Enough blocks of each codec for all threads; lines that begin below are written in one go.
     constexpr int many_rows = 4096;
     const int step = part.header.lineOrder() == Imf::INCREASING_Y ? many_rows : height;
