@@ -145,17 +145,17 @@ NamedTexts options_for_merge(const RenderArguments& arguments) {
 
 Result<void> replay_options(const NamedTexts& options, RenderArguments& arguments) {
     const std::vector<BoundOption> table = bind_all(std::span(render_option_groups()), arguments);
-    for (const auto& [name, text] : options) {
+    for (const auto& given : options) {
         const auto option = std::find_if(table.begin(), table.end(), [&](const BoundOption& one) {
-            return long_name(one.info) == name;
+            return long_name(one.info) == given.first;
         });
         if (option == table.end()) {
             return fail(ExitCode::configuration,
                         "E-PART-MIX",
-                        name,
+                        given.first,
                         "the parts were rendered with an option that this program has not");
         }
-        set(option->target, text);
+        set(option->target, given.second);
     }
     return {};
 }
