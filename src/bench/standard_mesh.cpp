@@ -74,8 +74,9 @@ int32_t StandardMesh::add_texture(int side,
     uint32_t* const base = arena.texels.data() + start;
     const float step = 1.0f / static_cast<float>(side);
     for (int i = 0; i < side * side; ++i) {
+        const int row = i / side;
         base[i] = texel((static_cast<float>(i % side) + 0.5f) * step,
-                        (static_cast<float>(i / side) + 0.5f) * step);
+                        (static_cast<float>(row) + 0.5f) * step);
     }
     build_mip_chain(base, side, side, srgb);
     TextureRecord record;
@@ -223,8 +224,8 @@ Scene StandardMesh::take() {
         return Vec3f{p[0], p[1], p[2]};
     };
     const auto each_vertex = [&](const Primitive& primitive, const auto& use) {
-        const auto begin = static_cast<size_t>(3 * primitive.first_triangle);
-        const auto end = begin + static_cast<size_t>(3 * primitive.triangle_count);
+        const size_t begin = size_t{3} * static_cast<size_t>(primitive.first_triangle);
+        const size_t end = begin + size_t{3} * static_cast<size_t>(primitive.triangle_count);
         for (size_t i = begin; i < end; ++i)
             use(place(scene_.indices[i]));
     };
@@ -235,10 +236,10 @@ Scene StandardMesh::take() {
     for (const Instance& instance : scene_.instances) {
         const Mesh& mesh = scene_.meshes[static_cast<size_t>(instance.mesh)];
         for (int32_t i = 0; i < mesh.primitive_count; ++i) {
-            each_vertex(scene_.primitives[static_cast<size_t>(mesh.first_primitive + i)],
-                        [&](const Vec3f& p) {
-                            grow(scene_.bounds, transform_point(instance.world_from_object, p));
-                        });
+            const int32_t index = mesh.first_primitive + i;
+            each_vertex(scene_.primitives[static_cast<size_t>(index)], [&](const Vec3f& p) {
+                grow(scene_.bounds, transform_point(instance.world_from_object, p));
+            });
         }
     }
     pad_tables(scene_);

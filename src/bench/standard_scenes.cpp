@@ -238,8 +238,9 @@ Scene make_samples() {
     out.quad({-6, 0, 4}, {12, 0, 0}, {0, 0, -12}, floor);
     for (int i = 0; i < 15; ++i) {
         const auto x = static_cast<float>(i % 5 - 2);
-        const auto row = static_cast<float>(i / 5);
-        out.sphere({1.15f * x, 0.5f, 1.2f - 1.3f * row}, 0.5f, 48, sample_material(i, tiles, out));
+        const int row = i / 5;
+        const float z = 1.2f - 1.3f * static_cast<float>(row);
+        out.sphere({1.15f * x, 0.5f, z}, 0.5f, 48, sample_material(i, tiles, out));
     }
     return out.take();
 }
@@ -268,7 +269,8 @@ void add_lamps(StandardMesh& out) {
     const int32_t bulb = out.add(glowing(150));
     for (int i = 0; i < 96; ++i) {
         const auto x = static_cast<float>(i % 4) * 2 - 3.4f;
-        const auto z = static_cast<float>(i / 4) - 12;
+        const int row = i / 4;
+        const float z = static_cast<float>(row) - 12;
         out.quad({x, 3.98f, z}, {0.6f, 0, 0}, {0, 0, 0.4f}, panel);
     }
     for (int i = 0; i < 64; ++i) {
@@ -305,7 +307,8 @@ Scene make_hall() {
     out.quad({4, 0, 12}, {-8, 0, 0}, {0, 4, 0}, wall);
     for (int i = 0; i < 20; ++i) {
         const float x = i % 2 == 0 ? -2.4f : 2.4f;
-        const float z = 2.4f * static_cast<float>(i / 2) - 10.8f;
+        const int pair = i / 2;
+        const float z = 2.4f * static_cast<float>(pair) - 10.8f;
         out.surface(48, 32, column, [&](float u, float v) {
             const float radius = 0.28f + 0.03f * std::cos(12 * 2 * pi_f * u);
             const Vec3f way = {std::sin(2 * pi_f * u), 0, std::cos(2 * pi_f * u)};

@@ -38,8 +38,8 @@ ExrPartInfo info_of(const Imf::Header& header) {
     ExrPartInfo out;
     if (header.hasName()) out.name = header.name();
     if (header.hasView()) out.view = header.view();
-    const Imath::Box2i data = header.dataWindow();
-    const Imath::Box2i display = header.displayWindow();
+    const Imath::Box2i& data = header.dataWindow();
+    const Imath::Box2i& display = header.displayWindow();
     out.width = data.max.x - data.min.x + 1;
     out.height = data.max.y - data.min.y + 1;
     out.place = {display.max.x - display.min.x + 1,
