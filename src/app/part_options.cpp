@@ -16,8 +16,6 @@ using A = RenderArguments;
 using P = PartArguments;
 using R = RenderRequest;
 
-constexpr int64_t max_parts = 100000;
-
 constexpr std::array<Choice<PartBy>, 3> divisions = {
     {{"auto", PartBy::automatic}, {"tiles", PartBy::tiles}, {"frames", PartBy::frames}}};
 
@@ -105,9 +103,9 @@ Result<FilmPart> parse_part(const std::string& text, const std::string& option) 
                     option,
                     in_quotes(text) + " is no part; expected I/N such as 2/7, or auto");
     }
-    const Result<int64_t> index = parse_integer(text.substr(0, slash), option, 1, max_parts);
+    const Result<int64_t> index = parse_integer(text.substr(0, slash), option, 1, max_film_parts);
     if (!index) return fail(index.error());
-    const Result<int64_t> count = parse_integer(text.substr(slash + 1), option, 1, max_parts);
+    const Result<int64_t> count = parse_integer(text.substr(slash + 1), option, 1, max_film_parts);
     if (!count) return fail(count.error());
     return checked_part(*index - 1, *count, option);
 }

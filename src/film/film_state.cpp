@@ -194,7 +194,9 @@ Result<FilmStateHead> read_film_state(const std::filesystem::path& file, Film* f
     head.width = reader.integer();
     head.height = reader.integer();
     head.images = reader.texts();
-    if (!reader.good() || head.part.count < 1) return damaged(file, "its head is not well formed");
+    const FilmPart& part = head.part;
+    if (!reader.good() || part.index < 0 || part.index >= part.count || part.count > max_film_parts)
+        return damaged(file, "its head is not well formed");
     if (film == nullptr) return head;
     if (film->width != head.width || film->height != head.height ||
         images_of(*film) != head.images) {

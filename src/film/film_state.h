@@ -20,6 +20,8 @@ struct FilmPart {
     int count = 1;
 };
 
+inline constexpr int max_film_parts = 100000;
+
 struct RowRange {
     int first = 0, count = 0;
 };

@@ -92,6 +92,14 @@ TEST_F(FilmState, RefusesCutsAndFlippedBytes) {
     }
 }
 
+// Rows are filled by these numbers: whatever the checksum says, they must not lead out of the film.
+TEST_F(FilmState, RefusesPartsThatThereAreNot) {
+    EXPECT_EQ(id_of(written({5, 2})), "E-PART-DAMAGED");
+    EXPECT_EQ(id_of(written({2, 2})), "E-PART-DAMAGED");
+    EXPECT_EQ(id_of(written({0, max_film_parts + 1})), "E-PART-DAMAGED");
+    EXPECT_EQ(id_of(written({1, 2})), "");
+}
+
 TEST_F(FilmState, RefusesAnotherFilm) {
     written({0, 1});
     Film other = numbered_film(0);
