@@ -21,7 +21,7 @@ stop_slurm() {
 }
 trap stop_slurm EXIT
 
-# Daemons of their own: nothing of this machine's configuration is read or changed.
+# Daemons with a configuration of their own: none that is installed is read or changed.
 start_slurm() {
     local host
     host="$(hostname -s)"
