@@ -30,13 +30,6 @@ std::string one_word(const std::string& text) {
     return out.empty() ? "-" : out;
 }
 
-/// "ERROR where: message [E-ID]"; a summary of several errors has neither `where` nor id.
-std::string error_line(const Error& error) {
-    const std::string where = error.where.empty() ? "" : shown(error.where) + ": ";
-    const std::string id = error.id.empty() ? "" : " [" + error.id + "]";
-    return "ERROR " + where + shown(error.message) + id;
-}
-
 /// Whole lines in one call each, so that they do not mix with other threads' lines.
 void print_error_line(const std::string& line) {
     std::fflush(stdout);
@@ -53,6 +46,12 @@ void print_message(const LogMessage& message) {
 
 TerminalLog::TerminalLog(Verbosity verbosity)
     : Log(verbosity, print_message, SettingNames::options) {}
+
+std::string failure_text(const Error& error) {
+    const std::string where = error.where.empty() ? "" : shown(error.where) + ": ";
+    const std::string id = error.id.empty() ? "" : " [" + error.id + "]";
+    return where + shown(error.message) + id;
+}
 
 std::string result_line(int code,
                         const std::string& id,
@@ -71,9 +70,9 @@ Result<void> print_output(const std::string& text) {
 
 int report_failure(const Error& error, const Log& log) {
     const int code = static_cast<int>(error.code);
-    print_error_line(error_line(error));
+    print_error_line("ERROR " + failure_text(error));
     for (const Error& other : error.also)
-        print_error_line(error_line(other));
+        print_error_line("ERROR " + failure_text(other));
     print_error_line(result_line(code, error.id, error.where, log.warnings().size()));
     return code;
 }

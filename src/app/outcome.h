@@ -20,6 +20,9 @@ public:
 /// blanks and control characters are written as \xNN, an empty one as "-".
 std::string result_line(int code, const std::string& id, const std::string& where, size_t warnings);
 
+/// "where: message [id]"; a summary of several errors has neither `where` nor id.
+std::string failure_text(const Error& error);
+
 /// Writes a command's result to standard output. A closed pipe is no error: its reader has enough.
 ///
 /// Errors  74 E-OUT-WRITE such as a full disk

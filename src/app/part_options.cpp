@@ -19,6 +19,11 @@ using R = RenderRequest;
 constexpr std::array<Choice<PartBy>, 3> divisions = {
     {{"auto", PartBy::automatic}, {"tiles", PartBy::tiles}, {"frames", PartBy::frames}}};
 
+constexpr std::array<Choice<FarmManager>, 4> managers = {{{"none", FarmManager::none},
+                                                          {"deadline", FarmManager::deadline},
+                                                          {"alf", FarmManager::alfred},
+                                                          {"openjd", FarmManager::openjd}}};
+
 // clang-format off
 constexpr OptionEntry<A, R> entries[] = {
     {{.name = "--part", .argument = "I/N|auto",
@@ -29,7 +34,11 @@ constexpr OptionEntry<A, R> entries[] = {
      text_at<&A::part, &P::part>, parsed_at<parse_part, &R::part>},
     {{.name = "--part-by", .argument = "NAME", .help = "How parts are divided:",
       .fallback = "frames with --frames, else tiles", .needs = {"--part"}},
-     text_at<&A::part, &P::by>, choice_at<divisions, &R::part_by>}};
+     text_at<&A::part, &P::by>, choice_at<divisions, &R::part_by>},
+    {{.name = "--farm", .argument = "NAME",
+      .help = "Print what a farm manager reads beside `Progress: 42%`, on terminals and with "
+              "--quiet, too:"},
+     text_at<&A::part, &P::farm>, choice_at<managers, &R::farm>}};
 // clang-format on
 
 /// Variables by which a launcher numbers its processes.
@@ -78,8 +87,14 @@ Result<FilmPart> part_of_launcher(const std::string& option) {
 
 /// True for options that change neither pixels nor outputs.
 bool is_left_out(const std::string& name) {
-    static const std::vector<std::string> names = {
-        "--part", "--part-by", "--threads", "--tile-size", "--stats", "--quiet", "--verbose"};
+    static const std::vector<std::string> names = {"--part",
+                                                   "--part-by",
+                                                   "--farm",
+                                                   "--threads",
+                                                   "--tile-size",
+                                                   "--stats",
+                                                   "--quiet",
+                                                   "--verbose"};
     return std::find(names.begin(), names.end(), name) != names.end();
 }
 

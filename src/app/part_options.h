@@ -15,7 +15,7 @@ struct RenderArguments;
 
 /// The texts of these options as they stood on the command line.
 struct PartArguments {
-    OptionText part, by;
+    OptionText part, by, farm;
 };
 
 /// "2/7": the second of seven. "auto": what the launcher says, in the variables of Slurm (an

@@ -22,11 +22,6 @@ int terminal_columns() {
     return ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
 }
 
-void print_line(std::FILE* file, int percent) {
-    std::fprintf(file, "Progress: %d%%\n", percent);
-    std::fflush(file);
-}
-
 /// "1:02:03" or "2:03".
 std::string clock_text(double seconds) {
     const auto whole = static_cast<long long>(std::min(seconds, 3.6e8) + 0.5);
@@ -69,9 +64,19 @@ std::string progress_bar(double fraction, double elapsed_s, int columns) {
            std::string(static_cast<size_t>(cells) - filled, '.') + "] " + left;
 }
 
-Progress::Progress(Verbosity verbosity, std::FILE* lines) : style_(Style::none), lines_(lines) {
-    if (verbosity == Verbosity::quiet) return;
-    style_ = isatty(STDERR_FILENO) != 0 ? Style::bar : Style::lines;
+std::string progress_lines(FarmManager farm, int percent) {
+    const std::string number = std::to_string(percent);
+    const std::string line = "Progress: " + number + "%\n";
+    if (farm == FarmManager::alfred) return line + "ALF_PROGRESS " + number + "%\n";
+    if (farm == FarmManager::openjd) return line + "openjd_progress: " + number + "\n";
+    return line;
+}
+
+Progress::Progress(Verbosity verbosity, std::FILE* lines, FarmManager farm)
+    : style_(Style::none), lines_(lines), farm_(farm) {
+    const bool has_reader = farm != FarmManager::none;
+    if (verbosity == Verbosity::quiet && !has_reader) return;
+    style_ = has_reader || isatty(STDERR_FILENO) == 0 ? Style::lines : Style::bar;
     show_now();
     thread_ = std::thread([this] { run(); });
 }
@@ -93,7 +98,7 @@ void Progress::update(double fraction) {
 
 void Progress::finish() {
     stop();
-    if (style_ == Style::lines) print_line(lines_, 100);
+    if (style_ == Style::lines) print_lines(100);
     if (style_ == Style::bar) std::fputs("\r\x1b[K", stderr);
     style_ = Style::none;
 }
@@ -114,12 +119,17 @@ void Progress::show_now() {
     const double begin_s = begin_s_.load();
     if (style_ == Style::lines) {
         if (const std::optional<int> percent = pacer_.due(seconds(), fraction))
-            print_line(lines_, *percent);
+            print_lines(*percent);
     } else if (begin_s >= 0) {  // before that, warnings of loading would mix with the bar
         const std::string bar = progress_bar(fraction, seconds() - begin_s, terminal_columns());
         std::fprintf(stderr, "\r\x1b[K%s", bar.c_str());
         std::fflush(stderr);
     }
+}
+
+void Progress::print_lines(int percent) {
+    std::fputs(progress_lines(farm_, percent).c_str(), lines_);
+    std::fflush(lines_);
 }
 
 void Progress::stop() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/log.h"
+#include "session/render_request.h"
 
 #include <atomic>
 #include <chrono>
@@ -30,12 +31,21 @@ private:
 /// One line of at most `columns` characters: percentage, bar and the time left.
 std::string progress_bar(double fraction, double elapsed_s, int columns);
 
+/// The lines that tell a percentage: `Progress: 42%`, which people and Deadline read, and after it
+/// the one of another farm manager.
+/// Source  Open Job Description, "How Jobs Are Run", 2023-09: openjd_progress; Pixar, Tractor, "Job
+///         Scripting": ALF_PROGRESS
+std::string progress_lines(FarmManager farm, int percent);
+
 /// Shows progress from a thread of its own for as long as it lives: a bar on standard error when
-/// that is a terminal, else `Progress: 42%` lines; nothing when quiet.
+/// that is a terminal, else `Progress: 42%` lines; nothing when quiet. A farm manager gets its
+/// lines in any case.
 class Progress {
 public:
     /// lines: where those go: standard output, unless an image goes there.
-    explicit Progress(Verbosity verbosity, std::FILE* lines = stdout);
+    explicit Progress(Verbosity verbosity,
+                      std::FILE* lines = stdout,
+                      FarmManager farm = FarmManager::none);
     /// Stops without a last line: the work did not end well.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -52,11 +62,13 @@ private:
     enum class Style { none, bar, lines };
     void run();
     void show_now();
+    void print_lines(int percent);
     double seconds() const;
     void stop();
 
     Style style_;
     std::FILE* lines_;
+    FarmManager farm_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
     std::atomic<double> begin_s_{-1.0};  ///< since start_; negative before begin()
     std::atomic<double> fraction_{0.0};

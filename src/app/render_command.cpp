@@ -294,6 +294,18 @@ Result<void> check_counters(const RenderCounters& counters, const RenderRequest&
                             counters.paths));
 }
 
+/// Where lines for other programs go: standard output, unless an image goes there.
+std::FILE* lines_of(const RenderRequest& request) {
+    return request.standard_output ? stderr : stdout;
+}
+
+/// Tells the farm manager why there is no image, where it asks that of the program.
+/// Source  Open Job Description, "How Jobs Are Run", 2023-09: openjd_fail
+void tell_farm(const Error& error, const RenderRequest& request) {
+    if (request.farm != FarmManager::openjd) return;
+    std::fputs(("openjd_fail: " + failure_text(error) + "\n").c_str(), lines_of(request));
+}
+
 Result<void> execute(const RenderRequest& request,
                      const NamedTexts& options,
                      const ImageParts* parts,
@@ -310,7 +322,7 @@ Result<void> execute(const RenderRequest& request,
             .parts = parts,
             .display = std::move(*display)};
     if (request.check) return check_all(job);
-    Progress progress(request.verbosity, request.standard_output ? stderr : stdout);
+    Progress progress(request.verbosity, lines_of(request), request.farm);
     const Result<void> done = render_all(job, progress);
     if (!done) return done;
     RenderStatistics& statistics = job.renderer->statistics();
@@ -337,6 +349,7 @@ int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     if (done.error().id == "E-STOPPED" && received_stop_signal() != 0) {
         return report_stop(received_stop_signal(), request->scene.string(), log);
     }
+    tell_farm(done.error(), *request);
     return report_failure(done.error(), log);
 }
 

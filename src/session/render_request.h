@@ -29,6 +29,9 @@ struct Overscan {
 /// How work is divided into parts; automatic: a sequence by frames, a picture by tiles.
 enum class PartBy { automatic, tiles, frames };
 
+/// Managers of render farms, by the lines that they read in a program's output.
+enum class FarmManager { none, deadline, alfred, openjd };
+
 struct RenderRequest {
     std::filesystem::path scene;
     std::vector<std::filesystem::path> outputs;
@@ -64,7 +67,8 @@ struct RenderRequest {
     std::optional<std::filesystem::path> crypto_manifest;
     std::optional<std::filesystem::path> statistics;
     Verbosity verbosity = Verbosity::normal;
-    std::optional<FilmPart> part;  ///< --part: only this share is rendered
+    FarmManager farm = FarmManager::none;  ///< --farm: for whom progress is told
+    std::optional<FilmPart> part;          ///< --part: only this share is rendered
     PartBy part_by = PartBy::automatic;
     bool check = false;  ///< --check: nothing is built, rendered or written
 };

@@ -86,6 +86,24 @@ TEST(Progress, LinesGoWhereTheyAreSent) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "Progress: 0%\nProgress: 100%\n");
 }
 
+TEST(Progress, AFarmManagerHasALineOfItsOwn) {
+    EXPECT_EQ(progress_lines(FarmManager::none, 42), "Progress: 42%\n");
+    EXPECT_EQ(progress_lines(FarmManager::deadline, 42), "Progress: 42%\n");
+    EXPECT_EQ(progress_lines(FarmManager::alfred, 42), "Progress: 42%\nALF_PROGRESS 42%\n");
+    EXPECT_EQ(progress_lines(FarmManager::openjd, 42), "Progress: 42%\nopenjd_progress: 42\n");
+}
+
+TEST(Progress, AFarmManagerIsToldWhenQuiet) {
+    testing::internal::CaptureStdout();
+    {
+        Progress progress(Verbosity::quiet, stdout, FarmManager::alfred);
+        progress.begin();
+        progress.finish();
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStdout(),
+              "Progress: 0%\nALF_PROGRESS 0%\nProgress: 100%\nALF_PROGRESS 100%\n");
+}
+
 TEST(Progress, AFailureHasNoLastLine) {
     testing::internal::CaptureStderr();
     testing::internal::CaptureStdout();

@@ -38,6 +38,18 @@ TEST_F(Reports, QuietIsSilentButForErrors) {
     EXPECT_EQ(run({"info", "--quiet", "box.gltf"}).err, "");
 }
 
+TEST_F(Reports, AFarmManagerIsToldInItsOwnWords) {
+    const ProgramRun good = render("triangle.gltf", {"--quiet", "--farm", "openjd"});
+    EXPECT_EQ(good.code, 0) << good.err;
+    EXPECT_THAT(good.out, HasSubstr("openjd_progress: 0\n"));
+    EXPECT_THAT(good.out, testing::EndsWith("Progress: 100%\nopenjd_progress: 100\n"));
+    const ProgramRun bad = render("missing.gltf", {"--farm", "openjd"});
+    expect_result(bad, 66, "E-SCENE-MISSING");
+    EXPECT_THAT(bad.out, HasSubstr("openjd_fail: missing.gltf: "));
+    EXPECT_THAT(render("missing.gltf", {"--farm", "alf"}).out,
+                testing::Not(HasSubstr("openjd_fail")));
+}
+
 TEST_F(Reports, ASceneWithoutLightSaysThatItGetsAStudio) {
     EXPECT_THAT(render("triangle.gltf").err, HasSubstr("studio"));
     EXPECT_THAT(render("quad.gltf").err, testing::Not(HasSubstr("studio")));
