@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -9,10 +10,10 @@
 
 namespace obscura {
 
-/// Memory aligned to a large page and, where the system has them, in large pages: one page fault
+/// Zeros, aligned to a large page and, where the system has them, in large pages: one page fault
 /// then brings in 2 MiB, instead of 512 faults. Throws std::bad_alloc.
 void* allocate_large_pages(size_t bytes);
-void free_large_pages(void* memory);
+void free_large_pages(void* memory, size_t bytes);
 
 /// std::allocator, but with large pages for two large pages or more: random reads then cause fewer
 /// TLB misses.
@@ -29,7 +30,7 @@ struct LargePageAllocator : std::allocator<T> {
     void deallocate(T* memory, size_t count) {
         const bool large = count >= smallest_large / sizeof(T);
         if (large) {
-            free_large_pages(memory);
+            free_large_pages(memory, count * sizeof(T));
         } else {
             std::allocator<T>::deallocate(memory, count);
         }
@@ -57,5 +58,14 @@ struct UnsetAllocator : LargePageAllocator<T> {
 /// in the memory in parallel, instead of waiting for one thread to clear it.
 template <typename T>
 using UnsetArray = std::vector<T, UnsetAllocator<T>>;
+
+/// An array of zeros. A large one costs memory and time only where it is written.
+template <typename T>
+UnsetArray<T> zero_array(size_t count) {
+    UnsetArray<T> out(count);
+    if (count < LargePageAllocator<T>::smallest_large / sizeof(T))
+        std::fill(out.begin(), out.end(), T{});
+    return out;
+}
 
 }  // namespace obscura

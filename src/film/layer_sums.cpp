@@ -31,6 +31,13 @@ bool is_reduced(const Layer& layer, Reduction reduction) {
 /// Light layers are red, green and blue.
 constexpr size_t light_channels = 3;
 
+/// What LayerSums::add_means knows.
+constexpr bool has_one_or_three_channels(const AovEntry& entry) {
+    return entry.reduction != Reduction::mean || entry.letters.size() == 1 ||
+           entry.letters.size() == 3;
+}
+static_assert(std::all_of(aov_entries.begin(), aov_entries.end(), has_one_or_three_channels));
+
 /// Whether a sample belongs to the part.
 bool is_in(const PartMean& mean, size_t sample) {
     if (mean.part == SamplePart::all) return true;
@@ -118,7 +125,9 @@ void LayerPlan::add_layer(const Layer& layer) {
 }
 
 void LayerSums::begin(const LayerPlan& plan, size_t pixels) {
-    sums_.assign(pixels * plan.sums_, {});
+    pixels_ = pixels;
+    sums_.resize(pixels * plan.sums_);
+    sums_are_new_.assign(plan.sums_, 1);
     nearest_values_.assign(pixels * plan.values_, 0.0f);
     nearest_m_.assign(plan.has_nearest_ ? pixels : 0, std::numeric_limits<float>::infinity());
     luminance_.assign(plan.has_variance_ ? pixels : 0, {});
@@ -135,14 +144,25 @@ void LayerSums::add(const LayerPlan& plan, const BatchShape& batch, const Worksp
     if (plan.has_variance_ || plan.counts_rays_) add_statistics(plan, batch, work);
 }
 
+LayerSums::Sum* LayerSums::begun_sums(size_t first_sum, size_t channels) {
+    Sum* const sums = sums_.data() + first_sum * pixels_;
+    if (std::exchange(sums_are_new_[first_sum], uint8_t{0}) != 0)
+        std::fill_n(sums, channels * pixels_, Sum{});
+    return sums;
+}
+
+const LayerSums::Sum* LayerSums::sums_of(size_t first_sum) const {
+    return sums_are_new_[first_sum] != 0 ? nullptr : sums_.data() + first_sum * pixels_;
+}
+
 /// Adds channels of a batch's samples to sums of each pixel.
 template <size_t N>
-void LayerSums::add_columns(const LayerPlan& plan,
-                            const BatchShape& batch,
+void LayerSums::add_columns(const BatchShape& batch,
                             const std::array<const float*, N>& columns,
-                            size_t sum) {
+                            size_t first_sum) {
+    Sum* const begun = begun_sums(first_sum, N);
     for (size_t p = 0; p < batch.pixels.size(); ++p) {
-        Sum* const sums = &sums_[batch.pixels[p] * plan.sums_ + sum];
+        Sum* const sums = begun + batch.pixels[p] * N;
         std::array<Sum, N> at;
         std::copy_n(sums, N, at.begin());
         const size_t begin = p * batch.samples;
@@ -170,7 +190,7 @@ void LayerSums::add_columns(const LayerPlan& plan,
 void LayerSums::add_light(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
     const auto add = [&](const ColorView& color, size_t sum) {
         if (color.r == nullptr) return;
-        add_columns<3>(plan, batch, {color.r, color.g, color.b}, sum);
+        add_columns<3>(batch, {color.r, color.g, color.b}, sum);
     };
     for (size_t k = 0; k < plan.layers_.size(); ++k) {
         const LayerPlan::Source& source = plan.sources_[k];
@@ -189,14 +209,12 @@ void LayerSums::add_means(const LayerPlan& plan, const BatchShape& batch, const 
         if (!is_reduced(plan.layers_[k], Reduction::mean)) continue;
         const LayerPlan::Source& source = plan.sources_[k];
         const AovOutput& output = work.aov_outputs[source.aov];
-        const auto channels = static_cast<size_t>(channel_count(output.aov));
         const float* const* from = output.columns;
-        if (channels == 3) {
-            add_columns<3>(plan, batch, {from[0], from[1], from[2]}, source.first_sum);
-            continue;
+        if (channel_count(output.aov) == 3) {
+            add_columns<3>(batch, {from[0], from[1], from[2]}, source.first_sum);
+        } else {
+            add_columns<1>(batch, {from[0]}, source.first_sum);
         }
-        for (size_t c = 0; c < channels; ++c)
-            add_columns<1>(plan, batch, {from[c]}, source.first_sum + c);
     }
 }
 
@@ -208,12 +226,14 @@ void LayerSums::add_parts(const LayerPlan& plan, const BatchShape& batch, const 
         const SampleColumns& beauty = work.samples;
         const float* const colors[] = {beauty.r, beauty.g, beauty.b};
         const float* const* from = mean->aov ? work.aov_outputs[source.aov].columns : colors;
+        const size_t channels = plan.layers_[k].channels.size();
+        Sum* const begun = begun_sums(source.first_sum, channels);
         for (size_t i = 0; i < batch.samples; ++i) {
             const size_t sample = batch.first_sample + i;
             if (!is_in(*mean, sample)) continue;
             for (size_t p = 0; p < batch.pixels.size(); ++p) {
-                Sum* const sums = &sums_[batch.pixels[p] * plan.sums_ + source.first_sum];
-                for (size_t c = 0; c < plan.layers_[k].channels.size(); ++c)
+                Sum* const sums = begun + batch.pixels[p] * channels;
+                for (size_t c = 0; c < channels; ++c)
                     sums[c].parts[sample % 4] +=
                         static_cast<double>(from[c][p * batch.samples + i]);
             }
@@ -305,29 +325,22 @@ void LayerSums::store(const LayerPlan& plan, const SampledPixels& pixels, Film& 
         const auto matte = [&](size_t p) -> const CryptomattePixel& {
             return mattes_[p * plan.mattes_ + source.matte];
         };
-        const auto sums = [&](size_t p) { return &sums_[p * plan.sums_ + source.first_sum]; };
         if (std::holds_alternative<LightLayer>(layer.source)) {
-            write([&](size_t p, std::span<float> out) {
-                for (size_t c = 0; c < out.size(); ++c)
-                    out[c] = static_cast<float>(light(plan, k, pixels, p, c) / samples[p]);
-            });
+            store_light(source, pixels, film.layers[k]);
         } else if (is_reduced(layer, Reduction::mean)) {
-            write([&](size_t p, std::span<float> out) {
+            write([&, sums = sums_of(source.first_sum)](size_t p, std::span<float> out) {
                 for (size_t c = 0; c < out.size(); ++c)
-                    out[c] = static_cast<float>(sums(p)[c].total() / samples[p]);
+                    out[c] = static_cast<float>(sums[p * out.size() + c].total() / samples[p]);
             });
         } else if (const auto* mean = std::get_if<PartMean>(&layer.source)) {
-            write([&](size_t p, std::span<float> out) {
+            write([&, sums = sums_of(source.first_sum)](size_t p, std::span<float> out) {
                 const size_t part = samples_in(*mean, static_cast<size_t>(samples[p]));
                 const double inverse = part > 0 ? 1.0 / static_cast<double>(part) : 0.0;
                 for (size_t c = 0; c < out.size(); ++c)
-                    out[c] = static_cast<float>(sums(p)[c].total() * inverse);
+                    out[c] = static_cast<float>(sums[p * out.size() + c].total() * inverse);
             });
         } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
-            write([&](size_t p, std::span<float> out) {
-                for (size_t c = 0; c < out.size(); ++c)
-                    out[c] = ratio(sums(p)[c].total(), sums(p)[c + out.size()].total());
-            });
+            store_ratio(source, pixels, film.layers[k]);
         } else if (is_reduced(layer, Reduction::nearest)) {
             write([&](size_t p, std::span<float> out) {
                 const float* from = &nearest_values_[p * plan.values_ + source.first_value];
@@ -347,15 +360,39 @@ void LayerSums::store(const LayerPlan& plan, const SampledPixels& pixels, Film& 
     }
 }
 
-/// The sum of a channel of a light layer: of what a shadow catcher hides, the part that shows.
-double LayerSums::light(
-    const LayerPlan& plan, size_t layer, const SampledPixels& pixels, size_t p, size_t c) const {
-    const LayerPlan::Source& source = plan.sources_[layer];
-    const Sum* const sums = &sums_[p * plan.sums_];
-    const double front = sums[source.first_sum + c].total();
-    if (!plan.catches_) return front;
-    const double passes = 1 - shadow_alpha(pixels.catchers[p]);
-    return front + passes * sums[source.first_behind + c].total();
+/// Of what a shadow catcher hides, the part that shows.
+void LayerSums::store_light(const LayerPlan::Source& source,
+                            const SampledPixels& pixels,
+                            FilmLayer& layer) const {
+    const bool catches = !pixels.catchers.empty();
+    const Sum* const front = sums_of(source.first_sum);
+    const Sum* const behind = catches ? sums_of(source.first_behind) : nullptr;
+    if (front == nullptr && behind == nullptr) return;
+    write_pixels(pixels.at, layer, [&](size_t p, std::span<float> out) {
+        const double passes = behind != nullptr ? 1 - shadow_alpha(pixels.catchers[p]) : 0.0;
+        for (size_t c = 0; c < out.size(); ++c) {
+            const size_t at = p * light_channels + c;
+            double sum = front != nullptr ? front[at].total() : 0.0;
+            if (behind != nullptr) sum += passes * behind[at].total();
+            out[c] = static_cast<float>(sum / pixels.samples[p]);
+        }
+    });
+}
+
+void LayerSums::store_ratio(const LayerPlan::Source& source,
+                            const SampledPixels& pixels,
+                            FilmLayer& layer) const {
+    const Sum* const shadowed = sums_of(source.first_sum);
+    const Sum* const unshadowed = sums_of(source.first_sum + light_channels);
+    const auto total = [](const Sum* sums, size_t at) {
+        return sums != nullptr ? sums[at].total() : 0.0;
+    };
+    write_pixels(pixels.at, layer, [&](size_t p, std::span<float> out) {
+        for (size_t c = 0; c < out.size(); ++c) {
+            const size_t at = p * light_channels + c;
+            out[c] = ratio(total(shadowed, at), total(unshadowed, at));
+        }
+    });
 }
 
 float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double samples) const {

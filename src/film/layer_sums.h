@@ -55,7 +55,7 @@ private:
     /// Where a layer's values come from, and where its sums are.
     struct Source {
         size_t aov = 0;                    ///< index in aovs_, for AOVs and Cryptomatte
-        size_t first_sum = 0;              ///< of a pixel's sums, for means
+        size_t first_sum = 0;              ///< number of its first sum, for means
         size_t first_behind = 0;           ///< likewise, of light behind shadow catchers
         size_t first_value = 0;            ///< of a pixel's nearest values
         const uint32_t* hashes = nullptr;  ///< for Cryptomatte and MajorityNode
@@ -94,7 +94,8 @@ public:
     /// Adds a batch: sample i of pixel p of the batch is at p * samples + i.
     void add(const LayerPlan& plan, const BatchShape& batch, const Workspace&);
 
-    /// Writes the tile's pixels to the film's layers.
+    /// Writes the tile's pixels to the film's layers, which are 0: those of light that did not
+    /// arrive stay as they are.
     void store(const LayerPlan& plan, const SampledPixels& pixels, Film& film) const;
 
 private:
@@ -108,14 +109,17 @@ private:
         double sum = 0, squares = 0;
     };
 
-    double light(
-        const LayerPlan& plan, size_t layer, const SampledPixels& pixels, size_t p, size_t c) const;
+    /// The sums of the tile's pixels for some channels, side by side.
+    Sum* begun_sums(size_t first_sum, size_t channels);
+    /// The same; nullptr: nothing was added.
+    const Sum* sums_of(size_t first_sum) const;
     float statistic(SampleStatistic statistic, size_t pixel, double samples) const;
     template <size_t N>
-    void add_columns(const LayerPlan& plan,
-                     const BatchShape&,
+    void add_columns(const BatchShape&,
                      const std::array<const float*, N>& columns,
-                     size_t sum);
+                     size_t first_sum);
+    void store_light(const LayerPlan::Source&, const SampledPixels&, FilmLayer&) const;
+    void store_ratio(const LayerPlan::Source&, const SampledPixels&, FilmLayer&) const;
     void add_means(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_light(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_parts(const LayerPlan& plan, const BatchShape&, const Workspace&);
@@ -123,7 +127,9 @@ private:
     void add_mattes(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_statistics(const LayerPlan&, const BatchShape&, const Workspace&);
 
-    std::vector<Sum> sums_;
+    size_t pixels_ = 0;
+    std::vector<Sum> sums_;              ///< by number of the first of some channels, then by pixel
+    std::vector<uint8_t> sums_are_new_;  ///< by number of the first: nothing was added in this tile
     std::vector<float> nearest_values_;
     std::vector<float> nearest_m_;  ///< distance of the nearest hit so far; infinite: none
     std::vector<Luminance> luminance_;

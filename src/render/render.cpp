@@ -217,8 +217,8 @@ LayerPlan add_layers(const Scene& scene,
     if (counts_ids(layers)) tables = cryptomatte_tables(scene);
     const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
     for (const Layer& layer : layers) {
-        film.layers.push_back({layer, {}, names_of(layer, tables)});
-        film.layers.back().pixels.resize(pixels * layer.channels.size());
+        film.layers.push_back(
+            {layer, zero_array<float>(pixels * layer.channels.size()), names_of(layer, tables)});
     }
     return LayerPlan(layers, cryptomatte_hashes(tables), catches);
 }

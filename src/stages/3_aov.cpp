@@ -1,5 +1,6 @@
 // stages/3_aov.cpp - stage 3 for AOVs: what the first hits tell, without light or randomness.
 // SPDX-License-Identifier: Apache-2.0
+#include "stages/3_aov_beyond.h"
 #include "stages/3_shade.h"
 #include "stages/3_surface.h"
 
@@ -119,14 +120,6 @@ constexpr bool needs_surface(Aov aov) {
     }
 }
 
-/// One group of hits.
-struct AovGroup {
-    const SceneView& scene;
-    const BatchSettings& batch;
-    const PathLanes& path;
-    const HitLanes& hit;
-};
-
 OBSCURA_INLINE Vec3<Lanes> aov_of_hit(const AovGroup& at, Aov aov) {
     const Lanes zero(0.0f);
     const auto one = [&](Lanes value) { return Vec3<Lanes>{value, zero, zero}; };
@@ -189,19 +182,21 @@ OBSCURA_INLINE Vec3<Lanes> aov_of_surface(const AovGroup& at,
     }
 }
 
-/// Writes an AOV of the hits of one group; 0 elsewhere.
-OBSCURA_INLINE void store_aov(const AovOutput& out, int i, Mask hits, const Vec3<Lanes>& value) {
-    const Lanes lanes[] = {value.x, value.y, value.z};
-    for (int c = 0; c < channel_count(out.aov); ++c)
-        store(out.columns[c] + i, select(hits, lanes[c], Lanes(0.0f)));
+/// Writes 0 for a group without hits.
+OBSCURA_INLINE void store_nothing(const AovColumns& columns, int first) {
+    for (const AovOutput& out : columns.outputs) {
+        for (int c = 0; c < channel_count(out.aov); ++c)
+            store(out.columns[c] + first, Lanes(0.0f));
+    }
+    if (columns.passed_on != nullptr) store(columns.passed_on + first, Lanes(0.0f));
 }
 
 }  // namespace
 
-void write_hit_aovs(const SceneView& scene,
-                    const BatchSettings& batch,
-                    int count,
-                    const AovColumns& columns) {
+void write_aovs(const SceneView& scene,
+                const BatchSettings& batch,
+                int count,
+                const AovColumns& columns) {
     bool any_surface = false;
     for (const AovOutput& out : columns.outputs)
         any_surface |= needs_surface(out.aov);
@@ -209,23 +204,25 @@ void write_hit_aovs(const SceneView& scene,
         const Mask hits =
             lanes_in_range(i, count) & (load(columns.hits.primitive + i) >= LanesI(0));
         if (none(hits)) {
-            for (const AovOutput& out : columns.outputs)
-                store_aov(out, i, hits, splat3(Lanes(0.0f)));
+            store_nothing(columns, i);
             continue;
         }
         HitLanes hit = hits_or_first(columns.hits, i, hits);
         if (columns.time != nullptr) hit.time = load(columns.time + i);  // path i is sample i
         const PathLanes path = load_paths(columns.paths, i);
-        const AovGroup group{scene, batch, path, hit};
+        const AovGroup group{scene, batch, path, hit, i, hits};
         for (const AovOutput& out : columns.outputs) {
-            if (!needs_surface(out.aov)) store_aov(out, i, hits, aov_of_hit(group, out.aov));
+            if (!needs_surface(out.aov)) store_aov(out, group, aov_of_hit(group, out.aov));
         }
         if (!any_surface) continue;
         const SurfaceInteraction interaction = find_surface_interaction<HitUse::attributes>(
             scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f)), batch.footprint_fraction});
         for (const AovOutput& out : columns.outputs) {
-            if (needs_surface(out.aov))
-                store_aov(out, i, hits, aov_of_surface(group, interaction, out.aov));
+            if (looks_beyond(out.aov)) {
+                write_aov_beyond(group, interaction, columns, out);
+            } else if (needs_surface(out.aov)) {
+                store_aov(out, group, aov_of_surface(group, interaction, out.aov));
+            }
         }
     }
 }

@@ -61,12 +61,6 @@ int begin_raycast(const SceneView& scene,
 /// Source  Appel, "Some Techniques for Shading Machine Renderings of Solids", AFIPS 1968
 int shade_raycast(const SceneView& scene, const RaycastRange& range, const RaycastColumns& columns);
 
-/// Writes AOVs that the hits alone tell (see Aov): none that looks_beyond. Misses get zero.
-void write_hit_aovs(const SceneView& scene,
-                    const BatchSettings& batch,
-                    int count,
-                    const AovColumns& columns);
-
 /// Writes AOVs of the first hits (see Aov), whichever they are. Misses get zero.
 void write_aovs(const SceneView& scene,
                 const BatchSettings& batch,

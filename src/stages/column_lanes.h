@@ -171,9 +171,12 @@ template <int columns>
 OBSCURA_INLINE void add_to_slots(Mask mask, LanesU slot, const SlotColumn (&to)[columns]) {
     const auto first = static_cast<uint32_t>(first_lane(as_int(slot)));
     const LanesU neighbours = LanesU(first) + as_uint(lane_numbers());
-    if (all(mask & (slot == neighbours))) {  // as the camera leaves them
-        for (const SlotColumn& c : to)
-            store(c.column + first, load(c.column + first) + c.add);
+    // As the camera leaves them; lanes with nothing to add may lie between.
+    if (first < batch_size && all((!mask) | (slot == neighbours))) {
+        for (const SlotColumn& c : to) {
+            const Lanes add = select(mask, c.add, Lanes(0.0f));
+            store(c.column + first, load(c.column + first) + add);
+        }
         return;
     }
     alignas(64) uint32_t slots[lane_count];
