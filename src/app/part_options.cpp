@@ -93,6 +93,7 @@ bool is_left_out(const std::string& name) {
                                                    "--threads",
                                                    "--tile-size",
                                                    "--stats",
+                                                   "--write-retries",
                                                    "--quiet",
                                                    "--verbose"};
     return std::find(names.begin(), names.end(), name) != names.end();

@@ -366,6 +366,11 @@ constexpr Entry program[] = {
     {{.name = "--stats", .argument = "FILE.json",
       .help = "Write times, rays, memory and warnings as JSON", .files = "json"},
      text_at<&A::stats>, name_at<&R::statistics>},
+    {{.name = "--write-retries", .argument = "N",
+      .help = "Try so many times more to write an image that cannot be written, after 1, 2, 4 ... "
+              "seconds. In the end a copy goes to $TMPDIR",
+      .range = {0, 20}},
+     text_at<&A::write_retries>, number_at<&R::write_retries>},
     {{.name = "--quiet", .help = "Print errors only", .excludes = {"--verbose"}},
      text_at<&A::quiet>},
     {{.name = "--verbose", .help = "Print more notes"},

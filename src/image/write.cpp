@@ -153,7 +153,18 @@ Result<WriteReport> write_image_file(const std::filesystem::path& file,
                                      const ImageMetadata& metadata,
                                      const ExrOptions& exr,
                                      const DisplayEncoding& encoding) {
-    const Result<OutputTarget> target = target_of(file);
+    const FileToWrite whole{file, [](const auto& path, std::span<const std::byte> bytes) {
+                                return write_file_atomically(path, bytes);
+                            }};
+    return write_image_file(whole, image, metadata, exr, encoding);
+}
+
+Result<WriteReport> write_image_file(const FileToWrite& file,
+                                     const OutputImage& image,
+                                     const ImageMetadata& metadata,
+                                     const ExrOptions& exr,
+                                     const DisplayEncoding& encoding) {
+    const Result<OutputTarget> target = target_of(file.path);
     if (!target) return fail(target.error());
     const FileContent content{image, metadata, exr, encoding};
     if (auto checked = check_content(*target, content); !checked) return fail(checked.error());
@@ -164,15 +175,15 @@ Result<WriteReport> write_image_file(const std::filesystem::path& file,
         if (!encoded) return fail(encoded.error());
         all.clamped_values += encoded->report.clamped_values;
         all.lossless_instead |= encoded->report.lossless_instead;
-        return write_file_atomically(to, encoded->bytes);
+        return file.write(to, encoded->bytes);
     };
     if (target->format == OutputFormat::exr && exr.layout == ExrLayout::separate) {
         for (const ImageLayer& layer : image.layers) {
-            const auto written = write(layer_file(file, layer.name), &layer);
+            const auto written = write(layer_file(file.path, layer.name), &layer);
             if (!written) return fail(written.error());
         }
     }
-    if (const auto written = write(file, nullptr); !written) return fail(written.error());
+    if (const auto written = write(file.path, nullptr); !written) return fail(written.error());
     return all;
 }
 

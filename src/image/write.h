@@ -11,6 +11,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -64,6 +66,21 @@ Result<EncodedFile> encode_image(const OutputTarget& target,
 /// Errors  those of encode_image; 73 E-OUT-CREATE the folder is missing or not writable;
 ///         74 E-OUT-WRITE disk full or I/O; 64 E-OUT-FORMAT another ending
 Result<WriteReport> write_image_file(const std::filesystem::path& file,
+                                     const OutputImage& image,
+                                     const ImageMetadata& metadata,
+                                     const ExrOptions& exr,
+                                     const DisplayEncoding& encoding);
+
+/// A file, and what writes its bytes, whole or not at all.
+struct FileToWrite {
+    std::filesystem::path path;
+    std::function<Result<void>(const std::filesystem::path&, std::span<const std::byte>)> write;
+};
+
+/// The same through another function than write_file_atomically, for each of the image's files.
+///
+/// Errors  likewise, and those of file.write
+Result<WriteReport> write_image_file(const FileToWrite& file,
                                      const OutputImage& image,
                                      const ImageMetadata& metadata,
                                      const ExrOptions& exr,

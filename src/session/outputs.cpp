@@ -3,6 +3,7 @@
 #include "session/outputs.h"
 
 #include "base/atomic_file.h"
+#include "base/rescued_file.h"
 #include "base/setting_names.h"
 #include "camera/exposure.h"
 #include "camera/matrices.h"
@@ -285,10 +286,15 @@ Result<void> write_outputs(const RenderRequest& request,
     const auto stopped = [](const std::string& name) {
         return fail(ExitCode::stopped_early, "E-STOPPED", name, "stopped");
     };
+    const WriteRescue rescue{.retries = request.write_retries, .stop = &stop};
+    const auto write_file = [&](const std::filesystem::path& path,
+                                std::span<const std::byte> bytes) {
+        return write_or_rescue(path, bytes, rescue);
+    };
     // Before the images that name it.
     if (request.crypto_manifest && !finished.crypto_manifest.empty()) {
         const auto bytes = std::as_bytes(std::span(finished.crypto_manifest));
-        const auto written = write_file_atomically(*request.crypto_manifest, bytes);
+        const auto written = write_file(*request.crypto_manifest, bytes);
         if (!written) return written;
     }
     if (request.segmentation && finished.segmentation) {
@@ -300,8 +306,11 @@ Result<void> write_outputs(const RenderRequest& request,
     for (const std::filesystem::path& output : request.outputs) {
         if (stop) return stopped(output.string());
         const auto write = [&](const Content& content) {
-            return write_image_file(
-                output, content.image, content.metadata, content.exr, content.encoding);
+            return write_image_file({output, write_file},
+                                    content.image,
+                                    content.metadata,
+                                    content.exr,
+                                    content.encoding);
         };
         const bool exr = is_exr(output);
         const Result<WriteReport> written = with_content(request, finished, exr, transform, write);

@@ -66,9 +66,10 @@ struct FinishedImage {
 };
 
 /// Writes every output, each whole or not at all, standard output last; stops between two when a
-/// signal came. Warns of what a file could not keep.
+/// signal came. Warns of what a file could not keep. A file that cannot be written is not lost: see
+/// write_or_rescue.
 ///
-/// Errors  those of write_image_file; 75 E-STOPPED
+/// Errors  those of write_image_file and write_or_rescue; 75 E-STOPPED
 Result<void> write_outputs(const RenderRequest& request,
                            const FinishedImage& finished,
                            const std::optional<DisplayTransform>& display,

@@ -70,7 +70,8 @@ struct RenderRequest {
     FarmManager farm = FarmManager::none;  ///< --farm: for whom progress is told
     std::optional<FilmPart> part;          ///< --part: only this share is rendered
     PartBy part_by = PartBy::automatic;
-    bool check = false;  ///< --check: nothing is built, rendered or written
+    int write_retries = 0;  ///< --write-retries: of an image's files
+    bool check = false;     ///< --check: nothing is built, rendered or written
 };
 
 /// The images of a request: one, or one for each frame.

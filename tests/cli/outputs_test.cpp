@@ -303,6 +303,26 @@ TEST_F(Surviving, AFileSizeLimit) {
     expect_result(run_program_with(limited), 74, "E-OUT-WRITE");
 }
 
+TEST_F(Outputs, AnImageWhoseFolderGoesAwayIsCopiedElsewhere) {
+    std::filesystem::create_directory(folder_ / "gone");
+    std::filesystem::create_directory(folder_ / "tmp");
+    ProgramSetup program = setup(
+        {"render", "box.gltf", "--size", "160x120", "--spp", "256", "-o", "gone/shot.0007.exr"},
+        folder_);
+    program.before_start = [this] { setenv("TMPDIR", (folder_ / "tmp").c_str(), 1); };
+    program.on_output = [this](const std::string& out, pid_t) {
+        if (out.find("Progress: ") != std::string::npos)
+            std::filesystem::remove_all(folder_ / "gone");
+    };
+    const ProgramRun got = run_program_with(program);
+    expect_result(got, 74, "E-OUT-WRITE");
+    const auto copies = std::filesystem::directory_iterator(folder_ / "tmp");
+    ASSERT_NE(copies, std::filesystem::directory_iterator());
+    EXPECT_THAT(got.err, HasSubstr("a copy is " + copies->path().string()));
+    EXPECT_EQ(copies->path().extension(), ".exr");
+    EXPECT_GT(std::filesystem::file_size(copies->path()), 10000U);
+}
+
 TEST_F(Outputs, OutputsThatCannotBeAreRefusedBeforeTheSceneIsRead) {
     std::filesystem::create_directory(folder_ / "folder.exr");
     ASSERT_EQ(mkfifo((folder_ / "pipe.exr").c_str(), 0600), 0);
