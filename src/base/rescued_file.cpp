@@ -1,5 +1,5 @@
-// base/rescued_file.cpp - writes what took long to make: again when it fails, at last somewhere
-// else. SPDX-License-Identifier: Apache-2.0
+// base/rescued_file.cpp - writes what took long to make: again when it fails, at last elsewhere.
+// SPDX-License-Identifier: Apache-2.0
 #include "base/rescued_file.h"
 
 #include "base/atomic_file.h"
