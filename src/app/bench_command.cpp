@@ -242,7 +242,7 @@ int run_bench(const BenchArguments& arguments) {
     const Result<void> done = execute(*request, log);
     if (done) return report_success("bench", log);
     if (done.error().id == "E-STOPPED" && received_stop_signal() != 0) {
-        return report_stop(received_stop_signal(), "bench", log);
+        return report_stop(received_stop_signal(), "bench", "", log);
     }
     return report_failure(done.error(), log);
 }

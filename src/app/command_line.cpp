@@ -45,7 +45,9 @@ void declare(CLI::App& command, const BoundOption& option) {
     if (!option.fallback.empty()) help += " [" + option.fallback + "]";
     help = wrapped(help);
     CLI::Option* declared = nullptr;
-    if (auto* const* text = std::get_if<OptionText*>(&option.target)) {
+    if (has_optional_value(info)) {
+        declared = command.add_flag(info.name, *std::get<OptionText*>(option.target), help);
+    } else if (auto* const* text = std::get_if<OptionText*>(&option.target)) {
         const auto store = [target = *text](const std::string& given) { *target = given; };
         declared = command.add_option_function<std::string>(info.name, store, help);
     } else if (auto* const* flag = std::get_if<bool*>(&option.target)) {

@@ -28,7 +28,7 @@ std::string files_of(const Command& command) {
 }
 
 bool is_flag(const BoundOption& option) {
-    return std::holds_alternative<bool*>(option.target);
+    return std::holds_alternative<bool*>(option.target) || has_optional_value(option.info);
 }
 
 /// "-o", "--output".

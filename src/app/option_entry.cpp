@@ -44,6 +44,10 @@ tl::unexpected<Error> conflict(const std::string& where, const std::string& mess
     return fail(ExitCode::usage, "E-USAGE-CONFLICT", where, message);
 }
 
+bool has_optional_value(const OptionInfo& info) {
+    return info.argument[0] == '[';
+}
+
 std::string long_name(const OptionInfo& info) {
     const std::string names = info.name;
     const size_t comma = names.find(',');

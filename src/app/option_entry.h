@@ -18,7 +18,8 @@ using OptionText = std::optional<std::string>;
 /// The description of an option for parser, messages, help, man page, completion and docs/cli.md.
 struct OptionInfo {
     const char* name = "";      ///< "--size", "-o,--output"; without dashes it is positional
-    const char* argument = "";  ///< stands for the value: "WxH"; "": a flag or positional
+    const char* argument = "";  ///< stands for the value: "WxH"; "": a flag or positional;
+                                ///< "[=FILE]": a flag that may have a value, else it is "true"
     const char* help = "";      ///< sentences; a colon at the end: the names of `reader` follow
     struct {
         double low = 0, high = 0;
@@ -40,6 +41,9 @@ tl::unexpected<Error> conflict(const std::string& where, const std::string& mess
 
 /// "--output" of "-o,--output".
 std::string long_name(const OptionInfo& info);
+
+/// True for "--checkpoint" and "--checkpoint=FILE".
+bool has_optional_value(const OptionInfo& info);
 
 /// Where the text of an option is stored; unchanged when the option is not given.
 using OptionTarget = std::variant<OptionText*, bool*, std::vector<std::string>*, std::string*>;

@@ -84,14 +84,19 @@ int report_success(const std::string& where, const Log& log) {
     return 0;
 }
 
-int report_stop(int signal, const std::string& where, const Log& log) {
-    const char* const name = signal == SIGINT ? "SIGINT" : "SIGTERM";
+int report_stop(int signal, const std::string& where, const std::string& note, const Log& log) {
+    const bool ends_by_it = signal == SIGINT || signal == SIGTERM;
+    const int code = ends_by_it ? 128 + signal : static_cast<int>(ExitCode::stopped_early);
+    const char* const name = signal == SIGINT    ? "SIGINT"
+                             : signal == SIGTERM ? "SIGTERM"
+                                                 : "SIGUSR1";
     print_error_line("ERROR " + escape_control(where) + ": stopped by " + name +
-                     "; no further output was written and existing files are as they were");
-    print_error_line(result_line(128 + signal, "E-STOPPED", where, log.warnings().size()));
+                     "; no further output was written and existing files are as they were" +
+                     (note.empty() ? "" : "; " + escape_control(note)));
+    print_error_line(result_line(code, "E-STOPPED", where, log.warnings().size()));
     std::fflush(nullptr);
-    end_by_signal(signal);
-    return 128 + signal;
+    if (ends_by_it) end_by_signal(signal);
+    return code;
 }
 
 }  // namespace obscura::app

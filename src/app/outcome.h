@@ -36,7 +36,9 @@ int report_failure(const Error& error, const Log& log);
 int report_success(const std::string& where, const Log& log);
 
 /// Prints the reason and the result line with code 128 + signal, then lets the signal end the
-/// process.
-int report_stop(int signal, const std::string& where, const Log& log);
+/// process. After SIGUSR1 the code is 75, and it comes back.
+///
+/// In      note: what was kept; "": nothing to say
+int report_stop(int signal, const std::string& where, const std::string& note, const Log& log);
 
 }  // namespace obscura::app

@@ -4,13 +4,11 @@
 
 #include "app/outcome.h"
 #include "app/progress.h"
+#include "app/render_job.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
-#include "camera/exposure.h"
-#include "session/asset_renderer.h"
-#include "session/dark_image.h"
 #include "session/focus.h"
 #include "session/image_parts.h"
 #include "session/lighting.h"
@@ -21,32 +19,12 @@
 #include "stages/dispatch.h"
 
 #include <algorithm>
-#include <cmath>
 #include <fmt/format.h>
 #include <span>
 
 namespace obscura::app {
 
 namespace {
-
-/// Runs one command, from the request to the statistics.
-struct Job {
-    Log& log;               ///< the command's; frames may have their own
-    RenderRequest request;  ///< its outputs, frame and what its camera keeps change by frame
-    NamedTexts options;     ///< as they were given, for --part
-    const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
-    std::optional<DisplayTransform> display = {};
-    std::optional<AssetRenderer> renderer = {};
-    LightingOptions lighting = {};
-    std::optional<StopOnSignal> stop = {};  ///< until the first image a signal ends the program
-};
-
-/// An image's index and their number.
-struct Turn {
-    size_t index;
-    size_t count;
-    bool is_last() const { return index + 1 == count; }
-};
 
 /// When an image's scene is posed.
 PoseTimes times_of(const RenderRequest& request, const MovieFrame& frame, bool is_last) {
@@ -58,76 +36,6 @@ PoseTimes times_of(const RenderRequest& request, const MovieFrame& frame, bool i
                                            frame.time_s};
     }
     return times;
-}
-
-/// The facts that a picture's pixels depend on.
-NamedTexts facts_of(Job& job) {
-    const RenderStatistics& statistics = job.renderer->statistics();
-    return facts_of(job.request, statistics.isa, statistics.embree);
-}
-
-/// --part of a picture: renders it and writes its file.
-Result<void> render_part(Job& job, const ChosenCamera& camera, RenderHooks hooks) {
-    const RenderRequest& request = job.request;
-    const FilmShare share{request.part};
-    hooks.share = &share;
-    const Result<RenderedFilm> film = job.renderer->render_film(request, camera, hooks);
-    if (!film) return fail(film.error());
-    FilmStateHead head;
-    head.part = *request.part;
-    head.options = job.options;
-    head.facts = facts_of(job);
-    head.counters = counters_in_file(film->result.counters);
-    return write_film_state(
-        part_file(request.outputs.front(), *request.part), head, film->result.film);
-}
-
-/// Renders the image, or takes its pixels from parts.
-Result<FinishedImage> make_image(Job& job, const ChosenCamera& camera, RenderHooks hooks) {
-    const RenderRequest& request = job.request;
-    if (job.parts == nullptr) return job.renderer->render(request, camera, hooks, job.log);
-    if (auto same = job.parts->check_facts(facts_of(job)); !same) return fail(same.error());
-    const FilmShare share{{}, [&](Film& film) { return job.parts->fill(film); }};
-    hooks.share = &share;
-    Result<RenderedFilm> film = job.renderer->render_film(request, camera, hooks);
-    if (!film) return fail(film.error());
-    film->result.counters = job.parts->counters();
-    add_counters(job.parts->counters(), job.renderer->statistics().counters);
-    return job.renderer->finish(request, camera, std::move(*film), job.log);
-}
-
-bool is_part_of_image(const RenderRequest& request) {
-    return request.part && request.part_by == PartBy::tiles;
-}
-
-/// Renders, then writes the files; a signal stops it between two tiles or two files.
-Result<void> render_and_write(
-    Job& job, const ChosenCamera& camera, const Turn& turn, Log& log, Progress& progress) {
-    const RenderRequest& request = job.request;
-    if (auto exposed = expose_display(camera, request, job.display, log); !exposed) return exposed;
-    if (!job.stop) {
-        job.stop.emplace();
-        progress.begin();
-    }
-    RenderHooks hooks;
-    hooks.stop = &job.stop->flag();
-    hooks.progress = [&](const FinishedTile& tile) {
-        progress.update((static_cast<double>(turn.index) + tile.done) /
-                        static_cast<double>(turn.count));
-    };
-    if (is_part_of_image(request)) return render_part(job, camera, hooks);
-    Result<FinishedImage> finished = make_image(job, camera, hooks);
-    if (!finished) return fail(finished.error());
-    const double camera_ev = camera.ev100 ? std::log2(exposure_scale(*camera.ev100)) : 0;
-    const double exposure_ev = request.display.exposure_ev + camera_ev;
-    if (turn.index == 0)
-        warn_of_dark_image(finished->image, request, job.renderer->scene(), exposure_ev, log);
-    const Stopwatch writing;
-    const Result<void> written =
-        write_outputs(request, *finished, job.display, job.stop->flag(), log);
-    job.renderer->statistics().write_s += writing.seconds();
-    job.renderer->recycle(std::move(finished->image));
-    return written;
 }
 
 /// Times that a frame added to the sums.
@@ -213,8 +121,9 @@ Result<void> render_all(Job& job, Progress& progress) {
         if (i == 0 && skips_first) continue;
         const Result<ChosenCamera> camera = job.renderer->prepare(job.request, job.lighting, log);
         if (!camera) return fail(camera.error());
-        const Result<void> done = render_and_write(job, *camera, turn, log, progress);
+        const Result<void> done = make_image(job, *camera, turn, log, progress);
         if (!done) return done;
+        job.watch.begin_preparing();
         if (!frames[i].number) continue;
         statistics.frames.push_back(frame_statistics(frames[i], before, statistics));
         job.log.info(fmt::format("frame {} is written, {} of {}",
@@ -306,9 +215,16 @@ void tell_farm(const Error& error, const RenderRequest& request) {
     std::fputs(("openjd_fail: " + failure_text(error) + "\n").c_str(), lines_of(request));
 }
 
+WatchTimes watch_times(const LongRun& run) {
+    WatchTimes out{run.time_limit_s, {}, run.snapshot_interval_s};
+    if (run.has_checkpoint) out.checkpoint_interval_s = run.checkpoint_interval_s;
+    return out;
+}
+
 Result<void> execute(const RenderRequest& request,
                      const NamedTexts& options,
                      const ImageParts* parts,
+                     Watch& watch,
                      Log& log) {
     const Stopwatch total;
     if (auto writable = check_outputs(request); !writable) return writable;
@@ -320,6 +236,7 @@ Result<void> execute(const RenderRequest& request,
             .request = request,
             .options = options,
             .parts = parts,
+            .watch = watch,
             .display = std::move(*display)};
     if (request.check) return check_all(job);
     Progress progress(request.verbosity, lines_of(request), request.farm);
@@ -340,15 +257,18 @@ int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     TerminalLog log(verbosity_of(arguments));
     Result<RenderRequest> request = make_render_request(arguments);
     if (!request) return report_failure(request.error(), log);
+    const std::string scene = request->scene.string();
+    Watch watch(scene, log, watch_times(request->long_run));
     const Result<void> loaded = load_requested_camera(*request, log);
     if (!loaded) return report_failure(loaded.error(), log);
     const Result<void> colored = use_color_space(*request, log);
     if (!colored) return report_failure(colored.error(), log);
-    const Result<void> done = execute(*request, options_for_merge(arguments), parts, log);
-    if (done) return report_success(request->scene.string(), log);
-    if (done.error().id == "E-STOPPED" && received_stop_signal() != 0) {
-        return report_stop(received_stop_signal(), request->scene.string(), log);
-    }
+    const Result<void> done = execute(*request, options_for_merge(arguments), parts, watch, log);
+    watch.end();
+    if (done) return report_success(scene, log);
+    const int signal = received_stop_signal();
+    if (done.error().id == "E-STOPPED" && signal != 0)
+        return report_stop(signal, scene, done.error().message, log);
     tell_farm(done.error(), *request);
     return report_failure(done.error(), log);
 }

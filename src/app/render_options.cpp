@@ -7,6 +7,7 @@
 #include "app/frames.h"
 #include "app/layer_options.h"
 #include "app/lens_options.h"
+#include "app/long_run_options.h"
 #include "app/noise_options.h"
 #include "app/option_readers.h"
 #include "app/part_options.h"
@@ -52,8 +53,9 @@ Examples:
 
 Exit codes: 0 done, 33 out of memory, 64 usage, 65 bad scene data, 66 scene missing,
 67 referenced file missing or corrupt, 69 unsupported, 70 internal error, 73 output
-cannot be created, 74 I/O error, 76 too many non-finite samples, 77 refused by a limit
-or a policy, 78 colour configuration or parts that do not fit, 128+N stopped by signal N.
+cannot be created, 74 I/O error, 75 stopped early: run it again, 76 too many non-finite
+samples, 77 refused by a limit or a policy, 78 colour configuration, parts or checkpoint
+that do not fit, 128+N stopped by signal N.
 Names that begin with a dash: obscura render -o ./-out.exr -- -scene.glb)";
 
 constexpr std::array<Choice<PixelFilter>, 3> filters = {
@@ -402,6 +404,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                                {"Display (all but EXR)", display},
                                                                {"Faulty scenes", faults},
                                                                part_of_work_group(),
+                                                               long_run_group(),
                                                                {"Program", program}};
         groups.insert(groups.end(), rest);
         return groups;

@@ -5,11 +5,13 @@
 #include "app/delivery_options.h"
 #include "app/frames.h"
 #include "app/lens_request.h"
+#include "app/long_run_options.h"
 #include "app/numbers.h"
 #include "app/product_options.h"
 #include "app/render_options.h"
 #include "app/scene_choice.h"
 #include "film/layers.h"
+#include "session/image_parts.h"
 #include "math/warp.h"
 #include "session/model_settings.h"
 #include "session/segmentation.h"
@@ -185,7 +187,8 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     request.verbosity = verbosity_of(arguments);
     if (auto done = complete_page(arguments, request); !done) return done;
     if (auto done = complete_time(arguments, request); !done) return done;
-    return complete_part(arguments.part, request);
+    if (auto done = complete_part(arguments.part, request); !done) return done;
+    return complete_long_run(request);
 }
 
 /// No output may overwrite an input or another output.
@@ -200,6 +203,7 @@ Result<void> check_distinct_files(const RenderRequest& request) {
     }
     if (request.statistics) written.push_back(*request.statistics);
     if (request.crypto_manifest) written.push_back(*request.crypto_manifest);
+    if (request.long_run.has_checkpoint) written.push_back(checkpoint_file(request));
     std::vector<std::filesystem::path> read = {request.scene};
     if (request.camera_json) read.push_back(*request.camera_json);
     if (request.camera.settings.aperture_file)

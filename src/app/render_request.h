@@ -5,6 +5,7 @@
 #include "app/delivery_options.h"
 #include "app/layer_options.h"
 #include "app/lens_options.h"
+#include "app/long_run_options.h"
 #include "app/part_options.h"
 #include "app/product_options.h"
 #include "session/render_request.h"
@@ -28,6 +29,7 @@ struct RenderArguments {
     LayerArguments layer;
     DeliveryArguments delivery;
     PartArguments part;
+    LongRunArguments long_run;
     std::optional<std::string> env, env_intensity, env_rotation, background, occlusion;
     std::optional<std::string> integrator, ao_distance, wire_width, filter, crypto_levels;
     std::optional<std::string> clamp_direct, clamp_indirect, caustics;

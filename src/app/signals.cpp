@@ -1,4 +1,4 @@
-// app/signals.cpp - SIGINT and SIGTERM: an orderly stop while rendering, an immediate end before.
+// app/signals.cpp - signals that ask for an orderly stop or for a checkpoint, and the true end by one.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/signals.h"
 
@@ -11,6 +11,7 @@ namespace {
 // Written by the handler: only lock-free atomics are allowed there.
 std::atomic<bool> stop_requested{false};
 std::atomic<int> stop_signal{0};
+std::atomic<bool> save_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 void set_handler(int signal, void (*handler)(int)) {
@@ -28,11 +29,15 @@ void on_stop_signal(int signal) {
     if (signal == SIGINT) set_handler(SIGINT, SIG_DFL);
 }
 
+void on_save_signal(int /*signal*/) {
+    save_requested.store(true);
+}
+
 /// A parent such as nohup may have asked that a signal be ignored: that stays so.
-void handle_unless_ignored(int signal) {
+void handle_unless_ignored(int signal, void (*handler)(int) = on_stop_signal) {
     struct sigaction current = {};
     sigaction(signal, nullptr, &current);
-    if (current.sa_handler != SIG_IGN) set_handler(signal, on_stop_signal);
+    if (current.sa_handler != SIG_IGN) set_handler(signal, handler);
 }
 
 void restore_unless_ignored(int signal) {
@@ -47,20 +52,40 @@ void ignore_broken_pipes() {
     set_handler(SIGPIPE, SIG_IGN);
 }
 
-StopOnSignal::StopOnSignal() {
+StopOnSignal::StopOnSignal(Kind kind) : kind_(kind) {
     stop_requested.store(false);
     stop_signal.store(0);
+    save_requested.store(false);
     handle_unless_ignored(SIGINT);
     handle_unless_ignored(SIGTERM);
+    if (kind_ == Kind::stops) return;
+    handle_unless_ignored(SIGUSR1);
+    handle_unless_ignored(SIGHUP, on_save_signal);
 }
 
 StopOnSignal::~StopOnSignal() {
     restore_unless_ignored(SIGINT);
     restore_unless_ignored(SIGTERM);
+    if (kind_ == Kind::stops) return;
+    restore_unless_ignored(SIGUSR1);
+    restore_unless_ignored(SIGHUP);
 }
 
 const std::atomic<bool>& StopOnSignal::flag() const {
     return stop_requested;
+}
+
+void StopOnSignal::stop() {
+    stop_requested.store(true);
+}
+
+void StopOnSignal::clear_unless_signal() {
+    if (stop_signal.load() == 0) stop_requested.store(false);
+    if (stop_signal.load() != 0) stop_requested.store(true);  // it came in between
+}
+
+bool StopOnSignal::take_save_request() {
+    return save_requested.exchange(false);
 }
 
 int received_stop_signal() {

@@ -1,4 +1,4 @@
-// app/signals.h - SIGINT and SIGTERM: an orderly stop while rendering, an immediate end before.
+// app/signals.h - signals that ask for an orderly stop or for a checkpoint, and the true end by one.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,12 +13,26 @@ void ignore_broken_pipes();
 /// SIGINT ends it at once; further SIGTERMs are ignored. At most one lives at a time.
 class StopOnSignal {
 public:
-    StopOnSignal();
+    enum class Kind {
+        stops,   ///< SIGINT and SIGTERM
+        farm_too ///< SIGUSR1 stops, too, and SIGHUP asks for a checkpoint
+    };
+    explicit StopOnSignal(Kind kind = Kind::stops);
     ~StopOnSignal();
     StopOnSignal(const StopOnSignal&) = delete;
     StopOnSignal& operator=(const StopOnSignal&) = delete;
 
     const std::atomic<bool>& flag() const;
+
+    /// Sets the flag as a signal would, and clears it unless there was a signal.
+    void stop();
+    void clear_unless_signal();
+
+    /// True once after each SIGHUP.
+    bool take_save_request();
+
+private:
+    Kind kind_;
 };
 
 /// The signal that stopped the latest StopOnSignal, 0 if none did.

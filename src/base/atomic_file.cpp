@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <ctime>
 #include <fcntl.h>
 #include <string>
@@ -188,10 +189,18 @@ Result<void> write_fully(int descriptor, std::span<const std::byte> bytes, const
 }
 
 Result<void> write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
+    return write_file_atomically(path, [&](const ByteSink& sink) { return sink(bytes); });
+}
+
+Result<void> write_file_atomically(const fs::path& path,
+                                   const std::function<Result<void>(const ByteSink&)>& produce) {
     const fs::path target = follow_link(path);
     Result<TemporaryFile> file = create_temporary(target);
     if (!file) return fail(std::move(file.error()));
-    if (auto written = write_fully(file->descriptor(), bytes, target); !written) return written;
+    const auto write = [&](std::span<const std::byte> bytes) {
+        return write_fully(file->descriptor(), bytes, target);
+    };
+    if (auto written = produce(write); !written) return written;
     if (uninterrupted([&] { return ::fsync(file->descriptor()); }) != 0 && errno != EINVAL) {
         return cannot_write(target, "syncing to disk failed", errno);
     }
@@ -206,6 +215,25 @@ Result<void> write_file_atomically(const fs::path& path, std::span<const std::by
                     "the file is complete, but its folder could not be synced: " + reason(error));
     }
     return {};
+}
+
+void remove_stale_temporaries(const fs::path& path) {
+    const fs::path target = follow_link(path);
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    const std::string begin = target.filename().string() + ".";
+    std::error_code error;
+    for (fs::directory_iterator at(folder, error), end; !error && at != end; at.increment(error)) {
+        const std::string name = at->path().filename().string();
+        if (name.rfind(begin, 0) != 0) continue;
+        int process = 0;
+        unsigned serial = 0;
+        int length = 0;
+        const char* const rest = name.c_str() + begin.size();
+        const int found = std::sscanf(rest, "%d.%u.part%n", &process, &serial, &length);
+        if (found != 2 || length == 0 || rest[length] != 0 || process <= 0) continue;
+        if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+        ::unlink(at->path().c_str());
+    }
 }
 
 Result<void> check_file_can_be_written(const fs::path& path) {

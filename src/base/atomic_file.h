@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 
 namespace obscura {
@@ -20,6 +21,18 @@ namespace obscura {
 ///         74 E-OUT-WRITE disk full, quota, file size limit, I/O error
 Result<void> write_file_atomically(const std::filesystem::path& target,
                                    std::span<const std::byte> bytes);
+
+/// Takes the next bytes of a file. The bytes may be gone afterwards.
+using ByteSink = std::function<Result<void>(std::span<const std::byte>)>;
+
+/// The same for a file that is made piece by piece, so that memory need not hold all of it.
+///
+/// In      produce: hands all pieces to the sink, in order, and ends with the first error
+Result<void> write_file_atomically(const std::filesystem::path& target,
+                                   const std::function<Result<void>(const ByteSink&)>& produce);
+
+/// Removes temporary files of `target` that a process of this machine left which is no more.
+void remove_stale_temporaries(const std::filesystem::path& target);
 
 /// Checks that write_file_atomically(target, ...) can start, by creating and removing its temporary
 /// file. Changes nothing else. Same errors.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/checksum.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
@@ -29,13 +30,15 @@ uint64_t round_of(uint64_t lane, uint64_t word) {
     return std::rotl(lane + word * prime_2, 31) * prime_1;
 }
 
-/// The lanes that the stripes of 32 bytes go through, made one.
-uint64_t mix_stripes(const std::byte*& at, const std::byte* end) {
-    std::array<uint64_t, 4> lanes = {prime_1 + prime_2, prime_2, 0, 0 - prime_1};
-    for (; end - at >= 32; at += 32) {
+/// Takes stripes of 32 bytes into the lanes, as many as are whole.
+void add_stripes(std::span<const std::byte>& bytes, std::array<uint64_t, 4>& lanes) {
+    for (; bytes.size() >= 32; bytes = bytes.subspan(32)) {
         for (size_t i = 0; i < 4; ++i)
-            lanes[i] = round_of(lanes[i], word_at<uint64_t>(at + 8 * i));
+            lanes[i] = round_of(lanes[i], word_at<uint64_t>(bytes.data() + 8 * i));
     }
+}
+
+uint64_t joined_lanes(const std::array<uint64_t, 4>& lanes) {
     uint64_t hash = std::rotl(lanes[0], 1) + std::rotl(lanes[1], 7) + std::rotl(lanes[2], 12) +
                     std::rotl(lanes[3], 18);
     for (const uint64_t lane : lanes)
@@ -43,13 +46,10 @@ uint64_t mix_stripes(const std::byte*& at, const std::byte* end) {
     return hash;
 }
 
-}  // namespace
-
-uint64_t checksum(std::span<const std::byte> bytes) {
-    const std::byte* at = bytes.data();
-    const std::byte* const end = at + bytes.size();
-    uint64_t hash = bytes.size() >= 32 ? mix_stripes(at, end) : prime_5;
-    hash += bytes.size();
+/// Takes in what is left behind the last stripe.
+uint64_t add_rest(std::span<const std::byte> rest, uint64_t hash) {
+    const std::byte* at = rest.data();
+    const std::byte* const end = at + rest.size();
     for (; end - at >= 8; at += 8)
         hash = std::rotl(hash ^ round_of(0, word_at<uint64_t>(at)), 27) * prime_1 + prime_4;
     if (end - at >= 4) {
@@ -61,6 +61,38 @@ uint64_t checksum(std::span<const std::byte> bytes) {
     hash = (hash ^ (hash >> 33)) * prime_2;
     hash = (hash ^ (hash >> 29)) * prime_3;
     return hash ^ (hash >> 32);
+}
+
+}  // namespace
+
+RunningChecksum::RunningChecksum() : lanes_({prime_1 + prime_2, prime_2, 0, 0 - prime_1}) {}
+
+void RunningChecksum::add(std::span<const std::byte> bytes) {
+    size_ += bytes.size();
+    if (rest_size_ > 0) {
+        const size_t taken = std::min(bytes.size(), stripe - rest_size_);
+        std::copy_n(bytes.data(), taken, rest_.data() + rest_size_);
+        rest_size_ += taken;
+        bytes = bytes.subspan(taken);
+        if (rest_size_ < stripe) return;
+        std::span<const std::byte> whole = rest_;
+        add_stripes(whole, lanes_);
+        rest_size_ = 0;
+    }
+    add_stripes(bytes, lanes_);
+    std::copy(bytes.begin(), bytes.end(), rest_.begin());
+    rest_size_ = bytes.size();
+}
+
+uint64_t RunningChecksum::value() const {
+    const uint64_t hash = size_ >= stripe ? joined_lanes(lanes_) : prime_5;
+    return add_rest(std::span(rest_).first(rest_size_), hash + size_);
+}
+
+uint64_t checksum(std::span<const std::byte> bytes) {
+    RunningChecksum out;
+    out.add(bytes);
+    return out.value();
 }
 
 }  // namespace obscura

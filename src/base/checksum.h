@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -13,5 +14,21 @@ namespace obscura {
 ///
 /// Source  Collet, "xxHash fast digest algorithm", specification 0.1.1
 uint64_t checksum(std::span<const std::byte> bytes);
+
+/// The same, of bytes that come piece by piece.
+class RunningChecksum {
+public:
+    RunningChecksum();
+    void add(std::span<const std::byte> bytes);
+    /// Of all bytes so far.
+    uint64_t value() const;
+
+private:
+    static constexpr size_t stripe = 32;
+    std::array<uint64_t, 4> lanes_;
+    std::array<std::byte, stripe> rest_ = {};  ///< bytes that fill no stripe yet
+    size_t rest_size_ = 0;
+    uint64_t size_ = 0;
+};
 
 }  // namespace obscura

@@ -25,7 +25,7 @@ enum class ExitCode : int {
     internal = 70,       ///< a bug in this program
     cannot_create = 73,  ///< the output cannot be created
     io_error = 74,       ///< reading or writing failed half-way
-    stopped_early = 75,  ///< stopped on request; nothing was written
+    stopped_early = 75,  ///< stopped on request, or at the time limit
     too_many_nonfinite = 76,
     refused = 77,        ///< a limit or a policy forbids it
     configuration = 78,  ///< OCIO config, display or view

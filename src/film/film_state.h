@@ -1,4 +1,4 @@
-// film/film_state.h - finished rows of a film in a file, with what their pixels depend on.
+// film/film_state.h - finished areas of a film in a file, with what their pixels depend on.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,31 +27,49 @@ struct RowRange {
     int first = 0, count = 0;
 };
 
+/// A rectangle of a film's pixels.
+struct FilmArea {
+    int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const FilmArea&) const = default;
+};
+
+/// The number of pixels in all of them.
+int64_t pixels_in(std::span<const FilmArea> areas);
+
 /// The rows of a part: bands, dealt out in turn, so that parts take about as long. Of many parts
 /// bands are thin, so that each part still has several. A part has no rows when there are more
-/// parts than rows.
+/// parts than rows. The only part has all rows in one band.
 std::vector<RowRange> rows_of_part(int height, const FilmPart& part);
+
+/// The same as areas of a film.
+std::vector<FilmArea> areas_of_part(int width, int height, const FilmPart& part);
 
 /// Names with texts, in the order of the command line; a name may come twice.
 using NamedTexts = std::vector<std::pair<std::string, std::string>>;
 
 /// What a file holds beside pixels.
 struct FilmStateHead {
-    FilmPart part;
+    FilmPart part;       ///< that is being rendered: of one, all of the film
     NamedTexts options;  ///< of the command, as they were given
     NamedTexts facts;    ///< program, instruction set, checksums of files
     std::array<uint64_t, 6> counters = {};
     int width = 0, height = 0;
-    NamedTexts images;  ///< the beauty's and each layer's name, with its channels
+    NamedTexts images;            ///< the beauty's and each layer's name, with its channels
+    std::vector<FilmArea> areas;  ///< whose pixels the file holds; none is in two of them
 };
+
+/// True when the areas are all of the part: nothing is left to be rendered.
+bool is_whole(const FilmStateHead& head);
 
 /// A film's beauty and layers as FilmStateHead::images names them.
 NamedTexts images_of(const Film& film);
 
-/// Writes the rows of head.part, whole or not at all: magic, size and checksum of what follows,
-/// then the head, then float32 pixels, image by image, row by row. All numbers are little-endian.
+/// Writes the pixels of head.areas, whole or not at all: magic, the head, float32 pixels, area by
+/// area, in it image by image, row by row; then the checksum of all of that. All numbers are
+/// little-endian.
 ///
 /// In      head: the size and the images that are written are the film's
+///         film: other threads may be writing its pixels outside the areas
 /// Errors  those of write_file_atomically
 Result<void> write_film_state(const std::filesystem::path& file,
                               const FilmStateHead& head,
@@ -59,9 +78,12 @@ Result<void> write_film_state(const std::filesystem::path& file,
 /// Reads a file and checks all of it.
 ///
 /// In      film: null: the head is wanted alone; else as large, and with the images, that the head
-///         names; its rows are filled
+///         names; its areas are filled
 /// Errors  74 E-PART-DAMAGED the file cannot be read, is cut off, or its checksum does not fit;
 ///         78 E-PART-MIX it is of another version, or of another film
 Result<FilmStateHead> read_film_state(const std::filesystem::path& file, Film* film);
+
+/// Copies the pixels of some areas, beauty and layers; all others are 0.
+Film copy_areas(const Film& film, std::span<const FilmArea> areas);
 
 }  // namespace obscura

@@ -120,16 +120,33 @@ int tile_side(const RenderOptions& options) {
                                       : options.tile_size;
 }
 
+/// Adds a thread's counters without its times.
+void add_counts(const WavefrontCounters& from, RenderCounters& to) {
+    to.paths += from.paths;
+    to.camera_rays += from.camera_rays;
+    to.bounce_rays += from.bounce_rays;
+    to.shadow_rays += from.shadow_rays;
+    to.refused_rays += from.refused_rays;
+    to.nonfinite_samples += from.nonfinite_samples;
+}
+
+/// What a thread has counted since `before`.
+RenderCounters counted_since(const RenderCounters& before, const WavefrontCounters& now) {
+    RenderCounters out;
+    out.paths = now.paths - before.paths;
+    out.camera_rays = now.camera_rays - before.camera_rays;
+    out.bounce_rays = now.bounce_rays - before.bounce_rays;
+    out.shadow_rays = now.shadow_rays - before.shadow_rays;
+    out.refused_rays = now.refused_rays - before.refused_rays;
+    out.nonfinite_samples = now.nonfinite_samples - before.nonfinite_samples;
+    return out;
+}
+
 RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& states) {
     RenderCounters total;
     for (const auto& state : states) {
         if (!state) continue;
-        total.paths += state->counters.paths;
-        total.camera_rays += state->counters.camera_rays;
-        total.bounce_rays += state->counters.bounce_rays;
-        total.shadow_rays += state->counters.shadow_rays;
-        total.refused_rays += state->counters.refused_rays;
-        total.nonfinite_samples += state->counters.nonfinite_samples;
+        add_counts(state->counters, total);
         total.stages.add(state->counters.seconds);
     }
     return total;
@@ -263,7 +280,7 @@ Film make_film(const RenderOptions& options) {
     return film;
 }
 
-/// The tiles that are rendered.
+/// The tiles of the rows that are rendered.
 std::vector<Tile> tiles_of(const RenderOptions& options) {
     const PixelRect whole = options.crop.value_or(PixelRect{0, 0, options.width, options.height});
     if (options.share == nullptr) return cut_tiles(whole, tile_side(options));
@@ -277,18 +294,48 @@ std::vector<Tile> tiles_of(const RenderOptions& options) {
     return out;
 }
 
+/// Takes away the tiles all of whose pixels lie in areas of the film that are filled already.
+void leave_out_filled(const std::vector<FilmArea>& filled,
+                      const Film& film,
+                      std::vector<Tile>& tiles) {
+    if (filled.empty()) return;
+    const auto width = static_cast<size_t>(film.width);
+    std::vector<uint8_t> is_filled(width * static_cast<size_t>(film.height), 0);
+    for (const FilmArea& area : filled) {
+        for (int y = area.y; y < area.y + area.height; ++y) {
+            const size_t first = static_cast<size_t>(y) * width + static_cast<size_t>(area.x);
+            std::fill_n(is_filled.begin() + static_cast<ptrdiff_t>(first), area.width, uint8_t{1});
+        }
+    }
+    const auto is_done = [&](const Tile& tile) {
+        for (int y = tile.y; y < tile.y + tile.height; ++y) {
+            const auto row =
+                is_filled.begin() + static_cast<ptrdiff_t>(pixel_index(film, tile.x, y));
+            if (std::find(row, row + tile.width, uint8_t{0}) != row + tile.width) return false;
+        }
+        return true;
+    };
+    tiles.erase(std::remove_if(tiles.begin(), tiles.end(), is_done), tiles.end());
+}
+
 /// Renders tile after tile, each with all of its samples.
-void render_tiles(const FilmWork& work) {
+///
+/// In      filled: areas of the film that need no rendering
+void render_tiles(const FilmWork& work, const std::vector<FilmArea>& filled) {
     const RenderOptions& options = work.options;
     const TileWork& tile_work = work.tile_work;
-    const std::vector<Tile> tiles = tiles_of(options);
+    std::vector<Tile> tiles = tiles_of(options);
+    const size_t all = tiles.size();
+    leave_out_filled(filled, work.film, tiles);
     const bool aov = is_aov(options.integrator);
     const SampleRange samples{0, samples_taken(options)};
-    std::atomic<size_t> finished = 0;
+    std::atomic<size_t> finished = all - tiles.size();
     parallel_for(tiles.size(), [&](size_t i) {
         if (tile_work.stop.load(std::memory_order_relaxed)) return;
         ThreadState& state = thread_state(work);
         const Tile& tile = tiles[i];
+        RenderCounters before;
+        add_counts(state.counters, before);
         if (aov) {
             render_aov_tile(tile_work, tile, state, work.film);
         } else {
@@ -300,11 +347,27 @@ void render_tiles(const FilmWork& work) {
         }
         const size_t done = ++finished;
         if (!work.progress || tile_work.stop.load(std::memory_order_relaxed)) return;
-        work.progress({static_cast<double>(done) / static_cast<double>(tiles.size()),
+        work.progress({static_cast<double>(done) / static_cast<double>(all),
                        {tile.x, tile.y, tile.width, tile.height},
-                       &work.film});
+                       &work.film,
+                       counted_since(before, state.counters)});
     });
 }
+
+/// Calls FilmShare::leave at the end of a rendering, also where an exception ends it.
+class FilmLeaving {
+public:
+    FilmLeaving(const FilmShare* share, const Film& film) : share_(share), film_(film) {}
+    ~FilmLeaving() {
+        if (share_ != nullptr && share_->leave) share_->leave(film_);
+    }
+    FilmLeaving(const FilmLeaving&) = delete;
+    FilmLeaving& operator=(const FilmLeaving&) = delete;
+
+private:
+    const FilmShare* share_;
+    const Film& film_;
+};
 
 }  // namespace
 
@@ -320,9 +383,10 @@ Result<RenderResult> render(const PreparedScene& scene,
     result.film = make_film(options);
     const Result<LayerPlans> plans = plan_layers(scene.impl(), options, result.film);
     if (!plans) return fail(plans.error());
-    if (options.share != nullptr && options.share->fill) {
-        if (auto filled = options.share->fill(result.film); !filled) return fail(filled.error());
-    }
+    const FilmShare* const share = options.share;
+    Result<std::vector<FilmArea>> filled;
+    if (share != nullptr && share->fill) filled = share->fill(result.film);
+    if (!filled) return fail(filled.error());
     const LayerPlan& layers = plans->layers;
     const LightPathTable light_paths = plans->light ? plans->light->table() : LightPathTable{};
 
@@ -339,12 +403,16 @@ Result<RenderResult> render(const PreparedScene& scene,
     const TileWork tile_work{wavefront_input, layers, stop};
     std::vector<std::unique_ptr<ThreadState>> states(max_thread_index());
     const FilmWork film_work{tile_work, options, progress, states, result.film};
-    if (options.adaptive) {
-        result.adaptive = render_passes(film_work);
-    } else {
-        render_tiles(film_work);
+    {
+        const FilmLeaving leaving(share, result.film);
+        if (options.adaptive) {
+            result.adaptive = render_passes(film_work);
+        } else {
+            render_tiles(film_work, *filled);
+        }
     }
-    if (stop.load()) {
+    result.is_stopped = stop.load() && share != nullptr && share->keeps_unfinished;
+    if (stop.load() && !result.is_stopped) {
         return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
     }
     result.counters = sum_counters(states);

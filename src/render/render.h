@@ -78,10 +78,15 @@ struct AdaptiveOptions {
 /// RenderOptions::samples_per_pixel with adaptive sampling where nobody says how many.
 inline constexpr int default_max_samples = 4096;
 
-/// Which rows of a film are rendered, and where the others come from.
+/// Which pixels of a film are rendered, where the others come from, and who else reads them.
 struct FilmShare {
-    std::optional<FilmPart> part;                  ///< none: no row is rendered
-    std::function<Result<void>(Film&)> fill = {};  ///< called before rendering
+    std::optional<FilmPart> part;  ///< none: no row is rendered
+    /// Called before rendering; returns areas whose pixels it has filled: they are not rendered.
+    std::function<Result<std::vector<FilmArea>>(Film&)> fill = {};
+    /// Called once after rendering, however it ended, before the film goes elsewhere.
+    std::function<void(const Film&)> leave = {};
+    /// When rendering is stopped, the film so far is a result, too; see RenderResult::is_stopped.
+    bool keeps_unfinished = false;
 };
 
 struct RenderOptions {
@@ -160,6 +165,7 @@ struct RenderResult {
     RenderCounters counters;
     std::optional<SamplesTaken> adaptive = {};  ///< with RenderOptions::adaptive
     double render_seconds = 0;
+    bool is_stopped = false;  ///< with FilmShare::keeps_unfinished: pixels are missing
 };
 
 /// How long preparing a scene took.
@@ -215,6 +221,7 @@ struct FinishedTile {
     double done;       ///< fraction of the image that is finished, in [0, 1]
     PixelRect area;    ///< from the image's top left corner
     const Film* film;  ///< other threads may be writing its pixels outside `area`
+    RenderCounters counters = {};  ///< of this tile; 0 with RenderOptions::adaptive
 };
 
 /// Called from any thread after every tile; with RenderOptions::adaptive in each pass, and at last
@@ -225,7 +232,8 @@ using ProgressFunction = std::function<void(const FinishedTile&)>;
 /// threads, any tile size and any crop; with RenderOptions::adaptive a crop is an image of its own.
 ///
 /// In      stop: when it becomes true, tiles end after their current batch
-/// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM; 70 E-EMBREE (heat builds a hierarchy)
+/// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM; 70 E-EMBREE (heat builds a hierarchy);
+///         those of FilmShare::fill
 Result<RenderResult> render(const PreparedScene& scene,
                             const Camera& camera,
                             const RenderOptions& options,

@@ -201,11 +201,15 @@ std::string denoise_light(const HalvesOfSamples& halves, Film& film) {
         "halves{}; outliers in {:.3g} % of the pixels", guides, 100 * report.outlier_share);
 }
 
-std::string denoise_film(const RenderOptions& options, const RenderOptions& asked, Film& film) {
-    std::string done = denoise_light(halves_of(options), film);
+void remove_denoising_layers(const RenderOptions& asked, Film& film) {
     std::erase_if(film.layers, [&](const FilmLayer& one) {
         return has_same(denoising_layers(), one.layer) && !has_same(asked.layers, one.layer);
     });
+}
+
+std::string denoise_film(const RenderOptions& options, const RenderOptions& asked, Film& film) {
+    std::string done = denoise_light(halves_of(options), film);
+    remove_denoising_layers(asked, film);
     return done;
 }
 

@@ -38,6 +38,9 @@ HalvesOfSamples halves_of(const RenderOptions& options);
 /// Returns the EXR attribute obscura:denoise
 std::string denoise_light(const HalvesOfSamples& halves, Film& film);
 
+/// Takes away the layers that add_denoising_layers added to those that were asked for.
+void remove_denoising_layers(const RenderOptions& asked, Film& film);
+
 /// Denoises the beauty and the layers of the light, keeps the noisy beauty in the layer `noisy` if
 /// there is one, and takes away the layers that add_denoising_layers added.
 ///

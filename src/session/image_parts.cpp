@@ -38,7 +38,7 @@ std::string texts_of(const NamedTexts& all, const std::string& name) {
 }
 
 /// What differs between two lists: "--spp: 16 and 64; ..."; "": nothing does.
-std::string differences(const NamedTexts& a, const NamedTexts& b) {
+std::string differing(const NamedTexts& a, const NamedTexts& b) {
     if (a == b) return "";
     std::string out;
     std::vector<std::string> told;
@@ -66,9 +66,8 @@ NamedTexts without_outputs(const NamedTexts& options) {
 
 /// 78 E-PART-MIX when two parts are of different pictures.
 Result<void> check_alike(const fs::path& file, const FilmStateHead& one, const FilmStateHead& two) {
-    std::string differs = differences(without_outputs(one.options), without_outputs(two.options));
-    if (differs.empty()) differs = differences(one.facts, two.facts);
-    if (differs.empty()) differs = differences(one.images, two.images);
+    std::string differs = differences(one, two);
+    if (differs.empty()) differs = differing(one.images, two.images);
     if (differs.empty() && (one.width != two.width || one.height != two.height))
         differs = "the picture's size";
     if (differs.empty() && one.part.count != two.part.count)
@@ -105,10 +104,32 @@ Result<void> check_complete(const std::vector<fs::path>& files,
 
 }  // namespace
 
+std::string differences(const FilmStateHead& one, const FilmStateHead& two) {
+    const std::string options =
+        differing(without_outputs(one.options), without_outputs(two.options));
+    return options.empty() ? differing(one.facts, two.facts) : options;
+}
+
 fs::path part_file(const fs::path& output, const FilmPart& part) {
     fs::path out = output;
     out += fmt::format(".{}-of-{}.film", part.index + 1, part.count);
     return out;
+}
+
+bool is_part_of_image(const RenderRequest& request) {
+    return request.part && request.part_by == PartBy::tiles;
+}
+
+fs::path checkpoint_file(const RenderRequest& request) {
+    const fs::path& asked = request.long_run.checkpoint;
+    if (asked.empty()) {
+        fs::path out = request.outputs.front();
+        if (is_part_of_image(request)) out = part_file(out, *request.part);
+        out += ".checkpoint";
+        return out;
+    }
+    if (is_part_of_image(request)) return part_file(asked, *request.part);
+    return request.frame ? frame_file(asked, *request.frame).value_or(asked) : asked;
 }
 
 NamedTexts facts_of(const RenderRequest& request,
@@ -163,6 +184,12 @@ Result<ImageParts> ImageParts::open(const std::vector<fs::path>& files) {
         if (!head) return fail(head.error());
         for (size_t i = 0; i < sums.size(); ++i)
             sums[i] += head->counters[i];
+        if (!is_whole(*head)) {
+            return refuse_parts("E-PART-SET",
+                                file.string(),
+                                "it is a checkpoint: the part is not finished. Carry on with the "
+                                "command that wrote it");
+        }
         parts.push_back(head->part);
         if (!first) {
             first = std::move(*head);
@@ -178,7 +205,7 @@ Result<ImageParts> ImageParts::open(const std::vector<fs::path>& files) {
 }
 
 Result<void> ImageParts::check_facts(const NamedTexts& facts) const {
-    const std::string differs = differences(facts_, facts);
+    const std::string differs = differing(facts_, facts);
     if (differs.empty()) return {};
     return refuse_parts(
         "E-PART-MIX",

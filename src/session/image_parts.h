@@ -15,6 +15,15 @@ namespace obscura {
 /// The file of a part, beside the picture: "shot.exr.2-of-7.film".
 std::filesystem::path part_file(const std::filesystem::path& output, const FilmPart& part);
 
+/// The file of a checkpoint: the one that was asked for, else "shot.exr.checkpoint" beside the
+/// picture or part. In a sequence it is the frame's.
+///
+/// In      request: its outputs are those of the frame
+std::filesystem::path checkpoint_file(const RenderRequest& request);
+
+/// Whether a part of a picture is rendered, not some of a sequence's frames.
+bool is_part_of_image(const RenderRequest& request);
+
 /// What the pixels depend on beside the options: the program's and Embree's versions, the
 /// instruction set, and the checksum of every file that is read. A file that cannot be read is
 /// missing among them; loading reports it.
@@ -23,6 +32,10 @@ std::filesystem::path part_file(const std::filesystem::path& output, const FilmP
 NamedTexts facts_of(const RenderRequest& request,
                     const std::string& isa,
                     const std::string& embree);
+
+/// What differs between the options, without the names of outputs, or else the facts of two
+/// renderings: "--spp: 16 and 64; --seed: nothing and 7"; "": nothing.
+std::string differences(const FilmStateHead& one, const FilmStateHead& two);
 
 /// Counters of a film state's head, and back.
 std::array<uint64_t, 6> counters_in_file(const RenderCounters& counters);

@@ -10,6 +10,7 @@
 #include "render/points_lines_sizes.h"
 #include "render/render.h"
 #include "session/camera_choice.h"
+#include "session/film_keeper.h"
 #include "session/frames.h"
 
 #include <filesystem>
@@ -31,6 +32,15 @@ enum class PartBy { automatic, tiles, frames };
 
 /// Managers of render farms, by the lines that they read in a program's output.
 enum class FarmManager { none, deadline, alfred, openjd };
+
+/// What is asked for a rendering that takes long and may be cut short.
+struct LongRun {
+    bool has_checkpoint = false;
+    std::filesystem::path checkpoint;  ///< empty: beside the output; see checkpoint_file
+    double checkpoint_interval_s = 300;
+    Resume resume = Resume::automatic;
+    std::optional<double> time_limit_s, snapshot_interval_s;
+};
 
 struct RenderRequest {
     std::filesystem::path scene;
@@ -71,6 +81,7 @@ struct RenderRequest {
     std::optional<FilmPart> part;          ///< --part: only this share is rendered
     PartBy part_by = PartBy::automatic;
     int write_retries = 0;  ///< --write-retries: of an image's files
+    LongRun long_run;
     bool check = false;     ///< --check: nothing is built, rendered or written
 };
 

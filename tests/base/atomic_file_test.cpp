@@ -292,5 +292,40 @@ TEST_F(AtomicFile, TwoThreadsWritingOneFileLeaveOneOfTheTwo) {
     EXPECT_EQ(files_in_folder(), 1U);
 }
 
+TEST_F(AtomicFile, PiecesBecomeOneFile) {
+    const fs::path target = folder_ / "pieces";
+    const auto two = [](const ByteSink& sink) -> Result<void> {
+        if (auto done = sink(bytes_of("one ")); !done) return done;
+        return sink(bytes_of("two"));
+    };
+    ASSERT_TRUE(write_file_atomically(target, two));
+    EXPECT_EQ(content(target), "one two");
+    const auto fails = [](const ByteSink& sink) -> Result<void> {
+        if (auto done = sink(bytes_of("half")); !done) return done;
+        return fail(ExitCode::internal, "E-TEST", "here", "no more");
+    };
+    const Result<void> failed = write_file_atomically(target, fails);
+    ASSERT_FALSE(failed);
+    EXPECT_EQ(failed.error().id, "E-TEST");
+    EXPECT_EQ(content(target), "one two");
+    EXPECT_EQ(files_in_folder(), 1u);
+}
+
+TEST_F(AtomicFile, TemporariesOfDeadProcessesAreRemoved) {
+    const pid_t gone = ::fork();
+    if (gone == 0) ::_exit(0);
+    ::waitpid(gone, nullptr, 0);
+    const std::string dead = std::to_string(gone);
+    const std::string alive = std::to_string(::getpid());
+    for (const std::string& name : {"a.exr." + dead + ".0.part",
+                                    "a.exr." + alive + ".0.part",
+                                    "b.exr." + dead + ".0.part",
+                                    "a.exr." + dead + ".0.partial"})
+        std::ofstream(folder_ / name) << "x";
+    remove_stale_temporaries(folder_ / "a.exr");
+    EXPECT_FALSE(fs::exists(folder_ / ("a.exr." + dead + ".0.part")));
+    EXPECT_EQ(files_in_folder(), 3u);
+}
+
 }  // namespace
 }  // namespace obscura

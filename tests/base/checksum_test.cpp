@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
 #include <string_view>
 
 namespace obscura {
@@ -22,6 +24,18 @@ TEST(Checksum, GivesThePublishedValues) {
     EXPECT_EQ(checksum_of("asdf"), 0x415872f599cea71eU);
     EXPECT_EQ(checksum_of("Call me Ishmael. Some years ago--never mind how long precisely-"),
               0x02a2e85470d6fd96U);
+}
+
+TEST(Checksum, OfPiecesIsThatOfTheWhole) {
+    std::string text;
+    for (int i = 0; i < 150; ++i)
+        text += static_cast<char>(i * 37);
+    for (size_t size = 1; size < 70; ++size) {
+        RunningChecksum sum;
+        for (size_t at = 0; at < text.size(); at += size)
+            sum.add(std::as_bytes(std::span(text)).subspan(at, std::min(size, text.size() - at)));
+        EXPECT_EQ(sum.value(), checksum_of(text)) << size;
+    }
 }
 
 }  // namespace

@@ -6,6 +6,12 @@ namespace obscura {
 namespace {
 
 using testing::HasSubstr;
+using Texts = std::vector<std::string>;
+
+Texts joined(Texts a, const Texts& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
 
 class Signals : public Cli {
 protected:
@@ -69,7 +75,8 @@ TEST_F(Signals, TerminationAtTheVeryStart) {
     ProgramSetup program = long_render();
     send_at(program, SIGTERM, "Progress: 0%");
     const ProgramRun got = run_program_with(program);
-    EXPECT_EQ(got.code, 143);
+    EXPECT_EQ(got.signal, SIGTERM);
+    expect_result(got, 143, "E-STOPPED");
     expect_untouched();
 }
 
@@ -92,6 +99,72 @@ TEST_F(Signals, AClosedStandardOutputDoesNotEndTheRendering) {
     };
     expect_result(run_program_with(program), 0, "OK");
     EXPECT_TRUE(std::filesystem::exists(folder_ / "new.exr"));
+}
+
+TEST_F(Signals, ThoseOfFarmsHaveAResultLine) {
+    for (const char* const moment : {"Progress: 0%", "Progress: [1-9]"}) {
+        ProgramSetup program = long_render();
+        send_at(program, SIGUSR1, moment);
+        const ProgramRun got = run_program_with(program);
+        EXPECT_EQ(got.signal, 0);
+        expect_result(got, 75, "E-STOPPED");
+        EXPECT_THAT(got.err, HasSubstr("SIGUSR1"));
+        expect_untouched();
+    }
+}
+
+TEST_F(Signals, AHangUpSavesACheckpointAndRenderingGoesOn) {
+    for (const bool keeps : {false, true}) {
+        Texts arguments = {"render", "box.gltf", "--size", "160x120", "--spp", "256", "--verbose"};
+        if (keeps) arguments.emplace_back("--checkpoint");
+        ProgramSetup program = setup(joined(arguments, {"-o", "new.exr"}), folder_);
+        send_at(program, SIGHUP, "Progress: [1-9]");
+        const ProgramRun got = run_program_with(program);
+        expect_result(got, 0, "OK");
+        EXPECT_EQ(got.err.find("checkpoint: ") != std::string::npos, keeps) << got.err;
+        EXPECT_TRUE(std::filesystem::exists(folder_ / "new.exr"));
+        EXPECT_FALSE(std::filesystem::exists(folder_ / "new.exr.checkpoint"));
+    }
+}
+
+TEST_F(Signals, WithACheckpointEachOneKeepsWhatIsFinished) {
+    for (const int signal : {SIGTERM, SIGINT, SIGUSR1}) {
+        ProgramSetup program = long_render();
+        program.arguments.emplace_back("--checkpoint");
+        send_at(program, signal, "Progress: [1-9]");
+        const ProgramRun got = run_program_with(program);
+        expect_result(got, signal == SIGUSR1 ? 75 : 128 + signal, "E-STOPPED");
+        EXPECT_THAT(got.err, HasSubstr("old.exr.checkpoint holds "));
+        EXPECT_TRUE(std::filesystem::remove(folder_ / "old.exr.checkpoint"));
+        expect_untouched();
+    }
+}
+
+TEST_F(Signals, ASecondTerminationIsIgnored) {
+    ProgramSetup program = long_render();
+    program.arguments.emplace_back("--checkpoint");
+    program.on_output = [](const std::string& out, pid_t process) {
+        if (!std::regex_search(out, std::regex("Progress: [1-9]"))) return;
+        kill(process, SIGTERM);
+        kill(process, SIGTERM);
+    };
+    const ProgramRun got = run_program_with(program);
+    EXPECT_EQ(got.signal, SIGTERM);
+    expect_result(got, 143, "E-STOPPED");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "old.exr.checkpoint"));
+}
+
+TEST_F(Signals, ASecondInterruptionEndsAtOnce) {
+    ProgramSetup program = long_render();
+    program.on_output = [](const std::string& out, pid_t process) {
+        if (!std::regex_search(out, std::regex("Progress: [1-9]"))) return;
+        kill(process, SIGINT);
+        usleep(1000);
+        kill(process, SIGINT);
+    };
+    const ProgramRun got = run_program_with(program);
+    EXPECT_EQ(got.signal, SIGINT);
+    expect_untouched();
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ protected:
         head.options = {{"--spp", "4"}, {"SCENE", "a.glb"}};
         head.facts = {{"isa", "avx2"}};
         head.counters = {1, 2, 3, 4, 5, 6};
+        head.areas = areas_of_part(3, 5, part.index < part.count ? part : FilmPart{});
         EXPECT_TRUE(write_film_state(folder_ / "part", head, numbered_film(1)));
         return read_text(folder_ / "part");
     }
@@ -98,6 +99,54 @@ TEST_F(FilmState, RefusesPartsThatThereAreNot) {
     EXPECT_EQ(id_of(written({2, 2})), "E-PART-DAMAGED");
     EXPECT_EQ(id_of(written({0, max_film_parts + 1})), "E-PART-DAMAGED");
     EXPECT_EQ(id_of(written({1, 2})), "");
+}
+
+/// The pixels of one area, in a film of zeros.
+Film filled(const FilmArea& area) {
+    return copy_areas(numbered_film(1), std::vector<FilmArea>{area});
+}
+
+TEST_F(FilmState, HoldsAreas) {
+    FilmStateHead head;
+    head.areas = {{1, 2, 2, 3}};
+    ASSERT_TRUE(write_film_state(folder_ / "some", head, numbered_film(1)));
+    Film film = copy_areas(numbered_film(0), {});
+    const Result<FilmStateHead> read = read_film_state(folder_ / "some", &film);
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->areas, head.areas);
+    EXPECT_EQ(pixels_in(read->areas), 6);
+    EXPECT_FALSE(is_whole(*read));
+    const Film expected = filled(head.areas[0]);
+    EXPECT_EQ(floats_of(film.pixels), floats_of(expected.pixels));
+    EXPECT_EQ(floats_of(film.layers[0].pixels), floats_of(expected.layers[0].pixels));
+    EXPECT_EQ(film.pixels[4 * 7 + 1], 30);  // row 2, column 1: behind 28 numbers and one channel
+    EXPECT_EQ(film.pixels[4 * 6 + 1], 0);
+}
+
+TEST_F(FilmState, RefusesAreasOutsideTheFilm) {
+    const std::vector<FilmArea> outside = {
+        {0, 0, 0, 1}, {0, 0, 1, 6}, {3, 0, 1, 1}, {0, 5, 1, 1}, {0, 4, 1, 2}, {0, 0, 4, 1}};
+    for (const FilmArea& area : outside) {
+        FilmStateHead head;
+        head.areas = {area};
+        Film film = numbered_film(1);
+        film.pixels.resize(10000);  // so that writing stays in it
+        film.layers.clear();
+        ASSERT_TRUE(write_film_state(folder_ / "x", head, film));
+        EXPECT_EQ(id_of(read_text(folder_ / "x")), "E-PART-DAMAGED");
+    }
+}
+
+TEST_F(FilmState, PartsAreWholeWithAllTheirAreas) {
+    FilmStateHead head;
+    head.width = 3;
+    head.height = 64;
+    head.part = {1, 2};
+    head.areas = areas_of_part(3, 64, head.part);
+    EXPECT_TRUE(is_whole(head));
+    head.areas.pop_back();
+    EXPECT_FALSE(is_whole(head));
+    EXPECT_EQ(areas_of_part(3, 64, {0, 1}), (std::vector<FilmArea>{{0, 0, 3, 64}}));
 }
 
 TEST_F(FilmState, RefusesAnotherFilm) {

@@ -1,0 +1,261 @@
+// app/render_image.cpp - makes and writes one image or part, and keeps what is finished meanwhile.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/render_job.h"
+
+#include "base/stopwatch.h"
+#include "camera/exposure.h"
+#include "session/dark_image.h"
+#include "session/denoising.h"
+#include "session/film_keeper.h"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace obscura::app {
+
+namespace {
+
+/// An image that is being made.
+struct Making {
+    Job& job;
+    const ChosenCamera& camera;
+    const Turn& turn;
+    Log& log;
+    FilmKeeper* keeper = nullptr;  ///< null: nothing is kept before the end
+    RenderHooks hooks = {};
+};
+
+bool is_long_run(const LongRun& run) {
+    return run.has_checkpoint || run.time_limit_s || run.snapshot_interval_s;
+}
+
+/// The facts that pixels depend on; files are read for them once.
+const NamedTexts& facts_of(Job& job) {
+    const RenderStatistics& statistics = job.renderer->statistics();
+    if (!job.facts)
+        job.facts = facts_of(job.request, statistics.isa, statistics.embree);
+    return *job.facts;
+}
+
+/// The head of a film state of this image; no file is read where none is written.
+FilmStateHead head_of(Job& job) {
+    FilmStateHead head;
+    if (is_part_of_image(job.request)) head.part = *job.request.part;
+    if (!job.request.long_run.has_checkpoint && !is_part_of_image(job.request)) return head;
+    head.options = job.options;
+    head.facts = facts_of(job);
+    if (job.request.frame)
+        head.facts.emplace_back("the frame", std::to_string(*job.request.frame));
+    return head;
+}
+
+std::string percent(double fraction) {
+    return fmt::format("{:.1f} %", 100 * fraction);
+}
+
+/// What a stop leaves behind, for messages.
+std::string note_of(const Making& making) {
+    const std::string file = making.keeper != nullptr ? making.keeper->file_if_kept() : "";
+    if (file.empty()) return "";
+    return fmt::format("{} holds {} of the picture: the same command carries on from there",
+                       file,
+                       percent(making.keeper->fraction()));
+}
+
+/// Writes a checkpoint with `save`. That it cannot be written does not end a rendering.
+template <typename Save>
+void try_to_save(const Making& making, bool& has_failed, const Save& save) {
+    const Result<void> saved = save();
+    if (saved) {
+        making.log.detail("checkpoint: " + percent(making.keeper->fraction()));
+    } else if (!has_failed) {
+        making.log.warn(saved.error().where,
+                        "no checkpoint: " + saved.error().message + "; rendering goes on");
+    }
+    has_failed = has_failed || !saved;
+}
+
+/// Marks an image of which pixels are missing.
+void mark_unfinished(double fraction, FinishedImage& image) {
+    image.metadata.extra.push_back({"obscura:done", fraction});
+}
+
+/// Writes the image so far, while it is being rendered; undenoised, as that may take long.
+Result<void> write_snapshot(const Making& making) {
+    std::optional<Film> film = making.keeper->film_so_far();
+    if (!film) return {};
+    RenderRequest request = making.job.request;
+    request.denoise = false;
+    request.standard_output.reset();
+    remove_denoising_layers(request.options, *film);
+    RenderedFilm rendered{request.options, {}};
+    rendered.result.film = std::move(*film);
+    const double fraction = making.keeper->fraction();
+    FinishedImage finished =
+        making.job.renderer->finish(request, making.camera, std::move(rendered), making.log);
+    mark_unfinished(fraction, finished);
+    Log unheard;  // the image itself will say the same
+    const auto& stop = making.job.watch.stop();
+    return write_outputs(request, finished, making.job.display, stop, unheard);
+}
+
+/// What is done beside rendering; `has_failed` must outlive it.
+Watch::Tasks tasks_of(const Making& making, bool& has_failed) {
+    Watch::Tasks out;
+    const LongRun& run = making.job.request.long_run;
+    if (run.has_checkpoint) {
+        out.save = [&making, &has_failed] {
+            try_to_save(making, has_failed, [&] { return making.keeper->save_meanwhile(); });
+        };
+    }
+    if (run.snapshot_interval_s) {
+        out.snapshot = [&making, warned = false]() mutable {
+            const Result<void> written = write_snapshot(making);
+            if (written || warned || written.error().id == "E-STOPPED") return;
+            warned = true;
+            making.log.warn(written.error().where, "no snapshot: " + written.error().message);
+        };
+    }
+    return out;
+}
+
+/// Renders the film, with a checkpoint at the end where much would be lost.
+Result<RenderedFilm> render_film(Making& making) {
+    Job& job = making.job;
+    FilmKeeper* const keeper = making.keeper;
+    FilmShare share;
+    if (is_part_of_image(job.request)) share.part = job.request.part;
+    if (keeper != nullptr) {
+        if (!share.part) share.part = FilmPart{};
+        share.fill = [&](Film& film) { return keeper->fill(film); };
+        share.leave = [&](const Film& /*film*/) { keeper->leave(); };
+        share.keeps_unfinished = true;
+    }
+    if (share.part) making.hooks.share = &share;
+    bool has_failed = false;
+    job.watch.begin_rendering(keeper != nullptr ? tasks_of(making, has_failed) : Watch::Tasks());
+    Result<RenderedFilm> film =
+        job.renderer->render_film(job.request, making.camera, making.hooks);
+    if (film && keeper != nullptr) {
+        const RenderResult& result = film->result;
+        const double much_s = first_checkpoint_s(job.request.long_run.checkpoint_interval_s);
+        if (result.is_stopped || result.render_seconds >= much_s)
+            try_to_save(making, has_failed, [&] { return keeper->save(result.film); });
+        add_counters(keeper->resumed_counters(), job.renderer->statistics().counters);
+        add_counters(keeper->resumed_counters(), film->result.counters);
+    }
+    if (job.watch.begin_finishing()) return film;
+    return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
+}
+
+/// Writes a part's file.
+Result<void> write_part(const Making& making, const RenderResult& result) {
+    const RenderRequest& request = making.job.request;
+    FilmStateHead head = head_of(making.job);
+    head.counters = counters_in_file(result.counters);
+    head.areas = areas_of_part(result.film.width, result.film.height, head.part);
+    return write_film_state(
+        part_file(request.outputs.front(), *request.part), head, result.film);
+}
+
+/// Writes all outputs of a film that is finished, or of one of which pixels are missing.
+Result<void> write_image(const Making& making, RenderedFilm&& film) {
+    Job& job = making.job;
+    const RenderRequest& request = job.request;
+    const bool is_unfinished = film.result.is_stopped;
+    if (is_unfinished) film.result.film = making.keeper->finished_of(film.result.film);
+    FinishedImage finished =
+        job.renderer->finish(request, making.camera, std::move(film), making.log);
+    const double camera_ev = making.camera.ev100 ? std::log2(exposure_scale(*making.camera.ev100))
+                                                 : 0;
+    const double exposure_ev = request.display.exposure_ev + camera_ev;
+    if (is_unfinished) {
+        mark_unfinished(making.keeper->fraction(), finished);
+    } else if (making.turn.index == 0) {
+        const Scene& scene = job.renderer->scene();
+        warn_of_dark_image(finished.image, request, scene, exposure_ev, making.log);
+    }
+    job.watch.begin_writing();
+    const Stopwatch writing;
+    const Result<void> written =
+        write_outputs(request, finished, job.display, job.watch.stop(), making.log);
+    job.renderer->statistics().write_s += writing.seconds();
+    job.renderer->recycle(std::move(finished.image));
+    return written;
+}
+
+/// The film of all parts.
+Result<RenderedFilm> film_of_parts(Making& making) {
+    Job& job = making.job;
+    if (auto same = job.parts->check_facts(facts_of(job)); !same) return fail(same.error());
+    const auto fill = [&](Film& film) -> Result<std::vector<FilmArea>> {
+        if (auto filled = job.parts->fill(film); !filled) return fail(filled.error());
+        return std::vector<FilmArea>();
+    };
+    const FilmShare share{{}, fill};
+    making.hooks.share = &share;
+    Result<RenderedFilm> film =
+        job.renderer->render_film(job.request, making.camera, making.hooks);
+    if (!film) return film;
+    film->result.counters = job.parts->counters();
+    add_counters(job.parts->counters(), job.renderer->statistics().counters);
+    return film;
+}
+
+tl::unexpected<Error> time_is_up(const Making& making) {
+    const RenderRequest& request = making.job.request;
+    const std::string note = note_of(making);
+    std::string message = fmt::format("the time limit is over: {} of the picture are rendered{}",
+                                      percent(making.keeper->fraction()),
+                                      is_part_of_image(request) ? "" : ", the rest is black");
+    if (!note.empty()) message += "; " + note;
+    return fail(ExitCode::stopped_early, "E-TIME-LIMIT", request.scene.string(), message);
+}
+
+/// Renders and writes.
+Result<void> make(Making& making) {
+    Job& job = making.job;
+    const bool is_part = is_part_of_image(job.request);
+    Result<RenderedFilm> film = job.parts != nullptr ? film_of_parts(making) : render_film(making);
+    if (!film) return fail(film.error());
+    const bool is_unfinished = film->result.is_stopped && making.keeper->fraction() < 1;
+    film->result.is_stopped = is_unfinished;
+    if (is_part && is_unfinished) return time_is_up(making);
+    if (is_part) job.watch.begin_writing();
+    const Result<void> written =
+        is_part ? write_part(making, film->result) : write_image(making, std::move(*film));
+    if (!written) return written;
+    if (is_unfinished) return time_is_up(making);
+    if (making.keeper != nullptr) making.keeper->remove();
+    return {};
+}
+
+}  // namespace
+
+Result<void> make_image(
+    Job& job, const ChosenCamera& camera, const Turn& turn, Log& log, Progress& progress) {
+    const RenderRequest& request = job.request;
+    if (auto exposed = expose_display(camera, request, job.display, log); !exposed) return exposed;
+    if (!job.has_begun) progress.begin();
+    job.has_begun = true;
+    const LongRun& run = request.long_run;
+    std::optional<FilmKeeper> keeper;
+    if (is_long_run(run) && job.parts == nullptr) {
+        std::optional<std::filesystem::path> file;
+        if (run.has_checkpoint) file = checkpoint_file(request);
+        keeper.emplace(head_of(job), file);
+        if (auto found = keeper->find(run.resume, log); !found) return found;
+    }
+    Making making{job, camera, turn, log, keeper ? &*keeper : nullptr};
+    making.hooks.stop = &job.watch.stop();
+    making.hooks.progress = [&](const FinishedTile& tile) {
+        if (keeper) keeper->add(tile);
+        progress.update((static_cast<double>(turn.index) + tile.done) /
+                        static_cast<double>(turn.count));
+    };
+    Result<void> done = make(making);
+    if (!done && done.error().id == "E-STOPPED") done.error().message = note_of(making);
+    return done;
+}
+
+}  // namespace obscura::app

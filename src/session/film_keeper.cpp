@@ -1,0 +1,170 @@
+// session/film_keeper.cpp - keeps what is finished of an image: in a file to go on from, or to show.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/film_keeper.h"
+
+#include "base/atomic_file.h"
+#include "session/image_parts.h"
+
+#include <fmt/format.h>
+#include <system_error>
+
+namespace obscura {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path previous(const fs::path& file) {
+    fs::path out = file;
+    out += ".1";
+    return out;
+}
+
+bool is_same_part(const FilmPart& a, const FilmPart& b) {
+    return a.index == b.index && a.count == b.count;
+}
+
+std::string text_of(const FilmPart& part) {
+    return fmt::format("{}/{}", part.index + 1, part.count);
+}
+
+bool is_there(const fs::path& file) {
+    std::error_code error;
+    return fs::exists(file, error);
+}
+
+}  // namespace
+
+FilmKeeper::FilmKeeper(FilmStateHead head, std::optional<fs::path> file)
+    : file_(std::move(file)), head_(std::move(head)) {}
+
+Result<void> FilmKeeper::find(Resume resume, Log& log) {
+    if (!file_) return {};
+    remove_stale_temporaries(*file_);
+    if (resume == Resume::never) {
+        remove();
+        return {};
+    }
+    for (const fs::path& file : {*file_, previous(*file_)}) {
+        if (!is_there(file)) continue;
+        const Result<FilmStateHead> head = read_film_state(file, nullptr);
+        if (!head) {
+            log.warn(file.string(), "not used to go on from: " + head.error().message);
+            continue;
+        }
+        std::string differs = differences(*head, head_);
+        if (differs.empty() && !is_same_part(head->part, head_.part))
+            differs = "--part: " + text_of(head->part) + " and " + text_of(head_.part);
+        if (differs.empty()) {
+            found_ = file;
+            is_newest_whole_ = file == *file_;
+            return {};
+        }
+        return fail(ExitCode::configuration,
+                    "E-RESUME-MIX",
+                    file.string(),
+                    "the checkpoint is of another rendering; these differ: " + differs +
+                        "; --resume never starts anew");
+    }
+    if (resume != Resume::require) return {};
+    return fail(ExitCode::io_error,
+                "E-RESUME-NONE",
+                file_->string(),
+                "there is no whole checkpoint to go on from, which --resume require asks for");
+}
+
+Result<std::vector<FilmArea>> FilmKeeper::fill(Film& film) {
+    {
+        const std::scoped_lock lock(using_film_, mutex_);
+        film_ = &film;
+        head_.width = film.width;
+        head_.height = film.height;
+    }
+    if (!found_) return std::vector<FilmArea>();
+    Result<FilmStateHead> head = read_film_state(*found_, &film);
+    if (!head) return fail(head.error());
+    resumed_ = counters_from_file(head->counters);
+    const std::lock_guard lock(mutex_);
+    head_.areas = head->areas;
+    head_.counters = head->counters;
+    saved_areas_ = head_.areas.size();
+    is_kept_ = true;
+    return std::move(head->areas);
+}
+
+void FilmKeeper::add(const FinishedTile& tile) {
+    const ImagePart origin = tile.film->part_of.value_or(ImagePart{});
+    const std::array<uint64_t, 6> counters = counters_in_file(tile.counters);
+    const std::lock_guard lock(mutex_);
+    head_.areas.push_back(
+        {tile.area.x - origin.x, tile.area.y - origin.y, tile.area.width, tile.area.height});
+    for (size_t i = 0; i < counters.size(); ++i)
+        head_.counters[i] += counters[i];
+}
+
+void FilmKeeper::leave() {
+    const std::lock_guard lock(using_film_);
+    film_ = nullptr;
+}
+
+Result<void> FilmKeeper::save_meanwhile() {
+    const std::lock_guard lock(using_film_);
+    if (film_ == nullptr) return {};
+    return save(*film_);
+}
+
+Result<void> FilmKeeper::save(const Film& film) {
+    if (!file_) return {};
+    const FilmStateHead head = head_so_far();
+    {
+        const std::lock_guard lock(mutex_);
+        if (head.areas.size() == saved_areas_) return {};
+    }
+    // The older of two generations goes. While the new one is written, the one before it is there
+    // under its other name. A damaged one never takes the place of a whole one.
+    std::error_code ignored;
+    if (is_newest_whole_) fs::rename(*file_, previous(*file_), ignored);
+    is_newest_whole_ = false;
+    if (auto written = write_film_state(*file_, head, film); !written) return written;
+    is_newest_whole_ = true;
+    const std::lock_guard lock(mutex_);
+    saved_areas_ = head.areas.size();
+    is_kept_ = true;
+    return {};
+}
+
+void FilmKeeper::remove() const {
+    if (!file_) return;
+    std::error_code ignored;
+    fs::remove(*file_, ignored);
+    fs::remove(previous(*file_), ignored);
+}
+
+std::optional<Film> FilmKeeper::film_so_far() const {
+    const std::lock_guard lock(using_film_);
+    if (film_ == nullptr) return {};
+    return finished_of(*film_);
+}
+
+Film FilmKeeper::finished_of(const Film& film) const {
+    return copy_areas(film, head_so_far().areas);
+}
+
+double FilmKeeper::fraction() const {
+    const FilmStateHead head = head_so_far();
+    const int64_t all = pixels_in(areas_of_part(head.width, head.height, head.part));
+    if (all == 0) return 0;
+    return static_cast<double>(pixels_in(head.areas)) / static_cast<double>(all);
+}
+
+std::string FilmKeeper::file_if_kept() const {
+    const std::lock_guard lock(mutex_);
+    return is_kept_ ? file_->string() : "";
+}
+
+FilmStateHead FilmKeeper::head_so_far() const {
+    const std::lock_guard lock(mutex_);
+    return head_;
+}
+
+}  // namespace obscura

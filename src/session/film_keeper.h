@@ -1,0 +1,79 @@
+// session/film_keeper.h - keeps what is finished of an image: in a file to go on from, or to show.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/log.h"
+#include "film/film_state.h"
+#include "render/render.h"
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace obscura {
+
+/// Whether a rendering goes on from a checkpoint that is there.
+enum class Resume { automatic, require, never };
+
+/// Follows the rendering of one film. Its checkpoint is a film state: the tiles that are finished,
+/// with what their pixels depend on. There are two generations, `file` and `file`.1, so that one is
+/// whole whatever happens.
+class FilmKeeper {
+public:
+    /// In      head: part, options and facts
+    ///         file: none: nothing is written
+    FilmKeeper(FilmStateHead head, std::optional<std::filesystem::path> file);
+
+    /// Looks for a checkpoint to go on from; with `never` removes it. Damaged ones cause a warning.
+    ///
+    /// Errors  78 E-RESUME-MIX it is of another rendering, with what differs;
+    ///         74 E-RESUME-NONE it is required, and there is none that is whole
+    Result<void> find(Resume resume, Log& log);
+
+    /// For FilmShare and ProgressFunction. `add` may be called from any thread.
+    ///
+    /// Errors  of fill: those of read_film_state
+    Result<std::vector<FilmArea>> fill(Film& film);
+    void add(const FinishedTile& tile);
+    void leave();
+
+    /// Writes a checkpoint of the film that is being rendered, from another thread; does nothing
+    /// when nothing was finished since the latest, or the film has gone elsewhere.
+    ///
+    /// Errors  those of write_film_state
+    Result<void> save_meanwhile();
+    /// Likewise, of a film that has left.
+    Result<void> save(const Film& film);
+    /// Removes the checkpoint and the one before it.
+    void remove() const;
+
+    /// What is finished of the film that is being rendered, 0 elsewhere; none: it has left.
+    std::optional<Film> film_so_far() const;
+    /// The same of a film that has left.
+    Film finished_of(const Film& film) const;
+
+    /// The fraction of the part's pixels that are finished.
+    double fraction() const;
+    /// Counters of the tiles that came from the checkpoint.
+    const RenderCounters& resumed_counters() const { return resumed_; }
+    /// The checkpoint's file where one was written or read; "": none was.
+    std::string file_if_kept() const;
+
+private:
+    FilmStateHead head_so_far() const;
+
+    const std::optional<std::filesystem::path> file_;
+    std::optional<std::filesystem::path> found_;  ///< the generation to go on from
+    bool is_newest_whole_ = false;                ///< whether `file_` is there and not damaged
+    RenderCounters resumed_;
+    mutable std::mutex using_film_;  ///< held while film_ is read; locked before mutex_
+    const Film* film_ = nullptr;
+    mutable std::mutex mutex_;  ///< of what follows
+    FilmStateHead head_;        ///< with areas and counters so far
+    size_t saved_areas_ = 0;    ///< that the latest checkpoint holds
+    bool is_kept_ = false;
+};
+
+}  // namespace obscura

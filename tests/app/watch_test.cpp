@@ -1,0 +1,34 @@
+// tests/app/watch_test.cpp - when checkpoints and snapshots are due.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/watch.h"
+
+#include <gtest/gtest.h>
+
+namespace obscura::app {
+namespace {
+
+TEST(Repetition, IsDueAfterTheFirstTimeThenAfterTheInterval) {
+    Repetition saves(30, 300, 0.02);
+    saves.begin(100);
+    EXPECT_FALSE(saves.is_due(129));
+    EXPECT_TRUE(saves.is_due(130));
+    saves.done(130, 131);
+    EXPECT_FALSE(saves.is_due(430));
+    EXPECT_TRUE(saves.is_due(431));
+}
+
+TEST(Repetition, TakesAtMostItsShareOfTheTime) {
+    Repetition saves(1, 1, 0.02);
+    saves.begin(0);
+    saves.done(1, 3);  // 2 s are 0.02 of 100 s
+    EXPECT_FALSE(saves.is_due(100));
+    EXPECT_TRUE(saves.is_due(101));
+}
+
+TEST(Repetition, TheFirstCheckpointIsEarly) {
+    EXPECT_EQ(first_checkpoint_s(300), 30);
+    EXPECT_EQ(first_checkpoint_s(5), 5);
+}
+
+}  // namespace
+}  // namespace obscura::app

@@ -1,0 +1,283 @@
+// tests/cli/checkpoint_test.cpp - renderings that are cut short go on to the bits of unbroken ones.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli.h"
+#include "support/text_files.h"
+
+#include <cstdlib>
+#include <random>
+
+namespace obscura {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Texts = std::vector<std::string>;
+
+/// Rounds of killing; more of them by OBSCURA_KILL_ROUNDS=500.
+int kill_rounds() {
+    const char* const text = std::getenv("OBSCURA_KILL_ROUNDS");
+    return text != nullptr ? std::atoi(text) : 20;
+}
+
+class Checkpoints : public Cli {
+protected:
+    /// A rendering of a second or so on one core, to a.exr with layers and masks.
+    static Texts with_layers(const std::string& output = "a.exr") {
+        return {"--size",
+                "96x64",
+                "--spp",
+                "64",
+                "--aov",
+                "normal,depth,crypto_object,variance,sample_count",
+                "--segmentation",
+                "mask.png",
+                "--denoise",
+                "-o",
+                output};
+    }
+    static Texts joined(Texts a, const Texts& b) {
+        a.insert(a.end(), b.begin(), b.end());
+        return a;
+    }
+    /// As long as it takes for a signal to come in the middle.
+    static Texts long_render() {
+        return {"--size", "320x240", "--spp", "256", "-o", "a.exr", "--checkpoint"};
+    }
+    ProgramSetup program(const Texts& more) const {
+        return setup(small_render("box.gltf", more), folder_);
+    }
+    bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+    std::string text(const std::string& name) const { return read_text(folder_ / name); }
+
+    /// Sends a signal once, when the output holds a line that satisfies the pattern.
+    static void send_at(ProgramSetup& program, int signal, const char* pattern) {
+        program.on_output = [signal, form = std::regex(pattern), sent = false](
+                                const std::string& out, pid_t process) mutable {
+            if (sent || !std::regex_search(out, form)) return;
+            sent = true;
+            kill(process, signal);
+        };
+    }
+    /// Stops a rendering with USR1 in the middle, so that its checkpoint stays.
+    void leave_checkpoint(const Texts& more) const {
+        ProgramSetup stopped = program(more);
+        send_at(stopped, SIGUSR1, "Progress: [1-9]");
+        expect_result(run_program_with(stopped), 75, "E-STOPPED");
+        ASSERT_TRUE(exists("a.exr.checkpoint"));
+    }
+};
+
+/// Kills the program after a time; false: it had ended before.
+bool run_and_kill(const ProgramSetup& setup, double after_s) {
+    const pid_t child = fork();
+    if (child == 0) {
+        const int nothing = open("/dev/null", O_WRONLY);
+        run_program_detail::become(setup, nothing, nothing);
+    }
+    usleep(static_cast<useconds_t>(after_s * 1e6));
+    kill(child, SIGKILL);
+    int status = 0;
+    waitpid(child, &status, 0);
+    return WIFSIGNALED(status);
+}
+
+TEST_F(Checkpoints, KilledAtRandomMomentsItGoesOnToTheSameBits) {
+    const Texts options = joined(with_layers(), {"--checkpoint", "--checkpoint-interval", "0.05"});
+    expect_result(render("box.gltf", with_layers("whole.exr")), 0, "OK");
+    const std::string mask = text("mask.png");
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> seconds(0.0, 0.6);
+    int killed = 0;
+    int resumed = 0;
+    while (killed < kill_rounds()) {
+        ProgramSetup one = program(options);
+        one.arguments.insert(one.arguments.end() - 2, {"--threads", std::to_string(1 + killed % 2)});
+        if (run_and_kill(one, seconds(random))) {
+            ++killed;
+            if (exists("a.exr.checkpoint")) ++resumed;
+            continue;
+        }
+        EXPECT_TRUE(text("a.exr") == text("whole.exr")) << "after kill " << killed;
+        EXPECT_TRUE(text("mask.png") == mask);
+        EXPECT_FALSE(exists("a.exr.checkpoint"));
+        EXPECT_FALSE(exists("a.exr.checkpoint.1"));
+    }
+    expect_result(render("box.gltf", options), 0, "OK");
+    EXPECT_TRUE(text("a.exr") == text("whole.exr"));
+    EXPECT_GT(resumed, 0);
+    for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
+        const std::string name = entry.path().filename().string();
+        EXPECT_THAT(name, Not(HasSubstr("checkpoint")));
+    }
+}
+
+TEST_F(Checkpoints, GoesOnFromWhatIsFinished) {
+    const Texts options = long_render();
+    leave_checkpoint(options);
+    EXPECT_FALSE(exists("a.exr"));
+    Texts verbose = joined(options, {"--stats", "a.json", "--tile-size", "24", "--threads", "1"});
+    expect_result(render("box.gltf", verbose), 0, "OK");
+    EXPECT_FALSE(exists("a.exr.checkpoint"));
+    expect_result(render("box.gltf", joined(long_render(), {"--stats", "b.json", "-o", "b.exr"})),
+                  0,
+                  "OK");
+    EXPECT_TRUE(text("a.exr") == text("b.exr"));
+}
+
+TEST_F(Checkpoints, OfOtherRenderingsAreRefusedWithWhatDiffers) {
+    leave_checkpoint(long_render());
+    const std::string before = text("a.exr.checkpoint");
+    const ProgramRun options = render("box.gltf", joined(long_render(), {"--seed", "3"}));
+    expect_result(options, 78, "E-RESUME-MIX");
+    EXPECT_THAT(options.err, HasSubstr("--seed: nothing and 3"));
+    const ProgramRun sets = render("box.gltf", joined(long_render(), {"--isa", "baseline"}));
+    EXPECT_NE(sets.code, 0);
+    EXPECT_THAT(sets.err, HasSubstr("--isa: nothing and baseline"));
+    const std::string scene = text("box.gltf");
+    folder_.write("box.gltf", scene + " ");
+    const ProgramRun scenes = render("box.gltf", long_render());
+    expect_result(scenes, 78, "E-RESUME-MIX");
+    EXPECT_THAT(scenes.err, HasSubstr("the file box.gltf"));
+    EXPECT_TRUE(text("a.exr.checkpoint") == before);
+    folder_.write("box.gltf", scene);
+    const Texts anew = joined(long_render(), {"--resume", "never", "--time-limit", "0.3"});
+    expect_result(render("box.gltf", joined(anew, {"--seed", "3"})), 75, "E-TIME-LIMIT");
+    const ProgramRun old = render("box.gltf", long_render());
+    expect_result(old, 78, "E-RESUME-MIX");
+    EXPECT_THAT(old.err, HasSubstr("--seed: 3 and nothing"));
+}
+
+TEST_F(Checkpoints, DamagedOnesAreNotUsed) {
+    leave_checkpoint(long_render());
+    const std::string whole = text("a.exr.checkpoint");
+    const Texts required = joined(long_render(), {"--resume", "require", "--time-limit", "0.2"});
+    std::mt19937 random(3);
+    const size_t step = std::max<size_t>(1024, whole.size() / 1024 / 20 * 1024);
+    for (size_t length = 0; length < whole.size(); length += step) {
+        folder_.write("a.exr.checkpoint", whole.substr(0, length));
+        expect_result(render("box.gltf", required), 74, "E-RESUME-NONE");
+        std::string flipped = whole;
+        char& byte = flipped[random() % whole.size()];
+        byte = static_cast<char>(byte ^ (1 << random() % 8));
+        folder_.write("a.exr.checkpoint", flipped);
+        expect_result(render("box.gltf", required), 74, "E-RESUME-NONE");
+    }
+    std::filesystem::remove(folder_ / "a.exr.checkpoint");
+    expect_result(render("box.gltf", required), 74, "E-RESUME-NONE");
+    const Texts automatic = joined(long_render(), {"--time-limit", "0.4"});
+    folder_.write("a.exr.checkpoint", whole.substr(0, 5000));
+    const ProgramRun anew = render("box.gltf", automatic);
+    expect_result(anew, 75, "E-TIME-LIMIT");
+    EXPECT_THAT(anew.err, HasSubstr("WARN a.exr.checkpoint: not used to go on from"));
+}
+
+TEST_F(Checkpoints, TheOneBeforeADamagedOneIsUsed) {
+    leave_checkpoint(long_render());
+    std::filesystem::rename(folder_ / "a.exr.checkpoint", folder_ / "a.exr.checkpoint.1");
+    const std::string before = text("a.exr.checkpoint.1");
+    folder_.write("a.exr.checkpoint", before.substr(0, before.size() / 2));
+    const ProgramRun got = render(
+        "box.gltf", joined(long_render(), {"--resume", "require", "--time-limit", "0.6"}));
+    expect_result(got, 75, "E-TIME-LIMIT");
+    EXPECT_THAT(got.err, HasSubstr("WARN a.exr.checkpoint: "));
+    EXPECT_TRUE(text("a.exr.checkpoint.1") == before);  // a damaged one has not replaced it
+    expect_result(render("box.gltf", long_render()), 0, "OK");
+    expect_result(render("box.gltf", joined(long_render(), {"-o", "b.exr"})), 0, "OK");
+    EXPECT_TRUE(text("a.exr") == text("b.exr"));
+}
+
+TEST_F(Checkpoints, ThatCannotBeWrittenDoNotEndARendering) {
+    const Texts options = {"--checkpoint=absent/a.film", "--checkpoint-interval", "0.05"};
+    const ProgramRun got = render(
+        "box.gltf", joined({"--size", "64x64", "--spp", "256", "-o", "a.exr"}, options));
+    expect_result(got, 0, "OK");
+    EXPECT_THAT(got.err, HasSubstr("WARN absent/a.film: no checkpoint: "));
+}
+
+TEST_F(Checkpoints, OfAPartAndOfAFrame) {
+    const Texts part = {"--part", "2/3"};
+    ProgramSetup stopped = program(joined(long_render(), part));
+    send_at(stopped, SIGUSR1, "Progress: [1-9]");
+    expect_result(run_program_with(stopped), 75, "E-STOPPED");
+    const std::string file = "a.exr.2-of-3.film";
+    ASSERT_TRUE(exists(file + ".checkpoint"));
+    const ProgramRun merged = run({"merge", file + ".checkpoint"});
+    expect_result(merged, 78, "E-PART-SET");
+    EXPECT_THAT(merged.err, HasSubstr("it is a checkpoint"));
+    expect_result(render("box.gltf", joined(long_render(), part)), 0, "OK");
+    const std::string resumed = text(file);
+    EXPECT_FALSE(exists(file + ".checkpoint"));
+    expect_result(render("box.gltf", joined(long_render(), part)), 0, "OK");
+    EXPECT_TRUE(text(file) == resumed);
+
+    const Texts frames = {"--size", "320x240", "--spp", "64", "--frames", "1-2", "-o", "f.#.exr"};
+    ProgramSetup second = program(joined(frames, {"--checkpoint"}));
+    send_at(second, SIGTERM, "Progress: [6-9]");
+    EXPECT_EQ(run_program_with(second).signal, SIGTERM);
+    EXPECT_FALSE(exists("f.1.exr.checkpoint"));
+    EXPECT_TRUE(exists("f.2.exr.checkpoint"));
+    expect_result(render("box.gltf", joined(frames, {"--checkpoint"})), 0, "OK");
+    const std::string frame = text("f.2.exr");
+    expect_result(render("box.gltf", frames), 0, "OK");
+    EXPECT_TRUE(text("f.2.exr") == frame);
+}
+
+TEST_F(Checkpoints, WrongOptionsAreRefused) {
+    const std::vector<Texts> conflicts = {
+        {"--resume", "auto"},
+        {"--checkpoint-interval", "3"},
+        {"--checkpoint", "-o", "-"},
+        {"--checkpoint", "--noise-target", "0.1"},
+        {"--time-limit", "9", "--noise-target", "0.1"},
+        {"--snapshot", "9", "--part", "1/2"},
+        {"--snapshot", "9", "-o", "-"},
+        {"--checkpoint=", "-o", "a.exr"},
+        {"--checkpoint=a.film", "--frames", "1-2", "-o", "a.#.exr"}};
+    for (const Texts& options : conflicts)
+        expect_result(render("box.gltf", options), 64, "E-USAGE-CONFLICT");
+    expect_result(render("box.gltf", {"--checkpoint", "--resume", "maybe"}), 64, "E-USAGE-CHOICE");
+    expect_result(render("box.gltf", {"--checkpoint=a.exr", "-o", "a.exr"}), 64, "E-USAGE-SAMEFILE");
+}
+
+TEST_F(Checkpoints, AtTheTimeLimitTheImageIsWholeAndMarked) {
+    const Texts limit = {"--time-limit", "0.5"};
+    const ProgramRun got = render("box.gltf", joined(long_render(), limit));
+    expect_result(got, 75, "E-TIME-LIMIT");
+    EXPECT_TRUE(exists("a.exr.checkpoint"));
+    const std::optional<ReadImage> image = read_image_file(folder_ / "a.exr");
+    ASSERT_TRUE(image);
+    const float done = image->spec.get_float_attribute("obscura:done", -1);
+    EXPECT_GT(done, 0);
+    EXPECT_LT(done, 1);
+    expect_result(render("box.gltf", long_render()), 0, "OK");
+    const std::optional<ReadImage> whole = read_image_file(folder_ / "a.exr");
+    ASSERT_TRUE(whole);
+    EXPECT_EQ(whole->spec.find_attribute("obscura:done"), nullptr);
+    size_t same = 0;
+    for (size_t i = 0; i < whole->pixels.size(); i += 4) {
+        const bool equal = std::equal(
+            whole->pixels.begin() + i, whole->pixels.begin() + i + 4, image->pixels.begin() + i);
+        if (equal) ++same;
+        EXPECT_TRUE(equal || image->pixels[i + 3] == 0);
+    }
+    EXPECT_NEAR(static_cast<double>(same) / (320 * 240), done, 1e-4);
+    expect_result(render("box.gltf", {"--time-limit", "0.05", "--size", "999x999"}),
+                  75,
+                  "E-TIME-LIMIT");
+}
+
+TEST_F(Checkpoints, SnapshotsAreMarked) {
+    ProgramSetup stopped = program(joined(with_layers(), {"--spp", "2000", "--snapshot", "0.1"}));
+    send_at(stopped, SIGTERM, "Progress: [1-9]");
+    EXPECT_EQ(run_program_with(stopped).signal, SIGTERM);
+    const std::optional<ReadImage> image = read_image_file(folder_ / "a.exr");
+    ASSERT_TRUE(image);
+    EXPECT_GT(image->spec.get_float_attribute("obscura:done", -1), 0);
+    EXPECT_TRUE(exists("mask.png"));
+    expect_result(render("box.gltf", with_layers("whole.exr")), 0, "OK");
+    expect_result(render("box.gltf", joined(with_layers(), {"--snapshot", "0.05"})), 0, "OK");
+    EXPECT_TRUE(text("a.exr") == text("whole.exr"));
+}
+
+}  // namespace
+}  // namespace obscura
