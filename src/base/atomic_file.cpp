@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
@@ -218,6 +219,7 @@ Result<void> write_file_atomically(const fs::path& path,
 }
 
 void remove_stale_temporaries(const fs::path& path) {
+    constexpr std::chrono::hours min_stale_age{1};
     const fs::path target = follow_link(path);
     const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
     const std::string begin = target.filename().string() + ".";
@@ -232,6 +234,10 @@ void remove_stale_temporaries(const fs::path& path) {
         const int found = std::sscanf(rest, "%d.%u.part%n", &process, &serial, &length);
         if (found != 2 || length == 0 || rest[length] != 0 || process <= 0) continue;
         if (::kill(process, 0) == 0 || errno != ESRCH) continue;
+        // On a shared file system it may be that of a process of another machine, which writes on.
+        std::error_code gone;
+        const fs::file_time_type written = fs::last_write_time(at->path(), gone);
+        if (gone || fs::file_time_type::clock::now() - written < min_stale_age) continue;
         ::unlink(at->path().c_str());
     }
 }

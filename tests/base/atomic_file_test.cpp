@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <fcntl.h>
@@ -311,20 +312,27 @@ TEST_F(AtomicFile, PiecesBecomeOneFile) {
     EXPECT_EQ(files_in_folder(), 1u);
 }
 
-TEST_F(AtomicFile, TemporariesOfDeadProcessesAreRemoved) {
+TEST_F(AtomicFile, OldTemporariesOfDeadProcessesAreRemoved) {
     const pid_t gone = ::fork();
     if (gone == 0) ::_exit(0);
     ::waitpid(gone, nullptr, 0);
     const std::string dead = std::to_string(gone);
     const std::string alive = std::to_string(::getpid());
-    for (const std::string& name : {"a.exr." + dead + ".0.part",
+    const std::string stale = "a.exr." + dead + ".0.part";
+    const std::string young = "a.exr." + dead + ".1.part";
+    const auto hours_ago = fs::file_time_type::clock::now() - std::chrono::hours(2);
+    for (const std::string& name : {stale,
+                                    young,
                                     "a.exr." + alive + ".0.part",
                                     "b.exr." + dead + ".0.part",
-                                    "a.exr." + dead + ".0.partial"})
+                                    "a.exr." + dead + ".0.partial"}) {
         std::ofstream(folder_ / name) << "x";
+        if (name != young) fs::last_write_time(folder_ / name, hours_ago);
+    }
     remove_stale_temporaries(folder_ / "a.exr");
-    EXPECT_FALSE(fs::exists(folder_ / ("a.exr." + dead + ".0.part")));
-    EXPECT_EQ(files_in_folder(), 3u);
+    EXPECT_FALSE(fs::exists(folder_ / stale));
+    EXPECT_TRUE(fs::exists(folder_ / young));  // another machine may be writing it
+    EXPECT_EQ(files_in_folder(), 4u);
 }
 
 }  // namespace
