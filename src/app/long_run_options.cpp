@@ -16,9 +16,8 @@ using G = LongRunArguments;
 using K = LongRun;
 using R = RenderRequest;
 
-constexpr std::array<Choice<Resume>, 3> resumes = {{{"auto", Resume::automatic},
-                                                    {"require", Resume::require},
-                                                    {"never", Resume::never}}};
+constexpr std::array<Choice<Resume>, 3> resumes = {
+    {{"auto", Resume::automatic}, {"require", Resume::require}, {"never", Resume::never}}};
 
 /// Without a value the text is "true", as in a file of --config.
 constexpr OptionReader<R> checkpoint = {
@@ -66,9 +65,9 @@ constexpr OptionEntry<A, R> entries[] = {
 Result<void> complete_long_run(RenderRequest& request) {
     LongRun& run = request.long_run;
     const bool is_limited = run.time_limit_s.has_value();
-    const char* const asked_by = run.has_checkpoint  ? "--checkpoint"
-                                 : is_limited         ? "--time-limit"
-                                                      : "--snapshot";
+    const char* const asked_by = run.has_checkpoint ? "--checkpoint"
+                                 : is_limited       ? "--time-limit"
+                                                    : "--snapshot";
     if (!run.has_checkpoint && !is_limited && !run.snapshot_interval_s) return {};
     if (request.options.adaptive) {
         return conflict(asked_by,

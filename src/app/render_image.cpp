@@ -1,7 +1,6 @@
 // app/render_image.cpp - makes and writes one image or part, and keeps what is finished meanwhile.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_job.h"
-
 #include "base/stopwatch.h"
 #include "camera/exposure.h"
 #include "session/dark_image.h"
@@ -32,8 +31,7 @@ bool is_long_run(const LongRun& run) {
 /// The facts that pixels depend on; files are read for them once.
 const NamedTexts& facts_of(Job& job) {
     const RenderStatistics& statistics = job.renderer->statistics();
-    if (!job.facts)
-        job.facts = facts_of(job.request, statistics.isa, statistics.embree);
+    if (!job.facts) job.facts = facts_of(job.request, statistics.isa, statistics.embree);
     return *job.facts;
 }
 
@@ -44,8 +42,7 @@ FilmStateHead head_of(Job& job) {
     if (!job.request.long_run.has_checkpoint && !is_part_of_image(job.request)) return head;
     head.options = job.options;
     head.facts = facts_of(job);
-    if (job.request.frame)
-        head.facts.emplace_back("the frame", std::to_string(*job.request.frame));
+    if (job.request.frame) head.facts.emplace_back("the frame", std::to_string(*job.request.frame));
     return head;
 }
 
@@ -134,8 +131,7 @@ Result<RenderedFilm> render_film(Making& making) {
     if (share.part) making.hooks.share = &share;
     bool has_failed = false;
     job.watch.begin_rendering(keeper != nullptr ? tasks_of(making, has_failed) : Watch::Tasks());
-    Result<RenderedFilm> film =
-        job.renderer->render_film(job.request, making.camera, making.hooks);
+    Result<RenderedFilm> film = job.renderer->render_film(job.request, making.camera, making.hooks);
     if (film && keeper != nullptr) {
         const RenderResult& result = film->result;
         const double much_s = first_checkpoint_s(job.request.long_run.checkpoint_interval_s);
@@ -154,8 +150,7 @@ Result<void> write_part(const Making& making, const RenderResult& result) {
     FilmStateHead head = head_of(making.job);
     head.counters = counters_in_file(result.counters);
     head.areas = areas_of_part(result.film.width, result.film.height, head.part);
-    return write_film_state(
-        part_file(request.outputs.front(), *request.part), head, result.film);
+    return write_film_state(part_file(request.outputs.front(), *request.part), head, result.film);
 }
 
 /// Writes all outputs of a film that is finished, or of one of which pixels are missing.
@@ -166,8 +161,8 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     if (is_unfinished) film.result.film = making.keeper->finished_of(film.result.film);
     FinishedImage finished =
         job.renderer->finish(request, making.camera, std::move(film), making.log);
-    const double camera_ev = making.camera.ev100 ? std::log2(exposure_scale(*making.camera.ev100))
-                                                 : 0;
+    const double camera_ev =
+        making.camera.ev100 ? std::log2(exposure_scale(*making.camera.ev100)) : 0;
     const double exposure_ev = request.display.exposure_ev + camera_ev;
     if (is_unfinished) {
         mark_unfinished(making.keeper->fraction(), finished);
@@ -194,8 +189,7 @@ Result<RenderedFilm> film_of_parts(Making& making) {
     };
     const FilmShare share{{}, fill};
     making.hooks.share = &share;
-    Result<RenderedFilm> film =
-        job.renderer->render_film(job.request, making.camera, making.hooks);
+    Result<RenderedFilm> film = job.renderer->render_film(job.request, making.camera, making.hooks);
     if (!film) return film;
     film->result.counters = job.parts->counters();
     add_counters(job.parts->counters(), job.renderer->statistics().counters);

@@ -34,7 +34,7 @@ struct Turn {
 };
 
 /// Renders the posed and prepared image, or takes its pixels from parts, and writes its files; with
-/// --part the part's file. Keeps a checkpoint and writes snapshots meanwhile, if they are asked for.
+/// --part the part's file. Keeps a checkpoint and writes snapshots meanwhile, if asked to.
 ///
 /// Errors  those of rendering and writing; 75 E-STOPPED a signal came: the message says what was
 ///         kept; 75 E-TIME-LIMIT; those of FilmKeeper::find

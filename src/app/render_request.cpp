@@ -11,8 +11,8 @@
 #include "app/render_options.h"
 #include "app/scene_choice.h"
 #include "film/layers.h"
-#include "session/image_parts.h"
 #include "math/warp.h"
+#include "session/image_parts.h"
 #include "session/model_settings.h"
 #include "session/segmentation.h"
 

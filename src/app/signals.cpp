@@ -1,4 +1,4 @@
-// app/signals.cpp - signals that ask for an orderly stop or for a checkpoint, and the true end by one.
+// app/signals.cpp - signals that ask for a stop or a checkpoint, and the true end by one.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/signals.h"
 

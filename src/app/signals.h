@@ -1,5 +1,5 @@
-// app/signals.h - signals that ask for an orderly stop or for a checkpoint, and the true end by one.
-// SPDX-License-Identifier: Apache-2.0
+// app/signals.h - signals that ask for a stop or a checkpoint, and the true end by one.
+// one. SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <atomic>
@@ -14,8 +14,8 @@ void ignore_broken_pipes();
 class StopOnSignal {
 public:
     enum class Kind {
-        stops,   ///< SIGINT and SIGTERM
-        farm_too ///< SIGUSR1 stops, too, and SIGHUP asks for a checkpoint
+        stops,    ///< SIGINT and SIGTERM
+        farm_too  ///< SIGUSR1 stops, too, and SIGHUP asks for a checkpoint
     };
     explicit StopOnSignal(Kind kind = Kind::stops);
     ~StopOnSignal();

@@ -31,8 +31,8 @@ using ByteSink = std::function<Result<void>(std::span<const std::byte>)>;
 Result<void> write_file_atomically(const std::filesystem::path& target,
                                    const std::function<Result<void>(const ByteSink&)>& produce);
 
-/// Removes temporary files of `target` that nobody has written to for an hour and whose process is no
-/// more. Both are asked for, as the process may live on another machine with the same file system.
+/// Removes temporary files of `target` that nobody has written to for an hour and whose process is
+/// no more. Both, as the process may live on another machine with the same file system.
 void remove_stale_temporaries(const std::filesystem::path& target);
 
 /// Checks that write_file_atomically(target, ...) can start, by creating and removing its temporary

@@ -205,8 +205,7 @@ std::vector<FilmArea> areas_of_part(int width, int height, const FilmPart& part)
 }
 
 bool is_whole(const FilmStateHead& head) {
-    return pixels_in(head.areas) ==
-           pixels_in(areas_of_part(head.width, head.height, head.part));
+    return pixels_in(head.areas) == pixels_in(areas_of_part(head.width, head.height, head.part));
 }
 
 NamedTexts images_of(const Film& film) {

@@ -218,9 +218,9 @@ Error missing_isa();
 
 /// A finished part of the image.
 struct FinishedTile {
-    double done;       ///< fraction of the image that is finished, in [0, 1]
-    PixelRect area;    ///< from the image's top left corner
-    const Film* film;  ///< other threads may be writing its pixels outside `area`
+    double done;                   ///< fraction of the image that is finished, in [0, 1]
+    PixelRect area;                ///< from the image's top left corner
+    const Film* film;              ///< other threads may be writing its pixels outside `area`
     RenderCounters counters = {};  ///< of this tile; 0 with RenderOptions::adaptive
 };
 

@@ -1,4 +1,4 @@
-// session/film_keeper.cpp - keeps what is finished of an image: in a file to go on from, or to show.
+// session/film_keeper.cpp - keeps what is finished of an image, to go on from or to show.
 // SPDX-License-Identifier: Apache-2.0
 #include "session/film_keeper.h"
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include "support/text_files.h"
-
 #include <cstdlib>
 #include <random>
 
@@ -90,7 +89,8 @@ TEST_F(Checkpoints, KilledAtRandomMomentsItGoesOnToTheSameBits) {
     int resumed = 0;
     while (killed < kill_rounds()) {
         ProgramSetup one = program(options);
-        one.arguments.insert(one.arguments.end() - 2, {"--threads", std::to_string(1 + killed % 2)});
+        one.arguments.insert(one.arguments.end() - 2,
+                             {"--threads", std::to_string(1 + killed % 2)});
         if (run_and_kill(one, seconds(random))) {
             ++killed;
             if (exists("a.exr.checkpoint")) ++resumed;
@@ -119,9 +119,8 @@ TEST_F(Checkpoints, GoesOnFromWhatIsFinished) {
     Texts verbose = joined(options, {"--stats", "a.json", "--tile-size", "24", "--threads", "1"});
     expect_result(render("box.gltf", verbose), 0, "OK");
     EXPECT_FALSE(exists("a.exr.checkpoint"));
-    expect_result(render("box.gltf", joined(long_render(), {"--stats", "b.json", "-o", "b.exr"})),
-                  0,
-                  "OK");
+    expect_result(
+        render("box.gltf", joined(long_render(), {"--stats", "b.json", "-o", "b.exr"})), 0, "OK");
     EXPECT_TRUE(text("a.exr") == text("b.exr"));
 }
 
@@ -177,8 +176,8 @@ TEST_F(Checkpoints, TheOneBeforeADamagedOneIsUsed) {
     std::filesystem::rename(folder_ / "a.exr.checkpoint", folder_ / "a.exr.checkpoint.1");
     const std::string before = text("a.exr.checkpoint.1");
     folder_.write("a.exr.checkpoint", before.substr(0, before.size() / 2));
-    const ProgramRun got = render(
-        "box.gltf", joined(long_render(), {"--resume", "require", "--time-limit", "0.6"}));
+    const ProgramRun got =
+        render("box.gltf", joined(long_render(), {"--resume", "require", "--time-limit", "0.6"}));
     expect_result(got, 75, "E-TIME-LIMIT");
     EXPECT_THAT(got.err, HasSubstr("WARN a.exr.checkpoint: "));
     EXPECT_TRUE(text("a.exr.checkpoint.1") == before);  // a damaged one has not replaced it
@@ -189,8 +188,8 @@ TEST_F(Checkpoints, TheOneBeforeADamagedOneIsUsed) {
 
 TEST_F(Checkpoints, ThatCannotBeWrittenDoNotEndARendering) {
     const Texts options = {"--checkpoint=absent/a.film", "--checkpoint-interval", "0.05"};
-    const ProgramRun got = render(
-        "box.gltf", joined({"--size", "64x64", "--spp", "256", "-o", "a.exr"}, options));
+    const ProgramRun got =
+        render("box.gltf", joined({"--size", "64x64", "--spp", "256", "-o", "a.exr"}, options));
     expect_result(got, 0, "OK");
     EXPECT_THAT(got.err, HasSubstr("WARN absent/a.film: no checkpoint: "));
 }
@@ -237,7 +236,8 @@ TEST_F(Checkpoints, WrongOptionsAreRefused) {
     for (const Texts& options : conflicts)
         expect_result(render("box.gltf", options), 64, "E-USAGE-CONFLICT");
     expect_result(render("box.gltf", {"--checkpoint", "--resume", "maybe"}), 64, "E-USAGE-CHOICE");
-    expect_result(render("box.gltf", {"--checkpoint=a.exr", "-o", "a.exr"}), 64, "E-USAGE-SAMEFILE");
+    expect_result(
+        render("box.gltf", {"--checkpoint=a.exr", "-o", "a.exr"}), 64, "E-USAGE-SAMEFILE");
 }
 
 TEST_F(Checkpoints, AtTheTimeLimitTheImageIsWholeAndMarked) {
@@ -262,9 +262,8 @@ TEST_F(Checkpoints, AtTheTimeLimitTheImageIsWholeAndMarked) {
         EXPECT_TRUE(equal || image->pixels[i + 3] == 0);
     }
     EXPECT_NEAR(static_cast<double>(same) / (320 * 240), done, 1e-4);
-    expect_result(render("box.gltf", {"--time-limit", "0.05", "--size", "999x999"}),
-                  75,
-                  "E-TIME-LIMIT");
+    expect_result(
+        render("box.gltf", {"--time-limit", "0.05", "--size", "999x999"}), 75, "E-TIME-LIMIT");
 }
 
 TEST_F(Checkpoints, SnapshotsAreMarked) {
