@@ -1,5 +1,5 @@
 // app/signals.h - signals that ask for a stop or a checkpoint, and the true end by one.
-// one. SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include <atomic>
