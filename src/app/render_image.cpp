@@ -84,6 +84,7 @@ Result<void> write_snapshot(const Making& making) {
     RenderRequest request = making.job.request;
     request.denoise = false;
     request.standard_output.reset();
+    request.write_retries = 0;  // there will be another one, and checkpoints must not wait
     remove_denoising_layers(request.options, *film);
     RenderedFilm rendered{request.options, {}};
     rendered.result.film = std::move(*film);

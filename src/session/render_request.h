@@ -82,7 +82,7 @@ struct RenderRequest {
     PartBy part_by = PartBy::automatic;
     int write_retries = 0;  ///< --write-retries: of an image's files
     LongRun long_run;
-    bool check = false;     ///< --check: nothing is built, rendered or written
+    bool check = false;  ///< --check: nothing is built, rendered or written
 };
 
 /// The images of a request: one, or one for each frame.
