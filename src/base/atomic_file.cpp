@@ -190,11 +190,11 @@ Result<void> write_fully(int descriptor, std::span<const std::byte> bytes, const
 }
 
 Result<void> write_file_atomically(const fs::path& path, std::span<const std::byte> bytes) {
-    return write_file_atomically(path, [&](const ByteSink& sink) { return sink(bytes); });
+    return write_pieces_atomically(path, [&](const ByteSink& sink) { return sink(bytes); });
 }
 
-Result<void> write_file_atomically(const fs::path& path,
-                                   const std::function<Result<void>(const ByteSink&)>& produce) {
+Result<void> write_pieces_atomically(const fs::path& path,
+                                     const std::function<Result<void>(const ByteSink&)>& produce) {
     const fs::path target = follow_link(path);
     Result<TemporaryFile> file = create_temporary(target);
     if (!file) return fail(std::move(file.error()));

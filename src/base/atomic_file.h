@@ -28,8 +28,8 @@ using ByteSink = std::function<Result<void>(std::span<const std::byte>)>;
 /// The same for a file that is made piece by piece, so that memory need not hold all of it.
 ///
 /// In      produce: hands all pieces to the sink, in order, and ends with the first error
-Result<void> write_file_atomically(const std::filesystem::path& target,
-                                   const std::function<Result<void>(const ByteSink&)>& produce);
+Result<void> write_pieces_atomically(const std::filesystem::path& target,
+                                     const std::function<Result<void>(const ByteSink&)>& produce);
 
 /// Removes temporary files of `target` that nobody has written to for an hour and whose process is
 /// no more. Both, as the process may live on another machine with the same file system.

@@ -224,7 +224,7 @@ NamedTexts images_of(const Film& film) {
 Result<void> write_film_state(const std::filesystem::path& file,
                               const FilmStateHead& head,
                               const Film& film) {
-    return write_file_atomically(file, [&](const ByteSink& sink) {
+    return write_pieces_atomically(file, [&](const ByteSink& sink) {
         Writer out(sink);
         out.put(magic.data(), magic.size());
         out.put_number(static_cast<uint64_t>(head.part.index));

@@ -299,13 +299,13 @@ TEST_F(AtomicFile, PiecesBecomeOneFile) {
         if (auto done = sink(bytes_of("one ")); !done) return done;
         return sink(bytes_of("two"));
     };
-    ASSERT_TRUE(write_file_atomically(target, two));
+    ASSERT_TRUE(write_pieces_atomically(target, two));
     EXPECT_EQ(content(target), "one two");
     const auto fails = [](const ByteSink& sink) -> Result<void> {
         if (auto done = sink(bytes_of("half")); !done) return done;
         return fail(ExitCode::internal, "E-TEST", "here", "no more");
     };
-    const Result<void> failed = write_file_atomically(target, fails);
+    const Result<void> failed = write_pieces_atomically(target, fails);
     ASSERT_FALSE(failed);
     EXPECT_EQ(failed.error().id, "E-TEST");
     EXPECT_EQ(content(target), "one two");
