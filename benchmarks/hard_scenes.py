@@ -111,7 +111,7 @@ def glass_ball():
 
 
 def lamps(kind):
-    """500 lamps over a floor with balls; kind: points or quads."""
+    """500 lamps over a floor with balls; kind: points, quads or spheres."""
     def make():
         scene = Scene((0, 3.2, 9), (0, 0.6, 0))
         scene.floor(8)
@@ -129,10 +129,50 @@ def lamps(kind):
             glow = numbers.uniform(5, 30)
             material = scene.gltf.material('Lamp %d' % k, color=(0, 0, 0),
                                            emission=(glow, glow * 0.9, glow * 0.8),
-                                           double_sided=True)
-            scene.add('Lamp %d' % k, downward(where, 0.04), material)
+                                           double_sided=kind == 'quads')
+            if kind == 'quads':
+                scene.add('Lamp %d' % k, downward(where, 0.04), material)
+            else:
+                scene.add('Lamp %d' % k, shapes.sphere(0.03, 12, 6), material, translation=where)
         return scene
     return make
+
+
+def lit_rooms():
+    """500 lamps in 25 rooms, of which the camera sees one."""
+    scene = Scene((0.4, 1.7, 3.6), (2.4, 1.1, 1.4), 60.0)
+    wall = scene.gltf.material('Walls', color=(0.7, 0.68, 0.65), double_sided=True)
+    faces = []
+    for k in range(6):
+        x = 4.0 * k
+        faces += [[(x, 0, 0), (x, 0, 20), (x, 3, 20), (x, 3, 0)],
+                  [(0, 0, x), (20, 0, x), (20, 3, x), (0, 3, x)]]
+    faces += [[(0, y, 0), (0, y, 20), (20, y, 20), (20, y, 0)] for y in (0, 3)]
+    scene.add('Rooms', shapes.facets(faces), wall)
+    numbers = random.Random(3)
+    for k in range(500):
+        x, z = 4.0 * (k % 5), 4.0 * (k // 5 % 5)
+        where = (x + numbers.uniform(0.3, 3.7), numbers.uniform(2.2, 2.8),
+                 z + numbers.uniform(0.3, 3.7))
+        scene.point('Point %d' % k, where, numbers.uniform(0.5, 4))
+    scene.add('Ball', shapes.sphere(0.5, 48, 24), scene.gltf.material('Ball', color=GREY),
+              translation=(2.2, 0.5, 1.6))
+    return scene
+
+
+def glow():
+    """A ball of 100,000 triangles that glow by a texture, beside matt balls."""
+    scene = Scene((0, 1.5, 4.5), (0, 0.6, 0))
+    scene.floor()
+    material = scene.gltf.material('Glow', color=(0, 0, 0), emission=(6, 5, 4))
+    texture = scene.gltf.texture('chequer.png', textures.chequer(256, 8))
+    scene.gltf.json['materials'][material]['emissiveTexture'] = {'index': texture}
+    scene.add('Glow', shapes.sphere(0.5, 320, 160), material, translation=(0, 0.8, 0))
+    for k in range(4):
+        where = (1.6 * math.cos(1.6 * k + 0.5), 0.4, 1.6 * math.sin(1.6 * k + 0.5))
+        scene.add('Ball %d' % k, shapes.sphere(0.4, 48, 24),
+                  scene.gltf.material('Ball %d' % k, color=GREY, roughness=0.3), translation=where)
+    return scene
 
 
 def room():
@@ -176,6 +216,7 @@ def foliage():
 
 SCENES = {'cloud': cloud, 'mask_emitter': mask_emitter, 'soft_floor': soft_floor,
           'glass_ball': glass_ball, 'points': lamps('points'), 'quads': lamps('quads'),
+          'spheres': lamps('spheres'), 'lit_rooms': lit_rooms, 'glow': glow,
           'room': room, 'foliage': foliage}
 
 

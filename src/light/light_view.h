@@ -4,6 +4,7 @@
 
 #include "light/cdf_table.h"
 #include "light/light_profile.h"
+#include "light/light_tree.h"
 
 #include <cstdint>
 
@@ -18,8 +19,10 @@ struct TriangleLight;
 /// Lights are numbered: punctual ones first, then emissive triangles, then emissive shapes, then
 /// the environment.
 struct LightView {
-    const CdfEntry* choice = nullptr;   ///< chooses a light with probability select_pdf
-    const float* select_pdf = nullptr;  ///< by light number
+    /// Chooses a light, or the tree: the entry after those of all lights. Lights of the tree are
+    /// not chosen by the table.
+    const CdfEntry* choice = nullptr;
+    const float* select_pdf = nullptr;  ///< by light number: probability; 1 for lights of the tree
     int32_t count = 0;                  ///< of all lights
     int32_t punctual_count = 0;
     int32_t triangle_count = 0;
@@ -35,6 +38,7 @@ struct LightView {
     const PunctualLight* moving_punctual = nullptr;
     const MovingTriangle* moving_triangles = nullptr;
     const LightAlpha* alphas = nullptr;  ///< of triangles and shapes; null: all are opaque
+    LightTreeView tree;                  ///< chooses among many lights with a place
 };
 
 }  // namespace obscura

@@ -5,12 +5,14 @@
 #include "base/parallel.h"
 #include "math/warp.h"
 #include "render/light_alphas.h"
+#include "render/light_bounds.h"
 #include "render/shape_light_table.h"
 #include "surface/texture.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace obscura {
 
@@ -267,6 +269,31 @@ std::vector<double> choice_weights(const std::vector<double>& punctual,
     return weights;
 }
 
+/// The weight of all lights of a tree, which becomes the tree's in the table.
+double take_weight(std::span<const BoundedLight> in_tree, std::vector<double>& weights) {
+    double sum = 0;
+    for (const BoundedLight& light : in_tree) {
+        double& weight = weights[static_cast<size_t>(light.light)];
+        sum += weight;
+        weight = 0;
+    }
+    return sum;
+}
+
+/// Writes the probabilities of choosing each light to where light sampling reads them.
+void set_probabilities(const std::vector<double>& pdf, LightTable& table) {
+    table.select_pdf.assign(pdf.begin(), pdf.end());
+    const size_t first_triangle = table.punctual.size();
+    for (size_t i = 0; i < table.triangles.size(); ++i) {
+        TriangleLight& record = table.triangles[i];
+        const double area = static_cast<double>(record.area);
+        record.pdf_area = area > 0 ? static_cast<float>(pdf[first_triangle + i] / area) : 0.0f;
+    }
+    const size_t first_shape = first_triangle + table.triangles.size();
+    for (size_t i = 0; i < table.shapes.size(); ++i)
+        table.shapes[i].select = static_cast<float>(pdf[first_shape + i]);
+}
+
 }  // namespace
 
 float largest_emission(const Material& material) {
@@ -307,25 +334,28 @@ LightTable make_light_table(Scene& scene, const EnvironmentTable* environment) {
     const bool has_environment = environment != nullptr && !environment->black();
     const double environment_power =
         has_environment ? pi_d * radius * radius * environment->power() : 0.0;
-    const std::vector<double> weights = choice_weights(punctual, triangles, environment_power);
+    std::vector<double> weights = choice_weights(punctual, triangles, environment_power);
     if (weights.empty()) return table;
 
+    std::vector<double> powers = std::move(punctual);
+    powers.insert(powers.end(), triangles.begin(), triangles.end());
+    const std::vector<BoundedLight> in_tree = bounded_lights(table, powers, scene.motion.steps);
+    const size_t count = weights.size();
+    if (!in_tree.empty()) weights.push_back(take_weight(in_tree, weights));
     table.choice = build_cdf_table(std::span<const double>(weights));
-    const std::vector<double> pdf = cdf_probabilities(table.choice);
-    table.select_pdf.assign(pdf.begin(), pdf.end());
-    for (size_t i = 0; i < table.triangles.size(); ++i) {
-        TriangleLight& record = table.triangles[i];
-        const double area = static_cast<double>(record.area);
-        record.pdf_area = area > 0 ? static_cast<float>(pdf[punctual.size() + i] / area) : 0.0f;
-    }
-    const size_t first_shape = punctual.size() + table.triangles.size();
-    for (size_t i = 0; i < table.shapes.size(); ++i)
-        table.shapes[i].select = static_cast<float>(pdf[first_shape + i]);
+    std::vector<double> pdf = cdf_probabilities(table.choice);
     if (has_environment) {
-        table.environment_select = table.select_pdf.back();
-        table.environment_spread =
-            cdf_spread(std::span<const CdfEntry>(table.choice), weights.size() - 1);
+        table.environment_select = static_cast<float>(pdf[count - 1]);
+        table.environment_spread = cdf_spread(std::span<const CdfEntry>(table.choice), count - 1);
     }
+    if (!in_tree.empty()) {
+        table.tree = build_light_tree(in_tree, count);
+        table.tree_share = static_cast<float>(pdf.back());
+        pdf.pop_back();
+        for (const BoundedLight& light : in_tree)
+            pdf[static_cast<size_t>(light.light)] = 1;  // what is left to choose, the tree chooses
+    }
+    set_probabilities(pdf, table);
     return table;
 }
 
@@ -379,7 +409,20 @@ LightView LightTable::view() const {
             profiles.view(),
             moving_punctual,
             moving_triangles.empty() ? nullptr : moving_triangles.data(),
-            alphas.empty() ? nullptr : alphas.data()};
+            alphas.empty() ? nullptr : alphas.data(),
+            tree_view()};
+}
+
+LightTreeView LightTable::tree_view() const {
+    if (tree.nodes.empty()) return {};
+    const uint32_t first = choice[select_pdf.size()].first_random;
+    return {tree.nodes.data(),
+            tree.light_of_leaf.data(),
+            tree.leaf_of_light.data(),
+            static_cast<int32_t>(tree.light_of_leaf.size()),
+            static_cast<int32_t>(first >> 2U),
+            static_cast<int32_t>((1U << 30U) - (first >> 2U)),
+            tree_share};
 }
 
 }  // namespace obscura

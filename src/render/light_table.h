@@ -5,6 +5,7 @@
 #include "light/cdf_table.h"
 #include "light/environment_table.h"
 #include "light/light_alpha.h"
+#include "light/light_tree.h"
 #include "light/light_view.h"
 #include "light/shape_light.h"
 #include "light/triangle_light.h"
@@ -28,8 +29,13 @@ struct LightTable {
     std::vector<CdfEntry> choice;
     float environment_select = 0;
     CdfSpread environment_spread;
+    LightTree tree;        ///< see LightView
+    float tree_share = 0;  ///< probability with which the table chooses it
 
     LightView view() const;
+
+private:
+    LightTreeView tree_view() const;
 };
 
 /// Collects the lights and the probabilities of choosing them, in proportion to the power that they

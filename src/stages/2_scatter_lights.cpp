@@ -27,8 +27,10 @@ OBSCURA_INLINE LanesU hashed(LanesU path_key, const Flight& flight, LightUse use
 /// The light that each path samples. The first scattering has the pixel's Sobol points, of which
 /// surfaces use those of a bounce too; later ones have none.
 OBSCURA_INLINE LightDraw draw_walk_light(const SceneView& scene,
-                                         const PathLanes& path,
-                                         const Flight& flight) {
+                                         const ScatteringPoint& scattering,
+                                         const Flight& flight,
+                                         const LitPoint<Lanes>& at) {
+    const PathLanes& path = scattering.path;
     Vec2<LanesU> random;
     if (flight.number == 0) {
         const uint32_t pair = static_cast<uint32_t>(flight.bounce) * pairs_per_bounce +
@@ -40,6 +42,7 @@ OBSCURA_INLINE LightDraw draw_walk_light(const SceneView& scene,
     }
     LightDraw draw = draw_light(scene, random);
     draw_light_pixel(scene, draw);
+    if (scene.lights.tree.nodes != nullptr) draw_light_of_tree(scene, at, scattering.exists, draw);
     return draw;
 }
 
@@ -78,7 +81,10 @@ void add_light_samples(const WalkingBatch& walk,
     const SceneView& scene = walk.scene;
     const PathLanes& path = at.path;
     const ShadingPoint point = point_to_light(at, columns.time);
-    const LightDraw draw = draw_walk_light(scene, path, walk.flight);
+    const LitPoint<Lanes> lit{point.light_start, splat3(Lanes(0.0f))};
+    const LightDraw draw = draw_walk_light(scene, at, walk.flight, lit);
+    if (columns.lit_points != nullptr)
+        note_lit_points(columns.lit_points, at.exists, path.slot, lit);
     const LightLanes light = sample_light(scene, point, draw, texture_random(path, walk.flight));
     const Lanes phase = henyey_greenstein(at.anisotropy, dot(path.direction, light.direction));
     const int strategies = walk.batch.strategies;

@@ -80,6 +80,8 @@ OBSCURA_INLINE LightLanes sampled_light(const SceneView& scene, const CatcherGro
     const CatcherPoint& point = group.point;
     LightDraw draw = draw_light(scene, random_pair(group, RandomUse::light));
     draw_light_pixel(scene, draw);
+    if (scene.lights.tree.nodes != nullptr)
+        draw_light_of_tree(scene, {point.light_start, point.normal}, group.exists, draw);
     const Vec2<LanesU> bits = random_pair(group, RandomUse::texture);
     const Vec2<Lanes> texel = unit_pair<Lanes>(bits);
     const Vec3<Lanes> texture{
@@ -165,6 +167,10 @@ CatcherCounts shade_catchers(const SceneView& scene, int count, const CatcherCol
         const PathLanes path = load_paths(columns.paths, i);
         const CatcherPoint point = catcher_point(scene, columns, i, exists, path);
         const CatcherGroup group{exists, path, point, columns.bounce};
+        if (columns.lit_points != nullptr) {
+            note_lit_points(
+                columns.lit_points, exists, path.slot, {point.light_start, point.normal});
+        }
         if (scene.lights.count > 0) {
             const LightLanes light = sampled_light(scene, group);
             out.shadow = add_shadow_rays(columns.shadows, out.shadow, group, light);

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Light selection: a light is drawn by its power from a CDF (render/light_table.h,
-// light/cdf_table.h), wherever the shading point lies: there is no light tree.
+// light/cdf_table.h), wherever the shading point lies. Among many lights, the CDF draws the light
+// tree as one (light/light_tree.h), which then chooses by where the point is.
 #pragma once
 
 #include "light/cdf_table.h"
@@ -11,6 +12,7 @@
 #include "light/record_words.h"
 #include "light/triangle_light.h"
 #include "stages/3_light_alpha.h"
+#include "stages/3_light_tree.h"
 #include "stages/3_moving_lights.h"
 #include "stages/3_shape_lights.h"
 #include "stages/3_surface.h"
@@ -100,8 +102,10 @@ OBSCURA_INLINE LightLanes sample_shapes(const SceneView& scene,
 
 /// A light for each lane, drawn ahead of the point that it lights, and where on it to sample.
 struct LightDraw {
-    LanesI light;                  ///< number, see LightView
+    LanesI light;                  ///< number, see LightView; that after all lights: the tree
     Vec2<Lanes> place;             ///< in [0, 1)^2; for lights other than the environment
+    Lanes probability;             ///< of the choice by the tree; where there is one
+    LanesU random;                 ///< that chose the light; likewise
     PixelDraw<Lanes> environment;  ///< in lanes whose light is the environment
 };
 
@@ -112,17 +116,20 @@ OBSCURA_INLINE Mask is_environment(const SceneView& scene, LanesI light) {
 /// Chooses the lights, by their power, and the environment's block. One pair of random numbers
 /// chooses the light and the place on it: what the choice leaves of the first number is as well
 /// stratified as the number was, so that a few lights, or the triangles of one, are sampled as
-/// evenly as a single light.
+/// evenly as a single light. Where there is a tree, draw_light_of_tree must follow.
 ///
 /// In      lights: at least one
 OBSCURA_INLINE LightDraw draw_light(const SceneView& scene, const Vec2<LanesU>& random) {
     const LightView& lights = scene.lights;
+    const bool has_tree = lights.tree.nodes != nullptr;
     const bool is_choice = lights.count > 1;
     LightDraw draw;
+    draw.random = random.x;
     draw.place = unit_pair<Lanes>(random);
     draw.light = LanesI(lights.count - 1);
     if (is_choice) {
-        const CdfDraw<Lanes> drawn = draw_cdf<Lanes>(lights.choice, lights.count, random.x);
+        const int choices = has_tree ? lights.count + 1 : lights.count;
+        const CdfDraw<Lanes> drawn = draw_cdf<Lanes>(lights.choice, choices, random.x);
         draw.light = drawn.index;
         draw.place.x = drawn.place;
     }
@@ -131,6 +138,25 @@ OBSCURA_INLINE LightDraw draw_light(const SceneView& scene, const Vec2<LanesU>& 
     if (is_choice) left.x = spread_random(lights.environment_spread, random.x, random.y);
     draw.environment = draw_block<Lanes>(scene.environment.choice, left);
     return draw;
+}
+
+/// Chooses a light for the lanes that have drawn the tree.
+///
+/// In      needed: lanes that sample a light; elsewhere the light is any
+OBSCURA_INLINE void draw_light_of_tree(const SceneView& scene,
+                                       const LitPoint<Lanes>& at,
+                                       Mask needed,
+                                       LightDraw& draw) {
+    const LightView& lights = scene.lights;
+    const Mask by_tree = draw.light == LanesI(lights.count);
+    const Mask descends = by_tree & needed;
+    const LitPoint<Lanes> here = at;  // only copies have an address
+    const LanesU random = draw.random;
+    LightTreeDraw<Lanes> found;
+    choose_from_tree(lights.tree, here, random, descends, found);
+    draw.light = select(by_tree, found.light, draw.light);
+    draw.place.x = select(by_tree, found.place, draw.place.x);
+    draw.probability = select(by_tree, found.probability, Lanes(1.0f));
 }
 
 /// Chooses the environment's pixel, and prefetches it.
@@ -194,6 +220,12 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                 s.irradiance * (Lanes(1.0f) / select_pdf),
                 Lanes(0.0f),
                 max_component(s.irradiance) > Lanes(0.0f)});
+    }
+    if (lights.tree.nodes != nullptr) {
+        const Lanes likely = max(draw.probability, Lanes(1e-30f));
+        out.radiance_over_pdf = out.radiance_over_pdf * (Lanes(1.0f) / likely);
+        out.pdf = out.pdf * draw.probability;
+        out.valid = out.valid & (draw.probability > Lanes(0.0f));
     }
     return out;
 }

@@ -78,7 +78,7 @@ struct ShadedGroup {
     const PathLanes& path;
     ShadingPoint& s;
     BounceRandom& random;
-    const LightDraw& light;
+    LightDraw& light;
     const HitLanes& hit;
 };
 
@@ -98,6 +98,19 @@ OBSCURA_INLINE void draw_ahead(const Bounce& bounce,
     }
     for (int g = 0; g < groups; ++g)
         draw_light_pixel(scene, draws[g]);
+}
+
+/// Probability with which the light tree chose the emitters that BSDF rays hit.
+OBSCURA_INLINE Lanes chosen_by_tree(const SceneView& scene,
+                                    const ShadeColumns& columns,
+                                    Mask met,
+                                    const ShadedGroup& group) {
+    Lanes probability(0.0f);
+    if (none(met)) return probability;
+    const LanesI light = group.s.light + LanesI(scene.lights.punctual_count);
+    const LanesU slot = group.path.slot;  // only a copy has an address
+    probability_by_tree(scene.lights.tree, columns.lit_points, light, slot, met, probability);
+    return probability;
 }
 
 /// Adds the emission of the hit surfaces.
@@ -125,6 +138,10 @@ OBSCURA_INLINE void add_emission(const Bounce& bounce,
             Lanes other = light_pdf(scene, s, path.direction, path_length);
             if (scene.lights.shape_count > 0) {
                 other = shape_light_pdf(scene, s.light, chosen, s.ng, {path_length, other});
+            }
+            if (columns.lit_points != nullptr) {
+                const Mask met = glows & chosen_by_bsdf & (s.light >= LanesI(0));
+                other = other * chosen_by_tree(scene, columns, met, group);
             }
             weight = select(chosen_by_bsdf, mis_weight(path.pdf, other), weight);
         } else if (batch.strategies == sample_lights) {
@@ -390,6 +407,11 @@ ShadeCounts shade(const SceneView& scene,
             turns = turns & (!hidden);
         }
         if (scene.occludes) store_by_slot(columns.occlusion, turns, path.slot, s.occlusion);
+        if (columns.lit_points != nullptr) {
+            const LitPoint<Lanes> lit = lit_point(s);
+            note_lit_points(columns.lit_points, turns, path.slot, lit);
+            draw_light_of_tree(scene, lit, scatters, draws[k]);
+        }
         // Before the paths turn: light layers split the shadow rays' light by where the paths were.
         if (scene.lights.count > 0) {
             out.shadow = add_shadow_rays(bounce, columns, out.shadow, scatters, group);

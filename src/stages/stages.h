@@ -18,6 +18,12 @@ struct ShadeCounts {
     int shadow = 0;  ///< in the shadow rays
 };
 
+/// Where a path scattered last, as the light tree takes it. By sample index.
+struct LitPointRecord {
+    float position[4] = {0, 0, 0, 0};  ///< where rays to lights start; the last word is unused
+    float normal[4] = {0, 0, 0, 0};    ///< see LitPoint; likewise
+};
+
 /// The hits and lights that one step of ray casting pairs.
 struct RaycastRange {
     int first_hit = 0, hits = 0;      ///< first_hit: a multiple of 16
@@ -37,7 +43,8 @@ struct ShadeColumns {
     float* occlusion = nullptr;  ///< by sample index, where SceneView::occludes: 3_occlusion.h
     const SharedFaces* shared = nullptr;  ///< by sample index, where SceneView::touching_media
     const LightPathColumns* light_paths = nullptr;  ///< null: no light layers are asked for
-    uint32_t* shadow_media = nullptr;  ///< out, by sample index: see ShadowMediaColumns
+    uint32_t* shadow_media = nullptr;      ///< out, by sample index: see ShadowMediaColumns
+    LitPointRecord* lit_points = nullptr;  ///< by sample index; null: there is no light tree
 };
 
 /// The columns that ray casting reads and writes, once hits and misses are separated.
@@ -143,9 +150,10 @@ struct CatcherColumns {
     PathColumns next;         ///< out, packed from index first_next on
     PathColumns reflections;  ///< out, packed from first_reflection on, if `reflects`
     ShadowColumns shadows;    ///< out, packed, one per sample
-    const float* time = nullptr;  ///< by sample index; null: nothing moves
-    float ground_m = 0;           ///< height of the ground
-    int bounce = 0;               ///< surfaces that the paths have met before
+    const float* time = nullptr;           ///< by sample index; null: nothing moves
+    LitPointRecord* lit_points = nullptr;  ///< as in ShadeColumns
+    float ground_m = 0;                    ///< height of the ground
+    int bounce = 0;                        ///< surfaces that the paths have met before
     int first_next = 0;
     int first_reflection = 0;
     bool reflects = false;
@@ -178,6 +186,7 @@ struct ScatterColumns {
     uint32_t* shadow_media;               ///< as in ShadeColumns
     const float* time;                    ///< likewise
     const LightPathColumns* light_paths;  ///< likewise
+    LitPointRecord* lit_points;           ///< likewise
 };
 
 /// Sizes of the columns that a flight writes.

@@ -115,7 +115,8 @@ ScatterColumns scatter_columns(const WavefrontInput& in, Workspace& work) {
             .shadows = work.shadows,
             .shadow_media = shadow_media(in, work),
             .time = slot_times(in, work),
-            .light_paths = light_path_columns(in, work)};
+            .light_paths = light_path_columns(in, work),
+            .lit_points = lit_points(in, work)};
 }
 
 /// Whether random walks sample lights: out of media like air, and in the one around the camera.
@@ -217,7 +218,8 @@ ShadeColumns shade_columns(const WavefrontInput& in, Workspace& work) {
             .occlusion = in.scene.occludes ? work.occlusion.data() : nullptr,
             .shared = work.shared_faces.empty() ? nullptr : work.shared_faces.data(),
             .light_paths = light_path_columns(in, work),
-            .shadow_media = shadow_media(in, work)};
+            .shadow_media = shadow_media(in, work),
+            .lit_points = lit_points(in, work)};
 }
 
 RaycastColumns raycast_columns(const WavefrontInput& in, Workspace& work) {

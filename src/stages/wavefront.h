@@ -47,6 +47,7 @@ public:
         if (scene.thin_walls) distance_since_scattering.assign(slot_time.size(), 0.0f);
         if (scene.occludes) occlusion.assign(slot_time.size(), 1.0f);
         if (scene.passable_media) shadow_media.assign(slot_time.size(), 0U);
+        if (scene.lights.tree.nodes != nullptr) lit_points.resize(slot_time.size());
     }
 
     /// Makes columns for AOVs, in aov_outputs.
@@ -64,6 +65,7 @@ public:
     std::vector<float> distance_since_scattering;  ///< likewise, by sample index; see ShadeColumns
     std::vector<float> occlusion;                  ///< where SceneView::occludes; see ShadeColumns
     std::vector<uint32_t> shadow_media;            ///< see ShadowMediaColumns, by sample index
+    std::vector<LitPointRecord> lit_points;        ///< where there is a light tree, likewise
     std::vector<SharedFaces> shared_faces;         ///< where media touch, by sample index
     std::vector<float> slot_time;                  ///< where something moves; see 1_shutter.h
     std::vector<float> ray_time;                   ///< the same, by index of the rays to be asked

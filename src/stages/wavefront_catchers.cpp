@@ -322,6 +322,7 @@ CatcherCounts leave_catchers(const WavefrontInput& in, int bounce, int count, Wo
                                  .reflections = catcher.reflections,
                                  .shadows = work.shadows,
                                  .time = slot_times(in, work),
+                                 .lit_points = lit_points(in, work),
                                  .ground_m = in.catchers.ground_m.value_or(0.0f),
                                  .bounce = bounce,
                                  .first_next = count,

@@ -18,6 +18,11 @@ inline const float* slot_times(const WavefrontInput& in, const Workspace& work) 
     return moves(in.scene.motion) ? work.slot_time.data() : nullptr;
 }
 
+/// Where paths scattered last, if there is a light tree.
+inline LitPointRecord* lit_points(const WavefrontInput& in, Workspace& work) {
+    return in.scene.lights.tree.nodes != nullptr ? work.lit_points.data() : nullptr;
+}
+
 /// The times of rays, if something moves.
 inline const float* times_of(const WavefrontInput& in,
                              const uint32_t* slot,

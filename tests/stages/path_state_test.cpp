@@ -50,8 +50,8 @@ void note_members(Access& access, const Members&...) {
 
 // All members: one more would not compile.
 void note(Type<ShadeColumns>, Access& access) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = ShadeColumns{};
-    note_members(access, a, b, c, d, e, f, g, h, i, j, k, l);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m] = ShadeColumns{};
+    note_members(access, a, b, c, d, e, f, g, h, i, j, k, l, m);
 }
 void note(Type<RaycastColumns>, Access& access) {
     const auto& [a, b, c, d, e, f] = RaycastColumns{};
@@ -78,16 +78,16 @@ void note(Type<ShadowMediaColumns>, Access& access) {
     note_members(access, a, b, c, d);
 }
 void note(Type<CatcherColumns>, Access& access) {
-    const auto& [a, b, c, d, e, f, g, h, i, j, k] = CatcherColumns{};
-    note_members(access, a, b, c, d, e, f, g, h, i, j, k);
+    const auto& [a, b, c, d, e, f, g, h, i, j, k, l] = CatcherColumns{};
+    note_members(access, a, b, c, d, e, f, g, h, i, j, k, l);
 }
 void note(Type<ScatterStart>, Access& access) {
     const auto& [a, b, c, d, e] = ScatterStart{};
     note_members(access, a, b, c, d, e);
 }
 void note(Type<ScatterColumns>, Access& access) {
-    const auto& [a, b, c, d, e, f, g, h, i] = ScatterColumns{};
-    note_members(access, a, b, c, d, e, f, g, h, i);
+    const auto& [a, b, c, d, e, f, g, h, i, j] = ScatterColumns{};
+    note_members(access, a, b, c, d, e, f, g, h, i, j);
 }
 void note(Type<ProbeColumns>, Access& access) {
     const auto& [a, b, c, d, e, f] = ProbeColumns{};

@@ -111,6 +111,33 @@ TEST(MediaLights, PointLightsScatterOnceAsTheQuadratureSays) {
     }
 }
 
+/// So many that a tree chooses them.
+TEST(MediaLights, ManyPointLightsScatterOnceAsTheQuadratureSays) {
+    std::vector<PunctualLight> lamps;
+    std::vector<Vec3d> places;
+    for (int i = 0; i < 40; ++i) {
+        const double turn = 2.4 * i;
+        const double height = 1.8 * (i + 0.5) / 40 - 0.9;
+        places.push_back({0.7 * std::cos(turn), 0.7 * std::sin(turn), height});
+        const Vec3d& p = places.back();
+        lamps.push_back(
+            lamp_at({static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}));
+    }
+    constexpr float g = 0.4f;
+    double expected = 0;
+    for (const Vec3d& place : places) {
+        expected += scattered_once(1, static_cast<double>(g), [&](const Vec3d& from) {
+            const Vec3d way = place - from;
+            const double d = length(way);
+            return Arriving{way * (1 / d), d, 10 / (d * d)};
+        });
+    }
+    const Film film = film_from_front(cube_of(fog({1, 1, 1}, faint, g), lamps), {.samples = 1024});
+    const Mean seen = film_mean(film);
+    EXPECT_NEAR(seen.value, expected, 4 * seen.error + 3e-3 * expected);
+    EXPECT_LT(seen.error, 0.01 * expected);
+}
+
 TEST(MediaLights, ASunScattersOnceAsTheQuadratureSays) {
     const auto light = [](const Vec3d&) { return Arriving{{0.6, 0.8, 0}, 1e30, 10}; };
     expect_scattered_once(slanting_sun(), 0.3f, light);
