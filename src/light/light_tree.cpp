@@ -25,7 +25,7 @@ float with_slack(float radius, const Vec3f& low, const Vec3f& high) {
 }
 
 /// The least of all intensities that a light counts with: less would underflow far away.
-constexpr double least_share = 1e-20;
+constexpr double min_share = 1e-20;
 
 /// Bounds of several lights, while they are collected.
 struct Cluster {
@@ -184,7 +184,7 @@ Builder::Builder(std::span<const BoundedLight> lights) {
     for (const BoundedLight& light : lights) {
         leaves_.push_back({cluster_of(light), light.bounds});
         Summary& leaf = leaves_.back();
-        leaf.cluster.intensity = std::max(leaf.cluster.intensity / total, least_share);
+        leaf.cluster.intensity = std::max(leaf.cluster.intensity / total, min_share);
         leaf.bounds.intensity = static_cast<float>(leaf.cluster.intensity);
         leaf.bounds.radius = with_slack(leaf.bounds.radius, light.low, light.high);
     }

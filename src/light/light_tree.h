@@ -122,7 +122,7 @@ inline constexpr float light_cosine_slack = 1e-3f;
 
 /// The least that orientation leaves of a light's importance, unless it leaves nothing: what glossy
 /// surfaces reflect at grazing angles does not fall with the cosine.
-inline constexpr float least_light_cosine = 0.1f;
+inline constexpr float min_light_cosine = 0.1f;
 
 /// Within this fraction of their radius, distance to the centre of lights does not count. Between
 /// 0.35 and 0.7 of it the noise of many lamps over a floor is least.
@@ -165,8 +165,8 @@ OBSCURA_INLINE F light_importance(const LightBoundsValues<F>& lights, const LitP
     const auto open = dot(at.normal, at.normal) <= zero;
     received = select(open, one, received);
 
-    const F least(least_light_cosine);
-    const F cosines = max(emitted, least) * max(received, least);
+    const F lowest(min_light_cosine);
+    const F cosines = max(emitted, lowest) * max(received, lowest);
     const F nearest = F(nearest_light_distance) * lights.radius;
     const F importance = lights.intensity * cosines / max(squared, nearest * nearest);
     return select(shines & (received > -slack), max(importance, F(1e-36f)), zero);
@@ -178,38 +178,54 @@ struct LightTreePlace {
     IntOf<F> node = IntOf<F>(0);  ///< of the lights [first, end), if they are more than one
     IntOf<F> first = IntOf<F>(0);
     IntOf<F> end;
+    IntOf<F> randoms;  ///< how many random numbers lead there
 };
 
 /// A node's choice between its children.
 template <typename F>
 struct LightTreeFork {
-    F left, right;    ///< probabilities; both 0: no light brings anything
-    IntOf<F> middle;  ///< first leaf of the right child
+    IntOf<F> of_left, of_right;  ///< random numbers; both 0: no light brings anything
+    IntOf<F> middle;             ///< first leaf of the right child
 };
 
+/// In      goes: elsewhere the result means nothing
 template <typename F>
 OBSCURA_INLINE LightTreeFork<F> light_tree_fork(const LightTreeView& tree,
-                                                const IntOf<F>& node,
-                                                const LitPoint<F>& at) {
+                                                const LightTreePlace<F>& place,
+                                                const LitPoint<F>& at,
+                                                const MaskOf<F>& goes) {
+    using I = IntOf<F>;
+    const I node = select(goes, place.node, I(0));
     const LightBoundsValues<F> l = read_light_bounds<F, 0>(tree.nodes, node);
     const LightBoundsValues<F> r = read_light_bounds<F, 1>(tree.nodes, node);
     const F left = light_importance(l, at);
     const F both = left + light_importance(r, at);
     const F share = left / max(both, F(1e-37f));
-    return {
-        share, select(both > F(0.0f), F(F(1.0f) - share), F(0.0f)), as_int(as_uint(r.sides) >> 1)};
+    // Rounding may make a large number one more than it is.
+    const I of_left = min(to_int(from_int<F>(place.randoms) * share), place.randoms);
+    const I of_right = select(both > F(0.0f), I(place.randoms - of_left), I(0));
+    return {of_left, of_right, as_int(as_uint(r.sides) >> 1)};
 }
 
 /// Goes on to a child where `goes`.
 template <typename F>
 OBSCURA_INLINE void enter_child(const MaskOf<F>& goes,
                                 const MaskOf<F>& left,
-                                const IntOf<F>& middle,
+                                const LightTreeFork<F>& fork,
                                 LightTreePlace<F>& place) {
-    const IntOf<F> step = select(left, IntOf<F>(1), IntOf<F>(middle - place.first));
+    const IntOf<F> step = select(left, IntOf<F>(1), IntOf<F>(fork.middle - place.first));
+    const IntOf<F> randoms = select(left, fork.of_left, fork.of_right);
     place.node = select(goes, IntOf<F>(place.node + step), place.node);
-    place.end = select(goes & left, middle, place.end);
-    place.first = select(goes & (!left), middle, place.first);
+    place.end = select(goes & left, fork.middle, place.end);
+    place.first = select(goes & (!left), fork.middle, place.first);
+    place.randoms = select(goes, randoms, place.randoms);
+}
+
+/// The probability of the tree's choice: it is the number of random numbers that lead there, so
+/// that rounding on the way down has no part in it.
+template <typename F>
+OBSCURA_INLINE F light_tree_probability(const LightTreeView& tree, const LightTreePlace<F>& place) {
+    return from_int<F>(place.randoms) * F(1.0f / static_cast<float>(tree.randoms));
 }
 
 /// A light that the tree has chosen.
@@ -234,24 +250,20 @@ OBSCURA_INLINE LightTreeDraw<F> draw_from_light_tree(const LightTreeView& tree,
     using I = IntOf<F>;
     LightTreePlace<F> place;
     place.end = select(active, I(tree.leaves), I(1));
-    const I number = as_int(random >> 2);
-    I first(tree.first_random);
-    I randoms(tree.randoms);
-    F probability(1.0f);
+    place.randoms = I(tree.randoms);
+    I number = as_int(random >> 2) - I(tree.first_random);  // among those of the place
     while (true) {
         const auto goes = place.end - place.first > I(1);
         if (none(goes)) break;
-        const LightTreeFork<F> fork = light_tree_fork<F>(tree, select(goes, place.node, I(0)), at);
-        const I of_left = to_int(from_int<F>(randoms) * fork.left);
-        const auto left = number - first < of_left;
-        probability = select(goes, probability * select(left, fork.left, fork.right), probability);
-        first = select(goes & (!left), I(first + of_left), first);
-        randoms = select(goes, select(left, of_left, I(randoms - of_left)), randoms);
-        enter_child<F>(goes, left, fork.middle, place);
+        const LightTreeFork<F> fork = light_tree_fork<F>(tree, place, at, goes);
+        const auto left = number < fork.of_left;
+        number = select(goes & (!left), I(number - fork.of_left), number);
+        enter_child<F>(goes, left, fork, place);
     }
-    const F within = (from_int<F>(number - first) + F(0.5f)) / from_int<F>(max(randoms, I(1)));
-    return {
-        gather<F>(tree.light_of_leaf, place.first), probability, min(within, F(0x1.fffffep-1f))};
+    const F within = (from_int<F>(number) + F(0.5f)) / from_int<F>(max(place.randoms, I(1)));
+    return {gather<F>(tree.light_of_leaf, place.first),
+            light_tree_probability(tree, place),
+            min(within, F(0x1.fffffep-1f))};
 }
 
 /// Probability with which draw_from_light_tree chooses the light of a leaf.
@@ -263,16 +275,14 @@ OBSCURA_INLINE F light_tree_probability(const LightTreeView& tree,
     using I = IntOf<F>;
     LightTreePlace<F> place;
     place.end = select(active, I(tree.leaves), I(1));
-    F probability(1.0f);
+    place.randoms = I(tree.randoms);
     while (true) {
         const auto goes = place.end - place.first > I(1);
         if (none(goes)) break;
-        const LightTreeFork<F> fork = light_tree_fork<F>(tree, select(goes, place.node, I(0)), at);
-        const auto left = leaf < fork.middle;
-        probability = select(goes, probability * select(left, fork.left, fork.right), probability);
-        enter_child<F>(goes, left, fork.middle, place);
+        const LightTreeFork<F> fork = light_tree_fork<F>(tree, place, at, goes);
+        enter_child<F>(goes, leaf < fork.middle, fork, place);
     }
-    return probability;
+    return light_tree_probability(tree, place);
 }
 
 }  // namespace OBSCURA_ISA

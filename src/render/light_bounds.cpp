@@ -141,7 +141,7 @@ std::vector<BoundedLight> bounded_lights(const LightTable& table,
     std::for_each(table.punctual.begin(), table.punctual.end(), add);
     std::for_each(table.triangles.begin(), table.triangles.end(), add);
     std::for_each(table.shapes.begin(), table.shapes.end(), add);
-    if (out.size() < fewest_tree_lights) out.clear();
+    if (out.size() < min_tree_lights) out.clear();
     return out;
 }
 

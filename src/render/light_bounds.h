@@ -11,10 +11,10 @@
 namespace obscura {
 
 /// With fewer lights, choosing by the point that is lit costs more than it gains.
-inline constexpr size_t fewest_tree_lights = 16;
+inline constexpr size_t min_tree_lights = 16;
 
 /// The lights that are chosen by a tree: all with a place, that is without directional ones and the
-/// environment. None where they are fewer than fewest_tree_lights: there the table alone chooses.
+/// environment. None where they are fewer than min_tree_lights: there the table alone chooses.
 ///
 /// In      table: with all its lights; power: of punctual lights, triangles and shapes, by number;
 ///         steps: of Motion

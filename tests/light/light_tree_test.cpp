@@ -121,6 +121,44 @@ TEST(LightTree, ProbabilitiesSumToOne) {
     }
 }
 
+/// The first of the random numbers, in units of four, that leads to a leaf from this one on.
+int32_t first_number(const LightTreeView& view, const LitPoint<float>& at, int32_t leaf) {
+    int32_t low = 0;
+    int32_t high = view.randoms;
+    while (low < high) {
+        const int32_t middle = low + (high - low) / 2;
+        const auto drawn =
+            draw_from_light_tree<float>(view, at, static_cast<uint32_t>(middle) << 2U, true);
+        const bool before = view.leaf_of_light[drawn.light] < leaf;
+        (before ? low : high) = before ? middle + 1 : middle;
+    }
+    return low;
+}
+
+TEST(LightTree, TheProbabilityIsThatOfTheDescentExactly) {
+    constexpr size_t count = 90;
+    const LightTree tree = build_light_tree(random_lights(count, 51), count);
+    const LightTreeView view = view_of(tree);
+    Pcg32 random(52);
+    for (int k = 0; k < 10; ++k) {
+        const LitPoint<float> at{random_point(random, 3),
+                                 k % 2 == 0 ? no_normal : random_direction(random)};
+        int32_t first = first_number(view, at, 0);
+        ASSERT_EQ(first, 0);
+        double lit = 0;
+        for (int32_t leaf = 0; leaf < view.leaves; ++leaf) {
+            const int32_t end = first_number(view, at, leaf + 1);
+            const float told = light_tree_probability<float>(view, at, leaf, true);
+            // Numbers that end where no light brings anything lead to the last leaf there.
+            if (told > 0) EXPECT_EQ(told, static_cast<float>(end - first) * 0x1p-30f);
+            lit += static_cast<double>(told);
+            first = end;
+        }
+        ASSERT_EQ(first, view.randoms);
+        EXPECT_GT(lit, 0.9);
+    }
+}
+
 /// Elsewhere the rest are draws that end where no light brings anything.
 TEST(LightTree, LightsAreDrawnWithTheProbabilitiesThatTheTreeTells) {
     constexpr size_t count = 60;
@@ -180,7 +218,7 @@ TEST(LightTree, LeavesAndPlacesGrowWithTheRandomNumber) {
     EXPECT_GT(covered, 0.9) << "places fill the interval, but for steps between these numbers";
 }
 
-TEST(LightTree, LanesAgreeWithScalars) {
+TEST(LightTree, LanesAgreeWithScalarsAndWithWhatMisAsksFor) {
     const auto lights = random_lights(333, 31);
     const LightTree tree = build_light_tree(lights, lights.size());
     const LightTreeView view = view_of(tree);
@@ -204,10 +242,16 @@ TEST(LightTree, LanesAgreeWithScalars) {
         const LitPoint<Lanes> points{{load(columns[0]), load(columns[1]), load(columns[2])},
                                      {load(columns[3]), load(columns[4]), load(columns[5])}};
         const auto drawn = draw_from_light_tree<Lanes>(view, points, load(numbers), Mask(true));
+        alignas(64) int32_t leaves[lane_count];
+        for (int i = 0; i < lane_count; ++i)
+            leaves[i] = tree.leaf_of_light[static_cast<size_t>(lane(drawn.light, i))];
+        const auto told = light_tree_probability<Lanes>(view, points, load(leaves), Mask(true));
         for (int i = 0; i < lane_count; ++i) {
             const int32_t light = lane(drawn.light, i);
             const double p = probability(view, at[i], static_cast<size_t>(light));
-            EXPECT_NEAR(static_cast<double>(lane(drawn.probability, i)), p, 1e-3 * p + 1e-9);
+            const float by_lane = lane(drawn.probability, i);
+            EXPECT_NEAR(static_cast<double>(by_lane), p, 1e-3 * p + 1e-8);
+            if (by_lane > 0) EXPECT_EQ(by_lane, lane(told, i)) << "as MIS asks for it";
         }
     }
 }

@@ -211,7 +211,7 @@ TEST(LightBounds, FewLightsAndThoseWithoutPlaceAreLeftToTheTable) {
     };
     Scene scene = many_lamps(0, 1);
     EXPECT_EQ(tree_of(scene), 19U);
-    scene.lights.resize(fewest_tree_lights - 1);
+    scene.lights.resize(min_tree_lights - 1);
     EXPECT_EQ(tree_of(scene), 0U);
     scene.lights.resize(200);
     for (PunctualLight& light : scene.lights)
