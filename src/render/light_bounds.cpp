@@ -108,8 +108,9 @@ std::vector<Vec3f> way_of(const LightTable& table, int32_t steps, const Punctual
 std::vector<Vec3f> way_of(const LightTable& table, int32_t steps, const TriangleLight& light) {
     std::vector<Vec3f> places;
     if (light.motion < 0) return places;
-    for (int32_t step = 0; step < steps; ++step) {
-        const auto& at = table.moving_triangles[static_cast<size_t>(light.motion + step)];
+    const auto first = static_cast<size_t>(light.motion);
+    for (size_t step = 0; step < static_cast<size_t>(steps); ++step) {
+        const MovingTriangle& at = table.moving_triangles[first + step];
         const Vec3f p0 = vector_of(at.p0);
         places.insert(places.end(), {p0, p0 + vector_of(at.e1), p0 + vector_of(at.e2)});
     }
