@@ -59,12 +59,11 @@ inline __attribute__((noinline)) void choose_from_tree(const LightTreeView& tree
 /// they scattered; 0 for those that are not in the tree. Not inlined, likewise.
 ///
 /// In      light: number, see LightView; met: elsewhere the result means nothing
-inline __attribute__((noinline)) void probability_by_tree(const LightTreeView& tree,
-                                                          const LitPointRecord* by_slot,
-                                                          const LanesI& light,
-                                                          const LanesU& slot,
-                                                          const Mask& met,
-                                                          Lanes& out) {
+inline __attribute__((noinline)) Lanes probability_by_tree(const LightTreeView& tree,
+                                                           const LitPointRecord* by_slot,
+                                                           const LanesI& light,
+                                                           const LanesU& slot,
+                                                           const Mask& met) {
     const LanesI leaf = gather<Lanes>(tree.leaf_of_light, select(met, light, LanesI(0)));
     const Mask known = met & (leaf >= LanesI(0));
     const LanesI first =
@@ -77,7 +76,7 @@ inline __attribute__((noinline)) void probability_by_tree(const LightTreeView& t
     const LitPoint<Lanes> at{read(offsetof(LitPointRecord, position)),
                              read(offsetof(LitPointRecord, normal))};
     const Lanes choice = light_tree_probability<Lanes>(tree, at, leaf, known);
-    out = select(known, choice * Lanes(tree.share), Lanes(0.0f));
+    return select(known, choice * Lanes(tree.share), Lanes(0.0f));
 }
 
 }  // namespace OBSCURA_ISA

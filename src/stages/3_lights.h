@@ -165,6 +165,14 @@ OBSCURA_INLINE void draw_light_pixel(const SceneView& scene, LightDraw& draw) {
     draw_environment_pixel(scene.environment, draw.environment);
 }
 
+/// Divides by the probability of the tree's choice.
+OBSCURA_INLINE void weigh_by_tree(const LightDraw& draw, LightLanes& light) {
+    const Lanes likely = max(draw.probability, Lanes(1e-30f));
+    light.radiance_over_pdf = light.radiance_over_pdf * (Lanes(1.0f) / likely);
+    light.pdf = light.pdf * draw.probability;
+    light.valid = light.valid & (draw.probability > Lanes(0.0f));
+}
+
 /// The light that every lane has drawn, at a point on it.
 ///
 /// In      texture: uniform random numbers that choose a texel
@@ -221,12 +229,7 @@ OBSCURA_INLINE LightLanes sample_light(const SceneView& scene,
                 Lanes(0.0f),
                 max_component(s.irradiance) > Lanes(0.0f)});
     }
-    if (lights.tree.nodes != nullptr) {
-        const Lanes likely = max(draw.probability, Lanes(1e-30f));
-        out.radiance_over_pdf = out.radiance_over_pdf * (Lanes(1.0f) / likely);
-        out.pdf = out.pdf * draw.probability;
-        out.valid = out.valid & (draw.probability > Lanes(0.0f));
-    }
+    if (lights.tree.nodes != nullptr) weigh_by_tree(draw, out);
     return out;
 }
 

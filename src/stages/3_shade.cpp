@@ -105,12 +105,22 @@ OBSCURA_INLINE Lanes chosen_by_tree(const SceneView& scene,
                                     const ShadeColumns& columns,
                                     Mask met,
                                     const ShadedGroup& group) {
-    Lanes probability(0.0f);
-    if (none(met)) return probability;
+    if (none(met)) return Lanes(0.0f);
     const LanesI light = group.s.light + LanesI(scene.lights.punctual_count);
     const LanesU slot = group.path.slot;  // only a copy has an address
-    probability_by_tree(scene.lights.tree, columns.lit_points, light, slot, met, probability);
-    return probability;
+    return probability_by_tree(scene.lights.tree, columns.lit_points, light, slot, met);
+}
+
+/// The light tree's choice for paths that sample a light, and its place for those that turn.
+OBSCURA_INLINE void choose_by_tree(const SceneView& scene,
+                                   const ShadeColumns& columns,
+                                   Mask turns,
+                                   Mask scatters,
+                                   const ShadedGroup& group) {
+    if (columns.lit_points == nullptr) return;
+    const LitPoint<Lanes> lit = lit_point(group.s);
+    note_lit_points(columns.lit_points, turns, group.path.slot, lit);
+    draw_light_of_tree(scene, lit, scatters, group.light);
 }
 
 /// Adds the emission of the hit surfaces.
@@ -407,11 +417,7 @@ ShadeCounts shade(const SceneView& scene,
             turns = turns & (!hidden);
         }
         if (scene.occludes) store_by_slot(columns.occlusion, turns, path.slot, s.occlusion);
-        if (columns.lit_points != nullptr) {
-            const LitPoint<Lanes> lit = lit_point(s);
-            note_lit_points(columns.lit_points, turns, path.slot, lit);
-            draw_light_of_tree(scene, lit, scatters, draws[k]);
-        }
+        choose_by_tree(scene, columns, turns, scatters, group);
         // Before the paths turn: light layers split the shadow rays' light by where the paths were.
         if (scene.lights.count > 0) {
             out.shadow = add_shadow_rays(bounce, columns, out.shadow, scatters, group);

@@ -140,23 +140,25 @@ TEST(LightTree, TheProbabilityIsThatOfTheDescentExactly) {
     const LightTree tree = build_light_tree(random_lights(count, 51), count);
     const LightTreeView view = view_of(tree);
     Pcg32 random(52);
+    double lit = 0;
     for (int k = 0; k < 10; ++k) {
         const LitPoint<float> at{random_point(random, 3),
                                  k % 2 == 0 ? no_normal : random_direction(random)};
         int32_t first = first_number(view, at, 0);
         ASSERT_EQ(first, 0);
-        double lit = 0;
         for (int32_t leaf = 0; leaf < view.leaves; ++leaf) {
             const int32_t end = first_number(view, at, leaf + 1);
             const float told = light_tree_probability<float>(view, at, leaf, true);
             // Numbers that end where no light brings anything lead to the last leaf there.
-            if (told > 0) EXPECT_EQ(told, static_cast<float>(end - first) * 0x1p-30f);
+            if (told > 0) {
+                EXPECT_EQ(told, static_cast<float>(end - first) * 0x1p-30f);
+            }
             lit += static_cast<double>(told);
             first = end;
         }
         ASSERT_EQ(first, view.randoms);
-        EXPECT_GT(lit, 0.9);
     }
+    EXPECT_GT(lit, 5) << "most of the ten points are lit";
 }
 
 /// Elsewhere the rest are draws that end where no light brings anything.
@@ -251,7 +253,9 @@ TEST(LightTree, LanesAgreeWithScalarsAndWithWhatMisAsksFor) {
             const double p = probability(view, at[i], static_cast<size_t>(light));
             const float by_lane = lane(drawn.probability, i);
             EXPECT_NEAR(static_cast<double>(by_lane), p, 1e-3 * p + 1e-8);
-            if (by_lane > 0) EXPECT_EQ(by_lane, lane(told, i)) << "as MIS asks for it";
+            if (by_lane > 0) {
+                EXPECT_EQ(by_lane, lane(told, i)) << "as MIS asks for it";
+            }
         }
     }
 }
