@@ -23,8 +23,16 @@ void note_error(void* user, RTCError code, const char* text) {
     }
 }
 
+/// Embree's word before and after it allocates or frees; false makes the build fail. Small blocks
+/// always get through, because Embree asks for some where it cannot fail.
 bool note_memory(void* user, ssize_t bytes, bool) {
-    static_cast<std::atomic<int64_t>*>(user)->fetch_add(bytes, std::memory_order_relaxed);
+    auto* memory = static_cast<BvhMemory*>(user);
+    constexpr ssize_t small_block = 64U << 10;
+    if (!memory->charge.change(bytes) && bytes >= small_block) {
+        memory->refused.store(bytes, std::memory_order_relaxed);
+        return false;
+    }
+    memory->bytes.fetch_add(bytes, std::memory_order_relaxed);
     return true;
 }
 
@@ -64,7 +72,11 @@ void release(BuiltGeometry& geometry) {
     geometry = {};
 }
 
-tl::unexpected<Error> embree_failure(const EmbreeErrors& errors) {
+tl::unexpected<Error> embree_failure(const Accel::Impl& impl) {
+    const EmbreeErrors& errors = impl.errors;
+    if (const int64_t refused = impl.memory.refused.load(); refused > 0) {
+        return fail(memory_refusal(MemoryUse::bvh, "BVH build", static_cast<uint64_t>(refused)));
+    }
     const bool memory = errors.code == RTC_ERROR_OUT_OF_MEMORY;
     return fail(memory ? ExitCode::out_of_memory : ExitCode::internal,
                 memory ? "E-MEM" : "E-EMBREE",
@@ -123,6 +135,9 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     if (auto done = require_curves(scene, property != 0); !done) return fail(done.error());
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
     impl->functions = accel_functions_for(kernels.isa);
+    Result<MemoryCharge> charge = charge_memory(MemoryUse::bvh, "", 0);
+    if (!charge) return fail(std::move(charge.error()));
+    impl->memory.charge = std::move(*charge);
     rtcSetDeviceMemoryMonitorFunction(impl->device, note_memory, &impl->memory);
     return impl;
 }
@@ -221,7 +236,7 @@ Result<void> build_scenes(Accel::Impl& impl) {
     build_top(impl);
     build_splats(impl);
     impl.list_infinite_planes();
-    if (impl.errors.code != RTC_ERROR_NONE) return embree_failure(impl.errors);
+    if (impl.errors.code != RTC_ERROR_NONE) return embree_failure(impl);
     return {};
 }
 
@@ -281,7 +296,7 @@ Result<BareBuild> Accel::build_bare(const Scene& scene, const std::string& embre
     const Result<void> built = build_scenes(**impl);
     if (!built) return fail(built.error());
     return BareBuild{building.seconds(),
-                     static_cast<size_t>(std::max<int64_t>((*impl)->memory.load(), 0))};
+                     static_cast<size_t>(std::max<int64_t>((*impl)->memory.bytes.load(), 0))};
 }
 
 void Accel::Impl::fill_primitive_tables() {
@@ -313,7 +328,7 @@ bool Accel::has_thin_walls() const {
 }
 
 size_t Accel::memory_bytes() const {
-    size_t bytes = static_cast<size_t>(std::max<int64_t>(impl_->memory.load(), 0));
+    size_t bytes = static_cast<size_t>(std::max<int64_t>(impl_->memory.bytes.load(), 0));
     for (const auto& boxes : impl_->block_boxes)
         bytes += boxes.size() * sizeof(float);
     return bytes;

@@ -9,6 +9,7 @@
 #include "accel/reference_kernels.h"
 #include "accel/shape_geometry.h"
 #include "accel/splat_layers.h"
+#include "base/memory_budget.h"
 #include "base/unset_array.h"
 #include "scene/ray_reach.h"
 
@@ -23,6 +24,13 @@ struct EmbreeErrors {
     std::mutex mutex;
     RTCError code = RTC_ERROR_NONE;
     std::string text;
+};
+
+/// What Embree holds, counted and charged to the process's budget.
+struct BvhMemory {
+    std::atomic<int64_t> bytes = 0;
+    std::atomic<int64_t> refused = 0;  ///< size of a block that did not fit
+    MemoryCharge charge;
 };
 
 /// User pointer of a primitive whose triangles or curve segments are user geometry.
@@ -69,7 +77,7 @@ struct Accel::Impl {
     KernelChoice kernels;
     TextureView textures;
     EmbreeErrors errors;
-    std::atomic<int64_t> memory = 0;
+    BvhMemory memory;
     RTCDevice device = nullptr;
     /// Geometry ids: world primitives, then instances, then `static_geometry` unless it is all
     /// there is.

@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
         return obscura::app::run_program(argc, argv);
     } catch (const std::bad_alloc&) {
         std::fputs(
-            "ERROR out of memory; a smaller --size or smaller textures need less\n"
+            "ERROR out of memory: the system gives no more; a higher limit (ulimit -v, the "
+            "container's), a smaller --size or smaller textures help\n"
             "RESULT code=33 id=E-MEM where=- warnings=0\n",
             stderr);
         return 33;

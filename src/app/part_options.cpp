@@ -96,6 +96,7 @@ bool is_left_out(const std::string& name) {
                                                    "--time-limit",
                                                    "--snapshot",
                                                    "--threads",
+                                                   "--max-memory",
                                                    "--tile-size",
                                                    "--stats",
                                                    "--write-retries",

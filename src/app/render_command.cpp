@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_command.h"
 
+#include "app/memory_option.h"
 #include "app/outcome.h"
 #include "app/progress.h"
 #include "app/render_job.h"
@@ -227,6 +228,7 @@ Result<void> execute(const RenderRequest& request,
                      Watch& watch,
                      Log& log) {
     const Stopwatch total;
+    if (auto set = use_memory_limit(request.max_memory, memory_bound()); !set) return set;
     if (auto writable = check_outputs(request); !writable) return writable;
     warn_of_lost_alpha(request, log);
     Result<std::optional<DisplayTransform>> display = make_display(request, log);

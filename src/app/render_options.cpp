@@ -8,6 +8,7 @@
 #include "app/layer_options.h"
 #include "app/lens_options.h"
 #include "app/long_run_options.h"
+#include "app/memory_option.h"
 #include "app/noise_options.h"
 #include "app/option_readers.h"
 #include "app/part_options.h"
@@ -359,6 +360,11 @@ constexpr Entry program[] = {
     {{.name = "--threads", .argument = "N",
       .help = "Threads; 0 is every core that the process may use", .range = {0, 1024}},
      text_at<&A::threads>, number_at<&R::threads>},
+    {{.name = "--max-memory", .argument = "SIZE",
+      .help = "Memory that the process may take: 512M, 4G, a number of bytes, or a share of what "
+              "there is: the least of the machine's, its container's and the shell's limit",
+      .fallback = "80%"},
+     text_at<&A::max_memory>, parsed_at<parse_memory_size, &R::max_memory>},
     {{.name = "--isa", .argument = "NAME", .help = "Instruction set:"},
      text_at<&A::isa>, choice_at<instruction_sets, &R::isa>},
     {{.name = "--tile-size", .argument = "N",

@@ -77,7 +77,16 @@ FileBytes read_file_bytes(const std::filesystem::path& path, const ReadLimits& l
                      std::to_string(limits.largest_file) + " are accepted";
         return out;
     }
-    out.bytes.resize(std::min(out.size, limits.first_bytes));
+    const uint64_t wanted = std::min(out.size, limits.first_bytes);
+    if (limits.charge) {
+        if (auto fits = limits.charge(wanted); !fits) {
+            out.fault = FileFault::no_memory;
+            out.reason = fits.error().message;
+            out.refusal = std::move(fits.error());
+            return out;
+        }
+    }
+    out.bytes.resize(wanted);
     size_t done = 0;
     while (done < out.bytes.size()) {
         const ssize_t got = ::read(file.number(), out.bytes.data() + done, out.bytes.size() - done);

@@ -147,7 +147,7 @@ auto guarded(const std::string& file, const Work& work) -> decltype(work()) {
         return fail(ExitCode::out_of_memory,
                     "E-MEMORY",
                     file,
-                    "there is not enough memory to load the scene");
+                    "the system gives no more memory to load the scene; in use: " + memory_items());
     } catch (const std::length_error&) {
         return fail(ExitCode::out_of_memory,
                     "E-MEMORY",
@@ -465,6 +465,10 @@ Result<std::vector<char>> PosedAsset::subtree(const std::string& pattern) const 
 
 const Degraded& PosedAsset::degraded() const {
     return impl_->degraded;
+}
+
+const std::vector<MemoryCharge>& PosedAsset::texture_charges() const {
+    return impl_->textures.charges;
 }
 
 void PosedAsset::take_back(Scene&& scene) {

@@ -73,7 +73,7 @@ struct LoadOptions {
 ///         65 E-GLB-*, E-JSON-*, E-DOC-*, E-ACC-*, E-BUF-*, E-MESH-*, E-NODE-*, E-MESHOPT-*,
 ///         E-DRACO-*, E-SKIN-*, E-ANIM-*, E-LIGHT-*, E-IES-*, E-ENV-FACES; 66 E-SCENE-MISSING;
 ///         67 E-RES-MISSING, E-RES-SHORT, E-IMG-*; 69 E-VERSION, E-EXT-REQUIRED,
-///         E-MESHOPT-VERSION, E-DRACO-VERSION; 77 E-URI-REFUSED, E-LIMIT-*; 33 E-MEMORY
+///         E-MESHOPT-VERSION, E-DRACO-VERSION; 77 E-URI-REFUSED, E-LIMIT-*; 33 E-MEM, E-MEMORY
 Result<Scene> load_gltf(const std::filesystem::path& file, const LoadOptions& options, Log& log);
 
 /// While a shutter is open.
@@ -118,6 +118,9 @@ public:
 
     /// What the latest scene lacks; nothing unless LoadOptions::lenient.
     const Degraded& degraded() const;
+
+    /// What the texels of its scenes have taken from the memory budget: to be kept as long as they.
+    const std::vector<MemoryCharge>& texture_charges() const;
 
     /// Takes back what the next scene reuses from a scene that is no longer needed: decoded images
     /// and static geometry.

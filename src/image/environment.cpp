@@ -1,8 +1,10 @@
 // image/environment.cpp - reads an environment map from disk as finite linear RGB.
 // SPDX-License-Identifier: Apache-2.0
+#include "base/memory_budget.h"
 #include "image/corrupt.h"
 #include "image/decode.h"
 #include "image/environment_exr.h"
+#include "image/environment_memory.h"
 #include "image/exr_sizes.h"
 #include "image/image_header.h"
 #include "image/oiio_input.h"
@@ -170,6 +172,10 @@ Result<void> check_environment_size(int64_t width, int64_t height, const std::st
     if (auto fits = check_image_size(width, height, bytes_per_pixel, "E-ENV", where); !fits) {
         return fits;
     }
+    // Asked here, before there are pixels; who keeps the environment charges it.
+    const auto has_room =
+        charge_memory(MemoryUse::environment, where, environment_memory_bytes(width, height));
+    if (!has_room) return fail(has_room.error());
     if (width == 2 * height) return {};
     return fail(ExitCode::bad_data,
                 "E-ENV-ASPECT",

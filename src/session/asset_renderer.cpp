@@ -64,6 +64,8 @@ Result<void> AssetRenderer::pose(const PoseTimes& times, Log& log) {
     Result<Scene> scene = times.shutter ? asset_->scene_between(*times.shutter, times.is_last, log)
                                         : asset_->scene_at(times.time_s, times.is_last, log);
     if (!scene) return fail(scene.error());
+    charges_.textures = asset_->texture_charges();
+    if (auto fits = charge_geometry(*scene, charges_); !fits) return fits;
     degraded_ = asset_->degraded();
     add_degraded(degraded_, statistics_.degraded);
     if (times.is_last) asset_.reset();
@@ -98,6 +100,7 @@ Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
         turned->environment_rotation_deg += camera_azimuth_deg(camera->basis.world_from_camera);
     }
     const LightingOptions& used = turned ? *turned : lighting;
+    if (auto fits = charge_environment(used, charges_); !fits) return fail(fits.error());
     Scene scene = std::move(*scene_);
     scene_.reset();
     if (prepared_) {
@@ -175,6 +178,8 @@ Result<RenderedFilm> AssetRenderer::render_film(const RenderRequest& request,
     Result<RenderOptions> options = options_of_image(request, camera);
     if (!options) return fail(options.error());
     options->share = hooks.share;
+    const auto fits = charge_film(prepared_->scene(), request, *options, charges_);
+    if (!fits) return fail(fits.error());
     const std::atomic<bool> never = false;
     Result<RenderResult> result = obscura::render(*prepared_,
                                                   camera.camera,

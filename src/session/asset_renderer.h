@@ -4,6 +4,7 @@
 
 #include "gltf/load.h"
 #include "render/render.h"
+#include "session/memory_charges.h"
 #include "session/outputs.h"
 #include "session/render_request.h"
 #include "session/statistics.h"
@@ -119,6 +120,7 @@ private:
     gltf::Degraded degraded_;                ///< what the latest scene lacks
     UnsetArray<float> film_memory_;
     RenderStatistics statistics_;
+    MemoryCharges charges_;
 };
 
 }  // namespace obscura

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/log.h"
+#include "base/memory_limit.h"
 #include "gltf/load.h"
 #include "image/display.h"
 #include "image/rendering_space.h"
@@ -63,6 +64,7 @@ struct RenderRequest {
     double environment_rotation_deg = 0;
     bool environment_follows_camera = false;  ///< the rotation is added to the camera's azimuth
     int threads = 0;                          ///< 0: every core
+    std::optional<MemorySize> max_memory;     ///< nothing: 80 % of what there is
     Isa isa = Isa::automatic;
     std::string color_space;  ///< --color-space; empty: lin_rec709
     RenderingSpace space;     ///< what it means: set by use_color_space

@@ -18,10 +18,19 @@ bool accepted_buffer_mime(const std::string& mime) {
     return mime.empty() || mime == "application/octet-stream" || mime == "application/gltf-buffer";
 }
 
+/// Out     charge: what the bytes take
 Result<Bytes> load_from_uri(const GltfBuffer& buffer,
                             const BufferSources& sources,
-                            const std::string& where) {
-    const ReadLimits limits{UINT64_MAX, buffer.byte_length};
+                            const std::string& where,
+                            MemoryCharge& charge) {
+    const std::string name = is_data_uri(*buffer.uri) ? where : *buffer.uri;
+    const auto take = [&](uint64_t bytes) -> Result<void> {
+        Result<MemoryCharge> taken = charge_memory(MemoryUse::buffers, name, bytes);
+        if (!taken) return fail(std::move(taken.error()));
+        charge = std::move(*taken);
+        return {};
+    };
+    const ReadLimits limits{UINT64_MAX, buffer.byte_length, take};
     Result<UriBytes> read = read_uri(*buffer.uri, {sources.folder, where + "/uri"}, limits);
     if (!read) return fail(std::move(read.error()));
     const bool inline_data = is_data_uri(*buffer.uri);
@@ -90,13 +99,15 @@ Result<BufferStore> load_buffers(const Document& document, const BufferSources& 
     BufferStore store;
     store.buffers.resize(document.buffers.size());
     store.owned.resize(document.buffers.size());
+    store.charges.resize(document.buffers.size());
     const std::vector<char> placeholders = find_placeholders(document);
     std::vector<Error> errors;
     for (size_t i = 0; i < document.buffers.size(); ++i) {
         if (placeholders[i] != 0) continue;
         const GltfBuffer& buffer = document.buffers[i];
         if (buffer.uri) {
-            Result<Bytes> bytes = load_from_uri(buffer, sources, document.at("buffers", i));
+            Result<Bytes> bytes =
+                load_from_uri(buffer, sources, document.at("buffers", i), store.charges[i]);
             if (bytes) store.owned[i] = std::move(*bytes);
             if (!bytes) errors.push_back(std::move(bytes.error()));
             store.buffers[i] = store.owned[i];
@@ -162,8 +173,13 @@ void release_geometry(const Document& document, BufferStore& store) {
         if (needed[i] != 0) continue;
         store.owned[i] = Bytes();
         store.buffers[i] = {};
+        store.charges[i] = {};
     }
     store.decoded = std::move(decoded);
+    uint64_t kept = 0;
+    for (const Bytes& view : store.decoded)
+        kept += view.size();
+    if (kept == 0) store.decoded_charge = {};
 }
 
 }  // namespace obscura::gltf

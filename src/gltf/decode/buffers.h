@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/file_bytes.h"
+#include "base/memory_budget.h"
 #include "gltf/parse/document.h"
 
 #include <filesystem>
@@ -19,6 +20,8 @@ struct BufferStore {
     std::vector<Bytes> owned;
     /// By view, once decode_meshopt has run: empty for views that are not compressed.
     std::vector<Bytes> decoded = {};
+    std::vector<MemoryCharge> charges = {};  ///< of `owned`
+    MemoryCharge decoded_charge = {};
 };
 
 /// Where buffers come from.
@@ -30,7 +33,7 @@ struct BufferSources {
 /// Loads every buffer that is read. One that holds (or would hold) only uncompressed copies of
 /// meshopt-compressed views stays empty.
 ///
-/// Errors  65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED: the first error, with all
+/// Errors  33 E-MEM; 65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED: the first error, with all
 ///         others in Error::also
 Result<BufferStore> load_buffers(const Document& document, const BufferSources& sources, Log& log);
 

@@ -23,8 +23,14 @@ Result<EncodedImage> load_encoded(const ImageSources& sources, size_t image) {
         out.bytes = view_bytes(sources.document, sources.buffers, record.view);
         return out;
     }
+    const auto take = [&](uint64_t bytes) -> Result<void> {
+        Result<MemoryCharge> taken = charge_memory(MemoryUse::textures, where, bytes);
+        if (!taken) return fail(std::move(taken.error()));
+        out.charge = std::move(*taken);
+        return {};
+    };
     const UriContext context{sources.folder, where + "/uri"};
-    Result<UriBytes> read = read_uri(*record.uri, context, {largest_image_file, UINT64_MAX});
+    Result<UriBytes> read = read_uri(*record.uri, context, {largest_image_file, UINT64_MAX, take});
     if (!read) return fail(std::move(read.error()));
     if (is_data_uri(*record.uri)) {
         if (read->mime.rfind("image/", 0) != 0) {

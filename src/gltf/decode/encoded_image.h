@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/memory_budget.h"
 #include "gltf/decode/buffers.h"
 
 #include <filesystem>
@@ -22,10 +23,11 @@ struct ImageSources {
 struct EncodedImage {
     Bytes owned;
     std::span<const std::byte> bytes;
-    std::string mime;  ///< what the asset says it is
+    std::string mime;          ///< what the asset says it is
+    MemoryCharge charge = {};  ///< of `owned`
 };
 
-/// Errors  67 E-RES-MISSING; 65 E-URI-DATA; 77 E-URI-REFUSED, E-LIMIT-FILE
+/// Errors  67 E-RES-MISSING; 65 E-URI-DATA; 77 E-URI-REFUSED, E-LIMIT-FILE; 33 E-MEM
 Result<EncodedImage> load_encoded(const ImageSources& sources, size_t image);
 
 }  // namespace obscura::gltf

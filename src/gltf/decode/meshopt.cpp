@@ -147,8 +147,8 @@ Result<Bytes> decode_view(const Document& document, const BufferStore& store, si
     return out;
 }
 
-/// Checks declared sizes against the data and the limit, before anything is allocated.
-Result<void> check_sizes(const Document& document, const std::vector<size_t>& views) {
+/// Checks declared sizes against the data and the limits, before anything is allocated.
+Result<MemoryCharge> check_sizes(const Document& document, const std::vector<size_t>& views) {
     uint64_t total = 0;
     for (const size_t view : views) {
         const GltfMeshopt& meshopt = document.views[view].meshopt;
@@ -167,7 +167,7 @@ Result<void> check_sizes(const Document& document, const std::vector<size_t>& vi
                             std::to_string(max_decoded_bytes >> 20) + " MiB");
         }
     }
-    return {};
+    return charge_memory(MemoryUse::buffers, "decompressed buffer views", total);
 }
 
 }  // namespace
@@ -178,8 +178,9 @@ Result<void> decode_meshopt(const Document& document, BufferStore& store) {
         if (document.views[i].meshopt.buffer >= 0) views.push_back(i);
     }
     if (views.empty()) return {};
-    const Result<void> sizes = check_sizes(document, views);
-    if (!sizes) return sizes;
+    Result<MemoryCharge> charge = check_sizes(document, views);
+    if (!charge) return fail(std::move(charge.error()));
+    store.decoded_charge = std::move(*charge);
 
     std::vector<Result<Bytes>> decoded(views.size());
     parallel_for(views.size(),

@@ -10,7 +10,8 @@ namespace obscura::gltf {
 /// views hold.
 ///
 /// Errors  65 E-MESHOPT-DATA the data are corrupt or too few for their count;
-///         69 E-MESHOPT-VERSION an unknown codec; 77 E-LIMIT-DECODED more than max_decoded_bytes
+///         69 E-MESHOPT-VERSION an unknown codec; 77 E-LIMIT-DECODED more than max_decoded_bytes;
+///         33 E-MEM
 /// Source  glTF extensions EXT_meshopt_compression and KHR_meshopt_compression, appendices A and B
 Result<void> decode_meshopt(const Document& document, BufferStore& store);
 

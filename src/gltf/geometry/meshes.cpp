@@ -42,7 +42,7 @@ private:
     void find_uses();
     void drop_uses(int skin, const Error& error);
     size_t take_stored(const std::vector<MeshBatch>& batches);
-    void reserve(const std::vector<MeshBatch>& batches, size_t first);
+    Result<void> reserve(const std::vector<MeshBatch>& batches, size_t first);
     Result<std::vector<GeometryBatch>> read(const std::vector<MeshBatch>& batches);
     void add_world(const std::vector<MeshBatch>& batches,
                    const std::vector<GeometryBatch>& geometries);
@@ -130,8 +130,8 @@ size_t MeshBuilder::take_stored(const std::vector<MeshBatch>& batches) {
     return count;
 }
 
-/// Reserves memory for the batches, by the accessors' counts.
-void MeshBuilder::reserve(const std::vector<MeshBatch>& batches, size_t first) {
+/// Reserves memory for the batches, by the accessors' counts, if they fit.
+Result<void> MeshBuilder::reserve(const std::vector<MeshBatch>& batches, size_t first) {
     size_t vertices = 0;
     size_t corners = 0;
     size_t floats = 0;
@@ -152,16 +152,21 @@ void MeshBuilder::reserve(const std::vector<MeshBatch>& batches, size_t first) {
             floats += count * static_cast<size_t>(width);
         }
     }
+    // Asked here, before there are arrays; who keeps the scene charges what it became.
+    const auto fits = charge_memory(
+        MemoryUse::geometry, document().file, sizeof(float) * (3 * vertices + corners + floats));
+    if (!fits) return fail(fits.error());
     constexpr size_t most = 1U << 31;
     scene_.positions.reserve(std::min(most, scene_.positions.size() + vertices * 3 + 4));
     scene_.indices.reserve(std::min(most, scene_.indices.size() + corners + 1));
     scene_.attributes.reserve(std::min(most, scene_.attributes.size() + floats + 4));
+    return {};
 }
 
 Result<std::vector<GeometryBatch>> MeshBuilder::read(const std::vector<MeshBatch>& batches) {
     std::vector<GeometryBatch> geometries;
     const size_t kept = take_stored(batches);
-    reserve(batches, kept);
+    if (auto reserved = reserve(batches, kept); !reserved) return fail(reserved.error());
     for (size_t i = 0; i < batches.size(); ++i) {
         if (i < kept) {
             geometries.push_back(std::move(sources_.store->batches[i]));

@@ -63,6 +63,9 @@ private:
     void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
     void warn_wrong_encoding(size_t image, ImageEncoding encoding) const;
     Result<void> lay_out();
+    std::string name_for_charge(size_t image) const;
+    Result<void> charge_texels();
+    Result<MemoryCharge> charge_decoding() const;
     int record_index(const TextureSlot& slot, bool srgb);
     void resolve_slots();
     Result<void> decode(size_t image);
@@ -227,8 +230,51 @@ Result<void> TextureBuilder::lay_out() {
                         "make them smaller");
         }
     }
-    if (!sources_.measure_only) scene_.textures.texels.resize(total);
+    if (sources_.measure_only) return {};
+    if (auto charged = charge_texels(); !charged) return charged;
+    scene_.textures.texels.resize(total);
     return {};
+}
+
+std::string TextureBuilder::name_for_charge(size_t image) const {
+    const GltfImage& from = document().images[original(image)];
+    if (from.uri && !is_data_uri(*from.uri)) return *from.uri;
+    return from.name.empty() ? place(image) : from.name;
+}
+
+/// Charges the arena image by image, so that messages can name the largest.
+Result<void> TextureBuilder::charge_texels() {
+    std::vector<MemoryCharge>& charges = sources_.store.charges;
+    for (size_t i = 0; i < images_.size(); ++i) {
+        uint64_t texels = 0;
+        for (size_t srgb = 0; srgb < 2; ++srgb) {
+            if (images_[i].uses[srgb].used) texels += arena_texels(images_[i], srgb == 1);
+        }
+        if (texels == 0) continue;
+        Result<MemoryCharge> charge =
+            charge_memory(MemoryUse::textures, name_for_charge(i), texels * sizeof(uint32_t));
+        if (!charge) return fail(std::move(charge.error()));
+        charges.push_back(std::move(*charge));
+    }
+    return {};
+}
+
+/// Charges what decoding takes beside the arena: the largest images, as many as there are threads.
+Result<MemoryCharge> TextureBuilder::charge_decoding() const {
+    std::vector<uint64_t> sizes;
+    for (const ImageState& image : images_) {
+        // The decoder's rows and what becomes of them; 16 bits have a plane more.
+        const uint64_t bytes_per_texel = image.wide ? 13 : 8;
+        if (image.used() && !image.broken)
+            sizes.push_back(bytes_per_texel * static_cast<uint64_t>(image.width) *
+                            static_cast<uint64_t>(image.height));
+    }
+    std::sort(sizes.rbegin(), sizes.rend());
+    sizes.resize(std::min(sizes.size(), max_thread_index()));
+    uint64_t sum = 0;
+    for (const uint64_t size : sizes)
+        sum += size;
+    return charge_memory(MemoryUse::textures, "images being decoded", sum);
 }
 
 int TextureBuilder::record_index(const TextureSlot& slot, bool srgb) {
@@ -286,6 +332,7 @@ Result<void> TextureBuilder::decode(size_t image) {
     Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_, Extent::stored);
     if (!decoded) return fail(std::move(decoded.error()));
     encoded->owned = Bytes();
+    encoded->charge = {};
     // Levels that the file stores are taken as they are; the others are made from its last one.
     const int width = std::max(state.width >> (decoded->levels - 1), 1);
     const int height = std::max(state.height >> (decoded->levels - 1), 1);
@@ -375,10 +422,15 @@ bool TextureBuilder::take_stored() {
 
 Result<void> TextureBuilder::decode_afresh() {
     sources_.store.texels = {};
+    sources_.store.charges.clear();
     probe_all();
     Result<void> done = lay_out();
     if (!done) return done;
-    if (!sources_.measure_only) decode_all();
+    if (!sources_.measure_only) {
+        const Result<MemoryCharge> decoding = charge_decoding();
+        if (!decoding) return fail(decoding.error());
+        decode_all();
+    }
     resolve_slots();
     sources_.store.images = images_;
     sources_.store.infos = scene_.info.images;

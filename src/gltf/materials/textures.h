@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/memory_budget.h"
 #include "gltf/decode/buffers.h"
 #include "gltf/materials/materials.h"
 #include "scene/scene.h"
@@ -31,7 +32,8 @@ struct ImageState {
 struct TextureStore {
     std::vector<ImageState> images;  ///< empty: nothing was decoded yet
     std::vector<ImageInfo> infos;
-    LargeArray<uint32_t> texels;  ///< empty while a scene has them
+    LargeArray<uint32_t> texels;             ///< empty while a scene has them
+    std::vector<MemoryCharge> charges = {};  ///< of the texels, by image, wherever they are
 };
 
 /// What add_textures reads.
@@ -53,7 +55,7 @@ struct TextureSources {
 ///         65 E-URI-DATA, E-ACC-RANGE; 69 E-IMG-FEATURE; 77 E-IMG-LIMIT, E-URI-REFUSED; 33
 ///         E-IMG-MEMORY. Slots of colour then see magenta, those of data become empty. Images that
 ///         no drawn material uses only warn
-/// Errors  77 E-LIMIT-TEXELS
+/// Errors  77 E-LIMIT-TEXELS; 33 E-MEM
 Result<void> add_textures(const TextureSources& sources,
                           MaterialTable& materials,
                           Problems& problems,

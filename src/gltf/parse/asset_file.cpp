@@ -3,7 +3,10 @@
 #include "gltf/parse/asset_file.h"
 
 #include "base/json/json_text.h"
+#include "base/memory_budget.h"
 #include "gltf/parse/glb.h"
+
+#include <algorithm>
 
 namespace obscura::gltf {
 
@@ -11,9 +14,18 @@ namespace {
 
 constexpr uint64_t largest_asset_file = UINT32_MAX;  // what a GLB header can count
 
-Result<Bytes> read_asset_file(const std::filesystem::path& file) {
-    FileBytes read = read_file_bytes(file, {largest_asset_file, UINT64_MAX});
+/// Out     charge: what the bytes take
+Result<Bytes> read_asset_file(const std::filesystem::path& file, MemoryCharge& charge) {
+    const auto take = [&](uint64_t bytes) -> Result<void> {
+        Result<MemoryCharge> taken =
+            charge_memory(MemoryUse::scene_text, file.filename().string(), bytes);
+        if (!taken) return fail(std::move(taken.error()));
+        charge = std::move(*taken);
+        return {};
+    };
+    FileBytes read = read_file_bytes(file, {largest_asset_file, UINT64_MAX, take});
     if (read.fault == FileFault::none) return std::move(read.bytes);
+    if (read.refusal) return fail(std::move(*read.refusal));
     if (read.fault == FileFault::too_large) {
         return fail(ExitCode::bad_data, "E-GLB-SIZE", file.string(), "the file has " + read.reason);
     }
@@ -23,6 +35,18 @@ Result<Bytes> read_asset_file(const std::filesystem::path& file) {
                 "the scene cannot be read: " + read.reason + "; accepted are .gltf and .glb files");
 }
 
+/// About what JSON text takes as a tree, with the strings that are copied from it. A value is 16
+/// bytes and grows in an array by halves; a member is a node of a map with its name.
+uint64_t tree_bytes(std::string_view text) {
+    constexpr uint64_t bytes_per_value = 32;
+    constexpr uint64_t bytes_per_member = 112;
+    const auto count = [&](char c) {
+        return static_cast<uint64_t>(std::count(text.begin(), text.end(), c));
+    };
+    return 2 * text.size() + bytes_per_value * (count(',') + count('[') + count('{')) +
+           bytes_per_member * count(':');
+}
+
 }  // namespace
 
 Result<OpenedAsset> open_asset(const std::filesystem::path& path,
@@ -30,9 +54,9 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path,
                                Log& log,
                                const MaterialReading& materials) {
     const std::string where = path.string();
-    Result<Bytes> bytes = read_asset_file(path);
-    if (!bytes) return fail(std::move(bytes.error()));
     OpenedAsset asset;
+    Result<Bytes> bytes = read_asset_file(path, asset.file_charge);
+    if (!bytes) return fail(std::move(bytes.error()));
     asset.file = std::move(*bytes);
     const std::span<const std::byte> all = asset.file;
     const std::string_view foreign = guess_foreign_format(all);
@@ -50,9 +74,16 @@ Result<OpenedAsset> open_asset(const std::filesystem::path& path,
         text = chunks->json;
         asset.glb_binary = chunks->binary;
     }
+    Result<MemoryCharge> charge =
+        charge_memory(MemoryUse::scene_text, path.filename().string(), tree_bytes(text));
+    if (!charge) return fail(std::move(charge.error()));
+    asset.text_charge = std::move(*charge);
     Result<nlohmann::json> tree = parse_json_text(text, where, log);
     if (!tree) return fail(std::move(tree.error()));
-    if (!is_glb(all)) asset.file = Bytes();
+    if (!is_glb(all)) {
+        asset.file = Bytes();
+        asset.file_charge = {};
+    }
     Result<Document> document = read_document(std::move(*tree), where, problems, log, materials);
     if (!document) return fail(std::move(document.error()));
     asset.document = std::move(*document);

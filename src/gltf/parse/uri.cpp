@@ -83,7 +83,9 @@ bool is_same_word(std::string_view a, std::string_view lower_case) {
 }
 
 /// Source  RFC 2397
-Result<UriBytes> read_data_uri(std::string_view uri, const std::string& where) {
+Result<UriBytes> read_data_uri(std::string_view uri,
+                               const std::string& where,
+                               const ReadLimits& limits) {
     const size_t comma = uri.find(',');
     const auto broken = [&](const std::string& why) {
         return fail(
@@ -101,6 +103,10 @@ Result<UriBytes> read_data_uri(std::string_view uri, const std::string& where) {
     UriBytes out;
     out.mime = std::string(header.substr(0, header.find(';')));
     const std::string_view data = uri.substr(comma + 1);
+    if (limits.charge) {
+        const uint64_t bytes = is_base64 ? data.size() / 4 * 3 : data.size();
+        if (auto fits = limits.charge(bytes); !fits) return fail(std::move(fits.error()));
+    }
     if (is_base64) {
         const std::string fault = decode_base64(data, out.bytes);
         if (!fault.empty()) return broken(fault);
@@ -192,7 +198,7 @@ Result<std::filesystem::path> relative_path_from_uri(std::string_view uri,
 Result<UriBytes> read_uri(std::string_view uri,
                           const UriContext& context,
                           const ReadLimits& limits) {
-    if (is_data_uri(uri)) return read_data_uri(uri, context.where);
+    if (is_data_uri(uri)) return read_data_uri(uri, context.where, limits);
     Result<std::filesystem::path> relative = relative_path_from_uri(uri, context.where);
     if (!relative) return fail(std::move(relative.error()));
 
@@ -207,6 +213,7 @@ Result<UriBytes> read_uri(std::string_view uri,
     }
 
     FileBytes file = read_file_bytes(path, limits);
+    if (file.refusal) return fail(std::move(*file.refusal));
     switch (file.fault) {
         case FileFault::none:
             break;

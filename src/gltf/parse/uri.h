@@ -40,7 +40,7 @@ Result<std::filesystem::path> relative_path_from_uri(std::string_view uri,
 
 /// Reads what a URI names. Symbolic links are followed as long as they stay inside the folder.
 ///
-/// Errors  77 E-URI-REFUSED, E-LIMIT-FILE; 67 E-RES-MISSING; 65 E-URI-DATA
+/// Errors  77 E-URI-REFUSED, E-LIMIT-FILE; 67 E-RES-MISSING; 65 E-URI-DATA; that of limits.charge
 Result<UriBytes> read_uri(std::string_view uri,
                           const UriContext& context,
                           const ReadLimits& limits);

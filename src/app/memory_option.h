@@ -1,0 +1,25 @@
+// app/memory_option.h - `--max-memory`: reads its sizes and sets the process's memory budget.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "base/memory_limit.h"
+
+#include <optional>
+#include <string>
+
+namespace obscura::app {
+
+/// "512M", "4G", "1.5G", "80%" or a number of bytes; K, M, G and T are powers of 1024, with or
+/// without a B or an iB behind them.
+///
+/// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE: less than 1 MiB, a share not in (0, 100]
+Result<MemorySize> parse_memory_size(const std::string& text, const std::string& option);
+
+/// Sets the budget: what was asked for, else 80 % of the least of the limits that the process has.
+///
+/// In      bound: of memory_bound
+/// Errors  33 E-MEM the program itself does not fit
+Result<void> use_memory_limit(const std::optional<MemorySize>& asked, const MemoryBound& bound);
+
+}  // namespace obscura::app

@@ -1,0 +1,31 @@
+// base/memory_limit.h - how much memory the machine, a container or the shell lets the process use.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+namespace obscura {
+
+/// A bound on this process's memory, and who sets it.
+struct MemoryBound {
+    uint64_t bytes = UINT64_MAX;  ///< UINT64_MAX: none is known
+    std::string source = "no known limit";
+};
+
+/// A number of bytes, or a share of what the process may have.
+struct MemorySize {
+    uint64_t bytes = 0;  ///< unless there is a share
+    double percent = 0;  ///< 0: `bytes` count
+};
+
+/// The least of the limits of the process's control group and those above it, the limit on its
+/// address space (RLIMIT_AS), and the machine's memory.
+///
+/// In      root: where /proc and /sys are
+/// Source  Linux, Documentation/admin-guide/cgroup-v2.rst, memory.max; cgroup-v1/memory.rst,
+///         memory.limit_in_bytes; proc(5), meminfo
+MemoryBound memory_bound(const std::filesystem::path& root = "/");
+
+}  // namespace obscura

@@ -1,0 +1,96 @@
+// session/memory_charges.cpp - charges what a session's images take to the process's memory budget.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/memory_charges.h"
+
+#include "base/parallel.h"
+#include "film/light_groups.h"
+#include "film/light_path_plan.h"
+#include "image/environment_memory.h"
+#include "render/integrators.h"
+#include "scene/scene_memory.h"
+
+#include <algorithm>
+
+namespace obscura {
+
+namespace {
+
+/// Replaces a charge: what it stood for is gone, or counts in the new one.
+Result<void> recharge(MemoryCharge& charge,
+                      MemoryUse use,
+                      const std::string& where,
+                      uint64_t bytes) {
+    charge = {};
+    Result<MemoryCharge> taken = charge_memory(use, where, bytes);
+    if (!taken) return fail(std::move(taken.error()));
+    charge = std::move(*taken);
+    return {};
+}
+
+/// Numbers a pixel that the layers hold, those of light groups too.
+Result<uint64_t> layer_channels(const Scene& scene, const RenderOptions& options) {
+    uint64_t channels = 0;
+    for (const Layer& layer : options.layers)
+        channels += layer.channels.size();
+    if (!options.light_groups.each) return channels;
+    const Result<LightGroups> groups = make_light_groups(scene, options.light_groups);
+    if (!groups) return fail(groups.error());
+    for (const Layer& layer : light_group_layers(groups->names, options.light_groups.components))
+        channels += layer.channels.size();
+    return channels;
+}
+
+bool is_display_format(const std::filesystem::path& file) {
+    return file.extension() != ".exr";
+}
+
+/// Bytes a pixel while the image is finished: the denoiser's planes, a display's copy, or an EXR,
+/// which is made in memory: half floats, or compressed floats.
+uint64_t finishing_bytes(const RenderRequest& request, uint64_t film_bytes) {
+    constexpr uint64_t denoising = 96;
+    constexpr uint64_t display = 20;  // four floats, then four bytes
+    const bool shown =
+        request.standard_output ||
+        std::any_of(request.outputs.begin(), request.outputs.end(), is_display_format);
+    return std::max({request.denoise ? denoising : 0, shown ? display : 0, film_bytes / 2});
+}
+
+}  // namespace
+
+Result<void> charge_geometry(const Scene& scene, MemoryCharges& charges) {
+    return recharge(charges.geometry, MemoryUse::geometry, "", geometry_bytes(scene));
+}
+
+Result<void> charge_environment(const LightingOptions& lighting, MemoryCharges& charges) {
+    charges.environment = {};
+    if (!lighting.environment) return {};
+    const ImageRgb32f& image = *lighting.environment;
+    return recharge(charges.environment,
+                    MemoryUse::environment,
+                    "",
+                    environment_memory_bytes(image.width, image.height));
+}
+
+Result<void> charge_film(const Scene& scene,
+                         const RenderRequest& request,
+                         const RenderOptions& options,
+                         MemoryCharges& charges) {
+    const Result<uint64_t> layers = layer_channels(scene, options);
+    if (!layers) return fail(layers.error());
+    const uint64_t beauty = film_channels(options.integrator).size();
+    const uint64_t film_bytes = (beauty + *layers) * sizeof(float);
+    uint64_t bytes_per_pixel = film_bytes + finishing_bytes(request, film_bytes);
+    // Between adaptive passes: the pixels before the latest ones, two counts, a deviation, a mark.
+    if (options.adaptive) bytes_per_pixel += beauty * sizeof(float) + 13;
+    const auto width = static_cast<uint64_t>(options.crop ? options.crop->width : options.width);
+    const auto height = static_cast<uint64_t>(options.crop ? options.crop->height : options.height);
+    constexpr uint64_t bytes_per_thread = 8U << 20;  // its batch of paths and its tile's sums
+    const std::string where = std::to_string(width) + "x" + std::to_string(height) + " with " +
+                              std::to_string(options.layers.size()) + " layers";
+    return recharge(charges.film,
+                    MemoryUse::film,
+                    where,
+                    width * height * bytes_per_pixel + bytes_per_thread * max_thread_index());
+}
+
+}  // namespace obscura

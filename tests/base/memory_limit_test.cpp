@@ -1,0 +1,68 @@
+// tests/base/memory_limit_test.cpp - limits of control groups, the machine and the shell.
+// SPDX-License-Identifier: Apache-2.0
+#include "base/memory_limit.h"
+
+#include <gtest/gtest.h>
+
+#include "support/temp_folder.h"
+#include <sys/resource.h>
+
+namespace obscura {
+namespace {
+
+/// A folder that stands for the root of a machine.
+struct Machine {
+    TempFolder root;
+
+    void write(const std::string& file, const std::string& text) const {
+        std::filesystem::create_directories((root / file).parent_path());
+        root.write(file, text);
+    }
+    uint64_t bytes() const { return memory_bound(root.path()).bytes; }
+};
+
+/// The tests themselves may run under `ulimit -v`.
+uint64_t at_most_address_space(uint64_t bytes) {
+    rlimit limit = {};
+    getrlimit(RLIMIT_AS, &limit);
+    return limit.rlim_cur == RLIM_INFINITY ? bytes : std::min<uint64_t>(bytes, limit.rlim_cur);
+}
+
+TEST(MemoryLimit, NothingIsKnownWithoutFiles) {
+    const Machine machine;
+    EXPECT_EQ(machine.bytes(), at_most_address_space(UINT64_MAX));
+}
+
+TEST(MemoryLimit, TheLeastOfMachineAndGroupsCounts) {
+    const Machine machine;
+    machine.write("proc/meminfo", "MemTotal:       1024 kB\nMemFree:  12 kB\n");
+    EXPECT_EQ(machine.bytes(), 1U << 20);
+    machine.write("proc/self/cgroup", "0::/pods/job\n");
+    machine.write("sys/fs/cgroup/memory.max", "max\n");
+    EXPECT_EQ(machine.bytes(), 1U << 20);
+    machine.write("sys/fs/cgroup/pods/memory.max", "70000\n");
+    machine.write("sys/fs/cgroup/pods/job/memory.max", "80000\n");
+    const MemoryBound bound = memory_bound(machine.root.path());
+    EXPECT_EQ(bound.bytes, 70000U);
+    EXPECT_EQ(bound.source, "the control group's limit");
+}
+
+TEST(MemoryLimit, VersionOneCountsItsOwnController) {
+    const Machine machine;
+    machine.write("proc/self/cgroup", "5:cpu,cpuacct:/c\n4:memory:/jobs/one\n");
+    machine.write("sys/fs/cgroup/cpu/c/memory.limit_in_bytes", "1\n");
+    machine.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
+    machine.write("sys/fs/cgroup/memory/jobs/one/memory.limit_in_bytes", "50000\n");
+    EXPECT_EQ(machine.bytes(), 50000U);
+}
+
+TEST(MemoryLimit, OddFilesAreNoLimit) {
+    const Machine machine;
+    machine.write("proc/meminfo", "MemTotal: many kB\n");
+    machine.write("proc/self/cgroup", "\n:\nnonsense\n0::/../up\n");
+    machine.write("sys/fs/cgroup/memory.max", "\n");
+    EXPECT_EQ(machine.bytes(), at_most_address_space(UINT64_MAX));
+}
+
+}  // namespace
+}  // namespace obscura
