@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/log.h"
+#include "base/memory_budget.h"
 #include "gltf/problems.h"
 #include "image/rgb_primaries.h"
 #include "scene/scene.h"
