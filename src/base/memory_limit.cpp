@@ -1,5 +1,5 @@
-// base/memory_limit.cpp - how much memory the machine, a container or the shell lets the process
-// use. SPDX-License-Identifier: Apache-2.0
+// base/memory_limit.cpp - how much memory the machine, a container or the shell allows.
+// SPDX-License-Identifier: Apache-2.0
 #include "base/memory_limit.h"
 
 #include <fstream>

@@ -33,8 +33,8 @@ struct BufferSources {
 /// Loads every buffer that is read. One that holds (or would hold) only uncompressed copies of
 /// meshopt-compressed views stays empty.
 ///
-/// Errors  33 E-MEM; 65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED: the first error, with all
-///         others in Error::also
+/// Errors  33 E-MEM; 65 E-BUF-*; 67 E-RES-MISSING, E-RES-SHORT; 77 E-URI-REFUSED: the first error,
+///         with all others in Error::also
 Result<BufferStore> load_buffers(const Document& document, const BufferSources& sources, Log& log);
 
 /// A run of equally spaced elements in a block of bytes.
