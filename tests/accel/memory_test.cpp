@@ -4,8 +4,9 @@
 #include "accel/accel_scenes.h"
 #include "base/memory_budget.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
 
 namespace obscura {
 namespace {

@@ -11,7 +11,7 @@ namespace obscura {
 namespace {
 
 /// A folder that stands for the root of a machine.
-struct Machine {
+struct LimitedMachine {
     TempFolder root;
 
     void write(const std::string& file, const std::string& text) const {
@@ -29,12 +29,12 @@ uint64_t at_most_address_space(uint64_t bytes) {
 }
 
 TEST(MemoryLimit, NothingIsKnownWithoutFiles) {
-    const Machine machine;
+    const LimitedMachine machine;
     EXPECT_EQ(machine.bytes(), at_most_address_space(UINT64_MAX));
 }
 
 TEST(MemoryLimit, TheLeastOfMachineAndGroupsCounts) {
-    const Machine machine;
+    const LimitedMachine machine;
     machine.write("proc/meminfo", "MemTotal:       1024 kB\nMemFree:  12 kB\n");
     EXPECT_EQ(machine.bytes(), 1U << 20);
     machine.write("proc/self/cgroup", "0::/pods/job\n");
@@ -48,7 +48,7 @@ TEST(MemoryLimit, TheLeastOfMachineAndGroupsCounts) {
 }
 
 TEST(MemoryLimit, VersionOneCountsItsOwnController) {
-    const Machine machine;
+    const LimitedMachine machine;
     machine.write("proc/self/cgroup", "5:cpu,cpuacct:/c\n4:memory:/jobs/one\n");
     machine.write("sys/fs/cgroup/cpu/c/memory.limit_in_bytes", "1\n");
     machine.write("sys/fs/cgroup/memory/memory.limit_in_bytes", "9223372036854771712\n");
@@ -57,7 +57,7 @@ TEST(MemoryLimit, VersionOneCountsItsOwnController) {
 }
 
 TEST(MemoryLimit, OddFilesAreNoLimit) {
-    const Machine machine;
+    const LimitedMachine machine;
     machine.write("proc/meminfo", "MemTotal: many kB\n");
     machine.write("proc/self/cgroup", "\n:\nnonsense\n0::/../up\n");
     machine.write("sys/fs/cgroup/memory.max", "\n");

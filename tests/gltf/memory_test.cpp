@@ -1,12 +1,12 @@
 // tests/gltf/memory_test.cpp - an asset's bytes are charged before there is memory for them.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/memory_budget.h"
-
 #include "gltf/gltf_files.h"
 #include "gltf/images.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <gmock/gmock.h>
 
 namespace obscura::gltf {
 namespace {
