@@ -115,7 +115,8 @@ TEST_F(Signals, ThoseOfFarmsHaveAResultLine) {
 
 TEST_F(Signals, AHangUpSavesACheckpointAndRenderingGoesOn) {
     for (const bool keeps : {false, true}) {
-        Texts arguments = {"render", "box.gltf", "--size", "160x120", "--spp", "256", "--verbose"};
+        Texts arguments = {"render", "box.gltf", "--size", "160x120", "--spp", "2048"};
+        arguments = joined(arguments, {"--threads", "1", "--verbose"});
         if (keeps) arguments.emplace_back("--checkpoint");
         ProgramSetup program = setup(joined(arguments, {"-o", "new.exr"}), folder_);
         send_at(program, SIGHUP, "Progress: [1-9]");
