@@ -1,5 +1,7 @@
 // tests/cli/checkpoint_test.cpp - renderings that are cut short go on to the bits of unbroken ones.
 // SPDX-License-Identifier: Apache-2.0
+#include "base/stopwatch.h"
+
 #include "cli/cli.h"
 #include "support/text_files.h"
 #include <cstdlib>
@@ -84,10 +86,11 @@ bool run_and_kill(const ProgramSetup& setup, double after_s) {
 
 TEST_F(Checkpoints, KilledAtRandomMomentsItGoesOnToTheSameBits) {
     const Texts options = joined(with_layers(), {"--checkpoint", "--checkpoint-interval", "0.05"});
+    const Stopwatch watch;
     expect_result(render("box.gltf", with_layers("whole.exr")), 0, "OK");
     const std::string mask = text("mask.png");
     std::mt19937 random(7);
-    std::uniform_real_distribution<double> seconds(0.0, 0.6);
+    std::uniform_real_distribution<double> seconds(0.0, watch.seconds());
     int killed = 0;
     int resumed = 0;
     while (killed < kill_rounds()) {
@@ -247,8 +250,8 @@ TEST_F(Checkpoints, WrongOptionsAreRefused) {
 }
 
 TEST_F(Checkpoints, AtTheTimeLimitTheImageIsWholeAndMarked) {
-    const Texts limit = {"--time-limit", "0.5"};
-    const ProgramRun got = render("box.gltf", joined(long_render(), limit));
+    const Texts limit = {"--time-limit", "2.5"};
+    const ProgramRun got = render("box.gltf", joined(long_render("1024"), limit));
     expect_result(got, 75, "E-TIME-LIMIT");
     EXPECT_TRUE(exists("a.exr.checkpoint"));
     const std::optional<ReadImage> image = read_image_file(folder_ / "a.exr");
@@ -256,7 +259,7 @@ TEST_F(Checkpoints, AtTheTimeLimitTheImageIsWholeAndMarked) {
     const float done = image->spec.get_float_attribute("obscura:done", -1);
     EXPECT_GT(done, 0);
     EXPECT_LT(done, 1);
-    expect_result(render("box.gltf", long_render()), 0, "OK");
+    expect_result(render("box.gltf", long_render("1024")), 0, "OK");
     const std::optional<ReadImage> whole = read_image_file(folder_ / "a.exr");
     ASSERT_TRUE(whole);
     EXPECT_EQ(whole->spec.find_attribute("obscura:done"), nullptr);
