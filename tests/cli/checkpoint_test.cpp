@@ -122,7 +122,7 @@ TEST_F(Checkpoints, GoesOnFromWhatIsFinished) {
     const Texts options = long_render();
     leave_checkpoint(options);
     EXPECT_FALSE(exists("a.exr"));
-    Texts verbose = joined(options, {"--stats", "a.json", "--tile-size", "24", "--threads", "1"});
+    Texts verbose = joined(options, {"--stats", "a.json", "--tile-size", "24"});
     expect_result(render("box.gltf", verbose), 0, "OK");
     EXPECT_FALSE(exists("a.exr.checkpoint"));
     expect_result(
