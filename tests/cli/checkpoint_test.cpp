@@ -222,7 +222,7 @@ TEST_F(Checkpoints, OfAPartAndOfAFrame) {
     const Texts size = {"--size", "320x240", "--threads", "1", "--spp", "512"};
     const Texts frames = joined(size, {"--frames", "1-2", "-o", "f.#.exr"});
     ProgramSetup second = program(joined(frames, {"--checkpoint"}));
-    send_at(second, SIGTERM, "Progress: [6-9]");
+    send_at(second, SIGTERM, "Progress: [6-9][0-9]");
     EXPECT_EQ(run_program_with(second).signal, SIGTERM);
     EXPECT_FALSE(exists("f.1.exr.checkpoint"));
     EXPECT_TRUE(exists("f.2.exr.checkpoint"));
