@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/cpu_quota.h"
 
+#include "base/control_groups.h"
+
 #include <algorithm>
 #include <fstream>
-#include <sstream>
-#include <string>
 
 namespace obscura {
 
@@ -34,50 +34,14 @@ std::optional<double> quota_of(const Path& group) {
     return quota / period;
 }
 
-/// The least quota of a group and of those above it, down to the folder of a mount. A container may
-/// see its own group as the mount, and still be told the group's name outside.
-std::optional<double> min_quota(const Path& mount, const Path& group) {
-    std::optional<double> least = quota_of(mount);
-    Path at = mount;
-    for (const Path& name : group.relative_path()) {
-        at /= name;
-        const std::optional<double> here = quota_of(at);
-        if (here) least = std::min(*here, least.value_or(*here));
-    }
-    return least;
-}
-
-/// Whether "cpu" is one of the controllers "cpu,cpuacct".
-bool has_cpu(const std::string& controllers) {
-    return ("," + controllers + ",").find(",cpu,") != std::string::npos;
-}
-
 }  // namespace
 
 std::optional<double> cpu_quota(const Path& root) {
-    const Path mounts = root / "sys/fs/cgroup";
     std::optional<double> least;
-    const auto consider = [&](const Path& mount, const Path& group) {
-        const std::optional<double> found = min_quota(mount, group);
-        if (found) least = std::min(*found, least.value_or(*found));
-    };
-    std::ifstream groups(root / "proc/self/cgroup");
-    for (std::string line; std::getline(groups, line);) {  // "1:cpu,cpuacct:/group" or "0::/group"
-        std::istringstream fields(line);
-        std::string number;
-        std::string controllers;
-        std::string group;
-        std::getline(fields, number, ':');
-        std::getline(fields, controllers, ':');
-        std::getline(fields, group);
-        if (controllers.empty()) {
-            consider(mounts, group);
-            consider(mounts / "unified", group);
-        } else if (has_cpu(controllers)) {
-            consider(mounts / controllers, group);
-            consider(mounts / "cpu", group);
-        }
-    }
+    visit_control_groups(root, "cpu", [&](const Path& group) {
+        const std::optional<double> here = quota_of(group);
+        if (here) least = std::min(*here, least.value_or(*here));
+    });
     return least;
 }
 

@@ -121,6 +121,7 @@ Result<MemoryCharge> charge_memory(MemoryUse use, const std::string& where, uint
 Error memory_refusal(MemoryUse use, const std::string& where, uint64_t bytes) {
     Budget& all = budget();
     const auto limit = static_cast<uint64_t>(all.limit.load());
+    const uint64_t wanted = use == MemoryUse::program ? program_memory_bytes : bytes;
     std::string source;
     {
         const std::lock_guard lock(all.mutex);
@@ -130,7 +131,7 @@ Error memory_refusal(MemoryUse use, const std::string& where, uint64_t bytes) {
                  "E-MEM",
                  where,
                  std::string(use_words[static_cast<size_t>(use)]) + " would take " +
-                     memory_text(bytes) + ", which does not fit in " + memory_text(limit) + ", " +
+                     memory_text(wanted) + ", which does not fit in " + memory_text(limit) + ", " +
                      source + "; in use: " + memory_items() + ". A higher " +
                      setting("max-memory") + ", smaller textures, a smaller " + setting("size") +
                      " or fewer layers help"};

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/memory_limit.h"
 
+#include "base/control_groups.h"
+
 #include <fstream>
-#include <sstream>
 #include <sys/resource.h>
 
 namespace obscura {
@@ -20,42 +21,6 @@ void lower(MemoryBound& bound, uint64_t bytes, const char* source) {
 void consider_file(const Path& file, MemoryBound& bound) {
     uint64_t bytes = 0;
     if (std::ifstream(file) >> bytes) lower(bound, bytes, "the control group's limit");
-}
-
-/// The limits of a group and of those above it, of either version, down to the folder of a mount.
-/// A container may see its own group as the mount, and still be told the group's name outside.
-void consider_group(const Path& mount, const Path& group, MemoryBound& bound) {
-    Path at = mount;
-    const auto consider = [&] {
-        consider_file(at / "memory.max", bound);
-        consider_file(at / "memory.limit_in_bytes", bound);
-    };
-    consider();
-    for (const Path& name : group.relative_path()) {
-        at /= name;
-        consider();
-    }
-}
-
-void consider_groups(const Path& root, MemoryBound& bound) {
-    const Path mounts = root / "sys/fs/cgroup";
-    std::ifstream groups(root / "proc/self/cgroup");
-    for (std::string line; std::getline(groups, line);) {  // "4:memory:/group" or "0::/group"
-        std::istringstream fields(line);
-        std::string number;
-        std::string controllers;
-        std::string group;
-        std::getline(fields, number, ':');
-        std::getline(fields, controllers, ':');
-        std::getline(fields, group);
-        if (controllers.empty()) {
-            consider_group(mounts, group, bound);
-            consider_group(mounts / "unified", group, bound);
-        } else if (("," + controllers + ",").find(",memory,") != std::string::npos) {
-            consider_group(mounts / controllers, group, bound);
-            consider_group(mounts / "memory", group, bound);
-        }
-    }
 }
 
 /// "MemTotal: 16384 kB" is the first line of /proc/meminfo.
@@ -78,7 +43,10 @@ void consider_address_space(MemoryBound& bound) {
 MemoryBound memory_bound(const Path& root) {
     MemoryBound bound;
     consider_machine(root, bound);
-    consider_groups(root, bound);
+    visit_control_groups(root, "memory", [&](const Path& group) {
+        consider_file(group / "memory.max", bound);
+        consider_file(group / "memory.limit_in_bytes", bound);
+    });
     consider_address_space(bound);
     return bound;
 }

@@ -36,10 +36,6 @@ protected:
                 "-o",
                 output};
     }
-    static Texts joined(Texts a, const Texts& b) {
-        a.insert(a.end(), b.begin(), b.end());
-        return a;
-    }
     /// As long as it takes for a signal to come in the middle: lines of progress are a second
     /// apart.
     static Texts long_render(const std::string& samples = "512") {
@@ -52,15 +48,6 @@ protected:
     bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
     std::string text(const std::string& name) const { return read_text(folder_ / name); }
 
-    /// Sends a signal once, when the output holds a line that satisfies the pattern.
-    static void send_at(ProgramSetup& program, int signal, const char* pattern) {
-        program.on_output = [signal, form = std::regex(pattern), sent = false](
-                                const std::string& out, pid_t process) mutable {
-            if (sent || !std::regex_search(out, form)) return;
-            sent = true;
-            kill(process, signal);
-        };
-    }
     /// Stops a rendering with USR1 in the middle, so that its checkpoint stays.
     void leave_checkpoint(const Texts& more) const {
         ProgramSetup stopped = program(more);

@@ -9,6 +9,7 @@
 #include "support/small_scenes.h"
 #include "support/temp_folder.h"
 #include <algorithm>
+#include <csignal>
 #include <gmock/gmock.h>
 #include <memory>
 #include <optional>
@@ -33,6 +34,22 @@ inline std::optional<ResultLine> result_of(const ProgramRun& run) {
     std::smatch match;
     if (lines.empty() || !std::regex_match(lines.back(), match, form)) return std::nullopt;
     return ResultLine{std::stoi(match[1]), match[2], match[3], std::stoi(match[4])};
+}
+
+inline std::vector<std::string> joined(std::vector<std::string> a,
+                                       const std::vector<std::string>& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+/// Lets a program get a signal, once, when its output holds a line that satisfies the pattern.
+inline void send_at(ProgramSetup& program, int signal, const char* pattern) {
+    program.on_output = [signal, form = std::regex(pattern), sent = false](const std::string& out,
+                                                                           pid_t process) mutable {
+        if (sent || !std::regex_search(out, form)) return;
+        sent = true;
+        kill(process, signal);
+    };
 }
 
 /// An image as OpenImageIO reads it.

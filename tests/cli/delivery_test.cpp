@@ -27,12 +27,6 @@ protected:
         folder_.write("two.gltf", tree.dump());
     }
 
-    static std::vector<std::string> joined(std::vector<std::string> a,
-                                           const std::vector<std::string>& b) {
-        a.insert(a.end(), b.begin(), b.end());
-        return a;
-    }
-
     std::vector<uint16_t> codes(const std::string& name) const {
         const auto input = OIIO::ImageInput::open((folder_ / name).string());
         if (!input) return {};

@@ -8,11 +8,6 @@ namespace {
 using testing::HasSubstr;
 using Texts = std::vector<std::string>;
 
-Texts joined(Texts a, const Texts& b) {
-    a.insert(a.end(), b.begin(), b.end());
-    return a;
-}
-
 class Signals : public Cli {
 protected:
     /// Minutes of work, so that a signal always comes in the middle.
@@ -28,15 +23,6 @@ protected:
                       "--stats",
                       "s.json"},
                      folder_);
-    }
-    /// Sends the signal once, when the output holds a line that satisfies the pattern.
-    static void send_at(ProgramSetup& program, int signal, const char* pattern) {
-        program.on_output = [signal, form = std::regex(pattern), sent = false](
-                                const std::string& out, pid_t process) mutable {
-            if (sent || !std::regex_search(out, form)) return;
-            sent = true;
-            kill(process, signal);
-        };
     }
     void expect_untouched() const {
         EXPECT_EQ(read_whole_file(folder_ / "old.exr"), "old");
