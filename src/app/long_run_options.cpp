@@ -49,7 +49,7 @@ constexpr OptionEntry<A, R> entries[] = {
               "anew:", .needs = {"--checkpoint"}},
      text_at<&A::long_run, &G::resume>, choice_at<resumes, &R::long_run, &K::resume>},
     {{.name = "--time-limit", .argument = "SECONDS",
-      .help = "Stop after this time with what is finished: a whole file that says so, a "
+      .help = "Stop after this time with the tiles that are finished, marked in the header, a "
               "checkpoint if one is kept, and exit code 75",
       .range = {0.05, 1e8}, .fallback = "none"},
      text_at<&A::long_run, &G::time_limit>, number_at<&R::long_run, &K::time_limit_s>},

@@ -4,8 +4,10 @@
 
 #include "cli/cli.h"
 #include "support/text_files.h"
+#include <chrono>
 #include <cstdlib>
 #include <random>
+#include <thread>
 
 namespace obscura {
 namespace {
@@ -38,9 +40,10 @@ protected:
     }
     /// As long as it takes for a signal to come in the middle: lines of progress are a second
     /// apart.
-    static Texts long_render(const std::string& samples = "512") {
-        Texts out = {"--size", "320x240", "--threads", "1", "--spp", samples};
-        return joined(out, {"-o", "a.exr", "--checkpoint"});
+    static Texts long_render(const std::string& output = "a.exr",
+                             const std::string& samples = "512") {
+        const Texts size = {"--size", "320x240", "--threads", "1", "--spp", samples};
+        return joined(size, {"-o", output, "--checkpoint"});
     }
     ProgramSetup program(const Texts& more) const {
         return setup(small_render("box.gltf", more), folder_);
@@ -57,14 +60,15 @@ protected:
     }
 };
 
-/// Kills the program after a time; false: it had ended before.
-bool run_and_kill(const ProgramSetup& setup, double after_s) {
+/// Starts the program, kills it when `wait` returns; false: it had ended before.
+template <class Wait>
+bool run_and_kill(const ProgramSetup& setup, const Wait& wait) {
     const pid_t child = fork();
     if (child == 0) {
         const int nothing = open("/dev/null", O_WRONLY);
         run_program_detail::become(setup, nothing, nothing);
     }
-    usleep(static_cast<useconds_t>(after_s * 1e6));
+    wait();
     kill(child, SIGKILL);
     int status = 0;
     waitpid(child, &status, 0);
@@ -79,14 +83,13 @@ TEST_F(Checkpoints, KilledAtRandomMomentsItGoesOnToTheSameBits) {
     std::mt19937 random(7);
     std::uniform_real_distribution<double> seconds(0.0, watch.seconds());
     int killed = 0;
-    int resumed = 0;
     while (killed < kill_rounds()) {
         ProgramSetup one = program(options);
         one.arguments.insert(one.arguments.end() - 2,
                              {"--threads", std::to_string(1 + killed % 2)});
-        if (run_and_kill(one, seconds(random))) {
+        const auto delay = std::chrono::duration<double>(seconds(random));
+        if (run_and_kill(one, [&] { std::this_thread::sleep_for(delay); })) {
             ++killed;
-            if (exists("a.exr.checkpoint")) ++resumed;
             continue;
         }
         EXPECT_TRUE(text("a.exr") == text("whole.exr")) << "after kill " << killed;
@@ -96,13 +99,27 @@ TEST_F(Checkpoints, KilledAtRandomMomentsItGoesOnToTheSameBits) {
     }
     expect_result(render("box.gltf", options), 0, "OK");
     EXPECT_TRUE(text("a.exr") == text("whole.exr"));
-    EXPECT_GT(resumed, 0);
     for (const auto& entry : std::filesystem::directory_iterator(folder_.path())) {
         const std::string name = entry.path().filename().string();
         // What kills left half-written is removed when it is old: see remove_stale_temporaries.
         const bool is_temporary = entry.path().extension() == ".part";
         EXPECT_TRUE(is_temporary || name.find("checkpoint") == std::string::npos) << name;
     }
+}
+
+TEST_F(Checkpoints, KilledAfterACheckpointItGoesOnFromThere) {
+    const Texts options = long_render();
+    const auto checkpoint_is_there = [&] {
+        const Stopwatch watch;
+        while (!exists("a.exr.checkpoint") && watch.seconds() < 60)
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    };
+    ASSERT_TRUE(run_and_kill(program(joined(options, {"--checkpoint-interval", "0.1"})),
+                             checkpoint_is_there));
+    ASSERT_TRUE(exists("a.exr.checkpoint"));
+    expect_result(render("box.gltf", joined(options, {"--resume", "require"})), 0, "OK");
+    expect_result(render("box.gltf", long_render("b.exr")), 0, "OK");
+    EXPECT_TRUE(text("a.exr") == text("b.exr"));
 }
 
 TEST_F(Checkpoints, GoesOnFromWhatIsFinished) {
@@ -112,8 +129,7 @@ TEST_F(Checkpoints, GoesOnFromWhatIsFinished) {
     Texts verbose = joined(options, {"--stats", "a.json", "--tile-size", "24"});
     expect_result(render("box.gltf", verbose), 0, "OK");
     EXPECT_FALSE(exists("a.exr.checkpoint"));
-    expect_result(
-        render("box.gltf", joined(long_render(), {"--stats", "b.json", "-o", "b.exr"})), 0, "OK");
+    expect_result(render("box.gltf", long_render("b.exr")), 0, "OK");
     EXPECT_TRUE(text("a.exr") == text("b.exr"));
 }
 
@@ -178,7 +194,7 @@ TEST_F(Checkpoints, TheOneBeforeADamagedOneIsUsed) {
     EXPECT_THAT(got.err, HasSubstr("WARN a.exr.checkpoint: "));
     EXPECT_TRUE(text("a.exr.checkpoint.1") == before);  // a damaged one has not replaced it
     expect_result(render("box.gltf", long_render()), 0, "OK");
-    expect_result(render("box.gltf", joined(long_render(), {"-o", "b.exr"})), 0, "OK");
+    expect_result(render("box.gltf", long_render("b.exr")), 0, "OK");
     EXPECT_TRUE(text("a.exr") == text("b.exr"));
 }
 
@@ -191,7 +207,7 @@ TEST_F(Checkpoints, ThatCannotBeWrittenDoNotEndARendering) {
 }
 
 TEST_F(Checkpoints, OfAPartAndOfAFrame) {
-    const Texts part = joined(long_render("1536"), {"--part", "2/3"});
+    const Texts part = joined(long_render("a.exr", "1536"), {"--part", "2/3"});
     ProgramSetup stopped = program(part);
     send_at(stopped, SIGUSR1, "Progress: [1-9]");
     expect_result(run_program_with(stopped), 75, "E-STOPPED");
@@ -238,7 +254,7 @@ TEST_F(Checkpoints, WrongOptionsAreRefused) {
 
 TEST_F(Checkpoints, AtTheTimeLimitTheImageIsWholeAndMarked) {
     const Texts limit = {"--time-limit", "2.5"};
-    const ProgramRun got = render("box.gltf", joined(long_render("1024"), limit));
+    const ProgramRun got = render("box.gltf", joined(long_render("a.exr", "1024"), limit));
     expect_result(got, 75, "E-TIME-LIMIT");
     EXPECT_TRUE(exists("a.exr.checkpoint"));
     const std::optional<ReadImage> image = read_image_file(folder_ / "a.exr");
@@ -246,7 +262,7 @@ TEST_F(Checkpoints, AtTheTimeLimitTheImageIsWholeAndMarked) {
     const float done = image->spec.get_float_attribute("obscura:done", -1);
     EXPECT_GT(done, 0);
     EXPECT_LT(done, 1);
-    expect_result(render("box.gltf", long_render("1024")), 0, "OK");
+    expect_result(render("box.gltf", long_render("a.exr", "1024")), 0, "OK");
     const std::optional<ReadImage> whole = read_image_file(folder_ / "a.exr");
     ASSERT_TRUE(whole);
     EXPECT_EQ(whole->spec.find_attribute("obscura:done"), nullptr);
