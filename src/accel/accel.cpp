@@ -1,6 +1,7 @@
 // accel/accel.cpp - builds and updates Embree's BVHs from a Scene.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
+#include "accel/embree_version.h"
 #include "accel/moving_geometry.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
@@ -122,6 +123,14 @@ void commit_scene(RTCScene scene) {
 }
 
 namespace {
+
+std::string version_of(RTCDevice device) {
+    const auto part = [&](RTCDeviceProperty property) {
+        return std::to_string(rtcGetDeviceProperty(device, property));
+    };
+    return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) +
+           "." + part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+}
 
 Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const KernelChoice& kernels) {
     auto impl = std::make_unique<Accel::Impl>();
@@ -335,11 +344,15 @@ size_t Accel::memory_bytes() const {
 }
 
 std::string Accel::embree_version() const {
-    const auto part = [&](RTCDeviceProperty property) {
-        return std::to_string(rtcGetDeviceProperty(impl_->device, property));
-    };
-    return part(RTC_DEVICE_PROPERTY_VERSION_MAJOR) + "." + part(RTC_DEVICE_PROPERTY_VERSION_MINOR) +
-           "." + part(RTC_DEVICE_PROPERTY_VERSION_PATCH);
+    return version_of(impl_->device);
+}
+
+std::string embree_version() {
+    const RTCDevice device = rtcNewDevice("");
+    if (device == nullptr) return "";
+    std::string out = version_of(device);
+    rtcReleaseDevice(device);
+    return out;
 }
 
 }  // namespace obscura

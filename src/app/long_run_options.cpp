@@ -6,6 +6,7 @@
 #include "app/option_readers.h"
 #include "app/render_options.h"
 #include "app/render_request.h"
+#include "session/fingerprint.h"
 
 namespace obscura::app {
 
@@ -57,12 +58,19 @@ constexpr OptionEntry<A, R> entries[] = {
       .help = "Write what is finished to the outputs again and again while rendering, each file "
               "whole or not at all, without denoising",
       .range = {0.05, 1e6}, .fallback = "none"},
-     text_at<&A::long_run, &G::snapshot>, number_at<&R::long_run, &K::snapshot_interval_s>}};
+     text_at<&A::long_run, &G::snapshot>, number_at<&R::long_run, &K::snapshot_interval_s>},
+    {{.name = "--skip-existing",
+      .help = "Leave images, and frames of a sequence, as they are whose files are all there and "
+              "were rendered by the same options from the same bytes, as a fingerprint in their "
+              "headers tells. A lock beside the first output lets several machines share a "
+              "sequence"},
+     text_at<&A::long_run, &G::skip_existing>, flag_at<&R::long_run, &K::skips_existing>}};
 // clang-format on
 
 }  // namespace
 
 Result<void> complete_long_run(RenderRequest& request) {
+    if (auto fits = check_skips_existing(request); !fits) return fits;
     LongRun& run = request.long_run;
     const bool is_limited = run.time_limit_s.has_value();
     const char* const asked_by = run.has_checkpoint ? "--checkpoint"

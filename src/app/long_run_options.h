@@ -15,6 +15,7 @@ struct RenderArguments;
 /// The texts of these options as they stood on the command line.
 struct LongRunArguments {
     OptionText checkpoint, interval, resume, time_limit, snapshot;
+    bool skip_existing = false;
 };
 
 /// Refuses what cannot be kept or shown before it is done.

@@ -68,18 +68,18 @@ Result<void> print_output(const std::string& text) {
     return fail(ExitCode::io_error, "E-OUT-WRITE", "standard output", std::strerror(errno));
 }
 
-int report_failure(const Error& error, const Log& log) {
+int report_failure(const Error& error, const Log& log, const std::string& counts) {
     const int code = static_cast<int>(error.code);
     print_error_line("ERROR " + failure_text(error));
     for (const Error& other : error.also)
         print_error_line("ERROR " + failure_text(other));
-    print_error_line(result_line(code, error.id, error.where, log.warnings().size()));
+    print_error_line(result_line(code, error.id, error.where, log.warnings().size()) + counts);
     return code;
 }
 
-int report_success(const std::string& where, const Log& log) {
+int report_success(const std::string& where, const Log& log, const std::string& counts) {
     if (log.verbosity() != Verbosity::quiet) {
-        print_error_line(result_line(0, "OK", where, log.warnings().size()));
+        print_error_line(result_line(0, "OK", where, log.warnings().size()) + counts);
     }
     return 0;
 }

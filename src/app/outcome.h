@@ -30,10 +30,12 @@ Result<void> print_output(const std::string& text);
 
 /// Prints "ERROR where: message [id]", the same for each of error.also, and the result line of the
 /// first to standard error; returns the exit code.
-int report_failure(const Error& error, const Log& log);
+///
+/// In      counts: further fields of the result line, such as " skipped=3"
+int report_failure(const Error& error, const Log& log, const std::string& counts = "");
 
 /// Prints the result line with code 0 unless quiet; returns 0.
-int report_success(const std::string& where, const Log& log);
+int report_success(const std::string& where, const Log& log, const std::string& counts = "");
 
 /// Prints the reason and the result line with code 128 + signal, then lets the signal end the
 /// process. After SIGUSR1 the code is 75, and it comes back.

@@ -95,6 +95,8 @@ bool is_left_out(const std::string& name) {
                                                    "--resume",
                                                    "--time-limit",
                                                    "--snapshot",
+                                                   "--skip-existing",
+                                                   "--priority",
                                                    "--threads",
                                                    "--max-memory",
                                                    "--tile-size",

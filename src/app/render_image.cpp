@@ -3,9 +3,11 @@
 #include "app/render_job.h"
 #include "base/stopwatch.h"
 #include "camera/exposure.h"
+#include "image/fingerprint.h"
 #include "session/dark_image.h"
 #include "session/denoising.h"
 #include "session/film_keeper.h"
+#include "session/fingerprint.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -28,20 +30,13 @@ bool is_long_run(const LongRun& run) {
     return run.has_checkpoint || run.time_limit_s || run.snapshot_interval_s;
 }
 
-/// The facts that pixels depend on; files are read for them once.
-const NamedTexts& facts_of(Job& job) {
-    const RenderStatistics& statistics = job.renderer->statistics();
-    if (!job.facts) job.facts = facts_of(job.request, statistics.isa, statistics.embree);
-    return *job.facts;
-}
-
-/// The head of a film state of this image; no file is read where none is written.
-FilmStateHead head_of(Job& job) {
+/// The head of a film state of this image.
+FilmStateHead head_of(const Job& job) {
     FilmStateHead head;
     if (is_part_of_image(job.request)) head.part = *job.request.part;
     if (!job.request.long_run.has_checkpoint && !is_part_of_image(job.request)) return head;
     head.options = job.options;
-    head.facts = facts_of(job);
+    head.facts = job.facts;
     if (job.request.frame) head.facts.emplace_back("the frame", std::to_string(*job.request.frame));
     return head;
 }
@@ -75,6 +70,14 @@ void try_to_save(const Making& making, bool& has_failed, const Save& save) {
 /// Marks an image of which pixels are missing.
 void mark_unfinished(double fraction, FinishedImage& image) {
     image.metadata.extra.push_back({"obscura:done", fraction});
+}
+
+/// Marks a finished image with what it was made from.
+void mark_finished(const Job& job, FinishedImage& image) {
+    const RenderRequest& request = job.request;
+    image.metadata.extra.push_back(
+        {std::string(fingerprint_name),
+         image_fingerprint(job.options, job.facts, request, request.frame)});
 }
 
 /// Writes the image so far, while it is being rendered; undenoised, as that may take long.
@@ -167,7 +170,10 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     const double exposure_ev = request.display.exposure_ev + camera_ev;
     if (is_unfinished) {
         mark_unfinished(making.keeper->fraction(), finished);
-    } else if (making.turn.index == 0) {
+    } else {
+        mark_finished(job, finished);
+    }
+    if (!is_unfinished && making.turn.is_first) {
         const Scene& scene = job.renderer->scene();
         warn_of_dark_image(finished.image, request, scene, exposure_ev, making.log);
     }
@@ -183,7 +189,7 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
 /// The film of all parts.
 Result<RenderedFilm> film_of_parts(Making& making) {
     Job& job = making.job;
-    if (auto same = job.parts->check_facts(facts_of(job)); !same) return fail(same.error());
+    if (auto same = job.parts->check_facts(job.facts); !same) return fail(same.error());
     const auto fill = [&](Film& film) -> Result<std::vector<FilmArea>> {
         if (auto filled = job.parts->fill(film); !filled) return fail(filled.error());
         return std::vector<FilmArea>();
@@ -245,7 +251,7 @@ Result<void> make_image(
     making.hooks.stop = &job.watch.stop();
     making.hooks.progress = [&](const FinishedTile& tile) {
         if (keeper) keeper->add(tile);
-        progress.update((static_cast<double>(turn.index) + tile.done) /
+        progress.update((static_cast<double>(turn.done) + tile.done) /
                         static_cast<double>(turn.count));
     };
     Result<void> done = make(making);

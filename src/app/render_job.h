@@ -16,21 +16,23 @@ namespace obscura::app {
 struct Job {
     Log& log;               ///< the command's; frames may have their own
     RenderRequest request;  ///< its outputs, frame and what its camera keeps change by frame
-    NamedTexts options;     ///< as they were given, for --part and --checkpoint
+    NamedTexts options;     ///< as they were given, for --part, --checkpoint, fingerprints
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     Watch& watch;
     std::optional<DisplayTransform> display = {};
     std::optional<AssetRenderer> renderer = {};
     LightingOptions lighting = {};
-    std::optional<NamedTexts> facts = {};  ///< that pixels depend on, once they are known
-    bool has_begun = false;                ///< the first image is being rendered
+    NamedTexts facts = {};   ///< that pixels depend on; files are read for them before loading
+    bool has_begun = false;  ///< the first image is being rendered
+    size_t skipped = 0;      ///< images that were there, with --skip-existing
 };
 
-/// An image's index and their number.
+/// Where a command stands with its images.
 struct Turn {
-    size_t index;
-    size_t count;
-    bool is_last() const { return index + 1 == count; }
+    size_t done;    ///< images before this one
+    size_t count;   ///< of all that are to be there in the end
+    bool is_first;  ///< of the sequence
+    bool is_last;   ///< none follows
 };
 
 /// Renders the posed and prepared image, or takes its pixels from parts, and writes its files; with
@@ -40,5 +42,14 @@ struct Turn {
 ///         kept; 75 E-TIME-LIMIT; those of FilmKeeper::find
 Result<void> make_image(
     Job& job, const ChosenCamera& camera, const Turn& turn, Log& log, Progress& progress);
+
+/// Renders the images of the request in turn: those of its part, and with --skip-existing those
+/// that are neither there nor of others.
+///
+/// Errors  those of loading, posing and make_image; 75 E-LOCKED images are left to others
+Result<void> render_all(Job& job, Progress& progress);
+
+/// --check: for every image, all steps before the BVH.
+Result<void> check_all(Job& job);
 
 }  // namespace obscura::app

@@ -67,6 +67,7 @@ constexpr std::array<Choice<bool>, 2> occlusions = {{{"off", false}, {"ambient",
 constexpr std::array<Choice<BackgroundKind>, 2> backgrounds = {
     {{"env", BackgroundKind::environment}, {"transparent", BackgroundKind::transparent}}};
 
+constexpr std::array<Choice<bool>, 2> priorities = {{{"normal", false}, {"low", true}}};
 constexpr std::array<Choice<int>, 2> bit_depths = {{{"8", 8}, {"16", 16}}};
 
 std::vector<std::string> color_names() {
@@ -360,6 +361,10 @@ constexpr Entry program[] = {
     {{.name = "--threads", .argument = "N",
       .help = "Threads; 0 is every core that the process may use", .range = {0, 1024}},
      text_at<&A::threads>, number_at<&R::threads>},
+    {{.name = "--priority", .argument = "NAME",
+      .help = "low lets other programs go first: nice 10, and Linux's class for batch jobs. One "
+              "of:"},
+     text_at<&A::priority>, choice_at<priorities, &R::gives_way>},
     {{.name = "--max-memory", .argument = "SIZE",
       .help = "Memory that the process may take: 512M, 4G, a number of bytes, or a share of what "
               "there is: the least of the machine's, its container's and the shell's limit",

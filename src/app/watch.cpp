@@ -85,6 +85,11 @@ void Watch::end() {
     phase_ = Phase::ending;
 }
 
+void Watch::set_last_task(std::function<void()> task) {
+    const std::lock_guard lock(mutex_);
+    last_task_ = std::move(task);
+}
+
 bool Watch::is_time_up() const {
     return time_is_up_;
 }
@@ -111,6 +116,7 @@ void Watch::look_after() {
 }
 
 void Watch::end_now(bool is_late) {
+    if (last_task_) last_task_();
     if (is_late) {
         report_failure({ExitCode::stopped_early,
                         "E-TIME-LIMIT",

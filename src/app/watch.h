@@ -65,6 +65,9 @@ public:
     void begin_preparing();
     /// The command ends, and says so itself.
     void end();
+    /// What is to be done first when a signal or the time limit ends the program at once; an empty
+    /// one: nothing. Waits until it has begun to end, if it does.
+    void set_last_task(std::function<void()> task);
 
     const std::atomic<bool>& stop() const { return signals_.flag(); }
     /// True when the time limit has stopped the rendering.
@@ -88,6 +91,7 @@ private:
     std::condition_variable wake_;
     Phase phase_ = Phase::preparing;
     Tasks tasks_;
+    std::function<void()> last_task_;
     Repetition saves_, snapshots_;
     bool ending_ = false;
     std::atomic<bool> time_is_up_ = false;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/log.h"
 #include "image/encode.h"
+#include "image/fingerprint.h"
 #include "image/icc_profile.h"
 #include "image/oiio_input.h"
 #include "image/png_chunks.h"
@@ -32,6 +33,16 @@ const char* oiio_name(OutputFormat format) {
     return format == OutputFormat::png ? "png" : format == OutputFormat::jpeg ? "jpeg" : "tiff";
 }
 
+void add_fingerprint(OutputFormat format, const std::string& fingerprint, OIIO::ImageSpec& spec) {
+    if (fingerprint.empty()) return;
+    const std::string name(fingerprint_name);
+    if (format == OutputFormat::png) {
+        spec.attribute(name, fingerprint);
+    } else {
+        spec.attribute("ImageDescription", name + "=" + fingerprint);
+    }
+}
+
 OIIO::ImageSpec spec_of(const Encodable& image) {
     const OIIO::TypeDesc type = image.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
     OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
@@ -41,6 +52,7 @@ OIIO::ImageSpec spec_of(const Encodable& image) {
         spec.attribute("Copyright", escape_control(image.metadata.copyright));
     }
     const OutputFormat format = image.target.format;
+    add_fingerprint(format, fingerprint_of(image.metadata), spec);
     if (format == OutputFormat::png) spec.attribute("compression", "zip:4");
     if (format == OutputFormat::tiff) {
         spec.attribute("compression", "zip");

@@ -22,17 +22,18 @@ struct OutputFormatEntry {
     int max_side;                        ///< pixels
     int max_bits;                        ///< of a channel of an image for a display
     bool has_alpha;                      ///< an image for a display keeps its alpha
+    bool has_texts;                      ///< it keeps texts beside the pixels
     int quality;                         ///< unless another is asked for; 0: nothing is lost
 };
 
 /// Sources of the greatest sides: libjpeg's JPEG_MAX_DIMENSION, libwebp's WEBP_MAX_DIMENSION.
 inline constexpr std::array output_formats = {
-    OutputFormatEntry{"exr", OutputFormat::exr, {".exr", nullptr}, 1 << 20, 16, true, 0},
-    OutputFormatEntry{"png", OutputFormat::png, {".png", nullptr}, 1 << 20, 16, true, 0},
-    OutputFormatEntry{"jpeg", OutputFormat::jpeg, {".jpg", ".jpeg"}, 65500, 8, false, 95},
-    OutputFormatEntry{"tiff", OutputFormat::tiff, {".tif", ".tiff"}, 1 << 20, 16, true, 0},
-    OutputFormatEntry{"webp", OutputFormat::webp, {".webp", nullptr}, 16383, 8, true, 90},
-    OutputFormatEntry{"avif", OutputFormat::avif, {".avif", nullptr}, 65536, 8, true, 90}};
+    OutputFormatEntry{"exr", OutputFormat::exr, {".exr", nullptr}, 1 << 20, 16, true, true, 0},
+    OutputFormatEntry{"png", OutputFormat::png, {".png", nullptr}, 1 << 20, 16, true, true, 0},
+    OutputFormatEntry{"jpeg", OutputFormat::jpeg, {".jpg", ".jpeg"}, 65500, 8, false, true, 95},
+    OutputFormatEntry{"tiff", OutputFormat::tiff, {".tif", ".tiff"}, 1 << 20, 16, true, true, 0},
+    OutputFormatEntry{"webp", OutputFormat::webp, {".webp", nullptr}, 16383, 8, true, false, 90},
+    OutputFormatEntry{"avif", OutputFormat::avif, {".avif", nullptr}, 65536, 8, true, false, 90}};
 
 const OutputFormatEntry& entry_of(OutputFormat format) noexcept;
 

@@ -3,12 +3,14 @@
 #include "session/image_parts.h"
 
 #include "base/checksum.h"
-#include "base/file_bytes.h"
 #include "gltf/asset_files.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
+#include <fstream>
+#include <span>
+#include <system_error>
 
 namespace obscura {
 
@@ -16,10 +18,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Reads piece by piece: before loading there may be no memory for the whole file.
 void add_file(const std::string& name, const fs::path& file, NamedTexts& facts) {
-    const FileBytes read = read_file_bytes(file, {});
-    if (read.fault == FileFault::none)
-        facts.emplace_back(name, fmt::format("{:016x}", checksum(read.bytes)));
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return;
+    std::ifstream stream(file, std::ios::binary);
+    std::vector<char> piece(size_t{1} << 20);
+    RunningChecksum sum;
+    while (stream) {
+        stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+        sum.add(std::as_bytes(std::span(piece.data(), static_cast<size_t>(stream.gcount()))));
+    }
+    if (!stream.eof()) return;
+    facts.emplace_back(name, fmt::format("{:016x}", sum.value()));
 }
 
 tl::unexpected<Error> refuse_parts(const char* id,

@@ -41,6 +41,7 @@ struct LongRun {
     double checkpoint_interval_s = 300;
     Resume resume = Resume::automatic;
     std::optional<double> time_limit_s, snapshot_interval_s;
+    bool skips_existing = false;  ///< --skip-existing: what is there already is left as it is
 };
 
 struct RenderRequest {
@@ -65,6 +66,7 @@ struct RenderRequest {
     bool environment_follows_camera = false;  ///< the rotation is added to the camera's azimuth
     int threads = 0;                          ///< 0: every core
     std::optional<MemorySize> max_memory;     ///< nothing: 80 % of what there is
+    bool gives_way = false;                   ///< --priority low
     Isa isa = Isa::automatic;
     std::string color_space;  ///< --color-space; empty: lin_rec709
     RenderingSpace space;     ///< what it means: set by use_color_space

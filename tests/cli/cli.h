@@ -25,15 +25,18 @@ struct ResultLine {
     std::string id;
     std::string where;
     int warnings = -1;
+    int skipped = -1;  ///< with --skip-existing
 };
 
 /// The last line of standard error, if it is a result line.
 inline std::optional<ResultLine> result_of(const ProgramRun& run) {
-    static const std::regex form(R"(RESULT code=(\d+) id=(\S+) where=(\S+) warnings=(\d+))");
+    static const std::regex form(
+        R"(RESULT code=(\d+) id=(\S+) where=(\S+) warnings=(\d+)(?: skipped=(\d+))?)");
     const std::vector<std::string> lines = lines_of(run.err);
     std::smatch match;
     if (lines.empty() || !std::regex_match(lines.back(), match, form)) return std::nullopt;
-    return ResultLine{std::stoi(match[1]), match[2], match[3], std::stoi(match[4])};
+    const int skipped = match[5].matched ? std::stoi(match[5]) : -1;
+    return ResultLine{std::stoi(match[1]), match[2], match[3], std::stoi(match[4]), skipped};
 }
 
 inline std::vector<std::string> joined(std::vector<std::string> a,

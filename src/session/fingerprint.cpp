@@ -1,0 +1,127 @@
+// session/fingerprint.cpp - tells by its files whether an image has been rendered.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/fingerprint.h"
+
+#include "base/checksum.h"
+#include "base/setting_names.h"
+#include "image/fingerprint.h"
+#include "session/segmentation.h"
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+#include <span>
+#include <string_view>
+#include <system_error>
+
+namespace obscura {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Options that say where something is, or which of a sequence's frames are rendered.
+bool is_name_or_range(const std::string& option) {
+    constexpr std::array<std::string_view, 4> all = {"SCENE", "--output", "--format", "--frames"};
+    return std::find(all.begin(), all.end(), option) != all.end();
+}
+
+/// Adds a text with an end that no text holds.
+void sum_text(const std::string& text, RunningChecksum& sum) {
+    sum.add(std::as_bytes(std::span(text.c_str(), text.size() + 1)));
+}
+
+void sum_texts(const NamedTexts& texts, RunningChecksum& sum) {
+    for (const auto& [name, text] : texts) {
+        if (is_name_or_range(name)) continue;
+        sum_text(name, sum);
+        sum_text(text, sum);
+    }
+    sum_text("", sum);  // no option or fact is called so
+}
+
+bool file_is_there(const fs::path& file) {
+    std::error_code error;
+    return fs::exists(file, error);
+}
+
+/// What is wrong with one file; "": nothing is.
+std::string fault_of(const fs::path& file, const std::string& fingerprint) {
+    if (!file_is_there(file)) return file.string() + " is missing";
+    const std::optional<std::string> found = read_fingerprint(file);
+    if (!found) return file.string() + " cannot be read";
+    if (found->empty()) return file.string() + " has no fingerprint";
+    return *found == fingerprint ? "" : file.string() + " has another fingerprint";
+}
+
+}  // namespace
+
+std::string image_fingerprint(const NamedTexts& options,
+                              const NamedTexts& facts,
+                              const RenderRequest& request,
+                              std::optional<int> frame) {
+    NamedTexts of_frame;
+    if (request.frames && frame) {
+        of_frame = {{"the frame", std::to_string(*frame)},
+                    {"the first frame", std::to_string(request.frames->numbers.front())}};
+    }
+    RunningChecksum sum;
+    sum_texts(options, sum);
+    sum_texts(facts, sum);
+    sum_texts(of_frame, sum);
+    return fmt::format("{:016x}", sum.value());
+}
+
+ExistingImage find_existing(const RenderRequest& request,
+                            const MovieFrame& frame,
+                            const std::string& fingerprint) {
+    std::vector<fs::path> images = image_files(request, frame);
+    std::vector<fs::path> others;  // texts
+    if (frame.segmentation) {
+        const auto [png, json] = segmentation_files(*frame.segmentation);
+        images.push_back(png);
+        others.push_back(json);
+    }
+    if (request.crypto_manifest) others.push_back(*request.crypto_manifest);
+    ExistingImage out;
+    if (std::none_of(images.begin(), images.end(), file_is_there)) return out;
+    for (const fs::path& file : images) {
+        if (out.differs.empty()) out.differs = fault_of(file, fingerprint);
+    }
+    for (const fs::path& file : others) {
+        if (out.differs.empty() && !file_is_there(file))
+            out.differs = file.string() + " is missing";
+    }
+    out.is_finished = out.differs.empty();
+    return out;
+}
+
+fs::path lock_file(const MovieFrame& frame) {
+    fs::path out = frame.outputs.front();
+    out += ".lock";
+    return out;
+}
+
+Result<void> check_skips_existing(const RenderRequest& request) {
+    if (!request.long_run.skips_existing) return {};
+    const auto conflict = [](const std::string& message) {
+        return fail(ExitCode::usage, "E-USAGE-CONFLICT", setting("skip-existing"), message);
+    };
+    if (request.standard_output || request.outputs.empty())
+        return conflict("what is written to standard output is not kept; give -o a file's name");
+    if (is_part_of_image(request)) {
+        return conflict(
+            "a part of an image is no image; leave out one of them, or divide a "
+            "sequence by frames");
+    }
+    for (const fs::path& output : request.outputs) {
+        const std::optional<OutputFormat> format = output_format_of(output);
+        if (!format || entry_of(*format).has_texts) continue;
+        return conflict(output.string() +
+                        " cannot hold a fingerprint, by which a finished image is known; "
+                        "EXR, PNG, JPEG and TIFF can");
+    }
+    return {};
+}
+
+}  // namespace obscura
