@@ -175,7 +175,7 @@ TEST_F(SkipExisting, LocksGoWithSignalsAndThoseOfKilledProgramsAreStale) {
                            "--threads",
                            "1",
                            "--spp",
-                           "2048",
+                           "4096",
                            "--frames",
                            "1-2",
                            "-o",
@@ -185,7 +185,8 @@ TEST_F(SkipExisting, LocksGoWithSignalsAndThoseOfKilledProgramsAreStale) {
         ProgramSetup stopped = setup(small_render("box.gltf", options), folder_);
         bool was_locked = false;
         stopped.on_output = [&](const std::string& out, pid_t process) {
-            if (was_locked || out.find("Progress: ") == std::string::npos) return;
+            static const std::regex has_begun("Progress: [1-9]");
+            if (was_locked || !std::regex_search(out, has_begun)) return;
             was_locked = exists("s.1.exr.lock");
             kill(process, signal);
         };
