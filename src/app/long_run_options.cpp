@@ -36,7 +36,7 @@ constexpr OptionEntry<A, R> entries[] = {
     {{.name = "--checkpoint", .argument = "[=FILE]",
       .help = "Keep what is finished in a file, and carry on from it when the same command is run "
               "again; with --frames, FILE has # for the number. Removed when the picture is "
-              "written",
+              "written, but for --keep-checkpoint",
       .fallback = "none; without FILE, OUTPUT.checkpoint"},
      text_at<&A::long_run, &G::checkpoint>, checkpoint},
     {{.name = "--checkpoint-interval", .argument = "SECONDS",
@@ -45,17 +45,22 @@ constexpr OptionEntry<A, R> entries[] = {
       .range = {0.05, 1e6}, .needs = {"--checkpoint"}},
      text_at<&A::long_run, &G::interval>,
      number_at<&R::long_run, &K::checkpoint_interval_s>},
+    {{.name = "--keep-checkpoint",
+      .help = "Leave the checkpoint when the picture is written: the same command with a higher "
+              "--spp goes on from it",
+      .needs = {"--checkpoint"}},
+     text_at<&A::long_run, &G::keep_checkpoint>, flag_at<&R::long_run, &K::keep_checkpoint>},
     {{.name = "--resume", .argument = "NAME",
       .help = "Carry on from a checkpoint: where there is one, only if there is one, or start "
               "anew:", .needs = {"--checkpoint"}},
      text_at<&A::long_run, &G::resume>, choice_at<resumes, &R::long_run, &K::resume>},
     {{.name = "--time-limit", .argument = "SECONDS",
-      .help = "Stop after this time with the tiles that are finished, marked in the header, a "
-              "checkpoint if one is kept, and exit code 75",
+      .help = "Stop after this time with the picture of the samples so far, marked in the header, "
+              "a checkpoint if one is kept, and exit code 75",
       .range = {0.05, 1e8}, .fallback = "none"},
      text_at<&A::long_run, &G::time_limit>, number_at<&R::long_run, &K::time_limit_s>},
     {{.name = "--snapshot", .argument = "SECONDS",
-      .help = "Write what is finished to the outputs again and again while rendering, each file "
+      .help = "Write the picture so far to the outputs again and again while rendering, each file "
               "whole or not at all, without denoising",
       .range = {0.05, 1e6}, .fallback = "none"},
      text_at<&A::long_run, &G::snapshot>, number_at<&R::long_run, &K::snapshot_interval_s>},

@@ -16,6 +16,7 @@ struct RenderArguments;
 struct LongRunArguments {
     OptionText checkpoint, interval, resume, time_limit, snapshot;
     bool skip_existing = false;
+    bool keep_checkpoint = false;
 };
 
 /// Refuses what cannot be kept or shown before it is done.

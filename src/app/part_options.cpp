@@ -92,6 +92,7 @@ bool is_left_out(const std::string& name) {
                                                    "--farm",
                                                    "--checkpoint",
                                                    "--checkpoint-interval",
+                                                   "--keep-checkpoint",
                                                    "--resume",
                                                    "--time-limit",
                                                    "--snapshot",

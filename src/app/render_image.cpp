@@ -4,6 +4,8 @@
 #include "base/stopwatch.h"
 #include "camera/exposure.h"
 #include "image/fingerprint.h"
+#include "render/counts.h"
+#include "render/integrators.h"
 #include "session/dark_image.h"
 #include "session/denoising.h"
 #include "session/film_keeper.h"
@@ -26,14 +28,11 @@ struct Making {
     RenderHooks hooks = {};
 };
 
-bool is_long_run(const LongRun& run) {
-    return run.has_checkpoint || run.time_limit_s || run.snapshot_interval_s;
-}
-
 /// The head of a film state of this image.
 FilmStateHead head_of(const Job& job) {
     FilmStateHead head;
     if (is_part_of_image(job.request)) head.part = *job.request.part;
+    if (takes_passes(job.request)) head.target_samples = samples_taken(job.request.options);
     if (!job.request.long_run.has_checkpoint && !is_part_of_image(job.request)) return head;
     head.options = job.options;
     head.facts = job.facts;
@@ -67,9 +66,17 @@ void try_to_save(const Making& making, bool& has_failed, const Save& save) {
     has_failed = has_failed || !saved;
 }
 
-/// Marks an image of which pixels are missing.
-void mark_unfinished(double fraction, FinishedImage& image) {
-    image.metadata.extra.push_back({"obscura:done", fraction});
+/// Marks an image of which pixels or samples are missing.
+void mark_unfinished(const FilmKeeper& keeper, FinishedImage& image) {
+    image.metadata.extra.push_back({"obscura:done", keeper.fraction()});
+    if (const PassSums* const sums = keeper.sums())
+        image.metadata.extra.push_back({"obscura:samplesDone", sums->mean_samples()});
+}
+
+/// Renders no half images in which the denoiser would see the noise: they are not there yet.
+void leave_undenoised(RenderRequest& request, Film& film) {
+    request.denoise = false;
+    remove_denoising_layers(request.options, film);
 }
 
 /// Marks a finished image with what it was made from.
@@ -85,16 +92,14 @@ Result<void> write_snapshot(const Making& making) {
     std::optional<Film> film = making.keeper->film_so_far();
     if (!film) return {};
     RenderRequest request = making.job.request;
-    request.denoise = false;
     request.standard_output.reset();
     request.write_retries = 0;  // there will be another one, and checkpoints must not wait
-    remove_denoising_layers(request.options, *film);
+    leave_undenoised(request, *film);
     RenderedFilm rendered{request.options, {}};
     rendered.result.film = std::move(*film);
-    const double fraction = making.keeper->fraction();
     FinishedImage finished =
         making.job.renderer->finish(request, making.camera, std::move(rendered), making.log);
-    mark_unfinished(fraction, finished);
+    mark_unfinished(*making.keeper, finished);
     Log unheard;  // the image itself will say the same
     const auto& stop = making.job.watch.stop();
     return write_outputs(request, finished, making.job.display, stop, unheard);
@@ -129,6 +134,7 @@ Result<RenderedFilm> render_film(Making& making) {
     if (keeper != nullptr) {
         if (!share.part) share.part = FilmPart{};
         share.fill = [&](Film& film) { return keeper->fill(film); };
+        share.begin_passes = [&](const PassFilm& film) { return keeper->begin_passes(film); };
         share.leave = [&](const Film& /*film*/) { keeper->leave(); };
         share.keeps_unfinished = true;
     }
@@ -139,7 +145,8 @@ Result<RenderedFilm> render_film(Making& making) {
     if (film && keeper != nullptr) {
         const RenderResult& result = film->result;
         const double much_s = first_checkpoint_s(job.request.long_run.checkpoint_interval_s);
-        if (result.is_stopped || result.render_seconds >= much_s)
+        const bool is_kept = job.request.long_run.keep_checkpoint;
+        if (result.is_stopped || is_kept || result.render_seconds >= much_s)
             try_to_save(making, has_failed, [&] { return keeper->save(result.film); });
         add_counters(keeper->resumed_counters(), job.renderer->statistics().counters);
         add_counters(keeper->resumed_counters(), film->result.counters);
@@ -157,19 +164,33 @@ Result<void> write_part(const Making& making, const RenderResult& result) {
     return write_film_state(part_file(request.outputs.front(), *request.part), head, result.film);
 }
 
+/// Whether a film so far has both half images that the denoiser needs.
+bool has_halves(const FilmKeeper& keeper) {
+    const PassSums* const sums = keeper.sums();
+    if (sums == nullptr) return true;
+    return static_cast<size_t>(sums->min_samples()) >= 2 * half_run(sums->target());
+}
+
 /// Writes all outputs of a film that is finished, or of one of which pixels are missing.
 Result<void> write_image(const Making& making, RenderedFilm&& film) {
     Job& job = making.job;
-    const RenderRequest& request = job.request;
+    RenderRequest request = job.request;
     const bool is_unfinished = film.result.is_stopped;
-    if (is_unfinished) film.result.film = making.keeper->finished_of(film.result.film);
+    if (is_unfinished) {
+        film.result.film = making.keeper->finished_of(std::move(film.result.film));
+        if (request.denoise && !has_halves(*making.keeper)) {
+            making.log.warn(request.scene.string(),
+                            "not denoised: there are too few samples to tell their noise");
+            leave_undenoised(request, film.result.film);
+        }
+    }
     FinishedImage finished =
         job.renderer->finish(request, making.camera, std::move(film), making.log);
     const double camera_ev =
         making.camera.ev100 ? std::log2(exposure_scale(*making.camera.ev100)) : 0;
     const double exposure_ev = request.display.exposure_ev + camera_ev;
     if (is_unfinished) {
-        mark_unfinished(making.keeper->fraction(), finished);
+        mark_unfinished(*making.keeper, finished);
     } else {
         mark_finished(job, finished);
     }
@@ -206,9 +227,15 @@ Result<RenderedFilm> film_of_parts(Making& making) {
 tl::unexpected<Error> time_is_up(const Making& making) {
     const RenderRequest& request = making.job.request;
     const std::string note = note_of(making);
+    const PassSums* const sums = making.keeper->sums();
+    const bool is_black = sums == nullptr && !is_part_of_image(request);
     std::string message = fmt::format("the time limit is over: {} of the picture are rendered{}",
                                       percent(making.keeper->fraction()),
-                                      is_part_of_image(request) ? "" : ", the rest is black");
+                                      is_black ? ", the rest is black" : "");
+    if (sums != nullptr) {
+        message +=
+            fmt::format(", {:.1f} of {} samples a pixel", sums->mean_samples(), sums->target());
+    }
     if (!note.empty()) message += "; " + note;
     return fail(ExitCode::stopped_early, "E-TIME-LIMIT", request.scene.string(), message);
 }
@@ -227,7 +254,7 @@ Result<void> make(Making& making) {
         is_part ? write_part(making, film->result) : write_image(making, std::move(*film));
     if (!written) return written;
     if (is_unfinished) return time_is_up(making);
-    if (making.keeper != nullptr) making.keeper->remove();
+    if (making.keeper != nullptr && !job.request.long_run.keep_checkpoint) making.keeper->remove();
     return {};
 }
 

@@ -151,4 +151,16 @@ uint32_t CryptomattePixel::majority(uint32_t samples) const {
     return most.count >= nothing ? most.hash : cryptomatte_no_object;
 }
 
+void CryptomattePixel::put(StateWriter& out) const {
+    out.put(&run_, sizeof(run_));
+    out.put(few_.data(), sizeof(few_));
+    out.put_array(others_);
+}
+
+void CryptomattePixel::take(StateReader& in) {
+    in.take(&run_, sizeof(run_));
+    in.take(few_.data(), sizeof(few_));
+    in.take_new_array(others_);
+}
+
 }  // namespace obscura

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "film/state_bytes.h"
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -112,6 +114,10 @@ public:
     ///
     /// In      samples: all of the pixel, with those that met nothing
     uint32_t majority(uint32_t samples) const;
+
+    /// All of it, to go on from.
+    void put(StateWriter& out) const;
+    void take(StateReader& in);
 
 private:
     struct IdCount {

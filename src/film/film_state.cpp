@@ -1,13 +1,8 @@
-// film/film_state.cpp - finished areas of a film in a file, with what their pixels depend on.
+// film/film_state.cpp - a film in a file, finished areas or sums, and what its pixels depend on.
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film_state.h"
 
-#include "base/atomic_file.h"
-#include "base/checksum.h"
-#include "base/file_bytes.h"
-
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <span>
 #include <string_view>
@@ -16,92 +11,7 @@ namespace obscura {
 
 namespace {
 
-static_assert(std::endian::native == std::endian::little);
-
-constexpr std::string_view magic = "OBSFILM2";
-
-/// Hands pieces to a file in large blocks, with their checksum behind them.
-class Writer {
-public:
-    explicit Writer(const ByteSink& sink) : sink_(sink) { block_.reserve(block_size); }
-
-    void put(const void* data, size_t size) {
-        const auto* const bytes = static_cast<const std::byte*>(data);
-        block_.insert(block_.end(), bytes, bytes + size);
-        if (block_.size() >= block_size) flush();
-    }
-    void put_number(uint64_t number) { put(&number, sizeof(number)); }
-    void put_texts(const NamedTexts& texts) {
-        put_number(texts.size());
-        for (const auto& [name, text] : texts) {
-            for (const std::string* one : {&name, &text}) {
-                put_number(one->size());
-                put(one->data(), one->size());
-            }
-        }
-    }
-    Result<void> finish() {
-        flush();
-        put_number(sum_.value());
-        flush();
-        return done_;
-    }
-
-private:
-    static constexpr size_t block_size = size_t{1} << 20;
-
-    void flush() {
-        sum_.add(block_);
-        if (done_) done_ = sink_(block_);
-        block_.clear();
-    }
-
-    const ByteSink& sink_;
-    Bytes block_;
-    RunningChecksum sum_;
-    Result<void> done_ = {};
-};
-
-/// Reads what `put` wrote; past the end there are zeros, and `good` is false.
-class Reader {
-public:
-    explicit Reader(std::span<const std::byte> bytes) : rest_(bytes) {}
-
-    bool good() const { return good_; }
-    bool at_end() const { return rest_.empty(); }
-
-    void take(void* out, uint64_t size) {
-        good_ = good_ && size <= rest_.size();
-        if (!good_) return;
-        std::memcpy(out, rest_.data(), size);
-        rest_ = rest_.subspan(size);
-    }
-    uint64_t number() {
-        uint64_t out = 0;
-        take(&out, sizeof(out));
-        return out;
-    }
-    int integer() { return static_cast<int>(number()); }
-    std::string text() {
-        const uint64_t size = number();
-        good_ = good_ && size <= rest_.size();
-        std::string out(good_ ? size : 0, '\0');
-        take(out.data(), out.size());
-        return out;
-    }
-    NamedTexts texts() {
-        NamedTexts out;
-        for (uint64_t left = number(); left > 0 && good_; --left) {
-            std::string name = text();
-            out.emplace_back(std::move(name), text());
-        }
-        return out;
-    }
-
-private:
-    std::span<const std::byte> rest_;
-    bool good_ = true;
-};
+constexpr std::string_view magic = "OBSFILM3";
 
 /// Calls `use(first float, count)` for each row of the areas, image by image.
 template <typename AnyFilm, typename Use>
@@ -152,7 +62,7 @@ bool is_well_formed(const FilmStateHead& head) {
     });
 }
 
-FilmStateHead read_head(Reader& reader) {
+FilmStateHead read_head(StateReader& reader) {
     FilmStateHead head;
     head.part.index = reader.integer();
     head.part.count = reader.integer();
@@ -163,12 +73,68 @@ FilmStateHead read_head(Reader& reader) {
     head.width = reader.integer();
     head.height = reader.integer();
     head.images = reader.texts();
+    head.target_samples = reader.integer();
     for (uint64_t left = reader.number(); left > 0 && reader.good(); --left) {
         FilmArea area;
         for (int* const one : {&area.x, &area.y, &area.width, &area.height})
             *one = reader.integer();
         head.areas.push_back(area);
     }
+    return head;
+}
+
+/// Writes a file with what `put_rest` puts behind the head.
+Result<void> write_state(const std::filesystem::path& file,
+                         const FilmStateHead& head,
+                         const Film& film,
+                         const std::function<void(StateWriter&)>& put_rest) {
+    return write_pieces_atomically(file, [&](const ByteSink& sink) {
+        StateWriter out(sink);
+        out.put(magic.data(), magic.size());
+        out.put_number(static_cast<uint64_t>(head.part.index));
+        out.put_number(static_cast<uint64_t>(head.part.count));
+        out.put_texts(head.options);
+        out.put_texts(head.facts);
+        for (const uint64_t counter : head.counters)
+            out.put_number(counter);
+        out.put_number(static_cast<uint64_t>(film.width));
+        out.put_number(static_cast<uint64_t>(film.height));
+        out.put_texts(images_of(film));
+        out.put_number(static_cast<uint64_t>(head.target_samples));
+        out.put_number(head.areas.size());
+        for (const FilmArea& area : head.areas) {
+            for (const int one : {area.x, area.y, area.width, area.height})
+                out.put_number(static_cast<uint64_t>(one));
+        }
+        put_rest(out);
+        return out.finish();
+    });
+}
+
+/// Reads a file: the head, and where there is a film, with `take_rest` what is behind it.
+Result<FilmStateHead> read_state(
+    const std::filesystem::path& file,
+    const Film* film,
+    const std::function<void(const FilmStateHead&, StateReader&)>& take_rest) {
+    const FileBytes read = read_file_bytes(file, {});
+    if (read.fault != FileFault::none)
+        return damaged(file, "the file cannot be read: " + read.reason);
+    const auto rest = checked(file, read.bytes);
+    if (!rest) return fail(rest.error());
+    StateReader reader(*rest);
+    FilmStateHead head = read_head(reader);
+    if (!reader.good() || !is_well_formed(head))
+        return damaged(file, "its head is not well formed");
+    if (film == nullptr) return head;
+    if (film->width != head.width || film->height != head.height ||
+        images_of(*film) != head.images) {
+        return fail(ExitCode::configuration,
+                    "E-PART-MIX",
+                    file.string(),
+                    "its picture has another size or other layers");
+    }
+    take_rest(head, reader);
+    if (!reader.good() || !reader.at_end()) return damaged(file, "it has not its number of pixels");
     return head;
 }
 
@@ -205,7 +171,8 @@ std::vector<FilmArea> areas_of_part(int width, int height, const FilmPart& part)
 }
 
 bool is_whole(const FilmStateHead& head) {
-    return pixels_in(head.areas) == pixels_in(areas_of_part(head.width, head.height, head.part));
+    return head.target_samples == 0 &&
+           pixels_in(head.areas) == pixels_in(areas_of_part(head.width, head.height, head.part));
 }
 
 NamedTexts images_of(const Film& film) {
@@ -224,53 +191,34 @@ NamedTexts images_of(const Film& film) {
 Result<void> write_film_state(const std::filesystem::path& file,
                               const FilmStateHead& head,
                               const Film& film) {
-    return write_pieces_atomically(file, [&](const ByteSink& sink) {
-        Writer out(sink);
-        out.put(magic.data(), magic.size());
-        out.put_number(static_cast<uint64_t>(head.part.index));
-        out.put_number(static_cast<uint64_t>(head.part.count));
-        out.put_texts(head.options);
-        out.put_texts(head.facts);
-        for (const uint64_t counter : head.counters)
-            out.put_number(counter);
-        out.put_number(static_cast<uint64_t>(film.width));
-        out.put_number(static_cast<uint64_t>(film.height));
-        out.put_texts(images_of(film));
-        out.put_number(head.areas.size());
-        for (const FilmArea& area : head.areas) {
-            for (const int one : {area.x, area.y, area.width, area.height})
-                out.put_number(static_cast<uint64_t>(one));
-        }
+    return write_state(file, head, film, [&](StateWriter& out) {
         for_rows(film, head.areas, [&](const float* row, size_t count) {
             out.put(row, count * sizeof(float));
         });
-        return out.finish();
     });
 }
 
+Result<void> write_film_sums(const std::filesystem::path& file,
+                             const FilmStateHead& head,
+                             const Film& film,
+                             const std::function<void(StateWriter&)>& put_sums) {
+    return write_state(file, head, film, put_sums);
+}
+
 Result<FilmStateHead> read_film_state(const std::filesystem::path& file, Film* film) {
-    const FileBytes read = read_file_bytes(file, {});
-    if (read.fault != FileFault::none)
-        return damaged(file, "the file cannot be read: " + read.reason);
-    const auto rest = checked(file, read.bytes);
-    if (!rest) return fail(rest.error());
-    Reader reader(*rest);
-    FilmStateHead head = read_head(reader);
-    if (!reader.good() || !is_well_formed(head))
-        return damaged(file, "its head is not well formed");
-    if (film == nullptr) return head;
-    if (film->width != head.width || film->height != head.height ||
-        images_of(*film) != head.images) {
-        return fail(ExitCode::configuration,
-                    "E-PART-MIX",
-                    file.string(),
-                    "its picture has another size or other layers");
-    }
-    for_rows(*film, head.areas, [&](float* row, size_t count) {
-        reader.take(row, count * sizeof(float));
+    return read_state(file, film, [&](const FilmStateHead& head, StateReader& reader) {
+        for_rows(*film, head.areas, [&](float* row, size_t count) {
+            reader.take(row, count * sizeof(float));
+        });
     });
-    if (!reader.good() || !reader.at_end()) return damaged(file, "it has not its number of pixels");
-    return head;
+}
+
+Result<FilmStateHead> read_film_sums(const std::filesystem::path& file,
+                                     const Film& film,
+                                     const std::function<void(StateReader&)>& take_sums) {
+    return read_state(file, &film, [&](const FilmStateHead& /*head*/, StateReader& reader) {
+        take_sums(reader);
+    });
 }
 
 Film copy_areas(const Film& film, std::span<const FilmArea> areas) {

@@ -1,16 +1,16 @@
-// film/film_state.h - finished areas of a film in a file, with what their pixels depend on.
+// film/film_state.h - a film in a file, finished areas or sums, with what its pixels depend on.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "base/error.h"
 #include "film/film.h"
+#include "film/state_bytes.h"
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <span>
-#include <string>
-#include <utility>
 #include <vector>
 
 namespace obscura {
@@ -44,9 +44,6 @@ std::vector<RowRange> rows_of_part(int height, const FilmPart& part);
 /// The same as areas of a film.
 std::vector<FilmArea> areas_of_part(int width, int height, const FilmPart& part);
 
-/// Names with texts, in the order of the command line; a name may come twice.
-using NamedTexts = std::vector<std::pair<std::string, std::string>>;
-
 /// What a file holds beside pixels.
 struct FilmStateHead {
     FilmPart part;       ///< that is being rendered: of one, all of the film
@@ -54,8 +51,11 @@ struct FilmStateHead {
     NamedTexts facts;    ///< program, instruction set, checksums of files
     std::array<uint64_t, 6> counters = {};
     int width = 0, height = 0;
-    NamedTexts images;            ///< the beauty's and each layer's name, with its channels
-    std::vector<FilmArea> areas;  ///< whose pixels the file holds; none is in two of them
+    NamedTexts images;  ///< the beauty's and each layer's name, with its channels
+    /// Of a file of sums: the samples that a pixel is to have in the end. 0: a file of pixels.
+    int target_samples = 0;
+    /// Whose pixels the file holds; none is in two of them. A file of sums has none.
+    std::vector<FilmArea> areas;
 };
 
 /// True when the areas are all of the part: nothing is left to be rendered.
@@ -82,6 +82,18 @@ Result<void> write_film_state(const std::filesystem::path& file,
 /// Errors  74 E-PART-DAMAGED the file cannot be read, is cut off, or its checksum does not fit;
 ///         78 E-PART-MIX it is of another version, or of another film
 Result<FilmStateHead> read_film_state(const std::filesystem::path& file, Film* film);
+
+/// The same for a film that is rendered in passes: sums in place of pixels.
+///
+/// In      film: its size and the names of its images are written, but not its pixels
+///         put_sums: writes what take_sums will read
+Result<void> write_film_sums(const std::filesystem::path& file,
+                             const FilmStateHead& head,
+                             const Film& film,
+                             const std::function<void(StateWriter&)>& put_sums);
+Result<FilmStateHead> read_film_sums(const std::filesystem::path& file,
+                                     const Film& film,
+                                     const std::function<void(StateReader&)>& take_sums);
 
 /// Copies the pixels of some areas, beauty and layers; all others are 0.
 Film copy_areas(const Film& film, std::span<const FilmArea> areas);

@@ -124,6 +124,18 @@ void LayerPlan::add_layer(const Layer& layer) {
     sources_.push_back(source);
 }
 
+size_t sum_bytes(const Layer& layer, bool catches) {
+    constexpr size_t sum = 4 * sizeof(double);
+    const bool counts_ids =
+        std::holds_alternative<CryptomatteNames>(layer.source) || is_majority(layer);
+    if (counts_ids) return sizeof(CryptomattePixel);
+    if (std::holds_alternative<SampleStatistic>(layer.source)) return 2 * sizeof(double);
+    if (std::holds_alternative<ShadowRatio>(layer.source)) return 2 * light_channels * sum;
+    if (std::holds_alternative<LightLayer>(layer.source))
+        return (catches ? 2 : 1) * light_channels * sum;
+    return layer.channels.size() * sum;
+}
+
 void LayerSums::begin(const LayerPlan& plan, size_t pixels) {
     pixels_ = pixels;
     sums_.resize(pixels * plan.sums_);
@@ -409,6 +421,32 @@ float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double sampl
     const double mean = y.sum / samples;
     const double spread = std::max(y.squares / samples - mean * mean, 0.0);
     return static_cast<float>(spread / (samples - 1));
+}
+
+void LayerSums::put(StateWriter& out) const {
+    out.put_array(sums_are_new_);
+    const bool any_sum =
+        std::find(sums_are_new_.begin(), sums_are_new_.end(), 0) != sums_are_new_.end();
+    if (any_sum) out.put_array(sums_);
+    out.put_array(nearest_values_);
+    out.put_array(nearest_m_);
+    out.put_array(luminance_);
+    out.put_array(rays_);
+    for (const CryptomattePixel& matte : mattes_)
+        matte.put(out);
+}
+
+void LayerSums::take(StateReader& in) {
+    in.take_array(sums_are_new_);
+    const bool any_sum =
+        std::find(sums_are_new_.begin(), sums_are_new_.end(), 0) != sums_are_new_.end();
+    if (any_sum) in.take_array(sums_);
+    in.take_array(nearest_values_);
+    in.take_array(nearest_m_);
+    in.take_array(luminance_);
+    in.take_array(rays_);
+    for (CryptomattePixel& matte : mattes_)
+        matte.take(in);
 }
 
 }  // namespace obscura

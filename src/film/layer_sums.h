@@ -84,6 +84,11 @@ private:
     bool catches_ = false;
 };
 
+/// Bytes that LayerSums takes for a layer, of each pixel, at most.
+///
+/// In      catches: the image has shadow catchers
+size_t sum_bytes(const Layer& layer, bool catches);
+
 /// The sums of one tile's pixels; reused from tile to tile. Samples are added in the order of their
 /// numbers, so that the result does not depend on how they are cut into batches.
 class LayerSums {
@@ -97,6 +102,10 @@ public:
     /// Writes the tile's pixels to the film's layers, which are 0: those of light that did not
     /// arrive stay as they are.
     void store(const LayerPlan& plan, const SampledPixels& pixels, Film& film) const;
+
+    /// All of them, to go on from; `take` after `begin` with the same plan.
+    void put(StateWriter& out) const;
+    void take(StateReader& in);
 
 private:
     /// A sum in four parts, each of every fourth sample: they need not wait for each other.

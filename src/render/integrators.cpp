@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "render/integrators.h"
 
+#include <algorithm>
+
 namespace obscura {
 
 namespace {
@@ -37,6 +39,10 @@ int samples_taken(const RenderOptions& options) {
             break;
     }
     return 1;
+}
+
+float footprint_fraction(int samples) {
+    return 1.0f / static_cast<float>(std::min(samples, min_samples_of_finest_footprint));
 }
 
 }  // namespace obscura

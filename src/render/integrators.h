@@ -76,4 +76,13 @@ std::vector<std::string> film_channels(Integrator integrator);
 /// Samples per pixel: some integrators ignore samples_per_pixel.
 int samples_taken(const RenderOptions& options);
 
+/// Fraction of a pixel's footprint that one sample's texture look-up covers: 1 / samples, with a
+/// minimum so that look-ups still hit the caches. Nothing else in a sample depends on how many
+/// follow it.
+/// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 10.1.1
+float footprint_fraction(int samples);
+
+/// From so many samples on, footprint_fraction is the same.
+inline constexpr int min_samples_of_finest_footprint = 64;
+
 }  // namespace obscura

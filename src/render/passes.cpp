@@ -36,7 +36,7 @@ PassState begin_passes(const Film& film) {
 
 /// The film's index of each pixel of a tile.
 std::vector<size_t> film_indices(const Tile& tile, ThreadState& state, const Film& film) {
-    const TilePattern& pattern = pattern_of(tile, state);
+    const TilePattern& pattern = pattern_of(tile, state.pattern);
     std::vector<size_t> at;
     for (size_t i = 0; i < pattern.all.size(); ++i)
         at.push_back(pixel_index(film, tile.x + pattern.dx[i], tile.y + pattern.dy[i]));
@@ -71,7 +71,7 @@ void sample_tile(const FilmWork& work,
         first = last;
     }
     if (work.tile_work.stop.load(std::memory_order_relaxed)) return;
-    store_beauty(sums, state, work.film);
+    store_beauty(sums, state.pattern, work.film);
     for (size_t i = 0; i < at.size(); ++i)
         passes.samples[at[i]] = sums.samples[i];
 }
@@ -163,7 +163,7 @@ SamplesTaken render_passes(const FilmWork& work) {
         if (work.tile_work.stop) return taken;
     } while (choose_pixels(work, passes, taken));
     parallel_for(film.tiles.size(), [&](size_t i) {
-        store_layers(work.tile_work.layers, film.sums[i], thread_state(work), work.film);
+        store_layers(work.tile_work.layers, film.sums[i], thread_state(work).pattern, work.film);
     });
     count_samples(passes, taken);
     // Only now it is known that no pass follows.

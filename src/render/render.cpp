@@ -7,11 +7,12 @@
 #include "film/cryptomatte_names.h"
 #include "film/light_path_plan.h"
 #include "render/camera_media.h"
+#include "render/counts.h"
 #include "render/filter_table.h"
 #include "render/frame_view.h"
 #include "render/integrators.h"
 #include "render/light_classes.h"
-#include "render/passes.h"
+#include "render/pass_sums.h"
 #include "render/prepared_scene.h"
 #include "render/raycast_lights.h"
 #include "stages/wavefront.h"
@@ -24,14 +25,6 @@
 namespace obscura {
 
 namespace {
-
-/// Fraction of a pixel's footprint that one sample's texture look-up covers: 1 / samples, with a
-/// minimum so that look-ups still hit the caches.
-/// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 10.1.1
-float footprint_fraction(int samples) {
-    constexpr float least = 1.0f / 64;
-    return std::max(least, 1.0f / static_cast<float>(samples));
-}
 
 bool any_catcher(const VisibilityFlags& visibility) {
     const auto is_one = [](uint8_t flags) { return (flags & visibility_catcher) != 0; };
@@ -118,28 +111,6 @@ int tile_side(const RenderOptions& options) {
     static_assert(side_for_aovs * side_for_aovs == aov_batch_size);
     return is_aov(options.integrator) ? std::max(options.tile_size, side_for_aovs)
                                       : options.tile_size;
-}
-
-/// Adds a thread's counters without its times.
-void add_counts(const WavefrontCounters& from, RenderCounters& to) {
-    to.paths += from.paths;
-    to.camera_rays += from.camera_rays;
-    to.bounce_rays += from.bounce_rays;
-    to.shadow_rays += from.shadow_rays;
-    to.refused_rays += from.refused_rays;
-    to.nonfinite_samples += from.nonfinite_samples;
-}
-
-/// What a thread has counted since `before`.
-RenderCounters counted_since(const RenderCounters& before, const WavefrontCounters& now) {
-    RenderCounters out;
-    out.paths = now.paths - before.paths;
-    out.camera_rays = now.camera_rays - before.camera_rays;
-    out.bounce_rays = now.bounce_rays - before.bounce_rays;
-    out.shadow_rays = now.shadow_rays - before.shadow_rays;
-    out.refused_rays = now.refused_rays - before.refused_rays;
-    out.nonfinite_samples = now.nonfinite_samples - before.nonfinite_samples;
-    return out;
 }
 
 RenderCounters sum_counters(const std::vector<std::unique_ptr<ThreadState>>& states) {
@@ -281,14 +252,14 @@ Film make_film(const RenderOptions& options) {
 }
 
 /// The tiles of the rows that are rendered.
-std::vector<Tile> tiles_of(const RenderOptions& options) {
+std::vector<Tile> tiles_of(const RenderOptions& options, int side) {
     const PixelRect whole = options.crop.value_or(PixelRect{0, 0, options.width, options.height});
-    if (options.share == nullptr) return cut_tiles(whole, tile_side(options));
+    if (options.share == nullptr) return cut_tiles(whole, side);
     std::vector<Tile> out;
     if (!options.share->part) return out;
     for (const RowRange& rows : rows_of_part(whole.height, *options.share->part)) {
         const PixelRect band{whole.x, whole.y + rows.first, whole.width, rows.count};
-        const std::vector<Tile> tiles = cut_tiles(band, tile_side(options));
+        const std::vector<Tile> tiles = cut_tiles(band, side);
         out.insert(out.end(), tiles.begin(), tiles.end());
     }
     return out;
@@ -324,7 +295,7 @@ void leave_out_filled(const std::vector<FilmArea>& filled,
 void render_tiles(const FilmWork& work, const std::vector<FilmArea>& filled) {
     const RenderOptions& options = work.options;
     const TileWork& tile_work = work.tile_work;
-    std::vector<Tile> tiles = tiles_of(options);
+    std::vector<Tile> tiles = tiles_of(options, tile_side(options));
     const size_t all = tiles.size();
     leave_out_filled(filled, work.film, tiles);
     const bool aov = is_aov(options.integrator);
@@ -340,10 +311,11 @@ void render_tiles(const FilmWork& work, const std::vector<FilmArea>& filled) {
             render_aov_tile(tile_work, tile, state, work.film);
         } else {
             begin_tile(tile_work, tile, state.sums);
-            sample_pixels(tile_work, pattern_of(tile, state).all, samples, state, state.sums);
+            sample_pixels(
+                tile_work, pattern_of(tile, state.pattern).all, samples, state, state.sums);
             if (tile_work.stop.load(std::memory_order_relaxed)) return;
-            store_beauty(state.sums, state, work.film);
-            store_layers(tile_work.layers, state.sums, state, work.film);
+            store_beauty(state.sums, state.pattern, work.film);
+            store_layers(tile_work.layers, state.sums, state.pattern, work.film);
         }
         const size_t done = ++finished;
         if (!work.progress || tile_work.stop.load(std::memory_order_relaxed)) return;
@@ -352,6 +324,35 @@ void render_tiles(const FilmWork& work, const std::vector<FilmArea>& filled) {
                        &work.film,
                        counted_since(before, state.counters)});
     });
+}
+
+/// Renders in passes over the whole film.
+Result<void> render_in_passes(const FilmWork& work) {
+    const RenderOptions& options = work.options;
+    const auto sums =
+        std::make_shared<PassSums>(tiles_of(options, pass_tile_side), samples_taken(options));
+    const Result<void> begun = options.share->begin_passes({sums, work.tile_work, work.film});
+    if (!begun) return begun;
+    sums->sample(work);
+    sums->store(work.tile_work.layers, work.film);
+    return {};
+}
+
+/// Renders the film in the way that is asked for.
+Result<void> render_film(const FilmWork& work, RenderResult& result) {
+    const RenderOptions& options = work.options;
+    const FilmShare* const share = options.share;
+    if (options.adaptive) {
+        result.adaptive = render_passes(work);
+        return {};
+    }
+    const bool takes_passes = share != nullptr && share->begin_passes;
+    if (takes_passes && !is_aov(options.integrator)) return render_in_passes(work);
+    Result<std::vector<FilmArea>> filled;
+    if (share != nullptr && share->fill) filled = share->fill(result.film);
+    if (!filled) return fail(filled.error());
+    render_tiles(work, *filled);
+    return {};
 }
 
 /// Calls FilmShare::leave at the end of a rendering, also where an exception ends it.
@@ -384,9 +385,6 @@ Result<RenderResult> render(const PreparedScene& scene,
     const Result<LayerPlans> plans = plan_layers(scene.impl(), options, result.film);
     if (!plans) return fail(plans.error());
     const FilmShare* const share = options.share;
-    Result<std::vector<FilmArea>> filled;
-    if (share != nullptr && share->fill) filled = share->fill(result.film);
-    if (!filled) return fail(filled.error());
     const LayerPlan& layers = plans->layers;
     const LightPathTable light_paths = plans->light ? plans->light->table() : LightPathTable{};
 
@@ -405,11 +403,7 @@ Result<RenderResult> render(const PreparedScene& scene,
     const FilmWork film_work{tile_work, options, progress, states, result.film};
     {
         const FilmLeaving leaving(share, result.film);
-        if (options.adaptive) {
-            result.adaptive = render_passes(film_work);
-        } else {
-            render_tiles(film_work, *filled);
-        }
+        if (auto done = render_film(film_work, result); !done) return fail(done.error());
     }
     result.is_stopped = stop.load() && share != nullptr && share->keeps_unfinished;
     if (stop.load() && !result.is_stopped) {

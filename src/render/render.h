@@ -25,6 +25,7 @@
 
 namespace obscura {
 
+struct PassFilm;
 struct RaycastNotes;
 
 /// To add one: append it here, in include/obscura/view.h, and in render/integrators.h with a name,
@@ -83,6 +84,9 @@ struct FilmShare {
     std::optional<FilmPart> part;  ///< none: no row is rendered
     /// Called before rendering; returns areas whose pixels it has filled: they are not rendered.
     std::function<Result<std::vector<FilmArea>>(Film&)> fill = {};
+    /// In its place where samples are taken: then they are taken in passes over the film, which
+    /// others may look at between them; see render/pass_sums.h.
+    std::function<Result<void>(const PassFilm&)> begin_passes = {};
     /// Called once after rendering, however it ended, before the film goes elsewhere.
     std::function<void(const Film&)> leave = {};
     /// When rendering is stopped, the film so far is a result, too; see RenderResult::is_stopped.
@@ -233,7 +237,7 @@ using ProgressFunction = std::function<void(const FinishedTile&)>;
 ///
 /// In      stop: when it becomes true, tiles end after their current batch
 /// Errors  75 E-STOPPED when `stop` was set; 33 E-MEM; 70 E-EMBREE (heat builds a hierarchy);
-///         those of FilmShare::fill
+///         those of FilmShare::fill and FilmShare::begin_passes
 Result<RenderResult> render(const PreparedScene& scene,
                             const Camera& camera,
                             const RenderOptions& options,

@@ -30,7 +30,7 @@ void fill_pattern(int width, int height, TilePattern& pattern) {
 
 /// Lists the places of some pixels, padded by 16 because stages read whole registers.
 void list_pixels(const Tile& tile, std::span<const uint32_t> pixels, ThreadState& state) {
-    const TilePattern& pattern = pattern_of(tile, state);
+    const TilePattern& pattern = pattern_of(tile, state.pattern);
     state.xs.resize(pixels.size() + 16);
     state.ys.resize(pixels.size() + 16);
     for (size_t i = 0; i < pixels.size(); ++i) {
@@ -107,11 +107,10 @@ std::vector<Tile> cut_tiles(const PixelRect& area, int size) {
     return tiles;
 }
 
-const TilePattern& pattern_of(const Tile& tile, ThreadState& state) {
-    TilePattern& pattern = state.pattern;
-    if (pattern.width != tile.width || pattern.height != tile.height)
-        fill_pattern(tile.width, tile.height, pattern);
-    return pattern;
+const TilePattern& pattern_of(const Tile& tile, TilePattern& latest) {
+    if (latest.width != tile.width || latest.height != tile.height)
+        fill_pattern(tile.width, tile.height, latest);
+    return latest;
 }
 
 void begin_tile(const TileWork& work, const Tile& tile, TileSums& sums) {
@@ -141,7 +140,7 @@ void sample_pixels(const TileWork& work,
 }
 
 void render_aov_tile(const TileWork& work, const Tile& tile, ThreadState& state, Film& film) {
-    const TilePattern& pattern = pattern_of(tile, state);
+    const TilePattern& pattern = pattern_of(tile, state.pattern);
     list_pixels(tile, pattern.all, state);
     const auto pixels = static_cast<int>(pattern.all.size());
     WavefrontInput in = work.wavefront;
@@ -157,8 +156,8 @@ void render_aov_tile(const TileWork& work, const Tile& tile, ThreadState& state,
     }
 }
 
-void store_beauty(const TileSums& sums, ThreadState& state, Film& film) {
-    const TilePattern& pattern = pattern_of(sums.tile, state);
+void store_beauty(const TileSums& sums, TilePattern& latest, Film& film) {
+    const TilePattern& pattern = pattern_of(sums.tile, latest);
     const size_t channels = film.channels.size();
     for (size_t i = 0; i < sums.beauty.size(); ++i) {
         float* const out =
@@ -176,9 +175,9 @@ void store_beauty(const TileSums& sums, ThreadState& state, Film& film) {
     }
 }
 
-void store_layers(const LayerPlan& plan, const TileSums& sums, ThreadState& state, Film& film) {
+void store_layers(const LayerPlan& plan, const TileSums& sums, TilePattern& latest, Film& film) {
     if (plan.empty()) return;
-    const TilePattern& pattern = pattern_of(sums.tile, state);
+    const TilePattern& pattern = pattern_of(sums.tile, latest);
     std::vector<size_t> at;
     for (size_t i = 0; i < sums.samples.size(); ++i) {
         at.push_back(pixel_index(film, sums.tile.x + pattern.dx[i], sums.tile.y + pattern.dy[i]));

@@ -19,6 +19,7 @@ namespace obscura {
 /// One tile of the film.
 struct Tile {
     int x = 0, y = 0, width = 0, height = 0;
+    bool operator==(const Tile&) const = default;
 };
 
 std::vector<Tile> cut_tiles(const PixelRect& area, int size);
@@ -60,8 +61,10 @@ struct TileWork {
     const std::atomic<bool>& stop;  ///< when it becomes true, tiles end after their current batch
 };
 
-/// The pattern of a tile; valid until the next call.
-const TilePattern& pattern_of(const Tile& tile, ThreadState& state);
+/// The pattern of a tile.
+///
+/// In/Out  latest: of the latest call; made anew where that was for another size
+const TilePattern& pattern_of(const Tile& tile, TilePattern& latest);
 
 /// Clears the sums for a tile.
 void begin_tile(const TileWork& work, const Tile& tile, TileSums& sums);
@@ -79,7 +82,9 @@ void sample_pixels(const TileWork& work,
 void render_aov_tile(const TileWork& work, const Tile& tile, ThreadState& state, Film& film);
 
 /// Write the means of a tile's samples into the film: the beauty; the layers beside it.
-void store_beauty(const TileSums& sums, ThreadState& state, Film& film);
-void store_layers(const LayerPlan& plan, const TileSums& sums, ThreadState& state, Film& film);
+///
+/// In/Out  latest: of pattern_of
+void store_beauty(const TileSums& sums, TilePattern& latest, Film& film);
+void store_layers(const LayerPlan& plan, const TileSums& sums, TilePattern& latest, Film& film);
 
 }  // namespace obscura

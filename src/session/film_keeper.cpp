@@ -3,8 +3,11 @@
 #include "session/film_keeper.h"
 
 #include "base/atomic_file.h"
+#include "render/counts.h"
+#include "render/integrators.h"
 #include "session/image_parts.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <system_error>
 
@@ -33,6 +36,25 @@ bool is_there(const fs::path& file) {
     return fs::exists(file, error);
 }
 
+/// What differs between a checkpoint and the rendering that may go on from it; "": nothing.
+std::string differences_from(FilmStateHead kept, FilmStateHead wanted) {
+    const bool in_passes = kept.target_samples > 0 && wanted.target_samples > 0;
+    const bool go_on = kept.target_samples == wanted.target_samples ||
+                       (kept.target_samples >= min_samples_of_finest_footprint &&
+                        wanted.target_samples > kept.target_samples);
+    if (in_passes && go_on) {
+        for (NamedTexts* const options : {&kept.options, &wanted.options}) {
+            const auto is_spp = [](const auto& option) { return option.first == "--spp"; };
+            options->erase(std::remove_if(options->begin(), options->end(), is_spp),
+                           options->end());
+        }
+    }
+    std::string differs = differences(kept, wanted);
+    if (differs.empty() && !is_same_part(kept.part, wanted.part))
+        differs = "--part: " + text_of(kept.part) + " and " + text_of(wanted.part);
+    return differs;
+}
+
 }  // namespace
 
 FilmKeeper::FilmKeeper(FilmStateHead head, std::optional<fs::path> file)
@@ -52,9 +74,7 @@ Result<void> FilmKeeper::find(Resume resume, Log& log) {
             log.warn(file.string(), "not used to go on from: " + head.error().message);
             continue;
         }
-        std::string differs = differences(*head, head_);
-        if (differs.empty() && !is_same_part(head->part, head_.part))
-            differs = "--part: " + text_of(head->part) + " and " + text_of(head_.part);
+        const std::string differs = differences_from(*head, head_);
         if (differs.empty()) {
             found_ = file;
             is_newest_whole_ = file == *file_;
@@ -87,12 +107,37 @@ Result<std::vector<FilmArea>> FilmKeeper::fill(Film& film) {
     const std::lock_guard lock(mutex_);
     head_.areas = head->areas;
     head_.counters = head->counters;
-    saved_areas_ = head_.areas.size();
+    saved_ = amount_of(head_);
     is_kept_ = true;
     return std::move(head->areas);
 }
 
+Result<void> FilmKeeper::begin_passes(const PassFilm& film) {
+    const std::scoped_lock lock(using_film_, mutex_);
+    head_.width = film.film.width;
+    head_.height = film.film.height;
+    sums_ = film.sums;
+    film_ = &film.film;
+    passes_.emplace(film);
+    if (!found_) return {};
+    bool fits = true;
+    const Result<FilmStateHead> head = read_film_sums(
+        *found_, film.film, [&](StateReader& in) { fits = film.sums->take(film.work, in); });
+    if (!head) return fail(head.error());
+    if (!fits) {
+        return fail(ExitCode::io_error,
+                    "E-PART-DAMAGED",
+                    found_->string(),
+                    "its tiles are not those of this picture; --resume never starts anew");
+    }
+    resumed_ = film.sums->counters();
+    saved_ = amount_of(head_);
+    is_kept_ = true;
+    return {};
+}
+
 void FilmKeeper::add(const FinishedTile& tile) {
+    if (sums_ != nullptr) return;
     const ImagePart origin = tile.film->part_of.value_or(ImagePart{});
     const std::array<uint64_t, 6> counters = counters_in_file(tile.counters);
     const std::lock_guard lock(mutex_);
@@ -105,6 +150,7 @@ void FilmKeeper::add(const FinishedTile& tile) {
 void FilmKeeper::leave() {
     const std::lock_guard lock(using_film_);
     film_ = nullptr;
+    passes_.reset();
 }
 
 Result<void> FilmKeeper::save_meanwhile() {
@@ -116,21 +162,27 @@ Result<void> FilmKeeper::save_meanwhile() {
 Result<void> FilmKeeper::save(const Film& film) {
     if (!file_) return {};
     const FilmStateHead head = head_so_far();
+    const int64_t amount = amount_of(head);
     {
         const std::lock_guard lock(mutex_);
-        if (head.areas.size() == saved_areas_) return {};
+        if (amount == saved_) return {};
     }
     // The older of two generations goes. While the new one is written, the one before it is there
     // under its other name. A damaged one never takes the place of a whole one.
     std::error_code ignored;
     if (is_newest_whole_) fs::rename(*file_, previous(*file_), ignored);
     is_newest_whole_ = false;
-    if (auto written = write_film_state(*file_, head, film); !written) return written;
+    if (auto written = write(head, film); !written) return written;
     is_newest_whole_ = true;
     const std::lock_guard lock(mutex_);
-    saved_areas_ = head.areas.size();
+    saved_ = amount;
     is_kept_ = true;
     return {};
+}
+
+Result<void> FilmKeeper::write(const FilmStateHead& head, const Film& film) const {
+    if (sums_ == nullptr) return write_film_state(*file_, head, film);
+    return write_film_sums(*file_, head, film, [&](StateWriter& out) { sums_->put(out); });
 }
 
 void FilmKeeper::remove() const {
@@ -143,14 +195,16 @@ void FilmKeeper::remove() const {
 std::optional<Film> FilmKeeper::film_so_far() const {
     const std::lock_guard lock(using_film_);
     if (film_ == nullptr) return {};
-    return finished_of(*film_);
+    if (passes_) return sums_->film(passes_->work.layers, *film_);
+    return copy_areas(*film_, head_so_far().areas);
 }
 
-Film FilmKeeper::finished_of(const Film& film) const {
-    return copy_areas(film, head_so_far().areas);
+Film FilmKeeper::finished_of(Film&& film) const {
+    return sums_ != nullptr ? std::move(film) : copy_areas(film, head_so_far().areas);
 }
 
 double FilmKeeper::fraction() const {
+    if (sums_ != nullptr) return sums_->fraction();
     const FilmStateHead head = head_so_far();
     const int64_t all = pixels_in(areas_of_part(head.width, head.height, head.part));
     if (all == 0) return 0;
@@ -160,6 +214,11 @@ double FilmKeeper::fraction() const {
 std::string FilmKeeper::file_if_kept() const {
     const std::lock_guard lock(mutex_);
     return is_kept_ ? file_->string() : "";
+}
+
+/// How much of the film there is: it only grows.
+int64_t FilmKeeper::amount_of(const FilmStateHead& head) const {
+    return sums_ != nullptr ? sums_->samples() : static_cast<int64_t>(head.areas.size());
 }
 
 FilmStateHead FilmKeeper::head_so_far() const {

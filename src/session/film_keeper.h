@@ -4,7 +4,7 @@
 
 #include "base/log.h"
 #include "film/film_state.h"
-#include "render/render.h"
+#include "render/pass_sums.h"
 
 #include <filesystem>
 #include <mutex>
@@ -17,16 +17,17 @@ namespace obscura {
 /// Whether a rendering goes on from a checkpoint that is there.
 enum class Resume { automatic, require, never };
 
-/// Follows the rendering of one film. Its checkpoint is a film state: the tiles that are finished,
-/// with what their pixels depend on. There are two generations, `file` and `file`.1, so that one is
-/// whole whatever happens.
+/// Follows the rendering of one film. Its checkpoint is a film state, with what its pixels depend
+/// on: the sums of all pixels where the film is rendered in passes, else the tiles that are
+/// finished. There are two generations, `file` and `file`.1, so that one is whole whatever happens.
 class FilmKeeper {
 public:
-    /// In      head: part, options and facts
+    /// In      head: part, options, facts; target_samples where the film is rendered in passes
     ///         file: none: nothing is written
     FilmKeeper(FilmStateHead head, std::optional<std::filesystem::path> file);
 
     /// Looks for a checkpoint to go on from; with `never` removes it. Damaged ones cause a warning.
+    /// One of fewer samples fits, too, where their number changes no sample.
     ///
     /// Errors  78 E-RESUME-MIX it is of another rendering, with what differs;
     ///         74 E-RESUME-NONE it is required, and there is none that is whole
@@ -34,8 +35,9 @@ public:
 
     /// For FilmShare and ProgressFunction. `add` may be called from any thread.
     ///
-    /// Errors  of fill: those of read_film_state
+    /// Errors  of fill and begin_passes: those of read_film_state
     Result<std::vector<FilmArea>> fill(Film& film);
+    Result<void> begin_passes(const PassFilm& film);
     void add(const FinishedTile& tile);
     void leave();
 
@@ -49,13 +51,15 @@ public:
     /// Removes the checkpoint and the one before it.
     void remove() const;
 
-    /// What is finished of the film that is being rendered, 0 elsewhere; none: it has left.
+    /// What there is of the film that is being rendered, 0 elsewhere; none: it has left.
     std::optional<Film> film_so_far() const;
     /// The same of a film that has left.
-    Film finished_of(const Film& film) const;
+    Film finished_of(Film&& film) const;
 
-    /// The fraction of the part's pixels that are finished.
+    /// The fraction of the part's pixels that are finished; in passes, of its samples.
     double fraction() const;
+    /// The sums of a film that is rendered in passes; null: it is not.
+    const PassSums* sums() const { return sums_.get(); }
     /// Counters of the tiles that came from the checkpoint.
     const RenderCounters& resumed_counters() const { return resumed_; }
     /// The checkpoint's file where one was written or read; "": none was.
@@ -63,6 +67,8 @@ public:
 
 private:
     FilmStateHead head_so_far() const;
+    int64_t amount_of(const FilmStateHead& head) const;
+    Result<void> write(const FilmStateHead& head, const Film& film) const;
 
     const std::optional<std::filesystem::path> file_;
     std::optional<std::filesystem::path> found_;  ///< the generation to go on from
@@ -70,9 +76,11 @@ private:
     RenderCounters resumed_;
     mutable std::mutex using_film_;  ///< held while film_ is read; locked before mutex_
     const Film* film_ = nullptr;
-    mutable std::mutex mutex_;  ///< of what follows
-    FilmStateHead head_;        ///< with areas and counters so far
-    size_t saved_areas_ = 0;    ///< that the latest checkpoint holds
+    std::optional<PassFilm> passes_;  ///< while film_ is there
+    std::shared_ptr<PassSums> sums_;  ///< from begin_passes on
+    mutable std::mutex mutex_;        ///< of what follows
+    FilmStateHead head_;              ///< with areas and counters so far
+    int64_t saved_ = 0;               ///< areas or samples that the latest checkpoint holds
     bool is_kept_ = false;
 };
 

@@ -4,6 +4,7 @@
 
 #include "base/checksum.h"
 #include "gltf/asset_files.h"
+#include "render/counts.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -162,26 +163,6 @@ NamedTexts facts_of(const RenderRequest& request,
         add_file("the OpenColorIO config", ocio, facts);
     }
     return facts;
-}
-
-std::array<uint64_t, 6> counters_in_file(const RenderCounters& counters) {
-    return {counters.paths,
-            counters.camera_rays,
-            counters.bounce_rays,
-            counters.shadow_rays,
-            counters.refused_rays,
-            counters.nonfinite_samples};
-}
-
-RenderCounters counters_from_file(const std::array<uint64_t, 6>& counters) {
-    RenderCounters out;
-    out.paths = counters[0];
-    out.camera_rays = counters[1];
-    out.bounce_rays = counters[2];
-    out.shadow_rays = counters[3];
-    out.refused_rays = counters[4];
-    out.nonfinite_samples = counters[5];
-    return out;
 }
 
 Result<ImageParts> ImageParts::open(const std::vector<fs::path>& files) {

@@ -37,10 +37,6 @@ NamedTexts facts_of(const RenderRequest& request,
 /// renderings: "--spp: 16 and 64; --seed: nothing and 7"; "": nothing.
 std::string differences(const FilmStateHead& one, const FilmStateHead& two);
 
-/// Counters of a film state's head, and back.
-std::array<uint64_t, 6> counters_in_file(const RenderCounters& counters);
-RenderCounters counters_from_file(const std::array<uint64_t, 6>& counters);
-
 /// The parts of one picture, in any order.
 class ImageParts {
 public:

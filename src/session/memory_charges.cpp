@@ -3,6 +3,7 @@
 #include "session/memory_charges.h"
 
 #include "base/parallel.h"
+#include "film/layer_sums.h"
 #include "film/light_groups.h"
 #include "film/light_path_plan.h"
 #include "image/environment_memory.h"
@@ -10,6 +11,7 @@
 #include "scene/scene_memory.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace obscura {
 
@@ -27,17 +29,23 @@ Result<void> recharge(MemoryCharge& charge,
     return {};
 }
 
-/// Numbers a pixel that the layers hold, those of light groups too.
-Result<uint64_t> layer_channels(const Scene& scene, const RenderOptions& options) {
-    uint64_t channels = 0;
-    for (const Layer& layer : options.layers)
-        channels += layer.channels.size();
-    if (!options.light_groups.each) return channels;
+/// The layers of an image, those of light groups too.
+Result<std::vector<Layer>> all_layers(const Scene& scene, const RenderOptions& options) {
+    std::vector<Layer> layers = options.layers;
+    if (!options.light_groups.each) return layers;
     const Result<LightGroups> groups = make_light_groups(scene, options.light_groups);
     if (!groups) return fail(groups.error());
-    for (const Layer& layer : light_group_layers(groups->names, options.light_groups.components))
-        channels += layer.channels.size();
-    return channels;
+    for (Layer& layer : light_group_layers(groups->names, options.light_groups.components))
+        layers.push_back(std::move(layer));
+    return layers;
+}
+
+/// Bytes a pixel that are kept between passes; as if there were shadow catchers.
+uint64_t pass_bytes(const std::vector<Layer>& layers) {
+    uint64_t bytes = sizeof(PixelSum) + sizeof(CatcherSum) + sizeof(int);
+    for (const Layer& layer : layers)
+        bytes += sum_bytes(layer, true);
+    return bytes;
 }
 
 bool is_display_format(const std::filesystem::path& file) {
@@ -75,13 +83,17 @@ Result<void> charge_film(const Scene& scene,
                          const RenderRequest& request,
                          const RenderOptions& options,
                          MemoryCharges& charges) {
-    const Result<uint64_t> layers = layer_channels(scene, options);
+    const Result<std::vector<Layer>> layers = all_layers(scene, options);
     if (!layers) return fail(layers.error());
+    uint64_t layer_channels = 0;
+    for (const Layer& layer : *layers)
+        layer_channels += layer.channels.size();
     const uint64_t beauty = film_channels(options.integrator).size();
-    const uint64_t film_bytes = (beauty + *layers) * sizeof(float);
+    const uint64_t film_bytes = (beauty + layer_channels) * sizeof(float);
     uint64_t bytes_per_pixel = film_bytes + finishing_bytes(request, film_bytes);
     // Between adaptive passes: the pixels before the latest ones, two counts, a deviation, a mark.
     if (options.adaptive) bytes_per_pixel += beauty * sizeof(float) + 13;
+    if (takes_passes(request)) bytes_per_pixel += pass_bytes(*layers);
     const auto width = static_cast<uint64_t>(options.crop ? options.crop->width : options.width);
     const auto height = static_cast<uint64_t>(options.crop ? options.crop->height : options.height);
     constexpr uint64_t bytes_per_thread = 8U << 20;  // its batch of paths and its tile's sums

@@ -13,6 +13,15 @@
 
 namespace obscura {
 
+bool is_long_run(const LongRun& run) {
+    return run.has_checkpoint || run.time_limit_s || run.snapshot_interval_s;
+}
+
+bool takes_passes(const RenderRequest& request) {
+    return is_long_run(request.long_run) && !request.options.adaptive &&
+           !is_aov(request.options.integrator);
+}
+
 std::vector<MovieFrame> frames_of(const RenderRequest& request) {
     if (!request.frames) {
         return {{{}, request.load.time_s.value_or(0), request.outputs, request.segmentation}};

@@ -39,6 +39,7 @@ struct LongRun {
     bool has_checkpoint = false;
     std::filesystem::path checkpoint;  ///< empty: beside the output; see checkpoint_file
     double checkpoint_interval_s = 300;
+    bool keep_checkpoint = false;  ///< when the image is written
     Resume resume = Resume::automatic;
     std::optional<double> time_limit_s, snapshot_interval_s;
     bool skips_existing = false;  ///< --skip-existing: what is there already is left as it is
@@ -88,6 +89,12 @@ struct RenderRequest {
     LongRun long_run;
     bool check = false;  ///< --check: nothing is built, rendered or written
 };
+
+/// Whether something looks at the image before it is finished, or keeps what there is of it.
+bool is_long_run(const LongRun& run);
+
+/// Whether the image is rendered in passes, whose sums are kept; see render/pass_sums.h.
+bool takes_passes(const RenderRequest& request);
 
 /// The images of a request: one, or one for each frame.
 std::vector<MovieFrame> frames_of(const RenderRequest& request);

@@ -1,4 +1,4 @@
-// tests/film/film_state_test.cpp - parts of a film in files: shares, round trip, damage.
+// tests/film/film_state_test.cpp - films in files: shares, round trip, sums, damage.
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film_state.h"
 
@@ -147,6 +147,32 @@ TEST_F(FilmState, PartsAreWholeWithAllTheirAreas) {
     head.areas.pop_back();
     EXPECT_FALSE(is_whole(head));
     EXPECT_EQ(areas_of_part(3, 64, {0, 1}), (std::vector<FilmArea>{{0, 0, 3, 64}}));
+}
+
+TEST_F(FilmState, HoldsSums) {
+    FilmStateHead head;
+    head.target_samples = 64;
+    const std::vector<double> sums = {1, 2.5, 3};
+    const auto put = [&](StateWriter& out) { out.put_array(sums); };
+    ASSERT_TRUE(write_film_sums(folder_ / "sums", head, numbered_film(1), put));
+    std::vector<double> read(3);
+    std::vector<double> all;
+    const auto take = [&](StateReader& in) { in.take_array(read); };
+    const auto got = read_film_sums(folder_ / "sums", numbered_film(0), take);
+    ASSERT_TRUE(got);
+    EXPECT_EQ(got->target_samples, 64);
+    EXPECT_EQ(got->width, 3);
+    EXPECT_EQ(read, sums);
+    EXPECT_FALSE(is_whole(*got)) << "no part of a picture to be merged";
+    const auto take_new = [&](StateReader& in) { in.take_new_array(all); };
+    EXPECT_TRUE(read_film_sums(folder_ / "sums", numbered_film(0), take_new));
+    EXPECT_EQ(all, sums);
+    read.resize(2);
+    EXPECT_FALSE(read_film_sums(folder_ / "sums", numbered_film(0), take));
+    EXPECT_FALSE(read_film_sums(folder_ / "sums", numbered_film(0), [](StateReader&) {}));
+    Film other = numbered_film(0);
+    other.layers.clear();
+    EXPECT_FALSE(read_film_sums(folder_ / "sums", other, take_new));
 }
 
 TEST_F(FilmState, RefusesAnotherFilm) {

@@ -86,7 +86,7 @@ TEST_F(FilmKeeping, ADamagedCheckpointNeverTakesThePlaceOfAWholeOne) {
     ASSERT_TRUE(first.save(film));
     std::filesystem::rename(folder_ / "a.checkpoint", folder_ / "a.checkpoint.1");
     const std::string whole = read_text(folder_ / "a.checkpoint.1");
-    folder_.write("a.checkpoint", "OBSFILM2 and so on");
+    folder_.write("a.checkpoint", "OBSFILM3 and so on");
     FilmKeeper second = keeper();
     ASSERT_TRUE(second.find(Resume::automatic, log_));
     ASSERT_TRUE(second.fill(film));
@@ -114,6 +114,32 @@ TEST_F(FilmKeeping, RefusesWhatDoesNotFit) {
     EXPECT_TRUE(exists("a.checkpoint"));
     EXPECT_TRUE(keeper("2").find(Resume::never, log_));
     EXPECT_FALSE(exists("a.checkpoint"));
+}
+
+TEST_F(FilmKeeping, MoreSamplesGoOnWhereTheFirstOnesAreTheSame) {
+    const auto keeper_of = [&](int samples, const std::string& seed = "1") {
+        FilmStateHead head = head_of(seed);
+        head.options.emplace_back("--spp", std::to_string(samples));
+        head.target_samples = samples;
+        return FilmKeeper(head, folder_ / "a.checkpoint");
+    };
+    const auto leave = [&](int samples) {
+        FilmStateHead head = head_of("1");
+        head.options.emplace_back("--spp", std::to_string(samples));
+        head.target_samples = samples;
+        const auto put = [](StateWriter& out) { out.put_number(1); };
+        ASSERT_TRUE(write_film_sums(folder_ / "a.checkpoint", head, small_film(), put));
+    };
+    leave(64);
+    EXPECT_TRUE(keeper_of(64).find(Resume::require, log_));
+    EXPECT_TRUE(keeper_of(1000).find(Resume::require, log_));
+    EXPECT_FALSE(keeper_of(1000, "2").find(Resume::require, log_));
+    EXPECT_FALSE(keeper_of(63).find(Resume::require, log_));
+    leave(32);
+    EXPECT_TRUE(keeper_of(32).find(Resume::require, log_));
+    const Result<void> few = keeper_of(64).find(Resume::require, log_);
+    ASSERT_FALSE(few);
+    EXPECT_NE(few.error().message.find("--spp: 32 and 64"), std::string::npos);
 }
 
 TEST_F(FilmKeeping, TellsAndShowsWhatIsFinished) {

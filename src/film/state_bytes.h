@@ -1,0 +1,96 @@
+// film/state_bytes.h - numbers, texts and arrays of a film's state as bytes of a file, and back.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/atomic_file.h"
+#include "base/checksum.h"
+#include "base/file_bytes.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace obscura {
+
+/// Names with texts, in the order of the command line; a name may come twice.
+using NamedTexts = std::vector<std::pair<std::string, std::string>>;
+
+static_assert(std::endian::native == std::endian::little);
+
+/// What may be stored as the bytes that it has in memory.
+template <typename T>
+concept PlainBytes = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
+
+/// Hands pieces to a file in large blocks, with their checksum behind them.
+class StateWriter {
+public:
+    explicit StateWriter(const ByteSink& sink) : sink_(sink) { block_.reserve(block_size); }
+
+    void put(const void* data, size_t size);
+    void put_number(uint64_t number) { put(&number, sizeof(number)); }
+    void put_texts(const NamedTexts& texts);
+    /// The number of elements, then their bytes.
+    template <PlainBytes T>
+    void put_array(const std::vector<T>& array) {
+        put_number(array.size());
+        put(array.data(), array.size() * sizeof(T));
+    }
+    /// Writes the checksum of all pieces.
+    ///
+    /// Errors  those of the sink, at any piece
+    Result<void> finish();
+
+private:
+    static constexpr size_t block_size = size_t{1} << 20;
+
+    void flush();
+
+    const ByteSink& sink_;
+    Bytes block_;
+    RunningChecksum sum_;
+    Result<void> done_ = {};
+};
+
+/// Reads what StateWriter put; past the end there are zeros, and `good` is false.
+class StateReader {
+public:
+    explicit StateReader(std::span<const std::byte> bytes) : rest_(bytes) {}
+
+    bool good() const { return good_; }
+    bool at_end() const { return rest_.empty(); }
+
+    void take(void* out, uint64_t size);
+    uint64_t number() {
+        uint64_t out = 0;
+        take(&out, sizeof(out));
+        return out;
+    }
+    int integer() { return static_cast<int>(number()); }
+    std::string text();
+    NamedTexts texts();
+    /// An array of as many elements as `out` has; another one is not good.
+    template <PlainBytes T>
+    void take_array(std::vector<T>& out) {
+        good_ = number() == out.size() && good_;
+        take(out.data(), out.size() * sizeof(T));
+    }
+    /// An array of any number of elements.
+    template <PlainBytes T>
+    void take_new_array(std::vector<T>& out) {
+        const uint64_t size = number();
+        good_ = good_ && size <= rest_.size() / sizeof(T);
+        out.resize(good_ ? size : 0);
+        take(out.data(), out.size() * sizeof(T));
+    }
+
+private:
+    std::span<const std::byte> rest_;
+    bool good_ = true;
+};
+
+}  // namespace obscura

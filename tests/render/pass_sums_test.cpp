@@ -1,0 +1,193 @@
+// tests/render/pass_sums_test.cpp - passes over a film: the bits of one pass, whole at any moment.
+// SPDX-License-Identifier: Apache-2.0
+#include "render/pass_sums.h"
+
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scene_builder.h"
+#include <functional>
+
+namespace obscura::test {
+namespace {
+
+/// A ball on a floor that catches shadows, below a lamp and a faint sky.
+PreparedScene ball() {
+    SceneBuilder builder;
+    Material lamp;
+    std::fill_n(lamp.emission, 3, 20.0f);
+    const int32_t grey = builder.material({});
+    builder.quad({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, grey);
+    builder.sphere({0, 0.7f, 0}, 0.7f, 12, grey);
+    builder.quad({-1.5f, 2.5f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, builder.material(lamp));
+    LightingOptions light;
+    light.environment = constant_environment(0.2f);
+    Log log(Verbosity::quiet);
+    return PreparedScene::create(builder.take(), light, Isa::automatic, log).value();
+}
+
+class PassesOfAFilm : public testing::Test {
+protected:
+    static RenderOptions options(int samples) {
+        RenderOptions out;
+        out.width = 71;
+        out.height = 45;
+        out.max_bounces = 3;
+        out.samples_per_pixel = samples;
+        out.catcher_ground_m = -0.5f;
+        out.light_groups.each = true;
+        out.layers = layers_of({"sample_count",
+                                "variance",
+                                "normal",
+                                "depth",
+                                "crypto_object",
+                                "diffuse_direct",
+                                "shadow",
+                                "cost"},
+                               2)
+                         .value();
+        return out;
+    }
+    RenderResult render_with(const RenderOptions& options, double stop_at = 2) const {
+        std::atomic<bool> stop = false;
+        const auto progress = [&](const FinishedTile& tile) {
+            if (tile.done > stop_at) stop = true;
+        };
+        const Camera camera = look_at({0, 1.5f, 5}, {0, 0.9f, 0}, 0.8f, 71, 45);
+        return render(scene_, camera, options, progress, stop).value();
+    }
+    /// Renders in passes, after `begin`; they stay in `sums_`.
+    RenderResult render_passes_of(RenderOptions options,
+                                  const std::function<void(const PassFilm&)>& begin,
+                                  double stop_at = 2) {
+        FilmShare share{FilmPart{}};
+        share.keeps_unfinished = true;
+        share.begin_passes = [&](const PassFilm& film) -> Result<void> {
+            sums_ = film.sums;
+            begin(film);
+            return {};
+        };
+        options.share = &share;
+        return render_with(options, stop_at);
+    }
+    std::string bytes() const {
+        std::string out;
+        const ByteSink sink = [&](std::span<const std::byte> piece) -> Result<void> {
+            out.append(reinterpret_cast<const char*>(piece.data()), piece.size());
+            return {};
+        };
+        StateWriter writer(sink);
+        sums_->put(writer);
+        EXPECT_TRUE(writer.finish());
+        return out;
+    }
+    static void expect_same(const Film& a, const Film& b) {
+        EXPECT_TRUE(std::equal(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), b.pixels.end()));
+        ASSERT_EQ(a.layers.size(), b.layers.size());
+        for (size_t k = 0; k < a.layers.size(); ++k) {
+            const UnsetArray<float>& one = a.layers[k].pixels;
+            const UnsetArray<float>& two = b.layers[k].pixels;
+            EXPECT_TRUE(std::equal(one.begin(), one.end(), two.begin(), two.end()))
+                << a.layers[k].layer.name;
+        }
+    }
+    static void nothing(const PassFilm& /*film*/) {}
+
+    const PreparedScene scene_ = ball();
+    std::shared_ptr<PassSums> sums_;
+};
+
+TEST(PassEnds, AreShortAtFirstAndEndWithAllSamples) {
+    EXPECT_EQ(pass_ends(1), (std::vector<int>{1}));
+    EXPECT_EQ(pass_ends(3), (std::vector<int>{1, 3}));
+    EXPECT_EQ(pass_ends(4), (std::vector<int>{1, 4}));
+    EXPECT_EQ(pass_ends(50), (std::vector<int>{1, 4, 16, 32, 48, 50}));
+    const std::vector<int> many = pass_ends(1'000'000);
+    EXPECT_LT(many.size(), 250u);
+    EXPECT_EQ(many.back(), 1'000'000);
+    for (size_t i = 3; i + 1 < many.size(); ++i) {
+        EXPECT_EQ(many[i] % 16, 0);
+        EXPECT_LE(many[i + 1] - many[i], std::max(16, many[i] / 16));
+    }
+    EXPECT_EQ(pass_ends(INT32_MAX).back(), INT32_MAX);
+}
+
+TEST_F(PassesOfAFilm, HaveTheBitsOfOnePass) {
+    for (const int samples : {1, 37, 100}) {
+        const RenderResult at_once = render_with(options(samples));
+        for (const int threads : {1, 4}) {
+            const ThreadLimit limit(threads);
+            const RenderResult passes = render_passes_of(options(samples), nothing);
+            expect_same(at_once.film, passes.film);
+            EXPECT_FALSE(passes.is_stopped);
+            EXPECT_EQ(at_once.counters.paths, passes.counters.paths);
+            EXPECT_EQ(sums_->counters().shadow_rays, at_once.counters.shadow_rays);
+            EXPECT_EQ(sums_->fraction(), 1);
+            EXPECT_EQ(sums_->min_samples(), samples);
+        }
+    }
+}
+
+TEST_F(PassesOfAFilm, AreThatOfFewerSamplesInBetween) {
+    const ThreadLimit one(1);  // so that the stop comes at the end of a pass
+    const RenderResult fewer = render_with(options(64));
+    const RenderResult stopped = render_passes_of(options(128), nothing, 63.9 / 128);
+    EXPECT_TRUE(stopped.is_stopped);
+    EXPECT_EQ(sums_->min_samples(), 64);
+    EXPECT_EQ(sums_->mean_samples(), 64);
+    EXPECT_EQ(sums_->fraction(), 0.5);
+    expect_same(fewer.film, stopped.film);
+}
+
+TEST_F(PassesOfAFilm, AreBlackWhereNothingIsYet) {
+    const ThreadLimit one(1);
+    const RenderResult stopped = render_passes_of(options(64), nothing, 0);
+    EXPECT_EQ(sums_->min_samples(), 0);
+    EXPECT_GT(stopped.film.pixels[3], 0);
+    const auto last = stopped.film.pixels.end() - 4;
+    EXPECT_EQ(std::count(last, last + 4, 0.0f), 4);
+}
+
+TEST_F(PassesOfAFilm, GoOnToTheSameBitsFromTheirBytes) {
+    for (const double stop_at : {0.0, 0.1, 0.7}) {
+        render_passes_of(options(70), nothing, stop_at);
+        const double done = sums_->fraction();
+        EXPECT_LT(done, 1);
+        const std::string kept = bytes();
+        // More samples than were asked for at first, too.
+        for (const int samples : {70, 90}) {
+            const auto take = [&](const PassFilm& film) {
+                StateReader reader(std::as_bytes(std::span(kept)));
+                EXPECT_TRUE(film.sums->take(film.work, reader));
+                EXPECT_EQ(film.sums->fraction() * samples, done * 70);
+            };
+            const RenderResult resumed = render_passes_of(options(samples), take);
+            expect_same(render_with(options(samples)).film, resumed.film);
+        }
+    }
+}
+
+TEST_F(PassesOfAFilm, DoNotTakeWhatIsNotTheirs) {
+    render_passes_of(options(16), nothing);
+    const std::string kept = bytes();
+    const auto take_from = [&](const std::string& text, const PassFilm& film) {
+        StateReader reader(std::as_bytes(std::span(text)));
+        return film.sums->take(film.work, reader);
+    };
+    render_passes_of(options(15), [&](const PassFilm& film) {
+        EXPECT_FALSE(take_from(kept, film)) << "more samples than are wanted";
+    });
+    RenderOptions larger = options(16);
+    larger.width = 72;
+    render_passes_of(larger, [&](const PassFilm& film) { EXPECT_FALSE(take_from(kept, film)); });
+    for (size_t size = 0; size < kept.size(); size += 100'003) {
+        render_passes_of(
+            options(16),
+            [&](const PassFilm& film) { EXPECT_FALSE(take_from(kept.substr(0, size), film)); },
+            0);
+    }
+}
+
+}  // namespace
+}  // namespace obscura::test
