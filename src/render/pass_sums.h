@@ -53,7 +53,7 @@ public:
     Film film(const LayerPlan& plan, const Film& like) const;
 
     /// All of it, to go on from. `take` is called before `sample`; it returns false when the tiles
-    /// are others, or have more samples than the target.
+    /// are others, or have more samples than the target, and then the object is of no more use.
     void put(StateWriter& out) const;
     bool take(const TileWork& work, StateReader& in);
 

@@ -275,7 +275,9 @@ TEST_F(Checkpoints, AtTheTimeLimitTheImageIsWholeAndMarked) {
         sum += static_cast<double>(image->pixels[i]);
         sum_of_whole += static_cast<double>(whole->pixels[i]);
         // Alpha, with noise at edges: no tile is missing.
-        if (i % 4 == 3) EXPECT_NEAR(image->pixels[i], whole->pixels[i], 0.5) << i;
+        if (i % 4 == 3) {
+            EXPECT_NEAR(image->pixels[i], whole->pixels[i], 0.5) << i;
+        }
     }
     EXPECT_NEAR(sum / sum_of_whole, 1, 0.01);
     expect_result(

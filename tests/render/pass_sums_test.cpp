@@ -30,6 +30,14 @@ PreparedScene ball() {
 class PassesOfAFilm : public testing::Test {
 protected:
     static RenderOptions options(int samples) {
+        const std::vector<std::string> names = {"sample_count",
+                                                "variance",
+                                                "normal",
+                                                "depth",
+                                                "crypto_object",
+                                                "diffuse_direct",
+                                                "shadow",
+                                                "cost"};
         RenderOptions out;
         out.width = 71;
         out.height = 45;
@@ -37,16 +45,7 @@ protected:
         out.samples_per_pixel = samples;
         out.catcher_ground_m = -0.5f;
         out.light_groups.each = true;
-        out.layers = layers_of({"sample_count",
-                                "variance",
-                                "normal",
-                                "depth",
-                                "crypto_object",
-                                "diffuse_direct",
-                                "shadow",
-                                "cost"},
-                               2)
-                         .value();
+        out.layers = layers_of(names, 2).value();
         return out;
     }
     RenderResult render_with(const RenderOptions& options, double stop_at = 2) const {
@@ -152,15 +151,15 @@ TEST_F(PassesOfAFilm, AreBlackWhereNothingIsYet) {
 TEST_F(PassesOfAFilm, GoOnToTheSameBitsFromTheirBytes) {
     for (const double stop_at : {0.0, 0.1, 0.7}) {
         render_passes_of(options(70), nothing, stop_at);
-        const double done = sums_->fraction();
-        EXPECT_LT(done, 1);
+        const int64_t done = sums_->samples();
+        EXPECT_LT(sums_->fraction(), 1);
         const std::string kept = bytes();
         // More samples than were asked for at first, too.
         for (const int samples : {70, 90}) {
             const auto take = [&](const PassFilm& film) {
                 StateReader reader(std::as_bytes(std::span(kept)));
                 EXPECT_TRUE(film.sums->take(film.work, reader));
-                EXPECT_EQ(film.sums->fraction() * samples, done * 70);
+                EXPECT_EQ(film.sums->samples(), done);
             };
             const RenderResult resumed = render_passes_of(options(samples), take);
             expect_same(render_with(options(samples)).film, resumed.film);
@@ -171,22 +170,26 @@ TEST_F(PassesOfAFilm, GoOnToTheSameBitsFromTheirBytes) {
 TEST_F(PassesOfAFilm, DoNotTakeWhatIsNotTheirs) {
     render_passes_of(options(16), nothing);
     const std::string kept = bytes();
-    const auto take_from = [&](const std::string& text, const PassFilm& film) {
-        StateReader reader(std::as_bytes(std::span(text)));
-        return film.sums->take(film.work, reader);
+    const auto is_refused = [&](RenderOptions asked, const std::string& text) {
+        FilmShare share{FilmPart{}};
+        share.begin_passes = [&](const PassFilm& film) -> Result<void> {
+            StateReader reader(std::as_bytes(std::span(text)));
+            if (film.sums->take(film.work, reader)) return {};
+            return fail(ExitCode::io_error, "E-TAKE", "", "");
+        };
+        asked.share = &share;
+        const std::atomic<bool> stop = true;
+        const Camera camera = look_at({0, 1.5f, 5}, {0, 0.9f, 0}, 0.8f, 71, 45);
+        const Result<RenderResult> got = render(scene_, camera, asked, {}, stop);
+        return got.error().id == "E-TAKE";
     };
-    render_passes_of(options(15), [&](const PassFilm& film) {
-        EXPECT_FALSE(take_from(kept, film)) << "more samples than are wanted";
-    });
+    EXPECT_FALSE(is_refused(options(16), kept));
+    EXPECT_TRUE(is_refused(options(15), kept)) << "more samples than are wanted";
     RenderOptions larger = options(16);
     larger.width = 72;
-    render_passes_of(larger, [&](const PassFilm& film) { EXPECT_FALSE(take_from(kept, film)); });
-    for (size_t size = 0; size < kept.size(); size += 100'003) {
-        render_passes_of(
-            options(16),
-            [&](const PassFilm& film) { EXPECT_FALSE(take_from(kept.substr(0, size), film)); },
-            0);
-    }
+    EXPECT_TRUE(is_refused(larger, kept));
+    for (size_t size = 0; size < kept.size(); size += 100'003)
+        EXPECT_TRUE(is_refused(options(16), kept.substr(0, size))) << size;
 }
 
 }  // namespace
