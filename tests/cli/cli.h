@@ -79,6 +79,16 @@ inline std::optional<ReadImage> read_image_file(const std::filesystem::path& fil
     return image;
 }
 
+/// The bytes of an EXR but those of its fingerprints, which depend on all options.
+inline std::string without_fingerprints(std::string exr) {
+    const std::string name("obscura:fingerprint\0string\0", 27);
+    constexpr size_t size_field = 4;
+    constexpr size_t digits = 16;
+    for (size_t at = 0; (at = exr.find(name, at)) != std::string::npos; at += name.size())
+        exr.erase(at + name.size() + size_field, digits);
+    return exr;
+}
+
 /// Every test gets a folder with three scenes: triangle.gltf, quad.gltf, box.gltf.
 class Cli : public testing::Test {
 protected:

@@ -132,7 +132,8 @@ TEST_F(ColorSpaces, HeadersSayWhatIsInTheFile) {
     // The default is today's file.
     header("lin_rec709");
     expect_result(render("quad.gltf", {"-o", "b.exr"}), 0, "OK");
-    EXPECT_EQ(read_whole_file(folder_ / "a.exr"), read_whole_file(folder_ / "b.exr"));
+    EXPECT_EQ(without_fingerprints(read_whole_file(folder_ / "a.exr")),
+              without_fingerprints(read_whole_file(folder_ / "b.exr")));
 }
 
 /// What is shown does not depend on the space, as long as colours are not multiplied.

@@ -100,7 +100,8 @@ TEST_F(Delivery, AMaskHasTheIdsThatItsListExplains) {
 
     // The beauty is that of a run without, and a crop has the ids of the whole image.
     expect_result(render("two.gltf", {"--size", "61x40", "--spp", "9", "-o", "b.exr"}), 0, "OK");
-    EXPECT_EQ(read_whole_file(folder_ / "a.exr"), read_whole_file(folder_ / "b.exr"));
+    EXPECT_EQ(without_fingerprints(read_whole_file(folder_ / "a.exr")),
+              without_fingerprints(read_whole_file(folder_ / "b.exr")));
     expect_result(render("two.gltf", joined(shot, {"--crop", "30,8,20,20"})), 0, "OK");
     const std::vector<uint16_t> part = codes("m.png");
     ASSERT_EQ(part.size(), ids.size());
@@ -167,8 +168,10 @@ TEST_F(Delivery, OverscanLeavesTheFrameAsItIs) {
             render("two.gltf", joined(shot, {"-o", "b.exr", "-o", "b.png", "--overscan", "5"})),
             0,
             "OK");
-        EXPECT_EQ(read_whole_file(folder_ / "a.png"), read_whole_file(folder_ / "b.png"))
-            << "other formats hold the frame alone";
+        const auto small = read_image_file(folder_ / "a.png");
+        const auto cut = read_image_file(folder_ / "b.png");
+        ASSERT_TRUE(small && cut);
+        EXPECT_EQ(small->pixels, cut->pixels) << "other formats hold the frame alone";
         const auto plain = read_image_file(folder_ / "a.exr");
         const auto wide = read_image_file(folder_ / "b.exr");
         ASSERT_TRUE(plain && wide);
