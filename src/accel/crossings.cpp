@@ -1,7 +1,7 @@
 // accel/crossings.cpp - lists all boundaries of media along a ray, not only the nearest hit.
 // SPDX-License-Identifier: Apache-2.0
+#include "accel/ask_again.h"
 #include "accel/infinite_planes.h"
-#include "accel/safe_ray.h"
 #include "accel/scene_records.h"
 #include "accel/single_sided.h"
 
@@ -80,8 +80,6 @@ void Accel::list_crossings(const RayColumns& rays,
                           &out};
     ShapeNotes notes{{note_shape}, &context};
     QueryContext& common = context.common;
-    Query query(common, false);
-    query.set_filter(note_faces);
     common.keys = rays.key;
     common.fixed_threshold = see_through.fixed_alpha || rays.key == nullptr;
     common.segment = see_through.segment;
@@ -89,11 +87,7 @@ void Accel::list_crossings(const RayColumns& rays,
     common.passes = see_through.passes;
     common.crossings = &notes.notes;
     if (see_through.cutaway != nullptr) context.cut = see_through.cutaway->of(index);
-    RTCRayHit ray;
-    load_ray(rays, index, ray.ray);
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    query.intersect1(impl_->top, &ray);
+    ask_again(*impl_, common, note_faces, rays, index);
     if (!impl_->infinite_planes.empty()) {
         list_infinite_crossings(*impl_, common, rays, index, out);
     }

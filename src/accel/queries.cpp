@@ -6,6 +6,7 @@
 #include "accel/safe_ray.h"
 #include "accel/scene_records.h"
 #include "accel/single_sided.h"
+#include "accel/tied_hits.h"
 
 #include <algorithm>
 
@@ -111,6 +112,7 @@ int Accel::intersect(const RayColumns& rays,
         }
         query.intersect16(valid.lane, impl_->top, &block);
         store_packet(*impl_, valid, block, hits, first);
+        settle_tied_hits(*impl_, context, block.hit, first, {rays, hits});
         if (see_through.culls_back_faces) {
             pass_hidden_backs(*impl_, context, block.hit, first, {rays, hits});
         }

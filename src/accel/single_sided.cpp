@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/single_sided.h"
 
+#include "accel/ask_again.h"
 #include "accel/packets.h"
-#include "accel/safe_ray.h"
 #include "accel/scene_records.h"
+#include "accel/tied_hits.h"
 #include "scene/motion.h"
 
 #include <algorithm>
@@ -58,6 +59,7 @@ struct FaceContext {
     TimedDirection direction;
     Vec3f origin{0, 0, 0};
     CutFaces cut = {};
+    LowestHit lowest = {};  ///< of the faces that it does not pass
 };
 
 /// The candidate hit of a filter function.
@@ -77,24 +79,26 @@ Candidate candidate(const RTCFilterFunctionNArguments* args, const Accel::Impl& 
 
 /// Embree filter function: rejects back faces of single-sided meshes.
 void drop_hidden_backs(const RTCFilterFunctionNArguments* args) {
-    const auto& context = *reinterpret_cast<const FaceContext*>(args->context);
+    auto& context = *reinterpret_cast<FaceContext*>(args->context);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const Candidate c = candidate(args, *context.impl, i);
-        if (is_hidden_back(*context.impl, c.records, c.ng, context.direction)) args->valid[i] = 0;
+        const bool passes = is_hidden_back(*context.impl, c.records, c.ng, context.direction);
+        if (passes || !context.lowest.takes(args, i)) args->valid[i] = 0;
     }
 }
 
 /// Embree filter function: rejects cut-away faces, those of one surface whose back faces the eye.
 void drop_cutaway(const RTCFilterFunctionNArguments* args) {
-    const auto& context = *reinterpret_cast<const FaceContext*>(args->context);
+    auto& context = *reinterpret_cast<FaceContext*>(args->context);
     for (unsigned i = 0; i < args->N; ++i) {
         if (args->valid[i] == 0) continue;
         const Candidate c = candidate(args, *context.impl, i);
         const float t = RTCRayN_tfar(args->ray, args->N, i);
         const Vec3f met = context.origin + context.direction.world * t;
         const MetFace face{c.records, c.ng, met, context.direction.time};
-        if (is_cut_away(*context.impl, context.cut, face)) args->valid[i] = 0;
+        const bool passes = is_cut_away(*context.impl, context.cut, face);
+        if (passes || !context.lowest.takes(args, i)) args->valid[i] = 0;
     }
 }
 
@@ -108,20 +112,14 @@ FaceContext face_context(const Accel::Impl& impl,
     return context;
 }
 
-/// Traces a ray again from its start, with a filter: its next hit may even lie in the plane of the
-/// face that it passes.
-void ask_again(FaceContext& context,
-               RTCFilterFunctionN filter,
-               int index,
-               const RaysAndHits& columns) {
-    Query query(context.common, false);
-    query.set_filter(filter);
-    RTCRayHit ray;
-    load_ray(columns.rays, index, ray.ray);
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    ray.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    query.intersect1(context.impl->top, &ray);
-    store_hit(*context.impl, ray, columns.hits, index);
+/// Replaces a ray's hit by the first one that a filter leaves: it may even lie in the plane of the
+/// face that the ray passes.
+void replace_hit(FaceContext& context,
+                 RTCFilterFunctionN filter,
+                 int index,
+                 const RaysAndHits& columns) {
+    const RTCRayHit found = ask_again(*context.impl, context.common, filter, columns.rays, index);
+    store_hit(*context.impl, found, columns.hits, index);
 }
 
 /// True if faces of a surface may be cut away. Emitters may not: light sampling chooses points on
@@ -166,7 +164,7 @@ void pass_hidden_backs(const Accel::Impl& impl,
             context.passed_backs->push_back({index, columns.hits.t[index], records});
         }
         FaceContext again = face_context(impl, context, columns.rays, index);
-        ask_again(again, drop_hidden_backs, index, columns);
+        replace_hit(again, drop_hidden_backs, index, columns);
     }
 }
 
@@ -177,7 +175,7 @@ void pass_cutaway(const Accel::Impl& impl,
     const SceneRecords met{columns.hits.instance[index], columns.hits.primitive[index]};
     if (met.primitive < 0 || !is_same(met, context.cutaway->of(index).surface)) return;
     FaceContext again = face_context(impl, context, columns.rays, index);
-    ask_again(again, drop_cutaway, index, columns);
+    replace_hit(again, drop_cutaway, index, columns);
 }
 
 bool is_occluded_despite_cutaway(const Accel::Impl& impl,

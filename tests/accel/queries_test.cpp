@@ -72,6 +72,41 @@ std::vector<std::pair<Vec3f, Vec3f>> unsafe_rays() {
     return unsafe;
 }
 
+constexpr int strip_squares = 64;
+
+/// A strip of squares along X, each a primitive and cut into triangles.
+BuiltScene strip(Isa isa) {
+    SceneBuilder builder;
+    const int32_t material = builder.material({});
+    for (int k = 0; k < strip_squares; ++k)
+        builder.quad({static_cast<float>(k), 0, 0}, {1, 0, 0}, {0, 1, 0}, material);
+    return build(builder.take(), embree_isa_for(isa));
+}
+
+/// What a ray straight down on the edge at x hits, with others at `side` of it, or alone.
+int32_t hit_on_edge(const BuiltScene& built, float x, float y, float side, int others) {
+    RayList rays;
+    for (int i = 0; i <= others; ++i)
+        rays.add({x + side * static_cast<float>(i), y, 2}, {0, 0, -1});
+    rays.intersect(built.accel, Coherence::coherent);
+    return rays.primitive[0];
+}
+
+TEST(Queries, AHitOnAnEdgeDoesNotDependOnOtherRays) {
+    for (const Isa isa : all_isas()) {
+        const BuiltScene built = strip(isa);
+        for (int k = 1; k < strip_squares; ++k) {
+            const auto x = static_cast<float>(k);
+            for (const float y : {0.25F, 0.375F, 0.7F}) {
+                const int32_t alone = hit_on_edge(built, x, y, 0, 0);
+                EXPECT_TRUE(alone == k || alone == k - 1);
+                for (const float side : {-4.0F, -1.0F, -0.25F, 0.25F, 1.0F, 4.0F})
+                    ASSERT_EQ(hit_on_edge(built, x, y, side, 15), alone) << k << ", " << side;
+            }
+        }
+    }
+}
+
 TEST(Queries, UnsafeRaysAreRefusedAndCounted) {
     const auto unsafe = unsafe_rays();
     RayList rays;  // bad ones among good ones

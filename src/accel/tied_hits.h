@@ -1,0 +1,35 @@
+// accel/tied_hits.h - hits on edges of triangles, where the neighbour is met in the same place.
+// SPDX-License-Identifier: Apache-2.0
+//
+// Embree takes the last one of them that it tests, and in which order it tests them depends on the
+// other rays of the packet. Obscura takes that with the lowest ids.
+#pragma once
+
+#include "accel/accel_impl.h"
+#include "accel/single_sided.h"
+
+#include <limits>
+
+namespace obscura {
+
+/// The hit that a query with a filter has found so far.
+struct LowestHit {
+    float t = std::numeric_limits<float>::infinity();
+    unsigned instance = 0, geometry = 0, triangle = 0;
+
+    /// Whether a candidate of a filter function is nearer, or as near and has lower ids. If so, it
+    /// is the one from now on; if not, the filter is to reject it.
+    bool takes(const RTCFilterFunctionNArguments* args, unsigned i);
+};
+
+/// Settles which hit a ray has where it meets the edge of a mesh's triangle.
+///
+/// In      context: of the query
+/// In/Out  hit: Embree's result for the rays from `first` on; columns: their hits
+void settle_tied_hits(const Accel::Impl& impl,
+                      const QueryContext& context,
+                      RTCHit16& hit,
+                      int first,
+                      const RaysAndHits& columns);
+
+}  // namespace obscura
