@@ -116,13 +116,19 @@ OBSCURA_INLINE void add_color_lanes(
     add_to_slots(lanes, slot, {{red, add.x}, {green, add.y}, {green + padded_slots, add.z}});
 }
 
-/// The same from the first state, for all lanes at once. Returns the lanes that are settled then.
-Mask leave_start(const LightPathTable& table,
-                 const StoredShares& shares,
-                 Mask lanes,
-                 const ColorColumns& to,
-                 LanesU slot) {
-    Mask settled = lanes;
+/// The paths that are settled after a move, and those that the next scattering settles.
+struct MovedLanes {
+    Mask settled;
+    Mask settle_next;
+};
+
+/// The same from the first state, for all lanes at once.
+MovedLanes leave_start(const LightPathTable& table,
+                       const StoredShares& shares,
+                       Mask lanes,
+                       const ColorColumns& to,
+                       LanesU slot) {
+    MovedLanes out{lanes, lanes};
     for (int k = 0; k < shares.count; ++k) {
         const ColorLanes& share = shares.share[k];
         for (const bool singular : {false, true}) {
@@ -130,11 +136,13 @@ Mask leave_start(const LightPathTable& table,
             const Mask moved = shares.exists[k] & lanes & those;
             if (none(moved)) continue;
             const uint16_t next = next_state(table, 0, shares.lobe[k], singular);
-            if (table.settled[next] == 0) settled = settled & (!moved);
+            if (table.settled[next] == 0) out.settled = out.settled & (!moved);
+            if (table.common_next[next] == no_common_state)
+                out.settle_next = out.settle_next & (!moved);
             add_color_lanes(to, next, moved, slot, {load(share.r), load(share.g), load(share.b)});
         }
     }
-    return settled;
+    return out;
 }
 
 /// Colours of the lanes' samples; 0 in the other lanes.
@@ -150,89 +158,119 @@ OBSCURA_INLINE Vec3<Lanes> color_lanes(const ColorColumns& columns,
     return select(lanes, color, splat3(Lanes(0.0f)));
 }
 
-/// settle_by_any_lobe for all lanes at once. False: a state of theirs leads to others, and none has
-/// moved.
-bool settle_lanes_by_any_lobe(const LightPathColumns& columns, Mask lanes, LanesU slot) {
-    const LightPathTable& table = *columns.table;
+/// How far the lanes' paths have come.
+struct Progress {
+    Mask moves;        ///< not settled
+    Mask settle_next;  ///< of these
+};
+
+OBSCURA_INLINE Progress progress_of(const LightPathColumns& columns, Mask lanes, LanesU slot) {
+    const LanesI at = select(lanes, as_int(slot), LanesI(0));
+    const LanesU word = gather<Lanes>(columns.progress, at);
+    return {lanes & (word != LanesU(path_settled)), lanes & (word == LanesU(path_settles_next))};
+}
+
+OBSCURA_INLINE void set_words(uint32_t* column, Mask lanes, LanesU slot, uint32_t word) {
+    store_by_slot(column, lanes, slot, LanesU(word));
+}
+
+/// Settles the lanes if each state of their paths leads to a settled one, whatever the lobe; the
+/// weights stay where they are, see finish. Returns the lanes that may still move: all whose next
+/// step is not known, if one of them must.
+Mask settle_lanes(const LightPathColumns& columns, const Progress& progress, LanesU slot) {
+    const Mask unknown = progress.moves & (!progress.settle_next);
     const ColorColumns& weights = columns.weights;
-    uint16_t moving[max_path_states];
-    int count = 0;
+    bool all_settle = true;
+    for (int k = 0; k < *weights.used_count && any(unknown) && all_settle; ++k) {
+        const uint16_t state = weights.used[k];
+        if (columns.table->common_next[state] != no_common_state) continue;
+        const Vec3<Lanes> weight = color_lanes(weights, state, unknown, slot);
+        all_settle = none(max_component(weight) != Lanes(0.0f));
+    }
+    set_words(
+        columns.progress, all_settle ? progress.moves : progress.settle_next, slot, path_settled);
+    return all_settle ? Mask(false) : unknown;
+}
+
+/// The same of one path. False: it has not settled.
+bool settle_path(const LightPathColumns& columns,
+                 const StateWeight* from,
+                 int count,
+                 uint32_t slot) {
+    for (int k = 0; k < count; ++k) {
+        if (columns.table->common_next[from[k].state] == no_common_state) return false;
+    }
+    columns.progress[slot] = path_settled;
+    return true;
+}
+
+/// Light of one class that arrives at the lanes.
+struct ClassLight {
+    uint32_t light_class;
+    Vec3<Lanes> radiance;
+};
+
+/// Adds light at paths that are settled.
+void add_settled_light(const LightPathColumns& columns,
+                       Mask lanes,
+                       LanesU slot,
+                       const ClassLight& light) {
+    const uint16_t sum = columns.table->sum_of_class[light.light_class];
+    if (any(lanes) && sum != no_light_sum)
+        add_color_lanes(columns.sums, sum, lanes, slot, light.radiance);
+}
+
+/// Adds light of one class to the layers of the states of the lanes' paths.
+///
+/// In   weights: columns.weights or columns.shadow_weights
+void add_weighted_light(const LightPathColumns& columns,
+                        const ColorColumns& weights,
+                        Mask lanes,
+                        LanesU slot,
+                        const ClassLight& light) {
+    const LightPathTable& table = *columns.table;
     for (int k = 0; k < *weights.used_count; ++k) {
         const uint16_t state = weights.used[k];
-        const uint16_t next = table.common_next[state];
-        if (next == no_common_state) {
-            const Vec3<Lanes> weight = color_lanes(weights, state, lanes, slot);
-            if (any(max_component(weight) != Lanes(0.0f))) return false;
-        } else if (next != state) {
-            moving[count++] = state;
-        }
+        const size_t row = state * table.class_count + light.light_class;
+        const uint32_t end = table.layer_begin[row + 1];
+        if (table.layer_begin[row] == end) continue;
+        const Vec3<Lanes> weight = color_lanes(weights, state, lanes, slot);
+        const Mask has = lanes & (max_component(weight) != Lanes(0.0f));
+        if (none(has)) continue;
+        const Vec3<Lanes> part = weight * light.radiance;
+        for (uint32_t i = table.layer_begin[row]; i < end; ++i)
+            add_color_lanes(columns.layers, table.layers[i], has, slot, part);
     }
-    // What is left behind in states that are not settled counts no more: see finish.
-    for (int k = 0; k < count; ++k) {
-        const Vec3<Lanes> weight = color_lanes(weights, moving[k], lanes, slot);
-        const Mask has = max_component(weight) != Lanes(0.0f);
-        if (any(has)) add_color_lanes(weights, table.common_next[moving[k]], has, slot, weight);
-    }
-    return true;
-}
-
-/// Settles a path whose states lead to settled ones whatever the lobe. False: there are others, and
-/// it has not moved.
-bool settle_by_any_lobe(const LightPathColumns& columns,
-                        const StateWeight* from,
-                        int count,
-                        uint32_t slot) {
-    const LightPathTable& table = *columns.table;
-    for (int k = 0; k < count; ++k) {
-        if (table.common_next[from[k].state] == no_common_state) return false;
-    }
-    for (int k = 0; k < count; ++k) {
-        const uint16_t next = table.common_next[from[k].state];
-        if (next == from[k].state) continue;
-        clear_color(columns.weights, from[k].state, slot);
-        add_color(columns.weights, next, slot, from[k].weight);
-    }
-    columns.settled[slot] = 1;
-    return true;
-}
-
-/// Lanes whose paths are not settled.
-OBSCURA_INLINE Mask moving_lanes(const LightPathColumns& columns, Mask lanes, LanesU slot) {
-    const LanesI at = select(lanes, as_int(slot), LanesI(0));
-    return lanes & (gather<Lanes>(columns.settled, at) == LanesU(0U));
-}
-
-void set_words(uint32_t* column, Mask lanes, const uint32_t* slots) {
-    for (uint32_t bits = mask_bits(lanes); bits != 0; bits &= bits - 1)
-        column[slots[__builtin_ctz(bits)]] = 1;
 }
 
 /// Adds light of one class to paths.
-void add_light_lanes(const LightPathColumns& columns,
-                     Mask lanes,
-                     LanesU slot,
-                     uint32_t light_class,
-                     const Vec3<Lanes>& radiance) {
+void add_path_light(const LightPathColumns& columns,
+                    Mask lanes,
+                    LanesU slot,
+                    const ClassLight& light) {
     const LightPathTable& table = *columns.table;
     if (columns.all_at_start && table.settled[0] == 0) {
-        for (uint32_t i = table.layer_begin[light_class]; i < table.layer_begin[light_class + 1];
+        for (uint32_t i = table.layer_begin[light.light_class];
+             i < table.layer_begin[light.light_class + 1];
              ++i)
-            add_color_lanes(columns.layers, table.layers[i], lanes, slot, radiance);
+            add_color_lanes(columns.layers, table.layers[i], lanes, slot, light.radiance);
         return;
     }
-    const Mask moving = moving_lanes(columns, lanes, slot);
-    const Mask settled = lanes & (!moving);
-    const uint16_t sum = table.sum_of_class[light_class];
-    if (any(settled) && sum != no_light_sum)
-        add_color_lanes(columns.sums, sum, settled, slot, radiance);
-    if (none(moving)) return;
-    alignas(64) uint32_t slots[lane_count];
-    ColorLanes color;
-    store(slots, slot);
-    store_color(radiance, color);
-    for (uint32_t bits = mask_bits(moving); bits != 0; bits &= bits - 1) {
-        const int lane = __builtin_ctz(bits);
-        add_light(columns, columns.weights, {slots[lane], light_class, color.at(lane)});
+    const Mask moving = progress_of(columns, lanes, slot).moves;
+    add_settled_light(columns, lanes & (!moving), slot, light);
+    if (any(moving)) add_weighted_light(columns, columns.weights, moving, slot, light);
+}
+
+/// Calls add(those, class) for the lanes of each light class.
+template <typename Add>
+OBSCURA_INLINE void by_class(Mask lanes, LanesU classes, const Add& add) {
+    while (any(lanes)) {
+        alignas(64) uint32_t words[lane_count];
+        store(words, classes);
+        const uint32_t light_class = words[__builtin_ctz(mask_bits(lanes))];
+        const Mask those = lanes & (classes == LanesU(light_class));
+        add(those, light_class);
+        lanes = lanes & (!those);
     }
 }
 
@@ -243,31 +281,49 @@ void add_emitted_light(const LightPathColumns& columns,
                        const HitLanes& hit,
                        LanesU slot,
                        const Vec3<Lanes>& radiance) {
-    alignas(64) uint32_t slots[lane_count];
     alignas(64) int32_t primitive[lane_count];
     alignas(64) int32_t instance[lane_count];
-    ColorLanes color;
-    store(slots, slot);
+    alignas(64) uint32_t classes[lane_count] = {};
     store(primitive, hit.primitive);
     store(instance, hit.instance);
-    store_color(radiance, color);
     for (uint32_t bits = mask_bits(lanes); bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctz(bits);
-        const uint32_t light_class = emitter_class(*columns.table, primitive[lane], instance[lane]);
-        const ArrivingLight light{slots[lane], light_class, color.at(lane)};
-        if (columns.settled[light.slot] != 0) {
-            add_settled_light(columns, light);
-        } else {
-            add_light(columns, columns.weights, light);
-        }
+        classes[lane] = emitter_class(*columns.table, primitive[lane], instance[lane]);
     }
+    by_class(lanes, load(classes), [&](Mask those, uint32_t light_class) {
+        add_path_light(columns, those, slot, {light_class, radiance});
+    });
 }
 
 void add_background_light(const LightPathColumns& columns,
                           Mask lanes,
                           LanesU slot,
                           const Vec3<Lanes>& radiance) {
-    add_light_lanes(columns, lanes, slot, background_class(*columns.table), radiance);
+    add_path_light(columns, lanes, slot, {background_class(*columns.table), radiance});
+}
+
+void add_shadow_layers(const LightPathColumns& columns,
+                       int count,
+                       const ShadowView& shadows,
+                       const uint8_t* occluded) {
+    for (int i = 0; i < count; i += lane_count) {
+        alignas(64) uint32_t arrives[lane_count] = {};
+        for (int lane = 0; lane < lane_count && i + lane < count; ++lane)
+            arrives[lane] = occluded[i + lane] == 0 ? 1 : 0;
+        const Mask lanes = load(arrives) != LanesU(0U);
+        if (none(lanes)) continue;
+        const LanesU slot = load(shadows.slot + i);
+        const LanesI at = select(lanes, as_int(slot), LanesI(0));
+        const Mask split = lanes & (gather<Lanes>(columns.shadow_split, at) != LanesU(0U));
+        const Vec3<Lanes> radiance = load3(shadows.r, shadows.g, shadows.b, i);
+        const LanesU classes = gather<Lanes>(columns.shadow_class, at);
+        by_class(lanes, classes, [&](Mask those, uint32_t light_class) {
+            const ClassLight light{light_class, radiance};
+            add_settled_light(columns, those & (!split), slot, light);
+            if (any(those & split))
+                add_weighted_light(columns, columns.shadow_weights, those & split, slot, light);
+        });
+    }
 }
 
 void note_shadow_class(const LightPathColumns& columns, Mask lanes, LanesU slot, LanesI light) {
@@ -287,30 +343,30 @@ void scatter_shadow(const LightPathColumns& columns,
                     LanesI light,
                     const Scattering& scattering) {
     const LightPathTable& table = *columns.table;
-    alignas(64) uint32_t slots[lane_count];
-    store(slots, slot);
     note_shadow_class(columns, lanes, slot, light);
-    const Mask moving = moving_lanes(columns, lanes, slot);
-    if (none(moving)) return;
+    const Progress progress = progress_of(columns, lanes, slot);
+    if (none(progress.moves)) return;
     StoredShares shares;
     if (columns.all_at_start) {
         find_shares(lanes, scattering, shares);
-        leave_start(table, shares, moving, columns.shadow_weights, slot);
-        set_words(columns.shadow_split, moving, slots);
+        leave_start(table, shares, progress.moves, columns.shadow_weights, slot);
+        set_words(columns.shadow_split, progress.moves, slot, 1);
         return;
     }
     // Whatever lobe a path takes next, its shadow ray has the same weights.
-    if (!columns.goes_straight && settle_lanes_by_any_lobe(columns, moving, slot)) {
-        set_words(columns.settled, moving, slots);
-        return;
-    }
+    const bool settles = !columns.goes_straight;
+    Mask moving = progress.moves;
+    if (settles) moving = settle_lanes(columns, progress, slot);
+    if (none(moving)) return;
+    alignas(64) uint32_t slots[lane_count];
+    store(slots, slot);
     StateWeight from[max_path_states];
     bool found = false;
     for (uint32_t bits = mask_bits(moving); bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctz(bits);
         const uint32_t at = slots[lane];
         const int count = states_of(columns.weights, at, from);
-        if (!columns.goes_straight && settle_by_any_lobe(columns, from, count, at)) continue;
+        if (settles && settle_path(columns, from, count, at)) continue;
         if (!found) find_shares(lanes, scattering, shares);
         found = true;
         columns.shadow_split[at] = 1;
@@ -329,30 +385,29 @@ void scatter_path(const LightPathColumns& columns,
                   LanesU slot,
                   const Scattering& scattering) {
     const LightPathTable& table = *columns.table;
+    const Progress progress = progress_of(columns, lanes, slot);
+    if (none(progress.moves)) return;
+    StoredShares shares;
     alignas(64) uint32_t slots[lane_count];
     store(slots, slot);
-    const Mask moving = moving_lanes(columns, lanes, slot);
-    if (none(moving)) return;
-    StoredShares shares;
     if (columns.all_at_start) {
         find_shares(lanes, scattering, shares);
-        for (uint32_t bits = mask_bits(moving); bits != 0; bits &= bits - 1)
+        for (uint32_t bits = mask_bits(progress.moves); bits != 0; bits &= bits - 1)
             clear_color(columns.weights, 0, slots[__builtin_ctz(bits)]);
-        set_words(
-            columns.settled, leave_start(table, shares, moving, columns.weights, slot), slots);
+        const MovedLanes moved = leave_start(table, shares, progress.moves, columns.weights, slot);
+        set_words(columns.progress, moved.settle_next, slot, path_settles_next);
+        set_words(columns.progress, moved.settled, slot, path_settled);
         return;
     }
-    if (settle_lanes_by_any_lobe(columns, moving, slot)) {
-        set_words(columns.settled, moving, slots);
-        return;
-    }
+    const Mask moving = settle_lanes(columns, progress, slot);
+    if (none(moving)) return;
     StateWeight from[max_path_states];
     bool found = false;
     for (uint32_t bits = mask_bits(moving); bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctz(bits);
         const uint32_t at = slots[lane];
         const int count = states_of(columns.weights, at, from);
-        if (settle_by_any_lobe(columns, from, count, at)) continue;
+        if (settle_path(columns, from, count, at)) continue;
         if (!found) find_shares(lanes, scattering, shares);
         found = true;
         bool settled = true;
@@ -363,7 +418,7 @@ void scatter_path(const LightPathColumns& columns,
             if (table.settled[from[k].state] != 0) continue;
             settled &= move_weight(table, from[k], {shares, lane, at}, columns.weights);
         }
-        columns.settled[at] = settled ? 1 : 0;
+        columns.progress[at] = settled ? path_settled : path_moves;
     }
 }
 

@@ -24,6 +24,12 @@ void add_background_light(const LightPathColumns& columns,
                           LanesU slot,
                           const Vec3<Lanes>& radiance);
 
+/// Light of unoccluded shadow rays, of which no sample has two.
+void add_shadow_layers(const LightPathColumns& columns,
+                       int count,
+                       const ShadowView& shadows,
+                       const uint8_t* occluded);
+
 /// A scattering from one direction into another, in the shading frame.
 struct Scattering {
     const ShadingPoint& s;

@@ -6,6 +6,7 @@
 #include "stages/2_scatter.h"
 #include "stages/3_albedo.h"
 #include "stages/3_catcher.h"
+#include "stages/3_light_paths.h"
 #include "stages/3_shade.h"
 #include "stages/4_transparent_shadows.h"
 #include "stages/5_accumulate.h"
@@ -40,6 +41,7 @@ const StageTable stage_table = {
     .take_waiting = take_waiting,
     .cross_thin_walls = cross_thin_walls,
     .add_shadows = add_shadow_light,
+    .add_shadow_layers = add_shadow_layers,
     .accumulate = accumulate,
     .clear_nonfinite = clear_nonfinite,
 };

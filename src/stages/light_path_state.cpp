@@ -19,9 +19,14 @@ constexpr size_t color_words = size_t{3} * padded_slots;
 constexpr uint16_t unshadowed_number = 0;
 constexpr uint16_t shadowed_number = 1;
 
+/// The settled state for which a state's weight of a settled path counts, or no_common_state.
+uint16_t settled_state(const LightPathTable& table, uint16_t state) {
+    return table.settled[state] != 0 ? state : table.common_next[state];
+}
+
 /// The layers that a settled state's part of a sum belongs to.
-std::span<const uint16_t> layers_of_sum(const LightPathTable& table, size_t state, uint16_t sum) {
-    const size_t row = state * table.class_count + table.class_of_sum[sum];
+std::span<const uint16_t> layers_of_sum(const LightPathTable& table, uint16_t state, uint16_t sum) {
+    const size_t row = size_t{state} * table.class_count + table.class_of_sum[sum];
     return {table.layers + table.layer_begin[row], table.layers + table.layer_begin[row + 1]};
 }
 
@@ -70,12 +75,12 @@ void LightPathState::begin(const LightPathTable& table,
                 .shadow_weights = shadow_weights_.view(),
                 .layers = layers_.view(),
                 .sums = sums_.view(),
-                .settled = words_.data(),
+                .progress = words_.data(),
                 .shadow_split = words_.data() + padded_slots,
                 .shadow_class = words_.data() + size_t{2} * padded_slots,
                 .goes_straight = goes_straight};
     shadow_columns_ = shadows_.view();
-    std::fill_n(columns_.settled, count, table.settled[0]);
+    std::fill_n(columns_.progress, count, table.settled[0] != 0 ? path_settled : path_moves);
     std::fill_n(columns_.shadow_split, count, 0U);
     std::fill_n(use_color(columns_.weights, 0), color_words, 1.0f);
     notes_shadows_ = false;
@@ -98,7 +103,7 @@ void LightPathState::forget_shadows() {
 }
 
 void LightPathState::add_path_light(uint32_t slot, uint32_t light_class, const Vec3f& radiance) {
-    if (columns_.settled[slot] != 0) {
+    if (columns_.progress[slot] == path_settled) {
         add_settled_light(columns_, {slot, light_class, radiance});
     } else {
         add_light(columns_, columns_.weights, {slot, light_class, radiance});
@@ -112,7 +117,11 @@ void LightPathState::add_shadow_light(uint32_t slot, const Vec3f& radiance) {
     } else {
         add_settled_light(columns_, {slot, light_class, radiance});
     }
-    if (notes_shadows_) add_color(shadow_columns_, shadowed_number, slot, radiance);
+    if (notes_shadows_) note_shadow_light(slot, radiance);
+}
+
+void LightPathState::note_shadow_light(uint32_t slot, const Vec3f& radiance) {
+    add_color(shadow_columns_, shadowed_number, slot, radiance);
 }
 
 void LightPathState::move(const ColorColumns& weights, uint32_t slot, size_t event) {
@@ -132,7 +141,7 @@ void LightPathState::move(const ColorColumns& weights, uint32_t slot, size_t eve
 }
 
 void LightPathState::move_path(uint32_t slot, size_t event) {
-    if (columns_.settled[slot] != 0) return;
+    if (columns_.progress[slot] == path_settled) return;
     has_moved_ = true;
     move(columns_.weights, slot, event);
     const LightPathTable& table = *columns_.table;
@@ -143,7 +152,7 @@ void LightPathState::move_path(uint32_t slot, size_t event) {
         settled &=
             max_component(color_at(columns_.weights.memory + color_words * state, slot)) <= 0;
     }
-    columns_.settled[slot] = settled ? 1 : 0;
+    columns_.progress[slot] = settled ? path_settled : path_moves;
 }
 
 void LightPathState::move_shadow(uint32_t slot, size_t event) {
@@ -151,7 +160,7 @@ void LightPathState::move_shadow(uint32_t slot, size_t event) {
 }
 
 void LightPathState::split_shadow(uint32_t slot) {
-    if (columns_.settled[slot] != 0) return;
+    if (columns_.progress[slot] == path_settled) return;
     columns_.shadow_split[slot] = 1;
     for (int k = 0; k < *columns_.weights.used_count; ++k) {
         const uint16_t state = columns_.weights.used[k];
@@ -169,12 +178,13 @@ void LightPathState::share_out(uint32_t slot) {
     const LightPathTable& table = *columns_.table;
     for (int q = 0; q < weights_.used_count; ++q) {
         const uint16_t state = weights_.used[static_cast<size_t>(q)];
-        if (table.settled[state] == 0) continue;
+        const uint16_t settled = settled_state(table, state);
+        if (settled == no_common_state) continue;
         const Vec3f weight = color_at(weights_.memory.data() + color_words * state, slot);
         for (int k = 0; k < sums_.used_count; ++k) {
             const uint16_t sum = sums_.used[static_cast<size_t>(k)];
             const Vec3f light = color_at(sums_.memory.data() + color_words * sum, slot);
-            for (const uint16_t layer : layers_of_sum(table, state, sum))
+            for (const uint16_t layer : layers_of_sum(table, settled, sum))
                 add_color(columns_.layers, layer, slot, weight * light);
         }
     }
@@ -208,7 +218,7 @@ void LightPathState::hold(uint32_t slot) {
         clear_color(columns_.weights, state, slot);
     }
     // Without a weight, and settled: what arrives is summed, and shared out to nobody.
-    columns_.settled[slot] = 1;
+    columns_.progress[slot] = path_settled;
 }
 
 void LightPathState::release(size_t event) {
@@ -218,7 +228,7 @@ void LightPathState::release(size_t event) {
             clear_color(columns_.sums, sums_.used[static_cast<size_t>(k)], slot);
         const uint16_t next = table.next[state * scatter_event_count + event];
         add_color(columns_.weights, next, slot, weight);
-        if (table.settled[next] == 0) columns_.settled[slot] = 0;
+        if (table.settled[next] == 0) columns_.progress[slot] = path_moves;
     }
     held_.clear();
 }
@@ -228,10 +238,11 @@ void LightPathState::finish(const SampleView& samples) {
     const auto count = static_cast<size_t>(count_);
     for (int q = 0; q < weights_.used_count; ++q) {
         const uint16_t state = weights_.used[static_cast<size_t>(q)];
-        if (table.settled[state] == 0) continue;
+        const uint16_t settled = settled_state(table, state);
+        if (settled == no_common_state) continue;
         for (int k = 0; k < sums_.used_count; ++k) {
             const uint16_t sum = sums_.used[static_cast<size_t>(k)];
-            for (const uint16_t number : layers_of_sum(table, state, sum)) {
+            for (const uint16_t number : layers_of_sum(table, settled, sum)) {
                 float* const layer = use_color(columns_.layers, number);
                 const float* weight = weights_.memory.data() + color_words * state;
                 const float* light = sums_.memory.data() + color_words * sum;

@@ -49,8 +49,11 @@ public:
 
     /// Notes the light of a first hit's shadow ray, as if nothing were in its way.
     void add_unshadowed(uint32_t slot, const Vec3f& radiance);
+    /// Notes the part of it that arrives, which add_shadow_light does by itself.
+    void note_shadow_light(uint32_t slot, const Vec3f& radiance);
     /// Whether what shadow rays bring now belongs to the first hits.
     void note_shadows(bool first_hits) { notes_shadows_ = first_hits; }
+    bool notes_shadows() const { return notes_shadows_; }
 
     // A shadow catcher shows shadow: the light that it receives belongs to no layer. What lies
     // behind it does, as far as the catcher lets it through, and what it reflects.

@@ -10,7 +10,9 @@
 // light add up to the beauty, sample by sample.
 //
 // A state is settled when no scattering leads out of it. A path whose whole weight is in settled
-// states needs no more care: its light is summed, and shared out when the batch ends.
+// states needs no more care: its light is summed, and shared out when the batch ends. So is that of
+// a path whose states lead to settled ones whatever the lobe, from its next scattering on: its
+// weights stay in the states that it leaves, and count as those of the states that they lead to.
 #pragma once
 
 #include "math/vec.h"
@@ -72,6 +74,11 @@ struct ColorColumns {
 /// Length of columns by sample index.
 inline constexpr int padded_slots = batch_size + 16;
 
+/// How far a path has come, as LightPathColumns::progress has it.
+inline constexpr uint32_t path_moves = 0;
+inline constexpr uint32_t path_settled = 1;       ///< its states are, or lead to, settled ones
+inline constexpr uint32_t path_settles_next = 2;  ///< moves, and whatever lobe is next settles it
+
 /// Light by state of the paths of one batch.
 struct LightPathColumns {
     const LightPathTable* table = nullptr;
@@ -79,7 +86,7 @@ struct LightPathColumns {
     ColorColumns shadow_weights;       ///< of their shadow rays, where shadow_split
     ColorColumns layers;               ///< what has arrived, by layer
     ColorColumns sums;                 ///< what has arrived at settled paths, by sum
-    uint32_t* settled = nullptr;       ///< by sample index: 1 where all weight is in settled states
+    uint32_t* progress = nullptr;      ///< by sample index: path_moves and so on
     uint32_t* shadow_split = nullptr;  ///< likewise: 1 where the shadow ray has weights of its own
     uint32_t* shadow_class = nullptr;  ///< likewise: light class of the shadow ray
     bool all_at_start = false;         ///< no path has left the first state, where its weight is 1

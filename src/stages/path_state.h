@@ -17,7 +17,7 @@
 //   ShadowColumns  48 bytes
 //     written:  scatter make_probes shade shade_catchers shade_ao begin_raycast shade_raycast
 //               take_waiting absorb_shadows cross_thin_walls
-//     only read:  add_shadows
+//     only read:  add_shadows add_shadow_layers
 //   SampleColumns  16 bytes
 //     written:  camera shade shade_ao begin_raycast shade_raycast wireframe cross_thin_walls
 //               add_shadows accumulate clear_nonfinite

@@ -299,6 +299,12 @@ struct StageTable {
                         const uint8_t* occluded,
                         const SampleColumns&);
 
+    /// Stage 5a, where light layers are asked for: and to their layers.
+    void (*add_shadow_layers)(const LightPathColumns&,
+                              int count,
+                              const ShadowView&,
+                              const uint8_t* occluded);
+
     /// Stage 5b: adds each pixel's samples to its sum, in sample order.
     uint64_t (*accumulate)(int pixels, const SampleRange&, const SampleColumns&, PixelSum* sums);
 

@@ -54,9 +54,12 @@ void begin_walk_shadow_light(const WavefrontInput& in, int count, Workspace& wor
 
 void add_shadow_light_paths(const WavefrontInput& in, int count, Workspace& work) {
     if (in.light_paths == nullptr) return;
+    in.stages->add_shadow_layers(
+        work.light_paths.columns(), count, work.shadows, work.occluded.data());
+    if (!work.light_paths.notes_shadows()) return;
     for (int i = 0; i < count; ++i) {
         if (work.occluded[static_cast<size_t>(i)] != 0) continue;
-        work.light_paths.add_shadow_light(work.shadows.slot[i], shadow_radiance(work, i));
+        work.light_paths.note_shadow_light(work.shadows.slot[i], shadow_radiance(work, i));
     }
 }
 

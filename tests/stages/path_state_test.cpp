@@ -126,6 +126,7 @@ Table table_of_types() {
     add_stage("take_waiting", &S::take_waiting, table);
     add_stage("cross_thin_walls", &S::cross_thin_walls, table);
     add_stage("add_shadows", &S::add_shadows, table);
+    add_stage("add_shadow_layers", &S::add_shadow_layers, table);
     add_stage("accumulate", &S::accumulate, table);
     add_stage("clear_nonfinite", &S::clear_nonfinite, table);
     return table;
