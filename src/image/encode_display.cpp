@@ -47,10 +47,11 @@ OIIO::ImageSpec spec_of(const Encodable& image) {
     const OIIO::TypeDesc type = image.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
     OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
     spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("Software", escape_control(image.metadata.software));
-    if (!image.metadata.copyright.empty()) {
-        spec.attribute("Copyright", escape_control(image.metadata.copyright));
-    }
+    const auto add = [&](const char* name, const std::string& text) {
+        if (!text.empty()) spec.attribute(name, escape_control(text));  // none may be empty in IPTC
+    };
+    add("Software", image.metadata.software);
+    add("Copyright", image.metadata.copyright);
     const OutputFormat format = image.target.format;
     add_fingerprint(format, fingerprint_of(image.metadata), spec);
     if (format == OutputFormat::png) spec.attribute("compression", "zip:4");
