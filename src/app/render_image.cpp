@@ -135,6 +135,7 @@ Result<RenderedFilm> render_film(Making& making) {
         if (!share.part) share.part = FilmPart{};
         share.fill = [&](Film& film) { return keeper->fill(film); };
         share.begin_passes = [&](const PassFilm& film) { return keeper->begin_passes(film); };
+        share.wants_film = [] { return received_stop_signal() == 0; };
         share.leave = [&](const Film& /*film*/) { keeper->leave(); };
         share.keeps_unfinished = true;
     }

@@ -152,15 +152,24 @@ uint32_t CryptomattePixel::majority(uint32_t samples) const {
 }
 
 void CryptomattePixel::put(StateWriter& out) const {
+    const auto used = static_cast<size_t>(
+        std::find_if(few_.begin(), few_.end(), [](IdCount entry) { return entry.count == 0; }) -
+        few_.begin());
+    const auto used_byte = static_cast<uint8_t>(used);
     out.put(&run_, sizeof(run_));
-    out.put(few_.data(), sizeof(few_));
-    out.put_array(others_);
+    out.put(&used_byte, 1);
+    out.put(few_.data(), used * sizeof(IdCount));
+    if (used == few_.size()) out.put_array(others_);
 }
 
 void CryptomattePixel::take(StateReader& in) {
+    uint8_t used = 0;
     in.take(&run_, sizeof(run_));
-    in.take(few_.data(), sizeof(few_));
-    in.take_new_array(others_);
+    in.take(&used, 1);
+    few_ = {};
+    others_.clear();
+    in.take(few_.data(), std::min<size_t>(used, few_.size()) * sizeof(IdCount));
+    if (used == few_.size()) in.take_new_array(others_);
 }
 
 }  // namespace obscura

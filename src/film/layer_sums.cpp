@@ -125,7 +125,7 @@ void LayerPlan::add_layer(const Layer& layer) {
 }
 
 size_t sum_bytes(const Layer& layer, bool catches) {
-    constexpr size_t sum = 4 * sizeof(double);
+    constexpr size_t sum = sizeof(double) + 4 * sizeof(float);
     const bool counts_ids =
         std::holds_alternative<CryptomatteNames>(layer.source) || is_majority(layer);
     if (counts_ids) return sizeof(CryptomattePixel);
@@ -158,13 +158,41 @@ void LayerSums::add(const LayerPlan& plan, const BatchShape& batch, const Worksp
 
 LayerSums::Sum* LayerSums::begun_sums(size_t first_sum, size_t channels) {
     Sum* const sums = sums_.data() + first_sum * pixels_;
-    if (std::exchange(sums_are_new_[first_sum], uint8_t{0}) != 0)
+    if (sums_are_new_[first_sum] != 0) {
+        std::fill_n(&sums_are_new_[first_sum], channels, uint8_t{0});
         std::fill_n(sums, channels * pixels_, Sum{});
+    }
     return sums;
 }
 
 const LayerSums::Sum* LayerSums::sums_of(size_t first_sum) const {
     return sums_are_new_[first_sum] != 0 ? nullptr : sums_.data() + first_sum * pixels_;
+}
+
+/// Adds `count` samples of one block from an index on, of which the first has this number in its
+/// pixel: all channels side by side, as one alone would wait for each of its additions.
+template <size_t N>
+void LayerSums::add_to_block(const std::array<const float*, N>& columns,
+                             size_t index,
+                             size_t number,
+                             size_t count,
+                             std::array<Sum, N>& sums) {
+    const size_t end = index + count;
+    const auto add = [&](size_t part) {
+        for (size_t c = 0; c < N; ++c)
+            sums[c].parts[part] += columns[c][index];
+        ++index;
+    };
+    for (; index < end && number % 4 != 0; ++number)
+        add(number % 4);
+    for (; index + 4 <= end; index += 4) {
+        for (size_t c = 0; c < N; ++c) {
+            for (size_t k = 0; k < 4; ++k)
+                sums[c].parts[k] += columns[c][index + k];
+        }
+    }
+    for (size_t part = 0; index < end; ++part)
+        add(part);
 }
 
 /// Adds channels of a batch's samples to sums of each pixel.
@@ -177,24 +205,16 @@ void LayerSums::add_columns(const BatchShape& batch,
         Sum* const sums = begun + batch.pixels[p] * N;
         std::array<Sum, N> at;
         std::copy_n(sums, N, at.begin());
-        const size_t begin = p * batch.samples;
-        const auto add = [&](size_t i, size_t part) {
-            for (size_t c = 0; c < N; ++c)
-                at[c].parts[part] += static_cast<double>(columns[c][begin + i]);
-        };
-        size_t i = 0;
-        for (; i < batch.samples && (batch.first_sample + i) % 4 != 0; ++i)
-            add(i, (batch.first_sample + i) % 4);
-        for (; i + 4 <= batch.samples; i += 4) {
-            // The channels side by side: one alone would wait for each of its additions.
-            for (size_t c = 0; c < N; ++c) {
-                const float* const from = columns[c] + begin + i;
-                for (size_t k = 0; k < 4; ++k)
-                    at[c].parts[k] += static_cast<double>(from[k]);
-            }
+        for (size_t done = 0; done < batch.samples;) {
+            const size_t number = batch.first_sample + done;
+            const size_t left = block_samples - number % block_samples;
+            const size_t count = std::min(left, batch.samples - done);
+            add_to_block<N>(columns, p * batch.samples + done, number, count, at);
+            done += count;
+            if (count < left) continue;
+            for (Sum& sum : at)
+                sum.end_block();
         }
-        for (size_t k = 0; i < batch.samples; ++i, ++k)
-            add(i, k);
         std::copy_n(at.begin(), N, sums);
     }
 }
@@ -242,12 +262,15 @@ void LayerSums::add_parts(const LayerPlan& plan, const BatchShape& batch, const 
         Sum* const begun = begun_sums(source.first_sum, channels);
         for (size_t i = 0; i < batch.samples; ++i) {
             const size_t sample = batch.first_sample + i;
-            if (!is_in(*mean, sample)) continue;
+            const bool counts = is_in(*mean, sample);
+            const bool ends_block = (sample + 1) % block_samples == 0;
+            if (!counts && !ends_block) continue;
             for (size_t p = 0; p < batch.pixels.size(); ++p) {
                 Sum* const sums = begun + batch.pixels[p] * channels;
-                for (size_t c = 0; c < channels; ++c)
-                    sums[c].parts[sample % 4] +=
-                        static_cast<double>(from[c][p * batch.samples + i]);
+                for (size_t c = 0; c < channels; ++c) {
+                    if (counts) sums[c].parts[sample % 4] += from[c][p * batch.samples + i];
+                    if (ends_block) sums[c].end_block();
+                }
             }
         }
     }
@@ -425,9 +448,18 @@ float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double sampl
 
 void LayerSums::put(StateWriter& out) const {
     out.put_array(sums_are_new_);
-    const bool any_sum =
-        std::find(sums_are_new_.begin(), sums_are_new_.end(), 0) != sums_are_new_.end();
-    if (any_sum) out.put_array(sums_);
+    std::vector<double> blocks(pixels_);
+    std::vector<std::array<float, 4>> parts(pixels_);
+    for (size_t k = 0; k < sums_are_new_.size(); ++k) {
+        if (sums_are_new_[k] != 0) continue;
+        for (size_t p = 0; p < pixels_; ++p) {
+            const Sum& sum = sums_[k * pixels_ + p];
+            blocks[p] = sum.blocks;
+            parts[p] = sum.parts;
+        }
+        out.put_unless_zero(blocks);
+        out.put_unless_zero(parts);
+    }
     out.put_array(nearest_values_);
     out.put_array(nearest_m_);
     out.put_array(luminance_);
@@ -438,9 +470,15 @@ void LayerSums::put(StateWriter& out) const {
 
 void LayerSums::take(StateReader& in) {
     in.take_array(sums_are_new_);
-    const bool any_sum =
-        std::find(sums_are_new_.begin(), sums_are_new_.end(), 0) != sums_are_new_.end();
-    if (any_sum) in.take_array(sums_);
+    std::vector<double> blocks(pixels_);
+    std::vector<std::array<float, 4>> parts(pixels_);
+    for (size_t k = 0; k < sums_are_new_.size(); ++k) {
+        if (sums_are_new_[k] != 0) continue;
+        in.take_unless_zero(blocks);
+        in.take_unless_zero(parts);
+        for (size_t p = 0; p < pixels_; ++p)
+            sums_[k * pixels_ + p] = {blocks[p], parts[p]};
+    }
     in.take_array(nearest_values_);
     in.take_array(nearest_m_);
     in.take_array(luminance_);

@@ -108,11 +108,19 @@ public:
     void take(StateReader& in);
 
 private:
-    /// A sum in four parts, each of every fourth sample: they need not wait for each other.
-    struct Sum {
-        double parts[4] = {0, 0, 0, 0};
+    /// Samples in a block of a sum.
+    static constexpr size_t block_samples = 16;
 
-        double total() const { return (parts[0] + parts[1]) + (parts[2] + parts[3]); }
+    /// A sum whose latest samples are floats, of which sixteen add up to 1e-6. They are in four
+    /// parts, each of every fourth sample: they need not wait for each other.
+    struct Sum {
+        double blocks = 0;  ///< of finished blocks
+        std::array<float, 4> parts = {0, 0, 0, 0};
+
+        double total() const {
+            return blocks + static_cast<double>((parts[0] + parts[1]) + (parts[2] + parts[3]));
+        }
+        void end_block() { *this = {total()}; }
     };
     struct Luminance {
         double sum = 0, squares = 0;
@@ -123,6 +131,12 @@ private:
     /// The same; nullptr: nothing was added.
     const Sum* sums_of(size_t first_sum) const;
     float statistic(SampleStatistic statistic, size_t pixel, double samples) const;
+    template <size_t N>
+    static void add_to_block(const std::array<const float*, N>& columns,
+                             size_t index,
+                             size_t number,
+                             size_t count,
+                             std::array<Sum, N>& sums);
     template <size_t N>
     void add_columns(const BatchShape&,
                      const std::array<const float*, N>& columns,
@@ -138,7 +152,7 @@ private:
 
     size_t pixels_ = 0;
     std::vector<Sum> sums_;              ///< by number of the first of some channels, then by pixel
-    std::vector<uint8_t> sums_are_new_;  ///< by number of the first: nothing was added in this tile
+    std::vector<uint8_t> sums_are_new_;  ///< by number: nothing was added in this tile
     std::vector<float> nearest_values_;
     std::vector<float> nearest_m_;  ///< distance of the nearest hit so far; infinite: none
     std::vector<Luminance> luminance_;

@@ -9,7 +9,7 @@ namespace obscura {
 void StateWriter::put(const void* data, size_t size) {
     const auto* const bytes = static_cast<const std::byte*>(data);
     block_.insert(block_.end(), bytes, bytes + size);
-    if (block_.size() >= block_size) flush();
+    if (sink_ != nullptr && block_.size() >= block_size) flush();
 }
 
 void StateWriter::put_texts(const NamedTexts& texts) {
@@ -31,7 +31,7 @@ Result<void> StateWriter::finish() {
 
 void StateWriter::flush() {
     sum_.add(block_);
-    if (done_) done_ = sink_(block_);
+    if (done_) done_ = (*sink_)(block_);
     block_.clear();
 }
 

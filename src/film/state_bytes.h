@@ -6,6 +6,7 @@
 #include "base/checksum.h"
 #include "base/file_bytes.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -26,10 +27,11 @@ static_assert(std::endian::native == std::endian::little);
 template <typename T>
 concept PlainBytes = std::is_trivially_copyable_v<T> && !std::is_pointer_v<T>;
 
-/// Hands pieces to a file in large blocks, with their checksum behind them.
+/// Hands pieces to a file in large blocks, with their checksum behind them, or keeps them.
 class StateWriter {
 public:
-    explicit StateWriter(const ByteSink& sink) : sink_(sink) { block_.reserve(block_size); }
+    StateWriter() = default;
+    explicit StateWriter(const ByteSink& sink) : sink_(&sink) { block_.reserve(block_size); }
 
     void put(const void* data, size_t size);
     void put_number(uint64_t number) { put(&number, sizeof(number)); }
@@ -40,6 +42,17 @@ public:
         put_number(array.size());
         put(array.data(), array.size() * sizeof(T));
     }
+    /// Whether an element is not zero, and if so the array.
+    template <PlainBytes T>
+    void put_unless_zero(const std::vector<T>& array) {
+        const auto* const bytes = reinterpret_cast<const char*>(array.data());
+        const size_t size = array.size() * sizeof(T);
+        const bool has_any = std::any_of(bytes, bytes + size, [](char byte) { return byte != 0; });
+        put_number(has_any ? 1 : 0);
+        if (has_any) put(bytes, size);
+    }
+    /// Without a sink: all pieces.
+    const Bytes& kept() const { return block_; }
     /// Writes the checksum of all pieces.
     ///
     /// Errors  those of the sink, at any piece
@@ -50,7 +63,7 @@ private:
 
     void flush();
 
-    const ByteSink& sink_;
+    const ByteSink* sink_ = nullptr;
     Bytes block_;
     RunningChecksum sum_;
     Result<void> done_ = {};
@@ -78,6 +91,15 @@ public:
     void take_array(std::vector<T>& out) {
         good_ = number() == out.size() && good_;
         take(out.data(), out.size() * sizeof(T));
+    }
+    /// What put_unless_zero put of as many elements.
+    template <PlainBytes T>
+    void take_unless_zero(std::vector<T>& out) {
+        if (number() != 0) {
+            take(out.data(), out.size() * sizeof(T));
+        } else {
+            std::fill(out.begin(), out.end(), T{});
+        }
     }
     /// An array of any number of elements.
     template <PlainBytes T>

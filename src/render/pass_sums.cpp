@@ -30,6 +30,29 @@ void clear_tile(const Tile& tile, Film& film) {
         clear(layer.pixels, layer.layer.channels.size());
 }
 
+/// Mostly one of the two parts of a sum is zero in all pixels.
+void put_beauty(const std::vector<PixelSum>& sums, StateWriter& out) {
+    std::vector<std::array<double, 4>> blocks(sums.size());
+    std::vector<std::array<float, 4>> latest(sums.size());
+    for (size_t i = 0; i < sums.size(); ++i) {
+        std::copy_n(sums[i].blocks, 4, blocks[i].begin());
+        std::copy_n(sums[i].block, 4, latest[i].begin());
+    }
+    out.put_unless_zero(blocks);
+    out.put_unless_zero(latest);
+}
+
+void take_beauty(StateReader& in, std::vector<PixelSum>& sums) {
+    std::vector<std::array<double, 4>> blocks(sums.size());
+    std::vector<std::array<float, 4>> latest(sums.size());
+    in.take_unless_zero(blocks);
+    in.take_unless_zero(latest);
+    for (size_t i = 0; i < sums.size(); ++i) {
+        std::copy_n(blocks[i].begin(), 4, sums[i].blocks);
+        std::copy_n(latest[i].begin(), 4, sums[i].block);
+    }
+}
+
 }  // namespace
 
 std::vector<int> pass_ends(int samples_per_pixel) {
@@ -140,18 +163,27 @@ Film PassSums::film(const LayerPlan& plan, const Film& like) const {
     return out;
 }
 
+void PassSums::put_tile(const PassTile& tile, StateWriter& out) {
+    const std::lock_guard lock(tile.using_it);
+    const std::array<uint64_t, 6> counted = counters_in_file(tile.counters);
+    out.put(&tile.tile, sizeof(tile.tile));
+    out.put_number(static_cast<uint64_t>(tile.samples));
+    if (tile.samples == 0) return;
+    out.put(counted.data(), sizeof(counted));
+    put_beauty(tile.sums.beauty, out);
+    out.put_array(tile.sums.catchers);
+    tile.sums.layers.put(out);
+}
+
 void PassSums::put(StateWriter& out) const {
     out.put_number(tiles_.size());
-    for (const PassTile& tile : tiles_) {
-        const std::lock_guard lock(tile.using_it);
-        const std::array<uint64_t, 6> counted = counters_in_file(tile.counters);
-        out.put(&tile.tile, sizeof(tile.tile));
-        out.put_number(static_cast<uint64_t>(tile.samples));
-        if (tile.samples == 0) continue;
-        out.put(counted.data(), sizeof(counted));
-        out.put_array(tile.sums.beauty);
-        out.put_array(tile.sums.catchers);
-        tile.sums.layers.put(out);
+    // On all threads, as someone may wait for the program to end.
+    constexpr size_t at_once = 256;
+    for (size_t first = 0; first < tiles_.size(); first += at_once) {
+        std::vector<StateWriter> pieces(std::min(at_once, tiles_.size() - first));
+        parallel_for(pieces.size(), [&](size_t i) { put_tile(tiles_[first + i], pieces[i]); });
+        for (const StateWriter& piece : pieces)
+            out.put(piece.kept().data(), piece.kept().size());
     }
 }
 
@@ -167,7 +199,7 @@ bool PassSums::take(const TileWork& work, StateReader& in) {
         in.take(counted.data(), sizeof(counted));
         tile.counters = counters_from_file(counted);
         begin_tile(work, tile.tile, tile.sums);
-        in.take_array(tile.sums.beauty);
+        take_beauty(in, tile.sums.beauty);
         in.take_array(tile.sums.catchers);
         tile.sums.layers.take(in);
         std::fill(tile.sums.samples.begin(), tile.sums.samples.end(), samples);

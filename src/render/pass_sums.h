@@ -67,6 +67,7 @@ private:
     };
 
     void sample_tile(const FilmWork& work, const TileWork& unbroken, int end, PassTile& tile);
+    static void put_tile(const PassTile& tile, StateWriter& out);
     static void store_tile(const LayerPlan& plan,
                            const PassTile& tile,
                            TilePattern& pattern,

@@ -334,7 +334,8 @@ Result<void> render_in_passes(const FilmWork& work) {
     const Result<void> begun = options.share->begin_passes({sums, work.tile_work, work.film});
     if (!begun) return begun;
     sums->sample(work);
-    sums->store(work.tile_work.layers, work.film);
+    const auto& wants_film = options.share->wants_film;
+    if (!wants_film || wants_film()) sums->store(work.tile_work.layers, work.film);
     return {};
 }
 

@@ -87,6 +87,9 @@ struct FilmShare {
     /// In its place where samples are taken: then they are taken in passes over the film, which
     /// others may look at between them; see render/pass_sums.h.
     std::function<Result<void>(const PassFilm&)> begin_passes = {};
+    /// Asked when passes have ended: false, and the film stays unset, as nobody looks at it. An
+    /// empty one: true.
+    std::function<bool()> wants_film = {};
     /// Called once after rendering, however it ended, before the film goes elsewhere.
     std::function<void(const Film&)> leave = {};
     /// When rendering is stopped, the film so far is a result, too; see RenderResult::is_stopped.
