@@ -181,9 +181,8 @@ void LayerSums::add_to_block(const std::array<const float*, N>& columns,
     const auto add = [&](size_t part) {
         for (size_t c = 0; c < N; ++c)
             sums[c].parts[part] += columns[c][index];
-        ++index;
     };
-    for (; index < end && number % 4 != 0; ++number)
+    for (; index < end && number % 4 != 0; ++index, ++number)
         add(number % 4);
     for (; index + 4 <= end; index += 4) {
         for (size_t c = 0; c < N; ++c) {
@@ -191,7 +190,7 @@ void LayerSums::add_to_block(const std::array<const float*, N>& columns,
                 sums[c].parts[k] += columns[c][index + k];
         }
     }
-    for (size_t part = 0; index < end; ++part)
+    for (size_t part = 0; index < end; ++index, ++part)
         add(part);
 }
 
