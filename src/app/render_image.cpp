@@ -160,6 +160,7 @@ Result<RenderedFilm> render_film(Making& making) {
 Result<void> write_part(const Making& making, const RenderResult& result) {
     const RenderRequest& request = making.job.request;
     FilmStateHead head = head_of(making.job);
+    head.target_samples = 0;  // it holds pixels, also where checkpoints hold sums
     head.counters = counters_in_file(result.counters);
     head.areas = areas_of_part(result.film.width, result.film.height, head.part);
     return write_film_state(part_file(request.outputs.front(), *request.part), head, result.film);

@@ -218,9 +218,21 @@ void LayerSums::add_columns(const BatchShape& batch,
     }
 }
 
+/// What a batch without any light in a layer does to sums: their blocks end all the same.
+void LayerSums::end_blocks(const BatchShape& batch, size_t first_sum, size_t channels) {
+    const size_t end = batch.first_sample + batch.samples;
+    if (batch.first_sample / block_samples == end / block_samples) return;
+    if (sums_are_new_[first_sum] != 0) return;
+    Sum* const begun = begun_sums(first_sum, channels);
+    for (const uint32_t p : batch.pixels) {
+        for (size_t c = 0; c < channels; ++c)
+            begun[p * channels + c].end_block();
+    }
+}
+
 void LayerSums::add_light(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
     const auto add = [&](const ColorView& color, size_t sum) {
-        if (color.r == nullptr) return;
+        if (color.r == nullptr) return end_blocks(batch, sum, light_channels);
         add_columns<3>(batch, {color.r, color.g, color.b}, sum);
     };
     for (size_t k = 0; k < plan.layers_.size(); ++k) {
@@ -443,47 +455,6 @@ float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double sampl
     const double mean = y.sum / samples;
     const double spread = std::max(y.squares / samples - mean * mean, 0.0);
     return static_cast<float>(spread / (samples - 1));
-}
-
-void LayerSums::put(StateWriter& out) const {
-    out.put_array(sums_are_new_);
-    std::vector<double> blocks(pixels_);
-    std::vector<std::array<float, 4>> parts(pixels_);
-    for (size_t k = 0; k < sums_are_new_.size(); ++k) {
-        if (sums_are_new_[k] != 0) continue;
-        for (size_t p = 0; p < pixels_; ++p) {
-            const Sum& sum = sums_[k * pixels_ + p];
-            blocks[p] = sum.blocks;
-            parts[p] = sum.parts;
-        }
-        out.put_unless_zero(blocks);
-        out.put_unless_zero(parts);
-    }
-    out.put_array(nearest_values_);
-    out.put_array(nearest_m_);
-    out.put_array(luminance_);
-    out.put_array(rays_);
-    for (const CryptomattePixel& matte : mattes_)
-        matte.put(out);
-}
-
-void LayerSums::take(StateReader& in) {
-    in.take_array(sums_are_new_);
-    std::vector<double> blocks(pixels_);
-    std::vector<std::array<float, 4>> parts(pixels_);
-    for (size_t k = 0; k < sums_are_new_.size(); ++k) {
-        if (sums_are_new_[k] != 0) continue;
-        in.take_unless_zero(blocks);
-        in.take_unless_zero(parts);
-        for (size_t p = 0; p < pixels_; ++p)
-            sums_[k * pixels_ + p] = {blocks[p], parts[p]};
-    }
-    in.take_array(nearest_values_);
-    in.take_array(nearest_m_);
-    in.take_array(luminance_);
-    in.take_array(rays_);
-    for (CryptomattePixel& matte : mattes_)
-        matte.take(in);
 }
 
 }  // namespace obscura

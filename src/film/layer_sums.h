@@ -141,6 +141,7 @@ private:
     void add_columns(const BatchShape&,
                      const std::array<const float*, N>& columns,
                      size_t first_sum);
+    void end_blocks(const BatchShape&, size_t first_sum, size_t channels);
     void store_light(const LayerPlan::Source&, const SampledPixels&, FilmLayer&) const;
     void store_ratio(const LayerPlan::Source&, const SampledPixels&, FilmLayer&) const;
     void add_means(const LayerPlan& plan, const BatchShape&, const Workspace&);

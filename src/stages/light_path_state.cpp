@@ -24,10 +24,17 @@ uint16_t settled_state(const LightPathTable& table, uint16_t state) {
     return table.settled[state] != 0 ? state : table.common_next[state];
 }
 
+/// The layers that a state's part of a class's light belongs to.
+std::span<const uint16_t> layers_of_class(const LightPathTable& table,
+                                          uint16_t state,
+                                          uint32_t light_class) {
+    const size_t row = size_t{state} * table.class_count + light_class;
+    return {table.layers + table.layer_begin[row], table.layers + table.layer_begin[row + 1]};
+}
+
 /// The layers that a settled state's part of a sum belongs to.
 std::span<const uint16_t> layers_of_sum(const LightPathTable& table, uint16_t state, uint16_t sum) {
-    const size_t row = size_t{state} * table.class_count + table.class_of_sum[sum];
-    return {table.layers + table.layer_begin[row], table.layers + table.layer_begin[row + 1]};
+    return layers_of_class(table, state, table.class_of_sum[sum]);
 }
 
 }  // namespace
@@ -203,9 +210,18 @@ void LightPathState::move_behind(uint32_t slot) {
 }
 
 void LightPathState::add_behind(uint32_t slot, uint32_t light_class, const Vec3f& radiance) {
-    LightPathColumns columns = columns_;
-    columns.layers = behind_.view();
-    add_light(columns, columns.weights, {slot, light_class, radiance});
+    const LightPathTable& table = *columns_.table;
+    const ColorColumns behind = behind_.view();
+    const bool is_settled = columns_.progress[slot] == path_settled;
+    for (int q = 0; q < weights_.used_count; ++q) {
+        const uint16_t left = weights_.used[static_cast<size_t>(q)];
+        const uint16_t state = is_settled ? settled_state(table, left) : left;
+        if (state == no_common_state) continue;
+        const Vec3f weight = color_at(weights_.memory.data() + color_words * left, slot);
+        if (weight.x == 0 && weight.y == 0 && weight.z == 0) continue;
+        for (const uint16_t layer : layers_of_class(table, state, light_class))
+            add_color(behind, layer, slot, weight * radiance);
+    }
 }
 
 void LightPathState::hold(uint32_t slot) {

@@ -55,6 +55,7 @@ TEST_F(Parts, MergeToTheBitsOfOneRendering) {
     expect_equal_bits({"--size", "40x37", "--crop", "3,2,31,33"}, {"a.exr"});
     expect_equal_bits({"--integrator", "normal"}, {"a.exr"});
     expect_equal_bits({"--overscan", "3"}, {"a.exr"});
+    expect_equal_bits({"--size", "40x37", "--spp", "18", "--checkpoint"}, {"a.exr"});
 }
 
 TEST_F(Parts, MergeLayersCryptomatteSegmentationAndDenoising) {

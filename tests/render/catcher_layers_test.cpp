@@ -191,6 +191,22 @@ TEST(CatcherLayers, ReflectionsAreGlossAndShadowsAreNoLight) {
     }
 }
 
+/// A hollow ball has two panes before what lies behind the catcher: the first one alone leads to no
+/// light, though the state that it leads to is the last but one.
+TEST(CatcherLayers, WhatLiesBehindCountsEveryPane) {
+    RenderOptions options = catcher_options({}, BackgroundKind::color);
+    options.transparent_glass = TransparentGlass::off;
+    const auto add = [&](const char* name, const char* expression) {
+        options.layers.push_back(
+            light_layer(name, parse_light_path_expression(expression).value()));
+    };
+    add("one", "C<TS>B");
+    add("two", "C<TS><TS>B");
+    const RenderResult result = render_room(catcher_room(grey_ball(0), glass_layers()), options);
+    EXPECT_EQ(sum_of(result, "one"), 0);
+    EXPECT_GT(sum_of(result, "two"), 1);
+}
+
 TEST(CatcherLayers, DoNotDependOnTiles) {
     RenderOptions options = catcher_options(all_components(), BackgroundKind::environment);
     const Scene room = catcher_room(grey_ball(0), dielectric(1.5f, {0.2f, 0.5f, 1}));

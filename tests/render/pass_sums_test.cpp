@@ -20,7 +20,10 @@ PreparedScene ball() {
     const int32_t grey = builder.material({});
     builder.quad({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, grey);
     builder.sphere({0, 0.7f, 0}, 0.7f, 12, grey);
-    builder.quad({-1.5f, 2.5f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, builder.material(lamp));
+    const int32_t glows = builder.material(lamp);
+    builder.quad({-1.5f, 2.5f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, glows);
+    // So small that its light is in few samples of its tile.
+    builder.quad({0.9f, 0.5f, 0.5f}, {0.01f, 0, 0}, {0, 0.01f, 0}, glows);
     LightingOptions light;
     light.environment = constant_environment(0.2f);
     Log log(Verbosity::quiet);
@@ -36,6 +39,7 @@ protected:
                                                 "depth",
                                                 "crypto_object",
                                                 "diffuse_direct",
+                                                "emission",
                                                 "shadow",
                                                 "cost"};
         RenderOptions out;
