@@ -156,8 +156,7 @@ TEST_F(SkipExisting, TwoProgramsShareASequence) {
     std::multiset<int> written;
     for (const ProgramRun& run : {one.get(), other.get()}) {
         EXPECT_TRUE(run.code == 0 || run.code == 75) << run.err;
-        const std::multiset<int> own = written_by(run);
-        EXPECT_FALSE(own.empty());
+        const std::multiset<int> own = written_by(run);  // none, where the other is fast
         written.insert(own.begin(), own.end());
     }
     EXPECT_EQ(written, (std::multiset<int>{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
