@@ -7,6 +7,8 @@
 #include "support/run_program.h"
 #include "support/temp_folder.h"
 #include "support/text_files.h"
+#include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <fcntl.h>
 #include <future>
@@ -44,6 +46,7 @@ protected:
 const LockHolder elsewhere = {"elsewhere", "pid:[1]", 7, "2026-01-01T00:00:00Z"};
 
 constexpr const char* file_of_child = "OBSCURA_TEST_LOCK";
+constexpr const char* end_of_child = "OBSCURA_TEST_END";  ///< a file: the holder may end
 constexpr int code_of_holder = 42;
 
 /// The number of a process that has ended.
@@ -126,11 +129,21 @@ TEST_F(WorkLocks, OfManyThatTakeOverOneGetsIt) {
     setup.arguments = {std::filesystem::read_symlink("/proc/self/exe").string(),
                        "--gtest_also_run_disabled_tests",
                        "--gtest_filter=WorkLockChild.*"};
-    setup.environment = {std::string(file_of_child) + "=" + file().string()};
+    const std::filesystem::path end = folder_ / "end";
+    setup.environment = {std::string(file_of_child) + "=" + file().string(),
+                         std::string(end_of_child) + "=" + end.string()};
     std::vector<std::future<ProgramRun>> children;
     for (int i = 0; i < 6; ++i) {
         children.push_back(std::async(std::launch::async, [&] { return run_program_with(setup); }));
     }
+    const auto has_ended = [](const std::future<ProgramRun>& child) {
+        return child.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    };
+    // The holder stays until all others have looked: nobody may find its lock stale. Two holders
+    // would stay until they are killed.
+    while (std::count_if(children.begin(), children.end(), has_ended) + 1 < 6)
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    folder_.write("end", "");
     int holders = 0;
     for (std::future<ProgramRun>& child : children) {
         const int code = child.get().code;
@@ -143,10 +156,12 @@ TEST_F(WorkLocks, OfManyThatTakeOverOneGetsIt) {
 /// What a process of the test above does: one that begins anew, as a fork may take over locks.
 TEST(WorkLockChild, DISABLED_TakesAndHolds) {
     const char* const file = std::getenv(file_of_child);
-    ASSERT_NE(file, nullptr);
+    const char* const end = std::getenv(end_of_child);
+    ASSERT_TRUE(file != nullptr && end != nullptr);
     const Result<std::unique_ptr<WorkLock>> lock = WorkLock::take(file);
     if (!lock || !*lock) return;
-    std::this_thread::sleep_for(std::chrono::seconds(3));
+    while (!std::filesystem::exists(end))
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
     std::quick_exit(code_of_holder);
 }
 
