@@ -3,6 +3,7 @@
 #include "render/pass_sums.h"
 
 #include "base/parallel.h"
+#include "film/light_path_expression.h"
 
 #include <gtest/gtest.h>
 
@@ -20,10 +21,14 @@ PreparedScene ball() {
     const int32_t grey = builder.material({});
     builder.quad({-3, 0, -3}, {0, 0, 6}, {6, 0, 0}, grey);
     builder.sphere({0, 0.7f, 0}, 0.7f, 12, grey);
-    const int32_t glows = builder.material(lamp);
-    builder.quad({-1.5f, 2.5f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, glows);
-    // So small that its light is in few samples of its tile.
-    builder.quad({0.9f, 0.5f, 0.5f}, {0.01f, 0, 0}, {0, 0.01f, 0}, glows);
+    builder.quad({-1.5f, 2.5f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}, builder.material(lamp));
+    // Mirrors, so small that they are in few samples of their tiles.
+    Material mirror;
+    mirror.roughness = 0;
+    std::fill_n(mirror.base_color, 3, 0.5f);
+    const int32_t shines = builder.material(mirror);
+    for (const float x : {-1.7f, -1.1f, 1.0f, 1.5f})
+        builder.sphere({x, 1.1f + 0.1f * x, 0.5f}, 0.02f, 12, shines);
     LightingOptions light;
     light.environment = constant_environment(0.2f);
     Log log(Verbosity::quiet);
@@ -39,7 +44,6 @@ protected:
                                                 "depth",
                                                 "crypto_object",
                                                 "diffuse_direct",
-                                                "emission",
                                                 "shadow",
                                                 "cost"};
         RenderOptions out;
@@ -50,6 +54,8 @@ protected:
         out.catcher_ground_m = -0.5f;
         out.light_groups.each = true;
         out.layers = layers_of(names, 2).value();
+        out.layers.push_back(
+            light_layer("mirrors", parse_light_path_expression("C<RS>.*[LOB]").value()));
         return out;
     }
     RenderResult render_with(const RenderOptions& options, double stop_at = 2) const {
