@@ -9,3 +9,6 @@ need obscura mpirun
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 mpirun -n 4 --oversubscribe obscura render "${picture[@]}" --quiet -o shot.exr --part auto
 expect_whole 4 'mpirun'
+mpirun -n 3 --oversubscribe obscura render "${picture[@]}" --quiet -o shot.exr --part auto \
+    --part-by samples
+expect_whole 3 'mpirun, parts of samples'

@@ -110,3 +110,7 @@ expect_whole 2 'scancel, part rendered again'
 
 srun --ntasks 2 --overcommit obscura render "${picture[@]}" --quiet -o shot.exr --part auto
 expect_whole 2 'srun'
+
+srun --ntasks 2 --overcommit obscura render "${picture[@]}" --quiet -o shot.exr --part auto \
+    --part-by samples
+expect_whole 2 'srun, parts of samples'

@@ -89,8 +89,7 @@ Result<void> complete_long_run(RenderRequest& request) {
     }
     if (run.snapshot_interval_s && request.outputs.empty())
         return conflict("--snapshot", "give -o a file's name, which the picture so far gets");
-    const bool is_part = request.part && request.part_by == PartBy::tiles;
-    if (run.snapshot_interval_s && is_part)
+    if (run.snapshot_interval_s && is_part_of_image(request))
         return conflict("--snapshot", "a part of a picture is no picture; leave out one of them");
     if (!run.has_checkpoint) return {};
     if (run.checkpoint.empty() && request.outputs.empty()) {

@@ -5,6 +5,7 @@
 #include "app/option_readers.h"
 #include "app/render_options.h"
 #include "app/render_request.h"
+#include "render/integrators.h"
 
 #include <cstdlib>
 
@@ -16,8 +17,10 @@ using A = RenderArguments;
 using P = PartArguments;
 using R = RenderRequest;
 
-constexpr std::array<Choice<PartBy>, 3> divisions = {
-    {{"auto", PartBy::automatic}, {"tiles", PartBy::tiles}, {"frames", PartBy::frames}}};
+constexpr std::array<Choice<PartBy>, 4> divisions = {{{"auto", PartBy::automatic},
+                                                      {"tiles", PartBy::tiles},
+                                                      {"samples", PartBy::samples},
+                                                      {"frames", PartBy::frames}}};
 
 constexpr std::array<Choice<FarmManager>, 4> managers = {{{"none", FarmManager::none},
                                                           {"deadline", FarmManager::deadline},
@@ -32,7 +35,9 @@ constexpr OptionEntry<A, R> entries[] = {
               "auto: as srun, sbatch --array or mpirun numbers this process",
       .fallback = "all of it", .excludes = {"--check"}},
      text_at<&A::part, &P::part>, parsed_at<parse_part, &R::part>},
-    {{.name = "--part-by", .argument = "NAME", .help = "How parts are divided:",
+    {{.name = "--part-by", .argument = "NAME",
+      .help = "What parts divide among them: bands of a picture's tiles, the samples of all its "
+              "pixels in blocks of 16, or a sequence's frames:",
       .fallback = "frames with --frames, else tiles", .needs = {"--part"}},
      text_at<&A::part, &P::by>, choice_at<divisions, &R::part_by>},
     {{.name = "--farm", .argument = "NAME",
@@ -144,11 +149,16 @@ Result<void> complete_part(const PartArguments& arguments, RenderRequest& reques
         return conflict("--part-by", "frames are of a sequence; add --frames, or use tiles");
     }
     if (request.frames) {
-        return conflict("--part-by", "a sequence is divided by frames; leave out tiles");
+        return conflict("--part-by", "a sequence is divided by frames; leave this out");
     }
     if (request.options.adaptive) {
         return conflict(arguments.part ? "--part" : "--part-by",
                         "adaptive sampling looks at the whole picture; give a fixed --spp");
+    }
+    if (request.part_by == PartBy::samples) {
+        if (is_aov(request.options.integrator))
+            return conflict("--part-by", "this integrator takes no samples; use tiles");
+        request.part->of = PartOf::samples;
     }
     if (!request.standard_output) return {};
     return conflict("--part", "a part is written beside an output; give -o a file's name");

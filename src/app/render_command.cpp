@@ -151,6 +151,7 @@ int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     if (!loaded) return report_failure(loaded.error(), log);
     const Result<void> colored = use_color_space(*request, log);
     if (!colored) return report_failure(colored.error(), log);
+    if (parts != nullptr && parts->are_of_samples()) request->part_by = PartBy::samples;
     size_t skipped = 0;
     const Order order{*request, options_for_merge(arguments), parts};
     const Result<void> done = execute(order, watch, log, skipped);

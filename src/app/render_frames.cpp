@@ -93,7 +93,8 @@ std::vector<size_t> indices_to_render(const RenderRequest& request, size_t count
     return out;
 }
 
-/// Before anything is loaded: a file that changes later is not what was rendered.
+/// Reads all files once more, which may be long: before loading only where files may be skipped, so
+/// that one that is too large for the memory is refused first.
 void find_facts(Job& job) {
     const Isa isa = job.request.isa;
     const std::string isa_name = has_isa(isa) ? stage_table_for(isa).isa : "";
@@ -111,7 +112,7 @@ public:
 
     /// Goes through the images; those of others once more in the end.
     Result<void> run() {
-        find_facts(job_);
+        if (job_.request.long_run.skips_existing) find_facts(job_);
         std::vector<size_t> left = indices_to_render(job_.request, all_.size());
         asked_ = left.size();
         last_ = left.empty() ? 0 : left.back();
@@ -144,6 +145,7 @@ private:
     Result<void> render_one(size_t index) {
         if (!job_.renderer) {
             if (auto loaded = load(job_); !loaded) return loaded;
+            if (job_.facts.empty()) find_facts(job_);
         }
         // All keep the view of the first frame, whoever renders it.
         if (index != 0 && !has_view_) {

@@ -56,10 +56,10 @@ std::string note_of(const Making& making) {
 /// Writes a checkpoint with `save`. That it cannot be written does not end a rendering.
 template <typename Save>
 void try_to_save(const Making& making, bool& has_failed, const Save& save) {
-    const Result<void> saved = save();
-    if (saved) {
+    const Result<bool> saved = save();
+    if (saved && *saved) {
         making.log.detail("checkpoint: " + percent(making.keeper->fraction()));
-    } else if (!has_failed) {
+    } else if (!saved && !has_failed) {
         making.log.warn(saved.error().where,
                         "no checkpoint: " + saved.error().message + "; rendering goes on");
     }
@@ -135,7 +135,8 @@ Result<RenderedFilm> render_film(Making& making) {
         if (!share.part) share.part = FilmPart{};
         share.fill = [&](Film& film) { return keeper->fill(film); };
         share.begin_passes = [&](const PassFilm& film) { return keeper->begin_passes(film); };
-        share.wants_film = [] { return received_stop_signal() == 0; };
+        const bool writes_sums = is_part_of_samples(job.request);
+        share.wants_film = [=] { return !writes_sums && received_stop_signal() == 0; };
         share.leave = [&](const Film& /*film*/) { keeper->leave(); };
         share.keeps_unfinished = true;
     }
@@ -156,21 +157,40 @@ Result<RenderedFilm> render_film(Making& making) {
     return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
 }
 
+/// Says so when there are fewer blocks of samples than parts.
+void tell_of_no_samples(const FilmStateHead& head, const PassSums& sums, Log& log) {
+    if (sums.target() > 0) return;
+    log.info(fmt::format("part {} of {} has no samples: {} make {} blocks of {}",
+                         head.part.index + 1,
+                         head.part.count,
+                         head.target_samples,
+                         (head.target_samples - 1) / static_cast<int>(sum_block_samples) + 1,
+                         sum_block_samples));
+}
+
 /// Writes a part's file.
 Result<void> write_part(const Making& making, const RenderResult& result) {
     const RenderRequest& request = making.job.request;
+    const std::filesystem::path file = part_file(request.outputs.front(), *request.part);
     FilmStateHead head = head_of(making.job);
-    head.target_samples = 0;  // it holds pixels, also where checkpoints hold sums
     head.counters = counters_in_file(result.counters);
     head.areas = areas_of_part(result.film.width, result.film.height, head.part);
-    return write_film_state(part_file(request.outputs.front(), *request.part), head, result.film);
+    if (head.part.of == PartOf::rows) {
+        head.target_samples = 0;  // it holds pixels, also where checkpoints hold sums
+        return write_film_state(file, head, result.film);
+    }
+    const PassSums& sums = *making.keeper->sums();
+    tell_of_no_samples(head, sums, making.log);
+    return write_film_sums(file, head, result.film, [&](StateWriter& out) { sums.put(out); });
 }
 
-/// Whether a film so far has both half images that the denoiser needs.
+/// Whether a film so far has both half images that the denoiser needs, of as many samples.
 bool has_halves(const FilmKeeper& keeper) {
     const PassSums* const sums = keeper.sums();
     if (sums == nullptr) return true;
-    return static_cast<size_t>(sums->min_samples()) >= 2 * half_run(sums->target());
+    const size_t both = 2 * half_run(sums->target());
+    const bool are_equal = static_cast<size_t>(sums->target()) % both == 0;
+    return are_equal && static_cast<size_t>(sums->min_samples()) >= both;
 }
 
 /// Writes all outputs of a film that is finished, or of one of which pixels are missing.
@@ -178,6 +198,7 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     Job& job = making.job;
     RenderRequest request = job.request;
     const bool is_unfinished = film.result.is_stopped;
+    const bool has_faults = too_many_nonfinite(film.result.counters);
     if (is_unfinished) {
         film.result.film = making.keeper->finished_of(std::move(film.result.film));
         if (request.denoise && !has_halves(*making.keeper)) {
@@ -193,7 +214,7 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     const double exposure_ev = request.display.exposure_ev + camera_ev;
     if (is_unfinished) {
         mark_unfinished(*making.keeper, finished);
-    } else {
+    } else if (!has_faults) {
         mark_finished(job, finished);
     }
     if (!is_unfinished && making.turn.is_first) {
@@ -217,7 +238,11 @@ Result<RenderedFilm> film_of_parts(Making& making) {
         if (auto filled = job.parts->fill(film); !filled) return fail(filled.error());
         return std::vector<FilmArea>();
     };
-    const FilmShare share{{}, fill};
+    FilmShare share{{}, fill};
+    if (job.parts->are_of_samples()) {
+        share.part = FilmPart{};
+        share.begin_passes = [&](const PassFilm& film) { return job.parts->fill(film); };
+    }
     making.hooks.share = &share;
     Result<RenderedFilm> film = job.renderer->render_film(job.request, making.camera, making.hooks);
     if (!film) return film;
@@ -270,7 +295,7 @@ Result<void> make_image(
     job.has_begun = true;
     const LongRun& run = request.long_run;
     std::optional<FilmKeeper> keeper;
-    if (is_long_run(run) && job.parts == nullptr) {
+    if (is_followed(request) && job.parts == nullptr) {
         std::optional<std::filesystem::path> file;
         if (run.has_checkpoint) file = checkpoint_file(request);
         keeper.emplace(head_of(job), file);

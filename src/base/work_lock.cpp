@@ -11,6 +11,7 @@
 #include <cstring>
 #include <ctime>
 #include <fcntl.h>
+#include <fstream>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -145,8 +146,9 @@ struct Claim {
 };
 
 Result<Claim> make_claim(const fs::path& lock, const LockHolder& us, const std::string& text) {
-    fs::path file = lock;
-    file += "." + us.host + "." + std::to_string(us.process) + ".part";
+    // Its name does not hold the lock's, which may be as long as names can be.
+    const fs::path file =
+        lock.parent_path() / (".lock." + us.host + "." + std::to_string(us.process) + ".part");
     ::unlink(file.c_str());  // left by an earlier process of our number
     Claim out{file, make_file(file)};
     struct stat status = {};
@@ -262,6 +264,10 @@ LockHolder this_process() {
     if (::gethostname(host.data(), host.size() - 1) == 0) out.host = host.data();
     std::error_code none;  // not on Linux
     out.process_space = fs::read_symlink("/proc/self/ns/pid", none).string();
+    // Machines of one name have the same number of the first space, but were started apart.
+    std::string start;
+    std::ifstream("/proc/sys/kernel/random/boot_id") >> start;
+    out.process_space += " " + start;
     out.process = ::getpid();
     const std::time_t now = std::time(nullptr);
     std::tm utc = {};

@@ -6,11 +6,22 @@
 
 namespace obscura {
 
+CatcherLight& CatcherLight::operator+=(const CatcherLight& other) {
+    shadowed += other.shadowed;
+    unshadowed += other.unshadowed;
+    for (size_t c = 0; c < background.size(); ++c)
+        background[c] += other.background[c];
+    transmitted += other.transmitted;
+    return *this;
+}
+
 void add_catcher_samples(const std::vector<CatcherSample>& samples,
-                         int samples_per_pixel,
+                         const SampleRange& range,
                          std::span<CatcherSum> sums) {
+    const auto per_pixel = static_cast<uint32_t>(range.count);
     for (const CatcherSample& sample : samples) {
-        CatcherSum& sum = sums[sample.slot / static_cast<uint32_t>(samples_per_pixel)];
+        CatcherSum& pixel = sums[sample.slot / per_pixel];
+        CatcherLight& sum = pixel.block_of(range.first + sample.slot % per_pixel);
         sum.shadowed += static_cast<double>(sample.shadowed);
         sum.unshadowed += static_cast<double>(sample.unshadowed);
         for (size_t c = 0; c < 4; ++c)
@@ -19,12 +30,12 @@ void add_catcher_samples(const std::vector<CatcherSample>& samples,
     }
 }
 
-double shadow_alpha(const CatcherSum& sum) {
+double shadow_alpha(const CatcherLight& sum) {
     if (!(sum.unshadowed > 0)) return 0;
     return std::clamp(1 - sum.shadowed / sum.unshadowed, 0.0, 1.0);
 }
 
-std::array<float, 4> catcher_part(const CatcherSum& sum, int samples) {
+std::array<float, 4> catcher_part(const CatcherLight& sum, int samples) {
     const double alpha = shadow_alpha(sum);
     std::array<float, 4> out = {0, 0, 0, 0};
     for (size_t c = 0; c < 4; ++c) {

@@ -115,6 +115,15 @@ void CryptomattePixel::end_run() {
     }
 }
 
+void CryptomattePixel::append(const CryptomattePixel& other) {
+    const auto count = [this](IdCount entry) {
+        if (entry.count > 0) add(entry.hash, entry.count);
+    };
+    count(other.run_);
+    std::for_each(other.few_.begin(), other.few_.end(), count);
+    std::for_each(other.others_.begin(), other.others_.end(), count);
+}
+
 /// The entry that follows `last` in the order of ranks; no object when there is none.
 CryptomattePixel::IdCount CryptomattePixel::next_rank(IdCount last) const noexcept {
     IdCount next;

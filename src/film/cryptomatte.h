@@ -100,6 +100,9 @@ public:
         run_.count += samples;
     }
 
+    /// Counts the samples of another one, too.
+    void append(const CryptomattePixel& other);
+
     /// Writes the ids of largest coverage in descending order; of equal ones the smaller hash comes
     /// first. Coverage is the fraction of the pixel's samples. Ranks that are left over get 0, 0;
     /// objects beyond the last rank are dropped, and the others keep their coverage.

@@ -11,7 +11,7 @@ namespace obscura {
 
 namespace {
 
-constexpr std::string_view magic = "OBSFILM3";
+constexpr std::string_view magic = "OBSFILM4";
 
 /// Calls `use(first float, count)` for each row of the areas, image by image.
 template <typename AnyFilm, typename Use>
@@ -53,6 +53,8 @@ Result<std::span<const std::byte>> checked(const std::filesystem::path& file,
 bool is_well_formed(const FilmStateHead& head) {
     const FilmPart& part = head.part;
     if (part.index < 0 || part.index >= part.count || part.count > max_film_parts) return false;
+    if (part.of != PartOf::rows && part.of != PartOf::samples) return false;
+    if (head.target_samples < (part.of == PartOf::samples ? 1 : 0)) return false;
     if (head.width < 1 || head.height < 1) return false;
     const auto lies_in = [](int first, int count, int all) {
         return first >= 0 && count > 0 && count <= all && first <= all - count;
@@ -66,6 +68,7 @@ FilmStateHead read_head(StateReader& reader) {
     FilmStateHead head;
     head.part.index = reader.integer();
     head.part.count = reader.integer();
+    head.part.of = static_cast<PartOf>(reader.integer());
     head.options = reader.texts();
     head.facts = reader.texts();
     for (uint64_t& counter : head.counters)
@@ -93,6 +96,7 @@ Result<void> write_state(const std::filesystem::path& file,
         out.put(magic.data(), magic.size());
         out.put_number(static_cast<uint64_t>(head.part.index));
         out.put_number(static_cast<uint64_t>(head.part.count));
+        out.put_number(static_cast<uint64_t>(head.part.of));
         out.put_texts(head.options);
         out.put_texts(head.facts);
         for (const uint64_t counter : head.counters)
@@ -150,7 +154,7 @@ int64_t pixels_in(std::span<const FilmArea> areas) {
 std::vector<RowRange> rows_of_part(int height, const FilmPart& part) {
     constexpr int max_rows = 16;  // a tile is so high
     constexpr int bands_a_part = 4;
-    if (part.count == 1) return {{0, height}};
+    if (part.count == 1 || part.of == PartOf::samples) return {{0, height}};
     int rows = max_rows;
     while (rows > 1 && int64_t{height} < int64_t{bands_a_part} * part.count * rows)
         rows /= 2;
@@ -163,6 +167,17 @@ std::vector<RowRange> rows_of_part(int height, const FilmPart& part) {
     return out;
 }
 
+SampleRange samples_of_part(int samples, const FilmPart& part) {
+    if (part.of == PartOf::rows) return {0, samples};
+    constexpr int64_t block = sum_block_samples;
+    const int64_t blocks = (samples + block - 1) / block;
+    const auto begin = [&](int64_t index) {
+        return std::min<int64_t>(blocks * index / part.count * block, samples);
+    };
+    const int64_t first = begin(part.index);
+    return {static_cast<uint32_t>(first), static_cast<int>(begin(part.index + 1) - first)};
+}
+
 std::vector<FilmArea> areas_of_part(int width, int height, const FilmPart& part) {
     std::vector<FilmArea> out;
     for (const RowRange& rows : rows_of_part(height, part))
@@ -171,7 +186,7 @@ std::vector<FilmArea> areas_of_part(int width, int height, const FilmPart& part)
 }
 
 bool is_whole(const FilmStateHead& head) {
-    return head.target_samples == 0 &&
+    return (head.target_samples > 0) == (head.part.of == PartOf::samples) &&
            pixels_in(head.areas) == pixels_in(areas_of_part(head.width, head.height, head.part));
 }
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "film/film.h"
 #include "film/state_bytes.h"
+#include "stages/pixel_sum.h"
 
 #include <array>
 #include <cstdint>
@@ -15,10 +16,15 @@
 
 namespace obscura {
 
+/// What parts of a film divide among them: its rows, or the samples of every pixel.
+enum class PartOf { rows, samples };
+
 /// One of several equal shares of a film.
 struct FilmPart {
     int index = 0;  ///< from 0
     int count = 1;
+    PartOf of = PartOf::rows;
+    bool operator==(const FilmPart&) const = default;
 };
 
 inline constexpr int max_film_parts = 100000;
@@ -38,10 +44,14 @@ int64_t pixels_in(std::span<const FilmArea> areas);
 
 /// The rows of a part: bands, dealt out in turn, so that parts take about as long. Of many parts
 /// bands are thin, so that each part still has several. A part has no rows when there are more
-/// parts than rows. The only part has all rows in one band.
+/// parts than rows. The only part, and one of samples, has all rows in one band.
 std::vector<RowRange> rows_of_part(int height, const FilmPart& part);
 
-/// The same as areas of a film.
+/// The samples that a part has of every pixel, whole blocks of sum_block_samples: none when there
+/// are more parts than blocks. A part of rows has all of them.
+SampleRange samples_of_part(int samples, const FilmPart& part);
+
+/// The rows of a part as areas of a film.
 std::vector<FilmArea> areas_of_part(int width, int height, const FilmPart& part);
 
 /// What a file holds beside pixels.
@@ -54,7 +64,8 @@ struct FilmStateHead {
     NamedTexts images;  ///< the beauty's and each layer's name, with its channels
     /// Of a file of sums: the samples that a pixel is to have in the end. 0: a file of pixels.
     int target_samples = 0;
-    /// Whose pixels the file holds; none is in two of them. A file of sums has none.
+    /// Whose pixels the file holds; none is in two of them. A file of sums has areas when all of
+    /// its part's samples are there, which only parts of samples say.
     std::vector<FilmArea> areas;
 };
 

@@ -129,7 +129,7 @@ size_t sum_bytes(const Layer& layer, bool catches) {
     const bool counts_ids =
         std::holds_alternative<CryptomatteNames>(layer.source) || is_majority(layer);
     if (counts_ids) return sizeof(CryptomattePixel);
-    if (std::holds_alternative<SampleStatistic>(layer.source)) return 2 * sizeof(double);
+    if (std::holds_alternative<SampleStatistic>(layer.source)) return 5 * sizeof(double);
     if (std::holds_alternative<ShadowRatio>(layer.source)) return 2 * light_channels * sum;
     if (std::holds_alternative<LightLayer>(layer.source))
         return (catches ? 2 : 1) * light_channels * sum;
@@ -206,7 +206,7 @@ void LayerSums::add_columns(const BatchShape& batch,
         std::copy_n(sums, N, at.begin());
         for (size_t done = 0; done < batch.samples;) {
             const size_t number = batch.first_sample + done;
-            const size_t left = block_samples - number % block_samples;
+            const size_t left = sum_block_samples - number % sum_block_samples;
             const size_t count = std::min(left, batch.samples - done);
             add_to_block<N>(columns, p * batch.samples + done, number, count, at);
             done += count;
@@ -221,7 +221,7 @@ void LayerSums::add_columns(const BatchShape& batch,
 /// What a batch without any light in a layer does to sums: their blocks end all the same.
 void LayerSums::end_blocks(const BatchShape& batch, size_t first_sum, size_t channels) {
     const size_t end = batch.first_sample + batch.samples;
-    if (batch.first_sample / block_samples == end / block_samples) return;
+    if (batch.first_sample / sum_block_samples == end / sum_block_samples) return;
     if (sums_are_new_[first_sum] != 0) return;
     Sum* const begun = begun_sums(first_sum, channels);
     for (const uint32_t p : batch.pixels) {
@@ -274,7 +274,7 @@ void LayerSums::add_parts(const LayerPlan& plan, const BatchShape& batch, const 
         for (size_t i = 0; i < batch.samples; ++i) {
             const size_t sample = batch.first_sample + i;
             const bool counts = is_in(*mean, sample);
-            const bool ends_block = (sample + 1) % block_samples == 0;
+            const bool ends_block = (sample + 1) % sum_block_samples == 0;
             if (!counts && !ends_block) continue;
             for (size_t p = 0; p < batch.pixels.size(); ++p) {
                 Sum* const sums = begun + batch.pixels[p] * channels;
@@ -347,13 +347,12 @@ void LayerSums::add_statistics(const LayerPlan& plan,
                                const Workspace& work) {
     size_t slot = 0;
     for (const uint32_t p : batch.pixels) {
-        for (const size_t end = slot + batch.samples; slot < end; ++slot) {
+        for (size_t i = 0; i < batch.samples; ++i, ++slot) {
             if (plan.has_variance_) {
                 const SampleColumns& from = work.samples;
                 const auto y =
                     static_cast<double>(luminance(Vec3f{from.r[slot], from.g[slot], from.b[slot]}));
-                luminance_[p].sum += y;
-                luminance_[p].squares += y * y;
+                luminance_[p].block_of(batch.first_sample + i) += {y, y * y};
             }
             if (plan.counts_rays_) rays_[p] += work.rays_cast[slot];
         }
@@ -415,7 +414,8 @@ void LayerSums::store_light(const LayerPlan::Source& source,
     const Sum* const behind = catches ? sums_of(source.first_behind) : nullptr;
     if (front == nullptr && behind == nullptr) return;
     write_pixels(pixels.at, layer, [&](size_t p, std::span<float> out) {
-        const double passes = behind != nullptr ? 1 - shadow_alpha(pixels.catchers[p]) : 0.0;
+        const double passes =
+            behind != nullptr ? 1 - shadow_alpha(pixels.catchers[p].total()) : 0.0;
         for (size_t c = 0; c < out.size(); ++c) {
             const size_t at = p * light_channels + c;
             double sum = front != nullptr ? front[at].total() : 0.0;
@@ -451,7 +451,7 @@ float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double sampl
             break;
     }
     if (samples < 2) return 0;
-    const Luminance& y = luminance_[pixel];
+    const Luminance y = luminance_[pixel].total();
     const double mean = y.sum / samples;
     const double spread = std::max(y.squares / samples - mean * mean, 0.0);
     return static_cast<float>(spread / (samples - 1));

@@ -107,10 +107,16 @@ public:
     void put(StateWriter& out) const;
     void take(StateReader& in);
 
-private:
-    /// Samples in a block of a sum.
-    static constexpr size_t block_samples = 16;
+    /// Puts the sums of a block that has just ended, and begins those of the next one. Counts and
+    /// nearest hits do not depend on the order of samples, and go on.
+    void end_block(StateWriter& out);
+    /// Takes what end_block put, into new sums.
+    void take_block(StateReader& in);
+    /// Adds the sums of the samples that follow: of one block at most, which begins where these
+    /// end.
+    void append(const LayerSums& later);
 
+private:
     /// A sum whose latest samples are floats, of which sixteen add up to 1e-6. They are in four
     /// parts, each of every fourth sample: they need not wait for each other.
     struct Sum {
@@ -124,6 +130,12 @@ private:
     };
     struct Luminance {
         double sum = 0, squares = 0;
+
+        Luminance& operator+=(const Luminance& other) {
+            sum += other.sum;
+            squares += other.squares;
+            return *this;
+        }
     };
 
     /// The sums of the tile's pixels for some channels, side by side.
@@ -150,13 +162,15 @@ private:
     void add_nearest(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_mattes(const LayerPlan& plan, const BatchShape&, const Workspace&);
     void add_statistics(const LayerPlan&, const BatchShape&, const Workspace&);
+    void put_sums(StateWriter& out) const;
+    void take_sums(StateReader& in);
 
     size_t pixels_ = 0;
     std::vector<Sum> sums_;              ///< by number of the first of some channels, then by pixel
     std::vector<uint8_t> sums_are_new_;  ///< by number: nothing was added in this tile
     std::vector<float> nearest_values_;
     std::vector<float> nearest_m_;  ///< distance of the nearest hit so far; infinite: none
-    std::vector<Luminance> luminance_;
+    std::vector<BlockSum<Luminance>> luminance_;
     std::vector<uint64_t> rays_;
     std::vector<CryptomattePixel> mattes_;
 };

@@ -6,6 +6,24 @@
 
 namespace obscura {
 
+namespace {
+
+/// How numbers are put.
+enum class PutAs : uint64_t { zero, floats, doubles };
+
+PutAs shortest(const std::vector<double>& numbers) {
+    auto out = PutAs::zero;
+    for (const double number : numbers) {
+        // By bits: a zero may have a sign.
+        const auto same = std::bit_cast<uint64_t>(static_cast<double>(static_cast<float>(number)));
+        if (same != std::bit_cast<uint64_t>(number)) return PutAs::doubles;
+        if (same != 0) out = PutAs::floats;
+    }
+    return out;
+}
+
+}  // namespace
+
 void StateWriter::put(const void* data, size_t size) {
     const auto* const bytes = static_cast<const std::byte*>(data);
     block_.insert(block_.end(), bytes, bytes + size);
@@ -22,6 +40,18 @@ void StateWriter::put_texts(const NamedTexts& texts) {
     }
 }
 
+void StateWriter::put_doubles(const std::vector<double>& numbers) {
+    const PutAs as = shortest(numbers);
+    put_number(static_cast<uint64_t>(as));
+    if (as == PutAs::doubles) put(numbers.data(), numbers.size() * sizeof(double));
+    if (as != PutAs::floats) return;
+    std::vector<float> floats(numbers.size());
+    std::transform(numbers.begin(), numbers.end(), floats.begin(), [](double number) {
+        return static_cast<float>(number);
+    });
+    put(floats.data(), floats.size() * sizeof(float));
+}
+
 Result<void> StateWriter::finish() {
     flush();
     put_number(sum_.value());
@@ -36,10 +66,22 @@ void StateWriter::flush() {
 }
 
 void StateReader::take(void* out, uint64_t size) {
+    if (size == 0) return;
     good_ = good_ && size <= rest_.size();
-    if (!good_ || size == 0) return;
+    if (!good_) {
+        std::memset(out, 0, size);
+        return;
+    }
     std::memcpy(out, rest_.data(), size);
     rest_ = rest_.subspan(size);
+}
+
+void StateReader::take_doubles(std::vector<double>& out) {
+    const auto as = static_cast<PutAs>(number());
+    if (as == PutAs::doubles) return take(out.data(), out.size() * sizeof(double));
+    std::vector<float> floats(out.size(), 0.0f);
+    if (as == PutAs::floats) take(floats.data(), floats.size() * sizeof(float));
+    std::copy(floats.begin(), floats.end(), out.begin());
 }
 
 std::string StateReader::text() {

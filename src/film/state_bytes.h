@@ -10,6 +10,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -51,6 +52,8 @@ public:
         put_number(has_any ? 1 : 0);
         if (has_any) put(bytes, size);
     }
+    /// Numbers without their number: as floats where that loses no bit, mostly sums of one block.
+    void put_doubles(const std::vector<double>& numbers);
     /// Without a sink: all pieces.
     const Bytes& kept() const { return block_; }
     /// Writes the checksum of all pieces.
@@ -83,7 +86,12 @@ public:
         take(&out, sizeof(out));
         return out;
     }
-    int integer() { return static_cast<int>(number()); }
+    /// A number of an int's range, from 0; another one is not good.
+    int integer() {
+        const uint64_t out = number();
+        good_ = good_ && out <= std::numeric_limits<int>::max();
+        return good_ ? static_cast<int>(out) : 0;
+    }
     std::string text();
     NamedTexts texts();
     /// An array of as many elements as `out` has; another one is not good.
@@ -101,6 +109,8 @@ public:
             std::fill(out.begin(), out.end(), T{});
         }
     }
+    /// What put_doubles put of as many elements.
+    void take_doubles(std::vector<double>& out);
     /// An array of any number of elements.
     template <PlainBytes T>
     void take_new_array(std::vector<T>& out) {

@@ -12,6 +12,8 @@ namespace obscura {
 
 namespace {
 
+constexpr int sum_block_size = sum_block_samples;
+
 int64_t pixels_in(const Tile& tile) {
     return int64_t{tile.width} * tile.height;
 }
@@ -30,29 +32,6 @@ void clear_tile(const Tile& tile, Film& film) {
         clear(layer.pixels, layer.layer.channels.size());
 }
 
-/// Mostly one of the two parts of a sum is zero in all pixels.
-void put_beauty(const std::vector<PixelSum>& sums, StateWriter& out) {
-    std::vector<std::array<double, 4>> blocks(sums.size());
-    std::vector<std::array<float, 4>> latest(sums.size());
-    for (size_t i = 0; i < sums.size(); ++i) {
-        std::copy_n(sums[i].blocks, 4, blocks[i].begin());
-        std::copy_n(sums[i].block, 4, latest[i].begin());
-    }
-    out.put_unless_zero(blocks);
-    out.put_unless_zero(latest);
-}
-
-void take_beauty(StateReader& in, std::vector<PixelSum>& sums) {
-    std::vector<std::array<double, 4>> blocks(sums.size());
-    std::vector<std::array<float, 4>> latest(sums.size());
-    in.take_unless_zero(blocks);
-    in.take_unless_zero(latest);
-    for (size_t i = 0; i < sums.size(); ++i) {
-        std::copy_n(blocks[i].begin(), 4, sums[i].blocks);
-        std::copy_n(latest[i].begin(), 4, sums[i].block);
-    }
-}
-
 }  // namespace
 
 std::vector<int> pass_ends(int samples_per_pixel) {
@@ -68,7 +47,8 @@ std::vector<int> pass_ends(int samples_per_pixel) {
     return out;
 }
 
-PassSums::PassSums(const std::vector<Tile>& tiles, int target) : target_(target) {
+PassSums::PassSums(const std::vector<Tile>& tiles, const SampleRange& samples, bool keeps_blocks)
+    : share_(samples), keeps_blocks_(keeps_blocks) {
     for (const Tile& tile : tiles) {
         tiles_.emplace_back().tile = tile;
         pixels_ += pixels_in(tile);
@@ -80,11 +60,11 @@ double PassSums::mean_samples() const {
 }
 
 double PassSums::fraction() const {
-    return mean_samples() / target_;
+    return share_.count == 0 ? 1 : mean_samples() / share_.count;
 }
 
 int PassSums::min_samples() const {
-    int out = target_;
+    int out = share_.count;
     for (const PassTile& tile : tiles_) {
         const std::lock_guard lock(tile.using_it);
         out = std::min(out, tile.samples);
@@ -103,9 +83,9 @@ RenderCounters PassSums::counters() const {
 
 void PassSums::sample(const FilmWork& work) {
     const std::atomic<bool>& stop = work.tile_work.stop;
-    const std::atomic<bool> never = false;  // a tile's sums are those of whole passes
+    const std::atomic<bool> never = false;  // a tile's sums are those of all its pixels
     const TileWork unbroken{work.tile_work.wavefront, work.tile_work.layers, never};
-    const std::vector<int> ends = pass_ends(target_);
+    const std::vector<int> ends = pass_ends(share_.count);
     // Threads take tile after tile of pass after pass, and need not wait for each other between
     // passes. Who comes to a tile first does for it all that is due.
     std::atomic<size_t> next = 0;
@@ -124,17 +104,40 @@ void PassSums::sample_tile(const FilmWork& work,
                            const TileWork& unbroken,
                            int end,
                            PassTile& tile) {
-    const std::lock_guard lock(tile.using_it);
-    if (tile.samples >= end) return;
+    const auto is_due = [&] {
+        return tile.samples < end && !work.tile_work.stop.load(std::memory_order_relaxed);
+    };
+    while (true) {
+        const std::lock_guard lock(tile.using_it);
+        if (!is_due()) return;
+        take_samples(work, unbroken, next_samples(tile, end), tile);
+    }
+}
+
+void PassSums::take_samples(const FilmWork& work,
+                            const TileWork& unbroken,
+                            const SampleRange& next,
+                            PassTile& tile) {
     ThreadState& state = thread_state(work);
     if (tile.samples == 0) begin_tile(unbroken, tile.tile, tile.sums);
     RenderCounters before;
     add_counts(state.counters, before);
-    const SampleRange range{static_cast<uint32_t>(tile.samples), end - tile.samples};
-    sample_pixels(unbroken, pattern_of(tile.tile, state.pattern).all, range, state, tile.sums);
-    tile.samples = end;
-    samples_ += range.count * pixels_in(tile.tile);
+    sample_pixels(unbroken, pattern_of(tile.tile, state.pattern).all, next, state, tile.sums);
+    tile.samples += next.count;
+    samples_ += next.count * pixels_in(tile.tile);
     add_counts(counted_since(before, state.counters), tile.counters);
+    if (!keeps_blocks_ || tile.samples % sum_block_size != 0) return;
+    StateWriter block;
+    end_block(tile.sums, block);
+    tile.blocks.insert(tile.blocks.end(), block.kept().begin(), block.kept().end());
+}
+
+/// Those that a tile takes next, at most up to `end`: to the end of a block, or of a few, so that
+/// nobody waits long for the tile.
+SampleRange PassSums::next_samples(const PassTile& tile, int end) const {
+    const int most = keeps_blocks_ ? sum_block_size : 4 * sum_block_size;
+    const int left = std::min(end - tile.samples, most - tile.samples % sum_block_size);
+    return {share_.first + static_cast<uint32_t>(tile.samples), left};
 }
 
 void PassSums::store_tile(const LayerPlan& plan,
@@ -170,15 +173,14 @@ void PassSums::put_tile(const PassTile& tile, StateWriter& out) {
     out.put_number(static_cast<uint64_t>(tile.samples));
     if (tile.samples == 0) return;
     out.put(counted.data(), sizeof(counted));
-    put_beauty(tile.sums.beauty, out);
-    out.put_array(tile.sums.catchers);
-    tile.sums.layers.put(out);
+    put_sums(tile.sums, out);
+    out.put_array(tile.blocks);
 }
 
 void PassSums::put(StateWriter& out) const {
     out.put_number(tiles_.size());
     // On all threads, as someone may wait for the program to end.
-    constexpr size_t at_once = 256;
+    constexpr size_t at_once = 64;
     for (size_t first = 0; first < tiles_.size(); first += at_once) {
         std::vector<StateWriter> pieces(std::min(at_once, tiles_.size() - first));
         parallel_for(pieces.size(), [&](size_t i) { put_tile(tiles_[first + i], pieces[i]); });
@@ -187,26 +189,64 @@ void PassSums::put(StateWriter& out) const {
     }
 }
 
+/// Reads what put_tile put. The samples may be too many, and are negative where it cannot be read.
+void PassSums::take_tile(const TileWork& work, StateReader& in, PassTile& tile) {
+    in.take(&tile.tile, sizeof(tile.tile));
+    tile.samples = in.integer();
+    const Tile& area = tile.tile;
+    const bool has_size = area.width > 0 && area.width <= pass_tile_side && area.height > 0 &&
+                          area.height <= pass_tile_side;
+    if (!in.good() || !has_size) tile.samples = -1;
+    if (tile.samples <= 0) return;
+    std::array<uint64_t, 6> counted = {};
+    in.take(counted.data(), sizeof(counted));
+    tile.counters = counters_from_file(counted);
+    begin_tile(work, tile.tile, tile.sums);
+    take_sums(in, tile.sums);
+    in.take_new_array(tile.blocks);
+    std::fill(tile.sums.samples.begin(), tile.sums.samples.end(), tile.samples);
+}
+
 bool PassSums::take(const TileWork& work, StateReader& in) {
     if (in.number() != tiles_.size()) return false;
     for (PassTile& tile : tiles_) {
-        Tile area;
-        in.take(&area, sizeof(area));
-        const int samples = in.integer();
-        if (!(area == tile.tile) || samples < 0 || samples > target_) return false;
-        if (samples == 0) continue;
-        std::array<uint64_t, 6> counted = {};
-        in.take(counted.data(), sizeof(counted));
-        tile.counters = counters_from_file(counted);
-        begin_tile(work, tile.tile, tile.sums);
-        take_beauty(in, tile.sums.beauty);
-        in.take_array(tile.sums.catchers);
-        tile.sums.layers.take(in);
-        std::fill(tile.sums.samples.begin(), tile.sums.samples.end(), samples);
-        tile.samples = samples;
-        samples_ += samples * pixels_in(tile.tile);
+        const Tile wanted = tile.tile;
+        take_tile(work, in, tile);
+        if (!(tile.tile == wanted) || tile.samples < 0 || tile.samples > share_.count) return false;
+        samples_ += tile.samples * pixels_in(tile.tile);
     }
     return in.good();
+}
+
+/// Adds the blocks of a later share of a tile's samples, then the one in progress.
+bool PassSums::append_tile(const TileWork& work, const PassTile& later, TileSums& sums) {
+    StateReader in(later.blocks);
+    TileSums block;
+    while (in.good() && !in.at_end()) {
+        begin_tile(work, later.tile, block);
+        take_block(in, block);
+        obscura::append(block, sums);
+    }
+    obscura::append(later.sums, sums);
+    return in.good();
+}
+
+bool PassSums::append(const TileWork& work, const SampleRange& samples, StateReader& in) {
+    if (in.number() != tiles_.size()) return false;
+    for (PassTile& tile : tiles_) {
+        PassTile later;
+        take_tile(work, in, later);
+        if (!in.good() || !(later.tile == tile.tile) || later.samples != samples.count)
+            return false;
+        if (static_cast<uint32_t>(tile.samples) != samples.first) return false;
+        if (later.samples == 0) continue;
+        if (tile.samples == 0) begin_tile(work, tile.tile, tile.sums);
+        if (!append_tile(work, later, tile.sums)) return false;
+        tile.samples += later.samples;
+        samples_ += later.samples * pixels_in(tile.tile);
+        add_counts(later.counters, tile.counters);
+    }
+    return true;
 }
 
 }  // namespace obscura

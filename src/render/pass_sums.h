@@ -29,10 +29,13 @@ inline constexpr int pass_tile_side = 32;
 class PassSums {
 public:
     /// In      tiles: of pass_tile_side
-    ///         target: samples of a pixel in the end
-    PassSums(const std::vector<Tile>& tiles, int target);
+    ///         samples: those of every pixel that are to be taken
+    ///         keeps_blocks: the sums of each block of samples are kept apart, for `append`;
+    ///         `store` and `film` cannot be used
+    PassSums(const std::vector<Tile>& tiles, const SampleRange& samples, bool keeps_blocks);
 
-    int target() const { return target_; }
+    /// The number of samples that are to be taken.
+    int target() const { return share_.count; }
     /// Samples of all pixels together, so far.
     int64_t samples() const { return samples_; }
     /// The same for each pixel in the mean, and as a fraction of all; and of the pixel with fewest.
@@ -43,7 +46,7 @@ public:
     RenderCounters counters() const;
 
     /// Takes the samples that are missing. When work.tile_work.stop becomes true, tiles end after
-    /// their current pass.
+    /// the next few samples.
     void sample(const FilmWork& work);
 
     /// Writes the means of all pixels into a film of which they are a part; pixels of tiles without
@@ -56,24 +59,36 @@ public:
     /// are others, or have more samples than the target, and then the object is of no more use.
     void put(StateWriter& out) const;
     bool take(const TileWork& work, StateReader& in);
+    /// Adds what the sums of a later share have put: one that keeps blocks, begins where these sums
+    /// end, and is complete. False: it is another one.
+    bool append(const TileWork& work, const SampleRange& samples, StateReader& in);
 
 private:
     struct PassTile {
         mutable std::mutex using_it;  ///< held while it is sampled
         Tile tile;
         int samples = 0;  ///< of each pixel; 0: `sums` are not begun
-        TileSums sums;
+        TileSums sums;    ///< with keeps_blocks_: of the block in progress
+        Bytes blocks;     ///< with keeps_blocks_: the sums of finished ones, of end_block
         RenderCounters counters;
     };
 
     void sample_tile(const FilmWork& work, const TileWork& unbroken, int end, PassTile& tile);
+    SampleRange next_samples(const PassTile& tile, int end) const;
+    void take_samples(const FilmWork& work,
+                      const TileWork& unbroken,
+                      const SampleRange& next,
+                      PassTile& tile);
     static void put_tile(const PassTile& tile, StateWriter& out);
+    static void take_tile(const TileWork& work, StateReader& in, PassTile& tile);
+    static bool append_tile(const TileWork& work, const PassTile& later, TileSums& sums);
     static void store_tile(const LayerPlan& plan,
                            const PassTile& tile,
                            TilePattern& pattern,
                            Film& film);
 
-    const int target_;
+    const SampleRange share_;
+    const bool keeps_blocks_;
     int64_t pixels_ = 0;
     std::deque<PassTile> tiles_;
     std::atomic<int64_t> samples_ = 0;

@@ -329,8 +329,10 @@ void render_tiles(const FilmWork& work, const std::vector<FilmArea>& filled) {
 /// Renders in passes over the whole film.
 Result<void> render_in_passes(const FilmWork& work) {
     const RenderOptions& options = work.options;
-    const auto sums =
-        std::make_shared<PassSums>(tiles_of(options, pass_tile_side), samples_taken(options));
+    const FilmPart part = options.share->part.value_or(FilmPart{});
+    const auto sums = std::make_shared<PassSums>(tiles_of(options, pass_tile_side),
+                                                 samples_of_part(samples_taken(options), part),
+                                                 part.of == PartOf::samples);
     const Result<void> begun = options.share->begin_passes({sums, work.tile_work, work.film});
     if (!begun) return begun;
     sums->sample(work);

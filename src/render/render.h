@@ -85,7 +85,7 @@ struct FilmShare {
     /// Called before rendering; returns areas whose pixels it has filled: they are not rendered.
     std::function<Result<std::vector<FilmArea>>(Film&)> fill = {};
     /// In its place where samples are taken: then they are taken in passes over the film, which
-    /// others may look at between them; see render/pass_sums.h.
+    /// others may look at between them; see render/pass_sums.h. A part of samples needs it.
     std::function<Result<void>(const PassFilm&)> begin_passes = {};
     /// Asked when passes have ended: false, and the film stays unset, as nobody looks at it. An
     /// empty one: true.

@@ -78,7 +78,7 @@ bool sample_list(const TileWork& work,
             trace_batch(in, count, state.work, state.beauty.data() + first, state.counters);
             if (!state.catchers.empty()) {
                 add_catcher_samples(state.work.catcher.samples,
-                                    in.batch.samples,
+                                    {in.batch.first_sample, in.batch.samples},
                                     std::span(state.catchers).subspan(start));
             }
             if (work.layers.empty()) continue;
@@ -166,7 +166,8 @@ void store_beauty(const TileSums& sums, TilePattern& latest, Film& film) {
         for (size_t c = 0; c < channels; ++c)
             out[c] = sums.beauty[i].mean(static_cast<int>(c), sums.samples[i]);
         if (!sums.catchers.empty()) {
-            const std::array<float, 4> part = catcher_part(sums.catchers[i], sums.samples[i]);
+            const std::array<float, 4> part =
+                catcher_part(sums.catchers[i].total(), sums.samples[i]);
             for (size_t c = 0; c < channels; ++c)
                 out[c] += part[c];
         }

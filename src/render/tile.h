@@ -78,6 +78,18 @@ void sample_pixels(const TileWork& work,
                    ThreadState& state,
                    TileSums& sums);
 
+/// Sums of blocks of samples, so that those of some blocks can be added to those before them:
+/// puts the block that has just ended, and begins the next one; takes it into new sums; adds the
+/// sums of the samples that follow, of one block at most, which begins where the others end. Counts
+/// and nearest hits do not depend on the order of samples, and stay when a block is put.
+void end_block(TileSums& sums, StateWriter& out);
+void take_block(StateReader& in, TileSums& sums);
+void append(const TileSums& later, TileSums& sums);
+
+/// All of a tile's sums but the numbers of samples, to go on from; `take_sums` into new sums.
+void put_sums(const TileSums& sums, StateWriter& out);
+void take_sums(StateReader& in, TileSums& sums);
+
 /// Computes an AOV in one tile and writes it into the film.
 void render_aov_tile(const TileWork& work, const Tile& tile, ThreadState& state, Film& film);
 

@@ -23,12 +23,9 @@ fs::path previous(const fs::path& file) {
     return out;
 }
 
-bool is_same_part(const FilmPart& a, const FilmPart& b) {
-    return a.index == b.index && a.count == b.count;
-}
-
 std::string text_of(const FilmPart& part) {
-    return fmt::format("{}/{}", part.index + 1, part.count);
+    const char* const of = part.of == PartOf::samples ? " by samples" : "";
+    return fmt::format("{}/{}{}", part.index + 1, part.count, of);
 }
 
 bool is_there(const fs::path& file) {
@@ -39,9 +36,10 @@ bool is_there(const fs::path& file) {
 /// What differs between a checkpoint and the rendering that may go on from it; "": nothing.
 std::string differences_from(FilmStateHead kept, FilmStateHead wanted) {
     const bool in_passes = kept.target_samples > 0 && wanted.target_samples > 0;
-    const bool go_on = kept.target_samples == wanted.target_samples ||
-                       (kept.target_samples >= min_samples_of_finest_footprint &&
-                        wanted.target_samples > kept.target_samples);
+    const bool go_on =
+        kept.target_samples == wanted.target_samples ||
+        (wanted.part.of == PartOf::rows && kept.target_samples >= min_samples_of_finest_footprint &&
+         wanted.target_samples > kept.target_samples);
     if (in_passes && go_on) {
         for (NamedTexts* const options : {&kept.options, &wanted.options}) {
             const auto is_spp = [](const auto& option) { return option.first == "--spp"; };
@@ -50,7 +48,7 @@ std::string differences_from(FilmStateHead kept, FilmStateHead wanted) {
         }
     }
     std::string differs = differences(kept, wanted);
-    if (differs.empty() && !is_same_part(kept.part, wanted.part))
+    if (differs.empty() && !(kept.part == wanted.part))
         differs = "--part: " + text_of(kept.part) + " and " + text_of(wanted.part);
     return differs;
 }
@@ -123,13 +121,13 @@ Result<void> FilmKeeper::begin_passes(const PassFilm& film) {
     bool fits = true;
     const Result<FilmStateHead> head = read_film_sums(
         *found_, film.film, [&](StateReader& in) { fits = film.sums->take(film.work, in); });
-    if (!head) return fail(head.error());
     if (!fits) {
         return fail(ExitCode::io_error,
                     "E-PART-DAMAGED",
                     found_->string(),
                     "its tiles are not those of this picture; --resume never starts anew");
     }
+    if (!head) return fail(head.error());
     resumed_ = film.sums->counters();
     saved_ = amount_of(head_);
     is_kept_ = true;
@@ -153,31 +151,31 @@ void FilmKeeper::leave() {
     passes_.reset();
 }
 
-Result<void> FilmKeeper::save_meanwhile() {
+Result<bool> FilmKeeper::save_meanwhile() {
     const std::lock_guard lock(using_film_);
-    if (film_ == nullptr) return {};
+    if (film_ == nullptr) return false;
     return save(*film_);
 }
 
-Result<void> FilmKeeper::save(const Film& film) {
-    if (!file_) return {};
+Result<bool> FilmKeeper::save(const Film& film) {
+    if (!file_) return false;
     const FilmStateHead head = head_so_far();
     const int64_t amount = amount_of(head);
     {
         const std::lock_guard lock(mutex_);
-        if (amount == saved_) return {};
+        if (amount == saved_) return false;
     }
     // The older of two generations goes. While the new one is written, the one before it is there
     // under its other name. A damaged one never takes the place of a whole one.
     std::error_code ignored;
     if (is_newest_whole_) fs::rename(*file_, previous(*file_), ignored);
     is_newest_whole_ = false;
-    if (auto written = write(head, film); !written) return written;
+    if (auto written = write(head, film); !written) return fail(written.error());
     is_newest_whole_ = true;
     const std::lock_guard lock(mutex_);
     saved_ = amount;
     is_kept_ = true;
-    return {};
+    return true;
 }
 
 Result<void> FilmKeeper::write(const FilmStateHead& head, const Film& film) const {
@@ -204,7 +202,12 @@ Film FilmKeeper::finished_of(Film&& film) const {
 }
 
 double FilmKeeper::fraction() const {
-    if (sums_ != nullptr) return sums_->fraction();
+    std::shared_ptr<PassSums> sums;
+    {
+        const std::lock_guard lock(mutex_);
+        sums = sums_;
+    }
+    if (sums != nullptr) return sums->fraction();
     const FilmStateHead head = head_so_far();
     const int64_t all = pixels_in(areas_of_part(head.width, head.height, head.part));
     if (all == 0) return 0;

@@ -41,13 +41,14 @@ public:
     void add(const FinishedTile& tile);
     void leave();
 
-    /// Writes a checkpoint of the film that is being rendered, from another thread; does nothing
-    /// when nothing was finished since the latest, or the film has gone elsewhere.
+    /// Writes a checkpoint of the film that is being rendered, from another thread. False, and none
+    /// is written: nothing was finished since the latest, or the film is not there yet, or has gone
+    /// elsewhere.
     ///
     /// Errors  those of write_film_state
-    Result<void> save_meanwhile();
+    Result<bool> save_meanwhile();
     /// Likewise, of a film that has left.
-    Result<void> save(const Film& film);
+    Result<bool> save(const Film& film);
     /// Removes the checkpoint and the one before it.
     void remove() const;
 

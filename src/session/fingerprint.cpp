@@ -5,6 +5,7 @@
 #include "base/checksum.h"
 #include "base/setting_names.h"
 #include "image/fingerprint.h"
+#include "session/image_parts.h"
 #include "session/segmentation.h"
 
 #include <algorithm>
@@ -22,8 +23,13 @@ namespace fs = std::filesystem;
 
 /// Options that say where something is, or which of a sequence's frames are rendered.
 bool is_name_or_range(const std::string& option) {
-    constexpr std::array<std::string_view, 4> all = {"SCENE", "--output", "--format", "--frames"};
+    constexpr std::array<std::string_view, 5> all = {
+        "SCENE", "--output", "--format", "--frames", "--segmentation"};
     return std::find(all.begin(), all.end(), option) != all.end();
+}
+
+bool is_file_of_asset(const std::string& fact) {
+    return fact.starts_with(asset_file_fact);
 }
 
 /// Adds a text with an end that no text holds.
@@ -34,7 +40,8 @@ void sum_text(const std::string& text, RunningChecksum& sum) {
 void sum_texts(const NamedTexts& texts, RunningChecksum& sum) {
     for (const auto& [name, text] : texts) {
         if (is_name_or_range(name)) continue;
-        sum_text(name, sum);
+        // Files may have other names: in their order, their bytes tell them.
+        sum_text(is_file_of_asset(name) ? "" : name, sum);
         sum_text(text, sum);
     }
     sum_text("", sum);  // no option or fact is called so
@@ -109,6 +116,10 @@ Result<void> check_skips_existing(const RenderRequest& request) {
     };
     if (request.standard_output || request.outputs.empty())
         return conflict("what is written to standard output is not kept; give -o a file's name");
+    if (request.options.light_groups.each && request.exr.layout == ExrLayout::separate) {
+        return conflict("with " + setting("light-groups") + " each and " + setting("exr-layout") +
+                        " separate the files have names that the scene tells; leave out one");
+    }
     if (is_part_of_image(request)) {
         return conflict(
             "a part of an image is no image; leave out one of them, or divide a "

@@ -11,7 +11,7 @@
 namespace obscura {
 
 /// The fingerprint of an image: 16 hexadecimal digits, the checksum of all that its files depend
-/// on. Folders and the names of outputs do not belong to it; the names and bytes of the scene's own
+/// on. Names of the scene's and of outputs' files do not belong to it, the bytes of the scene's
 /// files do. Of a sequence's frames, the frame and the first one of the sequence, whose view is
 /// kept, stand for --frames.
 ///

@@ -84,6 +84,7 @@ Result<void> check_alike(const fs::path& file, const FilmStateHead& one, const F
         differs = "the picture's size";
     if (differs.empty() && one.part.count != two.part.count)
         differs = fmt::format("--part: of {} and of {}", one.part.count, two.part.count);
+    if (differs.empty() && one.part.of != two.part.of) differs = "--part-by: tiles and samples";
     if (differs.empty()) return {};
     return refuse_parts(
         "E-PART-MIX",
@@ -129,7 +130,11 @@ fs::path part_file(const fs::path& output, const FilmPart& part) {
 }
 
 bool is_part_of_image(const RenderRequest& request) {
-    return request.part && request.part_by == PartBy::tiles;
+    return request.part && request.part_by != PartBy::frames;
+}
+
+bool is_part_of_samples(const RenderRequest& request) {
+    return request.part && request.part_by == PartBy::samples;
 }
 
 fs::path checkpoint_file(const RenderRequest& request) {
@@ -151,7 +156,7 @@ NamedTexts facts_of(const RenderRequest& request,
                         {"Embree's version", embree},
                         {"the instruction set", isa}};
     for (const fs::path& file : gltf::files_of_asset(request.scene))
-        add_file("the file " + file.filename().string(), file, facts);
+        add_file(std::string(asset_file_fact) + file.filename().string(), file, facts);
     if (request.environment) add_file("the environment's file", *request.environment, facts);
     if (request.camera_json) add_file("the camera's file", *request.camera_json, facts);
     if (request.camera.settings.aperture_file)
@@ -190,6 +195,9 @@ Result<ImageParts> ImageParts::open(const std::vector<fs::path>& files) {
         }
     }
     if (auto complete = check_complete(files, parts); !complete) return fail(complete.error());
+    for (size_t i = 0; i < files.size(); ++i)
+        out.files_[static_cast<size_t>(parts[i].index)] = files[i];
+    out.part_of_ = parts.front().of;
     out.options_ = std::move(first->options);
     out.facts_ = std::move(first->facts);
     out.counters_ = counters_from_file(sums);
@@ -209,6 +217,26 @@ Result<void> ImageParts::fill(Film& film) const {
     for (const fs::path& file : files_) {
         const Result<FilmStateHead> head = read_film_state(file, &film);
         if (!head) return fail(head.error());
+    }
+    return {};
+}
+
+Result<void> ImageParts::fill(const PassFilm& film) const {
+    const auto count = static_cast<int>(files_.size());
+    for (int index = 0; index < count; ++index) {
+        const fs::path& file = files_[static_cast<size_t>(index)];
+        const SampleRange samples =
+            samples_of_part(film.sums->target(), {index, count, PartOf::samples});
+        bool fits = true;
+        const Result<FilmStateHead> head = read_film_sums(file, film.film, [&](StateReader& in) {
+            fits = film.sums->append(film.work, samples, in);
+        });
+        if (!head) return fail(head.error());
+        if (fits) continue;
+        return fail(ExitCode::io_error,
+                    "E-PART-DAMAGED",
+                    file.string(),
+                    "its tiles or samples are not those of this part");
     }
     return {};
 }

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "film/film_state.h"
-#include "render/render.h"
+#include "render/pass_sums.h"
 #include "session/render_request.h"
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura {
@@ -23,6 +24,11 @@ std::filesystem::path checkpoint_file(const RenderRequest& request);
 
 /// Whether a part of a picture is rendered, not some of a sequence's frames.
 bool is_part_of_image(const RenderRequest& request);
+/// Whether that is a part of its samples.
+bool is_part_of_samples(const RenderRequest& request);
+
+/// What the names of facts_of begin with that tell of the asset's own files; the file's follows.
+inline constexpr std::string_view asset_file_fact = "the file ";
 
 /// What the pixels depend on beside the options: the program's and Embree's versions, the
 /// instruction set, and the checksum of every file that is read. A file that cannot be read is
@@ -56,13 +62,17 @@ public:
     /// Errors  78 E-PART-MIX
     Result<void> check_facts(const NamedTexts& facts) const;
 
-    /// Fills all pixels of a film.
+    /// Whether they are parts of the samples of all pixels, not of the pixels.
+    bool are_of_samples() const { return part_of_ == PartOf::samples; }
+    /// Fills all pixels of a film; of one that is rendered in passes, with samples.
     ///
-    /// Errors  those of read_film_state
+    /// Errors  those of read_film_state; 74 E-PART-DAMAGED a part has other tiles or samples
     Result<void> fill(Film& film) const;
+    Result<void> fill(const PassFilm& film) const;
 
 private:
-    std::vector<std::filesystem::path> files_;
+    std::vector<std::filesystem::path> files_;  ///< by the numbers of the parts
+    PartOf part_of_ = PartOf::rows;
     NamedTexts options_, facts_;
     RenderCounters counters_;
 };

@@ -48,6 +48,13 @@ uint64_t pass_bytes(const std::vector<Layer>& layers) {
     return bytes;
 }
 
+/// Bytes a pixel of the finished blocks that a part of samples keeps: their floats.
+uint64_t block_bytes(const RenderRequest& request, uint64_t channels) {
+    if (!is_part_of_samples(request)) return 0;
+    const int samples = samples_of_part(samples_taken(request.options), *request.part).count;
+    return static_cast<uint64_t>(samples) / sum_block_samples * channels * sizeof(float);
+}
+
 bool is_display_format(const std::filesystem::path& file) {
     return file.extension() != ".exr";
 }
@@ -94,6 +101,7 @@ Result<void> charge_film(const Scene& scene,
     // Between adaptive passes: the pixels before the latest ones, two counts, a deviation, a mark.
     if (options.adaptive) bytes_per_pixel += beauty * sizeof(float) + 13;
     if (takes_passes(request)) bytes_per_pixel += pass_bytes(*layers);
+    bytes_per_pixel += block_bytes(request, 4 + layer_channels);
     const auto width = static_cast<uint64_t>(options.crop ? options.crop->width : options.width);
     const auto height = static_cast<uint64_t>(options.crop ? options.crop->height : options.height);
     constexpr uint64_t bytes_per_thread = 8U << 20;  // its batch of paths and its tile's sums

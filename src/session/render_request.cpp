@@ -5,6 +5,7 @@
 #include "base/setting_names.h"
 #include "film/layers.h"
 #include "render/integrators.h"
+#include "session/image_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +14,15 @@
 
 namespace obscura {
 
-bool is_long_run(const LongRun& run) {
-    return run.has_checkpoint || run.time_limit_s || run.snapshot_interval_s;
+bool is_followed(const RenderRequest& request) {
+    const LongRun& run = request.long_run;
+    return run.has_checkpoint || run.time_limit_s || run.snapshot_interval_s ||
+           is_part_of_samples(request);
 }
 
 bool takes_passes(const RenderRequest& request) {
-    return is_long_run(request.long_run) && !request.options.adaptive &&
+    const bool adds_parts = request.part_by == PartBy::samples;
+    return (is_followed(request) || adds_parts) && !request.options.adaptive &&
            !is_aov(request.options.integrator);
 }
 

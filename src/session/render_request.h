@@ -29,7 +29,7 @@ struct Overscan {
 };
 
 /// How work is divided into parts; automatic: a sequence by frames, a picture by tiles.
-enum class PartBy { automatic, tiles, frames };
+enum class PartBy { automatic, tiles, samples, frames };
 
 /// Managers of render farms, by the lines that they read in a program's output.
 enum class FarmManager { none, deadline, alfred, openjd };
@@ -84,14 +84,15 @@ struct RenderRequest {
     Verbosity verbosity = Verbosity::normal;
     FarmManager farm = FarmManager::none;  ///< --farm: for whom progress is told
     std::optional<FilmPart> part;          ///< --part: only this share is rendered
-    PartBy part_by = PartBy::automatic;
-    int write_retries = 0;  ///< --write-retries: of an image's files
+    PartBy part_by = PartBy::automatic;    ///< in a merge: how the parts were
+    int write_retries = 0;                 ///< --write-retries: of an image's files
     LongRun long_run;
     bool check = false;  ///< --check: nothing is built, rendered or written
 };
 
-/// Whether something looks at the image before it is finished, or keeps what there is of it.
-bool is_long_run(const LongRun& run);
+/// Whether something looks at the image before it is finished, or keeps what there is of it: also a
+/// part of its samples, whose sums are its result.
+bool is_followed(const RenderRequest& request);
 
 /// Whether the image is rendered in passes, whose sums are kept; see render/pass_sums.h.
 bool takes_passes(const RenderRequest& request);

@@ -10,7 +10,6 @@ inline namespace OBSCURA_ISA {
 namespace {
 
 OBSCURA_INLINE uint32_t left_in_block(uint32_t number) {
-    if (number < first_sum_samples) return first_sum_samples - number;
     return sum_block_samples - number % sum_block_samples;
 }
 
@@ -61,7 +60,7 @@ uint64_t accumulate(int pixels,
         PixelSum& sum = sums[pixel];
         uint32_t number = range.first;
         for (const int end = slot + range.count; slot < end;) {
-            if (number >= first_sum_samples && number % sum_block_samples == 0) end_block(sum);
+            if (number % sum_block_samples == 0) end_block(sum);
             const int stop = min(end, slot + static_cast<int>(left_in_block(number)));
             number += static_cast<uint32_t>(stop - slot);
             float r = sum.block[0];

@@ -12,18 +12,14 @@ struct SampleRange {
     int count = 0;
 };
 
-/// The first samples of a pixel are added one by one. So few round by 4e-6 at most; 1024 equal ones
-/// would by 1.5e-5, and the layers of the light, whose sums are doubles, have to add up to 1e-5.
-inline constexpr uint32_t first_sum_samples = 256;
-
-/// Later samples are added in blocks of this size, one by one; the blocks are summed in double. A
-/// constant is then right to 5e-7 after 2^20 samples, where a single sum in float is 1.4 % off.
-inline constexpr uint32_t sum_block_samples = 32;
+/// Samples are added in blocks of this size, one by one; the blocks are summed in double. A
+/// constant is then right to 5e-7 after 2^20 samples, where a single sum in float is 1.4 % off. All
+/// sums of a film have these blocks, so that those of some blocks can be made apart and be added
+/// later, in their order: see samples_of_part.
+inline constexpr uint32_t sum_block_samples = 16;
 
 /// Above this a sample counts as not finite: the sum of a pixel's samples must stay finite too.
 inline constexpr float largest_sample = 1.0e30f;
-
-static_assert(first_sum_samples % sum_block_samples == 0);
 
 /// RGBA sum of a pixel. A sample's block follows from its index alone, so that the sum does not
 /// depend on how samples are cut into batches.
@@ -33,7 +29,7 @@ struct PixelSum {
 
     /// Channel c of the mean of a pixel's first `samples` samples.
     float mean(int c, int samples) const {
-        if (static_cast<uint32_t>(samples) <= first_sum_samples) {
+        if (static_cast<uint32_t>(samples) <= sum_block_samples) {
             return block[c] * (1.0f / static_cast<float>(samples));
         }
         return static_cast<float>((blocks[c] + static_cast<double>(block[c])) / samples);

@@ -37,14 +37,18 @@ protected:
         EXPECT_FALSE(read_text(folder_ / a).empty());
     }
     /// Compares merged parts with one rendering, for several numbers of parts.
-    void expect_equal_bits(const Texts& more, const Texts& files) const {
+    ///
+    /// In      of_parts: options that the parts alone have
+    void expect_equal_bits(const Texts& more,
+                           const Texts& files,
+                           const Texts& of_parts = {}) const {
         Texts whole = more;
         whole.insert(whole.end(), {"-o", "a.exr"});
         expect_result(render("box.gltf", whole), 0, "OK");
         for (const std::string& file : files)
             std::filesystem::rename(folder_ / file, folder_ / ("whole." + file));
         for (const int count : {1, 2, 3, 7}) {
-            expect_result(merged("a.exr", count, more), 0, "OK");
+            expect_result(merged("a.exr", count, joined(more, of_parts)), 0, "OK");
             for (const std::string& file : files)
                 expect_same_bits(file, "whole." + file);
         }
@@ -73,6 +77,51 @@ TEST_F(Parts, MergeLayersCryptomatteSegmentationAndDenoising) {
                        "names.json",
                        "--denoise"},
                       {"a.exr", "mask.png", "mask.json", "names.json"});
+}
+
+TEST_F(Parts, OfSamplesMergeToTheBitsOfOneRendering) {
+    const Texts by_samples = {"--part-by", "samples"};
+    const Texts size = {"--size", "40x37", "--spp"};
+    for (const char* const spp : {"7", "16", "100"})
+        expect_equal_bits(joined(size, {spp}), {"a.exr"}, by_samples);
+    expect_equal_bits(joined(size, {"50", "--checkpoint"}), {"a.exr"}, by_samples);
+    expect_equal_bits(joined(size,
+                             {"90",
+                              "--aov",
+                              "normal,depth,position,crypto_object,crypto_material,variance",
+                              "--aov",
+                              "cost,sample_count,diffuse_direct,emission,shadow,id_node",
+                              "--light-groups",
+                              "each",
+                              "--catcher",
+                              "ground",
+                              "--segmentation",
+                              "mask.png",
+                              "--denoise"}),
+                      {"a.exr", "mask.png", "mask.json"},
+                      by_samples);
+}
+
+TEST_F(Parts, OfSamplesAreTold) {
+    const Texts samples = {"--part-by", "samples", "--spp", "32"};
+    const Texts small = joined({"-o", "a.exr", "--size", "40x37"}, samples);
+    const ProgramRun none = render("box.gltf", joined(small, {"--part", "1/3"}));
+    expect_result(none, 0, "OK");
+    EXPECT_THAT(none.err, HasSubstr("part 1 of 3 has no samples: 32 make 2 blocks of 16"));
+    part("a.exr", 2, 3, {"--size", "40x37", "--spp", "32"});
+    part("a.exr", 3, 3, joined({"--size", "40x37"}, samples));
+    const ProgramRun mixed = run(
+        {"merge", part_name("a.exr", 1, 3), part_name("a.exr", 2, 3), part_name("a.exr", 3, 3)});
+    expect_result(mixed, 78, "E-PART-MIX");
+    EXPECT_THAT(mixed.err, HasSubstr("--part-by: tiles and samples"));
+    const auto refused = [&](const Texts& more) {
+        expect_result(render("box.gltf", joined(small, joined({"--part", "1/2"}, more))),
+                      64,
+                      "E-USAGE-CONFLICT");
+    };
+    refused({"--integrator", "normal"});
+    refused({"--snapshot", "5"});
+    refused({"--frames", "1-2", "-o", "f.#.exr"});
 }
 
 TEST_F(Parts, MergeWritesOtherOutputs) {

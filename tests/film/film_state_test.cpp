@@ -49,6 +49,24 @@ protected:
     TempFolder folder_;
 };
 
+TEST(PartsOfSamples, ShareEverySampleOnceInWholeBlocks) {
+    for (const int samples : {1, 16, 17, 64, 1000, 1 << 20}) {
+        for (const int count : {1, 2, 3, 7, 1000}) {
+            int64_t next = 0;
+            for (int index = 0; index < count; ++index) {
+                const SampleRange range = samples_of_part(samples, {index, count, PartOf::samples});
+                EXPECT_EQ(range.first, next);
+                EXPECT_TRUE(range.count == 0 || range.first % sum_block_samples == 0);
+                EXPECT_LE(range.count, (samples / 16 + 1) / count * 16 + 16);
+                next += range.count;
+            }
+            EXPECT_EQ(next, samples);
+        }
+    }
+    EXPECT_EQ(samples_of_part(100, {1, 2}).count, 100) << "a part of rows has all of them";
+    EXPECT_EQ(rows_of_part(50, {1, 2, PartOf::samples}).front().count, 50);
+}
+
 TEST_F(FilmState, PartsShareEveryRowOnce) {
     for (const int height : {1, 5, 64, 1080}) {
         for (const int count : {1, 2, 3, 7, 1000}) {

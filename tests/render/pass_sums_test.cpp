@@ -69,8 +69,10 @@ protected:
     /// Renders in passes, after `begin`; they stay in `sums_`.
     RenderResult render_passes_of(RenderOptions options,
                                   const std::function<void(const PassFilm&)>& begin,
-                                  double stop_at = 2) {
-        FilmShare share{FilmPart{}};
+                                  double stop_at = 2,
+                                  const FilmPart& part = {}) {
+        FilmShare share{part};
+        share.wants_film = [=] { return part.of == PartOf::rows; };
         share.keeps_unfinished = true;
         share.begin_passes = [&](const PassFilm& film) -> Result<void> {
             sums_ = film.sums;
@@ -173,6 +175,48 @@ TEST_F(PassesOfAFilm, GoOnToTheSameBitsFromTheirBytes) {
             };
             const RenderResult resumed = render_passes_of(options(samples), take);
             expect_same(render_with(options(samples)).film, resumed.film);
+        }
+    }
+}
+
+TEST_F(PassesOfAFilm, OfSomeSamplesAddUpToTheBitsOfAll) {
+    constexpr int samples = 87;  // the last block is not whole
+    const RenderResult whole = render_with(options(samples));
+    for (const int count : {1, 3, 7}) {
+        std::vector<std::string> parts;
+        for (int index = 0; index < count; ++index) {
+            const FilmPart part{index, count, PartOf::samples};
+            // One is stopped, and goes on from its bytes.
+            if (index == 1) {
+                render_passes_of(options(samples), nothing, 0.4, part);
+                EXPECT_LT(sums_->fraction(), 1);
+            }
+            const std::string kept = index == 1 ? bytes() : "";
+            const auto go_on = [&](const PassFilm& film) {
+                StateReader reader(std::as_bytes(std::span(kept)));
+                EXPECT_TRUE(kept.empty() || film.sums->take(film.work, reader));
+            };
+            render_passes_of(options(samples), go_on, 2, part);
+            EXPECT_EQ(sums_->fraction(), 1);
+            parts.push_back(bytes());
+        }
+        const auto append = [&](const PassFilm& film, int index, const std::string& part) {
+            StateReader reader(std::as_bytes(std::span(part)));
+            const SampleRange own = samples_of_part(samples, {index, count, PartOf::samples});
+            return film.sums->append(film.work, own, reader);
+        };
+        const auto add_in_order = [&](const PassFilm& film) {
+            for (int index = 0; index < count; ++index)
+                EXPECT_TRUE(append(film, index, parts[static_cast<size_t>(index)]));
+            EXPECT_EQ(film.sums->min_samples(), samples);
+        };
+        const RenderResult merged = render_passes_of(options(samples), add_in_order);
+        EXPECT_EQ(merged.counters.paths, 0u) << "nothing is left to be sampled";
+        expect_same(whole.film, merged.film);
+        if (count > 1) {
+            render_passes_of(options(samples), [&](const PassFilm& film) {
+                EXPECT_FALSE(append(film, count - 1, parts.back())) << "others come first";
+            });
         }
     }
 }

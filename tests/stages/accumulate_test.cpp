@@ -77,7 +77,7 @@ TEST_P(Accumulate, WhatIsNotFiniteIsCountedAndAddsNothing) {
             samples.add(rgb[0], rgb[1], rgb[2], 1);
             samples.add(4, 5, 6, 0.5f);
             std::vector<PixelSum> sums = {{.block = {10, 20, 30, 40}}};
-            EXPECT_EQ(stages().accumulate(1, {0, 3}, samples.columns(), sums.data()), 1U)
+            EXPECT_EQ(stages().accumulate(1, {1, 3}, samples.columns(), sums.data()), 1U)
                 << bad << " in channel " << channel;
             EXPECT_EQ(sums_of(sums), (std::vector<float>{15, 27, 39, 41.5f}))
                 << bad << " in channel " << channel;
@@ -196,7 +196,7 @@ TEST_P(Accumulate, LongSumsDoNotDependOnTheBatches) {
         EXPECT_EQ(mean_in(batch), whole) << "batches of " << batch;
 }
 
-/// Layers of the light are summed in double and have to add up to this sum within 1e-5.
+/// Layers of the light have to add up to this sum within 1e-5.
 TEST_P(Accumulate, AConstantIsRightAfterAnyNumberOfSamples) {
     Pcg32 random(11);
     for (const int samples : {64, 200, 256, 257, 512, 768, 1024, 1500, 2048, 8192}) {
@@ -204,15 +204,15 @@ TEST_P(Accumulate, AConstantIsRightAfterAnyNumberOfSamples) {
             const float value = between(random, 0.05f, 1.0f);
             const PixelSum sum =
                 sum_of_constant(stages(), value, static_cast<uint32_t>(samples), 512);
-            EXPECT_NEAR(sum.mean(0, samples) / value, 1.0, 6e-6) << value << " " << samples;
+            EXPECT_NEAR(sum.mean(0, samples) / value, 1.0, 1e-6) << value << " " << samples;
         }
     }
 }
 
-/// The first samples are one sum in float, as a loop would add them.
+/// The samples of a block are one sum in float, as a loop would add them.
 TEST_P(Accumulate, FewSamplesAreAddedOneByOne) {
-    for (const int samples : {1, 64, 200, 256}) {
-        const PixelSum sum = sum_of_constant(stages(), 0.7f, static_cast<uint32_t>(samples), 64);
+    for (const int samples : {1, 7, 15, 16}) {
+        const PixelSum sum = sum_of_constant(stages(), 0.7f, static_cast<uint32_t>(samples), 4);
         float expected = 0;
         for (int i = 0; i < samples; ++i)
             expected += 0.7f;
