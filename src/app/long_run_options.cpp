@@ -77,16 +77,6 @@ constexpr OptionEntry<A, R> entries[] = {
 Result<void> complete_long_run(RenderRequest& request) {
     if (auto fits = check_skips_existing(request); !fits) return fits;
     LongRun& run = request.long_run;
-    const bool is_limited = run.time_limit_s.has_value();
-    const char* const asked_by = run.has_checkpoint ? "--checkpoint"
-                                 : is_limited       ? "--time-limit"
-                                                    : "--snapshot";
-    if (!run.has_checkpoint && !is_limited && !run.snapshot_interval_s) return {};
-    if (request.options.adaptive) {
-        return conflict(asked_by,
-                        "adaptive sampling has no pixel finished before all are; give a fixed "
-                        "--spp");
-    }
     if (run.snapshot_interval_s && request.outputs.empty())
         return conflict("--snapshot", "give -o a file's name, which the picture so far gets");
     if (run.snapshot_interval_s && is_part_of_image(request))

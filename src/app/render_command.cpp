@@ -50,11 +50,13 @@ void log_summary(const RenderRequest& request,
         request.frames ? fmt::format("rendered {} frames", statistics.frames.size()) : "rendered";
     if (statistics.adaptive) {
         const SamplesTaken& taken = *statistics.adaptive;
-        log.info(fmt::format("{} to {} samples a pixel, {:.1f} in the mean, to a noise of {:.4f}",
+        const std::string noise =
+            taken.noise ? fmt::format(", to a noise of {:.4f}", *taken.noise) : "";
+        log.info(fmt::format("{} to {} samples a pixel, {:.1f} in the mean{}",
                              taken.least,
                              taken.most,
                              taken.mean(),
-                             taken.noise));
+                             noise));
     }
     log.info(fmt::format("{} in {:.2f} s: {:.2f} M paths/s, {:.2f} M rays/s; wrote {}{}",
                          what,

@@ -33,6 +33,7 @@ FilmStateHead head_of(const Job& job) {
     FilmStateHead head;
     if (is_part_of_image(job.request)) head.part = *job.request.part;
     if (takes_passes(job.request)) head.target_samples = samples_taken(job.request.options);
+    head.is_adaptive = job.request.options.adaptive.has_value();
     if (!job.request.long_run.has_checkpoint && !is_part_of_image(job.request)) return head;
     head.options = job.options;
     head.facts = job.facts;
@@ -69,7 +70,7 @@ void try_to_save(const Making& making, bool& has_failed, const Save& save) {
 /// Marks an image of which pixels or samples are missing.
 void mark_unfinished(const FilmKeeper& keeper, FinishedImage& image) {
     image.metadata.extra.push_back({"obscura:done", keeper.fraction()});
-    if (const PassSums* const sums = keeper.sums())
+    if (const FilmSums* const sums = keeper.sums())
         image.metadata.extra.push_back({"obscura:samplesDone", sums->mean_samples()});
 }
 
@@ -158,7 +159,7 @@ Result<RenderedFilm> render_film(Making& making) {
 }
 
 /// Says so when there are fewer blocks of samples than parts.
-void tell_of_no_samples(const FilmStateHead& head, const PassSums& sums, Log& log) {
+void tell_of_no_samples(const FilmStateHead& head, const FilmSums& sums, Log& log) {
     if (sums.target() > 0) return;
     log.info(fmt::format("part {} of {} has no samples: {} make {} blocks of {}",
                          head.part.index + 1,
@@ -179,18 +180,20 @@ Result<void> write_part(const Making& making, const RenderResult& result) {
         head.target_samples = 0;  // it holds pixels, also where checkpoints hold sums
         return write_film_state(file, head, result.film);
     }
-    const PassSums& sums = *making.keeper->sums();
+    const FilmSums& sums = *making.keeper->sums();
     tell_of_no_samples(head, sums, making.log);
     return write_film_sums(file, head, result.film, [&](StateWriter& out) { sums.put(out); });
 }
 
 /// Whether a film so far has both half images that the denoiser needs, of as many samples.
-bool has_halves(const FilmKeeper& keeper) {
-    const PassSums* const sums = keeper.sums();
+bool has_halves(const FilmKeeper& keeper, const RenderOptions& options) {
+    const FilmSums* const sums = keeper.sums();
     if (sums == nullptr) return true;
-    const size_t both = 2 * half_run(sums->target());
+    const size_t both = 2 * halves_run(options);
+    const size_t least =
+        options.adaptive ? static_cast<size_t>(options.adaptive->min_samples) : both;
     const bool are_equal = static_cast<size_t>(sums->target()) % both == 0;
-    return are_equal && static_cast<size_t>(sums->min_samples()) >= both;
+    return are_equal && static_cast<size_t>(sums->min_samples()) >= least;
 }
 
 /// Writes all outputs of a film that is finished, or of one of which pixels are missing.
@@ -201,7 +204,7 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     const bool has_faults = too_many_nonfinite(film.result.counters);
     if (is_unfinished) {
         film.result.film = making.keeper->finished_of(std::move(film.result.film));
-        if (request.denoise && !has_halves(*making.keeper)) {
+        if (request.denoise && !has_halves(*making.keeper, request.options)) {
             making.log.warn(request.scene.string(),
                             "not denoised: there are too few samples to tell their noise");
             leave_undenoised(request, film.result.film);
@@ -254,14 +257,15 @@ Result<RenderedFilm> film_of_parts(Making& making) {
 tl::unexpected<Error> time_is_up(const Making& making) {
     const RenderRequest& request = making.job.request;
     const std::string note = note_of(making);
-    const PassSums* const sums = making.keeper->sums();
+    const FilmSums* const sums = making.keeper->sums();
     const bool is_black = sums == nullptr && !is_part_of_image(request);
     std::string message = fmt::format("the time limit is over: {} of the picture are rendered{}",
                                       percent(making.keeper->fraction()),
                                       is_black ? ", the rest is black" : "");
     if (sums != nullptr) {
-        message +=
-            fmt::format(", {:.1f} of {} samples a pixel", sums->mean_samples(), sums->target());
+        const char* const of = request.options.adaptive ? "at most " : "";
+        message += fmt::format(
+            ", {:.1f} of {}{} samples a pixel", sums->mean_samples(), of, sums->target());
     }
     if (!note.empty()) message += "; " + note;
     return fail(ExitCode::stopped_early, "E-TIME-LIMIT", request.scene.string(), message);

@@ -77,6 +77,7 @@ FilmStateHead read_head(StateReader& reader) {
     head.height = reader.integer();
     head.images = reader.texts();
     head.target_samples = reader.integer();
+    head.is_adaptive = reader.number() != 0;
     for (uint64_t left = reader.number(); left > 0 && reader.good(); --left) {
         FilmArea area;
         for (int* const one : {&area.x, &area.y, &area.width, &area.height})
@@ -105,6 +106,7 @@ Result<void> write_state(const std::filesystem::path& file,
         out.put_number(static_cast<uint64_t>(film.height));
         out.put_texts(images_of(film));
         out.put_number(static_cast<uint64_t>(head.target_samples));
+        out.put_number(head.is_adaptive ? 1 : 0);
         out.put_number(head.areas.size());
         for (const FilmArea& area : head.areas) {
             for (const int one : {area.x, area.y, area.width, area.height})

@@ -64,6 +64,7 @@ struct FilmStateHead {
     NamedTexts images;  ///< the beauty's and each layer's name, with its channels
     /// Of a file of sums: the samples that a pixel is to have in the end. 0: a file of pixels.
     int target_samples = 0;
+    bool is_adaptive = false;  ///< pixels have fewer where their noise is low
     /// Whose pixels the file holds; none is in two of them. A file of sums has areas when all of
     /// its part's samples are there, which only parts of samples say.
     std::vector<FilmArea> areas;

@@ -6,6 +6,7 @@
 #include "base/stopwatch.h"
 #include "film/cryptomatte_names.h"
 #include "film/light_path_plan.h"
+#include "render/adaptive_sums.h"
 #include "render/camera_media.h"
 #include "render/counts.h"
 #include "render/filter_table.h"
@@ -326,18 +327,36 @@ void render_tiles(const FilmWork& work, const std::vector<FilmArea>& filled) {
     });
 }
 
-/// Renders in passes over the whole film.
+/// Renders in passes over the whole film. Returns whether the film has the pixels.
+Result<bool> run_passes(const FilmWork& work, const std::shared_ptr<FilmSums>& sums) {
+    const FilmShare* const share = work.options.share;
+    if (share != nullptr && share->begin_passes) {
+        const Result<void> begun = share->begin_passes({sums, work.tile_work, work.film});
+        if (!begun) return fail(begun.error());
+    }
+    sums->sample(work);
+    const bool wants_film = share == nullptr || !share->wants_film || share->wants_film();
+    if (wants_film) sums->store(work.tile_work.layers, work.film);
+    return wants_film;
+}
+
 Result<void> render_in_passes(const FilmWork& work) {
     const RenderOptions& options = work.options;
     const FilmPart part = options.share->part.value_or(FilmPart{});
     const auto sums = std::make_shared<PassSums>(tiles_of(options, pass_tile_side),
                                                  samples_of_part(samples_taken(options), part),
                                                  part.of == PartOf::samples);
-    const Result<void> begun = options.share->begin_passes({sums, work.tile_work, work.film});
-    if (!begun) return begun;
-    sums->sample(work);
-    const auto& wants_film = options.share->wants_film;
-    if (!wants_film || wants_film()) sums->store(work.tile_work.layers, work.film);
+    const Result<bool> done = run_passes(work, sums);
+    if (!done) return fail(done.error());
+    return {};
+}
+
+Result<void> render_adaptively(const FilmWork& work, RenderResult& result) {
+    const auto sums = std::make_shared<AdaptiveSums>(
+        tiles_of(work.options, pass_tile_side), work.options, work.film);
+    const Result<bool> done = run_passes(work, sums);
+    if (!done) return fail(done.error());
+    if (*done) result.adaptive = sums->taken(work.film);
     return {};
 }
 
@@ -345,10 +364,7 @@ Result<void> render_in_passes(const FilmWork& work) {
 Result<void> render_film(const FilmWork& work, RenderResult& result) {
     const RenderOptions& options = work.options;
     const FilmShare* const share = options.share;
-    if (options.adaptive) {
-        result.adaptive = render_passes(work);
-        return {};
-    }
+    if (options.adaptive) return render_adaptively(work, result);
     const bool takes_passes = share != nullptr && share->begin_passes;
     if (takes_passes && !is_aov(options.integrator)) return render_in_passes(work);
     Result<std::vector<FilmArea>> filled;

@@ -69,7 +69,7 @@ struct LightingOptions {
 };
 
 /// Adaptive sampling: samples are taken where they lower the noise of the picture. See
-/// render/passes.h.
+/// render/adaptive_sums.h.
 struct AdaptiveOptions {
     double noise_target = 0.01;  ///< relative error of the picture; see film/noise.h
     int min_samples = 16;        ///< of every pixel, from 2 to samples_per_pixel
@@ -85,7 +85,7 @@ struct FilmShare {
     /// Called before rendering; returns areas whose pixels it has filled: they are not rendered.
     std::function<Result<std::vector<FilmArea>>(Film&)> fill = {};
     /// In its place where samples are taken: then they are taken in passes over the film, which
-    /// others may look at between them; see render/pass_sums.h. A part of samples needs it.
+    /// others may look at between them; see render/film_sums.h. A part of samples needs it.
     std::function<Result<void>(const PassFilm&)> begin_passes = {};
     /// Asked when passes have ended: false, and the film stays unset, as nobody looks at it. An
     /// empty one: true.
@@ -162,7 +162,8 @@ struct SamplesTaken {
     uint64_t total = 0;
     uint64_t pixels = 0;
     int least = 0, most = 0;  ///< of a pixel
-    double noise = 0;         ///< relative error of the picture, by its own estimate
+    /// Relative error of the picture, by its own estimate; none: it ended before there was one.
+    std::optional<double> noise;
 
     double mean() const { return static_cast<double>(total) / static_cast<double>(pixels); }
 };

@@ -63,17 +63,6 @@ std::vector<float> alpha_of(const Film& film) {
     return alpha;
 }
 
-/// Samples in a row that go to one half. Adaptive sampling stops pixels at different numbers of
-/// samples, the least one, its doubles and the most one: each must have halves of equal size.
-size_t run_of(const RenderOptions& options) {
-    if (!options.adaptive) return half_run(options.samples_per_pixel);
-    size_t run = 8;
-    const auto splits = [&](int samples) { return static_cast<size_t>(samples) % (2 * run) == 0; };
-    while (run > 1 && !(splits(options.adaptive->min_samples) && splits(options.samples_per_pixel)))
-        run /= 2;
-    return run;
-}
-
 /// By how much a beauty may differ from the mean of its halves because numbers were rounded.
 struct Rounding {
     float relative, absolute;
@@ -138,6 +127,15 @@ Result<void> check_denoising(const RenderOptions& options, const std::string& as
     return {};
 }
 
+size_t halves_run(const RenderOptions& options) {
+    if (!options.adaptive) return half_run(options.samples_per_pixel);
+    size_t run = 8;
+    const auto splits = [&](int samples) { return static_cast<size_t>(samples) % (2 * run) == 0; };
+    while (run > 1 && !(splits(options.adaptive->min_samples) && splits(options.samples_per_pixel)))
+        run /= 2;
+    return run;
+}
+
 void add_denoising_layers(RenderOptions& options) {
     for (Layer& layer : denoising_layers()) {
         if (!has_same(options.layers, layer)) options.layers.push_back(std::move(layer));
@@ -146,15 +144,15 @@ void add_denoising_layers(RenderOptions& options) {
 
 void set_half_runs(RenderOptions& options) {
     for (Layer& layer : options.layers) {
-        if (auto* mean = std::get_if<PartMean>(&layer.source)) mean->run = run_of(options);
+        if (auto* mean = std::get_if<PartMean>(&layer.source)) mean->run = halves_run(options);
     }
 }
 
 HalvesOfSamples halves_of(const RenderOptions& options) {
     HalvesOfSamples out;
-    if (options.adaptive) return out;  // see run_of
+    if (options.adaptive) return out;  // see halves_run
     const auto samples = static_cast<size_t>(options.samples_per_pixel);
-    const PartMean first{{}, SamplePart::first_half, run_of(options)};
+    const PartMean first{{}, SamplePart::first_half, halves_run(options)};
     out.first_share = static_cast<float>(samples_in(first, samples)) / static_cast<float>(samples);
     return out;
 }

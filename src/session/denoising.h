@@ -18,6 +18,10 @@ Result<void> check_denoising(const RenderOptions& options, const std::string& as
 /// Adds the layers that denoising needs and that are not asked for anyway.
 void add_denoising_layers(RenderOptions& options);
 
+/// Samples in a row that go to one half. Adaptive sampling stops pixels at different numbers of
+/// samples, the least one, its doubles and the most one: each must have halves of equal size.
+size_t halves_run(const RenderOptions& options);
+
 /// Sets the runs of the layers of halves by the number of samples.
 void set_half_runs(RenderOptions& options);
 

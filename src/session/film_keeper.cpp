@@ -36,11 +36,11 @@ bool is_there(const fs::path& file) {
 /// What differs between a checkpoint and the rendering that may go on from it; "": nothing.
 std::string differences_from(FilmStateHead kept, FilmStateHead wanted) {
     const bool in_passes = kept.target_samples > 0 && wanted.target_samples > 0;
-    const bool go_on =
-        kept.target_samples == wanted.target_samples ||
-        (wanted.part.of == PartOf::rows && kept.target_samples >= min_samples_of_finest_footprint &&
-         wanted.target_samples > kept.target_samples);
-    if (in_passes && go_on) {
+    const bool may_take_more = wanted.part.of == PartOf::rows && !kept.is_adaptive;
+    const bool go_on = kept.target_samples == wanted.target_samples ||
+                       (may_take_more && kept.target_samples >= min_samples_of_finest_footprint &&
+                        wanted.target_samples > kept.target_samples);
+    if (in_passes && go_on && kept.is_adaptive == wanted.is_adaptive) {
         for (NamedTexts* const options : {&kept.options, &wanted.options}) {
             const auto is_spp = [](const auto& option) { return option.first == "--spp"; };
             options->erase(std::remove_if(options->begin(), options->end(), is_spp),
@@ -202,7 +202,7 @@ Film FilmKeeper::finished_of(Film&& film) const {
 }
 
 double FilmKeeper::fraction() const {
-    std::shared_ptr<PassSums> sums;
+    std::shared_ptr<FilmSums> sums;
     {
         const std::lock_guard lock(mutex_);
         sums = sums_;

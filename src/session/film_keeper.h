@@ -4,7 +4,7 @@
 
 #include "base/log.h"
 #include "film/film_state.h"
-#include "render/pass_sums.h"
+#include "render/film_sums.h"
 
 #include <filesystem>
 #include <mutex>
@@ -60,7 +60,7 @@ public:
     /// The fraction of the part's pixels that are finished; in passes, of its samples.
     double fraction() const;
     /// The sums of a film that is rendered in passes; null: it is not.
-    const PassSums* sums() const { return sums_.get(); }
+    const FilmSums* sums() const { return sums_.get(); }
     /// Counters of the tiles that came from the checkpoint.
     const RenderCounters& resumed_counters() const { return resumed_; }
     /// The checkpoint's file where one was written or read; "": none was.
@@ -78,7 +78,7 @@ private:
     mutable std::mutex using_film_;  ///< held while film_ is read; locked before mutex_
     const Film* film_ = nullptr;
     std::optional<PassFilm> passes_;  ///< while film_ is there
-    std::shared_ptr<PassSums> sums_;  ///< from begin_passes on
+    std::shared_ptr<FilmSums> sums_;  ///< from begin_passes on
     mutable std::mutex mutex_;        ///< of what follows
     FilmStateHead head_;              ///< with areas and counters so far
     int64_t saved_ = 0;               ///< areas or samples that the latest checkpoint holds

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "film/film_state.h"
-#include "render/pass_sums.h"
+#include "render/film_sums.h"
 #include "session/render_request.h"
 
 #include <filesystem>

@@ -9,6 +9,7 @@
 #include "image/environment_memory.h"
 #include "render/integrators.h"
 #include "scene/scene_memory.h"
+#include "session/image_parts.h"
 
 #include <algorithm>
 #include <utility>
@@ -98,9 +99,10 @@ Result<void> charge_film(const Scene& scene,
     const uint64_t beauty = film_channels(options.integrator).size();
     const uint64_t film_bytes = (beauty + layer_channels) * sizeof(float);
     uint64_t bytes_per_pixel = film_bytes + finishing_bytes(request, film_bytes);
-    // Between adaptive passes: the pixels before the latest ones, two counts, a deviation, a mark.
-    if (options.adaptive) bytes_per_pixel += beauty * sizeof(float) + 13;
-    if (takes_passes(request)) bytes_per_pixel += pass_bytes(*layers);
+    // What adaptive passes plan with: the pixels before the latest ones, four counts, a deviation,
+    // a mark.
+    if (options.adaptive) bytes_per_pixel += beauty * sizeof(float) + 21;
+    if (options.adaptive || takes_passes(request)) bytes_per_pixel += pass_bytes(*layers);
     bytes_per_pixel += block_bytes(request, 4 + layer_channels);
     const auto width = static_cast<uint64_t>(options.crop ? options.crop->width : options.width);
     const auto height = static_cast<uint64_t>(options.crop ? options.crop->height : options.height);

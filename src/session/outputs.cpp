@@ -263,12 +263,12 @@ void add_samples_taken(const AdaptiveOptions& asked,
                        ImageMetadata& metadata) {
     const std::initializer_list<ImageAttribute> added = {
         {"obscura:noiseTarget", asked.noise_target},
-        {"obscura:noise", taken.noise},
         {"obscura:samplesMin", taken.least},
         {"obscura:samplesMax", taken.most},
         {"obscura:samplesMean", taken.mean()},
         {"obscura:samplesTotal", static_cast<double>(taken.total)}};
     metadata.extra.insert(metadata.extra.end(), added);
+    if (taken.noise) metadata.extra.push_back({"obscura:noise", *taken.noise});
 }
 
 std::string degraded_text(const gltf::Degraded& degraded) {

@@ -22,8 +22,7 @@ bool is_followed(const RenderRequest& request) {
 
 bool takes_passes(const RenderRequest& request) {
     const bool adds_parts = request.part_by == PartBy::samples;
-    return (is_followed(request) || adds_parts) && !request.options.adaptive &&
-           !is_aov(request.options.integrator);
+    return (is_followed(request) || adds_parts) && !is_aov(request.options.integrator);
 }
 
 std::vector<MovieFrame> frames_of(const RenderRequest& request) {

@@ -94,7 +94,7 @@ struct RenderRequest {
 /// part of its samples, whose sums are its result.
 bool is_followed(const RenderRequest& request);
 
-/// Whether the image is rendered in passes, whose sums are kept; see render/pass_sums.h.
+/// Whether the image is rendered in passes, whose sums are kept; see render/film_sums.h.
 bool takes_passes(const RenderRequest& request);
 
 /// The images of a request: one, or one for each frame.

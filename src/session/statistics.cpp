@@ -50,7 +50,7 @@ void add_memory(const RenderStatistics& statistics, Json& json) {
 
 Json samples_json(const AdaptiveOptions& asked, const SamplesTaken& taken) {
     return {{"noise_target", asked.noise_target},
-            {"noise", taken.noise},
+            {"noise", taken.noise ? Json(*taken.noise) : Json()},
             {"passes", taken.passes},
             {"total", taken.total},
             {"min", taken.least},

@@ -241,8 +241,6 @@ TEST_F(Checkpoints, WrongOptionsAreRefused) {
         {"--checkpoint-interval", "3"},
         {"--keep-checkpoint"},
         {"--checkpoint", "-o", "-"},
-        {"--checkpoint", "--noise-target", "0.1"},
-        {"--time-limit", "9", "--noise-target", "0.1"},
         {"--snapshot", "9", "--part", "1/2"},
         {"--snapshot", "9", "-o", "-"},
         {"--checkpoint=a.film", "--frames", "1-2", "-o", "a.#.exr"}};
@@ -317,6 +315,37 @@ TEST_F(Checkpoints, ThatAreKeptGoOnToMoreSamples) {
     const ProgramRun few = render("box.gltf", kept("64"));
     expect_result(few, 78, "E-RESUME-MIX");
     EXPECT_THAT(few.err, HasSubstr("--spp: 32 and 64"));
+}
+
+TEST_F(Checkpoints, OfAdaptiveSamplingGoOnToTheSameBits) {
+    const auto adaptive = [](const std::string& output, const std::string& most = "2048") {
+        const Texts size = {"--size", "160x120", "--threads", "1", "--spp", most};
+        return joined(size,
+                      {"--noise-target", "0.003", "--aov", "sample_count,normal", "-o", output});
+    };
+    const Texts kept = joined(adaptive("a.exr"), {"--checkpoint"});
+    leave_checkpoint(kept);
+    const ProgramRun others =
+        render("box.gltf", joined(adaptive("a.exr", "4096"), {"--checkpoint"}));
+    expect_result(others, 78, "E-RESUME-MIX");
+    EXPECT_THAT(others.err, HasSubstr("--spp: 2048 and 4096"));
+    const Texts required = {"--resume", "require"};
+    expect_result(render("box.gltf", joined(kept, required)), 0, "OK");
+    expect_result(render("box.gltf", adaptive("b.exr")), 0, "OK");
+    EXPECT_TRUE(text("a.exr") == text("b.exr"));
+}
+
+TEST_F(Checkpoints, AdaptiveSamplingAtTheTimeLimitIsDenoised) {
+    const Texts unbounded = {"--size", "40x30", "--spp", "1048576", "--noise-target", "0.0001"};
+    const Texts limit = {"--time-limit", "2", "--denoise", "-o", "c.exr"};
+    const ProgramRun got = render("box.gltf", joined(unbounded, limit));
+    expect_result(got, 75, "E-TIME-LIMIT");
+    EXPECT_THAT(got.err, HasSubstr("of at most 1048576 samples a pixel"));
+    const std::optional<ReadImage> image = read_image_file(folder_ / "c.exr");
+    ASSERT_TRUE(image);
+    EXPECT_GT(image->spec.get_float_attribute("obscura:samplesDone", -1), 16);
+    EXPECT_GT(image->spec.get_float_attribute("obscura:noise", -1), 0.0001f);
+    EXPECT_NE(image->spec.find_attribute("obscura:denoise"), nullptr);
 }
 
 TEST_F(Checkpoints, OfAnIntegratorWithoutSamplesHoldTiles) {

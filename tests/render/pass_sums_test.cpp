@@ -106,7 +106,7 @@ protected:
     static void nothing(const PassFilm& /*film*/) {}
 
     const PreparedScene scene_ = ball();
-    std::shared_ptr<PassSums> sums_;
+    std::shared_ptr<FilmSums> sums_;
 };
 
 TEST(PassEnds, AreShortAtFirstAndEndWithAllSamples) {
@@ -179,6 +179,42 @@ TEST_F(PassesOfAFilm, GoOnToTheSameBitsFromTheirBytes) {
     }
 }
 
+TEST_F(PassesOfAFilm, GoOnToTheSameBitsWhereTheyDecideOverSamples) {
+    RenderOptions asked = options(256);
+    asked.adaptive = AdaptiveOptions{.noise_target = 0.03, .min_samples = 8};
+    const RenderResult whole = render_with(asked);
+    ASSERT_EQ(whole.adaptive->least, 8);
+    ASSERT_GT(whole.adaptive->most, 32) << "the test is to see several passes";
+    for (const double stop_at : {0.0, 0.3, 0.4, 0.55, 0.7}) {
+        const ThreadLimit two(2);
+        const RenderResult stopped = render_passes_of(asked, nothing, stop_at);
+        EXPECT_TRUE(stopped.is_stopped);
+        EXPECT_EQ(stopped.adaptive->noise.has_value(), stop_at > 0.2) << "after two passes";
+        EXPECT_LT(sums_->fraction(), 1);
+        EXPECT_EQ(sums_->samples(), static_cast<int64_t>(stopped.adaptive->total));
+        const std::string kept = bytes();
+        const auto take = [&](const PassFilm& film) {
+            StateReader reader(std::as_bytes(std::span(kept)));
+            EXPECT_TRUE(film.sums->take(film.work, reader));
+            EXPECT_EQ(film.sums->samples(), static_cast<int64_t>(stopped.adaptive->total));
+        };
+        const RenderResult resumed = render_passes_of(asked, take);
+        expect_same(whole.film, resumed.film);
+        EXPECT_EQ(sums_->counters().paths, whole.counters.paths);
+        EXPECT_EQ(resumed.adaptive->noise, whole.adaptive->noise);
+        EXPECT_EQ(resumed.adaptive->total, whole.adaptive->total);
+        EXPECT_EQ(resumed.adaptive->passes, whole.adaptive->passes);
+        EXPECT_EQ(sums_->fraction(), 1);
+    }
+    const std::string finished = bytes();
+    const RenderResult again = render_passes_of(asked, [&](const PassFilm& film) {
+        StateReader reader(std::as_bytes(std::span(finished)));
+        EXPECT_TRUE(film.sums->take(film.work, reader));
+    });
+    EXPECT_EQ(again.counters.paths, 0u) << "nothing is left to be sampled";
+    expect_same(whole.film, again.film);
+}
+
 TEST_F(PassesOfAFilm, OfSomeSamplesAddUpToTheBitsOfAll) {
     constexpr int samples = 87;  // the last block is not whole
     const RenderResult whole = render_with(options(samples));
@@ -244,6 +280,15 @@ TEST_F(PassesOfAFilm, DoNotTakeWhatIsNotTheirs) {
     EXPECT_TRUE(is_refused(larger, kept));
     for (size_t size = 0; size < kept.size(); size += 100'003)
         EXPECT_TRUE(is_refused(options(16), kept.substr(0, size))) << size;
+    RenderOptions adaptive = options(64);
+    adaptive.adaptive = AdaptiveOptions{.noise_target = 0.03, .min_samples = 8};
+    EXPECT_TRUE(is_refused(adaptive, kept)) << "others decided over samples";
+    render_passes_of(adaptive, nothing);
+    const std::string decided = bytes();
+    EXPECT_FALSE(is_refused(adaptive, decided));
+    for (size_t size = 0; size < decided.size(); size += 100'003)
+        EXPECT_TRUE(is_refused(adaptive, decided.substr(0, size))) << size;
+    EXPECT_TRUE(is_refused(options(64), decided));
 }
 
 }  // namespace

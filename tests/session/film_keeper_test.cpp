@@ -142,6 +142,20 @@ TEST_F(FilmKeeping, MoreSamplesGoOnWhereTheFirstOnesAreTheSame) {
     EXPECT_NE(few.error().message.find("--spp: 32 and 64"), std::string::npos);
 }
 
+TEST_F(FilmKeeping, MoreSamplesAreOthersWhereTheirNoiseDecides) {
+    const auto head_with = [&](int samples) {
+        FilmStateHead head = head_of("1");
+        head.options.emplace_back("--spp", std::to_string(samples));
+        head.target_samples = samples;
+        head.is_adaptive = true;
+        return head;
+    };
+    const auto put = [](StateWriter& out) { out.put_number(1); };
+    ASSERT_TRUE(write_film_sums(folder_ / "a.checkpoint", head_with(64), small_film(), put));
+    EXPECT_TRUE(FilmKeeper(head_with(64), folder_ / "a.checkpoint").find(Resume::require, log_));
+    EXPECT_FALSE(FilmKeeper(head_with(128), folder_ / "a.checkpoint").find(Resume::require, log_));
+}
+
 TEST_F(FilmKeeping, TellsAndShowsWhatIsFinished) {
     Film film = small_film();
     FilmKeeper keeping(FilmStateHead(), std::nullopt);

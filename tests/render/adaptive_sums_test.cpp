@@ -1,6 +1,6 @@
-// tests/render/passes_test.cpp - adaptive sampling: same bits, no more than asked for, no bias.
+// tests/render/adaptive_sums_test.cpp - adaptive sampling: same bits, no bias, goal reached.
 // SPDX-License-Identifier: Apache-2.0
-#include "render/passes.h"
+#include "render/adaptive_sums.h"
 
 #include "base/parallel.h"
 
@@ -131,7 +131,7 @@ TEST(Passes, ReachTheNoiseThatIsAskedFor) {
     options.samples_per_pixel = 4096;
     options.adaptive->noise_target = 0.04;
     const RenderResult result = render_ball(options);
-    EXPECT_LT(result.adaptive->noise, 1.15 * 0.04);
+    EXPECT_LT(result.adaptive->noise.value(), 1.15 * 0.04);
     RenderOptions exact = options;
     exact.adaptive.reset();
     exact.samples_per_pixel = 2048;
@@ -145,8 +145,9 @@ TEST(Passes, ReachTheNoiseThatIsAskedFor) {
         sum += d * d / (r * r + 0.01);
     }
     const double error = std::sqrt(sum / static_cast<double>(reference.film.pixels.size()) * 4 / 3);
-    EXPECT_LT(error, 1.2 * result.adaptive->noise) << "the estimate may be on the safe side";
-    EXPECT_GT(error, 0.3 * result.adaptive->noise);
+    EXPECT_LT(error, 1.2 * result.adaptive->noise.value())
+        << "the estimate may be on the safe side";
+    EXPECT_GT(error, 0.3 * result.adaptive->noise.value());
 }
 
 TEST(Passes, TheMeanOfTheImageHasNoBias) {
@@ -176,7 +177,7 @@ TEST(Passes, CleanImagesStopAtTheLeast) {
     EXPECT_EQ(result.adaptive->passes, 2);
     EXPECT_EQ(result.adaptive->least, 8);
     EXPECT_EQ(result.adaptive->most, 8);
-    EXPECT_EQ(result.adaptive->noise, 0);
+    EXPECT_EQ(result.adaptive->noise.value(), 0);
     EXPECT_EQ(result.film.pixels[0], 0.5f);
 }
 
