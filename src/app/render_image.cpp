@@ -51,7 +51,7 @@ std::string note_of(const Making& making) {
     if (file.empty()) return "";
     return fmt::format("{} holds {} of the picture: the same command carries on from there",
                        file,
-                       percent(making.keeper->fraction()));
+                       percent(making.keeper->saved_fraction()));
 }
 
 /// Writes a checkpoint with `save`. That it cannot be written does not end a rendering.
@@ -59,7 +59,7 @@ template <typename Save>
 void try_to_save(const Making& making, bool& has_failed, const Save& save) {
     const Result<bool> saved = save();
     if (saved && *saved) {
-        making.log.detail("checkpoint: " + percent(making.keeper->fraction()));
+        making.log.detail("checkpoint: " + percent(making.keeper->saved_fraction()));
     } else if (!saved && !has_failed) {
         making.log.warn(saved.error().where,
                         "no checkpoint: " + saved.error().message + "; rendering goes on");
@@ -149,7 +149,12 @@ Result<RenderedFilm> render_film(Making& making) {
         const RenderResult& result = film->result;
         const double much_s = first_checkpoint_s(job.request.long_run.checkpoint_interval_s);
         const bool is_kept = job.request.long_run.keep_checkpoint;
-        if (result.is_stopped || is_kept || result.render_seconds >= much_s)
+        // Who ends the program waits for one checkpoint: what was written when the signal came, or
+        // just before, is enough.
+        constexpr double just_before_s = 1;
+        const bool has_saved =
+            received_stop_signal() != 0 && keeper->seconds_since_save() < just_before_s;
+        if (!has_saved && (result.is_stopped || is_kept || result.render_seconds >= much_s))
             try_to_save(making, has_failed, [&] { return keeper->save(result.film); });
         add_counters(keeper->resumed_counters(), job.renderer->statistics().counters);
         add_counters(keeper->resumed_counters(), film->result.counters);

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/film_state.h"
 
+#include "base/memory_budget.h"
+
 #include <algorithm>
 #include <cstring>
 #include <span>
@@ -122,7 +124,16 @@ Result<FilmStateHead> read_state(
     const std::filesystem::path& file,
     const Film* film,
     const std::function<void(const FilmStateHead&, StateReader&)>& take_rest) {
-    const FileBytes read = read_file_bytes(file, {});
+    MemoryCharge charge;
+    const auto take = [&](uint64_t bytes) -> Result<void> {
+        Result<MemoryCharge> taken =
+            charge_memory(MemoryUse::film, file.filename().string(), bytes);
+        if (!taken) return fail(std::move(taken.error()));
+        charge = std::move(*taken);
+        return {};
+    };
+    const FileBytes read = read_file_bytes(file, {UINT64_MAX, UINT64_MAX, take});
+    if (read.refusal) return fail(*read.refusal);
     if (read.fault != FileFault::none)
         return damaged(file, "the file cannot be read: " + read.reason);
     const auto rest = checked(file, read.bytes);

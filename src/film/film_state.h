@@ -92,7 +92,7 @@ Result<void> write_film_state(const std::filesystem::path& file,
 /// In      film: null: the head is wanted alone; else as large, and with the images, that the head
 ///         names; its areas are filled
 /// Errors  74 E-PART-DAMAGED the file cannot be read, is cut off, or its checksum does not fit;
-///         78 E-PART-MIX it is of another version, or of another film
+///         78 E-PART-MIX it is of another version, or of another film; 33 E-MEM
 Result<FilmStateHead> read_film_state(const std::filesystem::path& file, Film* film);
 
 /// The same for a film that is rendered in passes: sums in place of pixels.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <limits>
 #include <system_error>
 
 namespace obscura {
@@ -31,6 +32,13 @@ std::string text_of(const FilmPart& part) {
 bool is_there(const fs::path& file) {
     std::error_code error;
     return fs::exists(file, error);
+}
+
+/// The fraction of the part's pixels that are in finished areas.
+double fraction_of(const FilmStateHead& head) {
+    const int64_t all = pixels_in(areas_of_part(head.width, head.height, head.part));
+    if (all == 0) return 0;
+    return static_cast<double>(pixels_in(head.areas)) / static_cast<double>(all);
 }
 
 /// What differs between a checkpoint and the rendering that may go on from it; "": nothing.
@@ -68,6 +76,7 @@ Result<void> FilmKeeper::find(Resume resume, Log& log) {
     for (const fs::path& file : {*file_, previous(*file_)}) {
         if (!is_there(file)) continue;
         const Result<FilmStateHead> head = read_film_state(file, nullptr);
+        if (!head && head.error().code == ExitCode::out_of_memory) return fail(head.error());
         if (!head) {
             log.warn(file.string(), "not used to go on from: " + head.error().message);
             continue;
@@ -106,6 +115,7 @@ Result<std::vector<FilmArea>> FilmKeeper::fill(Film& film) {
     head_.areas = head->areas;
     head_.counters = head->counters;
     saved_ = amount_of(head_);
+    saved_fraction_ = fraction_of(head_);
     is_kept_ = true;
     return std::move(head->areas);
 }
@@ -130,6 +140,7 @@ Result<void> FilmKeeper::begin_passes(const PassFilm& film) {
     if (!head) return fail(head.error());
     resumed_ = film.sums->counters();
     saved_ = amount_of(head_);
+    saved_fraction_ = film.sums->fraction();
     is_kept_ = true;
     return {};
 }
@@ -161,6 +172,7 @@ Result<bool> FilmKeeper::save(const Film& film) {
     if (!file_) return false;
     const FilmStateHead head = head_so_far();
     const int64_t amount = amount_of(head);
+    const double so_far = fraction();
     {
         const std::lock_guard lock(mutex_);
         if (amount == saved_) return false;
@@ -174,6 +186,8 @@ Result<bool> FilmKeeper::save(const Film& film) {
     is_newest_whole_ = true;
     const std::lock_guard lock(mutex_);
     saved_ = amount;
+    saved_fraction_ = so_far;
+    since_save_.emplace();
     is_kept_ = true;
     return true;
 }
@@ -208,10 +222,17 @@ double FilmKeeper::fraction() const {
         sums = sums_;
     }
     if (sums != nullptr) return sums->fraction();
-    const FilmStateHead head = head_so_far();
-    const int64_t all = pixels_in(areas_of_part(head.width, head.height, head.part));
-    if (all == 0) return 0;
-    return static_cast<double>(pixels_in(head.areas)) / static_cast<double>(all);
+    return fraction_of(head_so_far());
+}
+
+double FilmKeeper::saved_fraction() const {
+    const std::lock_guard lock(mutex_);
+    return saved_fraction_;
+}
+
+double FilmKeeper::seconds_since_save() const {
+    const std::lock_guard lock(mutex_);
+    return since_save_ ? since_save_->seconds() : std::numeric_limits<double>::infinity();
 }
 
 std::string FilmKeeper::file_if_kept() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/log.h"
+#include "base/stopwatch.h"
 #include "film/film_state.h"
 #include "render/film_sums.h"
 
@@ -30,7 +31,7 @@ public:
     /// One of fewer samples fits, too, where their number changes no sample.
     ///
     /// Errors  78 E-RESUME-MIX it is of another rendering, with what differs;
-    ///         74 E-RESUME-NONE it is required, and there is none that is whole
+    ///         74 E-RESUME-NONE it is required, and there is none that is whole; 33 E-MEM
     Result<void> find(Resume resume, Log& log);
 
     /// For FilmShare and ProgressFunction. `add` may be called from any thread.
@@ -63,6 +64,10 @@ public:
     const FilmSums* sums() const { return sums_.get(); }
     /// Counters of the tiles that came from the checkpoint.
     const RenderCounters& resumed_counters() const { return resumed_; }
+    /// The same fraction when the latest checkpoint was begun, or of the one that was read.
+    double saved_fraction() const;
+    /// Time since a checkpoint was written; infinite: none was since the start.
+    double seconds_since_save() const;
     /// The checkpoint's file where one was written or read; "": none was.
     std::string file_if_kept() const;
 
@@ -82,6 +87,8 @@ private:
     mutable std::mutex mutex_;        ///< of what follows
     FilmStateHead head_;              ///< with areas and counters so far
     int64_t saved_ = 0;               ///< areas or samples that the latest checkpoint holds
+    double saved_fraction_ = 0;
+    std::optional<Stopwatch> since_save_;
     bool is_kept_ = false;
 };
 

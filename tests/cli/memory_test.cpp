@@ -57,5 +57,14 @@ TEST_F(MaxMemory, ALongText) {
     EXPECT_THAT(got.err, HasSubstr("the scene's text would take 1.0 GiB"));
 }
 
+TEST_F(MaxMemory, ACheckpointStays) {
+    write_sparse("a.exr.checkpoint", uint64_t{5} << 30);
+    const ProgramRun got =
+        render("box.gltf", {"-o", "a.exr", "--checkpoint", "--max-memory", "2G"});
+    expect_result(got, 33, "E-MEM");
+    EXPECT_THAT(got.err, HasSubstr("a.exr.checkpoint"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "a.exr.checkpoint"));
+}
+
 }  // namespace
 }  // namespace obscura
