@@ -6,6 +6,7 @@
 
 #include "support/temp_folder.h"
 #include "support/text_files.h"
+#include <cmath>
 
 namespace obscura {
 namespace {
@@ -154,6 +155,26 @@ TEST_F(FilmKeeping, MoreSamplesAreOthersWhereTheirNoiseDecides) {
     ASSERT_TRUE(write_film_sums(folder_ / "a.checkpoint", head_with(64), small_film(), put));
     EXPECT_TRUE(FilmKeeper(head_with(64), folder_ / "a.checkpoint").find(Resume::require, log_));
     EXPECT_FALSE(FilmKeeper(head_with(128), folder_ / "a.checkpoint").find(Resume::require, log_));
+}
+
+TEST_F(FilmKeeping, TellsWhatTheLatestCheckpointHolds) {
+    Film film = small_film();
+    FilmKeeper first = keeper();
+    ASSERT_TRUE(first.fill(film));
+    EXPECT_EQ(first.saved_fraction(), 0);
+    EXPECT_TRUE(std::isinf(first.seconds_since_save()));
+    first.add(row(film, 0));
+    ASSERT_TRUE(first.save(film));
+    const double saved = first.fraction();
+    first.add(row(film, 1));
+    EXPECT_GT(first.fraction(), saved);
+    EXPECT_EQ(first.saved_fraction(), saved);
+    EXPECT_FALSE(std::isinf(first.seconds_since_save()));
+    FilmKeeper second = keeper();
+    ASSERT_TRUE(second.find(Resume::require, log_));
+    ASSERT_TRUE(second.fill(film));
+    EXPECT_EQ(second.saved_fraction(), saved);
+    EXPECT_TRUE(std::isinf(second.seconds_since_save())) << "it was written by another";
 }
 
 TEST_F(FilmKeeping, TellsAndShowsWhatIsFinished) {
