@@ -1,4 +1,4 @@
-// app/memory_option.cpp - `--max-memory`: reads its sizes and sets the process's memory budget.
+// app/memory_option.cpp - `--max-memory`, `--texture-memory`: sizes, and the memory budget.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/memory_option.h"
 
@@ -6,6 +6,7 @@
 #include "base/memory_budget.h"
 #include "base/setting_names.h"
 
+#include <cstdlib>
 #include <fmt/format.h>
 
 namespace obscura::app {
@@ -27,6 +28,21 @@ std::optional<double> unit_bytes(std::string_view unit) {
     const size_t power = letters.find(unit);
     if (unit.size() != 1 || power == std::string_view::npos) return {};
     return static_cast<double>(1ULL << 10 * (power + 1));
+}
+
+/// Where programs keep what they can make again; "": the user has no such folder.
+/// Source  XDG Base Directory Specification 0.8
+std::filesystem::path user_cache() {
+    if (const char* const folder = std::getenv("XDG_CACHE_HOME");
+        folder != nullptr && *folder == '/')
+        return folder;
+    const char* const home = std::getenv("HOME");
+    if (home == nullptr || *home == '\0') return {};
+    return std::filesystem::path(home) / ".cache";
+}
+
+uint64_t share_of(uint64_t bytes, double percent) {
+    return static_cast<uint64_t>(static_cast<double>(bytes) * (percent / 100));
 }
 
 }  // namespace
@@ -63,13 +79,33 @@ Result<void> use_memory_limit(const std::optional<MemorySize>& asked, const Memo
     } else if (bound.bytes == UINT64_MAX) {
         remove_memory_limit();
     } else {
-        const auto share = static_cast<double>(bound.bytes) * (size.percent / 100);
-        set_memory_limit(static_cast<uint64_t>(share),
+        set_memory_limit(share_of(bound.bytes, size.percent),
                          fmt::format("{:g} % of {}", size.percent, bound.source));
     }
     // Nothing more, but an error where the program alone is too large.
     const Result<MemoryCharge> itself = charge_memory(MemoryUse::program, "", 0);
     if (!itself) return fail(itself.error());
+    return {};
+}
+
+Result<void> complete_texture_limit(RenderRequest& request) {
+    if (!request.texture_memory) return {};
+    const MemorySize& size = *request.texture_memory;
+    std::filesystem::path folder = request.texture_cache;
+    if (folder.empty()) {
+        const std::filesystem::path cache = user_cache();
+        if (cache.empty()) {
+            return fail(
+                ExitCode::usage,
+                "E-USAGE-CONFLICT",
+                setting("texture-memory"),
+                "there is no $HOME to keep texels in; give " + setting("texture-cache") + " DIR");
+        }
+        folder = cache / "obscura" / "textures";
+    }
+    const uint64_t bytes =
+        size.percent == 0 ? size.bytes : share_of(memory_bound().bytes, size.percent);
+    request.load.texture_limit = {bytes, std::move(folder)};
     return {};
 }
 

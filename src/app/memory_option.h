@@ -1,9 +1,10 @@
-// app/memory_option.h - `--max-memory`: reads its sizes and sets the process's memory budget.
+// app/memory_option.h - `--max-memory`, `--texture-memory`: sizes, and the memory budget.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "base/error.h"
 #include "base/memory_limit.h"
+#include "session/render_request.h"
 
 #include <optional>
 #include <string>
@@ -21,5 +22,10 @@ Result<MemorySize> parse_memory_size(const std::string& text, const std::string&
 /// In      bound: of memory_bound
 /// Errors  33 E-MEM the program itself does not fit
 Result<void> use_memory_limit(const std::optional<MemorySize>& asked, const MemoryBound& bound);
+
+/// Sets LoadOptions::texture_limit by --texture-memory and --texture-cache. Touches no file.
+///
+/// Errors  64 E-USAGE-CONFLICT the user has no folder for caches, and none is given
+Result<void> complete_texture_limit(RenderRequest& request);
 
 }  // namespace obscura::app

@@ -105,6 +105,8 @@ bool is_left_out(const std::string& name) {
                                                    "--priority",
                                                    "--threads",
                                                    "--max-memory",
+                                                   "--texture-memory",
+                                                   "--texture-cache",
                                                    "--tile-size",
                                                    "--stats",
                                                    "--write-retries",

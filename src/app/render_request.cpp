@@ -6,6 +6,7 @@
 #include "app/frames.h"
 #include "app/lens_request.h"
 #include "app/long_run_options.h"
+#include "app/memory_option.h"
 #include "app/numbers.h"
 #include "app/product_options.h"
 #include "app/render_options.h"
@@ -187,6 +188,7 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     request.verbosity = verbosity_of(arguments);
     if (auto done = complete_page(arguments, request); !done) return done;
     if (auto done = complete_time(arguments, request); !done) return done;
+    if (auto done = complete_texture_limit(request); !done) return done;
     if (auto done = complete_part(arguments.part, request); !done) return done;
     return complete_long_run(request);
 }

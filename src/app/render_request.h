@@ -36,6 +36,7 @@ struct RenderArguments {
     std::optional<std::string> crypto_manifest, exr_layout, compression, exr_tiles;
     std::optional<std::string> priority;
     std::optional<std::string> point_size, line_width, max_memory;
+    std::optional<std::string> texture_memory, texture_cache;
     std::optional<std::string> view, display, ocio, exposure, stats, write_retries;
     std::optional<std::string> format, bits, quality, page;
     bool no_dither = false;

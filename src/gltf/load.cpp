@@ -366,7 +366,8 @@ Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene
     if (!out.bounds.empty()) set_default_points_lines_radii(out);
     const auto decode_start = std::chrono::steady_clock::now();
     const std::filesystem::path folder = file.parent_path();
-    const TextureSources sources{document, buffers, folder, textures, options.info_only};
+    const TextureLimit* const limit = options.texture_limit ? &*options.texture_limit : nullptr;
+    const TextureSources sources{document, buffers, folder, textures, options.info_only, limit};
     Result<void> done = add_textures(sources, materials, problems, out, log);
     const ImageSources images{document, buffers, folder, options.info_only};
     if (done) done = add_environment_light(images, scene, environment, out, log);

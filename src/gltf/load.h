@@ -8,6 +8,7 @@
 #include "gltf/problems.h"
 #include "image/rgb_primaries.h"
 #include "scene/scene.h"
+#include "scene/texel_file.h"
 
 #include <filesystem>
 #include <memory>
@@ -50,7 +51,8 @@ struct LoadOptions {
     bool info_only = false;  ///< images are only measured: Scene::textures.texels stays empty
     /// Problems that would change the image become warnings, not errors: see gltf/problems.h.
     bool lenient = false;
-    LightChoice lights = {};  ///< --lights
+    std::optional<TextureLimit> texture_limit = {};  ///< --texture-memory, --texture-cache
+    LightChoice lights = {};                         ///< --lights
     /// --hide: patterns of the names of nodes (with all below them), meshes and materials whose
     /// geometry is not loaded. The lights of hidden nodes are left out, their cameras stay.
     std::vector<std::string> hidden = {};

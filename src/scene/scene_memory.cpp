@@ -23,7 +23,7 @@ size_t geometry_bytes(const Scene& scene) {
 }
 
 size_t texture_bytes(const Scene& scene) {
-    return scene.textures.texels.size() * sizeof(uint32_t);
+    return texels_of(scene.textures).size_bytes();
 }
 
 size_t base_texel_bytes(const Scene& scene) {

@@ -145,9 +145,14 @@ size_t mip_chain_texels(int width, int height) {
     return texels;
 }
 
+std::span<const uint32_t> texels_of(const TextureArena& textures) {
+    if (textures.mapped == nullptr) return textures.texels;
+    return {textures.mapped->data(), textures.mapped->size()};
+}
+
 TextureView view_of(const TextureArena& textures) {
     const auto has_low_plane = [](const TextureRecord& record) { return record.low_plane != 0; };
-    return {textures.texels.data(),
+    return {texels_of(textures).data(),
             textures.records.data(),
             std::any_of(textures.records.begin(), textures.records.end(), has_low_plane)};
 }
@@ -156,7 +161,8 @@ float texel_channel(const TextureArena& textures,
                     const TextureRecord& record,
                     size_t texel,
                     int channel) {
-    const auto byte = [&](size_t at) { return textures.texels[at] >> (8 * channel) & 255U; };
+    const std::span<const uint32_t> texels = texels_of(textures);
+    const auto byte = [&](size_t at) { return texels[at] >> (8 * channel) & 255U; };
     const uint32_t high = byte(texel);
     if (record.low_plane == 0) return static_cast<float>(high) / 255.0f;
     const uint32_t low = byte(texel + static_cast<size_t>(record.low_plane));

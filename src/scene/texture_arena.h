@@ -3,10 +3,13 @@
 #pragma once
 
 #include "base/unset_array.h"
+#include "scene/mapped_texels.h"
 #include "surface/texture_record.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <span>
 #include <vector>
 
 namespace obscura {
@@ -14,8 +17,13 @@ namespace obscura {
 /// Texels of all textures and the table of where they are.
 struct TextureArena {
     LargeArray<uint32_t> texels;  ///< at most 2^31 - 1; see TextureRecord
+    /// Not null: the texels lie in files, and `texels` is empty.
+    std::shared_ptr<MappedTexels> mapped = nullptr;
     std::vector<TextureRecord> records;
 };
+
+/// The texels, wherever they are.
+std::span<const uint32_t> texels_of(const TextureArena& textures);
 
 /// Valid as long as the arena stays as it is.
 TextureView view_of(const TextureArena& textures);

@@ -64,10 +64,12 @@ struct RenderRequest {
     std::optional<std::filesystem::path> environment;
     double environment_intensity = 1;
     double environment_rotation_deg = 0;
-    bool environment_follows_camera = false;  ///< the rotation is added to the camera's azimuth
-    int threads = 0;                          ///< 0: every core
-    std::optional<MemorySize> max_memory;     ///< nothing: 80 % of what there is
-    bool gives_way = false;                   ///< --priority low
+    bool environment_follows_camera = false;   ///< the rotation is added to the camera's azimuth
+    int threads = 0;                           ///< 0: every core
+    std::optional<MemorySize> max_memory;      ///< nothing: 80 % of what there is
+    std::optional<MemorySize> texture_memory;  ///< --texture-memory; nothing: all that there are
+    std::filesystem::path texture_cache;       ///< --texture-cache; "": the user's cache folder
+    bool gives_way = false;                    ///< --priority low
     Isa isa = Isa::automatic;
     std::string color_space;  ///< --color-space; empty: lin_rec709
     RenderingSpace space;     ///< what it means: set by use_color_space

@@ -4,10 +4,9 @@
 
 #include "base/parallel.h"
 #include "gltf/decode/encoded_image.h"
-#include "gltf/parse/specular_glossiness.h"
+#include "gltf/materials/image_texels.h"
 #include "gltf/parse/uri.h"
 #include "image/decode.h"
-#include "scene/texel_colors.h"
 
 #include <algorithm>
 #include <map>
@@ -19,7 +18,6 @@ namespace obscura::gltf {
 namespace {
 
 constexpr size_t max_texels = (1U << 31) - 1;
-constexpr uint32_t magenta = 0xFFFF00FF;  // RGBA8: no surface looks like it by chance
 
 class TextureBuilder {
 public:
@@ -40,19 +38,11 @@ private:
     const GltfTexture& texture(int index) const {
         return document().textures[static_cast<size_t>(index)];
     }
-    /// The image in the file, also of one that the loader has made from it.
-    size_t original(size_t image) const {
-        const int of = document().images[image].glossiness_of;
-        return of < 0 ? image : static_cast<size_t>(of);
+    size_t original(size_t image) const { return original_image(document(), image); }
+    std::string place(size_t image) const { return place_of_image(document(), image); }
+    size_t arena_texels(const ImageState& image, bool srgb) const {
+        return gltf::arena_texels(document(), image, srgb);
     }
-    std::string place(size_t image) const { return document().at("images", original(image)); }
-
-    /// True when a use of an image has 16 bits: colours of another space would show the steps of
-    /// 8 bits.
-    bool is_wide(const ImageState& image, bool srgb) const {
-        return image.wide || (srgb && document().from_rec709.has_value());
-    }
-    size_t arena_texels(const ImageState& image, bool srgb) const;
 
     void find_uses();
     bool take_stored();
@@ -62,16 +52,14 @@ private:
     void break_image(size_t image, const Error& error);
     void warn_wrong_mime(size_t image, const std::string& mime, const std::string& format) const;
     void warn_wrong_encoding(size_t image, ImageEncoding encoding) const;
+    Result<size_t> place_images(size_t multiple);
     Result<void> lay_out();
     std::string name_for_charge(size_t image) const;
     Result<void> charge_texels();
     Result<MemoryCharge> charge_decoding() const;
     int record_index(const TextureSlot& slot, bool srgb);
     void resolve_slots();
-    Result<void> decode(size_t image);
-    void store_texels(const ImageState& state, const ImageRgba8& decoded, bool srgb);
-    void fill_broken(size_t image);
-    void decode_all();
+    Result<void> decode_all();
 
     const TextureSources& sources_;
     MaterialTable& materials_;
@@ -209,12 +197,9 @@ void TextureBuilder::probe_all() {
     }
 }
 
-/// Words of the arena that one use of an image takes.
-size_t TextureBuilder::arena_texels(const ImageState& image, bool srgb) const {
-    return (is_wide(image, srgb) ? 2U : 1U) * mip_chain_texels(image.width, image.height);
-}
-
-Result<void> TextureBuilder::lay_out() {
+/// Gives each image its place in the arena, which begins at a multiple of so many texels. Returns
+/// how many there are.
+Result<size_t> TextureBuilder::place_images(size_t multiple) {
     size_t total = 0;
     for (size_t i = 0; i < images_.size(); ++i) {
         for (size_t srgb = 0; srgb < 2; ++srgb) {
@@ -222,6 +207,7 @@ Result<void> TextureBuilder::lay_out() {
             if (!use.used) continue;
             use.base = total;
             total += arena_texels(images_[i], srgb == 1);
+            total = (total + multiple - 1) / multiple * multiple;
             if (total <= max_texels) continue;
             return fail(ExitCode::refused,
                         "E-LIMIT-TEXELS",
@@ -230,9 +216,30 @@ Result<void> TextureBuilder::lay_out() {
                         "make them smaller");
         }
     }
+    return total;
+}
+
+/// Lays out the arena: in memory, or in files where it is larger than it may be.
+Result<void> TextureBuilder::lay_out() {
+    Result<size_t> total = place_images(1);
+    const TextureLimit* const limit = sources_.limit;
+    const bool in_files =
+        total && limit != nullptr && *total * sizeof(uint32_t) > limit->most_bytes;
+    if (in_files) total = place_images(MappedTexels::texels_per_page);
+    if (!total) return fail(total.error());
     if (sources_.measure_only) return {};
-    if (auto charged = charge_texels(); !charged) return charged;
-    scene_.textures.texels.resize(total);
+    if (!in_files) {
+        if (auto charged = charge_texels(); !charged) return charged;
+        scene_.textures.texels.resize(*total);
+        return {};
+    }
+    Result<MemoryCharge> charge =
+        charge_memory(MemoryUse::textures, "those in memory", limit->most_bytes);
+    if (!charge) return fail(std::move(charge.error()));
+    sources_.store.charges.push_back(std::move(*charge));
+    auto mapped = MappedTexels::reserve(*total, limit->most_bytes);
+    if (!mapped) return fail(mapped.error());
+    scene_.textures.mapped = std::move(*mapped);
     return {};
 }
 
@@ -264,7 +271,9 @@ Result<MemoryCharge> TextureBuilder::charge_decoding() const {
     std::vector<uint64_t> sizes;
     for (const ImageState& image : images_) {
         // The decoder's rows and what becomes of them; 16 bits have a plane more.
-        const uint64_t bytes_per_texel = image.wide ? 13 : 8;
+        uint64_t bytes_per_texel = image.wide ? 13 : 8;
+        if (scene_.textures.mapped != nullptr)
+            bytes_per_texel += image.wide ? 11 : 6;  // its levels
         if (image.used() && !image.broken)
             sizes.push_back(bytes_per_texel * static_cast<uint64_t>(image.width) *
                             static_cast<uint64_t>(image.height));
@@ -293,7 +302,7 @@ int TextureBuilder::record_index(const TextureSlot& slot, bool srgb) {
     record.height = image.height;
     record.levels = mip_level_count(image.width, image.height);
     record.sampler = packed;
-    if (is_wide(image, srgb)) {
+    if (is_wide(document(), image, srgb)) {
         record.low_plane = static_cast<int32_t>(mip_chain_texels(image.width, image.height));
     }
     size_t offset = image.uses[srgb ? 1 : 0].base;
@@ -323,74 +332,15 @@ void TextureBuilder::resolve_slots() {
     }
 }
 
-Result<void> TextureBuilder::decode(size_t image) {
-    const ImageState& state = images_[image];
-    if (!state.used() || state.broken) return {};
-    const std::string where = place(image);
-    Result<EncodedImage> encoded = load_encoded(image_sources(), image);
-    if (!encoded) return fail(std::move(encoded.error()));
-    Result<ImageRgba8> decoded = decode_image(encoded->bytes, where, log_, Extent::stored);
-    if (!decoded) return fail(std::move(decoded.error()));
-    encoded->owned = Bytes();
-    encoded->charge = {};
-    // Levels that the file stores are taken as they are; the others are made from its last one.
-    const int width = std::max(state.width >> (decoded->levels - 1), 1);
-    const int height = std::max(state.height >> (decoded->levels - 1), 1);
-    const size_t last_level =
-        mip_chain_texels(state.width, state.height) - mip_chain_texels(width, height);
-    const size_t texels = last_level + static_cast<size_t>(width) * static_cast<size_t>(height);
-    if (decoded->width != state.width || decoded->height != state.height ||
-        decoded->texels.size() != texels || decoded->low_bytes.empty() == state.wide) {
-        return fail(ExitCode::bad_resource,
-                    "E-IMG-CHANGED",
-                    where,
-                    "the image's size is not what its header said a moment ago");
-    }
-    const GltfImage& source = document().images[image];
-    if (source.glossiness_of >= 0) {
-        roughness_from_glossiness(decoded->texels, decoded->low_bytes, source.glossiness);
-    }
-    for (size_t srgb = 0; srgb < 2; ++srgb) {
-        if (state.uses[srgb].used) store_texels(state, *decoded, srgb == 1);
-    }
-    return {};
-}
-
-/// Copies an image's texels into the arena, colours in the rendering space, and completes the mip
-/// chain below its last stored level.
-void TextureBuilder::store_texels(const ImageState& state, const ImageRgba8& decoded, bool srgb) {
-    const int width = std::max(state.width >> (decoded.levels - 1), 1);
-    const int height = std::max(state.height >> (decoded.levels - 1), 1);
-    const size_t chain = mip_chain_texels(state.width, state.height);
-    const size_t last_level = chain - mip_chain_texels(width, height);
-    uint32_t* base = scene_.textures.texels.data() + state.uses[srgb ? 1 : 0].base;
-    std::copy(decoded.texels.begin(), decoded.texels.end(), base);
-    if (!is_wide(state, srgb)) return build_mip_chain(base + last_level, width, height, srgb);
-    uint32_t* low = base + chain;
-    // The low byte of an 8-bit code in 16 bits is the code itself: 255 becomes 65535.
-    const auto& low_bytes = state.wide ? decoded.low_bytes : decoded.texels;
-    std::copy(low_bytes.begin(), low_bytes.end(), low);
-    if (srgb && document().from_rec709) {
-        convert_texels(*document().from_rec709, base, low, decoded.texels.size());
-    }
-    build_wide_mip_chain(base + last_level, low + last_level, width, height, srgb);
-}
-
-void TextureBuilder::fill_broken(size_t image) {
-    const ImageState& state = images_[image];
-    const ImageUse& color = state.uses[1];
-    if (!color.used) return;
-    const size_t texels = arena_texels(state, true);
-    std::fill_n(scene_.textures.texels.data() + color.base, texels, magenta);
-}
-
-void TextureBuilder::decode_all() {
+Result<void> TextureBuilder::decode_all() {
+    ImageTexels texels(sources_, images_, scene_.textures, log_);
     std::vector<Result<void>> done(images_.size());
-    parallel_for(images_.size(), [&](size_t i) { done[i] = decode(i); });
+    parallel_for(images_.size(), [&](size_t i) { done[i] = texels.decode(i); });
     for (size_t i = 0; i < images_.size(); ++i) {
         if (!done[i]) break_image(i, done[i].error());
-        if (images_[i].broken) fill_broken(i);
+        if (images_[i].broken) texels.fill_broken(i);
     }
+    return texels.stored();
 }
 
 /// Reuses an earlier scene's texels if it has all images that this one needs. Otherwise images of
@@ -398,7 +348,7 @@ void TextureBuilder::decode_all() {
 bool TextureBuilder::take_stored() {
     TextureStore& store = sources_.store;
     if (store.images.empty() || store.images.size() != images_.size()) return false;
-    bool has_all = !store.texels.empty() || sources_.measure_only;
+    bool has_all = !store.texels.empty() || store.mapped != nullptr || sources_.measure_only;
     for (size_t i = 0; i < images_.size(); ++i) {
         has_all = has_all && images_[i].glossiness == store.images[i].glossiness;
         for (size_t srgb = 0; srgb < 2; ++srgb) {
@@ -416,12 +366,14 @@ bool TextureBuilder::take_stored() {
     scene_.info.images = store.infos;
     scene_.textures.texels = std::move(store.texels);
     store.texels = {};
+    scene_.textures.mapped = store.mapped;
     resolve_slots();
     return true;
 }
 
 Result<void> TextureBuilder::decode_afresh() {
     sources_.store.texels = {};
+    sources_.store.mapped = nullptr;
     sources_.store.charges.clear();
     probe_all();
     Result<void> done = lay_out();
@@ -429,11 +381,12 @@ Result<void> TextureBuilder::decode_afresh() {
     if (!sources_.measure_only) {
         const Result<MemoryCharge> decoding = charge_decoding();
         if (!decoding) return fail(decoding.error());
-        decode_all();
+        if (done = decode_all(); !done) return done;
     }
     resolve_slots();
     sources_.store.images = images_;
     sources_.store.infos = scene_.info.images;
+    sources_.store.mapped = scene_.textures.mapped;
     return {};
 }
 

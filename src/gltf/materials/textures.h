@@ -6,6 +6,7 @@
 #include "gltf/decode/buffers.h"
 #include "gltf/materials/materials.h"
 #include "scene/scene.h"
+#include "scene/texel_file.h"
 
 #include <filesystem>
 
@@ -32,8 +33,9 @@ struct ImageState {
 struct TextureStore {
     std::vector<ImageState> images;  ///< empty: nothing was decoded yet
     std::vector<ImageInfo> infos;
-    LargeArray<uint32_t> texels;             ///< empty while a scene has them
-    std::vector<MemoryCharge> charges = {};  ///< of the texels, by image, wherever they are
+    LargeArray<uint32_t> texels;                     ///< empty while a scene has them
+    std::shared_ptr<MappedTexels> mapped = nullptr;  ///< as TextureArena has it
+    std::vector<MemoryCharge> charges = {};          ///< of the texels, by image, wherever they are
 };
 
 /// What add_textures reads.
@@ -43,6 +45,7 @@ struct TextureSources {
     std::filesystem::path folder;  ///< the asset's
     TextureStore& store;           ///< images that it holds are not decoded again
     bool measure_only = false;     ///< records are made, texels are not decoded
+    const TextureLimit* limit = nullptr;
 };
 
 /// Fills Scene::textures and Scene::info.images, and turns the texture numbers in the slots of used
@@ -55,7 +58,7 @@ struct TextureSources {
 ///         65 E-URI-DATA, E-ACC-RANGE; 69 E-IMG-FEATURE; 77 E-IMG-LIMIT, E-URI-REFUSED; 33
 ///         E-IMG-MEMORY. Slots of colour then see magenta, those of data become empty. Images that
 ///         no drawn material uses only warn
-/// Errors  77 E-LIMIT-TEXELS; 33 E-MEM
+/// Errors  77 E-LIMIT-TEXELS; 33 E-MEM; those of write_texel_file
 Result<void> add_textures(const TextureSources& sources,
                           MaterialTable& materials,
                           Problems& problems,
