@@ -19,14 +19,12 @@ std::string name_of(const MovieFrame& frame) {
 }  // namespace
 
 FrameClaim::FrameClaim(Kind kind, Watch& watch, std::unique_ptr<WorkLock> lock)
-    : kind_(kind), watch_(&watch), lock_(std::move(lock)) {
-    if (lock_) watch_->set_last_task([held = lock_.get()] { held->release(); });
-}
+    : kind_(kind), watch_(&watch), lock_(std::move(lock)) {}
 
 FrameClaim::~FrameClaim() {
     if (!lock_) return;
     lock_->release();
-    watch_->set_last_task({});
+    watch_->forget_last_task();
 }
 
 Result<FrameClaim> FrameClaim::make(Job& job, const MovieFrame& frame) {
@@ -38,7 +36,12 @@ Result<FrameClaim> FrameClaim::make(Job& job, const MovieFrame& frame) {
         return FrameClaim(Kind::is_there, job.watch);
     };
     if (find_existing(job.request, frame, fingerprint).is_finished) return skip();
-    Result<std::unique_ptr<WorkLock>> lock = WorkLock::take(lock_file(frame));
+    Result<std::unique_ptr<WorkLock>> lock;
+    job.watch.begin_undoable([&]() -> Watch::LastTask {
+        lock = WorkLock::take(lock_file(frame));
+        if (!lock || !*lock) return {};
+        return [held = lock->get()] { held->release(); };
+    });
     if (!lock) return fail(lock.error());
     if (!*lock) {
         job.log.info(name_of(frame) + " is being rendered by another");

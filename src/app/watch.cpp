@@ -85,9 +85,14 @@ void Watch::end() {
     phase_ = Phase::ending;
 }
 
-void Watch::set_last_task(std::function<void()> task) {
+void Watch::begin_undoable(const std::function<LastTask()>& begin) {
     const std::lock_guard lock(mutex_);
-    last_task_ = std::move(task);
+    last_task_ = begin();
+}
+
+void Watch::forget_last_task() {
+    const std::lock_guard lock(mutex_);
+    last_task_ = {};
 }
 
 bool Watch::is_time_up() const {

@@ -65,9 +65,12 @@ public:
     void begin_preparing();
     /// The command ends, and says so itself.
     void end();
-    /// What is to be done first when a signal or the time limit ends the program at once; an empty
-    /// one: nothing. Waits until it has begun to end, if it does.
-    void set_last_task(std::function<void()> task);
+    /// Begins something, and takes from it what is to be done first when a signal or the time limit
+    /// ends the program at once; an empty one: nothing. No such end comes in between. Both wait
+    /// until the program has ended, if it does.
+    using LastTask = std::function<void()>;
+    void begin_undoable(const std::function<LastTask()>& begin);
+    void forget_last_task();
 
     const std::atomic<bool>& stop() const { return signals_.flag(); }
     /// True when the time limit has stopped the rendering.
