@@ -95,4 +95,12 @@ uint64_t checksum(std::span<const std::byte> bytes) {
     return out.value();
 }
 
+std::string checksum_text(uint64_t checksum) {
+    constexpr int digits = 16;
+    std::string out(digits, '0');
+    for (auto digit = out.rbegin(); digit != out.rend(); ++digit, checksum >>= 4U)
+        *digit = "0123456789abcdef"[checksum & 0xFU];
+    return out;
+}
+
 }  // namespace obscura

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 
 namespace obscura {
 
@@ -14,6 +15,9 @@ namespace obscura {
 ///
 /// Source  Collet, "xxHash fast digest algorithm", specification 0.1.1
 uint64_t checksum(std::span<const std::byte> bytes);
+
+/// A checksum in names and headers: 16 hexadecimal digits.
+std::string checksum_text(uint64_t checksum);
 
 /// The same, of bytes that come piece by piece.
 class RunningChecksum {

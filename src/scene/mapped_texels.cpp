@@ -6,7 +6,6 @@
 #include <chrono>
 #include <cstring>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <fstream>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -37,22 +36,22 @@ tl::unexpected<Error> no_room(size_t bytes) {
     return fail(ExitCode::out_of_memory,
                 "E-MEMORY",
                 "textures",
-                fmt::format("{} bytes of addresses cannot be had: {}", bytes, strerror(errno)));
+                std::to_string(bytes) + " bytes of addresses cannot be had: " + strerror(errno));
 }
 
 }  // namespace
 
-Result<std::shared_ptr<MappedTexels>> MappedTexels::reserve(size_t texels, uint64_t most_bytes) {
+Result<std::shared_ptr<MappedTexels>> MappedTexels::reserve(size_t texels, uint64_t max_bytes) {
     constexpr int flags = MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE;
     void* const memory = mmap(nullptr, bytes_of(texels), PROT_NONE, flags, -1, 0);
     if (memory == MAP_FAILED) return no_room(bytes_of(texels));
-    return std::shared_ptr<MappedTexels>(new MappedTexels(memory, texels, most_bytes));
+    return std::shared_ptr<MappedTexels>(new MappedTexels(memory, texels, max_bytes));
 }
 
-MappedTexels::MappedTexels(void* memory, size_t texels, uint64_t most_bytes)
+MappedTexels::MappedTexels(void* memory, size_t texels, uint64_t max_bytes)
     : memory_(memory),
       texels_(texels),
-      most_bytes_(most_bytes),
+      max_bytes_(max_bytes),
       other_bytes_(resident_file_bytes()),
       keeper_([this] { keep_small(); }) {}
 
@@ -75,7 +74,7 @@ Result<void> MappedTexels::map(size_t first,
         return fail(ExitCode::bad_resource,
                     "E-RES-MISSING",
                     file.string(),
-                    fmt::format("the file cannot be opened: {}", strerror(errno)));
+                    std::string("the file cannot be opened: ") + strerror(errno));
     }
     void* const at = static_cast<uint32_t*>(memory_) + first;
     const void* const got = mmap(at,
@@ -104,7 +103,7 @@ void MappedTexels::keep_small() {
     constexpr auto pause = std::chrono::milliseconds(20);
     std::unique_lock lock(mutex_);
     while (!ended_.wait_for(lock, pause, [&] { return is_over_; })) {
-        if (resident_file_bytes() <= other_bytes_ + most_bytes_) continue;
+        if (resident_file_bytes() <= other_bytes_ + max_bytes_) continue;
         for (const Range& range : files_) {  // memory() would become zeros
             void* const at = static_cast<uint32_t*>(memory_) + range.first;
             madvise(at, bytes_of(range.texels), MADV_DONTNEED);

@@ -27,9 +27,9 @@ public:
 
     /// Takes addresses, but no memory.
     ///
-    /// In      most_bytes: of pages in memory, about: looked at many times a second
+    /// In      max_bytes: of pages in memory, about: looked at many times a second
     /// Errors  33 E-MEMORY there are not as many addresses
-    static Result<std::shared_ptr<MappedTexels>> reserve(size_t texels, uint64_t most_bytes);
+    static Result<std::shared_ptr<MappedTexels>> reserve(size_t texels, uint64_t max_bytes);
     ~MappedTexels();
     MappedTexels(const MappedTexels&) = delete;
     MappedTexels& operator=(const MappedTexels&) = delete;
@@ -53,7 +53,7 @@ public:
     Result<uint32_t*> memory(size_t first, size_t texels);
 
 private:
-    MappedTexels(void* memory, size_t texels, uint64_t most_bytes);
+    MappedTexels(void* memory, size_t texels, uint64_t max_bytes);
 
     struct Range {
         size_t first, texels;
@@ -63,7 +63,7 @@ private:
 
     void* const memory_;
     const size_t texels_;
-    const uint64_t most_bytes_;
+    const uint64_t max_bytes_;
     const uint64_t other_bytes_;  ///< pages of other files in memory, such as libraries
     std::mutex mutex_;            ///< of what follows
     std::vector<Range> files_;

@@ -3,11 +3,11 @@
 #include "scene/texel_file.h"
 
 #include "base/atomic_file.h"
+#include "base/checksum.h"
 #include "base/file_bytes.h"
 
 #include <array>
 #include <cstring>
-#include <fmt/format.h>
 #include <system_error>
 
 namespace obscura {
@@ -25,7 +25,7 @@ struct Head {
 }  // namespace
 
 std::filesystem::path texel_file(const std::filesystem::path& folder, const TexelKey& key) {
-    return folder / fmt::format("{:016x}-{:016x}.texels", key.image, key.settings);
+    return folder / (checksum_text(key.image) + "-" + checksum_text(key.settings) + ".texels");
 }
 
 bool has_texels(const std::filesystem::path& file, const TexelKey& key, size_t texels) {

@@ -14,7 +14,7 @@ namespace obscura {
 /// How many of the textures may be in memory, and where the files are that the others are read from
 /// (mapped_texels.h).
 struct TextureLimit {
-    uint64_t most_bytes = 0;
+    uint64_t max_bytes = 0;
     std::filesystem::path folder;
 };
 

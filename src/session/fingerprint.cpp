@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <span>
 #include <string_view>
 #include <system_error>
@@ -76,7 +75,7 @@ std::string image_fingerprint(const NamedTexts& options,
     sum_texts(options, sum);
     sum_texts(facts, sum);
     sum_texts(of_frame, sum);
-    return fmt::format("{:016x}", sum.value());
+    return checksum_text(sum.value());
 }
 
 ExistingImage find_existing(const RenderRequest& request,

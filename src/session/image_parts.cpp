@@ -31,7 +31,7 @@ void add_file(const std::string& name, const fs::path& file, NamedTexts& facts) 
         sum.add(std::as_bytes(std::span(piece.data(), static_cast<size_t>(stream.gcount()))));
     }
     if (!stream.eof()) return;
-    facts.emplace_back(name, fmt::format("{:016x}", sum.value()));
+    facts.emplace_back(name, checksum_text(sum.value()));
 }
 
 tl::unexpected<Error> refuse_parts(const char* id,

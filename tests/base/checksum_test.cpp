@@ -26,6 +26,11 @@ TEST(Checksum, GivesThePublishedValues) {
               0x02a2e85470d6fd96U);
 }
 
+TEST(Checksum, AsTextHasAllItsDigits) {
+    EXPECT_EQ(checksum_text(0), "0000000000000000");
+    EXPECT_EQ(checksum_text(0x02a2e85470d6fd96U), "02a2e85470d6fd96");
+}
+
 TEST(Checksum, OfPiecesIsThatOfTheWhole) {
     std::string text;
     for (int i = 0; i < 150; ++i)

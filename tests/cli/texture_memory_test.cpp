@@ -1,8 +1,7 @@
-// tests/cli/texture_memory_test.cpp - textures in files give the same picture, from files made once.
+// tests/cli/texture_memory_test.cpp - textures in files give the same image; files are made once.
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/cli.h"
 #include "support/text_files.h"
-
 #include <chrono>
 #include <set>
 
@@ -31,7 +30,7 @@ protected:
     std::string text(const std::string& name) const { return read_text(folder_ / name); }
 };
 
-TEST_F(TextureMemory, FilesGiveTheSamePicture) {
+TEST_F(TextureMemory, FilesGiveTheSameImage) {
     const Texts whole = {"--aov", "albedo,normal", "-o", "whole.exr"};
     expect_result(render(showcase(), whole), 0, "OK");
     expect_result(render_limited("a.exr"), 0, "OK");

@@ -3,13 +3,13 @@
 #include "gltf/materials/image_texels.h"
 
 #include "base/checksum.h"
+#include "base/text.h"
 #include "gltf/parse/specular_glossiness.h"
 #include "scene/texel_colors.h"
 #include "scene/texel_file.h"
 
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 #include <utility>
 
 namespace obscura::gltf {
@@ -86,12 +86,13 @@ Result<void> ImageTexels::decode(size_t image) {
 /// All that the texels of an image depend on.
 TexelKey ImageTexels::key_of(size_t image, bool srgb, std::span<const std::byte> encoded) const {
     const GltfImage& source = document().images[image];
-    std::string settings = fmt::format(
-        "{} {} {} {}", OBSCURA_VERSION, srgb, source.glossiness_of >= 0, source.glossiness);
+    std::string settings = OBSCURA_VERSION;
+    settings += srgb ? " color" : " data";
+    if (source.glossiness_of >= 0) settings += " glossiness " + shortest(source.glossiness);
     if (srgb && document().from_rec709) {
         for (const Xyz& row : *document().from_rec709) {
             for (const double number : row)
-                settings += fmt::format(" {}", number);
+                settings += " " + shortest(number);
         }
     }
     return {checksum(encoded), checksum(std::as_bytes(std::span(settings)))};

@@ -223,8 +223,7 @@ Result<size_t> TextureBuilder::place_images(size_t multiple) {
 Result<void> TextureBuilder::lay_out() {
     Result<size_t> total = place_images(1);
     const TextureLimit* const limit = sources_.limit;
-    const bool in_files =
-        total && limit != nullptr && *total * sizeof(uint32_t) > limit->most_bytes;
+    const bool in_files = total && limit != nullptr && *total * sizeof(uint32_t) > limit->max_bytes;
     if (in_files) total = place_images(MappedTexels::texels_per_page);
     if (!total) return fail(total.error());
     if (sources_.measure_only) return {};
@@ -234,10 +233,10 @@ Result<void> TextureBuilder::lay_out() {
         return {};
     }
     Result<MemoryCharge> charge =
-        charge_memory(MemoryUse::textures, "those in memory", limit->most_bytes);
+        charge_memory(MemoryUse::textures, "those in memory", limit->max_bytes);
     if (!charge) return fail(std::move(charge.error()));
     sources_.store.charges.push_back(std::move(*charge));
-    auto mapped = MappedTexels::reserve(*total, limit->most_bytes);
+    auto mapped = MappedTexels::reserve(*total, limit->max_bytes);
     if (!mapped) return fail(mapped.error());
     scene_.textures.mapped = std::move(*mapped);
     return {};
