@@ -125,29 +125,46 @@ void LightPathPlan::find_common_states() {
     }
 }
 
-/// Classes that belong to the same layers in every settled state share a sum.
-void LightPathPlan::number_sums() {
+/// Classes that belong to the same layers in every state that counts share a sum.
+///
+/// In      counts: whether light may rest in a state
+template <typename Counts>
+LightPathPlan::Sums LightPathPlan::sums_for(const Counts& counts) const {
     const size_t classes = size_t{light_kinds} * group_count_;
     std::map<std::vector<std::vector<uint16_t>>, uint16_t> known;
+    Sums out;
     for (size_t light_class = 0; light_class < classes; ++light_class) {
         std::vector<std::vector<uint16_t>> key;
-        bool counts = false;
+        bool is_shown = false;
         for (size_t state = 0; state < settled_.size(); ++state) {
-            if (settled_[state] == 0) continue;
+            if (!counts(state)) continue;
             const size_t row = state * classes + light_class;
             key.emplace_back(layers_.begin() + layer_begin_[row],
                              layers_.begin() + layer_begin_[row + 1]);
-            counts |= !key.back().empty();
+            is_shown |= !key.back().empty();
         }
         uint16_t sum = no_light_sum;
-        if (counts) {
-            const auto next = static_cast<uint16_t>(class_of_sum_.size());
+        if (is_shown) {
+            const auto next = static_cast<uint16_t>(out.classes.size());
             const auto [found, is_new] = known.try_emplace(std::move(key), next);
             sum = found->second;
-            if (is_new) class_of_sum_.push_back(static_cast<uint16_t>(light_class));
+            if (is_new) out.classes.push_back(static_cast<uint16_t>(light_class));
         }
-        sum_of_class_.push_back(sum);
+        out.of_class.push_back(sum);
     }
+    return out;
+}
+
+/// Weights rest in settled states, and in those to which scatterings lead. Sharing out takes a step
+/// for each sum and state, whether light has arrived or not: many resting sums would not pay.
+void LightPathPlan::number_sums() {
+    constexpr size_t max_resting_sums = 8;
+    settled_sums_ = sums_for([&](size_t state) { return settled_[state] != 0; });
+    resting_sums_ = sums_for(
+        [&](size_t state) { return std::find(next_.begin(), next_.end(), state) != next_.end(); });
+    if (resting_sums_.classes.size() <= max_resting_sums) return;
+    resting_sums_.classes.clear();
+    std::fill(resting_sums_.of_class.begin(), resting_sums_.of_class.end(), no_light_sum);
 }
 
 void LightPathPlan::group_emitters(const Scene& scene, const LightGroups& groups) {
@@ -171,9 +188,12 @@ LightPathTable LightPathPlan::table() const {
             .layer_begin = layer_begin_.data(),
             .layers = layers_.data(),
             .layer_count = layer_count_,
-            .sum_of_class = sum_of_class_.data(),
-            .class_of_sum = class_of_sum_.data(),
-            .sum_count = static_cast<int>(class_of_sum_.size()),
+            .sum_of_class = settled_sums_.of_class.data(),
+            .class_of_sum = settled_sums_.classes.data(),
+            .sum_count = static_cast<int>(settled_sums_.classes.size()),
+            .resting_sum_of_class = resting_sums_.of_class.data(),
+            .class_of_resting_sum = resting_sums_.classes.data(),
+            .resting_sum_count = static_cast<int>(resting_sums_.classes.size()),
             .group_count = group_count_,
             .class_count = light_kinds * group_count_,
             .environment_group = environment_group_,

@@ -36,8 +36,16 @@ private:
     void find_common_states();
     void number_sums();
 
-    std::vector<uint16_t> next_, common_next_, layers_, sum_of_class_, class_of_sum_,
-        class_of_light_;
+    /// Light classes that states do not tell apart.
+    struct Sums {
+        std::vector<uint16_t> of_class;  ///< number of the sum by class, or no_light_sum
+        std::vector<uint16_t> classes;   ///< by number: one of its classes
+    };
+    template <typename Counts>
+    Sums sums_for(const Counts& counts) const;
+
+    std::vector<uint16_t> next_, common_next_, layers_, class_of_light_;
+    Sums settled_sums_, resting_sums_;
     std::vector<uint16_t> group_of_primitive_, group_of_instance_;
     std::vector<uint8_t> settled_;
     std::vector<uint32_t> layer_begin_;

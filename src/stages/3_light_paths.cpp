@@ -23,40 +23,50 @@ OBSCURA_INLINE void store_color(const Vec3<Lanes>& color, ColorLanes& out) {
     store(out.b, color.z);
 }
 
-/// The lobes that scatter light in some lane of a group.
+/// The shares of a group's lobes, by lobe: sums have one order.
 struct StoredShares {
-    int count = 0;
-    int lobe[Lobes::count];
+    Mask exists[Lobes::count];  ///< the other numbers are not set where no lane has any
     Mask singular[Lobes::count];
-    Mask exists[Lobes::count];
     ColorLanes share[Lobes::count];
+
+    StoredShares() {
+        for (Mask& lanes : exists)
+            lanes = Mask(false);
+    }
 };
 
-OBSCURA_INLINE void choose(LobeShares<Lanes>& out, Mask m, const LobeShares<Lanes>& in) {
+/// Stores the shares of the lanes of a mask beside those of other lanes.
+OBSCURA_INLINE void store_shares(Mask lanes, const LobeShares<Lanes>& shares, StoredShares& out) {
     for (int k = 0; k < Lobes::count; ++k) {
-        out.share[k] = select(m, in.share[k], out.share[k]);
-        out.singular[k] = (m & in.singular[k]) | ((!m) & out.singular[k]);
-        out.exists[k] = (m & in.exists[k]) | ((!m) & out.exists[k]);
+        if (!shares.is_known[k]) continue;
+        Vec3<Lanes> share = shares.share[k];
+        Mask singular = shares.singular[k];
+        const Mask exists = lanes & (max_component(share) > Lanes(0.0f));
+        if (none(exists)) continue;
+        ColorLanes& stored = out.share[k];
+        if (any(out.exists[k])) {
+            share = select(exists, share, {load(stored.r), load(stored.g), load(stored.b)});
+            singular = (exists & singular) | ((!exists) & out.singular[k]);
+        }
+        out.exists[k] = out.exists[k] | exists;
+        out.singular[k] = singular;
+        store_color(share, stored);
     }
 }
 
 void find_shares(Mask lanes, const Scattering& at, StoredShares& out) {
     const ShadingPoint& s = at.s;
+    const Mask layered = s.any_layers ? lanes & s.layers.layered : Mask(false);
+    const Mask others = lanes & (!layered);
     LobeShares<Lanes> shares;
     // Called once: a second inlined copy might round differently, and bits depend on neighbours.
-    share_bsdf(s.bsdf, s.lobes, at.wo, at.wi, shares);
-    if (s.any_layers) {
-        LobeShares<Lanes> layered;
-        share_layered(s.layers.params, s.layers.weights, at.wo, at.wi, layered);
-        choose(shares, s.layers.layered, layered);
+    if (any(others)) {
+        share_bsdf(s.bsdf, s.lobes, at.wo, at.wi, shares);
+        store_shares(others, shares, out);
     }
-    for (int k = 0; k < Lobes::count; ++k) {
-        const Mask exists = shares.exists[k] & lanes;
-        if (none(exists)) continue;
-        out.lobe[out.count] = k;
-        out.exists[out.count] = exists;
-        out.singular[out.count] = shares.singular[k];
-        store_color(shares.share[k], out.share[out.count++]);
+    if (any(layered)) {
+        share_layered(s.layers.params, s.layers.weights, at.wo, at.wi, shares);
+        store_shares(layered, shares, out);
     }
 }
 
@@ -98,10 +108,10 @@ bool move_weight(const LightPathTable& table,
     const StoredShares& shares = scattering.shares;
     const int lane = scattering.lane;
     bool settled = true;
-    for (int k = 0; k < shares.count; ++k) {
+    for (int k = 0; k < Lobes::count; ++k) {
         if ((mask_bits(shares.exists[k]) >> lane & 1U) == 0) continue;
         const bool singular = (mask_bits(shares.singular[k]) >> lane & 1U) != 0;
-        const uint16_t next = next_state(table, from.state, shares.lobe[k], singular);
+        const uint16_t next = next_state(table, from.state, k, singular);
         add_color(to, next, scattering.slot, from.weight * shares.share[k].at(lane));
         settled = settled && table.settled[next] != 0;
     }
@@ -129,13 +139,14 @@ MovedLanes leave_start(const LightPathTable& table,
                        const ColorColumns& to,
                        LanesU slot) {
     MovedLanes out{lanes, lanes};
-    for (int k = 0; k < shares.count; ++k) {
+    for (int k = 0; k < Lobes::count; ++k) {
+        if (none(shares.exists[k] & lanes)) continue;
         const ColorLanes& share = shares.share[k];
         for (const bool singular : {false, true}) {
             const Mask those = singular ? shares.singular[k] : !shares.singular[k];
             const Mask moved = shares.exists[k] & lanes & those;
             if (none(moved)) continue;
-            const uint16_t next = next_state(table, 0, shares.lobe[k], singular);
+            const uint16_t next = next_state(table, 0, k, singular);
             if (table.settled[next] == 0) out.settled = out.settled & (!moved);
             if (table.common_next[next] == no_common_state)
                 out.settle_next = out.settle_next & (!moved);
@@ -220,6 +231,18 @@ void add_settled_light(const LightPathColumns& columns,
         add_color_lanes(columns.sums, sum, lanes, slot, light.radiance);
 }
 
+/// Adds light of one class to resting sums. False: the class has none.
+bool add_resting_light(const LightPathColumns& columns,
+                       const ColorColumns& sums,
+                       Mask lanes,
+                       LanesU slot,
+                       const ClassLight& light) {
+    const uint16_t sum = columns.table->resting_sum_of_class[light.light_class];
+    if (sum == no_light_sum) return false;
+    if (any(lanes)) add_color_lanes(sums, sum, lanes, slot, light.radiance);
+    return true;
+}
+
 /// Adds light of one class to the layers of the states of the lanes' paths.
 ///
 /// In   weights: columns.weights or columns.shadow_weights
@@ -256,8 +279,11 @@ void add_path_light(const LightPathColumns& columns,
             add_color_lanes(columns.layers, table.layers[i], lanes, slot, light.radiance);
         return;
     }
-    const Mask moving = progress_of(columns, lanes, slot).moves;
-    add_settled_light(columns, lanes & (!moving), slot, light);
+    const Progress progress = progress_of(columns, lanes, slot);
+    add_settled_light(columns, lanes & (!progress.moves), slot, light);
+    Mask moving = progress.moves;
+    if (add_resting_light(columns, columns.resting_sums, progress.settle_next, slot, light))
+        moving = moving & (!progress.settle_next);
     if (any(moving)) add_weighted_light(columns, columns.weights, moving, slot, light);
 }
 
@@ -320,8 +346,12 @@ void add_shadow_layers(const LightPathColumns& columns,
         by_class(lanes, classes, [&](Mask those, uint32_t light_class) {
             const ClassLight light{light_class, radiance};
             add_settled_light(columns, those & (!split), slot, light);
-            if (any(those & split))
-                add_weighted_light(columns, columns.shadow_weights, those & split, slot, light);
+            const Mask weighted = those & split;
+            if (none(weighted)) return;
+            if (columns.all_at_start &&
+                add_resting_light(columns, columns.shadow_sums, weighted, slot, light))
+                return;
+            add_weighted_light(columns, columns.shadow_weights, weighted, slot, light);
         });
     }
 }
@@ -388,12 +418,10 @@ void scatter_path(const LightPathColumns& columns,
     const Progress progress = progress_of(columns, lanes, slot);
     if (none(progress.moves)) return;
     StoredShares shares;
-    alignas(64) uint32_t slots[lane_count];
-    store(slots, slot);
     if (columns.all_at_start) {
         find_shares(lanes, scattering, shares);
-        for (uint32_t bits = mask_bits(progress.moves); bits != 0; bits &= bits - 1)
-            clear_color(columns.weights, 0, slots[__builtin_ctz(bits)]);
+        const Vec3<Lanes> none_left = splat3(Lanes(-1.0f));  // their weight in the first state is 1
+        add_color_lanes(columns.weights, 0, progress.moves, slot, none_left);
         const MovedLanes moved = leave_start(table, shares, progress.moves, columns.weights, slot);
         set_words(columns.progress, moved.settle_next, slot, path_settles_next);
         set_words(columns.progress, moved.settled, slot, path_settled);
@@ -401,6 +429,8 @@ void scatter_path(const LightPathColumns& columns,
     }
     const Mask moving = settle_lanes(columns, progress, slot);
     if (none(moving)) return;
+    alignas(64) uint32_t slots[lane_count];
+    store(slots, slot);
     StateWeight from[max_path_states];
     bool found = false;
     for (uint32_t bits = mask_bits(moving); bits != 0; bits &= bits - 1) {

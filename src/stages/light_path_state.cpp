@@ -32,11 +32,6 @@ std::span<const uint16_t> layers_of_class(const LightPathTable& table,
     return {table.layers + table.layer_begin[row], table.layers + table.layer_begin[row + 1]};
 }
 
-/// The layers that a settled state's part of a sum belongs to.
-std::span<const uint16_t> layers_of_sum(const LightPathTable& table, uint16_t state, uint16_t sum) {
-    return layers_of_class(table, state, table.class_of_sum[sum]);
-}
-
 }  // namespace
 
 void LightPathState::Colors::begin(int numbers) {
@@ -73,6 +68,8 @@ void LightPathState::begin(const LightPathTable& table,
     shadow_weights_.begin(table.state_count);
     layers_.begin(table.layer_count);
     sums_.begin(table.sum_count);
+    resting_sums_.begin(table.resting_sum_count);
+    shadow_sums_.begin(table.resting_sum_count);
     shadows_.begin(table.shadow ? 2 : 0);
     behind_.begin(catches ? table.layer_count : 0);
     held_.clear();
@@ -82,6 +79,8 @@ void LightPathState::begin(const LightPathTable& table,
                 .shadow_weights = shadow_weights_.view(),
                 .layers = layers_.view(),
                 .sums = sums_.view(),
+                .resting_sums = resting_sums_.view(),
+                .shadow_sums = shadow_sums_.view(),
                 .progress = words_.data(),
                 .shadow_split = words_.data() + padded_slots,
                 .shadow_class = words_.data() + size_t{2} * padded_slots,
@@ -103,9 +102,19 @@ void LightPathState::begin_flight() {
     forget_shadows();
 }
 
+std::array<LightPathState::RestingLight, 3> LightPathState::resting_light() {
+    const LightPathTable& table = *columns_.table;
+    return {{{weights_, sums_, table.class_of_sum, true},
+             {weights_, resting_sums_, table.class_of_resting_sum, false},
+             {shadow_weights_, shadow_sums_, table.class_of_resting_sum, false}}};
+}
+
 void LightPathState::forget_shadows() {
     if (shadow_weights_.used_count == 0) return;
-    shadow_weights_.begin(columns_.table->state_count);
+    const LightPathTable& table = *columns_.table;
+    share_out({shadow_weights_, shadow_sums_, table.class_of_resting_sum, false});
+    shadow_sums_.begin(table.resting_sum_count);
+    shadow_weights_.begin(table.state_count);
     std::fill_n(columns_.shadow_split, count_, 0U);
 }
 
@@ -150,6 +159,7 @@ void LightPathState::move(const ColorColumns& weights, uint32_t slot, size_t eve
 void LightPathState::move_path(uint32_t slot, size_t event) {
     if (columns_.progress[slot] == path_settled) return;
     has_moved_ = true;
+    share_out({weights_, resting_sums_, columns_.table->class_of_resting_sum, false}, slot);
     move(columns_.weights, slot, event);
     const LightPathTable& table = *columns_.table;
     bool settled = true;
@@ -163,7 +173,9 @@ void LightPathState::move_path(uint32_t slot, size_t event) {
 }
 
 void LightPathState::move_shadow(uint32_t slot, size_t event) {
-    if (columns_.shadow_split[slot] != 0) move(columns_.shadow_weights, slot, event);
+    if (columns_.shadow_split[slot] == 0) return;
+    share_out({shadow_weights_, shadow_sums_, columns_.table->class_of_resting_sum, false}, slot);
+    move(columns_.shadow_weights, slot, event);
 }
 
 void LightPathState::split_shadow(uint32_t slot) {
@@ -180,23 +192,51 @@ void LightPathState::add_unshadowed(uint32_t slot, const Vec3f& radiance) {
     add_color(shadow_columns_, unshadowed_number, slot, radiance);
 }
 
-/// The light of a sample whose path may not stay settled goes to its layers.
-void LightPathState::share_out(uint32_t slot) {
+/// Light of all samples goes to its layers.
+void LightPathState::share_out(const RestingLight& light) {
     const LightPathTable& table = *columns_.table;
-    for (int q = 0; q < weights_.used_count; ++q) {
-        const uint16_t state = weights_.used[static_cast<size_t>(q)];
-        const uint16_t settled = settled_state(table, state);
-        if (settled == no_common_state) continue;
-        const Vec3f weight = color_at(weights_.memory.data() + color_words * state, slot);
-        for (int k = 0; k < sums_.used_count; ++k) {
-            const uint16_t sum = sums_.used[static_cast<size_t>(k)];
-            const Vec3f light = color_at(sums_.memory.data() + color_words * sum, slot);
-            for (const uint16_t layer : layers_of_sum(table, settled, sum))
-                add_color(columns_.layers, layer, slot, weight * light);
+    const auto count = static_cast<size_t>(count_);
+    for (int q = 0; q < light.weights.used_count; ++q) {
+        const uint16_t at = light.weights.used[static_cast<size_t>(q)];
+        const uint16_t state = light.at_settled_paths ? settled_state(table, at) : at;
+        if (state == no_common_state) continue;
+        for (int k = 0; k < light.sums.used_count; ++k) {
+            const uint16_t sum = light.sums.used[static_cast<size_t>(k)];
+            for (const uint16_t number : layers_of_class(table, state, light.class_of_sum[sum])) {
+                float* const layer = use_color(columns_.layers, number);
+                const float* weight = light.weights.memory.data() + color_words * at;
+                const float* arrived = light.sums.memory.data() + color_words * sum;
+                for (size_t c = 0; c < color_words; c += padded_slots) {
+                    for (size_t slot = 0; slot < count; ++slot)
+                        layer[c + slot] += weight[c + slot] * arrived[c + slot];
+                }
+            }
         }
     }
-    for (int k = 0; k < sums_.used_count; ++k)
-        clear_color(columns_.sums, sums_.used[static_cast<size_t>(k)], slot);
+}
+
+/// Light of one sample, whose weights may change, goes to its layers.
+void LightPathState::share_out(const RestingLight& light, uint32_t slot) {
+    const LightPathTable& table = *columns_.table;
+    for (int q = 0; q < light.weights.used_count; ++q) {
+        const uint16_t at = light.weights.used[static_cast<size_t>(q)];
+        const uint16_t state = light.at_settled_paths ? settled_state(table, at) : at;
+        if (state == no_common_state) continue;
+        const Vec3f weight = color_at(light.weights.memory.data() + color_words * at, slot);
+        for (int k = 0; k < light.sums.used_count; ++k) {
+            const uint16_t sum = light.sums.used[static_cast<size_t>(k)];
+            const Vec3f arrived = color_at(light.sums.memory.data() + color_words * sum, slot);
+            for (const uint16_t layer : layers_of_class(table, state, light.class_of_sum[sum]))
+                add_color(columns_.layers, layer, slot, weight * arrived);
+        }
+    }
+    for (int k = 0; k < light.sums.used_count; ++k)
+        clear_color(light.sums.view(), light.sums.used[static_cast<size_t>(k)], slot);
+}
+
+void LightPathState::share_out(uint32_t slot) {
+    for (const RestingLight& light : resting_light())
+        share_out(light, slot);
 }
 
 void LightPathState::move_behind(uint32_t slot) {
@@ -240,8 +280,8 @@ void LightPathState::hold(uint32_t slot) {
 void LightPathState::release(size_t event) {
     const LightPathTable& table = *columns_.table;
     for (const auto& [slot, state, weight] : held_) {
-        for (int k = 0; k < sums_.used_count; ++k)
-            clear_color(columns_.sums, sums_.used[static_cast<size_t>(k)], slot);
+        // Without weights, this only forgets what has arrived since.
+        share_out(slot);
         const uint16_t next = table.next[state * scatter_event_count + event];
         add_color(columns_.weights, next, slot, weight);
         if (table.settled[next] == 0) columns_.progress[slot] = path_moves;
@@ -250,25 +290,8 @@ void LightPathState::release(size_t event) {
 }
 
 void LightPathState::finish(const SampleView& samples) {
-    const LightPathTable& table = *columns_.table;
-    const auto count = static_cast<size_t>(count_);
-    for (int q = 0; q < weights_.used_count; ++q) {
-        const uint16_t state = weights_.used[static_cast<size_t>(q)];
-        const uint16_t settled = settled_state(table, state);
-        if (settled == no_common_state) continue;
-        for (int k = 0; k < sums_.used_count; ++k) {
-            const uint16_t sum = sums_.used[static_cast<size_t>(k)];
-            for (const uint16_t number : layers_of_sum(table, settled, sum)) {
-                float* const layer = use_color(columns_.layers, number);
-                const float* weight = weights_.memory.data() + color_words * state;
-                const float* light = sums_.memory.data() + color_words * sum;
-                for (size_t c = 0; c < color_words; c += padded_slots) {
-                    for (size_t slot = 0; slot < count; ++slot)
-                        layer[c + slot] += weight[c + slot] * light[c + slot];
-                }
-            }
-        }
-    }
+    for (const RestingLight& light : resting_light())
+        share_out(light);
     for (uint32_t slot = 0; slot < static_cast<uint32_t>(count_); ++slot) {
         const float size =
             std::fabs(samples.r[slot]) + std::fabs(samples.g[slot]) + std::fabs(samples.b[slot]);

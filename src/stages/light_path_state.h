@@ -4,6 +4,7 @@
 
 #include "stages/light_paths.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -97,11 +98,23 @@ private:
         Vec3f weight;
     };
 
+    /// Weights of paths or shadow rays, and light that arrived while they rested.
+    struct RestingLight {
+        const Colors& weights;
+        Colors& sums;
+        const uint16_t* class_of_sum;
+        bool at_settled_paths;
+    };
+    std::array<RestingLight, 3> resting_light();
+
     void forget_shadows();
+    void share_out(const RestingLight& light);
+    void share_out(const RestingLight& light, uint32_t slot);
     void share_out(uint32_t slot);
     void move(const ColorColumns& weights, uint32_t slot, size_t event);
 
-    Colors weights_, shadow_weights_, layers_, sums_, shadows_, behind_;
+    Colors weights_, shadow_weights_, layers_, shadows_, behind_;
+    Colors sums_, resting_sums_, shadow_sums_;
     std::vector<HeldWeight> held_;
     std::vector<uint32_t> words_;  ///< the columns of numbers
     LightPathColumns columns_;

@@ -13,6 +13,11 @@
 // states needs no more care: its light is summed, and shared out when the batch ends. So is that of
 // a path whose states lead to settled ones whatever the lobe, from its next scattering on: its
 // weights stay in the states that it leaves, and count as those of the states that they lead to.
+//
+// Where weights rest for a while, light is summed too, by what tells it apart in any state: of
+// first hits' shadow rays, and of paths from the scattering that leaves them one step before
+// settled states to the next one. It is shared out by the weights when these change, or the batch
+// ends.
 #pragma once
 
 #include "math/vec.h"
@@ -49,6 +54,10 @@ struct LightPathTable {
     /// A class of each sum, which stands for all of it.
     const uint16_t* class_of_sum = nullptr;
     int sum_count = 0;
+    /// The same for light that arrives while weights rest in states that are not settled.
+    const uint16_t* resting_sum_of_class = nullptr;
+    const uint16_t* class_of_resting_sum = nullptr;
+    int resting_sum_count = 0;
     uint32_t group_count = 1;  ///< of lights; the last group is that of all the others
     uint32_t class_count = light_kinds;
     uint32_t environment_group = 0;
@@ -86,6 +95,8 @@ struct LightPathColumns {
     ColorColumns shadow_weights;       ///< of their shadow rays, where shadow_split
     ColorColumns layers;               ///< what has arrived, by layer
     ColorColumns sums;                 ///< what has arrived at settled paths, by sum
+    ColorColumns resting_sums;         ///< at paths that path_settles_next, by resting sum
+    ColorColumns shadow_sums;          ///< by first hits' shadow rays, likewise, where shadow_split
     uint32_t* progress = nullptr;      ///< by sample index: path_moves and so on
     uint32_t* shadow_split = nullptr;  ///< likewise: 1 where the shadow ray has weights of its own
     uint32_t* shadow_class = nullptr;  ///< likewise: light class of the shadow ray

@@ -32,32 +32,44 @@ inline namespace OBSCURA_ISA {
 /// What each lobe of the list makes of the light from one direction, and where it is singular.
 template <typename F>
 struct LobeShares {
+    bool is_known[Lobes::count];  ///< false: the lobe sends no light, and the rest is not set
     Vec3<F> share[Lobes::count];  ///< of the sum: they add up to 1 in each channel
     MaskOf<F> singular[Lobes::count];
-    MaskOf<F> exists[Lobes::count];  ///< where the share is above 0 in some channel
 };
 
+template <typename F>
+OBSCURA_INLINE void set_share(int lobe,
+                              const Vec3<F>& value,
+                              MaskOf<F> singular,
+                              LobeShares<F>& out) {
+    out.is_known[lobe] = true;
+    out.share[lobe] = value;
+    out.singular[lobe] = singular;
+}
+
 /// Turns the lobes' values into shares. Where no lobe sends light, the first one takes all.
+///
+/// In   the first lobe is known
 template <typename F>
 OBSCURA_INLINE void normalize_shares(LobeShares<F>& out) {
     const F zero(0.0f);
     const F one(1.0f);
     Vec3<F> sum = splat3(zero);
-    for (const Vec3<F>& value : out.share)
-        sum = sum + value;
+    for (int k = 0; k < Lobes::count; ++k) {
+        if (out.is_known[k]) sum = sum + out.share[k];
+    }
     const auto scale = [&](const F& total) {
         return select(total > zero, one / max(total, F(1e-37f)), zero);
     };
     const Vec3<F> scales{scale(sum.x), scale(sum.y), scale(sum.z)};
-    for (Vec3<F>& share : out.share)
-        share = share * scales;
+    for (int k = 0; k < Lobes::count; ++k) {
+        if (out.is_known[k]) out.share[k] = out.share[k] * scales;
+    }
     const auto dark = [&](const F& total, const F& share) {
         return select(total > zero, share, one);
     };
     Vec3<F>& first = out.share[0];
     first = {dark(sum.x, first.x), dark(sum.y, first.y), dark(sum.z, first.z)};
-    for (int k = 0; k < Lobes::count; ++k)
-        out.exists[k] = max_component(out.share[k]) > zero;
 }
 
 /// The shares of evaluate_bsdf's two lobes.
@@ -67,20 +79,18 @@ OBSCURA_INLINE void share_bsdf(const BsdfParams<F>& p,
                                const Vec3<F>& wo,
                                const Vec3<F>& wi,
                                LobeShares<F>& out) {
-    for (int k = 0; k < Lobes::count; ++k) {
-        out.share[k] = splat3(F(0.0f));
-        out.singular[k] = MaskOf<F>(false);
-    }
+    for (bool& known : out.is_known)
+        known = false;
     const Vec3<F> h = normalize(wo + wi);
     const Vec3<F> fresnel = lobes.specular_f0 + lobes.specular_rise * schlick_weight(dot(wo, h));
     const F length_o = smith_length(wo.z, p.alpha);
     const F length_i = smith_length(wi.z, p.alpha);
     const F facets =
         ggx_distribution(h, p.alpha) * smith_visibility(wo.z, length_o, wi.z, length_i);
-    constexpr int specular = Lobes::index<FacetReflection>();
-    out.share[Lobes::index<Diffuse>()] = p.base_color * (lobes.diffuse * F(1.0f / pi_f));
-    out.share[specular] = fresnel * facets;
-    out.singular[specular] = p.alpha <= F(min_ggx_alpha);
+    static_assert(Lobes::index<Diffuse>() == 0);
+    set_share(0, p.base_color * (lobes.diffuse * F(1.0f / pi_f)), MaskOf<F>(false), out);
+    const MaskOf<F> singular = p.alpha <= F(min_ggx_alpha);
+    set_share(Lobes::index<FacetReflection>(), fresnel * facets, singular, out);
     normalize_shares(out);
 }
 
@@ -91,23 +101,25 @@ OBSCURA_INLINE void share_lobe(const Reflection<F>& reflected,
                                LobeShares<F>& out) {
     constexpr int k = Lobes::index<L>();
     const F zero(0.0f);
-    out.share[k] = splat3(zero);
-    out.singular[k] = MaskOf<F>(false);
+    out.is_known[k] = false;
     if constexpr (!L::always_exists) {
         if (!L::exists(reflected.p, reflected.w)) return;
     }
     const auto above = reflected.wi.z > zero;
-    out.singular[k] = L::is_singular(reflected.p, reflected.w);
+    const MaskOf<F> singular = L::is_singular(reflected.p, reflected.w);
     if constexpr (L::place == LobePlace::transmitted) {
-        out.share[k] = select(above, splat3(zero), L::evaluate(transmitted).value_cos);
+        const Vec3<F> value = L::evaluate(transmitted).value_cos;
+        set_share(k, select(above, splat3(zero), value), singular, out);
     } else if constexpr (L::place == LobePlace::base) {
         const Vec3<F> value = L::evaluate(reflected).value_cos * reflected.wi.z;
-        out.share[k] = select(above, value, splat3(zero));
+        set_share(k, select(above, value, splat3(zero)), singular, out);
     } else {
         const LayerValue<F> layer = L::evaluate(reflected);
-        for (int below = 0; below < k; ++below)
-            out.share[below] = out.share[below] * select(above, layer.passes, F(1.0f));
-        out.share[k] = select(above, layer.value_cos, splat3(zero));
+        for (int below = 0; below < k; ++below) {
+            if (out.is_known[below])
+                out.share[below] = out.share[below] * select(above, layer.passes, F(1.0f));
+        }
+        set_share(k, select(above, layer.value_cos, splat3(zero)), singular, out);
     }
 }
 
