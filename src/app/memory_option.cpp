@@ -88,6 +88,18 @@ Result<void> use_memory_limit(const std::optional<MemorySize>& asked, const Memo
     return {};
 }
 
+Result<void> check_address_space(uint64_t left) {
+    constexpr uint64_t min_left = uint64_t{160} << 20;
+    if (left >= min_left) return {};
+    return fail(ExitCode::out_of_memory,
+                "E-MEM",
+                "the limit on the address space (ulimit -v)",
+                fmt::format("it leaves {} beside the program and its libraries; {} are the least "
+                            "with which rendering can begin",
+                            memory_text(left),
+                            memory_text(min_left)));
+}
+
 Result<void> complete_texture_limit(RenderRequest& request) {
     if (!request.texture_memory) return {};
     const MemorySize& size = *request.texture_memory;

@@ -113,6 +113,7 @@ struct Order {
 Result<void> execute(const Order& order, Watch& watch, Log& log, size_t& skipped) {
     const RenderRequest& request = order.request;
     const Stopwatch total;
+    if (auto begins = check_address_space(address_space_left()); !begins) return begins;
     if (auto set = use_memory_limit(request.max_memory, memory_bound()); !set) return set;
     if (auto writable = check_outputs(request); !writable) return writable;
     warn_of_lost_alpha(request, log);

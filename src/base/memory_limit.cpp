@@ -4,8 +4,10 @@
 
 #include "base/control_groups.h"
 
+#include <algorithm>
 #include <fstream>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace obscura {
 
@@ -32,10 +34,11 @@ void consider_machine(const Path& root, MemoryBound& bound) {
         lower(bound, kibibytes << 10, "the machine's memory");
 }
 
-void consider_address_space(MemoryBound& bound) {
+/// UINT64_MAX: none.
+uint64_t address_space_limit() {
     rlimit limit = {};
-    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return;
-    lower(bound, limit.rlim_cur, "the limit on the address space (ulimit -v)");
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return UINT64_MAX;
+    return limit.rlim_cur;
 }
 
 }  // namespace
@@ -47,8 +50,16 @@ MemoryBound memory_bound(const Path& root) {
         consider_file(group / "memory.max", bound);
         consider_file(group / "memory.limit_in_bytes", bound);
     });
-    consider_address_space(bound);
+    lower(bound, address_space_limit(), "the limit on the address space (ulimit -v)");
     return bound;
+}
+
+uint64_t address_space_left() {
+    const uint64_t limit = address_space_limit();
+    uint64_t pages = 0;
+    if (limit == UINT64_MAX || !(std::ifstream("/proc/self/statm") >> pages)) return UINT64_MAX;
+    const uint64_t taken = pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
+    return limit - std::min(limit, taken);
 }
 
 }  // namespace obscura

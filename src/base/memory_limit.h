@@ -28,4 +28,10 @@ struct MemorySize {
 ///         memory.limit_in_bytes; proc(5), meminfo
 MemoryBound memory_bound(const std::filesystem::path& root = "/");
 
+/// Bytes of addresses that the process may still take under the limit on its address space
+/// (RLIMIT_AS); UINT64_MAX: there is none, or the system does not tell.
+///
+/// Source  proc(5), statm
+uint64_t address_space_left();
+
 }  // namespace obscura

@@ -33,6 +33,16 @@ TEST(MemoryLimit, NothingIsKnownWithoutFiles) {
     EXPECT_EQ(machine.bytes(), at_most_address_space(UINT64_MAX));
 }
 
+TEST(MemoryLimit, AddressesThatAreTakenAreNotLeft) {
+    const uint64_t limit = at_most_address_space(UINT64_MAX);
+    const uint64_t left = address_space_left();
+    if (limit == UINT64_MAX) {
+        EXPECT_EQ(left, UINT64_MAX);
+    } else {
+        EXPECT_LT(left, limit);
+    }
+}
+
 TEST(MemoryLimit, TheLeastOfMachineAndGroupsCounts) {
     const LimitedMachine machine;
     machine.write("proc/meminfo", "MemTotal:       1024 kB\nMemFree:  12 kB\n");
