@@ -16,6 +16,10 @@ target_include_directories(obscura_library INTERFACE $<INSTALL_INTERFACE:${CMAKE
 target_compile_features(obscura_library INTERFACE cxx_std_17)
 
 install(TARGETS obscura RUNTIME COMPONENT program)
+# Both the program and the library open it.
+foreach(component program library)
+  install(TARGETS obscura_oiio LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/obscura COMPONENT ${component})
+endforeach()
 install(TARGETS obscura_library EXPORT obscura-targets
   LIBRARY COMPONENT library NAMELINK_COMPONENT development)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/obscura TYPE INCLUDE COMPONENT development)

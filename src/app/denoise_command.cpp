@@ -49,6 +49,7 @@ Result<void> write_displays(RenderRequest request, const DenoisedFile& denoised,
 
 Result<void> execute(const DenoiseRequest& request, Log& log) {
     const ThreadLimit threads(request.render.threads);
+    if (auto there = check_writers(request.render); !there) return there;
     const Result<ExrDocument> document = open(request.file);
     if (!document) return fail(document.error());
     const Result<DenoisedFile> denoised = denoise_document(*document, request.keep_noisy, log);

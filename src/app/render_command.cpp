@@ -116,6 +116,7 @@ Result<void> execute(const Order& order, Watch& watch, Log& log, size_t& skipped
     if (auto begins = check_address_space(address_space_left()); !begins) return begins;
     if (auto set = use_memory_limit(request.max_memory, memory_bound()); !set) return set;
     if (auto writable = check_outputs(request); !writable) return writable;
+    open_writers_ahead(request);
     warn_of_lost_alpha(request, log);
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());

@@ -55,6 +55,7 @@ Result<void> load(Job& job) {
     Result<LightingOptions> lighting = load_lighting(job.request, job.log);
     if (!lighting) return fail(lighting.error());
     job.lighting = std::move(*lighting);
+    if (auto there = check_writers(job.request); !there) return there;
     job.renderer->statistics().load_s = loading.seconds();
     return {};
 }

@@ -17,6 +17,7 @@
 #include "gltf/parse/asset_file.h"
 #include "gltf/parse/variants.h"
 #include "gltf/pose.h"
+#include "image/oiio.h"
 #include "scene/frame_motion.h"
 #include "scene/points_lines_radii.h"
 
@@ -96,6 +97,15 @@ void fill_info(const Document& document, AssetInfo& info) {
     info.variants = document.variants;
     info.xmp = document.xmp;
     info.report = document.report;
+}
+
+/// Whether an image is, or may be, one that OpenImageIO decodes; its name need not be right.
+bool may_need_oiio(const Document& document) {
+    const auto may_need = [](const GltfImage& image) {
+        const std::string& name = image.mime.empty() ? image.uri.value_or("") : image.mime;
+        return !name.ends_with("webp") && !name.ends_with("ktx2");
+    };
+    return std::any_of(document.images.begin(), document.images.end(), may_need);
 }
 
 void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
@@ -229,6 +239,7 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     asset = std::move(*opened);
     Document& document = asset.document;
     document.keeps_uv = options.keeps_uv;
+    if (!options.info_only && may_need_oiio(document)) open_oiio_ahead();
     const Result<int> chosen = choose_scene(document, options, log);
     if (!chosen) return fail(chosen.error());
     scene = *chosen;

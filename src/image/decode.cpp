@@ -5,7 +5,7 @@
 #include "image/corrupt.h"
 #include "image/image_header.h"
 #include "image/ktx2.h"
-#include "image/oiio_input.h"
+#include "image/oiio.h"
 #include "image/strip_metadata.h"
 
 #include <bit>
@@ -36,7 +36,7 @@ void spread_grey(std::vector<uint32_t>& texels, bool has_alpha) {
 bool read_wide(OiioInput& input, ImageRgba8& image) {
     constexpr uint64_t opaque = uint64_t{0xFFFF} << 48;
     std::vector<uint64_t> wide(image.texels.size(), opaque);
-    if (!input.read(OIIO::TypeDesc::UINT16, wide.data(), sizeof(uint64_t))) return false;
+    if (!input.read(OiioType::uint16, wide.data(), sizeof(uint64_t))) return false;
     for (size_t i = 0; i < wide.size(); ++i) {
         uint32_t high = 0, low = 0;
         for (int c = 0; c < 4; ++c) {
@@ -59,19 +59,20 @@ bool means_missing_pixels(const std::string& complaint) {
 
 Result<void> decode_with_oiio(
     ByteSpan bytes, ImageFormat format, ImageRgba8& image, const std::string& where, Log& log) {
+    const Result<const OiioModule*>& oiio = oiio_module();
+    if (!oiio) return fail(oiio.error());
     const std::vector<std::byte> pixels_only = without_metadata(bytes, format);
-    OiioInput input(pixels_only, image.format.c_str());
-    if (!input.error().empty()) return corrupt_image(where, input.error());
-    const OIIO::ImageSpec& spec = input.spec();
-    if (spec.width != image.width || spec.height != image.height || spec.nchannels < 1 ||
-        spec.nchannels > 4) {
+    const std::unique_ptr<OiioInput> input = (*oiio)->open(pixels_only, image.format.c_str());
+    if (!input->error().empty()) return corrupt_image(where, input->error());
+    const int channels = input->channels();
+    if (input->width() != image.width || input->height() != image.height || channels < 1 ||
+        channels > 4) {
         return corrupt_image(where, "the size or the number of channels contradicts the header");
     }
-    const int channels = spec.nchannels;
     const bool read = image.low_bytes.empty()
-                          ? input.read(OIIO::TypeDesc::UINT8, image.texels.data(), sizeof(uint32_t))
-                          : read_wide(input, image);
-    const std::string complaint = input.errors();
+                          ? input->read(OiioType::uint8, image.texels.data(), sizeof(uint32_t))
+                          : read_wide(*input, image);
+    const std::string complaint = input->errors();
     if (!read || means_missing_pixels(complaint)) {
         return corrupt_image(where, complaint.empty() ? "cut off or broken" : complaint);
     }

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file_bytes.h"
 #include "image/encode.h"
-#include "image/oiio_input.h"
-
-#include <OpenImageIO/imageio.h>
+#include "image/oiio.h"
 
 #include <cstring>
 #include <stdlib.h>
@@ -42,19 +40,6 @@ private:
     std::string path_;
 };
 
-/// Copies rows to the encoder from a buffer with room behind: up to version 2.5 OpenImageIO reads
-/// as many bytes a row as libheif's rows have, which are padded.
-bool write_rows(OIIO::ImageOutput& output, const CodedImage& image) {
-    constexpr size_t max_padding = 4096;
-    const size_t row = static_cast<size_t>(image.width) * static_cast<size_t>(image.channels);
-    std::vector<uint8_t> padded(row + max_padding);
-    for (int y = 0; y < image.height; ++y) {
-        std::memcpy(padded.data(), image.codes + static_cast<size_t>(y) * row, row);
-        if (!output.write_scanline(y, 0, OIIO::TypeDesc::UINT8, padded.data())) return false;
-    }
-    return true;
-}
-
 bool is_avif(std::span<const std::byte> bytes) {
     constexpr std::string_view brand = "ftypavif";
     return bytes.size() > 12 && std::memcmp(bytes.data() + 4, brand.data(), brand.size()) == 0;
@@ -65,7 +50,8 @@ bool is_avif(std::span<const std::byte> bytes) {
 Result<std::vector<std::byte>> encode_avif(const CodedImage& image,
                                            int quality,
                                            const std::string& where) {
-    prepare_oiio();
+    const Result<const OiioModule*>& oiio = oiio_module();
+    if (!oiio) return fail(oiio.error());
     const ScratchFile file;
     if (file.path().empty()) {
         return fail(ExitCode::io_error,
@@ -73,16 +59,15 @@ Result<std::vector<std::byte>> encode_avif(const CodedImage& image,
                     where,
                     "no temporary file can be made, which AVIF needs; set $TMPDIR");
     }
-    OIIO::ImageSpec spec(image.width, image.height, image.channels, OIIO::TypeDesc::UINT8);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
-    spec.attribute("compression", "avif:" + std::to_string(quality));
-    const auto output = OIIO::ImageOutput::create("heif");
-    const bool done =
-        output && output->open(file.path(), spec) && write_rows(*output, image) && output->close();
-    FileBytes encoded = done ? read_file_bytes(file.path(), {}) : FileBytes();
+    const OiioImage whole{.width = image.width,
+                          .height = image.height,
+                          .channels = image.channels,
+                          .codes = image.codes,
+                          .attributes = {{"compression", "avif:" + std::to_string(quality)}}};
+    const std::string failure = (*oiio)->encode_to_file("heif", whole, file.path());
+    FileBytes encoded = failure.empty() ? read_file_bytes(file.path(), {}) : FileBytes();
     if (!is_avif(encoded.bytes)) {
-        const std::string cause = output ? output->geterror() : OIIO::geterror();
-        return fail(ExitCode::internal, "E-OUT-ENCODE", where, "encoding failed: " + cause);
+        return fail(ExitCode::internal, "E-OUT-ENCODE", where, "encoding failed: " + failure);
     }
     return std::move(encoded.bytes);
 }

@@ -4,11 +4,8 @@
 #include "image/encode.h"
 #include "image/fingerprint.h"
 #include "image/icc_profile.h"
-#include "image/oiio_input.h"
+#include "image/oiio.h"
 #include "image/png_chunks.h"
-
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
 
 #include <algorithm>
 
@@ -29,70 +26,58 @@ struct Encodable {
     bool is_srgb() const { return code_points == srgb_code_points; }
 };
 
-const char* oiio_name(OutputFormat format) {
-    return format == OutputFormat::png ? "png" : format == OutputFormat::jpeg ? "jpeg" : "tiff";
-}
-
-void add_fingerprint(OutputFormat format, const std::string& fingerprint, OIIO::ImageSpec& spec) {
-    if (fingerprint.empty()) return;
-    const std::string name(fingerprint_name);
-    if (format == OutputFormat::png) {
-        spec.attribute(name, fingerprint);
-    } else {
-        spec.attribute("ImageDescription", name + "=" + fingerprint);
-    }
-}
-
-OIIO::ImageSpec spec_of(const Encodable& image) {
-    const OIIO::TypeDesc type = image.bits == 16 ? OIIO::TypeDesc::UINT16 : OIIO::TypeDesc::UINT8;
-    OIIO::ImageSpec spec(image.width, image.height, image.channels, type);
-    spec.attribute("oiio:UnassociatedAlpha", 1);
+/// What a header says, by OpenImageIO's names.
+std::vector<std::pair<std::string, std::string>> attributes_of(const Encodable& image) {
+    std::vector<std::pair<std::string, std::string>> out;
     const auto add = [&](const char* name, const std::string& text) {
-        if (!text.empty()) spec.attribute(name, escape_control(text));  // none may be empty in IPTC
+        if (!text.empty())
+            out.emplace_back(name, escape_control(text));  // none may be empty in IPTC
     };
     add("Software", image.metadata.software);
     add("Copyright", image.metadata.copyright);
     const OutputFormat format = image.target.format;
-    add_fingerprint(format, fingerprint_of(image.metadata), spec);
-    if (format == OutputFormat::png) spec.attribute("compression", "zip:4");
+    const std::string fingerprint = fingerprint_of(image.metadata);
+    const std::string name(fingerprint_name);
+    if (format == OutputFormat::png) {
+        add(name.c_str(), fingerprint);
+        add("compression", "zip:4");
+    } else if (!fingerprint.empty()) {
+        add("ImageDescription", name + "=" + fingerprint);
+    }
     if (format == OutputFormat::tiff) {
-        spec.attribute("compression", "zip");
-        spec.attribute("DateTime", "");  // else the time of writing: no two files would be equal
+        add("compression", "zip");
+        out.emplace_back("DateTime", "");  // else the time of writing: no two files would be equal
     }
     if (format == OutputFormat::jpeg) {
-        spec.attribute("compression", "jpeg:" + std::to_string(image.quality));
-        spec.attribute("jpeg:subsampling", "4:4:4");
+        add("compression", "jpeg:" + std::to_string(image.quality));
+        add("jpeg:subsampling", "4:4:4");
     }
-    if (format != OutputFormat::png && image.is_srgb()) {  // a PNG has a chunk for that
-        const std::vector<std::byte> profile = srgb_icc_profile();
-        const OIIO::TypeDesc bytes(OIIO::TypeDesc::UINT8, static_cast<int>(profile.size()));
-        spec.attribute("ICCProfile", bytes, profile.data());
-    }
-    return spec;
+    return out;
 }
 
 /// PNG, JPEG and TIFF.
 Result<std::vector<std::byte>> encode_with_oiio(const Encodable& image) {
-    prepare_oiio();
-    const OIIO::ImageSpec spec = spec_of(image);
-    std::vector<unsigned char> encoded;
-    OIIO::Filesystem::IOVecOutput stream(encoded);
-    const auto output = OIIO::ImageOutput::create(oiio_name(image.target.format));
-    if (output) output->threads(1);
-    const bool done = output && output->set_ioproxy(&stream) &&
-                      output->open(image.target.name, spec) &&
-                      output->write_image(spec.format, image.codes) && output->close();
-    if (!done) {
-        return fail(ExitCode::internal,
-                    "E-OUT-ENCODE",
-                    image.target.name,
-                    "encoding failed: " + (output ? output->geterror() : OIIO::geterror()));
+    const Result<const OiioModule*>& oiio = oiio_module();
+    if (!oiio) return fail(oiio.error());
+    const OutputFormat format = image.target.format;
+    const bool has_profile = format != OutputFormat::png && image.is_srgb();  // a PNG has a chunk
+    const std::vector<std::byte> profile =
+        has_profile ? srgb_icc_profile() : std::vector<std::byte>();
+    const OiioImage whole{.width = image.width,
+                          .height = image.height,
+                          .channels = image.channels,
+                          .type = image.bits == 16 ? OiioType::uint16 : OiioType::uint8,
+                          .codes = image.codes,
+                          .attributes = attributes_of(image),
+                          .icc_profile = profile};
+    std::vector<std::byte> encoded;
+    const std::string failure = (*oiio)->encode(entry_of(format).name, whole, encoded);
+    if (!failure.empty()) {
+        return fail(
+            ExitCode::internal, "E-OUT-ENCODE", image.target.name, "encoding failed: " + failure);
     }
-    const auto bytes = std::as_bytes(std::span(encoded));
-    if (image.target.format == OutputFormat::png) {
-        return with_color_chunk(bytes, image.code_points);
-    }
-    return std::vector<std::byte>(bytes.begin(), bytes.end());
+    if (format == OutputFormat::png) return with_color_chunk(encoded, image.code_points);
+    return encoded;
 }
 
 /// Grey as RGB, which all that libwebp and libheif take has.
@@ -133,7 +118,7 @@ Result<std::vector<std::byte>> encode_for_display(const OutputTarget& target,
         return encode_with_oiio(encodable);
     }
     std::vector<uint8_t> codes = display_codes<uint8_t>(image, format.has_alpha, how);
-    const bool by_oiio = target.format != OutputFormat::webp && target.format != OutputFormat::avif;
+    const bool by_oiio = is_written_by_oiio(target.format) && target.format != OutputFormat::avif;
     if (!by_oiio && codes.size() == pixels) codes = spread_grey(codes);
     encodable.channels = static_cast<int>(codes.size() / pixels);
     encodable.codes = codes.data();

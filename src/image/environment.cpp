@@ -7,7 +7,7 @@
 #include "image/environment_memory.h"
 #include "image/exr_sizes.h"
 #include "image/image_header.h"
-#include "image/oiio_input.h"
+#include "image/oiio.h"
 
 #include <array>
 #include <cerrno>
@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstring>
 #include <fcntl.h>
+#include <memory>
 #include <new>
 #include <string_view>
 #include <sys/stat.h>
@@ -101,17 +102,18 @@ Result<void> check_hdr_size(ByteSpan bytes, const std::string& where) {
 
 Result<ImageRgb32f> read_hdr(ByteSpan bytes, const std::string& where) {
     if (auto fits = check_hdr_size(bytes, where); !fits) return fail(std::move(fits.error()));
-    OiioInput input(bytes, "hdr");
-    if (!input.error().empty()) return corrupt_environment(where, input.error());
-    const OIIO::ImageSpec& spec = input.spec();
-    if (spec.nchannels != 3) return corrupt_environment(where, "does not have three channels");
-    if (auto fits = check_environment_size(spec.width, spec.height, where); !fits) {
+    const Result<const OiioModule*>& oiio = oiio_module();
+    if (!oiio) return fail(oiio.error());
+    const std::unique_ptr<OiioInput> input = (*oiio)->open(bytes, "hdr");
+    if (!input->error().empty()) return corrupt_environment(where, input->error());
+    if (input->channels() != 3) return corrupt_environment(where, "does not have three channels");
+    ImageRgb32f image{input->width(), input->height(), {}};
+    if (auto fits = check_environment_size(image.width, image.height, where); !fits) {
         return fail(std::move(fits.error()));
     }
-    ImageRgb32f image{spec.width, spec.height, {}};
-    image.pixels.resize(3 * static_cast<size_t>(spec.width) * static_cast<size_t>(spec.height));
-    const bool read = input.read(OIIO::TypeDesc::FLOAT, image.pixels.data(), 3 * sizeof(float));
-    const std::string complaint = input.errors();
+    image.pixels.resize(3 * static_cast<size_t>(image.width) * static_cast<size_t>(image.height));
+    const bool read = input->read(OiioType::float32, image.pixels.data(), 3 * sizeof(float));
+    const std::string complaint = input->errors();
     if (!read || !complaint.empty()) {
         return corrupt_environment(where, complaint.empty() ? "cut off or broken" : complaint);
     }

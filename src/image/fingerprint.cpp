@@ -2,30 +2,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/fingerprint.h"
 
-#include "image/oiio_input.h"
+#include "image/oiio.h"
 #include "image/output_format.h"
 
-#include <OpenImageIO/imageio.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <array>
+#include <exception>
 
 namespace obscura {
 
 namespace {
 
-const char* reader_of(OutputFormat format) {
-    switch (format) {
-        case OutputFormat::exr:
-            return "openexr";
-        case OutputFormat::png:
-            return "png";
-        case OutputFormat::jpeg:
-            return "jpeg";
-        case OutputFormat::tiff:
-            return "tiff";
-        case OutputFormat::webp:
-        case OutputFormat::avif:
-            break;
+std::optional<std::string> fingerprint_of_exr(const std::filesystem::path& file) {
+    try {
+        const Imf::MultiPartInputFile input(file.c_str());
+        const std::string name(fingerprint_name);
+        const auto* const text = input.header(0).findTypedAttribute<Imf::StringAttribute>(name);
+        return text != nullptr ? text->value() : "";
+    } catch (const std::exception&) {
+        return {};
     }
-    return nullptr;
 }
 
 }  // namespace
@@ -40,19 +38,16 @@ std::string fingerprint_of(const ImageMetadata& metadata) {
 
 std::optional<std::string> read_fingerprint(const std::filesystem::path& file) {
     const std::optional<OutputFormat> format = output_format_of(file);
-    const char* const reader = format ? reader_of(*format) : nullptr;
-    if (reader == nullptr) return {};
-    prepare_oiio();
-    const auto input = OIIO::ImageInput::create(reader);
-    OIIO::ImageSpec spec;
-    if (!input || !input->open(file.string(), spec)) {
-        if (input) input->geterror();  // OpenImageIO prints what nobody takes
-        return {};
-    }
+    if (format == OutputFormat::exr) return fingerprint_of_exr(file);
+    if (!format || !entry_of(*format).has_texts) return {};
+    const Result<const OiioModule*>& oiio = oiio_module();
+    if (!oiio) return {};
     const std::string name(fingerprint_name);
-    const std::string own(spec.get_string_attribute(name));
-    if (!own.empty()) return own;
-    const std::string description(spec.get_string_attribute("ImageDescription"));
+    const std::array names = {name, std::string("ImageDescription")};
+    const auto texts = (*oiio)->read_texts(entry_of(*format).name, file.string(), names);
+    if (!texts) return {};
+    if (!texts->at(0).empty()) return texts->at(0);
+    const std::string& description = texts->at(1);
     const std::string prefix = name + "=";
     return description.starts_with(prefix) ? description.substr(prefix.size()) : "";
 }

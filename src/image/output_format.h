@@ -16,7 +16,7 @@ enum class OutputFormat { exr, png, jpeg, tiff, webp, avif };
 /// To add a format: an enumerator, an entry here, an encoder in encode.h that encode_image calls,
 /// and a round trip in tests/image/encode_display_test.cpp.
 struct OutputFormatEntry {
-    const char* name;  ///< as --format calls it
+    const char* name;  ///< as --format and OpenImageIO call it
     OutputFormat value;
     std::array<const char*, 2> endings;  ///< of files, in lower case; null: there is one only
     int max_side;                        ///< pixels

@@ -6,6 +6,7 @@
 #include "base/setting_names.h"
 #include "image/encode.h"
 #include "image/exr_parts.h"
+#include "image/oiio.h"
 
 #include <algorithm>
 #include <new>
@@ -209,6 +210,13 @@ Result<void> check_encoding(const OutputTarget& target,
         return bad_format(target.name,
                           "the OpenImageIO of this build writes no AVIF; write .webp or .png");
     }
+    return {};
+}
+
+Result<void> check_writer(OutputFormat format) {
+    if (!is_written_by_oiio(format)) return {};
+    const Result<const OiioModule*>& oiio = oiio_module();
+    if (!oiio) return fail(oiio.error());
     return {};
 }
 

@@ -86,6 +86,11 @@ Result<WriteReport> write_image_file(const FileToWrite& file,
                                      const ExrOptions& exr,
                                      const DisplayEncoding& encoding);
 
+/// Checks before any work that what writes a format is there; opens it, if need be.
+///
+/// Errors  69 E-OIIO
+Result<void> check_writer(OutputFormat format);
+
 /// Checks before any work that a format can hold an image of this size as it is asked for.
 ///
 /// Errors  64 E-OUT-FORMAT a side is too long, or this build cannot write it (AVIF);

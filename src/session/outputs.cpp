@@ -8,8 +8,11 @@
 #include "camera/exposure.h"
 #include "camera/matrices.h"
 #include "camera/names.h"
+#include "image/oiio.h"
 #include "render/integrators.h"
+#include "session/built_in_environment.h"
 #include "session/camera_parameters.h"
+#include "session/image_parts.h"
 #include "session/preview.h"
 #include "session/statistics.h"
 
@@ -139,6 +142,24 @@ void add_bias(const RenderOptions& options, std::vector<ImageAttribute>& extra) 
     if (options.regularize) extra.push_back({"obscura:regularize", "on"});
 }
 
+/// The formats of all files that hold images; a part of an image has a form of its own.
+std::vector<OutputFormat> written_formats(const RenderRequest& request) {
+    std::vector<OutputFormat> formats;
+    if (is_part_of_image(request)) return formats;
+    for (const std::filesystem::path& output : request.outputs) {
+        if (const auto format = output_format_of(output)) formats.push_back(*format);
+    }
+    if (request.standard_output) formats.push_back(*request.standard_output);
+    if (request.segmentation) formats.push_back(OutputFormat::png);
+    return formats;
+}
+
+/// OpenEXRs are read otherwise, and built-in environments are not read at all.
+bool may_be_read_by_oiio(const std::filesystem::path& environment) {
+    const auto built_in = parse_built_in_environment(environment.string());
+    return built_in && !*built_in && output_format_of(environment) != OutputFormat::exr;
+}
+
 }  // namespace
 
 Result<void> check_outputs(const RenderRequest& request) {
@@ -166,6 +187,19 @@ Result<void> check_outputs(const RenderRequest& request) {
         }
     }
     if (request.statistics) return check_file_can_be_written(*request.statistics);
+    return {};
+}
+
+void open_writers_ahead(const RenderRequest& request) {
+    const std::vector<OutputFormat> formats = written_formats(request);
+    const bool reads = request.environment && may_be_read_by_oiio(*request.environment);
+    if (reads || std::any_of(formats.begin(), formats.end(), is_written_by_oiio)) open_oiio_ahead();
+}
+
+Result<void> check_writers(const RenderRequest& request) {
+    for (const OutputFormat format : written_formats(request)) {
+        if (auto there = check_writer(format); !there) return there;
+    }
     return {};
 }
 

@@ -21,6 +21,15 @@ inline constexpr const char* standard_output_name = "standard output";
 /// Errors  64 E-OUT-FORMAT, E-USAGE-CONFLICT; 73 E-OUT-CREATE
 Result<void> check_outputs(const RenderRequest& request);
 
+/// Begins to open the library that writes the outputs or reads the environment, where it takes its
+/// time: beside what else there is to do.
+void open_writers_ahead(const RenderRequest& request);
+
+/// Finds out, before the costly work, whether what writes the outputs is there.
+///
+/// Errors  69 E-OIIO
+Result<void> check_writers(const RenderRequest& request);
+
 /// Warns of what a file could not keep.
 void warn_of(const WriteReport& report, const std::string& file, Log& log);
 

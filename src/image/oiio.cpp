@@ -1,0 +1,95 @@
+// image/oiio.cpp - opens the module with OpenImageIO when an image first needs it.
+// SPDX-License-Identifier: Apache-2.0
+#include "image/oiio.h"
+
+#include "image/process_settings.h"
+
+#include <dlfcn.h>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace obscura {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+tl::unexpected<Error> cannot_open(const std::string& why) {
+    return fail(ExitCode::unsupported,
+                "E-OIIO",
+                OBSCURA_OIIO_MODULE,
+                "the module with OpenImageIO, which PNG, JPEG, TIFF, AVIF and Radiance HDR need, "
+                "cannot be opened: " +
+                    why + "; install it beside the program, and the package of OpenImageIO");
+}
+
+/// The program or library that this function is part of; "": the system does not tell.
+fs::path own_file() {
+    std::error_code error;
+    Dl_info found = {};
+    const auto* const here = reinterpret_cast<const void*>(&own_file);
+    if (::dladdr(here, &found) != 0 && found.dli_fname != nullptr) {
+        const fs::path file = fs::weakly_canonical(found.dli_fname, error);
+        // Of the program itself it tells only how it was called.
+        if (file.filename().string().find(".so") != std::string::npos) return file;
+    }
+    fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (!program.empty()) return program;
+    return found.dli_fname != nullptr ? fs::weakly_canonical(found.dli_fname, error) : fs::path();
+}
+
+/// Beside libobscura.so, or below a program's sibling folder of libraries.
+std::vector<fs::path> candidates() {
+    const fs::path folder = own_file().parent_path();
+    const fs::path name = fs::path("obscura") / OBSCURA_OIIO_MODULE;
+    return {
+        folder / name, folder / OBSCURA_LIBRARIES_FROM_PROGRAMS / name, folder / "../lib" / name};
+}
+
+Result<const OiioModule*> open_module() {
+    std::string why = "it is not there";
+    for (const fs::path& file : candidates()) {
+        std::error_code error;
+        if (!fs::exists(file, error)) continue;
+        // Its symbols are for nobody else, and those of its libraries are looked up when called.
+        void* const library = ::dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL);
+        if (library == nullptr) {
+            why = ::dlerror();
+            continue;
+        }
+        using Entry = const OiioModule* (*)();
+        const auto entry = reinterpret_cast<Entry>(::dlsym(library, oiio_module_symbol));
+        const OiioModule* const module = entry != nullptr ? entry() : nullptr;
+        if (module == nullptr || std::string_view(module->version) != OBSCURA_VERSION) {
+            why = file.string() + " is not of version " OBSCURA_VERSION;
+            continue;
+        }
+        if (owns_process_settings()) module->own_process();
+        return module;
+    }
+    return cannot_open(why);
+}
+
+}  // namespace
+
+const Result<const OiioModule*>& oiio_module() {
+    static const Result<const OiioModule*> opened = open_module();
+    return opened;
+}
+
+void open_oiio_ahead() {
+    try {
+        // At the process's end it is waited for: nothing may be opened while all is being closed.
+        static const std::jthread opening([] { (void)oiio_module(); });
+    } catch (const std::system_error&) {  // no more threads: it is opened when it is needed
+    }
+}
+
+bool is_written_by_oiio(OutputFormat format) {
+    return format != OutputFormat::exr && format != OutputFormat::webp;
+}
+
+}  // namespace obscura

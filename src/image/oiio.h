@@ -1,0 +1,24 @@
+// image/oiio.h - opens the module with OpenImageIO when an image first needs it.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/error.h"
+#include "image/oiio_module.h"
+#include "image/output_format.h"
+
+namespace obscura {
+
+/// OpenImageIO. The first call opens the module, which is a third of a second of work: OpenImageIO
+/// brings some 260 libraries. Thread-safe; all callers wait for the first.
+///
+/// Out     what stays open until the process ends
+/// Errors  69 E-OIIO the module is not there or cannot be opened; the same each time
+const Result<const OiioModule*>& oiio_module();
+
+/// Begins to open the module beside what else there is to do; does nothing from the second call on.
+void open_oiio_ahead();
+
+/// True for formats that OpenImageIO writes; the others have libraries of their own.
+bool is_written_by_oiio(OutputFormat format);
+
+}  // namespace obscura
