@@ -1,4 +1,4 @@
-// gltf/chosen_parts.cpp - which nodes, meshes, materials and lights the load options name.
+// gltf/chosen_parts.cpp - which scene, nodes, meshes, materials and lights the load options name.
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/chosen_parts.h"
 
@@ -13,6 +13,17 @@
 namespace obscura::gltf {
 
 namespace {
+
+tl::unexpected<Error> unknown_scene(const Document& document, const std::string& asked) {
+    std::string names;
+    for (size_t i = 0; i < document.scenes.size(); ++i) {
+        names += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + document.scenes[i].name + "\"";
+    }
+    return fail(ExitCode::usage,
+                "E-SCENE-UNKNOWN",
+                setting("scene"),
+                "the asset has no scene " + asked + "; it has " + (names.empty() ? "none" : names));
+}
 
 std::vector<std::string> node_names(const Document& document) {
     std::vector<std::string> out;
@@ -126,6 +137,25 @@ void each_light(const Document& document, const Visit& visit) {
 }
 
 }  // namespace
+
+Result<int> choose_scene(const Document& document, const LoadOptions& options, Log& log) {
+    const int count = static_cast<int>(document.scenes.size());
+    if (options.scene >= 0) {
+        if (options.scene >= count) return unknown_scene(document, std::to_string(options.scene));
+        return options.scene;
+    }
+    if (!options.scene_name.empty()) {
+        for (int i = 0; i < count; ++i) {
+            if (document.scenes[static_cast<size_t>(i)].name == options.scene_name) return i;
+        }
+        return unknown_scene(document, "\"" + options.scene_name + "\"");
+    }
+    if (count == 0) {
+        log.warn(document.file, "the asset has no scene; all its root nodes are drawn");
+        return -1;
+    }
+    return std::max(document.scene, 0);
+}
 
 Result<std::vector<char>> find_subtree(const std::string& pattern, const Document& document) {
     std::vector<char> marks(document.nodes.size(), 0);

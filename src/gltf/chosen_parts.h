@@ -1,4 +1,4 @@
-// gltf/chosen_parts.h - which nodes, meshes, materials and lights the load options name.
+// gltf/chosen_parts.h - which scene, nodes, meshes, materials and lights the load options name.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -9,6 +9,11 @@
 #include <vector>
 
 namespace obscura::gltf {
+
+/// Number of the scene to load; -1 when the file has none.
+///
+/// Errors  64 E-SCENE-UNKNOWN
+Result<int> choose_scene(const Document& document, const LoadOptions& options, Log& log);
 
 /// Marks nodes: 1 where a node's name ("node 3" where it has none) fits the pattern, or that of a
 /// node above it, by the node's number.

@@ -38,37 +38,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-tl::unexpected<Error> unknown_scene(const Document& document, const std::string& asked) {
-    std::string names;
-    for (size_t i = 0; i < document.scenes.size(); ++i) {
-        names += (i == 0 ? "" : ", ") + std::to_string(i) + " \"" + document.scenes[i].name + "\"";
-    }
-    return fail(ExitCode::usage,
-                "E-SCENE-UNKNOWN",
-                setting("scene"),
-                "the asset has no scene " + asked + "; it has " + (names.empty() ? "none" : names));
-}
-
-/// Number of the scene to load; -1 when the file has none.
-Result<int> choose_scene(const Document& document, const LoadOptions& options, Log& log) {
-    const int count = static_cast<int>(document.scenes.size());
-    if (options.scene >= 0) {
-        if (options.scene >= count) return unknown_scene(document, std::to_string(options.scene));
-        return options.scene;
-    }
-    if (!options.scene_name.empty()) {
-        for (int i = 0; i < count; ++i) {
-            if (document.scenes[static_cast<size_t>(i)].name == options.scene_name) return i;
-        }
-        return unknown_scene(document, "\"" + options.scene_name + "\"");
-    }
-    if (count == 0) {
-        log.warn(document.file, "the asset has no scene; all its root nodes are drawn");
-        return -1;
-    }
-    return std::max(document.scene, 0);
-}
-
 void fill_info(const Document& document, AssetInfo& info) {
     info.version = document.version;
     info.generator = document.generator;
@@ -188,6 +157,7 @@ struct PosedAsset::Impl {
     Problems problems;
     Degraded degraded;        ///< of the latest scene
     double open_seconds = 0;  ///< not yet told in a scene
+    bool shows_several = false;  ///< variants
 
     Result<void> open(bool has_time, Log& log);
     Result<void> choose_parts();
@@ -285,7 +255,7 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
     const MeshSources sources{document,
                               buffers,
                               *placed_meshes,
-                              animator.empty() ? nullptr : &geometry,
+                              animator.empty() && !shows_several ? nullptr : &geometry,
                               anchors ? &*anchors : nullptr};
     Result<void> done = add_meshes(sources, materials, problems, out, log);
     if (done) done = add_splats(sources, problems, out, log);
@@ -469,6 +439,25 @@ Result<Scene> PosedAsset::scene_at(double time_s, bool last, Log& log) {
 Result<Scene> PosedAsset::scene_between(const ShutterTimes& shutter, bool last, Log& log) {
     return guarded(impl_->file.string(),
                    [&] { return impl_->settled(impl_->scene_between(shutter, last, log), log); });
+}
+
+Result<void> PosedAsset::plan_variants(const std::vector<std::string>& names) {
+    impl_->shows_several = names.size() > 1;
+    return gltf::plan_variants(names, impl_->asset.document);
+}
+
+Result<void> PosedAsset::choose_variant(const std::string& name) {
+    impl_->options.variant = name;
+    impl_->info.variant = name;
+    if (auto chosen = gltf::choose_variant(name, impl_->asset.document); !chosen) return chosen;
+    const Result<std::vector<char>> hidden =
+        hide_parts(impl_->options.hidden, impl_->asset.document);
+    if (!hidden) return fail(hidden.error());
+    return {};
+}
+
+const AssetInfo& PosedAsset::info() const {
+    return impl_->info;
 }
 
 Result<std::vector<char>> PosedAsset::subtree(const std::string& pattern) const {

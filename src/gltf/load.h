@@ -114,6 +114,20 @@ public:
     /// Errors  those of load_gltf
     Result<Scene> scene_between(const ShutterTimes& shutter, bool last, Log& log);
 
+    /// Tells which variants scenes will be asked for, "" for the file's own materials: what they
+    /// have in common is read once.
+    ///
+    /// Errors  64 E-VARIANT-UNKNOWN
+    Result<void> plan_variants(const std::vector<std::string>& names);
+
+    /// The variant of the scenes that follow.
+    ///
+    /// Errors  64 E-VARIANT-UNKNOWN
+    Result<void> choose_variant(const std::string& name);
+
+    /// What all its scenes have in common.
+    const AssetInfo& info() const;
+
     /// The nodes whose names fit the pattern, and all below them: 1 by the node's number.
     ///
     /// Errors  64 E-NODE-UNKNOWN

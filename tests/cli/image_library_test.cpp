@@ -37,8 +37,9 @@ TEST_F(ImageLibrary, WhatNeedsNoneRunsWithoutIt) {
     expect_result(run_copy({"info", showcase(), "--json"}), 0, "OK");
     const Texts outputs = {"--env", "studio", "-o", "a.exr", "-o", "a.webp"};
     expect_result(run_copy(small_render("box.gltf", outputs)), 0, "OK");
-    expect_result(
-        run_copy(small_render("box.gltf", joined(outputs, {"--skip-existing"}))), 0, "OK");
+    const Texts again = {"--env", "studio", "-o", "a.exr", "--skip-existing"};
+    for (int i = 0; i < 2; ++i)
+        expect_result(run_copy(small_render("box.gltf", again)), 0, "OK");
 }
 
 TEST_F(ImageLibrary, WhatNeedsItSaysSoBeforeTheWork) {

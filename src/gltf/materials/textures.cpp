@@ -44,6 +44,7 @@ private:
         return gltf::arena_texels(document(), image, srgb);
     }
 
+    bool is_planned(size_t material) const;
     void find_uses();
     bool take_stored();
     Result<void> decode_afresh();
@@ -88,6 +89,13 @@ uint32_t packed_sampler(const GltfSampler& sampler, bool srgb) {
                         srgb);
 }
 
+/// Whether a later scene may draw a material. Record 0 is the default material; copies, behind the
+/// file's, have textures of those.
+bool TextureBuilder::is_planned(size_t material) const {
+    const std::vector<char>& planned = document().planned_materials;
+    return material > 0 && material <= planned.size() && planned[material - 1] != 0;
+}
+
 /// Which materials use an image: drawn ones decide what is decoded, all what is reported.
 void TextureBuilder::find_uses() {
     images_.resize(document().images.size());
@@ -105,7 +113,8 @@ void TextureBuilder::find_uses() {
             const bool color = slot_entries[i].color;
             ImageInfo& info = scene_.info.images[image];
             (color ? info.used_as_color : info.used_as_data) = true;
-            if (materials_.used[material] != 0) images_[image].uses[color ? 1 : 0].used = true;
+            if (materials_.used[material] != 0 || is_planned(material))
+                images_[image].uses[color ? 1 : 0].used = true;
         }
     }
 }

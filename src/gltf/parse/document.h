@@ -151,8 +151,10 @@ struct GltfVariantMaterial {
 /// The attributes' numbers are those of accessors.
 struct GltfPrimitive : GltfAttributes {
     int indices = -1;
-    int material = -1;
+    int material = -1;      ///< in the chosen variant
+    int own_material = -1;  ///< where no mapping names the variant
     int mode = 4;
+    int own_mode = 4;                ///< while it is not hidden
     bool is_splats = false;          ///< KHR_gaussian_splatting, not compressed
     bool splats_are_linear = false;  ///< their colours have no sRGB curve
     int draco_view = -1;             ///< KHR_draco_mesh_compression; -1: it is not compressed
@@ -286,6 +288,8 @@ struct Document {
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;
     std::vector<std::string> variants;  ///< KHR_materials_variants: names
+    /// 1 for materials of variants that will be shown, too: their images are kept with the others.
+    std::vector<char> planned_materials;
     std::string xmp;                    ///< the asset's XMP packet as JSON text
     std::vector<ExtensionInfo> extensions;
     std::vector<ReportEntry> report;

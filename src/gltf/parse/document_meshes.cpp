@@ -91,13 +91,13 @@ GltfPrimitive read_primitive(const DocumentReading& reading,
     for (const auto& target : file.targets)
         read_attributes(target, out.targets.emplace_back());
     out.indices = file.indices;
-    out.material = file.material;
+    out.material = out.own_material = file.material;
     if (file.mode > 6) {
         place.fault("mode",
                     "E-MESH-MODE",
                     std::to_string(file.mode) + " is not a primitive mode; accepted are 0 to 6");
     }
-    out.mode = file.mode;
+    out.mode = out.own_mode = file.mode;
     read_splats(place, out);
     read_draco(reading, file, place, out);
     read_variant_materials(reading, place, out);

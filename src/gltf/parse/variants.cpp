@@ -18,7 +18,31 @@ int material_in(const GltfPrimitive& primitive, int variant) {
         const std::vector<int>& in = mapping.variants;
         if (std::find(in.begin(), in.end(), variant) != in.end()) return mapping.material;
     }
-    return primitive.material;
+    return primitive.own_material;
+}
+
+/// The number of a variant; -1 for the file's own materials, where the name is empty.
+Result<int> find_variant(const std::string& name, const Document& document) {
+    if (name.empty()) return -1;
+    const auto found = std::find(document.variants.begin(), document.variants.end(), name);
+    if (found != document.variants.end()) return static_cast<int>(found - document.variants.begin());
+    std::string names;
+    for (const std::string& other : document.variants)
+        names += (names.empty() ? "\"" : ", \"") + other + "\"";
+    return fail(ExitCode::usage,
+                "E-VARIANT-UNKNOWN",
+                setting("variant"),
+                "the asset has no variant \"" + name + "\"; it has " +
+                    (names.empty() ? "none" : names));
+}
+
+/// Calls `use` with every primitive.
+template <typename Use>
+void each_primitive(Document& document, const Use& use) {
+    for (GltfMesh& mesh : document.meshes) {
+        for (GltfPrimitive& primitive : mesh.primitives)
+            use(primitive);
+    }
 }
 
 }  // namespace
@@ -48,22 +72,26 @@ void read_variant_materials(const DocumentReading& reading,
 }
 
 Result<void> choose_variant(const std::string& name, Document& document) {
-    const auto found = std::find(document.variants.begin(), document.variants.end(), name);
-    if (found == document.variants.end()) {
-        std::string names;
-        for (const std::string& other : document.variants)
-            names += (names.empty() ? "\"" : ", \"") + other + "\"";
-        return fail(ExitCode::usage,
-                    "E-VARIANT-UNKNOWN",
-                    setting("variant"),
-                    "the asset has no variant \"" + name + "\"; it has " +
-                        (names.empty() ? "none" : names));
+    const Result<int> variant = find_variant(name, document);
+    if (!variant) return fail(variant.error());
+    each_primitive(document, [&](GltfPrimitive& primitive) {
+        primitive.material = material_in(primitive, *variant);
+        primitive.mode = primitive.own_mode;
+    });
+    return {};
+}
+
+Result<void> plan_variants(const std::vector<std::string>& names, Document& document) {
+    std::vector<char> planned(document.materials.size(), 0);
+    for (const std::string& name : names) {
+        const Result<int> variant = find_variant(name, document);
+        if (!variant) return fail(variant.error());
+        each_primitive(document, [&](const GltfPrimitive& primitive) {
+            const int material = material_in(primitive, *variant);
+            if (material >= 0) planned[static_cast<size_t>(material)] = 1;
+        });
     }
-    const int variant = static_cast<int>(found - document.variants.begin());
-    for (GltfMesh& mesh : document.meshes) {
-        for (GltfPrimitive& primitive : mesh.primitives)
-            primitive.material = material_in(primitive, variant);
-    }
+    document.planned_materials = std::move(planned);
     return {};
 }
 
