@@ -11,6 +11,7 @@ find_package(xsimd REQUIRED)
 set_target_properties(xsimd PROPERTIES
   INTERFACE_LINK_LIBRARIES "" INTERFACE_COMPILE_DEFINITIONS "")
 find_package(CLI11 REQUIRED)
+find_package(OpenSSL REQUIRED COMPONENTS Crypto)
 find_package(fmt REQUIRED)
 find_package(PkgConfig REQUIRED)
 

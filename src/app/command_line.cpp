@@ -105,7 +105,13 @@ tl::unexpected<Error> worded(const CLI::App& app,
                      "there is no such option" +
                          (near.empty() ? near : " (did you mean " + near + "?)") + hint);
     }
-    return usage("command-line", in_quotes(first) + " is one argument too many" + hint);
+    const bool is_number = first.find_first_not_of("0123456789.+-eE") == std::string::npos;
+    return usage("command-line",
+                 in_quotes(first) + " is one argument too many" +
+                     (is_number ? "; an option's numbers have commas between them, as in --eye "
+                                  "1,2,3"
+                                : "") +
+                     hint);
 }
 
 /// A file's items, read by CLI11 as INI and TOML. Comments are removed before, because CLI11 would

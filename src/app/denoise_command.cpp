@@ -36,7 +36,9 @@ Result<void> write_displays(RenderRequest request, const DenoisedFile& denoised,
                  "(--color-space tells another)");
     }
     if (auto used = use_color_space(request, log); !used) return used;
-    if (auto fits = check_outputs(request); !fits) return fits;
+    const Result<ImageList> list = list_images(request, {});
+    if (!list) return fail(list.error());
+    if (auto fits = check_image_files(request, list->images); !fits) return fits;
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
     ChosenCamera camera;

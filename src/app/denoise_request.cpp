@@ -3,6 +3,7 @@
 #include "app/denoise_request.h"
 
 #include "app/denoise_options.h"
+#include "app/distinct_files.h"
 
 #include <algorithm>
 

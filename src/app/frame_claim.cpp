@@ -11,9 +11,8 @@ namespace obscura::app {
 namespace {
 
 /// "frame 7", or the name of a single image.
-std::string name_of(const MovieFrame& frame) {
-    if (frame.number) return fmt::format("frame {}", *frame.number);
-    return frame.outputs.front().string();
+std::string name_of(const ListedImage& image) {
+    return image.label.empty() ? image.outputs.front().string() : image.label;
 }
 
 }  // namespace
@@ -27,44 +26,46 @@ FrameClaim::~FrameClaim() {
     watch_->forget_last_task();
 }
 
-Result<FrameClaim> FrameClaim::make(Job& job, const MovieFrame& frame) {
+Result<FrameClaim> FrameClaim::make(Job& job, const ListedImage& image) {
     if (!job.request.long_run.skips_existing) return FrameClaim(Kind::to_render, job.watch);
-    const std::string fingerprint =
-        image_fingerprint(job.options, job.facts, job.request, frame.number);
+    const std::string fingerprint = image_fingerprint(job.options, job.facts, image.facts);
     const auto skip = [&] {
-        job.log.info(name_of(frame) + " is there and is left as it is");
+        job.log.info(name_of(image) + " is there and is left as it is");
         return FrameClaim(Kind::is_there, job.watch);
     };
-    if (find_existing(job.request, frame, fingerprint).is_finished) return skip();
+    if (find_existing(job.request, image, fingerprint).is_finished) return skip();
     Result<std::unique_ptr<WorkLock>> lock;
     job.watch.begin_undoable([&]() -> Watch::LastTask {
-        lock = WorkLock::take(lock_file(frame));
+        lock = WorkLock::take(lock_file(image));
         if (!lock || !*lock) return {};
         return [held = lock->get()] { held->release(); };
     });
     if (!lock) return fail(lock.error());
     if (!*lock) {
-        job.log.info(name_of(frame) + " is being rendered by another");
+        job.log.info(name_of(image) + " is being rendered by another");
         return FrameClaim(Kind::of_others, job.watch);
     }
     FrameClaim out(Kind::to_render, job.watch, std::move(*lock));
     if (!out.lock_->taken_from().empty())
-        job.log.info(name_of(frame) + ": its lock was left by " + out.lock_->taken_from());
+        job.log.info(name_of(image) + ": its lock was left by " + out.lock_->taken_from());
     // Another may have finished it before the lock was ours.
-    const ExistingImage existing = find_existing(job.request, frame, fingerprint);
+    const ExistingImage existing = find_existing(job.request, image, fingerprint);
     if (existing.is_finished) return skip();
     if (!existing.differs.empty())
-        job.log.info(name_of(frame) + " is rendered again: " + existing.differs);
+        job.log.info(name_of(image) + " is rendered again: " + existing.differs);
     return out;
 }
 
-Result<void> check_none_left(const std::vector<MovieFrame>& left, const RenderRequest& request) {
+Result<void> check_none_left(const std::vector<ListedImage>& left, const RenderRequest& request) {
     if (left.empty()) return {};
     std::vector<int> numbers;
-    for (const MovieFrame& frame : left) {
-        if (frame.number) numbers.push_back(*frame.number);
+    for (const ListedImage& image : left) {
+        if (image.number && !request.lists.is_asked()) numbers.push_back(*image.number);
     }
-    const std::string what = numbers.empty() ? left.front().outputs.front().string() + " is"
+    const std::string what = numbers.empty() ? fmt::format("{}{} {}",
+                                                           left.front().outputs.front().string(),
+                                                           left.size() > 1 ? " and others" : "",
+                                                           left.size() > 1 ? "are" : "is")
                                              : fmt::format("frame{} {} {}",
                                                            numbers.size() == 1 ? "" : "s",
                                                            ranges_text(numbers),

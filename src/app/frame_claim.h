@@ -25,7 +25,7 @@ public:
     ///
     /// In      job: with its facts; must outlive this
     /// Errors  those of WorkLock::take
-    static Result<FrameClaim> make(Job& job, const MovieFrame& frame);
+    static Result<FrameClaim> make(Job& job, const ListedImage& image);
 
     FrameClaim(FrameClaim&&) = default;
     FrameClaim& operator=(FrameClaim&&) = delete;
@@ -43,7 +43,7 @@ private:
 /// 75 E-LOCKED when images are left to others: "frames 3, 7-9 are being rendered by others ...".
 ///
 /// In      left: those images
-Result<void> check_none_left(const std::vector<MovieFrame>& left, const RenderRequest& request);
+Result<void> check_none_left(const std::vector<ListedImage>& left, const RenderRequest& request);
 
 /// "3, 7-9" of 3, 7, 8, 9.
 std::string ranges_text(const std::vector<int>& numbers);

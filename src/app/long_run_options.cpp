@@ -7,6 +7,7 @@
 #include "app/render_options.h"
 #include "app/render_request.h"
 #include "session/fingerprint.h"
+#include "session/image_names.h"
 
 namespace obscura::app {
 
@@ -86,9 +87,12 @@ Result<void> complete_long_run(RenderRequest& request) {
         return conflict("--checkpoint",
                         "with -o - there is no output to put it beside; give --checkpoint=FILE");
     }
-    if (!request.frames || run.checkpoint.empty() || frame_file(run.checkpoint, 0)) return {};
+    const bool is_one = !request.frames && !request.lists.is_asked();
+    const bool has_number = !request.lists.is_asked() && frame_file(run.checkpoint, 0);
+    if (is_one || run.checkpoint.empty() || has_number || has_fields(run.checkpoint)) return {};
     return conflict("--checkpoint",
-                    "every frame has one of its own: FILE must hold # for the number");
+                    "every image has one of its own: FILE must hold # or {frame} for a sequence's "
+                    "number, {view} and {variant} for those");
 }
 
 OptionGroup<RenderArguments, RenderRequest> long_run_group() {

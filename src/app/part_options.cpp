@@ -109,6 +109,7 @@ bool is_left_out(const std::string& name) {
                                                    "--texture-cache",
                                                    "--tile-size",
                                                    "--stats",
+                                                   "--manifest",
                                                    "--write-retries",
                                                    "--quiet",
                                                    "--verbose"};
@@ -144,14 +145,15 @@ Result<FilmPart> parse_part(const std::string& text, const std::string& option) 
 
 Result<void> complete_part(const PartArguments& arguments, RenderRequest& request) {
     if (!request.part) return {};
+    const bool has_many = request.frames || request.lists.is_asked();
     if (request.part_by == PartBy::automatic)
-        request.part_by = request.frames ? PartBy::frames : PartBy::tiles;
+        request.part_by = has_many ? PartBy::frames : PartBy::tiles;
     if (request.part_by == PartBy::frames) {
-        if (request.frames) return {};
+        if (has_many) return {};
         return conflict("--part-by", "frames are of a sequence; add --frames, or use tiles");
     }
-    if (request.frames) {
-        return conflict("--part-by", "a sequence is divided by frames; leave this out");
+    if (has_many) {
+        return conflict("--part-by", "many images are divided by frames; leave this out");
     }
     if (request.options.adaptive) {
         return conflict(arguments.part ? "--part" : "--part-by",

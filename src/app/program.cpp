@@ -18,6 +18,8 @@
 #include "image/process_settings.h"
 
 #include <cstdio>
+#include <string>
+#include <vector>
 
 namespace obscura::app {
 
@@ -25,6 +27,8 @@ namespace {
 
 constexpr const char* notes = R"(
 Examples:
+  obscura helmet.glb
+      writes helmet.png
   obscura render helmet.glb --env sky.hdr -o helmet.exr -o helmet.png
   obscura denoise helmet.exr -o clean.exr
   obscura merge helmet.exr.*-of-4.film
@@ -33,7 +37,7 @@ Examples:
   obscura crosscheck helmet.glb --rays 10M
   obscura explain-pixel helmet.glb 640,360 -o pixel.svg
 
-`obscura COMMAND --help` explains a command's options.)";
+`obscura help COMMAND` explains a command's options.)";
 
 /// The texts of all subcommands' options.
 struct Arguments {
@@ -70,6 +74,22 @@ Program describe(Arguments& arguments) {
     return program;
 }
 
+/// The words after the program's name, with short forms written out: a scene alone is rendered to
+/// a picture to look at, and `help COMMAND` is `COMMAND --help`.
+std::vector<const char*> full_words(int argc, char** argv, Arguments& arguments) {
+    std::vector<const char*> words(argv, argv + argc);
+    if (argc < 2) return words;
+    const std::string first = argv[1];
+    if (first == "help") {
+        words.erase(words.begin() + 1);
+        words.push_back("--help");
+    } else if (!first.starts_with('-') && (first.ends_with(".glb") || first.ends_with(".gltf"))) {
+        words.insert(words.begin() + 1, "render");
+        arguments.render.default_ending = ".png";
+    }
+    return words;
+}
+
 }  // namespace
 
 int run_program(int argc, char** argv) {
@@ -77,7 +97,9 @@ int run_program(int argc, char** argv) {
     own_process_settings();
     Arguments arguments;
     const Program program = describe(arguments);
-    const Result<CommandLine> line = parse_command_line(program, argc, argv);
+    const std::vector<const char*> words = full_words(argc, argv, arguments);
+    const Result<CommandLine> line =
+        parse_command_line(program, static_cast<int>(words.size()), words.data());
     if (!line) return report_failure(line.error(), TerminalLog());
     if (line->command) return line->command->run();
     std::fputs(line->text.c_str(), stdout);

@@ -15,6 +15,7 @@
 #include "session/outputs.h"
 #include "session/requested_camera.h"
 #include "session/statistics.h"
+#include "session/views_file.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -153,6 +154,7 @@ int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     Watch watch(scene, log, watch_times(request->long_run));
     const Result<void> loaded = load_requested_camera(*request, log);
     if (!loaded) return report_failure(loaded.error(), log);
+    if (auto read = load_views(*request, log); !read) return report_failure(read.error(), log);
     const Result<void> colored = use_color_space(*request, log);
     if (!colored) return report_failure(colored.error(), log);
     if (parts != nullptr && parts->are_of_samples()) request->part_by = PartBy::samples;

@@ -1,15 +1,14 @@
 // app/render_frames.cpp - the images of a command in turn: those that are not there are made.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/embree_version.h"
+#include "app/distinct_files.h"
 #include "app/frame_claim.h"
-#include "app/outcome.h"
+#include "app/listed_poses.h"
 #include "app/render_job.h"
 #include "base/stopwatch.h"
 #include "session/focus.h"
-#include "session/lighting.h"
+#include "session/manifest.h"
 #include "session/repeated_log.h"
-#include "session/requested_camera.h"
-#include "session/segmentation.h"
 #include "stages/dispatch.h"
 
 #include <fmt/format.h>
@@ -18,64 +17,16 @@ namespace obscura::app {
 
 namespace {
 
-/// When an image's scene is posed.
-PoseTimes times_of(const RenderRequest& request, const MovieFrame& frame, bool is_last) {
-    PoseTimes times{frame.time_s, {}, is_last};
-    if (request.shutter) {
-        const double frame_s = 1 / request.fps;
-        times.shutter = gltf::ShutterTimes{frame.time_s + request.shutter->open * frame_s,
-                                           frame.time_s + request.shutter->close * frame_s,
-                                           frame.time_s};
-    }
-    return times;
-}
-
 /// Times that a frame added to the sums.
-FrameStatistics frame_statistics(const MovieFrame& frame,
+FrameStatistics frame_statistics(const ListedImage& image,
                                  const RenderStatistics& before,
                                  const RenderStatistics& after) {
-    return {frame.number.value_or(0),
-            frame.time_s,
+    return {image.number.value_or(0),
+            image.time_s,
             after.load_s - before.load_s,
             after.build_s - before.build_s,
             after.render_s - before.render_s,
             after.write_s - before.write_s};
-}
-
-/// Reads the asset and the environment, once for all images.
-Result<void> load(Job& job) {
-    const gltf::LoadOptions& options = job.request.load;
-    const bool has_time = options.time_s || job.request.frames || job.request.shutter;
-    const Stopwatch loading;
-    Result<AssetRenderer> renderer =
-        AssetRenderer::open(job.request.scene, options, has_time, job.log);
-    if (!renderer) return fail(renderer.error());
-    job.renderer = std::move(*renderer);
-    if (auto found = job.renderer->find_framed_nodes(job.request.camera); !found) return found;
-    Result<LightingOptions> lighting = load_lighting(job.request, job.log);
-    if (!lighting) return fail(lighting.error());
-    job.lighting = std::move(*lighting);
-    if (auto there = check_writers(job.request); !there) return there;
-    job.renderer->statistics().load_s = loading.seconds();
-    return {};
-}
-
-/// Poses the asset; a sequence keeps the view of its first frame.
-Result<void> pose(Job& job, const MovieFrame& frame, const Turn& turn, Log& log) {
-    const PoseTimes times = times_of(job.request, frame, turn.is_last);
-    if (auto posed = job.renderer->pose(times, log); !posed) return posed;
-    if (job.request.segmentation) {
-        if (auto fits = check_segmentation(job.renderer->scene()); !fits) return fits;
-    }
-    if (job.request.frames && job.request.frames->numbers.size() > 1 && turn.is_first) {
-        const Scene& scene = job.renderer->scene();
-        const RenderOptions& options = job.request.options;
-        CameraRequest& camera = job.request.camera;
-        camera.framed = scene.bounds;
-        camera.kept =
-            automatic_framing(scene, camera, static_cast<double>(options.width) / options.height);
-    }
-    return {};
 }
 
 /// Whether --part-by frames leaves the frame with this index to another part.
@@ -106,95 +57,141 @@ void find_facts(Job& job) {
 class FrameRun {
 public:
     FrameRun(Job& job, Progress& progress)
-        : job_(job),
-          progress_(progress),
-          all_(frames_of(job.request)),
-          later_(job.log, SettingNames::options) {}
+        : job_(job), progress_(progress), poses_(job), later_(job.log, SettingNames::options) {}
 
     /// Goes through the images; those of others once more in the end.
     Result<void> run() {
+        if (auto listed = list(); !listed) return listed;
         if (job_.request.long_run.skips_existing) find_facts(job_);
-        std::vector<size_t> left = indices_to_render(job_.request, all_.size());
+        std::vector<size_t> left = indices_to_render(job_.request, images().size());
         asked_ = left.size();
         last_ = left.empty() ? 0 : left.back();
         constexpr int passes = 2;
         for (int pass = 0; pass < passes && !left.empty(); ++pass) {
             if (auto done = render_free_ones(left); !done) return done;
         }
-        std::vector<MovieFrame> of_others;
+        std::vector<ListedImage> of_others;
         for (const size_t i : left)
-            of_others.push_back(all_[i]);
+            of_others.push_back(images()[i]);
+        if (!failures_.empty()) return fail(all_failures());
         return check_none_left(of_others, job_.request);
     }
 
 private:
+    const std::vector<ListedImage>& images() const { return poses_.list().images; }
+
+    Result<void> list() {
+        if (auto listed = poses_.find_images(job_.log); !listed) return listed;
+        const RenderRequest& request = poses_.whole();
+        if (request.lists.needs_asset() || request.lists.views_file) {
+            if (auto apart = check_distinct_files(request, images()); !apart) return apart;
+        }
+        if (auto fits = check_image_files(request, images()); !fits) return fits;
+        if (!request.lists.manifest) return {};
+        Result<Manifest> manifest = Manifest::create(*request.lists.manifest);
+        if (!manifest) return fail(manifest.error());
+        manifest_.emplace(std::move(*manifest));
+        return {};
+    }
+
     /// In, out   left: images to render; then those that others hold
     Result<void> render_free_ones(std::vector<size_t>& left) {
         std::vector<size_t> of_others;
         for (const size_t i : left) {
-            const Result<FrameClaim> claim = FrameClaim::make(job_, all_[i]);
+            poses_.begin_image(i);
+            const Result<FrameClaim> claim = FrameClaim::make(job_, images()[i]);
             if (!claim) return fail(claim.error());
-            if (claim->kind() == FrameClaim::Kind::is_there) ++job_.skipped;
             if (claim->kind() == FrameClaim::Kind::of_others) of_others.push_back(i);
+            if (claim->kind() == FrameClaim::Kind::is_there) {
+                ++job_.skipped;
+                ImageOutcome outcome = outcome_of(i);
+                outcome.was_there = true;
+                if (auto noted = note(outcome); !noted) return noted;
+            }
             if (claim->kind() != FrameClaim::Kind::to_render) continue;
-            if (auto done = render_one(i); !done) return done;
+            if (auto done = render_and_note(i); !done) return done;
         }
         left = std::move(of_others);
         return {};
     }
 
-    Result<void> render_one(size_t index) {
-        if (!job_.renderer) {
-            if (auto loaded = load(job_); !loaded) return loaded;
-            if (job_.facts.empty()) find_facts(job_);
-        }
-        // All keep the view of the first frame, whoever renders it.
-        if (index != 0 && !has_view_) {
-            if (auto posed = pose_one(0, job_.log); !posed) return posed;
-        }
+    ImageOutcome outcome_of(size_t index) const {
+        const ListedImage& image = images()[index];
+        return {image, poses_.list().views[image.view]};
+    }
+
+    Result<void> note(const ImageOutcome& outcome) {
+        return manifest_ ? manifest_->add(manifest_line(job_.request, outcome)) : Result<void>();
+    }
+
+    /// A failure of one image of a list is kept for the end.
+    Result<void> render_and_note(size_t index) {
+        const Stopwatch making;
+        ImageOutcome outcome = outcome_of(index);
+        Log& log = index == 0 ? job_.log : later_.begin();
+        Result<void> done = render_one(index, log, outcome);
+        outcome.seconds = making.seconds();
+        outcome.warnings = log.warnings();
+        if (!done) outcome.error = done.error();
+        if (auto noted = note(outcome); done && !noted) return noted;
+        const bool goes_on = job_.request.lists.is_asked() && job_.renderer && !done &&
+                             done.error().code != ExitCode::stopped_early;
+        if (!goes_on) return done;
+        job_.log.warn(outcome.image.label.empty() ? outcome.image.outputs.front().string()
+                                                  : outcome.image.label,
+                      "this image fails: " + done.error().where + ": " + done.error().message +
+                          " [" + done.error().id + "]; the others go on");
+        job_.watch.begin_preparing();
+        failures_.push_back(std::move(done.error()));
+        return {};
+    }
+
+    Result<void> render_one(size_t index, Log& log, ImageOutcome& outcome) {
+        if (auto loaded = poses_.load_once(); !loaded) return loaded;
+        if (job_.facts.empty()) find_facts(job_);
         RenderStatistics& statistics = job_.renderer->statistics();
         const RenderStatistics before = statistics;
-        Log& log = index == 0 ? job_.log : later_.begin();
-        if (auto posed = pose_one(index, log); !posed) return posed;
-        const Result<ChosenCamera> camera =
-            job_.renderer->prepare(job_.request, job_.lighting, log);
+        Result<ChosenCamera> camera = poses_.look(index, turn_of(index).is_last, log);
         if (!camera) return fail(camera.error());
+        outcome.camera = *camera;
         const auto done = make_image(job_, *camera, turn_of(index), log, progress_);
         if (!done) return done;
         job_.watch.begin_preparing();
         ++rendered_;
-        const MovieFrame& frame = all_[index];
-        if (!frame.number) return {};
-        statistics.frames.push_back(frame_statistics(frame, before, statistics));
-        job_.log.info(fmt::format(
-            "frame {} is written, {} of {}", *frame.number, rendered_ + job_.skipped, asked_));
+        const ListedImage& image = images()[index];
+        if (image.label.empty()) return {};
+        statistics.frames.push_back(frame_statistics(image, before, statistics));
+        job_.log.info(
+            fmt::format("{} is written, {} of {}", image.label, rendered_ + job_.skipped, asked_));
         return {};
     }
 
-    Result<void> pose_one(size_t index, Log& log) {
-        const MovieFrame& frame = all_[index];
-        job_.request.outputs = frame.outputs;
-        job_.request.segmentation = frame.segmentation;
-        job_.request.frame = frame.number;
-        has_view_ = true;
-        return pose(job_, frame, turn_of(index), log);
+    /// With locks nobody knows which image comes last, unless there is one only.
+    bool may_come_back() const {
+        return job_.request.long_run.skips_existing && images().size() > 1;
     }
 
-    /// With locks nobody knows which image comes last, unless there is one only.
     Turn turn_of(size_t index) const {
-        const bool may_come_back = job_.request.long_run.skips_existing && all_.size() > 1;
-        const size_t done = rendered_ + job_.skipped;
-        return {done, asked_, index == 0, index == last_ && !may_come_back};
+        const size_t done = rendered_ + job_.skipped + failures_.size();
+        return {done, asked_, index == 0, index == last_ && !may_come_back()};
+    }
+
+    Error all_failures() {
+        Error out = joined(std::move(failures_));
+        out.message = fmt::format(
+            "{} of {} images failed; the first: {}", out.also.size() + 1, asked_, out.message);
+        return out;
     }
 
     Job& job_;
     Progress& progress_;
-    const std::vector<MovieFrame> all_;
+    ListedPoses poses_;
     RepeatedLog later_;
+    std::optional<Manifest> manifest_;
+    std::vector<Error> failures_;
     size_t asked_ = 0;     ///< number of images that this command is to render
     size_t rendered_ = 0;  ///< of them, those that it has rendered
     size_t last_ = 0;      ///< of them, the index of the last one
-    bool has_view_ = false;
 };
 
 }  // namespace
@@ -206,15 +203,15 @@ Result<void> render_all(Job& job, Progress& progress) {
 }
 
 Result<void> check_all(Job& job) {
-    if (const Result<void> loaded = load(job); !loaded) return loaded;
-    const std::vector<MovieFrame> frames = frames_of(job.request);
+    ListedPoses poses(job);
+    if (const Result<void> loaded = poses.load_once(); !loaded) return loaded;
+    if (auto listed = poses.find_images(job.log); !listed) return listed;
     RepeatedLog later(job.log, SettingNames::options);
-    for (size_t i = 0; i < frames.size(); ++i) {
+    const size_t count = poses.list().images.size();
+    for (size_t i = 0; i < count; ++i) {
         Log& log = i == 0 ? job.log : later.begin();
-        if (auto posed =
-                pose(job, frames[i], {i, frames.size(), i == 0, i + 1 == frames.size()}, log);
-            !posed)
-            return posed;
+        poses.begin_image(i);
+        if (auto posed = poses.pose(i, i + 1 == count, log); !posed) return posed;
         const Result<ChosenCamera> chosen =
             choose_unfocused_camera(job.renderer->scene(), job.request, log);
         if (!chosen) return fail(chosen.error());

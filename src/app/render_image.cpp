@@ -37,7 +37,9 @@ FilmStateHead head_of(const Job& job) {
     if (!job.request.long_run.has_checkpoint && !is_part_of_image(job.request)) return head;
     head.options = job.options;
     head.facts = job.facts;
-    if (job.request.frame) head.facts.emplace_back("the frame", std::to_string(*job.request.frame));
+    for (const auto& fact : job.image_facts) {
+        if (fact.first != "the first frame") head.facts.push_back(fact);
+    }
     return head;
 }
 
@@ -82,10 +84,8 @@ void leave_undenoised(RenderRequest& request, Film& film) {
 
 /// Marks a finished image with what it was made from.
 void mark_finished(const Job& job, FinishedImage& image) {
-    const RenderRequest& request = job.request;
-    image.metadata.extra.push_back(
-        {std::string(fingerprint_name),
-         image_fingerprint(job.options, job.facts, request, request.frame)});
+    image.metadata.extra.push_back({std::string(fingerprint_name),
+                                    image_fingerprint(job.options, job.facts, job.image_facts)});
 }
 
 /// Writes the image so far, while it is being rendered; undenoised, as that may take long.

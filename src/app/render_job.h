@@ -15,16 +15,17 @@ namespace obscura::app {
 /// Runs one command, from the request to the statistics.
 struct Job {
     Log& log;               ///< the command's; frames may have their own
-    RenderRequest request;  ///< its outputs, frame and what its camera keeps change by frame
+    RenderRequest request;  ///< of the image that is being made
     NamedTexts options;     ///< as they were given, for --part, --checkpoint, fingerprints
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     Watch& watch;
     std::optional<DisplayTransform> display = {};
     std::optional<AssetRenderer> renderer = {};
     LightingOptions lighting = {};
-    NamedTexts facts = {};   ///< that pixels depend on; files are read for them before loading
-    bool has_begun = false;  ///< the first image is being rendered
-    size_t skipped = 0;      ///< images that were there, with --skip-existing
+    NamedTexts facts = {};        ///< that pixels depend on; files are read for them before loading
+    NamedTexts image_facts = {};  ///< those of ListedImage, of the image that is being made
+    bool has_begun = false;       ///< the first image is being rendered
+    size_t skipped = 0;           ///< images that were there, with --skip-existing
 };
 
 /// Where a command stands with its images.
@@ -45,6 +46,9 @@ Result<void> make_image(
 
 /// Renders the images of the request in turn: those of its part, and with --skip-existing those
 /// that are neither there nor of others.
+///
+/// With lists of images (ListRequest::is_asked) one that fails does not end the rest, unless the
+/// program is to stop: its error comes in the end.
 ///
 /// Errors  those of loading, posing and make_image; 75 E-LOCKED images are left to others
 Result<void> render_all(Job& job, Progress& progress);

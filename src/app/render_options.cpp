@@ -7,6 +7,7 @@
 #include "app/frames.h"
 #include "app/layer_options.h"
 #include "app/lens_options.h"
+#include "app/list_options.h"
 #include "app/long_run_options.h"
 #include "app/memory_option.h"
 #include "app/noise_options.h"
@@ -51,6 +52,8 @@ Examples:
       says all that is wrong with the file and what belongs to it, in seconds
   obscura render walk.glb --frames 1-48 --fps 24 -o walk.####.exr
       48 files, walk.0001.exr to walk.0048.exr, from one reading of the asset
+  obscura render shoe.glb --variants all --turntable 36 -o '{variant}/{frame:02}.webp'
+      all variants from all sides, from one reading, too
 
 Exit codes: 0 done, 33 out of memory, 64 usage, 65 bad scene data, 66 scene missing,
 67 referenced file missing or corrupt, 69 unsupported, 70 internal error, 73 output
@@ -411,6 +414,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                  denoising_group(),
                                                  segmentation_group(),
                                                  {"Time", time},
+                                                 list_group(),
                                                  {"Sampling", sampling},
                                                  adaptive_group(),
                                                  fireflies_group(),

@@ -3,8 +3,10 @@
 #include "app/render_request.h"
 
 #include "app/delivery_options.h"
+#include "app/distinct_files.h"
 #include "app/frames.h"
 #include "app/lens_request.h"
+#include "app/list_options.h"
 #include "app/long_run_options.h"
 #include "app/memory_option.h"
 #include "app/numbers.h"
@@ -13,12 +15,11 @@
 #include "app/scene_choice.h"
 #include "film/layers.h"
 #include "math/warp.h"
-#include "session/image_parts.h"
+#include "session/image_names.h"
 #include "session/model_settings.h"
 #include "session/segmentation.h"
 
 #include <algorithm>
-#include <system_error>
 #include <variant>
 
 namespace obscura::app {
@@ -56,10 +57,10 @@ Result<void> complete_time(const RenderArguments& arguments, RenderRequest& requ
     std::vector<std::filesystem::path> patterns = request.outputs;
     if (request.segmentation) patterns.push_back(*request.segmentation);
     for (const std::filesystem::path& output : patterns) {
-        if (frame_file(output, 0)) continue;
+        if (frame_file(output, 0) || has_field(output, "frame")) continue;
         return conflict(output.string(),
                         "with --frames a file's name must say where the frame's number goes; "
-                        "expected one run of #, such as shot.####.exr");
+                        "expected one run of #, such as shot.####.exr, or {frame:04}");
     }
     return {};
 }
@@ -79,8 +80,10 @@ Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& req
     }
     if (request.outputs.empty() && !request.standard_output && arguments.writes_images &&
         !arguments.check) {
-        const char* ending = arguments.frames ? ".####.exr" : ".exr";
-        request.outputs.push_back(request.scene.stem().concat(ending));
+        const std::string ending = (arguments.frames ? ".####" : "") + arguments.default_ending;
+        request.outputs.push_back(arguments.list.is_asked()
+                                      ? std::filesystem::path(listed_output(arguments))
+                                      : request.scene.stem().concat(ending));
     }
     const bool unnamed = std::any_of(request.outputs.begin(),
                                      request.outputs.end(),
@@ -188,44 +191,10 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
     request.verbosity = verbosity_of(arguments);
     if (auto done = complete_page(arguments, request); !done) return done;
     if (auto done = complete_time(arguments, request); !done) return done;
+    if (auto done = complete_list(arguments, request); !done) return done;
     if (auto done = complete_texture_limit(request); !done) return done;
     if (auto done = complete_part(arguments.part, request); !done) return done;
     return complete_long_run(request);
-}
-
-/// No output may overwrite an input or another output.
-Result<void> check_distinct_files(const RenderRequest& request) {
-    std::vector<std::filesystem::path> written;
-    for (const MovieFrame& frame : frames_of(request)) {
-        const std::vector<std::filesystem::path> files = image_files(request, frame);
-        written.insert(written.end(), files.begin(), files.end());
-        if (!frame.segmentation) continue;
-        const auto masks = segmentation_files(*frame.segmentation);
-        written.insert(written.end(), masks.begin(), masks.end());
-    }
-    if (request.statistics) written.push_back(*request.statistics);
-    if (request.crypto_manifest) written.push_back(*request.crypto_manifest);
-    if (request.long_run.has_checkpoint) written.push_back(checkpoint_file(request));
-    std::vector<std::filesystem::path> read = {request.scene};
-    if (request.camera_json) read.push_back(*request.camera_json);
-    if (request.camera.settings.aperture_file)
-        read.push_back(*request.camera.settings.aperture_file);
-    if (request.environment) read.push_back(*request.environment);
-    if (!request.display.ocio_file.empty()) read.push_back(request.display.ocio_file);
-    for (size_t i = 0; i < written.size(); ++i) {
-        const auto clashes = [&](const auto& other) { return same_file(written[i], other); };
-        if (std::any_of(read.begin(), read.end(), clashes)) {
-            return usage("E-USAGE-SAMEFILE",
-                         written[i].string(),
-                         "this output would replace a file that is read; give another name");
-        }
-        if (std::any_of(written.begin(), written.begin() + static_cast<long>(i), clashes)) {
-            return usage("E-USAGE-SAMEFILE",
-                         written[i].string(),
-                         "two outputs are the same file; give different names");
-        }
-    }
-    return {};
 }
 
 }  // namespace
@@ -236,21 +205,18 @@ Verbosity verbosity_of(const RenderArguments& arguments) {
                                : Verbosity::normal;
 }
 
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b) {
-    std::error_code error;
-    if (std::filesystem::equivalent(a, b, error) && !error) return true;
-    const auto resolved = [&](const std::filesystem::path& file) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(file, error), error);
-    };
-    const std::filesystem::path resolved_a = resolved(a);
-    return !error && resolved_a == resolved(b) && !error;
-}
-
 Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     RenderRequest request;
     request.scene = arguments.scene_file;
     if (request.scene.empty()) {
         return conflict("SCENE", "the name is empty; expected a glTF file");
+    }
+    if (output_format_of(request.scene)) {
+        return fail(ExitCode::bad_data,
+                    "E-GLB-FORMAT",
+                    request.scene.string(),
+                    "by its name this is a picture, and no scene; accepted are .gltf and .glb "
+                    "files. `obscura denoise` takes EXRs");
     }
     if (auto chosen = choose_outputs(arguments, request); !chosen) return fail(chosen.error());
     Result<gltf::LoadOptions> load = choose_scene(arguments.scene, arguments.variant);
@@ -261,7 +227,11 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     if (auto read = read_options(table, texts, request); !read) return fail(read.error());
     if (auto fit = check_combinations(bind_all(table, texts)); !fit) return fail(fit.error());
     if (auto done = complete(arguments, request); !done) return fail(done.error());
-    if (auto distinct = check_distinct_files(request); !distinct) return fail(distinct.error());
+    if (request.lists.needs_asset() || request.lists.views_file) return request;  // not known yet
+    const Result<ImageList> list = list_images(request, {});
+    if (!list) return fail(list.error());
+    auto distinct = check_distinct_files(request, list->images);
+    if (!distinct) return fail(distinct.error());
     return request;
 }
 

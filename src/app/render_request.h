@@ -5,6 +5,7 @@
 #include "app/delivery_options.h"
 #include "app/layer_options.h"
 #include "app/lens_options.h"
+#include "app/list_options.h"
 #include "app/long_run_options.h"
 #include "app/part_options.h"
 #include "app/product_options.h"
@@ -30,6 +31,7 @@ struct RenderArguments {
     DeliveryArguments delivery;
     PartArguments part;
     LongRunArguments long_run;
+    ListArguments list;
     std::optional<std::string> env, env_intensity, env_rotation, background, occlusion;
     std::optional<std::string> integrator, ao_distance, wire_width, filter, crypto_levels;
     std::optional<std::string> clamp_direct, clamp_indirect, caustics;
@@ -42,6 +44,7 @@ struct RenderArguments {
     bool no_dither = false;
     bool regularize = false;
     std::optional<std::string> animation, time, frames, fps;
+    std::string default_ending = ".exr";  ///< of the output, where none is given
     bool float32 = false;
     bool exr_mipmap = false;
     bool writes_images = true;  ///< false: no output unless one is named
@@ -61,8 +64,5 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments);
 
 /// What --quiet and --verbose ask for.
 Verbosity verbosity_of(const RenderArguments& arguments);
-
-/// True when both names lead to one file, through links too, also when it does not exist yet.
-bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 
 }  // namespace obscura::app

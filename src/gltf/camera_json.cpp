@@ -3,11 +3,11 @@
 #include "gltf/camera_json.h"
 
 #include "base/file_bytes.h"
-#include "base/json/json_read.h"
 #include "base/json/json_text.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace obscura::gltf {
 
@@ -69,12 +69,15 @@ double positive(const JsonReader& reader, const char* key) {
     return value;
 }
 
-Intrinsics read_intrinsics(const JsonReader& reader, const json& tree) {
+Intrinsics read_intrinsics(const JsonReader& reader,
+                           const json& tree,
+                           std::optional<std::array<int, 2>> size_px) {
     Intrinsics out;
-    for (const auto& [key, side] :
-         {std::pair{"width", &out.width_px}, std::pair{"height", &out.height_px}}) {
-        reader.require(key);
-        const uint64_t pixels = reader.size(key, 1);
+    const std::array<int, 2> fallback = size_px.value_or(std::array{1, 1});
+    for (const auto& [key, side, otherwise] : {std::tuple{"width", &out.width_px, fallback[0]},
+                                               std::tuple{"height", &out.height_px, fallback[1]}}) {
+        if (!size_px) reader.require(key);
+        const uint64_t pixels = reader.size(key, static_cast<uint64_t>(otherwise));
         if (pixels < 1 || pixels > 65536) {
             reader.fault(key, value_id, "expected a whole number from 1 to 65536");
         }
@@ -230,13 +233,36 @@ Result<SceneCamera> load_camera_json(const std::filesystem::path& file, Log& log
             names += (names.empty() ? "" : ", ") + name;
         reader.fault(key, "E-CAM-KEY", "there is no such key; expected one of: " + names);
     });
-    SceneCamera camera;
+    SceneCamera camera = read_camera(reader, *tree, {});
     camera.name = file.filename().string();
-    camera.settings.intrinsics = read_intrinsics(reader, *tree);
-    read_model(reader, *tree, camera.settings);
-    camera.world_from_camera = read_place(reader, *tree);
     if (fault.error) return fail(std::move(*fault.error));
     return camera;
+}
+
+SceneCamera read_camera(const JsonReader& reader,
+                        const json& tree,
+                        std::optional<std::array<int, 2>> size_px) {
+    SceneCamera camera;
+    camera.settings.intrinsics = read_intrinsics(reader, tree, size_px);
+    read_model(reader, tree, camera.settings);
+    camera.world_from_camera = read_place(reader, tree);
+    return camera;
+}
+
+bool has_camera_keys(const JsonReader& reader) {
+    constexpr std::array keys = {"model",
+                                 "fx",
+                                 "fy",
+                                 "cx",
+                                 "cy",
+                                 "K",
+                                 "R",
+                                 "t",
+                                 "world_to_camera",
+                                 "camera_to_world",
+                                 "distortion",
+                                 "pixel_center"};
+    return std::any_of(keys.begin(), keys.end(), [&](const char* key) { return reader.has(key); });
 }
 
 }  // namespace obscura::gltf

@@ -3,10 +3,13 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/json/json_read.h"
 #include "base/log.h"
 #include "scene/scene.h"
 
+#include <array>
 #include <filesystem>
+#include <optional>
 
 namespace obscura::gltf {
 
@@ -17,5 +20,16 @@ namespace obscura::gltf {
 /// Errors  67 E-CAMJSON-MISSING the file cannot be read; 65 E-JSON-*, E-DOC-MISSING, E-CAM-KEY,
 ///         E-CAM-VALUE, E-CAM-MATRIX the matrix is not a rotation
 Result<SceneCamera> load_camera_json(const std::filesystem::path& file, Log& log);
+
+/// Reads the same keys of an object that may have others; its name stays empty.
+///
+/// In      tree: the same object; size_px: what width and height are where they are absent
+/// Out     reader: the faults
+SceneCamera read_camera(const JsonReader& reader,
+                        const nlohmann::json& tree,
+                        std::optional<std::array<int, 2>> size_px);
+
+/// True when an object has a key that says where such a camera is or how it projects.
+bool has_camera_keys(const JsonReader& reader);
 
 }  // namespace obscura::gltf

@@ -155,8 +155,8 @@ struct PosedAsset::Impl {
     std::vector<char> hidden_nodes;  ///< of hide_parts
     VisibilityMarks visibility;
     Problems problems;
-    Degraded degraded;        ///< of the latest scene
-    double open_seconds = 0;  ///< not yet told in a scene
+    Degraded degraded;           ///< of the latest scene
+    double open_seconds = 0;     ///< not yet told in a scene
     bool shows_several = false;  ///< variants
 
     Result<void> open(bool has_time, Log& log);
@@ -177,7 +177,7 @@ struct PosedAsset::Impl {
 Result<void> PosedAsset::Impl::choose_parts() {
     Document& document = asset.document;
     if (!options.variant.empty()) {
-        if (auto chosen = choose_variant(options.variant, document); !chosen) return chosen;
+        if (auto chosen = gltf::choose_variant(options.variant, document); !chosen) return chosen;
     }
     if (auto known = check_light_choice(options.lights, document); !known) return known;
     Result<std::vector<char>> hidden = hide_parts(options.hidden, document);

@@ -93,6 +93,7 @@ Result<void> make_environment(PreparedScene::Impl& impl,
 Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
     const EnvironmentSource source{lighting.environment.has_value(),
                                    impl.scene.environment,
+                                   lighting.environment_intensity,
                                    lighting.environment_rotation_deg,
                                    environment_sampling(impl.scene, lighting)};
     if (source.chosen && source.own) {

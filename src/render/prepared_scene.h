@@ -16,6 +16,7 @@ namespace obscura {
 struct EnvironmentSource {
     bool chosen = false;
     std::shared_ptr<const ImageRgb32f> own;
+    double intensity = 1;
     double rotation_deg = 0;
     EnvironmentSampling sampling = EnvironmentSampling::compensated;
 

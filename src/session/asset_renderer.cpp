@@ -78,6 +78,12 @@ Result<void> AssetRenderer::pose(const PoseTimes& times, Log& log) {
     return {};
 }
 
+void AssetRenderer::prepare_again() {
+    if (!is_prepared_) return;
+    scene_ = prepared_->take_scene();
+    is_prepared_ = false;
+}
+
 void AssetRenderer::start_anew() {
     if (is_prepared_) asset_->take_back(prepared_->take_scene());
     is_prepared_ = false;

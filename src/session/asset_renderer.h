@@ -52,6 +52,18 @@ public:
     /// Errors  64 E-NODE-UNKNOWN
     Result<void> find_framed_nodes(CameraRequest& camera) const;
 
+    /// What all poses have in common.
+    const AssetInfo& info() const { return asset_->info(); }
+
+    /// Tells which variants will be shown; see PosedAsset. choose_variant counts from the next pose
+    /// on.
+    ///
+    /// Errors  64 E-VARIANT-UNKNOWN
+    Result<void> plan_variants(const std::vector<std::string>& names) {
+        return asset_->plan_variants(names);
+    }
+    Result<void> choose_variant(const std::string& name) { return asset_->choose_variant(name); }
+
     /// Poses the scene at a time; this replaces the previous pose.
     ///
     /// Errors  those of load_gltf
@@ -63,6 +75,10 @@ public:
 
     /// True while there is a posed or prepared scene; false after an error.
     bool has_scene() const { return scene_ || is_prepared_; }
+
+    /// Makes the prepared pose ready for prepare() once more, for another light; what is built and
+    /// still fits is kept.
+    void prepare_again();
 
     /// Drops what was built, but not what was read: for another light or instruction set.
     void start_anew();

@@ -242,9 +242,12 @@ Result<Placed> place(const Scene& scene, const CameraRequest& request, double as
     if (request.loaded) {
         placed = place_as_given(*request.loaded, request.loaded->name, aspect);
         if (placed) placed->description = "camera of " + request.loaded->name;
-    } else if (!by_hand && !request.frames && (!request.choice.empty() || !scene.cameras.empty())) {
-        const Result<size_t> index =
-            request.choice.empty() ? Result<size_t>(0) : find_camera(scene.cameras, request.choice);
+    } else if (!by_hand && !request.frames &&
+               (request.index || !request.choice.empty() || !scene.cameras.empty())) {
+        const Result<size_t> index = request.index ? Result<size_t>(*request.index)
+                                     : request.choice.empty()
+                                         ? Result<size_t>(0)
+                                         : find_camera(scene.cameras, request.choice);
         if (!index) return fail(index.error());
         placed = place_from_file(scene, *index, aspect);
     } else {

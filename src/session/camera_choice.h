@@ -19,7 +19,8 @@ namespace obscura {
 
 /// The camera that is asked for; empty members were not given.
 struct CameraRequest {
-    std::string choice = {};  ///< an exact name, else an index
+    std::string choice = {};           ///< an exact name, else an index
+    std::optional<size_t> index = {};  ///< in Scene::cameras, in place of `choice`
     std::optional<CameraModel> model = {};
     std::optional<Vec3d> eye_m = {};
     std::optional<Vec3d> target_m = {};

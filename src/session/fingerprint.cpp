@@ -20,10 +20,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Options that say where something is, or which of a sequence's frames are rendered.
+/// Options that say where something is, or which images are rendered.
 bool is_name_or_range(const std::string& option) {
-    constexpr std::array<std::string_view, 5> all = {
-        "SCENE", "--output", "--format", "--frames", "--segmentation"};
+    constexpr std::array<std::string_view, 9> all = {"SCENE",
+                                                     "--output",
+                                                     "--format",
+                                                     "--frames",
+                                                     "--segmentation",
+                                                     "--views",
+                                                     "--cameras",
+                                                     "--variants",
+                                                     "--turntable"};
     return std::find(all.begin(), all.end(), option) != all.end();
 }
 
@@ -64,27 +71,21 @@ std::string fault_of(const fs::path& file, const std::string& fingerprint) {
 
 std::string image_fingerprint(const NamedTexts& options,
                               const NamedTexts& facts,
-                              const RenderRequest& request,
-                              std::optional<int> frame) {
-    NamedTexts of_frame;
-    if (request.frames && frame) {
-        of_frame = {{"the frame", std::to_string(*frame)},
-                    {"the first frame", std::to_string(request.frames->numbers.front())}};
-    }
+                              const NamedTexts& of_image) {
     RunningChecksum sum;
     sum_texts(options, sum);
     sum_texts(facts, sum);
-    sum_texts(of_frame, sum);
+    sum_texts(of_image, sum);
     return checksum_text(sum.value());
 }
 
 ExistingImage find_existing(const RenderRequest& request,
-                            const MovieFrame& frame,
+                            const ListedImage& image,
                             const std::string& fingerprint) {
-    std::vector<fs::path> images = image_files(request, frame);
+    std::vector<fs::path> images = image_files(request, image);
     std::vector<fs::path> others;  // texts
-    if (frame.segmentation) {
-        const auto [png, json] = segmentation_files(*frame.segmentation);
+    if (image.segmentation) {
+        const auto [png, json] = segmentation_files(*image.segmentation);
         images.push_back(png);
         others.push_back(json);
     }
@@ -102,8 +103,8 @@ ExistingImage find_existing(const RenderRequest& request,
     return out;
 }
 
-fs::path lock_file(const MovieFrame& frame) {
-    fs::path out = frame.outputs.front();
+fs::path lock_file(const ListedImage& image) {
+    fs::path out = image.outputs.front();
     out += ".lock";
     return out;
 }

@@ -12,14 +12,13 @@ namespace obscura {
 
 /// The fingerprint of an image: 16 hexadecimal digits, the checksum of all that its files depend
 /// on. Names of the scene's and of outputs' files do not belong to it, the bytes of the scene's
-/// files do. Of a sequence's frames, the frame and the first one of the sequence, whose view is
-/// kept, stand for --frames.
+/// files do. Options that list images do not belong to it, what the list says of this image does.
 ///
-/// In      options: as options_for_merge lists them; facts: those of facts_of
+/// In      options: as options_for_merge lists them; facts: those of facts_of; of_image: those of
+///         ListedImage
 std::string image_fingerprint(const NamedTexts& options,
                               const NamedTexts& facts,
-                              const RenderRequest& request,
-                              std::optional<int> frame);
+                              const NamedTexts& of_image);
 
 /// What is there of an image.
 struct ExistingImage {
@@ -28,11 +27,11 @@ struct ExistingImage {
 };
 
 ExistingImage find_existing(const RenderRequest& request,
-                            const MovieFrame& frame,
+                            const ListedImage& image,
                             const std::string& fingerprint);
 
 /// "shot.exr.lock", of the image's first output.
-std::filesystem::path lock_file(const MovieFrame& frame);
+std::filesystem::path lock_file(const ListedImage& image);
 
 /// Whether all files can hold a fingerprint, for skips_existing.
 ///

@@ -26,12 +26,4 @@ struct ShutterFractions {
 /// zeros in front up to as many digits as there are #. Nothing: there is no such run, or several.
 std::optional<std::filesystem::path> frame_file(const std::filesystem::path& pattern, int frame);
 
-/// One image of a command: its output files and its time.
-struct MovieFrame {
-    std::optional<int> number;  ///< of a sequence
-    double time_s = 0;
-    std::vector<std::filesystem::path> outputs;
-    std::optional<std::filesystem::path> segmentation = {};
-};
-
 }  // namespace obscura

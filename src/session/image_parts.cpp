@@ -146,7 +146,7 @@ fs::path checkpoint_file(const RenderRequest& request) {
         return out;
     }
     if (is_part_of_image(request)) return part_file(asked, *request.part);
-    return request.frame ? frame_file(asked, *request.frame).value_or(asked) : asked;
+    return asked;
 }
 
 NamedTexts facts_of(const RenderRequest& request,

@@ -12,6 +12,7 @@
 #include "render/integrators.h"
 #include "session/built_in_environment.h"
 #include "session/camera_parameters.h"
+#include "session/image_names.h"
 #include "session/image_parts.h"
 #include "session/preview.h"
 #include "session/statistics.h"
@@ -19,7 +20,9 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <set>
 #include <span>
+#include <system_error>
 #include <unistd.h>
 
 namespace obscura {
@@ -160,33 +163,62 @@ bool may_be_read_by_oiio(const std::filesystem::path& environment) {
     return built_in && !*built_in && output_format_of(environment) != OutputFormat::exr;
 }
 
+/// Makes the folders of names by pattern; where that fails, writing will say why.
+void make_folders(const RenderRequest& request, const ListedImage& image) {
+    const auto make = [](const std::filesystem::path& pattern, const std::filesystem::path& file) {
+        std::error_code ignored;
+        if (has_fields(pattern)) std::filesystem::create_directories(file.parent_path(), ignored);
+    };
+    for (size_t i = 0; i < image.outputs.size(); ++i)
+        make(request.outputs[i], image.outputs[i]);
+    if (image.segmentation) make(*request.segmentation, *image.segmentation);
+}
+
+Result<void> check_files_of(const RenderRequest& request, const ListedImage& image) {
+    const RenderOptions& options = request.options;
+    for (const std::filesystem::path& output : image_files(request, image)) {
+        const Result<OutputTarget> target = check_output(output);
+        if (!target) return fail(target.error());
+        auto fits = check_encoding(*target, request.encoding, options.width, options.height);
+        if (!fits) return fits;
+    }
+    if (!image.segmentation) return {};
+    for (const std::filesystem::path& file : segmentation_files(*image.segmentation)) {
+        if (auto writable = check_file_can_be_written(file); !writable) return writable;
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<void> check_outputs(const RenderRequest& request) {
-    // All files of a sequence lie in one folder: those of the first frame stand for all.
-    const MovieFrame first = frames_of(request).front();
     const RenderOptions& options = request.options;
-    const auto fits = [&](const OutputTarget& target) {
-        return check_encoding(target, request.encoding, options.width, options.height);
-    };
-    for (const std::filesystem::path& output : image_files(request, first)) {
-        const Result<OutputTarget> target = check_output(output);
-        if (!target) return fail(target.error());
-        if (auto done = fits(*target); !done) return done;
-    }
-    if (request.crypto_manifest) {
-        const auto writable = check_file_can_be_written(*request.crypto_manifest);
-        if (!writable) return writable;
-    }
     if (request.standard_output) {
-        if (auto done = fits({*request.standard_output, standard_output_name}); !done) return done;
+        const OutputTarget target{*request.standard_output, standard_output_name};
+        auto fits = check_encoding(target, request.encoding, options.width, options.height);
+        if (!fits) return fits;
     }
-    if (first.segmentation) {
-        for (const std::filesystem::path& file : segmentation_files(*first.segmentation)) {
-            if (auto writable = check_file_can_be_written(file); !writable) return writable;
-        }
+    for (const auto* file :
+         {&request.crypto_manifest, &request.statistics, &request.lists.manifest}) {
+        if (!*file) continue;
+        if (auto writable = check_file_can_be_written(**file); !writable) return writable;
     }
-    if (request.statistics) return check_file_can_be_written(*request.statistics);
+    return {};
+}
+
+Result<void> check_image_files(const RenderRequest& request,
+                               const std::vector<ListedImage>& images) {
+    std::set<std::filesystem::path> seen;
+    for (const ListedImage& image : images) {
+        bool is_new = false;
+        for (const std::filesystem::path& output : image.outputs)
+            is_new = seen.insert(output.parent_path()).second || is_new;
+        if (image.segmentation)
+            is_new = seen.insert(image.segmentation->parent_path()).second || is_new;
+        if (!is_new) continue;
+        make_folders(request, image);
+        if (auto writable = check_files_of(request, image); !writable) return writable;
+    }
     return {};
 }
 

@@ -15,11 +15,19 @@ namespace obscura {
 /// Standard output in messages.
 inline constexpr const char* standard_output_name = "standard output";
 
-/// Finds early errors before the costly work starts: every output and the statistics file can be
-/// created, every extension is known, and every format can hold what it is asked for.
+/// Finds early errors before the costly work starts: the files that a command writes beside its
+/// images can be created, and standard output can hold what it is asked for.
 ///
 /// Errors  64 E-OUT-FORMAT, E-USAGE-CONFLICT; 73 E-OUT-CREATE
 Result<void> check_outputs(const RenderRequest& request);
+
+/// The same for the files of images: every output can be created, every extension is known, and
+/// every format can hold what it is asked for. Folders that names by pattern call for are made. One
+/// image stands for all whose files lie in the same folders.
+///
+/// Errors  64 E-OUT-FORMAT, E-USAGE-CONFLICT; 73 E-OUT-CREATE
+Result<void> check_image_files(const RenderRequest& request,
+                               const std::vector<ListedImage>& images);
 
 /// Begins to open the library that writes the outputs or reads the environment, where it takes its
 /// time: beside what else there is to do.

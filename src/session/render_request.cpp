@@ -25,29 +25,11 @@ bool takes_passes(const RenderRequest& request) {
     return (is_followed(request) || adds_parts) && !is_aov(request.options.integrator);
 }
 
-std::vector<MovieFrame> frames_of(const RenderRequest& request) {
-    if (!request.frames) {
-        return {{{}, request.load.time_s.value_or(0), request.outputs, request.segmentation}};
-    }
-    std::vector<MovieFrame> out;
-    for (const int number : request.frames->numbers) {
-        MovieFrame frame{number, request.frames->time_s(number), {}, request.segmentation};
-        for (const std::filesystem::path& pattern : request.outputs)
-            frame.outputs.push_back(frame_file(pattern, number).value_or(pattern));
-        if (frame.segmentation) {
-            frame.segmentation =
-                frame_file(*frame.segmentation, number).value_or(*frame.segmentation);
-        }
-        out.push_back(std::move(frame));
-    }
-    return out;
-}
-
 std::vector<std::filesystem::path> image_files(const RenderRequest& request,
-                                               const MovieFrame& frame) {
-    std::vector<std::filesystem::path> files = frame.outputs;
+                                               const ListedImage& image) {
+    std::vector<std::filesystem::path> files = image.outputs;
     if (request.exr.layout != ExrLayout::separate) return files;
-    for (const std::filesystem::path& output : frame.outputs) {
+    for (const std::filesystem::path& output : image.outputs) {
         if (output_format_of(output) != OutputFormat::exr) continue;
         for (const Layer& layer : request.options.layers)
             files.push_back(layer_file(output, layer.name));

@@ -13,6 +13,7 @@
 #include "session/camera_choice.h"
 #include "session/film_keeper.h"
 #include "session/frames.h"
+#include "session/image_list.h"
 
 #include <filesystem>
 #include <optional>
@@ -52,7 +53,8 @@ struct RenderRequest {
     gltf::LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
     /// Then the outputs and `segmentation` are patterns; see frame_file.
     std::optional<FrameList> frames;
-    std::optional<int> frame;                 ///< of them, the one that is rendered
+    ListRequest lists;                        ///< --views, --cameras, --variants, --turntable
+    std::optional<int> frame;                 ///< of a sequence or turntable, the one rendered
     std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
     double fps = 24;
     CameraRequest camera;
@@ -99,13 +101,10 @@ bool is_followed(const RenderRequest& request);
 /// Whether the image is rendered in passes, whose sums are kept; see render/film_sums.h.
 bool takes_passes(const RenderRequest& request);
 
-/// The images of a request: one, or one for each frame.
-std::vector<MovieFrame> frames_of(const RenderRequest& request);
-
 /// All files that an image of a request is written to: its outputs, and layers in files of their
 /// own.
 std::vector<std::filesystem::path> image_files(const RenderRequest& request,
-                                               const MovieFrame& frame);
+                                               const ListedImage& image);
 
 /// The part of an image that is rendered: with overscan it reaches beyond the image, by whole
 /// pixels. None: the image.

@@ -100,7 +100,7 @@ TEST(Frames, ARequestBecomesItsImages) {
     arguments.fps = "5";
     const Result<RenderRequest> request = make_render_request(arguments);
     ASSERT_TRUE(request) << request.error().message;
-    const std::vector<MovieFrame> frames = frames_of(*request);
+    const std::vector<ListedImage> frames = list_images(*request, {})->images;
     ASSERT_EQ(frames.size(), 2U);
     EXPECT_EQ(frames[1].number, 10);
     EXPECT_EQ(frames[1].time_s, 2);
@@ -113,7 +113,7 @@ TEST(Frames, AStillIsOneImageAndMayHaveHashesInItsName) {
     const Result<RenderRequest> request = make_render_request(arguments);
     ASSERT_TRUE(request);
     EXPECT_EQ(request->load.time_s, 1.5);
-    const std::vector<MovieFrame> frames = frames_of(*request);
+    const std::vector<ListedImage> frames = list_images(*request, {})->images;
     ASSERT_EQ(frames.size(), 1U);
     EXPECT_FALSE(frames[0].number);
     EXPECT_EQ(frames[0].time_s, 1.5);
@@ -125,7 +125,7 @@ TEST(Frames, WithoutAnOutputTheSceneNamesTheFrames) {
     arguments.frames = "1-2";
     const Result<RenderRequest> request = make_render_request(arguments);
     ASSERT_TRUE(request);
-    EXPECT_EQ(frames_of(*request)[1].outputs[0], "scene.0002.exr");
+    EXPECT_EQ(list_images(*request, {})->images[1].outputs[0], "scene.0002.exr");
 }
 
 TEST(Frames, ContradictionsAreRefused) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_request.h"
 
+#include "app/distinct_files.h"
 #include "base/setting_names.h"
 
 #include <gtest/gtest.h>
@@ -147,7 +148,7 @@ TEST(RenderRequest, LayersNeedAnExrAndFilesOfTheirOwnANamedOne) {
     const Result<RenderRequest> request = request_of(arguments);
     ASSERT_TRUE(request);
     const std::vector<std::filesystem::path> files = {"a.exr", "a.depth.exr", "a.normal.exr"};
-    EXPECT_EQ(image_files(*request, frames_of(*request).front()), files);
+    EXPECT_EQ(image_files(*request, list_images(*request, {})->images.front()), files);
     arguments.outputs = {"a.exr", "a.depth.exr"};
     arguments.format.reset();
     EXPECT_EQ(request_of(arguments).error().id, "E-USAGE-SAMEFILE");

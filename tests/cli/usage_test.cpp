@@ -41,6 +41,31 @@ TEST_F(Usage, HelpIsForPeople) {
     }
 }
 
+TEST_F(Usage, ShortFormsStandForLongOnes) {
+    EXPECT_EQ(run({"help"}).out, run({"--help"}).out);
+    EXPECT_EQ(run({"help", "info"}).out, run({"info", "--help"}).out);
+    EXPECT_EQ(run({"help", "paint"}).code, 64);
+    expect_result(run({"box.gltf", "--size", "8x8", "--spp", "1"}), 0, "OK");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "box.png"));
+    expect_result(run({"box.gltf", "--size", "8x8", "--spp", "1", "-o", "own.exr"}), 0, "OK");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "own.exr"));
+}
+
+TEST_F(Usage, WhatIsNoSceneIsNamed) {
+    folder_.write("mesh.obj", "# a comment\nv 0 0 0\n");
+    folder_.write("beauty", std::string("v/1\x01", 4));
+    const std::vector<std::pair<std::string, std::string>> files = {
+        {"mesh.obj", "an OBJ scene"}, {"beauty", "an OpenEXR picture"}, {"beauty.exr", "no scene"}};
+    for (const auto& [file, says] : files) {
+        const ProgramRun got = run({"render", file});
+        expect_result(got, 65, "E-GLB-FORMAT");
+        EXPECT_THAT(got.err, HasSubstr(says));
+    }
+    const ProgramRun url = run({"render", "https://example.org/box.glb"});
+    expect_result(url, 66, "E-SCENE-MISSING");
+    EXPECT_THAT(url.err, HasSubstr("network"));
+}
+
 TEST_F(Usage, VersionNamesTheParts) {
     const ProgramRun got = run({"--version"});
     EXPECT_EQ(got.code, 0);
@@ -61,6 +86,7 @@ const std::vector<Wrong> mistakes = {
     {{"info"}, "E-USAGE", "SCENE is required"},
     {{"render", "box.gltf", "--sp", "3"}, "E-USAGE", "did you mean --spp?"},
     {{"render", "box.gltf", "-x"}, "E-USAGE", "no such option"},
+    {{"render", "box.gltf", "--eye", "1", "2", "3"}, "E-USAGE", "--eye 1,2,3"},
     {{"render", "box.gltf", "quad.gltf"}, "E-USAGE", "one argument too many"},
     {{"render", "box.gltf", "--spp"}, "E-USAGE", "with one value"},
     {{"render", "box.gltf", "--spp", "1", "--spp", "2"}, "E-USAGE", "the option once"},

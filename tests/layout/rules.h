@@ -44,10 +44,11 @@ struct Owner {
 };
 
 /// To add a library: one line here, one in third_party/README.md, one in third_party/packages.txt.
-inline constexpr std::array<Owner, 21> owners{
+inline constexpr std::array<Owner, 22> owners{
     {{"tbb/", "base"},
      {"oneapi/", "base"},
      {"tl/", "base"},
+     {"openssl/", "base"},
      {"xsimd", "math"},
      {"immintrin.h", "base math"},
      {"arm_neon.h", "base math"},

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "support/temp_folder.h"
+#include <set>
 
 namespace obscura {
 namespace {
@@ -12,9 +13,8 @@ namespace {
 const NamedTexts facts = {{"the file a.gltf", "1"}};
 
 TEST(ImageFingerprint, IsOfAllButNamesAndTheRangeOfFrames) {
-    const RenderRequest request;
     const auto of = [&](const NamedTexts& options) {
-        return image_fingerprint(options, facts, request, {});
+        return image_fingerprint(options, facts, {});
     };
     const std::string one = of({{"SCENE", "a.gltf"}, {"--spp", "4"}});
     EXPECT_EQ(one.size(), 16U);
@@ -23,25 +23,48 @@ TEST(ImageFingerprint, IsOfAllButNamesAndTheRangeOfFrames) {
     EXPECT_NE(of({{"SCENE", "a.gltf"}, {"--spp", "5"}}), one);
     EXPECT_NE(of({{"SCENE", "a.gltf"}, {"--spp4", ""}}), one);
     EXPECT_NE(of({{"--spp", "4"}, {"--float", ""}}), one);
-    EXPECT_NE(image_fingerprint({{"--spp", "4"}}, {}, request, {}), one);
-    EXPECT_NE(image_fingerprint({}, {{"the file a.gltf", "1"}, {"--spp", "4"}}, request, {}), one);
+    EXPECT_NE(image_fingerprint({{"--spp", "4"}}, {}, {}), one);
+    EXPECT_NE(image_fingerprint({}, {{"the file a.gltf", "1"}, {"--spp", "4"}}, {}), one);
 }
 
 TEST(ImageFingerprint, OfAFrameIsThatOfItsNumberAndOfTheFirstOne) {
     RenderRequest request;
-    request.frames = FrameList{{1, 2, 3}, 24};
-    const std::string two = image_fingerprint({}, facts, request, 2);
-    EXPECT_NE(image_fingerprint({}, facts, request, 3), two);
-    request.frames = FrameList{{1, 2, 3, 4}, 24};
-    EXPECT_EQ(image_fingerprint({}, facts, request, 2), two);
-    request.frames = FrameList{{2, 3}, 24};
-    EXPECT_NE(image_fingerprint({}, facts, request, 2), two) << "its view is another";
+    const auto of_frame = [&](std::vector<int> numbers, size_t index) {
+        request.frames = FrameList{std::move(numbers), 24};
+        return image_fingerprint({}, facts, list_images(request, {})->images.at(index).facts);
+    };
+    const std::string two = of_frame({1, 2, 3}, 1);
+    EXPECT_NE(of_frame({1, 2, 3}, 2), two);
+    EXPECT_EQ(of_frame({1, 2, 3, 4}, 1), two);
+    EXPECT_NE(of_frame({2, 3}, 0), two) << "its view is another";
+}
+
+TEST(ImageFingerprint, OfAListIsThatOfTheViewAndTheVariant) {
+    RenderRequest request;
+    request.lists.views = {{.name = "a", .camera = {}, .text = "{\"azimuth\":1}"},
+                           {.name = "b", .camera = {}, .text = "{\"azimuth\":2}"}};
+    const auto prints = [&] {
+        std::vector<std::string> out;
+        const Result<ImageList> list = list_images(request, {.variants = {"red", "blue"}});
+        for (const ListedImage& image : list->images)
+            out.push_back(image_fingerprint({{"--variants", "all"}}, facts, image.facts));
+        return out;
+    };
+    const std::vector<std::string> two = prints();
+    ASSERT_EQ(two.size(), 2U);
+    EXPECT_NE(two[0], two[1]);
+    request.lists.views[0].name = "another";
+    EXPECT_EQ(prints(), two) << "a name changes no pixel";
+    request.lists.variants = "all";
+    const std::vector<std::string> four = prints();
+    ASSERT_EQ(four.size(), 4U);
+    EXPECT_EQ(std::set(four.begin(), four.end()).size(), 4U);
 }
 
 TEST(ExistingImages, NeedEveryFile) {
     const TempFolder folder;
     const RenderRequest request;
-    const MovieFrame frame{{}, 0, {folder / "a.exr", folder / "a.png"}};
+    const ListedImage frame{.outputs = {folder / "a.exr", folder / "a.png"}};
     EXPECT_EQ(lock_file(frame), folder / "a.exr.lock");
     const ExistingImage none = find_existing(request, frame, "1");
     EXPECT_FALSE(none.is_finished);

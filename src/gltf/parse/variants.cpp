@@ -24,16 +24,17 @@ int material_in(const GltfPrimitive& primitive, int variant) {
 /// The number of a variant; -1 for the file's own materials, where the name is empty.
 Result<int> find_variant(const std::string& name, const Document& document) {
     if (name.empty()) return -1;
-    const auto found = std::find(document.variants.begin(), document.variants.end(), name);
-    if (found != document.variants.end()) return static_cast<int>(found - document.variants.begin());
+    const std::vector<std::string>& all = document.variants;
+    const auto found = std::find(all.begin(), all.end(), name);
+    if (found != all.end()) return static_cast<int>(found - all.begin());
     std::string names;
-    for (const std::string& other : document.variants)
+    for (const std::string& other : all)
         names += (names.empty() ? "\"" : ", \"") + other + "\"";
-    return fail(ExitCode::usage,
-                "E-VARIANT-UNKNOWN",
-                setting("variant"),
-                "the asset has no variant \"" + name + "\"; it has " +
-                    (names.empty() ? "none" : names));
+    return fail(
+        ExitCode::usage,
+        "E-VARIANT-UNKNOWN",
+        setting("variant"),
+        "the asset has no variant \"" + name + "\"; it has " + (names.empty() ? "none" : names));
 }
 
 /// Calls `use` with every primitive.

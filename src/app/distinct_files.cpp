@@ -1,0 +1,106 @@
+// app/distinct_files.cpp - no file is written twice, and none that is read.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/distinct_files.h"
+
+#include "session/image_parts.h"
+#include "session/segmentation.h"
+
+#include <map>
+#include <sys/stat.h>
+#include <system_error>
+#include <utility>
+
+namespace obscura::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The file's place, with all links followed; as it is named where that cannot be told.
+fs::path resolved(const fs::path& file) {
+    std::error_code error;
+    fs::path out = fs::weakly_canonical(fs::absolute(file, error), error);
+    return error ? file : out;
+}
+
+/// Files by their places and, where they are there, by the system's numbers: a file may have
+/// several names.
+class KnownFiles {
+public:
+    /// False: the file was added before.
+    bool add(const fs::path& file) {
+        bool is_new = places_.insert({resolved(file), 0}).second;
+        struct stat status = {};
+        if (::stat(file.c_str(), &status) == 0)
+            is_new = numbers_.insert({{status.st_dev, status.st_ino}, 0}).second && is_new;
+        return is_new;
+    }
+
+private:
+    std::map<fs::path, int> places_;
+    std::map<std::pair<dev_t, ino_t>, int> numbers_;
+};
+
+std::vector<fs::path> files_written(const RenderRequest& request,
+                                    const std::vector<ListedImage>& images) {
+    std::vector<fs::path> written;
+    for (const ListedImage& image : images) {
+        const std::vector<fs::path> files = image_files(request, image);
+        written.insert(written.end(), files.begin(), files.end());
+        if (!image.segmentation) continue;
+        const auto masks = segmentation_files(*image.segmentation);
+        written.insert(written.end(), masks.begin(), masks.end());
+    }
+    for (const auto* file :
+         {&request.statistics, &request.crypto_manifest, &request.lists.manifest}) {
+        if (*file) written.push_back(**file);
+    }
+    if (request.long_run.has_checkpoint && images.size() == 1)
+        written.push_back(checkpoint_file(request));
+    return written;
+}
+
+std::vector<fs::path> files_read(const RenderRequest& request) {
+    std::vector<fs::path> read = {request.scene};
+    for (const auto* file :
+         {&request.camera_json, &request.lists.views_file, &request.environment}) {
+        if (*file) read.push_back(**file);
+    }
+    if (request.camera.settings.aperture_file)
+        read.emplace_back(*request.camera.settings.aperture_file);
+    if (!request.display.ocio_file.empty()) read.push_back(request.display.ocio_file);
+    return read;
+}
+
+}  // namespace
+
+bool same_file(const fs::path& a, const fs::path& b) {
+    KnownFiles known;
+    known.add(a);
+    return !known.add(b);
+}
+
+Result<void> check_distinct_files(const RenderRequest& request,
+                                  const std::vector<ListedImage>& images) {
+    const auto same = [](const fs::path& file, const std::string& message) {
+        return fail(ExitCode::usage, "E-USAGE-SAMEFILE", file.string(), message);
+    };
+    const std::vector<fs::path> read = files_read(request);
+    KnownFiles outputs, all;
+    for (const fs::path& file : read)
+        all.add(file);
+    for (const fs::path& file : files_written(request, images)) {
+        if (!outputs.add(file)) {
+            return same(file,
+                        request.lists.is_asked()
+                            ? "two images have this file; put {variant}, {view} or {frame:04} "
+                              "into its name"
+                            : "two outputs are the same file; give different names");
+        }
+        if (all.add(file)) continue;
+        return same(file, "this output would replace a file that is read; give another name");
+    }
+    return {};
+}
+
+}  // namespace obscura::app

@@ -1,0 +1,18 @@
+// app/distinct_files.h - no file is written twice, and none that is read.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "session/render_request.h"
+
+namespace obscura::app {
+
+/// True when both names lead to one file, through links too, also when it does not exist yet.
+bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
+/// No output of an image or of the command may overwrite an input or another output.
+///
+/// Errors  64 E-USAGE-SAMEFILE
+Result<void> check_distinct_files(const RenderRequest& request,
+                                  const std::vector<ListedImage>& images);
+
+}  // namespace obscura::app

@@ -1,0 +1,110 @@
+// app/list_options.cpp - the options that ask for many images of one asset.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/list_options.h"
+
+#include "app/option_readers.h"
+#include "app/render_options.h"
+#include "app/render_request.h"
+#include "session/image_names.h"
+
+namespace obscura::app {
+
+namespace {
+
+using A = RenderArguments;
+using G = ListArguments;
+using K = ListRequest;
+using R = RenderRequest;
+using Entry = OptionEntry<A, R>;
+
+// clang-format off
+constexpr Entry entries[] = {
+    {{.name = "--turntable", .argument = "N",
+      .help = "N images of a whole turn around the scene, which begins at --azimuth; their numbers "
+              "are frames 1 to N. All have one scale, as of --frame sphere",
+      .range = {1, 100000}, .fallback = "one image",
+      .excludes = {"--frames", "--views", "--cameras"}},
+     text_at<&A::list, &G::turntable>, number_at<&R::lists, &K::turntable>},
+    {{.name = "--cameras", .argument = "all|PATTERN",
+      .help = "An image by each camera of the file, or by those of these names, with commas "
+              "between them. * and ? stand for any text and letter",
+      .excludes = {"--camera", "--views", "--camera-json"}},
+     text_at<&A::list, &G::cameras>, name_at<&R::lists, &K::cameras>},
+    {{.name = "--variants", .argument = "all|PATTERN",
+      .help = "An image of each variant of the file, or of those of these names, as for --cameras",
+      .excludes = {"--variant"}},
+     text_at<&A::list, &G::variants>, name_at<&R::lists, &K::variants>},
+    {{.name = "--views", .argument = "FILE.json",
+      .help = "An image of each view in the file: its camera, and what else differs "
+              "(docs/many_images.md)",
+      .files = "json"},
+     text_at<&A::list, &G::views>, name_at<&R::lists, &K::views_file>},
+    {{.name = "--manifest", .argument = "FILE.jsonl",
+      .help = "Write a line of JSON as each image is finished or fails: files with SHA-256, asset, "
+              "variant, view, camera, seconds, warnings, exit code", .files = "jsonl"},
+     text_at<&A::list, &G::manifest>, name_at<&R::lists, &K::manifest>}};
+// clang-format on
+
+bool is_given(const ProductArguments& product) {
+    return product.roll || product.zoom || product.elevation || product.azimuth;
+}
+
+/// What does not go with a turn around the scene.
+Result<void> complete_turntable(const RenderArguments& arguments, RenderRequest& request) {
+    if (request.lists.turntable == 0) return {};
+    const CameraRequest& camera = request.camera;
+    if (camera.eye_m || camera.target_m || camera.up || request.camera_json ||
+        arguments.camera.value_or("auto") != "auto") {
+        return conflict("--turntable",
+                        "it goes around the framed scene; leave out the camera, or give "
+                        "--azimuth, --elevation, --zoom, --margin or --focus-node");
+    }
+    if (!arguments.product.frame) request.camera.framing.fit = FrameFit::sphere;
+    return {};
+}
+
+bool tells_images_apart(const std::filesystem::path& pattern, bool has_numbers) {
+    if (has_fields(pattern)) return true;
+    return has_numbers && frame_file(pattern, 0).has_value();
+}
+
+}  // namespace
+
+std::string listed_output(const RenderArguments& arguments) {
+    std::string out = std::filesystem::path(arguments.scene_file).stem().string();
+    if (arguments.list.variants || arguments.list.views) out += ".{variant}";
+    if (arguments.list.cameras || arguments.list.views) out += ".{view}";
+    if (arguments.list.turntable || arguments.frames) out += ".{frame:04}";
+    return out + arguments.default_ending;
+}
+
+Result<void> complete_list(const RenderArguments& arguments, RenderRequest& request) {
+    if (request.lists.manifest && request.standard_output) {
+        return conflict("--manifest", "it is of files; give -o a file's name in place of -");
+    }
+    if (!request.lists.is_asked()) return {};
+    if (request.lists.cameras && is_given(arguments.product)) {
+        return conflict("--cameras",
+                        "the file's cameras are not framed; leave out --azimuth and the like");
+    }
+    if (auto done = complete_turntable(arguments, request); !done) return done;
+    if (request.standard_output) {
+        return conflict("--output", "- takes one image; give files such as {view}.png");
+    }
+    std::vector<std::filesystem::path> patterns = request.outputs;
+    if (request.segmentation) patterns.push_back(*request.segmentation);
+    const bool has_numbers = request.frames || request.lists.turntable > 0;
+    for (const std::filesystem::path& pattern : patterns) {
+        if (tells_images_apart(pattern, has_numbers)) continue;
+        return conflict(pattern.string(),
+                        "a file's name must tell the images apart; expected {view}, {variant} or "
+                        "{frame:04} in it, such as out/{variant}/{view}.png");
+    }
+    return {};
+}
+
+OptionGroup<RenderArguments, RenderRequest> list_group() {
+    return {"Many images", entries};
+}
+
+}  // namespace obscura::app

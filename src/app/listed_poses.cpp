@@ -1,0 +1,149 @@
+// app/listed_poses.cpp - poses an asset for the images of a list, each pose once.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/listed_poses.h"
+
+#include "base/stopwatch.h"
+#include "render/points_lines_sizes.h"
+#include "session/lighting.h"
+#include "session/segmentation.h"
+
+#include <algorithm>
+
+namespace obscura::app {
+
+namespace {
+
+/// When an image's scene is posed.
+PoseTimes times_of(const RenderRequest& request, double time_s, bool is_last) {
+    PoseTimes times{time_s, {}, is_last};
+    if (request.shutter) {
+        const double frame_s = 1 / request.fps;
+        times.shutter = gltf::ShutterTimes{time_s + request.shutter->open * frame_s,
+                                           time_s + request.shutter->close * frame_s,
+                                           time_s};
+    }
+    return times;
+}
+
+bool has_times(const RenderRequest& request) {
+    const std::vector<View>& views = request.lists.views;
+    return request.load.time_s || request.frames || request.shutter ||
+           std::any_of(views.begin(), views.end(), [](const View& view) {
+               return view.time_s.has_value();
+           });
+}
+
+}  // namespace
+
+Result<void> ListedPoses::load_once() {
+    if (job_.renderer) return {};
+    const Stopwatch loading;
+    Result<AssetRenderer> renderer =
+        AssetRenderer::open(whole_.scene, whole_.load, has_times(whole_), job_.log);
+    if (!renderer) return fail(renderer.error());
+    job_.renderer = std::move(*renderer);
+    if (auto found = job_.renderer->find_framed_nodes(whole_.camera); !found) return found;
+    job_.request.camera.framed_nodes = whole_.camera.framed_nodes;
+    const auto variants = listed_variants(whole_, job_.renderer->info().variants);
+    if (!variants) return fail(variants.error());
+    if (auto planned = job_.renderer->plan_variants(*variants); !planned) return planned;
+    Result<LightingOptions> lighting = load_lighting(whole_, job_.log);
+    if (!lighting) return fail(lighting.error());
+    job_.lighting = std::move(*lighting);
+    if (auto there = check_writers(whole_); !there) return there;
+    job_.renderer->statistics().load_s = loading.seconds();
+    return {};
+}
+
+Result<void> ListedPoses::find_images(Log& log) {
+    AssetOffer offer;
+    if (whole_.lists.needs_asset()) {
+        if (auto loaded = load_once(); !loaded) return loaded;
+        offer.variants = job_.renderer->info().variants;
+    }
+    if (whole_.lists.cameras) {
+        const int first = whole_.frames ? whole_.frames->numbers.front() : 0;
+        const double time_s =
+            whole_.frames ? whole_.frames->time_s(first) : whole_.load.time_s.value_or(0);
+        const auto variants = listed_variants(whole_, offer.variants);
+        if (auto posed = pose_as({time_s, variants->front()}, false, log); !posed) return posed;
+        for (const SceneCamera& camera : job_.renderer->scene().cameras)
+            offer.cameras.push_back(camera.name);
+    }
+    Result<ImageList> list = list_images(whole_, offer);
+    if (!list) return fail(list.error());
+    list_ = std::move(*list);
+    return {};
+}
+
+void ListedPoses::begin_image(size_t index) {
+    const ListedImage& image = list_.images[index];
+    job_.request = request_of(whole_, list_.views[image.view], image);
+    job_.image_facts = image.facts;
+}
+
+ListedPoses::Pose ListedPoses::pose_of(size_t index) const {
+    return {list_.images[index].time_s, list_.images[index].variant};
+}
+
+Result<void> ListedPoses::pose_as(const Pose& pose, bool is_last, Log& log) {
+    if (posed_ == pose && job_.renderer->has_scene()) return {};
+    posed_.reset();
+    lit_.reset();
+    if (auto chosen = job_.renderer->choose_variant(pose.second); !chosen) return chosen;
+    const auto posed = job_.renderer->pose(times_of(whole_, pose.first, is_last), log);
+    if (posed) posed_ = pose;
+    return posed;
+}
+
+/// The framing of the first frame, in every view.
+void ListedPoses::keep_views() {
+    const Scene& scene = job_.renderer->scene();
+    for (View& view : list_.views) {
+        RenderRequest request = request_of(whole_, view, list_.images.front());
+        const RenderOptions& options = request.options;
+        view.camera.framed = scene.bounds;
+        request.camera.framed = scene.bounds;
+        view.camera.kept = automatic_framing(
+            scene, request.camera, static_cast<double>(options.width) / options.height);
+    }
+    has_views_ = true;
+}
+
+Result<void> ListedPoses::pose(size_t index, bool is_last, Log& log) {
+    // All keep the view of the first frame, whoever renders it.
+    if (is_sequence() && !has_views_) {
+        const bool is_first = pose_of(index) == pose_of(0);
+        if (auto posed = pose_as(pose_of(0), is_last && is_first, is_first ? log : job_.log);
+            !posed)
+            return posed;
+        keep_views();
+        begin_image(index);
+    }
+    if (auto posed = pose_as(pose_of(index), is_last, log); !posed) return posed;
+    if (!job_.request.segmentation) return {};
+    return check_segmentation(job_.renderer->scene());
+}
+
+Result<ChosenCamera> ListedPoses::look(size_t index, bool is_last, Log& log) {
+    // Points and lines may be as thick as the view says; their pose is made anew for each.
+    const bool has_own_pose =
+        lit_ && job_.renderer->has_scene() && has_points_lines(job_.renderer->scene());
+    if (has_own_pose) posed_.reset();
+    const RenderRequest& request = job_.request;
+    if (auto fits = check_crop(request.options); !fits) return fail(fits.error());
+    if (auto posed = pose(index, is_last, log); !posed) return fail(posed.error());
+    const Light light = {request.environment_rotation_deg, request.environment_intensity};
+    if (lit_ == light && !request.environment_follows_camera)
+        return job_.renderer->look_again(request, log);
+    lit_.reset();
+    job_.renderer->prepare_again();
+    LightingOptions& lighting = job_.lighting;
+    lighting.environment_rotation_deg = light.first;
+    lighting.environment_intensity = light.second;
+    Result<ChosenCamera> camera = job_.renderer->prepare(request, lighting, log);
+    if (camera) lit_ = light;
+    return camera;
+}
+
+}  // namespace obscura::app

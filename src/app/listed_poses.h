@@ -1,0 +1,66 @@
+// app/listed_poses.h - poses an asset for the images of a list, each pose once.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "app/render_job.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace obscura::app {
+
+/// The images of a command, and the asset as each of them shows it. Job::request is that of the
+/// image that is begun.
+class ListedPoses {
+public:
+    explicit ListedPoses(Job& job) : job_(job), whole_(job.request) {}
+
+    /// What the whole command is asked for.
+    const RenderRequest& whole() const { return whole_; }
+    const ImageList& list() const { return list_; }
+
+    /// Lists the images; reads the asset first where only that tells them.
+    ///
+    /// Errors  those of load_once and list_images
+    Result<void> find_images(Log& log);
+
+    /// Reads the asset and the environment, once for all images.
+    ///
+    /// Errors  those of loading, of the environment too; 69 E-OIIO
+    Result<void> load_once();
+
+    /// Makes the job's request that of an image.
+    void begin_image(size_t index);
+
+    /// Poses the asset for the image that is begun, unless it is posed so already. A sequence keeps
+    /// the views of its first frame.
+    ///
+    /// In      is_last: no other pose will follow
+    /// Errors  those of AssetRenderer::pose; 69 E-SEG-IDS
+    Result<void> pose(size_t index, bool is_last, Log& log);
+
+    /// The same, ready to be rendered.
+    ///
+    /// Errors  likewise, and those of AssetRenderer::prepare
+    Result<ChosenCamera> look(size_t index, bool is_last, Log& log);
+
+private:
+    using Pose = std::pair<double, std::string>;  ///< time and variant
+    /// How the environment is turned, and how bright it is.
+    using Light = std::pair<double, double>;
+
+    bool is_sequence() const { return whole_.frames && whole_.frames->numbers.size() > 1; }
+    Pose pose_of(size_t index) const;
+    Result<void> pose_as(const Pose& pose, bool is_last, Log& log);
+    void keep_views();
+
+    Job& job_;
+    RenderRequest whole_;
+    ImageList list_;
+    std::optional<Pose> posed_;
+    std::optional<Light> lit_;  ///< nothing: the pose has not been prepared
+    bool has_views_ = false;    ///< those of the first frame are kept
+};
+
+}  // namespace obscura::app

@@ -1,0 +1,126 @@
+// session/image_names.cpp - names of images' files by patterns.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/image_names.h"
+
+#include <array>
+#include <charconv>
+#include <optional>
+#include <set>
+
+namespace obscura {
+
+namespace {
+
+constexpr std::array<std::string_view, 4> field_names = {"asset", "variant", "view", "frame"};
+constexpr int max_digits = 12;
+
+/// A field of a pattern, between braces.
+struct Field {
+    std::string_view name;
+    int digits = 0;  ///< of a frame
+};
+
+/// The field that the text between two braces is; nothing: it is none.
+std::optional<Field> field_of(std::string_view text) {
+    const size_t colon = text.find(':');
+    Field out{text.substr(0, colon), 0};
+    bool is_known = false;
+    for (const std::string_view name : field_names)
+        is_known = is_known || name == out.name;
+    if (!is_known) return {};
+    if (colon == std::string_view::npos) return out;
+    const std::string_view digits = text.substr(colon + 1);
+    const char* const end = digits.data() + digits.size();
+    const auto [stop, error] = std::from_chars(digits.data(), end, out.digits);
+    const bool is_number = error == std::errc() && stop == end && out.digits >= 0;
+    if (!is_number || out.digits > max_digits || out.name != "frame") return {};
+    return out;
+}
+
+std::string frame_text(int frame, int digits) {
+    std::string out = std::to_string(frame);
+    if (out.size() < static_cast<size_t>(digits))
+        out.insert(0, static_cast<size_t>(digits) - out.size(), '0');
+    return out;
+}
+
+std::string value_of(const Field& field, const NameFields& values) {
+    if (field.name == "asset") return name_part(values.asset);
+    if (field.name == "variant") return name_part(values.variant);
+    if (field.name == "view") return name_part(values.view);
+    return frame_text(values.frame, field.digits);
+}
+
+/// Calls `text` with what lies between fields, and `use` with each field.
+template <typename Text, typename Use>
+void each_field(std::string_view pattern, const Text& text, const Use& use) {
+    while (!pattern.empty()) {
+        const size_t open = pattern.find('{');
+        text(pattern.substr(0, open));
+        if (open == std::string_view::npos) return;
+        pattern.remove_prefix(open);
+        const size_t close = pattern.find('}');
+        const std::optional<Field> field =
+            close == std::string_view::npos ? std::nullopt : field_of(pattern.substr(1, close - 1));
+        if (field) {
+            use(*field);
+        } else {
+            text("{");
+        }
+        pattern.remove_prefix(field ? close + 1 : 1);
+    }
+}
+
+}  // namespace
+
+bool has_field(const std::filesystem::path& pattern, std::string_view field) {
+    bool found = false;
+    each_field(
+        pattern.string(),
+        [](std::string_view) {},
+        [&](const Field& one) { found = found || one.name == field; });
+    return found;
+}
+
+bool has_fields(const std::filesystem::path& pattern) {
+    bool found = false;
+    for (const std::string_view name : field_names)
+        found = found || has_field(pattern, name);
+    return found;
+}
+
+std::filesystem::path name_by_pattern(const std::filesystem::path& pattern,
+                                      const NameFields& fields) {
+    std::string out;
+    each_field(
+        pattern.string(),
+        [&](std::string_view text) { out += text; },
+        [&](const Field& field) { out += value_of(field, fields); });
+    return out;
+}
+
+std::string name_part(std::string_view text) {
+    constexpr std::string_view refused = "/\\\"*:<>?|{}";
+    std::string out(text);
+    for (char& c : out) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code < 0x20 || code == 0x7F || refused.find(c) != std::string_view::npos) c = '_';
+    }
+    if (!out.empty() && out.front() == '.') out.front() = '_';
+    return out.empty() ? "_" : out;
+}
+
+std::vector<std::string> distinct_names(std::vector<std::string> names) {
+    std::set<std::string> taken(names.begin(), names.end());
+    std::set<std::string> used;
+    for (std::string& name : names) {
+        if (used.insert(name).second) continue;
+        const std::string stem = name;
+        for (int number = 2; !taken.insert(name).second; ++number)
+            name = stem + "-" + std::to_string(number);
+        used.insert(name);
+    }
+    return names;
+}
+
+}  // namespace obscura

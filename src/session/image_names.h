@@ -1,0 +1,36 @@
+// session/image_names.h - names of images' files by patterns: {asset}, {variant}, {view}, {frame}.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace obscura {
+
+/// What the fields of a pattern stand for in the name of one image.
+struct NameFields {
+    std::string asset, variant, view;
+    int frame = 1;
+};
+
+/// True when a pattern has the field: "frame" is there as {frame} and as {frame:04}.
+bool has_field(const std::filesystem::path& pattern, std::string_view field);
+
+/// True when a pattern has any field.
+bool has_fields(const std::filesystem::path& pattern);
+
+/// The pattern with its fields replaced, {frame:04} by the number with zeros in front up to four
+/// digits. Texts become parts of names: see name_part. All else stays.
+std::filesystem::path name_by_pattern(const std::filesystem::path& pattern,
+                                      const NameFields& fields);
+
+/// A text as a part of a file's name: what file systems or shells take for something else (slashes,
+/// control characters, " * : < > ? | { }) becomes _, and so does a dot in front.
+std::string name_part(std::string_view text);
+
+/// The texts, made different by -2, -3 and so on behind those that were there before.
+std::vector<std::string> distinct_names(std::vector<std::string> names);
+
+}  // namespace obscura

@@ -1,0 +1,134 @@
+// session/manifest.cpp - a line of JSON for each image of a command.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/manifest.h"
+
+#include "base/json/json.h"
+#include "base/sha256.h"
+#include "session/segmentation.h"
+
+#include <cerrno>
+#include <fcntl.h>
+#include <system_error>
+#include <unistd.h>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+Json files_json(const RenderRequest& request, const ListedImage& image) {
+    std::vector<std::filesystem::path> files = image_files(request, image);
+    if (image.segmentation) {
+        for (const std::filesystem::path& file : segmentation_files(*image.segmentation))
+            files.push_back(file);
+    }
+    Json out = Json::array();
+    for (const std::filesystem::path& file : files) {
+        const std::optional<FileDigest> digest = digest_file(file);
+        if (!digest) continue;
+        out.push_back(
+            {{"file", file.string()}, {"sha256", digest->sha256}, {"bytes", digest->bytes}});
+    }
+    return out;
+}
+
+/// The matrix of intrinsics, for pixels counted from the image's upper left corner; null: the
+/// camera has none.
+Json intrinsics_json(const ChosenCamera& chosen, int width, int height) {
+    const Camera& camera = chosen.camera;
+    if (camera.model != CameraModel::pinhole && camera.model != CameraModel::thin_lens)
+        return nullptr;
+    const PinholeCamera& film = camera.pinhole;
+    const double half_height = static_cast<double>(film.tan_half_yfov);
+    const double half_width = half_height * static_cast<double>(film.aspect);
+    const double fx = 0.5 * width / half_width;
+    const double fy = 0.5 * height / half_height;
+    const double cx = 0.5 * width - fx * static_cast<double>(film.shift_x);
+    const double cy = 0.5 * height + fy * static_cast<double>(film.shift_y);
+    return {{fx, 0, cx}, {0, fy, cy}, {0, 0, 1}};
+}
+
+/// By OpenCV's axes: X_camera = R X_world + t, with +X to the right, +Y down, +Z ahead.
+void add_pose(const Camera& camera, Json& out) {
+    Affined from_world = inverse(affine_cast<double>(camera.world_from_camera));
+    for (int c = 0; c < 4; ++c) {
+        from_world.m[1][c] = -from_world.m[1][c];
+        from_world.m[2][c] = -from_world.m[2][c];
+    }
+    const auto& m = from_world.m;
+    out["R"] = Json::array();
+    for (const auto& row : m)
+        out["R"].push_back({row[0], row[1], row[2]});
+    out["t"] = {m[0][3], m[1][3], m[2][3]};
+}
+
+Json camera_json(const RenderRequest& request, const ChosenCamera& chosen) {
+    const RenderOptions& options = request.options;
+    Json out = {{"description", chosen.description},
+                {"width", options.width},
+                {"height", options.height},
+                {"K", intrinsics_json(chosen, options.width, options.height)}};
+    const auto& distortion = chosen.settings.distortion;
+    if (is_distorted(chosen.camera) && distortion) out["distortion"] = *distortion;
+    add_pose(chosen.camera, out);
+    return out;
+}
+
+tl::unexpected<Error> cannot_write(const std::filesystem::path& file) {
+    return fail(ExitCode::io_error,
+                "E-OUT-WRITE",
+                file.string(),
+                "cannot be written: " + std::generic_category().message(errno));
+}
+
+}  // namespace
+
+std::string manifest_line(const RenderRequest& request, const ImageOutcome& outcome) {
+    const ListedImage& image = outcome.image;
+    const bool is_there = !outcome.error;
+    Json line;
+    line["files"] = is_there ? files_json(request, image) : Json::array();
+    line["asset"] = request.scene.string();
+    line["variant"] = image.variant.empty() ? Json() : Json(image.variant);
+    line["view"] = outcome.view.name;
+    line["frame"] = image.number ? Json(*image.number) : Json();
+    line["time_s"] = image.time_s;
+    line["camera"] = outcome.camera ? camera_json(request, *outcome.camera) : Json();
+    line["seconds"] = outcome.seconds;
+    line["was_there"] = outcome.was_there;
+    line["warnings"] = outcome.warnings;
+    line["exit_code"] = outcome.error ? static_cast<int>(outcome.error->code) : 0;
+    line["id"] = outcome.error ? outcome.error->id : "OK";
+    if (outcome.error) line["message"] = outcome.error->where + ": " + outcome.error->message;
+    return escape_json_controls(line.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
+
+Manifest::Manifest(std::filesystem::path file, int descriptor)
+    : file_(std::move(file)), descriptor_(descriptor) {}
+
+Manifest::Manifest(Manifest&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+Manifest::~Manifest() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+Result<Manifest> Manifest::create(const std::filesystem::path& file) {
+    constexpr int mode = 0666;
+    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
+    if (descriptor < 0) return cannot_write(file);
+    return Manifest(file, descriptor);
+}
+
+Result<void> Manifest::add(const std::string& line) {
+    const std::string text = line + "\n";
+    for (size_t done = 0; done < text.size();) {
+        const ssize_t count = ::write(descriptor_, text.data() + done, text.size() - done);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return cannot_write(file_);
+        done += static_cast<size_t>(count);
+    }
+    return {};
+}
+
+}  // namespace obscura

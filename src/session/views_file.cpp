@@ -1,0 +1,214 @@
+// session/views_file.cpp - reads the views of --views from JSON.
+// SPDX-License-Identifier: Apache-2.0
+#include "session/views_file.h"
+
+#include "base/file_bytes.h"
+#include "base/json/json_read.h"
+#include "base/json/json_text.h"
+#include "gltf/camera_json.h"
+#include "session/image_names.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+namespace obscura {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* value_id = "E-VIEWS-VALUE";
+constexpr uint64_t largest_file = 256U << 20;
+constexpr double degree = pi_d / 180;
+constexpr int max_side_px = 65536;
+
+constexpr std::array<std::string_view, 28> known_keys = {"name",
+                                                         "camera",
+                                                         "eye",
+                                                         "target",
+                                                         "up",
+                                                         "fov",
+                                                         "azimuth",
+                                                         "elevation",
+                                                         "roll",
+                                                         "zoom",
+                                                         "model",
+                                                         "width",
+                                                         "height",
+                                                         "fx",
+                                                         "fy",
+                                                         "cx",
+                                                         "cy",
+                                                         "K",
+                                                         "R",
+                                                         "t",
+                                                         "world_to_camera",
+                                                         "camera_to_world",
+                                                         "distortion",
+                                                         "pixel_center",
+                                                         "variant",
+                                                         "time",
+                                                         "environment_rotation",
+                                                         "environment_intensity"};
+
+void check_keys(const JsonReader& reader) {
+    reader.each_key([&](const std::string& key) {
+        if (std::find(known_keys.begin(), known_keys.end(), key) != known_keys.end()) return;
+        std::string names;
+        for (const std::string_view name : known_keys)
+            names += (names.empty() ? "" : ", ") + std::string(name);
+        reader.fault(key, "E-VIEWS-KEY", "there is no such key; expected one of: " + names);
+    });
+}
+
+/// A number in a range; nothing where the key is absent.
+std::optional<double> number_in(const JsonReader& reader,
+                                const char* key,
+                                double least,
+                                double most) {
+    if (!reader.has(key)) return {};
+    const double value = reader.number(key, least);
+    if (!(value >= least && value <= most)) {
+        reader.fault(
+            key,
+            value_id,
+            "expected a number from " + std::to_string(least) + " to " + std::to_string(most));
+    }
+    return value;
+}
+
+std::optional<Vec3d> read_vector(const JsonReader& reader, const char* key) {
+    std::array<double, 3> numbers = {};
+    if (!reader.numbers(key, numbers)) return {};
+    return Vec3d{numbers[0], numbers[1], numbers[2]};
+}
+
+std::optional<std::array<int, 2>> read_size(const JsonReader& reader) {
+    if (!reader.has("width") && !reader.has("height")) return {};
+    reader.require("width");
+    reader.require("height");
+    const auto width = number_in(reader, "width", 1, max_side_px);
+    const auto height = number_in(reader, "height", 1, max_side_px);
+    return std::array{static_cast<int>(width.value_or(1)), static_cast<int>(height.value_or(1))};
+}
+
+/// How many of the ways to place a camera a view uses: it may be one.
+int count_ways(const JsonReader& reader) {
+    const auto has_any = [&](std::initializer_list<const char*> keys) {
+        return std::any_of(
+            keys.begin(), keys.end(), [&](const char* key) { return reader.has(key); });
+    };
+    return int{reader.has("camera")} + int{has_any({"eye", "target", "up"})} +
+           int{has_any({"azimuth", "elevation", "roll", "zoom"})} +
+           int{gltf::has_camera_keys(reader)};
+}
+
+void read_framing(const JsonReader& reader, CameraRequest& out) {
+    constexpr double max_turn_deg = 36000;
+    FramingOptions& framing = out.framing;
+    const auto angle = [&](const char* key, double most, double& to) {
+        const auto degrees = number_in(reader, key, -most, most);
+        if (!degrees) return;
+        to = *degrees * degree;
+        out.frames = true;
+    };
+    angle("azimuth", max_turn_deg, framing.azimuth_rad);
+    angle("elevation", 90, framing.elevation_rad);
+    angle("roll", max_turn_deg, framing.roll_rad);
+    if (const auto zoom = number_in(reader, "zoom", 0.01, 1000)) {
+        framing.zoom = *zoom;
+        out.frames = true;
+    }
+}
+
+/// Where a view is seen from, over what the request says; a view that says so takes the place of
+/// all of the request's ways.
+void read_place(const JsonReader& reader,
+                const json& tree,
+                View& view,
+                const RenderRequest& whole) {
+    CameraRequest& camera = view.camera;
+    const int ways = count_ways(reader);
+    if (ways > 1) {
+        reader.fault("",
+                     value_id,
+                     "expected one of: camera; eye, target, up; azimuth, elevation, roll, zoom; "
+                     "intrinsics with R and t or a matrix");
+    }
+    if (ways > 0) {
+        camera.loaded.reset();
+        camera.choice.clear();
+        camera.eye_m = camera.target_m = camera.up = {};
+        camera.frames = false;
+    }
+    if (reader.has("camera")) camera.choice = reader.text("camera");
+    if (const auto eye = read_vector(reader, "eye")) camera.eye_m = eye;
+    if (const auto target = read_vector(reader, "target")) camera.target_m = target;
+    if (const auto up = read_vector(reader, "up")) camera.up = up;
+    read_framing(reader, camera);
+    if (gltf::has_camera_keys(reader)) {
+        const std::array<int, 2> size = {whole.options.width, whole.options.height};
+        camera.loaded = gltf::read_camera(reader, tree, view.size_px.value_or(size));
+        camera.loaded->name = "view '" + view.name + "'";
+    } else if (const auto fov = number_in(reader, "fov", 0.01, 179.99)) {
+        camera.yfov_rad = *fov * degree;
+    }
+}
+
+View read_view(const JsonReader& reader,
+               const json& tree,
+               size_t index,
+               const RenderRequest& whole) {
+    check_keys(reader);
+    View view{reader.text("name", "view " + std::to_string(index)), whole.camera};
+    view.size_px = read_size(reader);
+    read_place(reader, tree, view, whole);
+    if (reader.has("variant")) view.variant = reader.text("variant");
+    view.time_s = number_in(reader, "time", 0, 1e6);
+    view.environment_rotation_deg = number_in(reader, "environment_rotation", -36000, 36000);
+    view.environment_intensity = number_in(reader, "environment_intensity", 0, 1e6);
+    json text = tree;
+    text.erase("name");
+    view.text = text.dump();
+    return view;
+}
+
+}  // namespace
+
+Result<void> load_views(RenderRequest& request, Log& log) {
+    if (!request.lists.views_file) return {};
+    const std::filesystem::path& file = *request.lists.views_file;
+    const FileBytes read = read_file_bytes(file, {largest_file, UINT64_MAX});
+    if (read.fault != FileFault::none) {
+        return fail(ExitCode::bad_resource,
+                    "E-VIEWS-MISSING",
+                    file.string(),
+                    "the file of views cannot be read: " + read.reason);
+    }
+    const std::string_view text(reinterpret_cast<const char*>(read.bytes.data()),
+                                read.bytes.size());
+    const Result<json> tree = parse_json_text(text, file.string(), log);
+    if (!tree) return fail(tree.error());
+    JsonFault fault;
+    fault.file = file.string();
+    const JsonReader reader(*tree, "", fault);
+    reader.require("views");
+    std::vector<View> views;
+    reader.each("views", [&](const JsonReader& one, size_t index) {
+        views.push_back(read_view(one, tree->at("views").at(index), index, request));
+    });
+    if (views.empty()) reader.fault("views", value_id, "expected one view at least");
+    if (fault.error) return fail(std::move(*fault.error));
+    std::vector<std::string> names;
+    for (const View& view : views)
+        names.push_back(view.name);
+    names = distinct_names(std::move(names));
+    for (size_t i = 0; i < views.size(); ++i)
+        views[i].name = names[i];
+    request.lists.views = std::move(views);
+    return {};
+}
+
+}  // namespace obscura
