@@ -3,6 +3,7 @@
 #include "app/distinct_files.h"
 
 #include "session/image_parts.h"
+#include "session/outputs.h"
 #include "session/segmentation.h"
 
 #include <map>
@@ -101,6 +102,11 @@ Result<void> check_distinct_files(const RenderRequest& request,
         return same(file, "this output would replace a file that is read; give another name");
     }
     return {};
+}
+
+Result<void> check_files(const RenderRequest& request, const std::vector<ListedImage>& images) {
+    if (auto apart = check_distinct_files(request, images); !apart) return apart;
+    return check_image_files(request, images);
 }
 
 }  // namespace obscura::app

@@ -15,4 +15,9 @@ bool same_file(const std::filesystem::path& a, const std::filesystem::path& b);
 Result<void> check_distinct_files(const RenderRequest& request,
                                   const std::vector<ListedImage>& images);
 
+/// The same, and that all can be written.
+///
+/// Errors  likewise, and those of check_image_files
+Result<void> check_files(const RenderRequest& request, const std::vector<ListedImage>& images);
+
 }  // namespace obscura::app

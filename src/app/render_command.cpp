@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/render_command.h"
 
+#include "app/distinct_files.h"
 #include "app/memory_option.h"
 #include "app/outcome.h"
 #include "app/progress.h"
@@ -117,6 +118,11 @@ Result<void> execute(const Order& order, Watch& watch, Log& log, size_t& skipped
     if (auto begins = check_address_space(address_space_left()); !begins) return begins;
     if (auto set = use_memory_limit(request.max_memory, memory_bound()); !set) return set;
     if (auto writable = check_outputs(request); !writable) return writable;
+    if (!request.lists.needs_asset()) {
+        const Result<ImageList> list = list_images(request, {});
+        if (!list) return fail(list.error());
+        if (auto fits = check_files(request, list->images); !fits) return fits;
+    }
     open_writers_ahead(request);
     warn_of_lost_alpha(request, log);
     Result<std::optional<DisplayTransform>> display = make_display(request, log);

@@ -83,10 +83,9 @@ private:
     Result<void> list() {
         if (auto listed = poses_.find_images(job_.log); !listed) return listed;
         const RenderRequest& request = poses_.whole();
-        if (request.lists.needs_asset() || request.lists.views_file) {
-            if (auto apart = check_distinct_files(request, images()); !apart) return apart;
+        if (request.lists.needs_asset()) {
+            if (auto fits = check_files(request, images()); !fits) return fits;
         }
-        if (auto fits = check_image_files(request, images()); !fits) return fits;
         if (!request.lists.manifest) return {};
         Result<Manifest> manifest = Manifest::create(*request.lists.manifest);
         if (!manifest) return fail(manifest.error());

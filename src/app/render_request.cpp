@@ -65,6 +65,15 @@ Result<void> complete_time(const RenderArguments& arguments, RenderRequest& requ
     return {};
 }
 
+/// A picture in place of a scene, whose own name the output would have.
+tl::unexpected<Error> no_scene(const std::filesystem::path& file) {
+    return fail(ExitCode::bad_data,
+                "E-GLB-FORMAT",
+                file.string(),
+                "by its name this is a picture, and no scene; accepted are .gltf and .glb files. "
+                "`obscura denoise` takes EXRs");
+}
+
 Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& request) {
     for (const std::string& output : arguments.outputs) {
         if (output != "-") {
@@ -80,6 +89,7 @@ Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& req
     }
     if (request.outputs.empty() && !request.standard_output && arguments.writes_images &&
         !arguments.check) {
+        if (output_format_of(request.scene)) return no_scene(request.scene);
         const std::string ending = (arguments.frames ? ".####" : "") + arguments.default_ending;
         request.outputs.push_back(arguments.list.is_asked()
                                       ? std::filesystem::path(listed_output(arguments))
@@ -210,13 +220,6 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     request.scene = arguments.scene_file;
     if (request.scene.empty()) {
         return conflict("SCENE", "the name is empty; expected a glTF file");
-    }
-    if (output_format_of(request.scene)) {
-        return fail(ExitCode::bad_data,
-                    "E-GLB-FORMAT",
-                    request.scene.string(),
-                    "by its name this is a picture, and no scene; accepted are .gltf and .glb "
-                    "files. `obscura denoise` takes EXRs");
     }
     if (auto chosen = choose_outputs(arguments, request); !chosen) return fail(chosen.error());
     Result<gltf::LoadOptions> load = choose_scene(arguments.scene, arguments.variant);

@@ -14,7 +14,7 @@
 namespace obscura {
 
 int compression_threads(size_t values) {
-    constexpr size_t large = 1 << 20;
+    constexpr size_t large = 1 << 17;  // below, waking threads takes longer than they save
     constexpr size_t max_threads = 16;
     if (values < large) return 0;
     const int threads = static_cast<int>(std::min(max_thread_index(), max_threads));

@@ -45,7 +45,7 @@ TEST(ImageFingerprint, OfAListIsThatOfTheViewAndTheVariant) {
                            {.name = "b", .camera = {}, .text = "{\"azimuth\":2}"}};
     const auto prints = [&] {
         std::vector<std::string> out;
-        const Result<ImageList> list = list_images(request, {.variants = {"red", "blue"}});
+        const Result<ImageList> list = list_images(request, {.variants = {"red", "blue"}, .cameras = {}});
         for (const ListedImage& image : list->images)
             out.push_back(image_fingerprint({{"--variants", "all"}}, facts, image.facts));
         return out;
