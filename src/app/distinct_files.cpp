@@ -48,6 +48,8 @@ std::vector<fs::path> files_written(const RenderRequest& request,
     for (const ListedImage& image : images) {
         const std::vector<fs::path> files = image_files(request, image);
         written.insert(written.end(), files.begin(), files.end());
+        if (request.long_run.has_checkpoint && !image.checkpoint.empty())
+            written.push_back(image.checkpoint);
         if (!image.segmentation) continue;
         const auto masks = segmentation_files(*image.segmentation);
         written.insert(written.end(), masks.begin(), masks.end());
@@ -56,7 +58,7 @@ std::vector<fs::path> files_written(const RenderRequest& request,
          {&request.statistics, &request.crypto_manifest, &request.lists.manifest}) {
         if (*file) written.push_back(**file);
     }
-    if (request.long_run.has_checkpoint && images.size() == 1)
+    if (request.long_run.has_checkpoint && request.long_run.checkpoint.empty())
         written.push_back(checkpoint_file(request));
     return written;
 }

@@ -35,19 +35,30 @@ bool has_times(const RenderRequest& request) {
 
 }  // namespace
 
+double ListedPoses::first_time_s() const {
+    if (!whole_.frames) return whole_.load.time_s.value_or(0);
+    return whole_.frames->time_s(whole_.frames->numbers.front());
+}
+
 Result<void> ListedPoses::load_once() {
     if (job_.renderer) return {};
+    Result<void> loaded = load(job_.log);
+    if (!loaded) job_.renderer.reset();
+    return loaded;
+}
+
+Result<void> ListedPoses::load(Log& log) {
     const Stopwatch loading;
     Result<AssetRenderer> renderer =
-        AssetRenderer::open(whole_.scene, whole_.load, has_times(whole_), job_.log);
+        AssetRenderer::open(whole_.scene, whole_.load, has_times(whole_), log);
     if (!renderer) return fail(renderer.error());
     job_.renderer = std::move(*renderer);
     if (auto found = job_.renderer->find_framed_nodes(whole_.camera); !found) return found;
     job_.request.camera.framed_nodes = whole_.camera.framed_nodes;
-    const auto variants = listed_variants(whole_, job_.renderer->info().variants);
+    const auto variants = variants_to_plan(whole_, job_.renderer->info().variants);
     if (!variants) return fail(variants.error());
     if (auto planned = job_.renderer->plan_variants(*variants); !planned) return planned;
-    Result<LightingOptions> lighting = load_lighting(whole_, job_.log);
+    Result<LightingOptions> lighting = load_lighting(whole_, log);
     if (!lighting) return fail(lighting.error());
     job_.lighting = std::move(*lighting);
     if (auto there = check_writers(whole_); !there) return there;
@@ -62,11 +73,10 @@ Result<void> ListedPoses::find_images(Log& log) {
         offer.variants = job_.renderer->info().variants;
     }
     if (whole_.lists.cameras) {
-        const int first = whole_.frames ? whole_.frames->numbers.front() : 0;
-        const double time_s =
-            whole_.frames ? whole_.frames->time_s(first) : whole_.load.time_s.value_or(0);
         const auto variants = listed_variants(whole_, offer.variants);
-        if (auto posed = pose_as({time_s, variants->front()}, false, log); !posed) return posed;
+        if (!variants) return fail(variants.error());
+        const Pose first = {first_time_s(), variants->front()};
+        if (auto posed = pose_as(first, false, log); !posed) return posed;
         for (const SceneCamera& camera : job_.renderer->scene().cameras)
             offer.cameras.push_back(camera.name);
     }
@@ -80,6 +90,10 @@ void ListedPoses::begin_image(size_t index) {
     const ListedImage& image = list_.images[index];
     job_.request = request_of(whole_, list_.views[image.view], image);
     job_.image_facts = image.facts;
+    const auto kept = kept_.find(image.variant);
+    if (kept == kept_.end()) return;
+    job_.request.camera.framed = kept->second[image.view].bounds;
+    job_.request.camera.kept = kept->second[image.view].framing;
 }
 
 ListedPoses::Pose ListedPoses::pose_of(size_t index) const {
@@ -97,30 +111,29 @@ Result<void> ListedPoses::pose_as(const Pose& pose, bool is_last, Log& log) {
 }
 
 /// The framing of the first frame, in every view.
-void ListedPoses::keep_views() {
+void ListedPoses::keep_views(const std::string& variant) {
     const Scene& scene = job_.renderer->scene();
-    for (View& view : list_.views) {
+    std::vector<KeptView>& kept = kept_[variant];
+    for (const View& view : list_.views) {
         RenderRequest request = request_of(whole_, view, list_.images.front());
-        const RenderOptions& options = request.options;
-        view.camera.framed = scene.bounds;
         request.camera.framed = scene.bounds;
-        view.camera.kept = automatic_framing(
-            scene, request.camera, static_cast<double>(options.width) / options.height);
+        const double aspect = static_cast<double>(request.options.width) / request.options.height;
+        kept.push_back({scene.bounds, automatic_framing(scene, request.camera, aspect)});
     }
-    has_views_ = true;
 }
 
 Result<void> ListedPoses::pose(size_t index, bool is_last, Log& log) {
+    const Pose wanted = pose_of(index);
     // All keep the view of the first frame, whoever renders it.
-    if (is_sequence() && !has_views_) {
-        const bool is_first = pose_of(index) == pose_of(0);
-        if (auto posed = pose_as(pose_of(0), is_last && is_first, is_first ? log : job_.log);
-            !posed)
+    if (is_sequence() && !kept_.contains(wanted.second)) {
+        const Pose first = {first_time_s(), wanted.second};
+        const bool is_first = wanted == first;
+        if (auto posed = pose_as(first, is_last && is_first, is_first ? log : job_.log); !posed)
             return posed;
-        keep_views();
+        keep_views(wanted.second);
         begin_image(index);
     }
-    if (auto posed = pose_as(pose_of(index), is_last, log); !posed) return posed;
+    if (auto posed = pose_as(wanted, is_last, log); !posed) return posed;
     if (!job_.request.segmentation) return {};
     return check_segmentation(job_.renderer->scene());
 }

@@ -4,9 +4,11 @@
 
 #include "app/render_job.h"
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace obscura::app {
 
@@ -25,7 +27,8 @@ public:
     /// Errors  those of load_once and list_images
     Result<void> find_images(Log& log);
 
-    /// Reads the asset and the environment, once for all images.
+    /// Reads the asset and the environment, once for all images. After an error there is no
+    /// Job::renderer.
     ///
     /// Errors  those of loading, of the environment too; 69 E-OIIO
     Result<void> load_once();
@@ -47,20 +50,27 @@ public:
 
 private:
     using Pose = std::pair<double, std::string>;  ///< time and variant
+    /// What each view keeps of a sequence's first frame.
+    struct KeptView {
+        Bounds bounds;
+        Framing framing;
+    };
     /// How the environment is turned, and how bright it is.
     using Light = std::pair<double, double>;
 
     bool is_sequence() const { return whole_.frames && whole_.frames->numbers.size() > 1; }
+    double first_time_s() const;
     Pose pose_of(size_t index) const;
+    Result<void> load(Log& log);
     Result<void> pose_as(const Pose& pose, bool is_last, Log& log);
-    void keep_views();
+    void keep_views(const std::string& variant);
 
     Job& job_;
     RenderRequest whole_;
     ImageList list_;
     std::optional<Pose> posed_;
     std::optional<Light> lit_;  ///< nothing: the pose has not been prepared
-    bool has_views_ = false;    ///< those of the first frame are kept
+    std::map<std::string, std::vector<KeptView>> kept_;  ///< of a sequence, by variant
 };
 
 }  // namespace obscura::app

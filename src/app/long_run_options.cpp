@@ -88,7 +88,8 @@ Result<void> complete_long_run(RenderRequest& request) {
                         "with -o - there is no output to put it beside; give --checkpoint=FILE");
     }
     const bool is_one = !request.frames && !request.lists.is_asked();
-    const bool has_number = !request.lists.is_asked() && frame_file(run.checkpoint, 0);
+    const bool is_numbered = !request.lists.is_asked() || request.lists.turntable > 0;
+    const bool has_number = is_numbered && frame_file(run.checkpoint, 0);
     if (is_one || run.checkpoint.empty() || has_number || has_fields(run.checkpoint)) return {};
     return conflict("--checkpoint",
                     "every image has one of its own: FILE must hold # or {frame} for a sequence's "

@@ -17,7 +17,9 @@
 #include "bench/machine.h"
 #include "image/process_settings.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -80,10 +82,14 @@ std::vector<const char*> full_words(int argc, char** argv, Arguments& arguments)
     std::vector<const char*> words(argv, argv + argc);
     if (argc < 2) return words;
     const std::string first = argv[1];
+    std::string ending = std::filesystem::path(first).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+        return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    });
     if (first == "help") {
         words.erase(words.begin() + 1);
         words.push_back("--help");
-    } else if (!first.starts_with('-') && (first.ends_with(".glb") || first.ends_with(".gltf"))) {
+    } else if (!first.starts_with('-') && (ending == ".glb" || ending == ".gltf")) {
         words.insert(words.begin() + 1, "render");
         arguments.render.default_ending = ".png";
     }

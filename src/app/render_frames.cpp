@@ -87,7 +87,8 @@ private:
             if (auto fits = check_files(request, images()); !fits) return fits;
         }
         if (!request.lists.manifest) return {};
-        Result<Manifest> manifest = Manifest::create(*request.lists.manifest);
+        const bool is_shared = request.part || request.long_run.skips_existing;
+        Result<Manifest> manifest = Manifest::open(*request.lists.manifest, !is_shared);
         if (!manifest) return fail(manifest.error());
         manifest_.emplace(std::move(*manifest));
         return {};
@@ -205,6 +206,8 @@ Result<void> check_all(Job& job) {
     ListedPoses poses(job);
     if (const Result<void> loaded = poses.load_once(); !loaded) return loaded;
     if (auto listed = poses.find_images(job.log); !listed) return listed;
+    auto apart = check_distinct_files(job.request, poses.list().images);
+    if (!apart) return apart;
     RepeatedLog later(job.log, SettingNames::options);
     const size_t count = poses.list().images.size();
     for (size_t i = 0; i < count; ++i) {
@@ -214,7 +217,7 @@ Result<void> check_all(Job& job) {
         const Result<ChosenCamera> chosen =
             choose_unfocused_camera(job.renderer->scene(), job.request, log);
         if (!chosen) return fail(chosen.error());
-        const Result<void> exposed = expose_display(*chosen, job.request, job.display, log);
+        const Result<void> exposed = expose(job, *chosen, log);
         if (!exposed) return exposed;
     }
     if (!has_isa(job.request.isa)) return fail(missing_isa());

@@ -296,10 +296,20 @@ Result<void> make(Making& making) {
 
 }  // namespace
 
+Result<void> expose(Job& job, const ChosenCamera& camera, Log& log) {
+    if (job.is_exposed) {  // by the camera of another image
+        Result<std::optional<DisplayTransform>> plain = make_display(job.request, log);
+        if (!plain) return fail(plain.error());
+        job.display = std::move(*plain);
+    }
+    job.is_exposed = camera.ev100.has_value();
+    return expose_display(camera, job.request, job.display, log);
+}
+
 Result<void> make_image(
     Job& job, const ChosenCamera& camera, const Turn& turn, Log& log, Progress& progress) {
     const RenderRequest& request = job.request;
-    if (auto exposed = expose_display(camera, request, job.display, log); !exposed) return exposed;
+    if (auto exposed = expose(job, camera, log); !exposed) return exposed;
     if (!job.has_begun) progress.begin();
     job.has_begun = true;
     const LongRun& run = request.long_run;

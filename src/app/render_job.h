@@ -20,6 +20,7 @@ struct Job {
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     Watch& watch;
     std::optional<DisplayTransform> display = {};
+    bool is_exposed = false;  ///< the display, by a camera's own exposure
     std::optional<AssetRenderer> renderer = {};
     LightingOptions lighting = {};
     NamedTexts facts = {};        ///< that pixels depend on; files are read for them before loading
@@ -35,6 +36,11 @@ struct Turn {
     bool is_first;  ///< of the sequence
     bool is_last;   ///< none follows
 };
+
+/// Makes the display that of an image: a camera may bring an exposure of its own.
+///
+/// Errors  78 E-OCIO-*
+Result<void> expose(Job& job, const ChosenCamera& camera, Log& log);
 
 /// Renders the posed and prepared image, or takes its pixels from parts, and writes its files; with
 /// --part the part's file. Keeps a checkpoint and writes snapshots meanwhile, if asked to.

@@ -53,7 +53,6 @@ bool mark_fitting(const std::string& pattern, const Document& document, std::vec
 
 void hide(GltfPrimitive& primitive) {
     primitive.mode = hidden_mode;
-    primitive.is_splats = false;
 }
 
 /// Hides the primitives of meshes whose names fit; false when there is none.

@@ -5,6 +5,7 @@
 #include "image/oiio.h"
 #include "image/output_format.h"
 
+#include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
 

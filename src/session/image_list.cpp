@@ -140,14 +140,46 @@ std::vector<std::pair<std::string, std::string>> facts_of_image(const RenderRequ
     return facts;
 }
 
+/// Views and variants as parts of files' names, all different.
+class ListNames {
+public:
+    ListNames(const RenderRequest& request,
+              const std::vector<View>& views,
+              const std::vector<std::string>& variants)
+        : asset_(request.scene.stem().string()) {
+        for (const View& view : views)
+            views_.push_back(name_part(view.name));
+        // The steps of a turntable have numbers.
+        if (request.lists.turntable == 0) views_ = distinct_names(std::move(views_));
+        std::vector<std::string> parts;
+        for (const std::string& variant : variants)
+            parts.push_back(name_part(variant));
+        parts = distinct_names(std::move(parts));
+        for (size_t i = 0; i < variants.size(); ++i)
+            variants_.emplace(variants[i], parts[i]);
+    }
+
+    NameFields of(const ListedImage& image) const {
+        const auto variant = variants_.find(image.variant);
+        return {asset_,
+                variant != variants_.end() ? variant->second
+                : image.variant.empty()    ? "default"
+                                           : image.variant,
+                views_[image.view],
+                image.number.value_or(1)};
+    }
+
+private:
+    std::string asset_;
+    std::vector<std::string> views_;
+    std::map<std::string, std::string> variants_;
+};
+
 ListedImage listed_image(const RenderRequest& request,
                          ListedImage image,
                          const View& view,
-                         const std::string& name) {
-    const NameFields fields{request.scene.stem().string(),
-                            image.variant.empty() ? "default" : image.variant,
-                            name,
-                            image.number.value_or(1)};
+                         const ListNames& names) {
+    const NameFields fields = names.of(image);
     for (const std::filesystem::path& pattern : request.outputs)
         image.outputs.push_back(file_of(pattern, fields, image.number));
     if (request.segmentation)
@@ -184,8 +216,19 @@ Result<std::vector<std::string>> listed_variants(const RenderRequest& request,
             return unknown_name("E-VARIANT-UNKNOWN", "variants", *unknown, offered, "variants");
     }
     if (out.empty()) add(request.load.variant);
+    return out;
+}
+
+Result<std::vector<std::string>> variants_to_plan(const RenderRequest& request,
+                                                  const std::vector<std::string>& offered) {
+    Result<std::vector<std::string>> out = listed_variants(request, offered);
+    if (!out) return out;
+    const auto has = [](const std::vector<std::string>& names, const std::string& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
     for (const View& view : request.lists.views) {
-        if (view.variant) add(*view.variant);
+        if (view.variant && has(offered, *view.variant) && !has(*out, *view.variant))
+            out->push_back(*view.variant);
     }
     return out;
 }
@@ -197,17 +240,18 @@ Result<ImageList> list_images(const RenderRequest& request, const AssetOffer& of
     out.views = std::move(*views);
     Result<std::vector<std::string>> variants = listed_variants(request, offer.variants);
     if (!variants) return fail(variants.error());
-    if (!request.lists.variants) variants->resize(1);  // the rest are those of single views
+    const ListNames names(request, out.views, offer.variants);
     for (const ListedTime& time : listed_times(request)) {
         for (const std::string& variant : *variants) {
             for (size_t i = 0; i < out.views.size(); ++i) {
                 const View& view = out.views[i];
+                if (view.variant && variant != variants->front()) continue;  // it has its own
                 ListedImage image{.number = time.number,
                                   .time_s = view.time_s.value_or(time.time_s),
                                   .view = i,
                                   .variant = view.variant.value_or(variant)};
                 if (request.lists.turntable > 0) image.number = static_cast<int>(i) + 1;
-                out.images.push_back(listed_image(request, std::move(image), view, view.name));
+                out.images.push_back(listed_image(request, std::move(image), view, names));
             }
         }
     }
@@ -227,8 +271,10 @@ RenderRequest request_of(const RenderRequest& whole, const View& view, const Lis
         out.options.width = (*view.size_px)[0];
         out.options.height = (*view.size_px)[1];
     }
-    if (view.environment_rotation_deg)
+    if (view.environment_rotation_deg) {
         out.environment_rotation_deg = *view.environment_rotation_deg;
+        out.environment_follows_camera = false;
+    }
     if (view.environment_intensity) out.environment_intensity = *view.environment_intensity;
     return out;
 }

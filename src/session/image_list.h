@@ -68,11 +68,17 @@ struct AssetOffer {
     std::vector<std::string> variants, cameras;
 };
 
-/// The variants to show, by their names; "" alone: the file's own materials.
+/// The variants of views that name none, by their names; "" alone: the file's own materials.
 ///
 /// Errors  64 E-VARIANT-UNKNOWN a pattern of --variants fits none
 Result<std::vector<std::string>> listed_variants(const RenderRequest& request,
                                                  const std::vector<std::string>& offered);
+
+/// These and those of single views, as far as the asset has them.
+///
+/// Errors  as listed_variants
+Result<std::vector<std::string>> variants_to_plan(const RenderRequest& request,
+                                                  const std::vector<std::string>& offered);
 
 /// Lists the images of a request.
 ///

@@ -7,10 +7,12 @@
 #include "render/counts.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
 #include <span>
+#include <string_view>
 #include <system_error>
 
 namespace obscura {
@@ -68,10 +70,17 @@ std::string differing(const NamedTexts& a, const NamedTexts& b) {
 }
 
 /// A list without the names of outputs, which no pixel depends on.
+/// Files, and lists of images: what an image shows is among its facts.
+bool is_left_out(const std::string& option) {
+    constexpr std::array<std::string_view, 5> all = {
+        "--output", "--views", "--cameras", "--variants", "--turntable"};
+    return std::find(all.begin(), all.end(), option) != all.end();
+}
+
 NamedTexts without_outputs(const NamedTexts& options) {
     NamedTexts out;
     for (const auto& option : options) {
-        if (option.first != "--output") out.push_back(option);
+        if (!is_left_out(option.first)) out.push_back(option);
     }
     return out;
 }

@@ -3,6 +3,7 @@
 #include "session/manifest.h"
 
 #include "base/json/json.h"
+#include "base/setting_names.h"
 #include "base/sha256.h"
 #include "session/segmentation.h"
 
@@ -99,7 +100,10 @@ std::string manifest_line(const RenderRequest& request, const ImageOutcome& outc
     line["warnings"] = outcome.warnings;
     line["exit_code"] = outcome.error ? static_cast<int>(outcome.error->code) : 0;
     line["id"] = outcome.error ? outcome.error->id : "OK";
-    if (outcome.error) line["message"] = outcome.error->where + ": " + outcome.error->message;
+    if (outcome.error) {
+        line["message"] = spell_settings(outcome.error->where + ": " + outcome.error->message,
+                                         SettingNames::options);
+    }
     return escape_json_controls(line.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -113,9 +117,10 @@ Manifest::~Manifest() {
     if (descriptor_ >= 0) ::close(descriptor_);
 }
 
-Result<Manifest> Manifest::create(const std::filesystem::path& file) {
+Result<Manifest> Manifest::open(const std::filesystem::path& file, bool anew) {
     constexpr int mode = 0666;
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
+    const int flags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (anew ? O_TRUNC : 0);
+    const int descriptor = ::open(file.c_str(), flags, mode);
     if (descriptor < 0) return cannot_write(file);
     return Manifest(file, descriptor);
 }

@@ -33,10 +33,10 @@ std::string manifest_line(const RenderRequest& request, const ImageOutcome& outc
 /// The file of --manifest: lines are there as soon as they are added.
 class Manifest {
 public:
-    /// Begins the file anew.
-    ///
+    /// In      anew: what is there is dropped; else lines are added to it, also while other
+    ///         processes add theirs
     /// Errors  74 E-OUT-WRITE
-    static Result<Manifest> create(const std::filesystem::path& file);
+    static Result<Manifest> open(const std::filesystem::path& file, bool anew);
 
     /// Errors  74 E-OUT-WRITE
     Result<void> add(const std::string& line);

@@ -172,6 +172,7 @@ void make_folders(const RenderRequest& request, const ListedImage& image) {
     for (size_t i = 0; i < image.outputs.size(); ++i)
         make(request.outputs[i], image.outputs[i]);
     if (image.segmentation) make(*request.segmentation, *image.segmentation);
+    make(request.long_run.checkpoint, image.checkpoint);
 }
 
 Result<void> check_files_of(const RenderRequest& request, const ListedImage& image) {
@@ -215,6 +216,8 @@ Result<void> check_image_files(const RenderRequest& request,
             is_new = seen.insert(output.parent_path()).second || is_new;
         if (image.segmentation)
             is_new = seen.insert(image.segmentation->parent_path()).second || is_new;
+        if (request.long_run.has_checkpoint)
+            is_new = seen.insert(image.checkpoint.parent_path()).second || is_new;
         if (!is_new) continue;
         make_folders(request, image);
         if (auto writable = check_files_of(request, image); !writable) return writable;

@@ -6,7 +6,6 @@
 #include "base/json/json_read.h"
 #include "base/json/json_text.h"
 #include "gltf/camera_json.h"
-#include "session/image_names.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +21,7 @@ using nlohmann::json;
 constexpr const char* value_id = "E-VIEWS-VALUE";
 constexpr uint64_t largest_file = 256U << 20;
 constexpr double degree = pi_d / 180;
-constexpr int max_side_px = 65536;
+constexpr uint64_t max_side_px = 65536;
 
 constexpr std::array<std::string_view, 28> known_keys = {"name",
                                                          "camera",
@@ -89,9 +88,16 @@ std::optional<std::array<int, 2>> read_size(const JsonReader& reader) {
     if (!reader.has("width") && !reader.has("height")) return {};
     reader.require("width");
     reader.require("height");
-    const auto width = number_in(reader, "width", 1, max_side_px);
-    const auto height = number_in(reader, "height", 1, max_side_px);
-    return std::array{static_cast<int>(width.value_or(1)), static_cast<int>(height.value_or(1))};
+    std::array<int, 2> out = {1, 1};
+    for (const auto& [key, side] : {std::pair{"width", &out[0]}, std::pair{"height", &out[1]}}) {
+        const uint64_t pixels = reader.size(key, 1);
+        if (pixels >= 1 && pixels <= max_side_px) {
+            *side = static_cast<int>(pixels);
+        } else {
+            reader.fault(key, value_id, "expected a whole number from 1 to 65536");
+        }
+    }
+    return out;
 }
 
 /// How many of the ways to place a camera a view uses: it may be one.
@@ -175,6 +181,22 @@ View read_view(const JsonReader& reader,
     return view;
 }
 
+/// Animations play for all views or for none, and a sequence has times of its own.
+void check_times(const JsonReader& reader,
+                 const std::vector<View>& views,
+                 const RenderRequest& whole) {
+    const auto has_time = [](const View& view) { return view.time_s.has_value(); };
+    if (std::none_of(views.begin(), views.end(), has_time)) return;
+    if (whole.frames) {
+        reader.fault("views", value_id, "with --frames the frames tell the time; leave it out");
+    } else if (!whole.load.time_s && !std::all_of(views.begin(), views.end(), has_time)) {
+        reader.fault("views",
+                     value_id,
+                     "some views have a time and some have none; give all one, or --time for the "
+                     "others");
+    }
+}
+
 }  // namespace
 
 Result<void> load_views(RenderRequest& request, Log& log) {
@@ -200,13 +222,8 @@ Result<void> load_views(RenderRequest& request, Log& log) {
         views.push_back(read_view(one, tree->at("views").at(index), index, request));
     });
     if (views.empty()) reader.fault("views", value_id, "expected one view at least");
+    check_times(reader, views, request);
     if (fault.error) return fail(std::move(*fault.error));
-    std::vector<std::string> names;
-    for (const View& view : views)
-        names.push_back(view.name);
-    names = distinct_names(std::move(names));
-    for (size_t i = 0; i < views.size(); ++i)
-        views[i].name = names[i];
     request.lists.views = std::move(views);
     return {};
 }

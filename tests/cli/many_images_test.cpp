@@ -175,12 +175,67 @@ TEST_F(ManyImages, OneFailureDoesNotEndTheRest) {
     EXPECT_EQ(told[3].at("files")[0].at("sha256").get<std::string>().size(), 64U);
 }
 
+TEST_F(ManyImages, WhatAllNeedEndsTheCommand) {
+    folder_.write("views.json", R"({"views": [{"name": "a"}, {"name": "b"}]})");
+    folder_.write("bad.hdr", "#?RADIANCE\nbroken");
+    const Texts all = {"--views", "views.json", "-o", "{view}.exr"};
+    expect_result(render("box.gltf", joined(all, {"--env", "bad.hdr"})), 67, "E-ENV-CORRUPT");
+    expect_result(render("box.gltf", joined(all, {"--focus-node", "no"})), 64, "E-NODE-UNKNOWN");
+    EXPECT_FALSE(fs::exists(folder_ / "a.exr") || fs::exists(folder_ / "b.exr"));
+}
+
+TEST_F(ManyImages, ViewsMayHaveVariantsOfTheirOwn) {
+    folder_.write("views.json", R"({"views": [{"name": "no", "variant": "Green"}, {"name": "a"},
+        {"name": "blue", "variant": "Blue/1"}]})");
+    const Texts views = {"--views", "views.json"};
+    const ProgramRun got =
+        render("quad.gltf", joined(views, {"-o", "{view}.exr", "--manifest", "m.jsonl"}));
+    expect_result(got, 64, "E-VARIANT-UNKNOWN");
+    EXPECT_THAT(got.err, HasSubstr("1 of 3 images failed"));
+    EXPECT_EQ(text("m.jsonl").find('\x1f'), std::string::npos);
+    for (const json& line : lines("m.jsonl")) {
+        if (line.at("view") != "no") continue;
+        EXPECT_THAT(line.at("message").get<std::string>(), HasSubstr("--variant: "));
+    }
+    const Texts both = {"--variants", "Red,Blue*", "-o", "{view}.{variant}.exr"};
+    expect_result(render("quad.gltf", joined(views, both)), 64, "E-VARIANT-UNKNOWN");
+    expect_same("a.Blue_1.exr", "blue.Blue_1.exr");
+    expect_same("blue.exr", "blue.Blue_1.exr");
+    EXPECT_TRUE(fs::exists(folder_ / "a.Red.exr"));
+    EXPECT_FALSE(fs::exists(folder_ / "blue.Red.exr"));
+}
+
+TEST_F(ManyImages, ACamerasExposureIsItsOwn) {
+    json scene = json::parse(gltf_text(box_scene()));
+    scene["extensionsUsed"].push_back("OBSCURA_camera");
+    scene["cameras"][0]["extensions"]["OBSCURA_camera"]["exposure"]["ev100"] = 4;
+    folder_.write("dim.gltf", scene.dump());
+    expect_result(render("dim.gltf", {"--cameras", "Front,Top", "-o", "{view}.png"}), 0, "OK");
+    for (const char* name : {"Front", "Top"}) {
+        expect_result(render("dim.gltf", {"--camera", name, "-o", "one.png"}), 0, "OK");
+        expect_same(std::string(name) + ".png", "one.png");
+    }
+}
+
+TEST_F(ManyImages, NamesThatBecomeEqualGetNumbers) {
+    json scene = json::parse(gltf_text(box_scene()));
+    scene["cameras"][0]["name"] = "a/b";
+    scene["cameras"][1]["name"] = "a:b";
+    for (json& node : scene["nodes"]) {
+        if (node.contains("camera")) node.erase("name");
+    }
+    folder_.write("names.gltf", scene.dump());
+    expect_result(render("names.gltf", {"--cameras", "a*", "-o", "{view}.exr"}), 0, "OK");
+    EXPECT_TRUE(fs::exists(folder_ / "a_b.exr") && fs::exists(folder_ / "a_b-2.exr"));
+}
+
 TEST_F(ManyImages, AreSkippedDividedAndKeptByTheirViews) {
     const Texts turn = {"--turntable", "3", "--variants", "all", "-o", "{variant}.##.exr"};
     expect_result(render("quad.gltf", joined(turn, {"--part", "1/2"})), 0, "OK");
     EXPECT_EQ(fs::exists(folder_ / "Red.01.exr"), true);
     EXPECT_EQ(fs::exists(folder_ / "Red.02.exr"), false);
     const Texts rest = {"--skip-existing", "--manifest", "m.jsonl"};
+    folder_.write("m.jsonl", "");
     const ProgramRun got = render("quad.gltf", joined(turn, rest));
     expect_result(got, 0, "OK");
     EXPECT_EQ(result_of(got)->skipped, 3);
@@ -217,6 +272,8 @@ TEST_F(ManyImages, MistakesAreRefused) {
     expect_result(views("[]"), 65, "E-VIEWS-VALUE");
     expect_result(views(R"([{"azimuth": "left"}])"), 65, "E-JSON-TYPE");
     expect_result(views(R"([{"azimut": 3}])"), 65, "E-VIEWS-KEY");
+    expect_result(views(R"([{"time": 1}, {"azimuth": 3}])"), 65, "E-VIEWS-VALUE");
+    expect_result(views(R"([{"width": 20.5, "height": 3}])"), 65, "E-JSON-TYPE");
     expect_result(views(R"([{"elevation": 91}])"), 65, "E-VIEWS-VALUE");
     expect_result(views(R"([{"azimuth": 3, "eye": [1, 2, 3]}])"), 65, "E-VIEWS-VALUE");
     expect_result(views(R"([{"R": [1, 0, 0, 0, 1, 0, 0, 0, 1]}])"), 65, "E-DOC-MISSING");

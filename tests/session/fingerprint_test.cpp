@@ -45,7 +45,8 @@ TEST(ImageFingerprint, OfAListIsThatOfTheViewAndTheVariant) {
                            {.name = "b", .camera = {}, .text = "{\"azimuth\":2}"}};
     const auto prints = [&] {
         std::vector<std::string> out;
-        const Result<ImageList> list = list_images(request, {.variants = {"red", "blue"}, .cameras = {}});
+        const AssetOffer offer{.variants = {"red", "blue"}, .cameras = {}};
+        const Result<ImageList> list = list_images(request, offer);
         for (const ListedImage& image : list->images)
             out.push_back(image_fingerprint({{"--variants", "all"}}, facts, image.facts));
         return out;

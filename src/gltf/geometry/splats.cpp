@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "gltf/geometry/farthest_position.h"
 #include "gltf/geometry/particles.h"
+#include "gltf/geometry/primitive_modes.h"
 #include "gltf/geometry/splat_primitive.h"
 #include "gltf/parse/list_text.h"
 #include "gltf/parse/trs.h"
@@ -31,7 +32,8 @@ std::map<std::pair<int, int>, PlacedNodes> find_placed_nodes(const MeshSources& 
         if (mesh < 0 || !placed_node.visible) continue;
         const auto& primitives = sources.document.meshes[static_cast<size_t>(mesh)].primitives;
         for (size_t i = 0; i < primitives.size(); ++i) {
-            if (primitives[i].is_splats) out[{mesh, static_cast<int>(i)}].push_back(&placed_node);
+            if (!primitives[i].is_splats || primitives[i].mode == hidden_mode) continue;
+            out[{mesh, static_cast<int>(i)}].push_back(&placed_node);
         }
     }
     return out;
