@@ -105,13 +105,8 @@ tl::unexpected<Error> worded(const CLI::App& app,
                      "there is no such option" +
                          (near.empty() ? near : " (did you mean " + near + "?)") + hint);
     }
-    const bool is_number = first.find_first_not_of("0123456789.+-eE") == std::string::npos;
     return usage("command-line",
-                 in_quotes(first) + " is one argument too many" +
-                     (is_number ? "; an option's numbers have commas between them, as in --eye "
-                                  "1,2,3"
-                                : "") +
-                     hint);
+                 in_quotes(first) + " is one argument too many" + commas_hint(first) + hint);
 }
 
 /// A file's items, read by CLI11 as INI and TOML. Comments are removed before, because CLI11 would
@@ -150,6 +145,11 @@ std::optional<std::string> printed_text(const Program& program) {
 }
 
 }  // namespace
+
+std::string commas_hint(const std::string& word) {
+    const bool is_number = word.find_first_not_of("0123456789.+-eE") == std::string::npos;
+    return is_number ? "; an option's numbers have commas between them, as in --eye 1,2,3" : "";
+}
 
 std::string nearest_option(const Command& command, const std::string& typed) {
     std::string best;

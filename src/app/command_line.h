@@ -20,6 +20,9 @@ struct CommandLine {
 /// Errors  64 E-USAGE, and those of apply_config
 Result<CommandLine> parse_command_line(const Program& program, int argc, const char* const* argv);
 
+/// What to say of a word that is one too many and looks like a number; "" of others.
+std::string commas_hint(const std::string& word);
+
 /// The option whose name is closest to the typed one; "": none is close.
 std::string nearest_option(const Command& command, const std::string& typed);
 

@@ -2,10 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/list_options.h"
 
+#include "app/command_line.h"
 #include "app/option_readers.h"
 #include "app/render_options.h"
 #include "app/render_request.h"
 #include "session/image_names.h"
+
+#include <filesystem>
+#include <system_error>
 
 namespace obscura::app {
 
@@ -45,6 +49,11 @@ constexpr Entry entries[] = {
      text_at<&A::list, &G::manifest>, name_at<&R::lists, &K::manifest>}};
 // clang-format on
 
+std::string asset_name(const RenderArguments& arguments) {
+    if (!arguments.asset.empty()) return arguments.asset;
+    return std::filesystem::path(arguments.scene_file).stem().string();
+}
+
 bool is_given(const ProductArguments& product) {
     return product.roll || product.zoom || product.elevation || product.azimuth;
 }
@@ -70,8 +79,59 @@ bool tells_images_apart(const std::filesystem::path& pattern, bool has_numbers) 
 
 }  // namespace
 
+Result<std::vector<RenderArguments>> arguments_of_scenes(const RenderArguments& arguments) {
+    for (const std::string& word : arguments.more_scenes) {
+        const std::string hint = commas_hint(word);
+        std::error_code error;
+        if (hint.empty() || std::filesystem::exists(word, error)) continue;
+        return fail(ExitCode::usage,
+                    "E-USAGE",
+                    "command-line",
+                    in_quotes(word) + " is one argument too many" + hint);
+    }
+    std::vector<std::string> files = {arguments.scene_file};
+    files.insert(files.end(), arguments.more_scenes.begin(), arguments.more_scenes.end());
+    std::vector<std::string> names;
+    for (const std::string& file : files)
+        names.push_back(name_part(std::filesystem::path(file).stem().string()));
+    names = distinct_names(std::move(names));
+    std::vector<RenderArguments> out;
+    for (size_t i = 0; i < files.size(); ++i) {
+        RenderArguments& one = out.emplace_back(arguments);
+        one.more_scenes.clear();
+        one.scene_file = files[i];
+        if (files.size() == 1) break;
+        one.asset = names[i];
+        one.is_further_scene = i > 0;
+    }
+    return out;
+}
+
+Result<void> check_scenes(const std::vector<RenderRequest>& requests) {
+    if (requests.size() == 1) return {};
+    const RenderRequest& first = requests.front();
+    const auto conflict_of = [](const char* option) {
+        return conflict(option, "it is of one scene; leave it out, or render scenes one by one");
+    };
+    if (first.standard_output) return conflict_of("--output");
+    if (first.statistics) return conflict_of("--stats");
+    if (first.crypto_manifest) return conflict_of("--crypto-manifest");
+    std::vector<std::filesystem::path> patterns = first.outputs;
+    if (first.segmentation) patterns.push_back(*first.segmentation);
+    if (first.long_run.has_checkpoint && !first.long_run.checkpoint.empty())
+        patterns.push_back(first.long_run.checkpoint);
+    for (const std::filesystem::path& pattern : patterns) {
+        // Without -o the name was made of the scene's.
+        if (has_field(pattern, "asset") || requests[1].outputs != first.outputs) continue;
+        return conflict(pattern.string(),
+                        "with several scenes a file's name must tell them apart; expected {asset} "
+                        "in it, such as out/{asset}.png");
+    }
+    return {};
+}
+
 std::string listed_output(const RenderArguments& arguments) {
-    std::string out = std::filesystem::path(arguments.scene_file).stem().string();
+    std::string out = asset_name(arguments);
     if (arguments.list.variants || arguments.list.views) out += ".{variant}";
     if (arguments.list.cameras || arguments.list.views) out += ".{view}";
     if (arguments.list.turntable || arguments.frames) out += ".{frame:04}";
@@ -79,6 +139,8 @@ std::string listed_output(const RenderArguments& arguments) {
 }
 
 Result<void> complete_list(const RenderArguments& arguments, RenderRequest& request) {
+    request.lists.asset = arguments.asset;
+    request.lists.adds_to_manifest = arguments.is_further_scene;
     if (request.lists.manifest && request.standard_output) {
         return conflict("--manifest", "it is of files; give -o a file's name in place of -");
     }

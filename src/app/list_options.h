@@ -4,6 +4,9 @@
 
 #include "app/option_entry.h"
 
+#include <string>
+#include <vector>
+
 namespace obscura {
 struct RenderRequest;
 }  // namespace obscura
@@ -18,6 +21,17 @@ struct ListArguments {
 
     bool is_asked() const { return views || cameras || variants || turntable; }
 };
+
+/// The arguments of each scene of a command, which may have several.
+///
+/// Errors  64 E-USAGE a number in place of a scene
+Result<std::vector<RenderArguments>> arguments_of_scenes(const RenderArguments& arguments);
+
+/// Whether the options fit, where a command has several scenes: their files need names that tell
+/// scenes apart.
+///
+/// Errors  64 E-USAGE-CONFLICT
+Result<void> check_scenes(const std::vector<RenderRequest>& requests);
 
 /// Pattern of an image's file where no output is given: "helmet.{variant}.{view}.exr".
 std::string listed_output(const RenderArguments& arguments);

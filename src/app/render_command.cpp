@@ -3,6 +3,7 @@
 #include "app/render_command.h"
 
 #include "app/distinct_files.h"
+#include "app/list_options.h"
 #include "app/memory_option.h"
 #include "app/outcome.h"
 #include "app/progress.h"
@@ -104,7 +105,13 @@ WatchTimes watch_times(const LongRun& run) {
     return out;
 }
 
-/// All that a command is asked for.
+/// The texts for one scene of a command, and where its pixels come from.
+struct SceneArguments {
+    RenderArguments arguments;
+    const ImageParts* parts = nullptr;  ///< null: they are rendered
+};
+
+/// All that is asked for one scene.
 struct Order {
     const RenderRequest& request;
     NamedTexts options;
@@ -149,33 +156,116 @@ Result<void> execute(const Order& order, Watch& watch, Log& log, size_t& skipped
     return check_counters(statistics.counters, request);
 }
 
+/// Renders the images of one scene.
+///
+/// Out   skipped: images that were there already
+Result<void> render_scene(RenderRequest& request,
+                          const SceneArguments& scene,
+                          Log& log,
+                          size_t& skipped) {
+    Watch watch(request.scene.string(), log, watch_times(request.long_run));
+    if (auto loaded = load_requested_camera(request, log); !loaded) return loaded;
+    if (auto read = load_views(request, log); !read) return read;
+    if (auto colored = use_color_space(request, log); !colored) return colored;
+    if (scene.parts != nullptr && scene.parts->are_of_samples()) request.part_by = PartBy::samples;
+    const Order order{request, options_for_merge(scene.arguments), scene.parts};
+    const Result<void> done = execute(order, watch, log, skipped);
+    watch.end();
+    return done;
+}
+
+/// Takes the time that is over from a command's limit.
+///
+/// Errors  75 E-TIME-LIMIT none is left
+Result<void> shorten_time_limit(RenderRequest& request, double seconds) {
+    if (!request.long_run.time_limit_s) return {};
+    double& limit_s = *request.long_run.time_limit_s;
+    limit_s -= seconds;
+    if (limit_s > 0) return {};
+    return fail(ExitCode::stopped_early,
+                "E-TIME-LIMIT",
+                request.scene.string(),
+                "the time is over before this scene was begun");
+}
+
+/// Renders scene after scene; one that fails does not end the rest, unless the program is to stop.
+///
+/// Out   skipped: images that were there already; failures: in their order
+void render_scenes(std::vector<RenderRequest>& requests,
+                   const std::vector<SceneArguments>& scenes,
+                   Log& log,
+                   size_t& skipped,
+                   std::vector<Error>& failures) {
+    const Stopwatch total;
+    for (size_t i = 0; i < requests.size(); ++i) {
+        RenderRequest& request = requests[i];
+        size_t there = 0;
+        Result<void> done = shorten_time_limit(request, total.seconds());
+        // What one scene warns of stands in its images' headers, and not in the others'.
+        Log own(
+            log.verbosity() == Verbosity::verbose ? Verbosity::verbose : Verbosity::normal,
+            [&](const LogMessage& message) {
+                if (message.is_warning) {
+                    log.warn(message.where, message.text);
+                } else {
+                    log.info(message.text);
+                }
+            },
+            SettingNames::options);
+        if (done) done = render_scene(request, scenes[i], requests.size() == 1 ? log : own, there);
+        skipped += there;
+        if (done) continue;
+        failures.push_back(done.error());
+        if (done.error().code == ExitCode::stopped_early) return;
+        if (i + 1 == requests.size()) return;
+        log.warn(request.scene.string(),
+                 fmt::format("this scene fails: {}: {} [{}]; the others go on",
+                             done.error().where,
+                             done.error().message,
+                             done.error().id));
+    }
+}
+
+Error all_failures(std::vector<Error> failures, size_t scenes) {
+    const size_t count = failures.size();
+    Error out = joined(std::move(failures));
+    if (scenes > 1 && out.code != ExitCode::stopped_early)
+        out.message =
+            fmt::format("{} of {} scenes failed; the first: {}", count, scenes, out.message);
+    return out;
+}
+
 }  // namespace
 
 int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     TerminalLog log(verbosity_of(arguments));
-    Result<RenderRequest> request = make_render_request(arguments);
-    if (!request) return report_failure(request.error(), log);
-    if (request->gives_way) give_way_to_others();  // the threads that follow, too
-    const std::string scene = request->scene.string();
-    Watch watch(scene, log, watch_times(request->long_run));
-    const Result<void> loaded = load_requested_camera(*request, log);
-    if (!loaded) return report_failure(loaded.error(), log);
-    if (auto read = load_views(*request, log); !read) return report_failure(read.error(), log);
-    const Result<void> colored = use_color_space(*request, log);
-    if (!colored) return report_failure(colored.error(), log);
-    if (parts != nullptr && parts->are_of_samples()) request->part_by = PartBy::samples;
+    std::vector<SceneArguments> scenes;
+    std::vector<RenderRequest> requests;
+    Result<std::vector<RenderArguments>> all = arguments_of_scenes(arguments);
+    if (!all) return report_failure(all.error(), log);
+    for (RenderArguments& one : *all) {
+        Result<RenderRequest> request = make_render_request(one);
+        if (!request) return report_failure(request.error(), log);
+        scenes.push_back({std::move(one), parts});
+        requests.push_back(std::move(*request));
+    }
+    const RenderRequest& first = requests.front();
+    if (auto fits = check_scenes(requests); !fits) return report_failure(fits.error(), log);
+    if (first.gives_way) give_way_to_others();  // the threads that follow, too
+    const std::string where =
+        requests.size() == 1 ? first.scene.string() : fmt::format("{} scenes", requests.size());
     size_t skipped = 0;
-    const Order order{*request, options_for_merge(arguments), parts};
-    const Result<void> done = execute(order, watch, log, skipped);
-    watch.end();
+    std::vector<Error> failures;
+    render_scenes(requests, scenes, log, skipped, failures);
     const std::string counts =
-        request->long_run.skips_existing ? fmt::format(" skipped={}", skipped) : "";
-    if (done) return report_success(scene, log, counts);
+        first.long_run.skips_existing ? fmt::format(" skipped={}", skipped) : "";
+    if (failures.empty()) return report_success(where, log, counts);
     const int signal = received_stop_signal();
-    if (done.error().id == "E-STOPPED" && signal != 0)
-        return report_stop(signal, scene, done.error().message, log);
-    tell_farm(done.error(), *request);
-    return report_failure(done.error(), log, counts);
+    const Error& last = failures.back();
+    if (last.id == "E-STOPPED" && signal != 0) return report_stop(signal, where, last.message, log);
+    const Error error = all_failures(std::move(failures), requests.size());
+    tell_farm(error, first);
+    return report_failure(error, log, counts);
 }
 
 }  // namespace obscura::app

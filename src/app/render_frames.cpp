@@ -87,7 +87,8 @@ private:
             if (auto fits = check_files(request, images()); !fits) return fits;
         }
         if (!request.lists.manifest) return {};
-        const bool is_shared = request.part || request.long_run.skips_existing;
+        const bool is_shared =
+            request.part || request.long_run.skips_existing || request.lists.adds_to_manifest;
         Result<Manifest> manifest = Manifest::open(*request.lists.manifest, !is_shared);
         if (!manifest) return fail(manifest.error());
         manifest_.emplace(std::move(*manifest));

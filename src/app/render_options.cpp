@@ -181,7 +181,12 @@ constexpr OptionReader<R> compression = {
 // clang-format off
 constexpr Entry scene_file[] = {
     {{.name = "SCENE", .help = "glTF 2.0 file, .gltf or .glb", .files = "gltf glb"},
-     text_at<&A::scene_file>}};
+     text_at<&A::scene_file>},
+    {{.name = "MORE_SCENES",
+      .help = "Further ones, rendered after it; names of outputs then need {asset} "
+              "(docs/many_images.md)",
+      .files = "gltf glb"},
+     text_at<&A::more_scenes>}};
 
 constexpr Entry image[] = {
     {{.name = "-o,--output", .argument = "FILE",

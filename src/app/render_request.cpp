@@ -65,6 +65,11 @@ Result<void> complete_time(const RenderArguments& arguments, RenderRequest& requ
     return {};
 }
 
+std::filesystem::path output_of(const RenderArguments& arguments, const std::string& ending) {
+    if (!arguments.asset.empty()) return arguments.asset + ending;
+    return std::filesystem::path(arguments.scene_file).stem().concat(ending);
+}
+
 /// A picture in place of a scene, whose own name the output would have.
 tl::unexpected<Error> no_scene(const std::filesystem::path& file) {
     return fail(ExitCode::bad_data,
@@ -93,7 +98,7 @@ Result<void> choose_outputs(const RenderArguments& arguments, RenderRequest& req
         const std::string ending = (arguments.frames ? ".####" : "") + arguments.default_ending;
         request.outputs.push_back(arguments.list.is_asked()
                                       ? std::filesystem::path(listed_output(arguments))
-                                      : request.scene.stem().concat(ending));
+                                      : output_of(arguments, ending));
     }
     const bool unnamed = std::any_of(request.outputs.begin(),
                                      request.outputs.end(),

@@ -21,6 +21,9 @@ namespace obscura::app {
 /// The texts of the options as they stood on the command line; an empty optional was not given.
 struct RenderArguments {
     std::string scene_file;
+    std::vector<std::string> more_scenes;  ///< rendered after it, with the same options
+    std::string asset;                     ///< {asset} in names; empty: the scene's name
+    bool is_further_scene = false;         ///< of a command with several
     std::vector<std::string> outputs, aovs;
     std::optional<std::string> size, spp, noise_target, spp_min, depth, seed, threads, isa;
     std::optional<std::string> tile_size, crop;

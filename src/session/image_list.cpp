@@ -146,7 +146,8 @@ public:
     ListNames(const RenderRequest& request,
               const std::vector<View>& views,
               const std::vector<std::string>& variants)
-        : asset_(request.scene.stem().string()) {
+        : asset_(request.lists.asset.empty() ? request.scene.stem().string()
+                                             : request.lists.asset) {
         for (const View& view : views)
             views_.push_back(name_part(view.name));
         // The steps of a turntable have numbers.

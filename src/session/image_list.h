@@ -36,6 +36,8 @@ struct ListRequest {
     std::optional<std::filesystem::path> views_file;  ///< --views
     std::vector<View> views;                          ///< those of the file
     std::optional<std::filesystem::path> manifest;    ///< --manifest
+    bool adds_to_manifest = false;  ///< lines of another scene of the command are there
+    std::string asset;              ///< {asset} in names; empty: the scene's name
 
     /// True when there is a list of images that is no sequence.
     bool is_asked() const { return cameras || variants || turntable > 0 || views_file; }

@@ -264,6 +264,27 @@ TEST_F(ManyImages, SequencesHaveViewsToo) {
     expect_same("b.02.exr", "one.02.exr");
 }
 
+TEST_F(ManyImages, SeveralScenesAreThoseOfSingleCommands) {
+    fs::create_directories(folder_ / "other");
+    fs::copy_file(folder_ / "box.gltf", folder_ / "other/quad.gltf");
+    const Texts all = {"--manifest", "m.jsonl", "-o", "out/{asset}.exr", "quad.gltf", "none.gltf"};
+    const ProgramRun got = render("other/quad.gltf", all);
+    expect_result(got, 66, "E-SCENE-MISSING");
+    EXPECT_THAT(got.err, HasSubstr("1 of 3 scenes failed"));
+    for (const auto& [scene, file] :
+         {std::pair{"quad.gltf", "quad"}, std::pair{"box.gltf", "quad-2"}}) {
+        expect_result(render(scene, {"-o", "one.exr"}), 0, "OK");
+        expect_same("out/" + std::string(file) + ".exr", "one.exr");
+    }
+    EXPECT_EQ(lines("m.jsonl").size(), 3U);
+    // Without a name the scenes tell them; all else is of one scene.
+    expect_result(render("box.gltf", {"triangle.gltf", "--turntable", "2"}), 0, "OK");
+    EXPECT_TRUE(fs::exists(folder_ / "triangle.0002.exr") && fs::exists(folder_ / "box.0001.exr"));
+    for (const Texts& more : {Texts{"-o", "a.exr"}, Texts{"-o", "-"}, Texts{"--stats", "s.json"}}) {
+        expect_result(render("box.gltf", joined({"triangle.gltf"}, more)), 64, "E-USAGE-CONFLICT");
+    }
+}
+
 TEST_F(ManyImages, MistakesAreRefused) {
     const auto views = [&](const std::string& list) {
         folder_.write("views.json", "{\"views\": " + list + "}");
