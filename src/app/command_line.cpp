@@ -83,7 +83,8 @@ tl::unexpected<Error> worded(const CLI::App& app,
         return usage(
             "command-line",
             got +
-                "; expected `obscura render SCENE`, `obscura merge PART...`, `obscura denoise "
+                "; expected `obscura render SCENE`, `obscura batch JOB`, `obscura merge PART...`, "
+                "`obscura denoise "
                 "IN.exr`, `obscura info SCENE`, `obscura bench`, `obscura crosscheck` or `obscura "
                 "explain-pixel SCENE X,Y`, see `obscura --help`");
     }

@@ -4,11 +4,13 @@
 
 #include "app/command_line.h"
 #include "app/option_readers.h"
+#include "app/render_command.h"
 #include "app/render_options.h"
 #include "app/render_request.h"
 #include "session/image_names.h"
 
 #include <filesystem>
+#include <set>
 #include <system_error>
 
 namespace obscura::app {
@@ -48,6 +50,15 @@ constexpr Entry entries[] = {
               "variant, view, camera, seconds, warnings, exit code", .files = "jsonl"},
      text_at<&A::list, &G::manifest>, name_at<&R::lists, &K::manifest>}};
 // clang-format on
+
+/// The names of all files that each scene writes, as patterns.
+std::vector<std::filesystem::path> patterns_of(const RenderRequest& request) {
+    std::vector<std::filesystem::path> patterns = request.outputs;
+    if (request.segmentation) patterns.push_back(*request.segmentation);
+    if (request.long_run.has_checkpoint && !request.long_run.checkpoint.empty())
+        patterns.push_back(request.long_run.checkpoint);
+    return patterns;
+}
 
 std::string asset_name(const RenderArguments& arguments) {
     if (!arguments.asset.empty()) return arguments.asset;
@@ -107,25 +118,26 @@ Result<std::vector<RenderArguments>> arguments_of_scenes(const RenderArguments& 
     return out;
 }
 
-Result<void> check_scenes(const std::vector<RenderRequest>& requests) {
-    if (requests.size() == 1) return {};
-    const RenderRequest& first = requests.front();
+Result<void> check_scenes(const std::vector<SceneRun>& runs) {
+    if (runs.size() == 1) return {};
+    const RenderRequest& first = runs.front().request;
     const auto conflict_of = [](const char* option) {
         return conflict(option, "it is of one scene; leave it out, or render scenes one by one");
     };
     if (first.standard_output) return conflict_of("--output");
     if (first.statistics) return conflict_of("--stats");
     if (first.crypto_manifest) return conflict_of("--crypto-manifest");
-    std::vector<std::filesystem::path> patterns = first.outputs;
-    if (first.segmentation) patterns.push_back(*first.segmentation);
-    if (first.long_run.has_checkpoint && !first.long_run.checkpoint.empty())
-        patterns.push_back(first.long_run.checkpoint);
-    for (const std::filesystem::path& pattern : patterns) {
-        // Without -o the name was made of the scene's.
-        if (has_field(pattern, "asset") || requests[1].outputs != first.outputs) continue;
-        return conflict(pattern.string(),
-                        "with several scenes a file's name must tell them apart; expected {asset} "
-                        "in it, such as out/{asset}.png");
+    std::set<std::filesystem::path> seen;
+    for (const SceneRun& run : runs) {
+        const RenderRequest& request = run.request;
+        // What else is in a name tells the images of one scene apart.
+        const NameFields fields{request.lists.asset, "", "", 1, request.lists.look};
+        for (const std::filesystem::path& pattern : patterns_of(request)) {
+            if (seen.insert(name_by_pattern(pattern, fields)).second) continue;
+            return conflict(pattern.string(),
+                            "a file's name must tell scenes and looks apart; expected {asset} in "
+                            "it, such as out/{asset}.png, and {look} where a job has several");
+        }
     }
     return {};
 }
@@ -140,6 +152,7 @@ std::string listed_output(const RenderArguments& arguments) {
 
 Result<void> complete_list(const RenderArguments& arguments, RenderRequest& request) {
     request.lists.asset = arguments.asset;
+    request.lists.look = arguments.look;
     request.lists.adds_to_manifest = arguments.is_further_scene;
     if (request.lists.manifest && request.standard_output) {
         return conflict("--manifest", "it is of files; give -o a file's name in place of -");

@@ -14,6 +14,7 @@ struct RenderRequest;
 namespace obscura::app {
 
 struct RenderArguments;
+struct SceneRun;
 
 /// The texts of these options as they stood on the command line.
 struct ListArguments {
@@ -31,7 +32,7 @@ Result<std::vector<RenderArguments>> arguments_of_scenes(const RenderArguments& 
 /// scenes apart.
 ///
 /// Errors  64 E-USAGE-CONFLICT
-Result<void> check_scenes(const std::vector<RenderRequest>& requests);
+Result<void> check_scenes(const std::vector<SceneRun>& runs);
 
 /// Pattern of an image's file where no output is given: "helmet.{variant}.{view}.exr".
 std::string listed_output(const RenderArguments& arguments);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/program.h"
 
+#include "app/batch_command.h"
 #include "app/bench_options.h"
 #include "app/command_line.h"
 #include "app/config_file.h"
@@ -32,6 +33,7 @@ Examples:
   obscura helmet.glb
       writes helmet.png
   obscura render helmet.glb --env sky.hdr -o helmet.exr -o helmet.png
+  obscura batch job.json
   obscura denoise helmet.exr -o clean.exr
   obscura merge helmet.exr.*-of-4.film
   obscura info helmet.glb --json
@@ -44,6 +46,7 @@ Examples:
 /// The texts of all subcommands' options.
 struct Arguments {
     RenderArguments render;
+    BatchArguments batch;
     DenoiseArguments denoise;
     MergeArguments merge;
     InfoArguments info;
@@ -64,6 +67,7 @@ Program describe(Arguments& arguments) {
                       "\ncompiled by " +
                       bench::compiler_name();
     program.commands = {render_command(arguments.render),
+                        batch_command(arguments.batch),
                         denoise_command(arguments.denoise),
                         merge_command(arguments.merge),
                         info_command(arguments.info),

@@ -105,27 +105,14 @@ WatchTimes watch_times(const LongRun& run) {
     return out;
 }
 
-/// The texts for one scene of a command, and where its pixels come from.
-struct SceneArguments {
-    RenderArguments arguments;
-    const ImageParts* parts = nullptr;  ///< null: they are rendered
-};
-
-/// All that is asked for one scene.
-struct Order {
-    const RenderRequest& request;
-    NamedTexts options;
-    const ImageParts* parts;
-};
-
 /// Out   skipped: images that were there already
-Result<void> execute(const Order& order, Watch& watch, Log& log, size_t& skipped) {
-    const RenderRequest& request = order.request;
+Result<void> execute(const SceneRun& run, Watch& watch, Log& log, size_t& skipped) {
+    const RenderRequest& request = run.request;
     const Stopwatch total;
     if (auto begins = check_address_space(address_space_left()); !begins) return begins;
     if (auto set = use_memory_limit(request.max_memory, memory_bound()); !set) return set;
     if (auto writable = check_outputs(request); !writable) return writable;
-    if (!request.lists.needs_asset()) {
+    if (!request.lists.needs_asset() && !request.lists.lists_only) {
         const Result<ImageList> list = list_images(request, {});
         if (!list) return fail(list.error());
         if (auto fits = check_files(request, list->images); !fits) return fits;
@@ -137,10 +124,11 @@ Result<void> execute(const Order& order, Watch& watch, Log& log, size_t& skipped
     const ThreadLimit threads(request.threads);
     Job job{.log = log,
             .request = request,
-            .options = order.options,
-            .parts = order.parts,
+            .options = run.options,
+            .parts = run.parts,
             .watch = watch,
             .display = std::move(*display)};
+    if (request.lists.lists_only) return list_all(job);
     if (request.check) return check_all(job);
     Progress progress(request.verbosity, lines_of(request), request.farm);
     const Result<void> done = render_all(job, progress);
@@ -159,17 +147,14 @@ Result<void> execute(const Order& order, Watch& watch, Log& log, size_t& skipped
 /// Renders the images of one scene.
 ///
 /// Out   skipped: images that were there already
-Result<void> render_scene(RenderRequest& request,
-                          const SceneArguments& scene,
-                          Log& log,
-                          size_t& skipped) {
+Result<void> render_scene(SceneRun& run, Log& log, size_t& skipped) {
+    RenderRequest& request = run.request;
     Watch watch(request.scene.string(), log, watch_times(request.long_run));
     if (auto loaded = load_requested_camera(request, log); !loaded) return loaded;
     if (auto read = load_views(request, log); !read) return read;
     if (auto colored = use_color_space(request, log); !colored) return colored;
-    if (scene.parts != nullptr && scene.parts->are_of_samples()) request.part_by = PartBy::samples;
-    const Order order{request, options_for_merge(scene.arguments), scene.parts};
-    const Result<void> done = execute(order, watch, log, skipped);
+    if (run.parts != nullptr && run.parts->are_of_samples()) request.part_by = PartBy::samples;
+    const Result<void> done = execute(run, watch, log, skipped);
     watch.end();
     return done;
 }
@@ -191,14 +176,13 @@ Result<void> shorten_time_limit(RenderRequest& request, double seconds) {
 /// Renders scene after scene; one that fails does not end the rest, unless the program is to stop.
 ///
 /// Out   skipped: images that were there already; failures: in their order
-void render_scenes(std::vector<RenderRequest>& requests,
-                   const std::vector<SceneArguments>& scenes,
+void render_scenes(std::vector<SceneRun>& runs,
                    Log& log,
                    size_t& skipped,
                    std::vector<Error>& failures) {
     const Stopwatch total;
-    for (size_t i = 0; i < requests.size(); ++i) {
-        RenderRequest& request = requests[i];
+    for (size_t i = 0; i < runs.size(); ++i) {
+        RenderRequest& request = runs[i].request;
         size_t there = 0;
         Result<void> done = shorten_time_limit(request, total.seconds());
         // What one scene warns of stands in its images' headers, and not in the others'.
@@ -212,12 +196,12 @@ void render_scenes(std::vector<RenderRequest>& requests,
                 }
             },
             SettingNames::options);
-        if (done) done = render_scene(request, scenes[i], requests.size() == 1 ? log : own, there);
+        if (done) done = render_scene(runs[i], runs.size() == 1 ? log : own, there);
         skipped += there;
         if (done) continue;
         failures.push_back(done.error());
         if (done.error().code == ExitCode::stopped_early) return;
-        if (i + 1 == requests.size()) return;
+        if (i + 1 == runs.size()) return;
         log.warn(request.scene.string(),
                  fmt::format("this scene fails: {}: {} [{}]; the others go on",
                              done.error().where,
@@ -239,31 +223,39 @@ Error all_failures(std::vector<Error> failures, size_t scenes) {
 
 int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     TerminalLog log(verbosity_of(arguments));
-    std::vector<SceneArguments> scenes;
-    std::vector<RenderRequest> requests;
+    std::vector<SceneRun> runs;
     Result<std::vector<RenderArguments>> all = arguments_of_scenes(arguments);
     if (!all) return report_failure(all.error(), log);
     for (RenderArguments& one : *all) {
         Result<RenderRequest> request = make_render_request(one);
         if (!request) return report_failure(request.error(), log);
-        scenes.push_back({std::move(one), parts});
-        requests.push_back(std::move(*request));
+        runs.push_back({std::move(*request), options_for_merge(one), parts});
     }
-    const RenderRequest& first = requests.front();
-    if (auto fits = check_scenes(requests); !fits) return report_failure(fits.error(), log);
+    const std::string where = runs.size() == 1 ? runs.front().request.scene.string()
+                                               : fmt::format("{} scenes", runs.size());
+    return run_scenes(runs, where, log);
+}
+
+int run_scenes(std::vector<SceneRun>& runs,
+               const std::string& where,
+               Log& log,
+               const std::function<Result<void>()>& finish) {
+    if (auto fits = check_scenes(runs); !fits) return report_failure(fits.error(), log);
+    const RenderRequest& first = runs.front().request;
     if (first.gives_way) give_way_to_others();  // the threads that follow, too
-    const std::string where =
-        requests.size() == 1 ? first.scene.string() : fmt::format("{} scenes", requests.size());
     size_t skipped = 0;
     std::vector<Error> failures;
-    render_scenes(requests, scenes, log, skipped, failures);
+    render_scenes(runs, log, skipped, failures);
+    const bool is_over = failures.empty() || failures.back().code != ExitCode::stopped_early;
+    if (const Result<void> finished = is_over ? finish() : Result<void>(); !finished)
+        failures.push_back(finished.error());
     const std::string counts =
         first.long_run.skips_existing ? fmt::format(" skipped={}", skipped) : "";
     if (failures.empty()) return report_success(where, log, counts);
     const int signal = received_stop_signal();
     const Error& last = failures.back();
     if (last.id == "E-STOPPED" && signal != 0) return report_stop(signal, where, last.message, log);
-    const Error error = all_failures(std::move(failures), requests.size());
+    const Error error = all_failures(std::move(failures), runs.size());
     tell_farm(error, first);
     return report_failure(error, log, counts);
 }

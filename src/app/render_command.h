@@ -3,10 +3,11 @@
 #pragma once
 
 #include "app/render_request.h"
+#include "session/image_parts.h"
 
-namespace obscura {
-class ImageParts;
-}  // namespace obscura
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace obscura::app {
 
@@ -14,5 +15,23 @@ namespace obscura::app {
 ///
 /// In      parts: the pixels come from there; null: they are rendered
 int run_render(const RenderArguments& arguments, const ImageParts* parts);
+
+/// One scene of a command, or one rendering of a job.
+struct SceneRun {
+    RenderRequest request;
+    NamedTexts options;                 ///< as they were given: see options_for_merge
+    const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
+};
+
+/// Renders one after the other and prints messages; one that fails does not end the rest, unless
+/// the program is to stop. Returns the exit code.
+///
+/// In      runs: one at least; where: what the closing line names; finish: done after the last,
+///         also after failures, unless the program is to stop
+int run_scenes(
+    std::vector<SceneRun>& runs,
+    const std::string& where,
+    Log& log,
+    const std::function<Result<void>()>& finish = [] { return Result<void>(); });
 
 }  // namespace obscura::app

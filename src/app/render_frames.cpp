@@ -4,6 +4,7 @@
 #include "app/distinct_files.h"
 #include "app/frame_claim.h"
 #include "app/listed_poses.h"
+#include "app/outcome.h"
 #include "app/render_job.h"
 #include "base/stopwatch.h"
 #include "session/focus.h"
@@ -32,7 +33,7 @@ FrameStatistics frame_statistics(const ListedImage& image,
 /// Whether --part-by frames leaves the frame with this index to another part.
 bool is_of_another_part(const RenderRequest& request, size_t index) {
     if (!request.part || request.part_by != PartBy::frames) return false;
-    return index % static_cast<size_t>(request.part->count) !=
+    return (index + request.lists.part_offset) % static_cast<size_t>(request.part->count) !=
            static_cast<size_t>(request.part->index);
 }
 
@@ -201,6 +202,17 @@ Result<void> render_all(Job& job, Progress& progress) {
     const Result<void> done = FrameRun(job, progress).run();
     if (done) progress.finish();
     return done;
+}
+
+Result<void> list_all(Job& job) {
+    ListedPoses poses(job);
+    if (auto listed = poses.find_images(job.log); !listed) return listed;
+    std::string text;
+    for (const ListedImage& image : poses.list().images) {
+        for (const std::filesystem::path& file : image_files(job.request, image))
+            text += escape_control(file.string()) + "\n";
+    }
+    return print_output(text);
 }
 
 Result<void> check_all(Job& job) {

@@ -59,6 +59,9 @@ Result<void> make_image(
 /// Errors  those of loading, posing and make_image; 75 E-LOCKED images are left to others
 Result<void> render_all(Job& job, Progress& progress);
 
+/// --dry-run: prints the names of all files that rendering would write.
+Result<void> list_all(Job& job);
+
 /// --check: for every image, all steps before the BVH.
 Result<void> check_all(Job& job);
 

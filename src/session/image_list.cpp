@@ -146,8 +146,8 @@ public:
     ListNames(const RenderRequest& request,
               const std::vector<View>& views,
               const std::vector<std::string>& variants)
-        : asset_(request.lists.asset.empty() ? request.scene.stem().string()
-                                             : request.lists.asset) {
+        : asset_(request.lists.asset.empty() ? request.scene.stem().string() : request.lists.asset),
+          look_(request.lists.look) {
         for (const View& view : views)
             views_.push_back(name_part(view.name));
         // The steps of a turntable have numbers.
@@ -167,11 +167,12 @@ public:
                 : image.variant.empty()    ? "default"
                                            : image.variant,
                 views_[image.view],
-                image.number.value_or(1)};
+                image.number.value_or(1),
+                look_};
     }
 
 private:
-    std::string asset_;
+    std::string asset_, look_;
     std::vector<std::string> views_;
     std::map<std::string, std::string> variants_;
 };

@@ -11,7 +11,8 @@ namespace obscura {
 
 namespace {
 
-constexpr std::array<std::string_view, 4> field_names = {"asset", "variant", "view", "frame"};
+constexpr std::array<std::string_view, 5> field_names = {
+    "asset", "look", "variant", "view", "frame"};
 constexpr int max_digits = 12;
 
 /// A field of a pattern, between braces.
@@ -46,6 +47,7 @@ std::string frame_text(int frame, int digits) {
 
 std::string value_of(const Field& field, const NameFields& values) {
     if (field.name == "asset") return name_part(values.asset);
+    if (field.name == "look") return name_part(values.look);
     if (field.name == "variant") return name_part(values.variant);
     if (field.name == "view") return name_part(values.view);
     return frame_text(values.frame, field.digits);

@@ -1,4 +1,4 @@
-// session/image_names.h - names of images' files by patterns: {asset}, {variant}, {view}, {frame}.
+// session/image_names.h - names of images' files by patterns: {asset}, {look}, {view} and the like.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
@@ -13,6 +13,7 @@ namespace obscura {
 struct NameFields {
     std::string asset, variant, view;
     int frame = 1;
+    std::string look = "default";
 };
 
 /// True when a pattern has the field: "frame" is there as {frame} and as {frame:04}.

@@ -90,6 +90,7 @@ std::string manifest_line(const RenderRequest& request, const ImageOutcome& outc
     Json line;
     line["files"] = is_there ? files_json(request, image) : Json::array();
     line["asset"] = request.scene.string();
+    line["look"] = request.lists.look;
     line["variant"] = image.variant.empty() ? Json() : Json(image.variant);
     line["view"] = outcome.view.name;
     line["frame"] = image.number ? Json(*image.number) : Json();

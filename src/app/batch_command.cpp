@@ -1,0 +1,121 @@
+// app/batch_command.cpp - the subcommand `obscura batch`: a job of many pictures.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/batch_command.h"
+
+#include "app/batch_job.h"
+#include "app/contact_sheet.h"
+#include "app/outcome.h"
+#include "app/part_options.h"
+#include "app/render_command.h"
+#include "app/render_options.h"
+
+namespace obscura::app {
+
+namespace {
+
+constexpr const char* batch_notes = R"(
+The job is a JSON file (docs/batch.md): which assets, in which looks, to which outputs. What
+stands in the options of `obscura render` stands there by the same names.
+
+Example:
+  {"assets": ["products/*.glb"],
+   "options": {"size": "800x600", "page": "white", "variants": "all"},
+   "looks": [{"name": "day", "options": {"env": "sky:40,30"}}, {"name": "studio"}],
+   "outputs": ["out/{asset}/{look}/{variant}.webp"],
+   "contact_sheet": "out/index.html"}
+
+  obscura batch job.json --dry-run
+      names the files
+  obscura batch job.json --skip-existing
+      renders what is not there yet)";
+
+constexpr OptionInfo job_option = {.name = "JOB", .help = "The job, a JSON file", .files = "json"};
+constexpr OptionInfo dry_run_option = {
+    .name = "--dry-run",
+    .help =
+        "Print the names of all files, and render nothing. Assets are read where only they "
+        "tell cameras or variants"};
+constexpr OptionInfo part_option = {
+    .name = "--part",
+    .argument = "I/N|auto",
+    .help =
+        "Render share I of N: every N-th asset, or, where there are fewer assets than N, every "
+        "N-th picture. auto takes both from the launcher, as for `obscura render`",
+    .fallback = "all"};
+
+/// Options of `obscura render` that are a command's and not a picture's.
+constexpr std::array command_options = {"--skip-existing",
+                                        "--time-limit",
+                                        "--threads",
+                                        "--priority",
+                                        "--max-memory",
+                                        "--texture-memory",
+                                        "--texture-cache",
+                                        "--isa",
+                                        "--write-retries",
+                                        "--quiet",
+                                        "--verbose"};
+
+/// Whether a run is for another part: assets are divided where there are enough of them.
+bool is_of_another_part(const JobRun& run, const BatchJob& job, const FilmPart& part) {
+    if (job.assets < static_cast<size_t>(part.count)) return false;
+    return run.asset % static_cast<size_t>(part.count) != static_cast<size_t>(part.index);
+}
+
+/// The runs of a job, or of a part of it.
+Result<std::vector<SceneRun>> runs_of(const BatchJob& job,
+                                      const BatchArguments& arguments,
+                                      const std::optional<FilmPart>& part) {
+    std::vector<SceneRun> runs;
+    for (size_t i = 0; i < job.runs.size(); ++i) {
+        const JobRun& run = job.runs[i];
+        if (part && is_of_another_part(run, job, *part)) continue;
+        Result<RenderRequest> request = request_of_run(run);
+        if (!request) return fail(request.error());
+        if (part && job.assets < static_cast<size_t>(part->count)) {
+            request->part = part;
+            request->part_by = PartBy::frames;
+            request->lists.part_offset = i;
+        }
+        request->lists.lists_only = arguments.dry_run;
+        runs.push_back({std::move(*request), options_for_merge(run.arguments)});
+    }
+    return runs;
+}
+
+int run_batch(const BatchArguments& arguments) {
+    TerminalLog log(verbosity_of(arguments.render));
+    std::optional<FilmPart> part;
+    if (arguments.part) {
+        const Result<FilmPart> parsed = parse_part(*arguments.part, "--part");
+        if (!parsed) return report_failure(parsed.error(), log);
+        part = *parsed;
+    }
+    Result<BatchJob> job = read_batch_job(arguments.job_file, arguments.render, log);
+    if (!job) return report_failure(job.error(), log);
+    Result<std::vector<SceneRun>> runs = runs_of(*job, arguments, part);
+    if (!runs) return report_failure(runs.error(), log);
+    if (runs->empty()) {
+        log.info("this part of the job has no pictures");
+        return report_success(arguments.job_file, log);
+    }
+    return run_scenes(*runs, arguments.job_file, log, [&]() -> Result<void> {
+        if (!job->contact_sheet || arguments.dry_run) return {};
+        return write_contact_sheet(*job->manifest, *job->contact_sheet);
+    });
+}
+
+}  // namespace
+
+Command batch_command(BatchArguments& arguments) {
+    Command command{"batch", "Render a job: many assets in many looks", batch_notes};
+    command.options = {{job_option, "", &arguments.job_file},
+                       {dry_run_option, "", &arguments.dry_run},
+                       {part_option, "", &arguments.part}};
+    for (const char* name : command_options)
+        add_render_option(command, arguments.render, name, "Program");
+    command.run = [&arguments] { return run_batch(arguments); };
+    return command;
+}
+
+}  // namespace obscura::app

@@ -1,0 +1,289 @@
+// app/batch_job.cpp - reads the job of `obscura batch`: assets, looks and outputs.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/batch_job.h"
+
+#include "app/command_line.h"
+#include "app/numbers.h"
+#include "app/render_options.h"
+#include "base/file_bytes.h"
+#include "base/json/json_read.h"
+#include "base/json/json_text.h"
+#include "base/setting_names.h"
+#include "session/image_names.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <glob.h>
+#include <string_view>
+
+namespace obscura::app {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* value_id = "E-JOB-VALUE";
+constexpr uint64_t largest_file = 64U << 20;
+
+/// Options that are a command's and not a picture's.
+bool is_of_command(const std::string& name) {
+    constexpr std::array<std::string_view, 11> all = {"--output",
+                                                      "--format",
+                                                      "--quiet",
+                                                      "--verbose",
+                                                      "--check",
+                                                      "--list-aovs",
+                                                      "--part",
+                                                      "--part-by",
+                                                      "--skip-existing",
+                                                      "--manifest",
+                                                      "--stats"};
+    return std::find(all.begin(), all.end(), name) != all.end();
+}
+
+void check_keys(const JsonReader& reader, std::span<const std::string_view> known) {
+    reader.each_key([&](const std::string& key) {
+        if (std::find(known.begin(), known.end(), key) != known.end()) return;
+        std::string names;
+        for (const std::string_view name : known)
+            names += (names.empty() ? "" : ", ") + std::string(name);
+        reader.fault(key, "E-JOB-KEY", "there is no such member; expected one of: " + names);
+    });
+}
+
+/// A value as the text of an option; nothing: it is of no such type.
+std::optional<std::string> text_of(const json& value) {
+    if (value.is_string()) return value.get<std::string>();
+    if (value.is_number() || value.is_boolean()) return value.dump();
+    return {};
+}
+
+/// The texts of a value that may be several.
+std::optional<std::vector<std::string>> texts_of(const json& value) {
+    std::vector<std::string> out;
+    if (!value.is_array()) {
+        const auto text = text_of(value);
+        if (!text) return {};
+        return std::vector<std::string>{*text};
+    }
+    for (const json& one : value) {
+        const auto text = text_of(one);
+        if (!text) return {};
+        out.push_back(*text);
+    }
+    return out;
+}
+
+/// Sets an option to what the job says; "": done, else what is expected.
+std::string set_option(const BoundOption& option, const json& value) {
+    const std::optional<std::vector<std::string>> texts = texts_of(value);
+    if (!texts) return "expected a string, a number, true, false, or an array of these";
+    if (auto* const* flag = std::get_if<bool*>(&option.target)) {
+        if (!value.is_boolean()) return "expected true or false";
+        **flag = value.get<bool>();
+    } else if (auto* const* list = std::get_if<std::vector<std::string>*>(&option.target)) {
+        **list = *texts;
+    } else if (auto* const* target = std::get_if<OptionText*>(&option.target)) {
+        std::string joined;
+        for (const std::string& text : *texts)
+            joined += (joined.empty() ? "" : ",") + text;
+        **target = joined;
+    }
+    return "";
+}
+
+/// The members "options" of one object, over what is set already.
+void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
+    const auto options = tree.find("options");
+    if (options == tree.end()) return;
+    const JsonReader inside = reader.child("options");
+    const std::vector<BoundOption> table =
+        bind_all(std::span(render_option_groups()), run.arguments);
+    inside.each_key([&](const std::string& key) {
+        const std::string name = "--" + key;
+        const auto found = std::find_if(table.begin(), table.end(), [&](const BoundOption& one) {
+            return long_name(one.info) == name;
+        });
+        if (found == table.end() || is_of_command(name)) {
+            inside.fault(key, "E-JOB-KEY", "there is no such option for a job's pictures");
+            return;
+        }
+        const std::string expected = set_option(*found, options->at(key));
+        if (!expected.empty()) inside.fault(key, value_id, expected);
+        run.places[name] = inside.pointer() + json_pointer_part(key);
+    });
+}
+
+/// The files that a pattern fits, in the order of their names.
+std::vector<std::string> files_of(const std::string& pattern) {
+    std::vector<std::string> out;
+    glob_t found = {};
+    if (::glob(pattern.c_str(), 0, nullptr, &found) == 0) {
+        for (size_t i = 0; i < found.gl_pathc; ++i)
+            out.emplace_back(found.gl_pathv[i]);
+    }
+    ::globfree(&found);
+    return out;
+}
+
+class JobReading {
+public:
+    JobReading(const json& tree, const RenderArguments& common, JsonFault& fault)
+        : fault_(fault), reader_(tree, "", fault), tree_(tree), common_(common) {}
+
+    BatchJob read() {
+        constexpr std::array<std::string_view, 7> known = {
+            "assets", "options", "looks", "outputs", "manifest", "contact_sheet", "comment"};
+        check_keys(reader_, known);
+        reader_.require("assets");
+        if (reader_.has("manifest")) job_.manifest = reader_.text("manifest");
+        if (reader_.has("contact_sheet")) job_.contact_sheet = reader_.text("contact_sheet");
+        if (job_.contact_sheet && !job_.manifest)
+            job_.manifest = std::filesystem::path(*job_.contact_sheet).replace_extension(".jsonl");
+        each_element("assets", "files", [&](const auto& reader, const json& tree) {
+            read_asset(reader, tree);
+        });
+        name_assets();
+        return std::move(job_);
+    }
+
+    const std::string& missing() const { return missing_; }
+
+private:
+    /// Calls read(reader, tree) for each element of an array: an object, or a string, which stands
+    /// for an object with that string as the member `name`. An absent array is one empty object.
+    template <typename Read>
+    void each_element(const char* key, const char* name, const Read& read) {
+        const auto list = tree_.find(key);
+        if (list == tree_.end()) {
+            const json nothing = json::object();
+            read(JsonReader(nothing, json_pointer_part(key), fault_), nothing);
+            return;
+        }
+        if (!list->is_array() || list->empty()) {
+            reader_.fault(key, value_id, "expected an array with one element at least");
+            return;
+        }
+        for (size_t i = 0; i < list->size(); ++i) {
+            const json& given = list->at(i);
+            json element = given;
+            if (given.is_string()) element = json::object({{name, given}});
+            const std::string pointer = json_pointer_part(key) + "/" + std::to_string(i);
+            const JsonReader reader(element, pointer, fault_);
+            if (!reader.failed()) read(reader, element);
+        }
+    }
+
+    void read_asset(const JsonReader& reader, const json& tree) {
+        constexpr std::array<std::string_view, 2> known = {"files", "options"};
+        check_keys(reader, known);
+        reader.require("files");
+        const std::string pattern = reader.text("files");
+        const std::vector<std::string> files = files_of(pattern);
+        if (files.empty() && missing_.empty()) missing_ = pattern;
+        for (const std::string& file : files) {
+            JobRun run{common_, job_.assets++};
+            run.arguments.scene_file = file;
+            read_options(reader_, tree_, run);
+            read_options(reader, tree, run);
+            each_element("looks", "name", [&](const auto& look, const json& of) {
+                read_look(look, of, run);
+            });
+        }
+    }
+
+    void read_look(const JsonReader& reader, const json& tree, JobRun run) {
+        constexpr std::array<std::string_view, 2> known = {"name", "options"};
+        check_keys(reader, known);
+        run.arguments.look = reader.text("name", "default");
+        read_options(reader, tree, run);
+        // Outputs without options of their own are files of one rendering.
+        JobRun together = run;
+        each_element("outputs", "file", [&](const auto& output, const json& of) {
+            read_output(output, of, run, together);
+        });
+        if (!together.arguments.outputs.empty() || !tree_.contains("outputs"))
+            job_.runs.push_back(std::move(together));
+    }
+
+    void read_output(const JsonReader& reader, const json& tree, JobRun run, JobRun& together) {
+        constexpr std::array<std::string_view, 2> known = {"file", "options"};
+        check_keys(reader, known);
+        if (!tree.contains("file")) return;  // no outputs are named
+        const std::string file = reader.text("file");
+        if (!tree.contains("options")) {
+            together.arguments.outputs.push_back(file);
+            return;
+        }
+        run.arguments.outputs = {file};
+        read_options(reader, tree, run);
+        job_.runs.push_back(std::move(run));
+    }
+
+    /// Equal names of assets get numbers.
+    void name_assets() {
+        std::vector<std::string> names(job_.assets);
+        for (const JobRun& run : job_.runs) {
+            const std::filesystem::path file = run.arguments.scene_file;
+            names[run.asset] = name_part(file.stem().string());
+        }
+        names = distinct_names(std::move(names));
+        for (size_t i = 0; i < job_.runs.size(); ++i) {
+            JobRun& run = job_.runs[i];
+            run.arguments.asset = names[run.asset];
+            run.arguments.is_further_scene = i > 0;
+            run.arguments.list.manifest = job_.manifest;
+        }
+    }
+
+    JsonFault& fault_;
+    const JsonReader reader_;
+    const json& tree_;
+    const RenderArguments& common_;
+    BatchJob job_;
+    std::string missing_;
+};
+
+}  // namespace
+
+Result<BatchJob> read_batch_job(const std::string& file, const RenderArguments& common, Log& log) {
+    const FileBytes read = read_file_bytes(file, {largest_file, UINT64_MAX});
+    if (read.fault != FileFault::none) {
+        return fail(ExitCode::bad_resource,
+                    "E-JOB-MISSING",
+                    file,
+                    "the job's file cannot be read: " + read.reason);
+    }
+    const std::string_view text(reinterpret_cast<const char*>(read.bytes.data()),
+                                read.bytes.size());
+    const Result<json> tree = parse_json_text(text, file, log);
+    if (!tree) return fail(tree.error());
+    JsonFault fault;
+    fault.file = file;
+    JobReading reading(*tree, common, fault);
+    BatchJob job = reading.read();
+    if (fault.error) return fail(std::move(*fault.error));
+    if (!reading.missing().empty()) {
+        return fail(ExitCode::missing_scene,
+                    "E-JOB-ASSETS",
+                    file,
+                    in_quotes(reading.missing()) + " fits no file");
+    }
+    for (JobRun& run : job.runs) {
+        for (auto& [option, place] : run.places)
+            place = file + "#" + place;
+    }
+    return job;
+}
+
+Result<RenderRequest> request_of_run(const JobRun& run) {
+    Result<RenderRequest> request = make_render_request(run.arguments);
+    if (request) return request;
+    Error error = request.error();
+    const auto place = run.places.find(spell_settings(error.where, SettingNames::options));
+    if (place != run.places.end()) error.where = place->second;
+    return fail(std::move(error));
+}
+
+}  // namespace obscura::app

@@ -1,0 +1,154 @@
+// tests/cli/batch_test.cpp - obscura batch: jobs of assets, looks and outputs.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli.h"
+#include "support/text_files.h"
+#include <nlohmann/json.hpp>
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::Not;
+using Texts = std::vector<std::string>;
+
+class Batch : public Cli {
+protected:
+    void SetUp() override {
+        Cli::SetUp();
+        fs::create_directories(folder_ / "in");
+        for (const char* name : {"box.gltf", "quad.gltf", "triangle.gltf"})
+            fs::rename(folder_ / name, folder_ / "in" / name);
+    }
+    ProgramRun batch(const json& job, const Texts& more = {}) const {
+        folder_.write("job.json", job.dump());
+        return run(joined({"batch", "job.json"}, more));
+    }
+    static json small_job() {
+        return json::parse(R"({
+            "assets": ["in/[bq]*.gltf"],
+            "options": {"size": "24x16", "spp": 2},
+            "looks": [{"name": "day", "options": {"env": "sky:40,30"}},
+                      {"name": "studio", "options": {"env": "studio", "exposure": 0.5}}],
+            "outputs": ["out/{asset}/{look}.png",
+                        {"file": "out/{asset}/{look}_small.exr", "options": {"size": "12x8"}}],
+            "manifest": "out.jsonl"})");
+    }
+    void expect_same(const std::string& one, const std::string& other) const {
+        const auto a = read_image_file(folder_ / one);
+        const auto b = read_image_file(folder_ / other);
+        ASSERT_TRUE(a && b) << one << ", " << other;
+        EXPECT_TRUE(a->pixels == b->pixels) << one << ", " << other;
+    }
+    std::vector<json> lines(const std::string& manifest) const {
+        std::vector<json> out;
+        for (const std::string& line : split_lines(read_text(folder_ / manifest)))
+            out.push_back(json::parse(line));
+        return out;
+    }
+    /// The file names that a dry run prints.
+    Texts files_of(const json& job, const Texts& more = {}) const {
+        const ProgramRun got = batch(job, joined({"--dry-run"}, more));
+        EXPECT_EQ(got.code, 0) << got.err;
+        return split_lines(got.out);
+    }
+};
+
+TEST_F(Batch, PicturesAreThoseOfSingleCommands) {
+    expect_result(batch(small_job()), 0, "OK");
+    const Texts day = {"--env", "sky:40,30", "-o"};
+    const Texts studio = {"--env", "studio", "--exposure", "0.5", "-o"};
+    expect_result(render("in/box.gltf", joined(day, {"one.png"})), 0, "OK");
+    expect_same("out/box/day.png", "one.png");
+    expect_result(render("in/quad.gltf", joined(studio, {"one.png"})), 0, "OK");
+    expect_same("out/quad/studio.png", "one.png");
+    expect_result(
+        render("in/quad.gltf", joined({"--size", "12x8"}, joined(day, {"one.exr"}))), 0, "OK");
+    expect_same("out/quad/day_small.exr", "one.exr");
+    EXPECT_FALSE(fs::exists(folder_ / "out/triangle"));
+    const std::vector<json> told = lines("out.jsonl");
+    ASSERT_EQ(told.size(), 8U);
+    EXPECT_EQ(told[0].at("look"), "day");
+    EXPECT_EQ(told[7].at("asset"), "in/quad.gltf");
+}
+
+TEST_F(Batch, ADryRunNamesTheFilesOfEachPart) {
+    const Texts all = files_of(small_job());
+    EXPECT_EQ(all.size(), 8U);
+    EXPECT_EQ(all.front(), "out/box/day_small.exr");
+    EXPECT_FALSE(fs::exists(folder_ / "out") || fs::exists(folder_ / "out.jsonl"));
+    EXPECT_THAT(files_of(small_job(), {"--part", "2/2"}), testing::Each(HasSubstr("quad")));
+    json turns = small_job();
+    turns["assets"] = {"in/box.gltf"};
+    turns["looks"] = {{{"name", "a"}}};
+    turns["outputs"] = {"{frame}.png"};
+    turns["options"]["turntable"] = 4;
+    EXPECT_EQ(files_of(turns).size(), 4U);
+    turns.erase("manifest");
+    expect_result(batch(turns, {"--part", "2/3"}), 0, "OK");
+    EXPECT_TRUE(fs::exists(folder_ / "2.png"));
+    EXPECT_FALSE(fs::exists(folder_ / "1.png") || fs::exists(folder_ / "3.png"));
+}
+
+TEST_F(Batch, FinishedPicturesAreLeft) {
+    json job = small_job();
+    job["contact_sheet"] = "sheet/index.html";
+    fs::create_directories(folder_ / "sheet");
+    expect_result(batch(job), 0, "OK");
+    fs::remove(folder_ / "out/box/day.png");
+    const ProgramRun again = batch(job, {"--skip-existing"});
+    expect_result(again, 0, "OK");
+    EXPECT_EQ(result_of(again)->skipped, 7);
+    EXPECT_TRUE(fs::exists(folder_ / "out/box/day.png"));
+    const std::string page = read_text(folder_ / "sheet/index.html");
+    EXPECT_THAT(page, HasSubstr("src=\"../out/box/day.png\""));
+    EXPECT_THAT(page, HasSubstr("<h2>in/quad.gltf</h2>"));
+}
+
+TEST_F(Batch, OneFailureDoesNotEndTheRest) {
+    folder_.write("in/broken.gltf", "{");
+    json job = small_job();
+    job["looks"] = {{{"name", "<b>&\""}}};
+    job["outputs"] = {"out/{asset}.png"};
+    job["contact_sheet"] = "index.html";
+    const ProgramRun got = batch(job);
+    expect_result(got, 65, "E-JSON-SYNTAX");
+    EXPECT_THAT(got.err, HasSubstr("1 of 3 scenes failed"));
+    EXPECT_TRUE(fs::exists(folder_ / "out/box.png") && fs::exists(folder_ / "out/quad.png"));
+    const std::string page = read_text(folder_ / "index.html");
+    EXPECT_THAT(page, HasSubstr("&lt;b&gt;&amp;&quot;"));
+    EXPECT_THAT(page, Not(HasSubstr("<b>")));
+}
+
+TEST_F(Batch, MistakesHaveTheirPlace) {
+    const auto refused = [&](const char* patch, int code, const char* id, const char* place) {
+        json job = small_job();
+        job.merge_patch(json::parse(patch));
+        const ProgramRun got = batch(job);
+        expect_result(got, code, id);
+        EXPECT_THAT(got.err, HasSubstr(place)) << patch;
+        EXPECT_FALSE(fs::exists(folder_ / "out"));
+    };
+    refused(R"({"asset": []})", 65, "E-JOB-KEY", "job.json#/asset");
+    refused(R"({"assets": null})", 65, "E-DOC-MISSING", "assets");
+    refused(R"({"assets": []})", 65, "E-JOB-VALUE", "job.json#/assets");
+    refused(R"({"assets": ["none/*.glb"]})", 66, "E-JOB-ASSETS", "none/*.glb");
+    refused(R"({"options": {"sp": 3}})", 65, "E-JOB-KEY", "job.json#/options/sp");
+    refused(R"({"options": {"output": "a.png"}})", 65, "E-JOB-KEY", "job.json#/options/output");
+    refused(R"({"options": {"spp": {}}})", 65, "E-JOB-VALUE", "job.json#/options/spp");
+    refused(R"({"options": {"float": 1}})", 65, "E-JOB-VALUE", "job.json#/options/float");
+    refused(R"({"looks": [{"options": {"spp": 0}}]})",
+            64,
+            "E-USAGE-RANGE",
+            "job.json#/looks/0/options/spp");
+    refused(R"({"outputs": ["out/{asset}.png"]})", 64, "E-USAGE-CONFLICT", "{look}");
+    refused(R"({"outputs": [{"file": "a.png", "size": 3}]})",
+            65,
+            "E-JOB-KEY",
+            "job.json#/outputs/0/size");
+    expect_result(run({"batch", "none.json"}), 67, "E-JOB-MISSING");
+}
+
+}  // namespace
+}  // namespace obscura
