@@ -33,6 +33,11 @@ bool has_times(const RenderRequest& request) {
            });
 }
 
+/// Tells environments apart, whose colours are those of the rendering space.
+std::string environment_key(const RenderRequest& request) {
+    return request.color_space + "\n" + request.environment->string();
+}
+
 }  // namespace
 
 double ListedPoses::first_time_s() const {
@@ -47,20 +52,57 @@ Result<void> ListedPoses::load_once() {
     return loaded;
 }
 
-Result<void> ListedPoses::load(Log& log) {
-    const Stopwatch loading;
+/// Opens the asset, unless the rendering before has left it as it would be.
+Result<void> ListedPoses::open(Log& log) {
+    KeptAsset* const kept = job_.kept;
+    const bool fits = kept != nullptr && kept->renderer && kept->scene == whole_.scene &&
+                      kept->load == whole_.load && kept->has_times == has_times(whole_) &&
+                      kept->isa == whole_.isa;
+    if (fits) {
+        job_.renderer = std::move(kept->renderer);
+        job_.renderer->statistics() = {};
+    }
+    if (kept != nullptr) kept->renderer.reset();
+    if (fits) return {};
     Result<AssetRenderer> renderer =
         AssetRenderer::open(whole_.scene, whole_.load, has_times(whole_), log);
     if (!renderer) return fail(renderer.error());
     job_.renderer = std::move(*renderer);
+    return {};
+}
+
+/// Reads or makes the environment, unless the job has had it before.
+Result<void> ListedPoses::light(Log& log) {
+    RenderRequest request = whole_;
+    std::optional<ImageRgb32f> known;
+    if (job_.kept != nullptr && request.environment) {
+        const auto found = job_.kept->environments.find(environment_key(request));
+        if (found != job_.kept->environments.end()) {
+            known = std::move(found->second);
+            job_.kept->environments.erase(found);
+        }
+    }
+    if (known) request.environment.reset();
+    Result<LightingOptions> lighting = load_lighting(request, log);
+    if (!lighting) return fail(lighting.error());
+    if (known) {
+        lighting->environment = std::move(known);
+        lighting->environment_name = whole_.environment->string();
+    }
+    job_.lighting = std::move(*lighting);
+    return {};
+}
+
+Result<void> ListedPoses::load(Log& log) {
+    const Stopwatch loading;
+    if (auto opened = open(log); !opened) return opened;
     if (auto found = job_.renderer->find_framed_nodes(whole_.camera); !found) return found;
     job_.request.camera.framed_nodes = whole_.camera.framed_nodes;
     const auto variants = variants_to_plan(whole_, job_.renderer->info().variants);
     if (!variants) return fail(variants.error());
-    if (auto planned = job_.renderer->plan_variants(*variants); !planned) return planned;
-    Result<LightingOptions> lighting = load_lighting(whole_, log);
-    if (!lighting) return fail(lighting.error());
-    job_.lighting = std::move(*lighting);
+    auto planned = job_.renderer->plan_variants(*variants, whole_.lists.keeps_asset);
+    if (!planned) return planned;
+    if (auto lit = light(log); !lit) return lit;
     if (auto there = check_writers(whole_); !there) return there;
     job_.renderer->statistics().load_s = loading.seconds();
     return {};
@@ -157,6 +199,22 @@ Result<ChosenCamera> ListedPoses::look(size_t index, bool is_last, Log& log) {
     Result<ChosenCamera> camera = job_.renderer->prepare(request, lighting, log);
     if (camera) lit_ = light;
     return camera;
+}
+
+void leave_asset(Job& job) {
+    if (job.kept == nullptr) return;
+    const RenderRequest& whole = job.whole;
+    KeptAsset& kept = *job.kept;
+    if (job.lighting.environment && whole.environment)
+        kept.environments[environment_key(whole)] = std::move(*job.lighting.environment);
+    kept.renderer.reset();
+    if (!whole.lists.keeps_asset) return;
+    kept.scene = whole.scene;
+    kept.load = whole.load;
+    kept.has_times = has_times(whole);
+    kept.isa = whole.isa;
+    kept.asset_facts = std::move(job.asset_facts);
+    kept.renderer = std::move(job.renderer);
 }
 
 }  // namespace obscura::app

@@ -62,6 +62,8 @@ private:
     double first_time_s() const;
     Pose pose_of(size_t index) const;
     Result<void> load(Log& log);
+    Result<void> open(Log& log);
+    Result<void> light(Log& log);
     Result<void> pose_as(const Pose& pose, bool is_last, Log& log);
     void keep_views(const std::string& variant);
 
@@ -72,5 +74,8 @@ private:
     std::optional<Light> lit_;  ///< nothing: the pose has not been prepared
     std::map<std::string, std::vector<KeptView>> kept_;  ///< of a sequence, by variant
 };
+
+/// Leaves asset and environment to the next rendering of a job.
+void leave_asset(Job& job);
 
 }  // namespace obscura::app

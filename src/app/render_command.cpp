@@ -4,6 +4,7 @@
 
 #include "app/distinct_files.h"
 #include "app/list_options.h"
+#include "app/listed_poses.h"
 #include "app/memory_option.h"
 #include "app/outcome.h"
 #include "app/progress.h"
@@ -105,8 +106,26 @@ WatchTimes watch_times(const LongRun& run) {
     return out;
 }
 
+struct UsedMachine {
+    int threads = 0;
+    double seconds = 0;
+};
+
+/// Writes --stats and the summary for people.
+Result<void> tell_statistics(Job& job, const UsedMachine& used) {
+    RenderStatistics none;
+    RenderStatistics& statistics = job.renderer ? job.renderer->statistics() : none;
+    statistics.threads = used.threads;
+    statistics.total_s = used.seconds;
+    statistics.warnings = job.log.warnings();
+    if (auto written = write_statistics(job.whole, statistics); !written) return written;
+    if (job.renderer) log_summary(job.whole, statistics, job.skipped, job.log);
+    return check_counters(statistics.counters, job.whole);
+}
+
 /// Out   skipped: images that were there already
-Result<void> execute(const SceneRun& run, Watch& watch, Log& log, size_t& skipped) {
+Result<void> execute(
+    const SceneRun& run, Watch& watch, KeptAsset& kept, Log& log, size_t& skipped) {
     const RenderRequest& request = run.request;
     const Stopwatch total;
     if (auto begins = check_address_space(address_space_left()); !begins) return begins;
@@ -123,38 +142,35 @@ Result<void> execute(const SceneRun& run, Watch& watch, Log& log, size_t& skippe
     if (!display) return fail(display.error());
     const ThreadLimit threads(request.threads);
     Job job{.log = log,
+            .whole = request,
             .request = request,
             .options = run.options,
             .parts = run.parts,
             .watch = watch,
+            .kept = &kept,
             .display = std::move(*display)};
     if (request.lists.lists_only) return list_all(job);
     if (request.check) return check_all(job);
+    if (kept.scene == request.scene) job.asset_facts = kept.asset_facts;
     Progress progress(request.verbosity, lines_of(request), request.farm);
-    const Result<void> done = render_all(job, progress);
+    Result<void> done = render_all(job, progress);
     skipped = job.skipped;
-    if (!done) return done;
-    RenderStatistics none;
-    RenderStatistics& statistics = job.renderer ? job.renderer->statistics() : none;
-    statistics.threads = threads.threads();
-    statistics.total_s = total.seconds();
-    statistics.warnings = log.warnings();
-    if (auto written = write_statistics(request, statistics); !written) return written;
-    if (job.renderer) log_summary(request, statistics, skipped, log);
-    return check_counters(statistics.counters, request);
+    if (done) done = tell_statistics(job, {threads.threads(), total.seconds()});
+    leave_asset(job);
+    return done;
 }
 
 /// Renders the images of one scene.
 ///
 /// Out   skipped: images that were there already
-Result<void> render_scene(SceneRun& run, Log& log, size_t& skipped) {
+Result<void> render_scene(SceneRun& run, KeptAsset& kept, Log& log, size_t& skipped) {
     RenderRequest& request = run.request;
     Watch watch(request.scene.string(), log, watch_times(request.long_run));
     if (auto loaded = load_requested_camera(request, log); !loaded) return loaded;
     if (auto read = load_views(request, log); !read) return read;
     if (auto colored = use_color_space(request, log); !colored) return colored;
     if (run.parts != nullptr && run.parts->are_of_samples()) request.part_by = PartBy::samples;
-    const Result<void> done = execute(run, watch, log, skipped);
+    const Result<void> done = execute(run, watch, kept, log, skipped);
     watch.end();
     return done;
 }
@@ -181,8 +197,11 @@ void render_scenes(std::vector<SceneRun>& runs,
                    size_t& skipped,
                    std::vector<Error>& failures) {
     const Stopwatch total;
+    KeptAsset kept;
     for (size_t i = 0; i < runs.size(); ++i) {
         RenderRequest& request = runs[i].request;
+        request.lists.keeps_asset =
+            i + 1 < runs.size() && runs[i + 1].request.scene == request.scene;
         size_t there = 0;
         Result<void> done = shorten_time_limit(request, total.seconds());
         // What one scene warns of stands in its images' headers, and not in the others'.
@@ -196,7 +215,7 @@ void render_scenes(std::vector<SceneRun>& runs,
                 }
             },
             SettingNames::options);
-        if (done) done = render_scene(runs[i], runs.size() == 1 ? log : own, there);
+        if (done) done = render_scene(runs[i], kept, runs.size() == 1 ? log : own, there);
         skipped += there;
         if (done) continue;
         failures.push_back(done.error());

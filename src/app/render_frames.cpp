@@ -51,7 +51,8 @@ std::vector<size_t> indices_to_render(const RenderRequest& request, size_t count
 void find_facts(Job& job) {
     const Isa isa = job.request.isa;
     const std::string isa_name = has_isa(isa) ? stage_table_for(isa).isa : "";
-    job.facts = facts_of(job.request, isa_name, embree_version());
+    if (job.asset_facts.empty()) job.asset_facts = facts_of_asset(job.whole.scene);
+    job.facts = facts_of(job.request, job.asset_facts, isa_name, embree_version());
 }
 
 /// The images of a command, of which those that are not there are rendered.
@@ -62,7 +63,8 @@ public:
 
     /// Goes through the images; those of others once more in the end.
     Result<void> run() {
-        if (auto listed = list(); !listed) return listed;
+        if (auto opened = open_manifest(); !opened) return opened;
+        if (auto listed = list(); !listed) return note_no_list(listed.error());
         if (job_.request.long_run.skips_existing) find_facts(job_);
         std::vector<size_t> left = indices_to_render(job_.request, images().size());
         asked_ = left.size();
@@ -81,12 +83,8 @@ public:
 private:
     const std::vector<ListedImage>& images() const { return poses_.list().images; }
 
-    Result<void> list() {
-        if (auto listed = poses_.find_images(job_.log); !listed) return listed;
+    Result<void> open_manifest() {
         const RenderRequest& request = poses_.whole();
-        if (request.lists.needs_asset()) {
-            if (auto fits = check_files(request, images()); !fits) return fits;
-        }
         if (!request.lists.manifest) return {};
         const bool is_shared =
             request.part || request.long_run.skips_existing || request.lists.adds_to_manifest;
@@ -94,6 +92,21 @@ private:
         if (!manifest) return fail(manifest.error());
         manifest_.emplace(std::move(*manifest));
         return {};
+    }
+
+    Result<void> list() {
+        if (auto listed = poses_.find_images(job_.log); !listed) return listed;
+        const RenderRequest& request = poses_.whole();
+        return request.lists.needs_asset() ? check_files(request, images()) : Result<void>();
+    }
+
+    /// An asset whose images are not known has one line.
+    Result<void> note_no_list(const Error& error) {
+        const ListedImage image;
+        ImageOutcome outcome{image, View{}};
+        outcome.error = error;
+        if (auto noted = note(outcome); !noted) return noted;
+        return fail(error);
     }
 
     /// In, out   left: images to render; then those that others hold
@@ -153,7 +166,7 @@ private:
         if (job_.facts.empty()) find_facts(job_);
         RenderStatistics& statistics = job_.renderer->statistics();
         const RenderStatistics before = statistics;
-        Result<ChosenCamera> camera = poses_.look(index, turn_of(index).is_last, log);
+        Result<ChosenCamera> camera = poses_.look(index, is_last_pose(index), log);
         if (!camera) return fail(camera.error());
         outcome.camera = *camera;
         const auto done = make_image(job_, *camera, turn_of(index), log, progress_);
@@ -171,6 +184,10 @@ private:
     /// With locks nobody knows which image comes last, unless there is one only.
     bool may_come_back() const {
         return job_.request.long_run.skips_existing && images().size() > 1;
+    }
+
+    bool is_last_pose(size_t index) const {
+        return turn_of(index).is_last && !job_.request.lists.keeps_asset;
     }
 
     Turn turn_of(size_t index) const {

@@ -8,21 +8,38 @@
 #include "session/image_parts.h"
 
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 
 namespace obscura::app {
 
+/// What a rendering leaves for the next one of a job.
+struct KeptAsset {
+    std::optional<AssetRenderer> renderer = {};
+    std::filesystem::path scene = {};
+    gltf::LoadOptions load = {};  ///< that it was opened with
+    bool has_times = false;
+    Isa isa = Isa::automatic;
+    NamedTexts asset_facts = {};  ///< of the scene's files
+    /// Those that the job has read or made, by what was asked for.
+    std::map<std::string, ImageRgb32f> environments = {};
+};
+
 /// Runs one command, from the request to the statistics.
 struct Job {
-    Log& log;               ///< the command's; frames may have their own
-    RenderRequest request;  ///< of the image that is being made
-    NamedTexts options;     ///< as they were given, for --part, --checkpoint, fingerprints
+    Log& log;                    ///< the command's; frames may have their own
+    const RenderRequest& whole;  ///< what the whole command is asked for
+    RenderRequest request;       ///< of the image that is being made
+    NamedTexts options;          ///< as they were given, for --part, --checkpoint, fingerprints
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     Watch& watch;
+    KeptAsset* kept = nullptr;  ///< of the rendering before; null: of none
     std::optional<DisplayTransform> display = {};
     bool is_exposed = false;  ///< the display, by a camera's own exposure
     std::optional<AssetRenderer> renderer = {};
     LightingOptions lighting = {};
+    NamedTexts asset_facts = {};  ///< those of the scene's own files
     NamedTexts facts = {};        ///< that pixels depend on; files are read for them before loading
     NamedTexts image_facts = {};  ///< those of ListedImage, of the image that is being made
     bool has_begun = false;       ///< the first image is being rendered

@@ -157,7 +157,7 @@ struct PosedAsset::Impl {
     Problems problems;
     Degraded degraded;           ///< of the latest scene
     double open_seconds = 0;     ///< not yet told in a scene
-    bool shows_several = false;  ///< variants
+    bool shows_several = false;  ///< at one time
 
     Result<void> open(bool has_time, Log& log);
     Result<void> choose_parts();
@@ -441,8 +441,8 @@ Result<Scene> PosedAsset::scene_between(const ShutterTimes& shutter, bool last, 
                    [&] { return impl_->settled(impl_->scene_between(shutter, last, log), log); });
 }
 
-Result<void> PosedAsset::plan_variants(const std::vector<std::string>& names) {
-    impl_->shows_several = names.size() > 1;
+Result<void> PosedAsset::plan_variants(const std::vector<std::string>& names, bool several) {
+    impl_->shows_several = several || names.size() > 1;
     return gltf::plan_variants(names, impl_->asset.document);
 }
 

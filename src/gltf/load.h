@@ -23,15 +23,21 @@ struct LightChoice {
     struct Factor {
         std::string pattern;  ///< of the light's or its node's name, see base/name_search.h
         double factor = 1;    ///< times its intensity; 0: the light is left out
+
+        bool operator==(const Factor&) const = default;
     };
     bool off = false;                  ///< all are left out
     std::vector<Factor> factors = {};  ///< the last one that fits a light counts
+
+    bool operator==(const LightChoice&) const = default;
 };
 
 /// What --holdout, --camera-invisible, --no-shadow and --catcher do to parts of the file.
 struct VisibilityRule {
     std::string pattern;  ///< of the names of nodes (with all below them), meshes and materials
     uint8_t flag = 0;     ///< of scene/visibility.h
+
+    bool operator==(const VisibilityRule&) const = default;
 };
 
 struct LoadOptions {
@@ -60,6 +66,8 @@ struct LoadOptions {
     /// Scenes of an animated asset get Scene::frame_motion, with frames this far apart: for the
     /// layer `motion`.
     std::optional<double> frame_step_s = {};
+
+    bool operator==(const LoadOptions&) const = default;
 };
 
 /// Reads, checks and converts one asset with everything that it refers to.
@@ -117,8 +125,9 @@ public:
     /// Tells which variants scenes will be asked for, "" for the file's own materials: what they
     /// have in common is read once.
     ///
+    /// In      several: scenes of one time will follow each other, also where there is one variant
     /// Errors  64 E-VARIANT-UNKNOWN
-    Result<void> plan_variants(const std::vector<std::string>& names);
+    Result<void> plan_variants(const std::vector<std::string>& names, bool several);
 
     /// The variant of the scenes that follow.
     ///

@@ -92,6 +92,7 @@ Result<void> make_environment(PreparedScene::Impl& impl,
 /// lights the scene.
 Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
     const EnvironmentSource source{lighting.environment.has_value(),
+                                   lighting.environment_name,
                                    impl.scene.environment,
                                    lighting.environment_intensity,
                                    lighting.environment_rotation_deg,

@@ -15,6 +15,7 @@ namespace obscura {
 /// it is turned and sampled.
 struct EnvironmentSource {
     bool chosen = false;
+    std::string name;  ///< of the chosen one
     std::shared_ptr<const ImageRgb32f> own;
     double intensity = 1;
     double rotation_deg = 0;

@@ -63,6 +63,7 @@ struct PixelRect {
 
 struct LightingOptions {
     std::optional<ImageRgb32f> environment;  ///< none: the scene's own, else the studio
+    std::string environment_name = {};       ///< tells one from another; see PreparedScene::update
     double environment_intensity = 1;        ///< of any environment
     double environment_rotation_deg = 0;     ///< about +Y, counter-clockwise seen from above
     bool catcher_ground = false;             ///< RenderOptions::catcher_ground_m will be set

@@ -16,6 +16,8 @@ namespace obscura {
 struct TextureLimit {
     uint64_t max_bytes = 0;
     std::filesystem::path folder;
+
+    bool operator==(const TextureLimit&) const = default;
 };
 
 /// What a file's texels were made from.

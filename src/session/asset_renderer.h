@@ -59,8 +59,8 @@ public:
     /// on.
     ///
     /// Errors  64 E-VARIANT-UNKNOWN
-    Result<void> plan_variants(const std::vector<std::string>& names) {
-        return asset_->plan_variants(names);
+    Result<void> plan_variants(const std::vector<std::string>& names, bool several) {
+        return asset_->plan_variants(names, several);
     }
     Result<void> choose_variant(const std::string& name) { return asset_->choose_variant(name); }
 

@@ -158,14 +158,21 @@ fs::path checkpoint_file(const RenderRequest& request) {
     return asked;
 }
 
+NamedTexts facts_of_asset(const fs::path& scene) {
+    NamedTexts facts;
+    for (const fs::path& file : gltf::files_of_asset(scene))
+        add_file(std::string(asset_file_fact) + file.filename().string(), file, facts);
+    return facts;
+}
+
 NamedTexts facts_of(const RenderRequest& request,
+                    const NamedTexts& asset,
                     const std::string& isa,
                     const std::string& embree) {
     NamedTexts facts = {{"the program's version", OBSCURA_VERSION},
                         {"Embree's version", embree},
                         {"the instruction set", isa}};
-    for (const fs::path& file : gltf::files_of_asset(request.scene))
-        add_file(std::string(asset_file_fact) + file.filename().string(), file, facts);
+    facts.insert(facts.end(), asset.begin(), asset.end());
     if (request.environment) add_file("the environment's file", *request.environment, facts);
     if (request.camera_json) add_file("the camera's file", *request.camera_json, facts);
     if (request.camera.settings.aperture_file)

@@ -34,10 +34,14 @@ inline constexpr std::string_view asset_file_fact = "the file ";
 /// instruction set, and the checksum of every file that is read. A file that cannot be read is
 /// missing among them; loading reports it.
 ///
-/// In      isa, embree: of the prepared scene
+/// In      asset: those of facts_of_asset; isa, embree: of the prepared scene
 NamedTexts facts_of(const RenderRequest& request,
+                    const NamedTexts& asset,
                     const std::string& isa,
                     const std::string& embree);
+
+/// The part of these that tells of an asset's own files.
+NamedTexts facts_of_asset(const std::filesystem::path& scene);
 
 /// What differs between the options, without the names of outputs, or else the facts of two
 /// renderings: "--spp: 16 and 64; --seed: nothing and 7"; "": nothing.

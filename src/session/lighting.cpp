@@ -24,6 +24,7 @@ Result<LightingOptions> load_lighting(const RenderRequest& request, Log& log) {
         if (request.space.from_rec709)
             convert_colors(*request.space.from_rec709, environment->pixels);
         lighting.environment = std::move(*environment);
+        lighting.environment_name = request.environment->string();
     }
     return lighting;
 }

@@ -16,7 +16,7 @@ namespace obscura {
 /// What became of one image.
 struct ImageOutcome {
     const ListedImage& image;
-    const View& view;
+    View view;
     std::optional<ChosenCamera> camera = {};  ///< none: it was not rendered
     double seconds = 0;
     std::vector<std::string> warnings = {};

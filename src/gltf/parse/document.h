@@ -290,7 +290,7 @@ struct Document {
     std::vector<std::string> variants;  ///< KHR_materials_variants: names
     /// 1 for materials of variants that will be shown, too: their images are kept with the others.
     std::vector<char> planned_materials;
-    std::string xmp;                    ///< the asset's XMP packet as JSON text
+    std::string xmp;  ///< the asset's XMP packet as JSON text
     std::vector<ExtensionInfo> extensions;
     std::vector<ReportEntry> report;
     bool keeps_uv = false;                    ///< LoadOptions::keeps_uv
