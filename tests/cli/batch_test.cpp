@@ -55,7 +55,7 @@ protected:
     }
 };
 
-TEST_F(Batch, PicturesAreThoseOfSingleCommands) {
+TEST_F(Batch, ImagesAreThoseOfSingleCommands) {
     expect_result(batch(small_job()), 0, "OK");
     const Texts day = {"--env", "sky:40,30", "-o"};
     const Texts studio = {"--env", "studio", "--exposure", "0.5", "-o"};
@@ -91,7 +91,7 @@ TEST_F(Batch, ADryRunNamesTheFilesOfEachPart) {
     EXPECT_FALSE(fs::exists(folder_ / "1.png") || fs::exists(folder_ / "3.png"));
 }
 
-TEST_F(Batch, FinishedPicturesAreLeft) {
+TEST_F(Batch, FinishedImagesAreLeft) {
     json job = small_job();
     job["contact_sheet"] = "sheet/index.html";
     fs::create_directories(folder_ / "sheet");
