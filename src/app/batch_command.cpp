@@ -9,6 +9,9 @@
 #include "app/render_command.h"
 #include "app/render_options.h"
 
+#include <filesystem>
+#include <system_error>
+
 namespace obscura::app {
 
 namespace {
@@ -78,9 +81,20 @@ Result<std::vector<SceneRun>> runs_of(const BatchJob& job,
             request->lists.part_offset = i;
         }
         request->lists.lists_only = arguments.dry_run;
+        request->lists.shares_manifest = part.has_value();
         runs.push_back({std::move(*request), options_for_merge(run.arguments)});
     }
     return runs;
+}
+
+/// Those of the manifest and the contact sheet; where that fails, writing will say why.
+void make_folders(const BatchJob& job) {
+    for (const auto* file : {&job.manifest, &job.contact_sheet}) {
+        std::error_code ignored;
+        if (*file)
+            std::filesystem::create_directories(std::filesystem::path(**file).parent_path(),
+                                                ignored);
+    }
 }
 
 int run_batch(const BatchArguments& arguments) {
@@ -99,6 +113,7 @@ int run_batch(const BatchArguments& arguments) {
         log.info("this part of the job has no pictures");
         return report_success(arguments.job_file, log);
     }
+    if (!arguments.dry_run) make_folders(*job);
     return run_scenes(*runs, arguments.job_file, log, [&]() -> Result<void> {
         if (!job->contact_sheet || arguments.dry_run) return {};
         return write_contact_sheet(*job->manifest, *job->contact_sheet);

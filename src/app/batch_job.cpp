@@ -3,6 +3,7 @@
 #include "app/batch_job.h"
 
 #include "app/command_line.h"
+#include "app/distinct_files.h"
 #include "app/numbers.h"
 #include "app/render_options.h"
 #include "base/file_bytes.h"
@@ -118,6 +119,8 @@ void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
 /// The files that a pattern fits, in the order of their names.
 std::vector<std::string> files_of(const std::string& pattern) {
     std::vector<std::string> out;
+    std::error_code error;
+    if (std::filesystem::exists(pattern, error)) return {pattern};  // whatever signs it has
     glob_t found = {};
     if (::glob(pattern.c_str(), 0, nullptr, &found) == 0) {
         for (size_t i = 0; i < found.gl_pathc; ++i)
@@ -141,6 +144,8 @@ public:
         if (reader_.has("contact_sheet")) job_.contact_sheet = reader_.text("contact_sheet");
         if (job_.contact_sheet && !job_.manifest)
             job_.manifest = std::filesystem::path(*job_.contact_sheet).replace_extension(".jsonl");
+        if (job_.contact_sheet && same_file(*job_.contact_sheet, *job_.manifest))
+            reader_.fault("contact_sheet", value_id, "the manifest has this file");
         each_element("assets", "files", [&](const auto& reader, const json& tree) {
             read_asset(reader, tree);
         });
@@ -200,11 +205,12 @@ private:
         read_options(reader, tree, run);
         // Outputs without options of their own are files of one rendering.
         JobRun together = run;
+        const auto at = static_cast<long>(job_.runs.size());
         each_element("outputs", "file", [&](const auto& output, const json& of) {
             read_output(output, of, run, together);
         });
         if (!together.arguments.outputs.empty() || !tree_.contains("outputs"))
-            job_.runs.push_back(std::move(together));
+            job_.runs.insert(job_.runs.begin() + at, std::move(together));
     }
 
     void read_output(const JsonReader& reader, const json& tree, JobRun run, JobRun& together) {
@@ -212,6 +218,7 @@ private:
         check_keys(reader, known);
         if (!tree.contains("file")) return;  // no outputs are named
         const std::string file = reader.text("file");
+        run.places["--output"] = together.places["--output"] = reader.pointer();
         if (!tree.contains("options")) {
             together.arguments.outputs.push_back(file);
             return;
@@ -229,10 +236,8 @@ private:
             names[run.asset] = name_part(file.stem().string());
         }
         names = distinct_names(std::move(names));
-        for (size_t i = 0; i < job_.runs.size(); ++i) {
-            JobRun& run = job_.runs[i];
+        for (JobRun& run : job_.runs) {
             run.arguments.asset = names[run.asset];
-            run.arguments.is_further_scene = i > 0;
             run.arguments.list.manifest = job_.manifest;
         }
     }

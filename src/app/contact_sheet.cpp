@@ -6,10 +6,14 @@
 #include "base/json/json.h"
 #include "image/output_format.h"
 
+#include <algorithm>
 #include <fstream>
+#include <istream>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
+#include <utility>
 #include <vector>
 
 namespace obscura::app {
@@ -98,8 +102,10 @@ std::string caption_of(const Json& line) {
 std::string figure_of(const Json& line, const std::filesystem::path& folder) {
     std::string out = "<figure>";
     std::string shown;
+    std::error_code error;
     for (const Json& file : line.value("files", Json::array())) {
-        const std::filesystem::path path = file.value("file", "");
+        const std::filesystem::path path =
+            std::filesystem::absolute(file.value("file", ""), error).lexically_normal();
         if (shown.empty() && is_shown(path)) shown = reference(path.lexically_proximate(folder));
     }
     const std::string caption = escaped(caption_of(line));
@@ -113,6 +119,44 @@ std::string figure_of(const Json& line, const std::filesystem::path& folder) {
     return out + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
 
+/// What is to be seen, without the files: a picture takes the place of its failure.
+std::string subject_of(const Json& line) {
+    std::string out;
+    for (const char* member : {"asset", "look", "variant", "view", "frame"})
+        out += line.value(member, Json()).dump() + "\n";
+    return out;
+}
+
+std::string first_file(const Json& line) {
+    const Json files = line.value("files", Json::array());
+    return files.empty() ? "" : files.front().value("file", "");
+}
+
+/// The lines of each asset; of several of one picture the last one, in the place of the first.
+std::vector<std::pair<std::string, std::vector<Json>>> lines_by_asset(std::istream& in) {
+    std::vector<std::pair<std::string, std::vector<Json>>> out;
+    for (std::string text; std::getline(in, text);) {
+        const Json line = Json::parse(text, nullptr, false);
+        if (!line.is_object()) continue;  // cut off by a kill
+        const std::string asset = line.value("asset", "");
+        auto found = std::find_if(
+            out.begin(), out.end(), [&](const auto& entry) { return entry.first == asset; });
+        if (found == out.end()) found = out.insert(out.end(), {asset, {}});
+        std::vector<Json>& lines = found->second;
+        const auto same = std::find_if(lines.begin(), lines.end(), [&](const Json& other) {
+            const std::string file = first_file(other);
+            return subject_of(other) == subject_of(line) &&
+                   (file.empty() || file == first_file(line));
+        });
+        if (same == lines.end()) {
+            lines.push_back(line);
+        } else {
+            *same = line;
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 Result<void> write_contact_sheet(const std::filesystem::path& manifest,
@@ -122,26 +166,14 @@ Result<void> write_contact_sheet(const std::filesystem::path& manifest,
     std::error_code error;
     const std::filesystem::path folder =
         std::filesystem::absolute(page, error).lexically_normal().parent_path();
-    std::string html(head), asset;
-    bool is_open = false;
-    for (std::string text; std::getline(in, text);) {
-        const Json line = Json::parse(text, nullptr, false);
-        if (!line.is_object()) continue;  // cut off by a kill
-        const std::string name = line.value("asset", "");
-        if (!is_open || name != asset) {
-            html +=
-                std::string(is_open ? "</div>\n" : "") + "<h2>" + escaped(name) + "</h2>\n<div>\n";
-            asset = name;
-            is_open = true;
-        }
-        Json full = line;
-        for (Json& file : full["files"]) {
-            const std::filesystem::path path = file.value("file", "");
-            file["file"] = std::filesystem::absolute(path, error).lexically_normal().string();
-        }
-        html += figure_of(full, folder);
+    std::string html(head);
+    for (const auto& [asset, lines] : lines_by_asset(in)) {
+        html += "<h2>" + escaped(asset) + "</h2>\n<div>\n";
+        for (const Json& line : lines)
+            html += figure_of(line, folder);
+        html += "</div>\n";
     }
-    html += std::string(is_open ? "</div>\n" : "") + "</body>\n</html>\n";
+    html += "</body>\n</html>\n";
     return write_file_atomically(page, std::as_bytes(std::span(html)));
 }
 

@@ -4,7 +4,6 @@
 
 #include "session/image_parts.h"
 #include "session/outputs.h"
-#include "session/segmentation.h"
 
 #include <map>
 #include <sys/stat.h>
@@ -46,13 +45,10 @@ std::vector<fs::path> files_written(const RenderRequest& request,
                                     const std::vector<ListedImage>& images) {
     std::vector<fs::path> written;
     for (const ListedImage& image : images) {
-        const std::vector<fs::path> files = image_files(request, image);
+        const std::vector<fs::path> files = all_files(request, image);
         written.insert(written.end(), files.begin(), files.end());
         if (request.long_run.has_checkpoint && !image.checkpoint.empty())
             written.push_back(image.checkpoint);
-        if (!image.segmentation) continue;
-        const auto masks = segmentation_files(*image.segmentation);
-        written.insert(written.end(), masks.begin(), masks.end());
     }
     for (const auto* file :
          {&request.statistics, &request.crypto_manifest, &request.lists.manifest}) {

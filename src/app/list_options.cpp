@@ -113,7 +113,6 @@ Result<std::vector<RenderArguments>> arguments_of_scenes(const RenderArguments& 
         one.scene_file = files[i];
         if (files.size() == 1) break;
         one.asset = names[i];
-        one.is_further_scene = i > 0;
     }
     return out;
 }
@@ -153,7 +152,6 @@ std::string listed_output(const RenderArguments& arguments) {
 Result<void> complete_list(const RenderArguments& arguments, RenderRequest& request) {
     request.lists.asset = arguments.asset;
     request.lists.look = arguments.look;
-    request.lists.adds_to_manifest = arguments.is_further_scene;
     if (request.lists.manifest && request.standard_output) {
         return conflict("--manifest", "it is of files; give -o a file's name in place of -");
     }

@@ -33,12 +33,12 @@ bool has_times(const RenderRequest& request) {
            });
 }
 
-/// Tells environments apart, whose colours are those of the rendering space.
+}  // namespace
+
 std::string environment_key(const RenderRequest& request) {
+    if (!request.environment) return "";
     return request.color_space + "\n" + request.environment->string();
 }
-
-}  // namespace
 
 double ListedPoses::first_time_s() const {
     if (!whole_.frames) return whole_.load.time_s.value_or(0);
@@ -78,7 +78,7 @@ Result<void> ListedPoses::light(Log& log) {
     if (job_.kept != nullptr && request.environment) {
         const auto found = job_.kept->environments.find(environment_key(request));
         if (found != job_.kept->environments.end()) {
-            known = std::move(found->second);
+            known = std::move(found->second.image);
             job_.kept->environments.erase(found);
         }
     }
@@ -205,8 +205,13 @@ void leave_asset(Job& job) {
     if (job.kept == nullptr) return;
     const RenderRequest& whole = job.whole;
     KeptAsset& kept = *job.kept;
-    if (job.lighting.environment && whole.environment)
-        kept.environments[environment_key(whole)] = std::move(*job.lighting.environment);
+    if (job.lighting.environment && whole.environment) {
+        ImageRgb32f& image = *job.lighting.environment;
+        const uint64_t bytes = image.pixels.size() * sizeof(float);
+        auto charge = charge_memory(MemoryUse::environment, job.lighting.environment_name, bytes);
+        if (charge)
+            kept.environments[environment_key(whole)] = {std::move(image), std::move(*charge)};
+    }
     kept.renderer.reset();
     if (!whole.lists.keeps_asset) return;
     kept.scene = whole.scene;

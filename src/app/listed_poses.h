@@ -75,7 +75,10 @@ private:
     std::map<std::string, std::vector<KeptView>> kept_;  ///< of a sequence, by variant
 };
 
-/// Leaves asset and environment to the next rendering of a job.
+/// Tells environments apart, whose colours are those of the rendering space; "": there is none.
+std::string environment_key(const RenderRequest& request);
+
+/// Leaves asset and environment to the next rendering of a job, the latter where there is memory.
 void leave_asset(Job& job);
 
 }  // namespace obscura::app

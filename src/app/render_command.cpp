@@ -15,6 +15,7 @@
 #include "base/priority.h"
 #include "base/stopwatch.h"
 #include "session/image_parts.h"
+#include "session/manifest.h"
 #include "session/outputs.h"
 #include "session/requested_camera.h"
 #include "session/statistics.h"
@@ -123,6 +124,17 @@ Result<void> tell_statistics(Job& job, const UsedMachine& used) {
     return check_counters(statistics.counters, job.whole);
 }
 
+/// --dry-run
+Result<void> list_images_of(const SceneRun& run, Watch& watch, KeptAsset& kept, Log& log) {
+    Job job{.log = log,
+            .whole = run.request,
+            .request = run.request,
+            .options = run.options,
+            .watch = watch,
+            .kept = &kept};
+    return list_all(job);
+}
+
 /// Out   skipped: images that were there already
 Result<void> execute(
     const SceneRun& run, Watch& watch, KeptAsset& kept, Log& log, size_t& skipped) {
@@ -130,8 +142,9 @@ Result<void> execute(
     const Stopwatch total;
     if (auto begins = check_address_space(address_space_left()); !begins) return begins;
     if (auto set = use_memory_limit(request.max_memory, memory_bound()); !set) return set;
+    if (request.lists.lists_only) return list_images_of(run, watch, kept, log);
     if (auto writable = check_outputs(request); !writable) return writable;
-    if (!request.lists.needs_asset() && !request.lists.lists_only) {
+    if (!request.lists.needs_asset()) {
         const Result<ImageList> list = list_images(request, {});
         if (!list) return fail(list.error());
         if (auto fits = check_files(request, list->images); !fits) return fits;
@@ -149,7 +162,6 @@ Result<void> execute(
             .watch = watch,
             .kept = &kept,
             .display = std::move(*display)};
-    if (request.lists.lists_only) return list_all(job);
     if (request.check) return check_all(job);
     if (kept.scene == request.scene) job.asset_facts = kept.asset_facts;
     Progress progress(request.verbosity, lines_of(request), request.farm);
@@ -189,53 +201,128 @@ Result<void> shorten_time_limit(RenderRequest& request, double seconds) {
                 "the time is over before this scene was begun");
 }
 
-/// Renders scene after scene; one that fails does not end the rest, unless the program is to stop.
-///
-/// Out   skipped: images that were there already; failures: in their order
-void render_scenes(std::vector<SceneRun>& runs,
-                   Log& log,
-                   size_t& skipped,
-                   std::vector<Error>& failures) {
-    const Stopwatch total;
-    KeptAsset kept;
-    for (size_t i = 0; i < runs.size(); ++i) {
-        RenderRequest& request = runs[i].request;
-        request.lists.keeps_asset =
-            i + 1 < runs.size() && runs[i + 1].request.scene == request.scene;
-        size_t there = 0;
-        Result<void> done = shorten_time_limit(request, total.seconds());
-        // What one scene warns of stands in its images' headers, and not in the others'.
-        Log own(
-            log.verbosity() == Verbosity::verbose ? Verbosity::verbose : Verbosity::normal,
-            [&](const LogMessage& message) {
-                if (message.is_warning) {
-                    log.warn(message.where, message.text);
-                } else {
-                    log.info(message.text);
-                }
-            },
-            SettingNames::options);
-        if (done) done = render_scene(runs[i], kept, runs.size() == 1 ? log : own, there);
-        skipped += there;
-        if (done) continue;
-        failures.push_back(done.error());
-        if (done.error().code == ExitCode::stopped_early) return;
-        if (i + 1 == runs.size()) return;
-        log.warn(request.scene.string(),
-                 fmt::format("this scene fails: {}: {} [{}]; the others go on",
-                             done.error().where,
-                             done.error().message,
-                             done.error().id));
-    }
+/// True when the whole command is to stop.
+bool stops_all(const Error& error) {
+    return error.id == "E-STOPPED" || error.id == "E-TIME-LIMIT";
 }
 
-Error all_failures(std::vector<Error> failures, size_t scenes) {
+/// Tells the manifest of a rendering that failed before it could do so itself.
+void note_failure(const RenderRequest& request, const Error& error) {
+    if (!request.lists.manifest) return;
+    const ListedImage none;
+    ImageOutcome outcome{none, View{}};
+    outcome.error = error;
+    if (Result<Manifest> manifest = Manifest::open(*request.lists.manifest, false))
+        (void)manifest->add(manifest_line(request, outcome));
+}
+
+/// Drops the environments that no later rendering needs.
+void drop_environments(KeptAsset& kept, std::span<const SceneRun> later) {
+    std::erase_if(kept.environments, [&](const auto& entry) {
+        return std::none_of(later.begin(), later.end(), [&](const SceneRun& run) {
+            return environment_key(run.request) == entry.first;
+        });
+    });
+}
+
+/// Renders scene after scene; one that fails does not end the rest, unless the program is to stop.
+class SceneRuns {
+public:
+    SceneRuns(std::vector<SceneRun>& runs, Log& log) : runs_(runs), log_(log) {
+        for (const SceneRun& run : runs)
+            time_limits_s_.push_back(run.request.long_run.time_limit_s);
+    }
+
+    /// What others hold comes once more in the end.
+    void render() {
+        for (size_t i = 0; i < runs_.size() && !is_stopped(); ++i)
+            render_one(i, runs_.size() > 1);
+        const std::vector<size_t> locked = std::move(locked_);
+        for (size_t i = 0; i < locked.size() && !is_stopped(); ++i)
+            render_one(locked[i], false);
+    }
+
+    bool is_stopped() const { return !failures_.empty() && stops_all(failures_.back()); }
+    size_t skipped() const { return skipped_; }
+    std::vector<Error>& failures() { return failures_; }
+
+private:
+    /// In   comes_again: where others hold what is left
+    void render_one(size_t i, bool comes_again) {
+        RenderRequest& request = runs_[i].request;
+        request.lists.keeps_asset =
+            i + 1 < runs_.size() && runs_[i + 1].request.scene == request.scene;
+        request.long_run.time_limit_s = time_limits_s_[i];
+        kept_.run = i;
+        kept_.has_manifest = false;
+        // What one scene warns of stands in its images' headers, and not in the others'.
+        Log own(
+            log_.verbosity() == Verbosity::verbose ? Verbosity::verbose : Verbosity::normal,
+            [&](const LogMessage& message) { pass_on(message); },
+            SettingNames::options);
+        size_t there = 0;
+        Result<void> done = shorten_time_limit(request, total_.seconds());
+        if (done) done = render_scene(runs_[i], kept_, runs_.size() == 1 ? log_ : own, there);
+        drop_environments(kept_, std::span(runs_).subspan(i + 1));
+        skipped_ += there;
+        if (done) return;
+        if (comes_again && done.error().id == "E-LOCKED") {
+            skipped_ -= there;  // they will be there again
+            locked_.push_back(i);
+            return;
+        }
+        add_failure(i, std::move(done.error()));
+    }
+
+    void pass_on(const LogMessage& message) {
+        if (message.is_warning) {
+            log_.warn(message.where, message.text);
+        } else {
+            log_.info(message.text);
+        }
+    }
+
+    void add_failure(size_t i, Error error) {
+        const RenderRequest& request = runs_[i].request;
+        const bool is_of_run = !stops_all(error) && error.id != "E-LOCKED";
+        if (is_of_run && !kept_.has_manifest) note_failure(request, error);
+        if (is_of_run && i + 1 < runs_.size()) {
+            log_.warn(request.scene.string(),
+                      fmt::format("this scene fails: {}: {} [{}]; the others go on",
+                                  error.where,
+                                  error.message,
+                                  error.id));
+        }
+        failures_.push_back(std::move(error));
+    }
+
+    std::vector<SceneRun>& runs_;
+    Log& log_;
+    std::vector<std::optional<double>> time_limits_s_;  ///< of the whole command
+    const Stopwatch total_;
+    KeptAsset kept_;
+    std::vector<size_t> locked_;
+    size_t skipped_ = 0;
+    std::vector<Error> failures_;
+};
+
+Error all_failures(std::vector<Error> failures, size_t runs) {
     const size_t count = failures.size();
     Error out = joined(std::move(failures));
-    if (scenes > 1 && out.code != ExitCode::stopped_early)
+    if (runs > 1 && out.code != ExitCode::stopped_early)
         out.message =
-            fmt::format("{} of {} scenes failed; the first: {}", count, scenes, out.message);
+            fmt::format("{} of {} renderings failed; the first: {}", count, runs, out.message);
     return out;
+}
+
+/// Begins the manifest anew, unless it holds what others have told.
+Result<void> begin_manifest(const RenderRequest& request) {
+    const ListRequest& lists = request.lists;
+    const bool is_shared = request.part || request.long_run.skips_existing || lists.shares_manifest;
+    if (!lists.manifest || lists.lists_only || request.check || is_shared) return {};
+    const Result<Manifest> manifest = Manifest::open(*lists.manifest, true);
+    if (!manifest) return fail(manifest.error());
+    return {};
 }
 
 }  // namespace
@@ -262,19 +349,20 @@ int run_scenes(std::vector<SceneRun>& runs,
     if (auto fits = check_scenes(runs); !fits) return report_failure(fits.error(), log);
     const RenderRequest& first = runs.front().request;
     if (first.gives_way) give_way_to_others();  // the threads that follow, too
-    size_t skipped = 0;
-    std::vector<Error> failures;
-    render_scenes(runs, log, skipped, failures);
-    const bool is_over = failures.empty() || failures.back().code != ExitCode::stopped_early;
-    if (const Result<void> finished = is_over ? finish() : Result<void>(); !finished)
-        failures.push_back(finished.error());
+    if (auto begun = begin_manifest(first); !begun) return report_failure(begun.error(), log);
+    SceneRuns all(runs, log);
+    all.render();
     const std::string counts =
-        first.long_run.skips_existing ? fmt::format(" skipped={}", skipped) : "";
+        first.long_run.skips_existing ? fmt::format(" skipped={}", all.skipped()) : "";
+    const Result<void> finished = all.is_stopped() ? Result<void>() : finish();
+    std::vector<Error>& failures = all.failures();
+    if (failures.empty() && !finished) return report_failure(finished.error(), log, counts);
     if (failures.empty()) return report_success(where, log, counts);
     const int signal = received_stop_signal();
     const Error& last = failures.back();
     if (last.id == "E-STOPPED" && signal != 0) return report_stop(signal, where, last.message, log);
-    const Error error = all_failures(std::move(failures), runs.size());
+    Error error = all_failures(std::move(failures), runs.size());
+    if (!finished) error.also.push_back(finished.error());
     tell_farm(error, first);
     return report_failure(error, log, counts);
 }

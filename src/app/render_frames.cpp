@@ -55,6 +55,25 @@ void find_facts(Job& job) {
     job.facts = facts_of(job.request, job.asset_facts, isa_name, embree_version());
 }
 
+/// No two renderings of a job may write one file.
+///
+/// Errors  64 E-USAGE-SAMEFILE
+Result<void> note_files(Job& job, const std::vector<ListedImage>& images) {
+    KeptAsset& kept = *job.kept;
+    std::error_code error;
+    for (const ListedImage& image : images) {
+        for (const std::filesystem::path& file : all_files(job.whole, image)) {
+            const auto place = std::filesystem::absolute(file, error).lexically_normal();
+            if (kept.written.try_emplace(place, kept.run).first->second == kept.run) continue;
+            return fail(ExitCode::usage,
+                        "E-USAGE-SAMEFILE",
+                        file.string(),
+                        "another image of this command has this file; names must tell them apart");
+        }
+    }
+    return {};
+}
+
 /// The images of a command, of which those that are not there are rendered.
 class FrameRun {
 public:
@@ -86,17 +105,17 @@ private:
     Result<void> open_manifest() {
         const RenderRequest& request = poses_.whole();
         if (!request.lists.manifest) return {};
-        const bool is_shared =
-            request.part || request.long_run.skips_existing || request.lists.adds_to_manifest;
-        Result<Manifest> manifest = Manifest::open(*request.lists.manifest, !is_shared);
+        Result<Manifest> manifest = Manifest::open(*request.lists.manifest, false);
         if (!manifest) return fail(manifest.error());
         manifest_.emplace(std::move(*manifest));
+        job_.kept->has_manifest = true;
         return {};
     }
 
     Result<void> list() {
         if (auto listed = poses_.find_images(job_.log); !listed) return listed;
         const RenderRequest& request = poses_.whole();
+        if (auto own = note_files(job_, images()); !own) return own;
         return request.lists.needs_asset() ? check_files(request, images()) : Result<void>();
     }
 
@@ -225,8 +244,9 @@ Result<void> list_all(Job& job) {
     ListedPoses poses(job);
     if (auto listed = poses.find_images(job.log); !listed) return listed;
     std::string text;
-    for (const ListedImage& image : poses.list().images) {
-        for (const std::filesystem::path& file : image_files(job.request, image))
+    const std::vector<ListedImage>& images = poses.list().images;
+    for (const size_t i : indices_to_render(job.whole, images.size())) {
+        for (const std::filesystem::path& file : all_files(job.whole, images[i]))
             text += escape_control(file.string()) + "\n";
     }
     return print_output(text);

@@ -22,8 +22,16 @@ struct KeptAsset {
     bool has_times = false;
     Isa isa = Isa::automatic;
     NamedTexts asset_facts = {};  ///< of the scene's files
-    /// Those that the job has read or made, by what was asked for.
-    std::map<std::string, ImageRgb32f> environments = {};
+    struct Environment {
+        ImageRgb32f image;
+        MemoryCharge charge;
+    };
+    /// Those that later renderings need, too, by environment_key.
+    std::map<std::string, Environment> environments = {};
+    size_t run = 0;  ///< the rendering, by its number
+    /// Files of all renderings so far, by the first one that writes them.
+    std::map<std::filesystem::path, size_t> written = {};
+    bool has_manifest = false;  ///< the rendering tells the manifest of its failures itself
 };
 
 /// Runs one command, from the request to the statistics.

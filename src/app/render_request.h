@@ -24,7 +24,6 @@ struct RenderArguments {
     std::vector<std::string> more_scenes;  ///< rendered after it, with the same options
     std::string asset;                     ///< {asset} in names; empty: the scene's name
     std::string look = "default";          ///< {look} in names
-    bool is_further_scene = false;         ///< of a command with several
     std::vector<std::string> outputs, aovs;
     std::optional<std::string> size, spp, noise_target, spp_min, depth, seed, threads, isa;
     std::optional<std::string> tile_size, crop;

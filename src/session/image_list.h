@@ -36,12 +36,12 @@ struct ListRequest {
     std::optional<std::filesystem::path> views_file;  ///< --views
     std::vector<View> views;                          ///< those of the file
     std::optional<std::filesystem::path> manifest;    ///< --manifest
-    bool adds_to_manifest = false;  ///< lines of another scene of the command are there
-    std::string asset;              ///< {asset} in names; empty: the scene's name
-    std::string look = "default";   ///< {look}, of a job of `obscura batch`
-    size_t part_offset = 0;         ///< added to an image's index when parts share the images
-    bool lists_only = false;        ///< files are named and nothing is rendered
-    bool keeps_asset = false;       ///< a rendering of the same asset follows
+    bool shares_manifest = false;  ///< with other parts of a job: what is there stays
+    std::string asset;             ///< {asset} in names; empty: the scene's name
+    std::string look = "default";  ///< {look}, of a job of `obscura batch`
+    size_t part_offset = 0;        ///< added to an image's index when parts share the images
+    bool lists_only = false;       ///< files are named and nothing is rendered
+    bool keeps_asset = false;      ///< a rendering of the same asset follows
 
     /// True when there is a list of images that is no sequence.
     bool is_asked() const { return cameras || variants || turntable > 0 || views_file; }

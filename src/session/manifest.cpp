@@ -5,7 +5,7 @@
 #include "base/json/json.h"
 #include "base/setting_names.h"
 #include "base/sha256.h"
-#include "session/segmentation.h"
+#include "session/outputs.h"
 
 #include <cerrno>
 #include <fcntl.h>
@@ -18,13 +18,8 @@ namespace obscura {
 namespace {
 
 Json files_json(const RenderRequest& request, const ListedImage& image) {
-    std::vector<std::filesystem::path> files = image_files(request, image);
-    if (image.segmentation) {
-        for (const std::filesystem::path& file : segmentation_files(*image.segmentation))
-            files.push_back(file);
-    }
     Json out = Json::array();
-    for (const std::filesystem::path& file : files) {
+    for (const std::filesystem::path& file : all_files(request, image)) {
         const std::optional<FileDigest> digest = digest_file(file);
         if (!digest) continue;
         out.push_back(
@@ -92,7 +87,7 @@ std::string manifest_line(const RenderRequest& request, const ImageOutcome& outc
     line["asset"] = request.scene.string();
     line["look"] = request.lists.look;
     line["variant"] = image.variant.empty() ? Json() : Json(image.variant);
-    line["view"] = outcome.view.name;
+    line["view"] = outcome.view.name.empty() ? Json() : Json(outcome.view.name);
     line["frame"] = image.number ? Json(*image.number) : Json();
     line["time_s"] = image.time_s;
     line["camera"] = outcome.camera ? camera_json(request, *outcome.camera) : Json();

@@ -192,6 +192,15 @@ Result<void> check_files_of(const RenderRequest& request, const ListedImage& ima
 
 }  // namespace
 
+std::vector<std::filesystem::path> all_files(const RenderRequest& request,
+                                             const ListedImage& image) {
+    std::vector<std::filesystem::path> files = image_files(request, image);
+    if (!image.segmentation) return files;
+    for (const std::filesystem::path& file : segmentation_files(*image.segmentation))
+        files.push_back(file);
+    return files;
+}
+
 Result<void> check_outputs(const RenderRequest& request) {
     const RenderOptions& options = request.options;
     if (request.standard_output) {

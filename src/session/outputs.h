@@ -15,6 +15,10 @@ namespace obscura {
 /// Standard output in messages.
 inline constexpr const char* standard_output_name = "standard output";
 
+/// All files of an image: pictures, layers in files of their own, masks with their JSON.
+std::vector<std::filesystem::path> all_files(const RenderRequest& request,
+                                             const ListedImage& image);
+
 /// Finds early errors before the costly work starts: the files that a command writes beside its
 /// images can be created, and standard output can hold what it is asked for.
 ///

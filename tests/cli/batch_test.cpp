@@ -1,5 +1,7 @@
 // tests/cli/batch_test.cpp - obscura batch: jobs of assets, looks and outputs.
 // SPDX-License-Identifier: Apache-2.0
+#include "base/work_lock.h"
+
 #include "cli/cli.h"
 #include "support/text_files.h"
 #include <nlohmann/json.hpp>
@@ -76,7 +78,7 @@ TEST_F(Batch, ImagesAreThoseOfSingleCommands) {
 TEST_F(Batch, ADryRunNamesTheFilesOfEachPart) {
     const Texts all = files_of(small_job());
     EXPECT_EQ(all.size(), 8U);
-    EXPECT_EQ(all.front(), "out/box/day_small.exr");
+    EXPECT_EQ(all.front(), "out/box/day.png");
     EXPECT_FALSE(fs::exists(folder_ / "out") || fs::exists(folder_ / "out.jsonl"));
     EXPECT_THAT(files_of(small_job(), {"--part", "2/2"}), testing::Each(HasSubstr("quad")));
     json turns = small_job();
@@ -94,7 +96,6 @@ TEST_F(Batch, ADryRunNamesTheFilesOfEachPart) {
 TEST_F(Batch, FinishedImagesAreLeft) {
     json job = small_job();
     job["contact_sheet"] = "sheet/index.html";
-    fs::create_directories(folder_ / "sheet");
     expect_result(batch(job), 0, "OK");
     fs::remove(folder_ / "out/box/day.png");
     const ProgramRun again = batch(job, {"--skip-existing"});
@@ -106,6 +107,52 @@ TEST_F(Batch, FinishedImagesAreLeft) {
     EXPECT_THAT(page, HasSubstr("<h2>in/quad.gltf</h2>"));
 }
 
+TEST_F(Batch, WhatOthersHoldIsLeftToThem) {
+    json job = small_job();
+    job["looks"] = {"a"};
+    job["outputs"] = {"out/{asset}.exr"};
+    fs::create_directories(folder_ / "out");
+    folder_.write("out/box.exr.lock", lock_text({"elsewhere", "", 7, "long ago"}));
+    const ProgramRun got = batch(job, {"--skip-existing"});
+    expect_result(got, 75, "E-LOCKED");
+    EXPECT_TRUE(fs::exists(folder_ / "out/quad.exr")) << "the rest is rendered";
+    EXPECT_FALSE(fs::exists(folder_ / "out/box.exr"));
+}
+
+TEST_F(Batch, PartsShareTheirManifest) {
+    json job = small_job();
+    job["looks"] = {"a"};
+    job["outputs"] = {"out/{asset}.png"};
+    job["contact_sheet"] = "new/index.html";
+    expect_result(batch(job, {"--part", "2/2"}), 0, "OK");
+    expect_result(batch(job, {"--part", "1/2"}), 0, "OK");
+    EXPECT_EQ(lines("out.jsonl").size(), 2U);
+    for (int i = 0; i < 2; ++i)
+        expect_result(batch(job, {"--skip-existing"}), 0, "OK");
+    const std::string page = read_text(folder_ / "new/index.html");
+    size_t figures = 0;
+    for (size_t at = page.find("<figure>"); at != std::string::npos;
+         at = page.find("<figure>", at + 1))
+        ++figures;
+    EXPECT_EQ(figures, 2U) << page;
+    expect_result(batch(job), 0, "OK");
+    EXPECT_EQ(lines("out.jsonl").size(), 2U) << "it begins anew";
+}
+
+TEST_F(Batch, FilesAreOfOneRendering) {
+    json job = small_job();
+    job["assets"] = {"in/box.gltf"};
+    job["looks"] = {"a"};
+    job["options"]["camera-json"] = "none.json";
+    job["outputs"] = {"a.png"};
+    expect_result(batch(job), 67, "E-CAMJSON-MISSING");
+    ASSERT_EQ(lines("out.jsonl").size(), 1U);
+    EXPECT_EQ(lines("out.jsonl")[0].at("id"), "E-CAMJSON-MISSING");
+    job["options"].erase("camera-json");
+    job["outputs"].push_back({{"file", "./a.png"}, {"options", {{"size", "12x8"}}}});
+    expect_result(batch(job), 64, "E-USAGE-SAMEFILE");
+}
+
 TEST_F(Batch, OneFailureDoesNotEndTheRest) {
     folder_.write("in/broken.gltf", "{");
     json job = small_job();
@@ -114,7 +161,7 @@ TEST_F(Batch, OneFailureDoesNotEndTheRest) {
     job["contact_sheet"] = "index.html";
     const ProgramRun got = batch(job);
     expect_result(got, 65, "E-JSON-SYNTAX");
-    EXPECT_THAT(got.err, HasSubstr("1 of 3 scenes failed"));
+    EXPECT_THAT(got.err, HasSubstr("1 of 3 renderings failed"));
     EXPECT_TRUE(fs::exists(folder_ / "out/box.png") && fs::exists(folder_ / "out/quad.png"));
     const std::string page = read_text(folder_ / "index.html");
     EXPECT_THAT(page, HasSubstr("&lt;b&gt;&amp;&quot;"));
@@ -147,6 +194,7 @@ TEST_F(Batch, MistakesHaveTheirPlace) {
             65,
             "E-JOB-KEY",
             "job.json#/outputs/0/size");
+    refused(R"({"contact_sheet": "out.jsonl"})", 65, "E-JOB-VALUE", "job.json#/contact_sheet");
     expect_result(run({"batch", "none.json"}), 67, "E-JOB-MISSING");
 }
 

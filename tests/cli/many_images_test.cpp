@@ -274,7 +274,7 @@ TEST_F(ManyImages, SeveralScenesAreThoseOfSingleCommands) {
     const Texts outputs = {"--manifest", "m.jsonl", "-o", "out/{asset}.exr"};
     const ProgramRun got = render_all({"quad.gltf", "none.gltf", "other/quad.gltf"}, outputs);
     expect_result(got, 66, "E-SCENE-MISSING");
-    EXPECT_THAT(got.err, HasSubstr("1 of 3 scenes failed"));
+    EXPECT_THAT(got.err, HasSubstr("1 of 3 renderings failed"));
     expect_result(render("quad.gltf", {"-o", "one.exr"}), 0, "OK");
     expect_same("out/quad.exr", "one.exr");
     expect_result(render("box.gltf", {"-o", "one.exr"}), 0, "OK");
