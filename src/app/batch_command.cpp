@@ -4,6 +4,7 @@
 
 #include "app/batch_job.h"
 #include "app/contact_sheet.h"
+#include "app/distinct_files.h"
 #include "app/outcome.h"
 #include "app/part_options.h"
 #include "app/render_command.h"
@@ -87,6 +88,20 @@ Result<std::vector<SceneRun>> runs_of(const BatchJob& job,
     return runs;
 }
 
+/// A job's own files replace neither the job nor what it reads.
+Result<void> check_own_files(const BatchJob& job,
+                             const std::string& job_file,
+                             const std::vector<SceneRun>& runs) {
+    std::vector<std::filesystem::path> read = {job_file}, written;
+    for (const SceneRun& run : runs) {
+        for (const std::filesystem::path& file : files_read(run.request))
+            read.push_back(file);
+    }
+    if (job.manifest) written.emplace_back(*job.manifest);
+    if (job.contact_sheet) written.emplace_back(*job.contact_sheet);
+    return check_not_read(written, read);
+}
+
 /// Those of the manifest and the contact sheet; where that fails, writing will say why.
 void make_folders(const BatchJob& job) {
     for (const auto* file : {&job.manifest, &job.contact_sheet}) {
@@ -109,6 +124,8 @@ int run_batch(const BatchArguments& arguments) {
     if (!job) return report_failure(job.error(), log);
     Result<std::vector<SceneRun>> runs = runs_of(*job, arguments, part);
     if (!runs) return report_failure(runs.error(), log);
+    const Result<void> apart = check_own_files(*job, arguments.job_file, *runs);
+    if (!apart) return report_failure(apart.error(), log);
     if (runs->empty()) {
         log.info("this part of the job has no pictures");
         return report_success(arguments.job_file, log);

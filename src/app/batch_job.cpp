@@ -6,10 +6,9 @@
 #include "app/distinct_files.h"
 #include "app/numbers.h"
 #include "app/render_options.h"
-#include "base/file_bytes.h"
-#include "base/json/json_read.h"
-#include "base/json/json_text.h"
+#include "base/json/json_file.h"
 #include "base/setting_names.h"
+#include "image/output_format.h"
 #include "session/image_names.h"
 
 #include <algorithm>
@@ -41,16 +40,6 @@ bool is_of_command(const std::string& name) {
                                                       "--manifest",
                                                       "--stats"};
     return std::find(all.begin(), all.end(), name) != all.end();
-}
-
-void check_keys(const JsonReader& reader, std::span<const std::string_view> known) {
-    reader.each_key([&](const std::string& key) {
-        if (std::find(known.begin(), known.end(), key) != known.end()) return;
-        std::string names;
-        for (const std::string_view name : known)
-            names += (names.empty() ? "" : ", ") + std::string(name);
-        reader.fault(key, "E-JOB-KEY", "there is no such member; expected one of: " + names);
-    });
 }
 
 /// A value as the text of an option; nothing: it is of no such type.
@@ -138,7 +127,7 @@ public:
     BatchJob read() {
         constexpr std::array<std::string_view, 7> known = {
             "assets", "options", "looks", "outputs", "manifest", "contact_sheet", "comment"};
-        check_keys(reader_, known);
+        check_known_keys(reader_, known, "E-JOB-KEY");
         reader_.require("assets");
         if (reader_.has("manifest")) job_.manifest = reader_.text("manifest");
         if (reader_.has("contact_sheet")) job_.contact_sheet = reader_.text("contact_sheet");
@@ -146,6 +135,8 @@ public:
             job_.manifest = std::filesystem::path(*job_.contact_sheet).replace_extension(".jsonl");
         if (job_.contact_sheet && same_file(*job_.contact_sheet, *job_.manifest))
             reader_.fault("contact_sheet", value_id, "the manifest has this file");
+        if (job_.contact_sheet && output_format_of(*job_.contact_sheet))
+            reader_.fault("contact_sheet", value_id, "it is a page; expected .html");
         each_element("assets", "files", [&](const auto& reader, const json& tree) {
             read_asset(reader, tree);
         });
@@ -182,7 +173,7 @@ private:
 
     void read_asset(const JsonReader& reader, const json& tree) {
         constexpr std::array<std::string_view, 2> known = {"files", "options"};
-        check_keys(reader, known);
+        check_known_keys(reader, known, "E-JOB-KEY");
         reader.require("files");
         const std::string pattern = reader.text("files");
         const std::vector<std::string> files = files_of(pattern);
@@ -200,7 +191,7 @@ private:
 
     void read_look(const JsonReader& reader, const json& tree, JobRun run) {
         constexpr std::array<std::string_view, 2> known = {"name", "options"};
-        check_keys(reader, known);
+        check_known_keys(reader, known, "E-JOB-KEY");
         run.arguments.look = reader.text("name", "default");
         read_options(reader, tree, run);
         // Outputs without options of their own are files of one rendering.
@@ -215,8 +206,9 @@ private:
 
     void read_output(const JsonReader& reader, const json& tree, JobRun run, JobRun& together) {
         constexpr std::array<std::string_view, 2> known = {"file", "options"};
-        check_keys(reader, known);
-        if (!tree.contains("file")) return;  // no outputs are named
+        check_known_keys(reader, known, "E-JOB-KEY");
+        if (!tree_.contains("outputs")) return;
+        reader.require("file");
         const std::string file = reader.text("file");
         run.places["--output"] = together.places["--output"] = reader.pointer();
         if (!tree.contains("options")) {
@@ -253,16 +245,8 @@ private:
 }  // namespace
 
 Result<BatchJob> read_batch_job(const std::string& file, const RenderArguments& common, Log& log) {
-    const FileBytes read = read_file_bytes(file, {largest_file, UINT64_MAX});
-    if (read.fault != FileFault::none) {
-        return fail(ExitCode::bad_resource,
-                    "E-JOB-MISSING",
-                    file,
-                    "the job's file cannot be read: " + read.reason);
-    }
-    const std::string_view text(reinterpret_cast<const char*>(read.bytes.data()),
-                                read.bytes.size());
-    const Result<json> tree = parse_json_text(text, file, log);
+    const Result<json> tree = read_json_file(
+        file, largest_file, {ExitCode::bad_resource, "E-JOB-MISSING", file, "the job's file"}, log);
     if (!tree) return fail(tree.error());
     JsonFault fault;
     fault.file = file;

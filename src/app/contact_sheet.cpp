@@ -4,6 +4,7 @@
 
 #include "base/atomic_file.h"
 #include "base/json/json.h"
+#include "base/xml_text.h"
 #include "image/output_format.h"
 
 #include <algorithm>
@@ -38,29 +39,6 @@ figcaption { overflow-wrap: anywhere; }
 </head>
 <body>
 )";
-
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 /// A path as the reference of a page: what stands for itself there, all else as %XX.
 std::string reference(const std::filesystem::path& file) {
@@ -108,13 +86,13 @@ std::string figure_of(const Json& line, const std::filesystem::path& folder) {
             std::filesystem::absolute(file.value("file", ""), error).lexically_normal();
         if (shown.empty() && is_shown(path)) shown = reference(path.lexically_proximate(folder));
     }
-    const std::string caption = escaped(caption_of(line));
+    const std::string caption = escape_xml(caption_of(line));
     if (!shown.empty()) {
         out += "<a href=\"" + shown + "\"><img loading=\"lazy\" src=\"" + shown + "\" alt=\"" +
                caption + "\"></a>";
     } else {
-        out +=
-            "<span>" + escaped(line.value("message", "no file that a browser shows")) + "</span>";
+        out += "<span>" + escape_xml(line.value("message", "no file that a browser shows")) +
+               "</span>";
     }
     return out + "<figcaption>" + caption + "</figcaption></figure>\n";
 }
@@ -168,7 +146,7 @@ Result<void> write_contact_sheet(const std::filesystem::path& manifest,
         std::filesystem::absolute(page, error).lexically_normal().parent_path();
     std::string html(head);
     for (const auto& [asset, lines] : lines_by_asset(in)) {
-        html += "<h2>" + escaped(asset) + "</h2>\n<div>\n";
+        html += "<h2>" + escape_xml(asset) + "</h2>\n<div>\n";
         for (const Json& line : lines)
             html += figure_of(line, folder);
         html += "</div>\n";

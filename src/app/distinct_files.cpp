@@ -59,6 +59,12 @@ std::vector<fs::path> files_written(const RenderRequest& request,
     return written;
 }
 
+tl::unexpected<Error> same(const fs::path& file, const std::string& message) {
+    return fail(ExitCode::usage, "E-USAGE-SAMEFILE", file.string(), message);
+}
+
+}  // namespace
+
 std::vector<fs::path> files_read(const RenderRequest& request) {
     std::vector<fs::path> read = {request.scene};
     for (const auto* file :
@@ -71,8 +77,6 @@ std::vector<fs::path> files_read(const RenderRequest& request) {
     return read;
 }
 
-}  // namespace
-
 bool same_file(const fs::path& a, const fs::path& b) {
     KnownFiles known;
     known.add(a);
@@ -81,23 +85,27 @@ bool same_file(const fs::path& a, const fs::path& b) {
 
 Result<void> check_distinct_files(const RenderRequest& request,
                                   const std::vector<ListedImage>& images) {
-    const auto same = [](const fs::path& file, const std::string& message) {
-        return fail(ExitCode::usage, "E-USAGE-SAMEFILE", file.string(), message);
-    };
-    const std::vector<fs::path> read = files_read(request);
-    KnownFiles outputs, all;
+    const std::vector<fs::path> written = files_written(request, images);
+    KnownFiles outputs;
+    for (const fs::path& file : written) {
+        if (outputs.add(file)) continue;
+        return same(file,
+                    request.lists.is_asked()
+                        ? "two images have this file; put {variant}, {view} or {frame:04} "
+                          "into its name"
+                        : "two outputs are the same file; give different names");
+    }
+    return check_not_read(written, files_read(request));
+}
+
+Result<void> check_not_read(const std::vector<fs::path>& written,
+                            const std::vector<fs::path>& read) {
+    KnownFiles all;
     for (const fs::path& file : read)
         all.add(file);
-    for (const fs::path& file : files_written(request, images)) {
-        if (!outputs.add(file)) {
-            return same(file,
-                        request.lists.is_asked()
-                            ? "two images have this file; put {variant}, {view} or {frame:04} "
-                              "into its name"
-                            : "two outputs are the same file; give different names");
-        }
-        if (all.add(file)) continue;
-        return same(file, "this output would replace a file that is read; give another name");
+    for (const fs::path& file : written) {
+        if (!all.add(file))
+            return same(file, "this output would replace a file that is read; give another name");
     }
     return {};
 }

@@ -155,6 +155,9 @@ Result<void> complete_list(const RenderArguments& arguments, RenderRequest& requ
     if (request.lists.manifest && request.standard_output) {
         return conflict("--manifest", "it is of files; give -o a file's name in place of -");
     }
+    if (request.lists.manifest && output_format_of(*request.lists.manifest)) {
+        return conflict("--manifest", "it is text, and by its name a picture; expected .jsonl");
+    }
     if (!request.lists.is_asked()) return {};
     if (request.lists.cameras && is_given(arguments.product)) {
         return conflict("--cameras",

@@ -231,6 +231,13 @@ public:
     SceneRuns(std::vector<SceneRun>& runs, Log& log) : runs_(runs), log_(log) {
         for (const SceneRun& run : runs)
             time_limits_s_.push_back(run.request.long_run.time_limit_s);
+        // What one rendering reads no other may write.
+        std::error_code error;
+        for (const SceneRun& run : runs) {
+            for (const std::filesystem::path& file : files_read(run.request))
+                kept_.written.emplace(std::filesystem::absolute(file, error).lexically_normal(),
+                                      SIZE_MAX);
+        }
     }
 
     /// What others hold comes once more in the end.

@@ -65,10 +65,12 @@ Result<void> note_files(Job& job, const std::vector<ListedImage>& images) {
         for (const std::filesystem::path& file : all_files(job.whole, image)) {
             const auto place = std::filesystem::absolute(file, error).lexically_normal();
             if (kept.written.try_emplace(place, kept.run).first->second == kept.run) continue;
-            return fail(ExitCode::usage,
-                        "E-USAGE-SAMEFILE",
-                        file.string(),
-                        "another image of this command has this file; names must tell them apart");
+            return fail(
+                ExitCode::usage,
+                "E-USAGE-SAMEFILE",
+                file.string(),
+                "another image of this command has this file, or it is read; names must tell "
+                "them apart");
         }
     }
     return {};

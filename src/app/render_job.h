@@ -29,7 +29,7 @@ struct KeptAsset {
     /// Those that later renderings need, too, by environment_key.
     std::map<std::string, Environment> environments = {};
     size_t run = 0;  ///< the rendering, by its number
-    /// Files of all renderings so far, by the first one that writes them.
+    /// Files of all renderings so far, by the first one that writes them; SIZE_MAX: it is read.
     std::map<std::filesystem::path, size_t> written = {};
     bool has_manifest = false;  ///< the rendering tells the manifest of its failures itself
 };

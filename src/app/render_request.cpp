@@ -235,8 +235,10 @@ Result<RenderRequest> make_render_request(const RenderArguments& arguments) {
     if (auto read = read_options(table, texts, request); !read) return fail(read.error());
     if (auto fit = check_combinations(bind_all(table, texts)); !fit) return fail(fit.error());
     if (auto done = complete(arguments, request); !done) return fail(done.error());
-    if (request.lists.needs_asset() || request.lists.views_file) return request;  // not known yet
-    const Result<ImageList> list = list_images(request, {});
+    // Where the images are not known yet, the command's other files are.
+    const bool is_known = !request.lists.needs_asset() && !request.lists.views_file;
+    const Result<ImageList> list =
+        is_known ? list_images(request, {}) : Result<ImageList>(ImageList{});
     if (!list) return fail(list.error());
     auto distinct = check_distinct_files(request, list->images);
     if (!distinct) return fail(distinct.error());

@@ -1,4 +1,4 @@
-// base/xml_text.cpp - escapes text for XML (SVG drawings).
+// base/xml_text.cpp - escapes text for XML and HTML (drawings, pages).
 // SPDX-License-Identifier: Apache-2.0
 #include "base/xml_text.h"
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gltf/camera_json.h"
 
-#include "base/file_bytes.h"
-#include "base/json/json_text.h"
+#include "base/json/json_file.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <tuple>
 
 namespace obscura::gltf {
@@ -18,22 +18,22 @@ using nlohmann::json;
 constexpr const char* value_id = "E-CAM-VALUE";
 constexpr uint64_t largest_file = 1 << 20;
 
-const std::vector<std::string> known_keys = {"name",
-                                             "model",
-                                             "width",
-                                             "height",
-                                             "fx",
-                                             "fy",
-                                             "cx",
-                                             "cy",
-                                             "K",
-                                             "pixel_center",
-                                             "distortion",
-                                             "fov",
-                                             "R",
-                                             "t",
-                                             "world_to_camera",
-                                             "camera_to_world"};
+constexpr std::array<std::string_view, 16> known_keys = {"name",
+                                                         "model",
+                                                         "width",
+                                                         "height",
+                                                         "fx",
+                                                         "fy",
+                                                         "cx",
+                                                         "cy",
+                                                         "K",
+                                                         "pixel_center",
+                                                         "distortion",
+                                                         "fov",
+                                                         "R",
+                                                         "t",
+                                                         "world_to_camera",
+                                                         "camera_to_world"};
 
 /// A flat or nested array of exactly `out.size()` numbers; false when absent or wrong.
 bool read_matrix(const JsonReader& reader,
@@ -205,34 +205,19 @@ Affined read_place(const JsonReader& reader, const json& tree) {
     return world_from_camera;
 }
 
-Result<json> read_tree(const std::filesystem::path& file, Log& log) {
-    const FileBytes read = read_file_bytes(file, {largest_file, UINT64_MAX});
-    if (read.fault != FileFault::none) {
-        return fail(ExitCode::bad_resource,
-                    "E-CAMJSON-MISSING",
-                    file.string(),
-                    "the camera's file cannot be read: " + read.reason);
-    }
-    const std::string_view text(reinterpret_cast<const char*>(read.bytes.data()),
-                                read.bytes.size());
-    return parse_json_text(text, file.string(), log);
-}
-
 }  // namespace
 
 Result<SceneCamera> load_camera_json(const std::filesystem::path& file, Log& log) {
-    const Result<json> tree = read_tree(file, log);
+    const Result<json> tree = read_json_file(
+        file,
+        largest_file,
+        {ExitCode::bad_resource, "E-CAMJSON-MISSING", file.string(), "the camera's file"},
+        log);
     if (!tree) return fail(tree.error());
     JsonFault fault;
     fault.file = file.string();
     const JsonReader reader(*tree, "", fault);
-    reader.each_key([&](const std::string& key) {
-        if (std::find(known_keys.begin(), known_keys.end(), key) != known_keys.end()) return;
-        std::string names;
-        for (const std::string& name : known_keys)
-            names += (names.empty() ? "" : ", ") + name;
-        reader.fault(key, "E-CAM-KEY", "there is no such key; expected one of: " + names);
-    });
+    check_known_keys(reader, known_keys, "E-CAM-KEY");
     SceneCamera camera = read_camera(reader, *tree, {});
     camera.name = file.filename().string();
     if (fault.error) return fail(std::move(*fault.error));

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/views_file.h"
 
-#include "base/file_bytes.h"
-#include "base/json/json_read.h"
-#include "base/json/json_text.h"
+#include "base/json/json_file.h"
 #include "gltf/camera_json.h"
 
 #include <algorithm>
@@ -51,16 +49,6 @@ constexpr std::array<std::string_view, 28> known_keys = {"name",
                                                          "time",
                                                          "environment_rotation",
                                                          "environment_intensity"};
-
-void check_keys(const JsonReader& reader) {
-    reader.each_key([&](const std::string& key) {
-        if (std::find(known_keys.begin(), known_keys.end(), key) != known_keys.end()) return;
-        std::string names;
-        for (const std::string_view name : known_keys)
-            names += (names.empty() ? "" : ", ") + std::string(name);
-        reader.fault(key, "E-VIEWS-KEY", "there is no such key; expected one of: " + names);
-    });
-}
 
 /// A number in a range; nothing where the key is absent.
 std::optional<double> number_in(const JsonReader& reader,
@@ -167,7 +155,7 @@ View read_view(const JsonReader& reader,
                const json& tree,
                size_t index,
                const RenderRequest& whole) {
-    check_keys(reader);
+    check_known_keys(reader, known_keys, "E-VIEWS-KEY");
     View view{reader.text("name", "view " + std::to_string(index)), whole.camera};
     view.size_px = read_size(reader);
     read_place(reader, tree, view, whole);
@@ -202,16 +190,11 @@ void check_times(const JsonReader& reader,
 Result<void> load_views(RenderRequest& request, Log& log) {
     if (!request.lists.views_file) return {};
     const std::filesystem::path& file = *request.lists.views_file;
-    const FileBytes read = read_file_bytes(file, {largest_file, UINT64_MAX});
-    if (read.fault != FileFault::none) {
-        return fail(ExitCode::bad_resource,
-                    "E-VIEWS-MISSING",
-                    file.string(),
-                    "the file of views cannot be read: " + read.reason);
-    }
-    const std::string_view text(reinterpret_cast<const char*>(read.bytes.data()),
-                                read.bytes.size());
-    const Result<json> tree = parse_json_text(text, file.string(), log);
+    const Result<json> tree = read_json_file(
+        file,
+        largest_file,
+        {ExitCode::bad_resource, "E-VIEWS-MISSING", file.string(), "the file of views"},
+        log);
     if (!tree) return fail(tree.error());
     JsonFault fault;
     fault.file = file.string();

@@ -153,6 +153,22 @@ TEST_F(Batch, FilesAreOfOneRendering) {
     expect_result(batch(job), 64, "E-USAGE-SAMEFILE");
 }
 
+TEST_F(Batch, WhatIsReadIsNeverReplaced) {
+    json job = small_job();
+    job["looks"] = {"a"};
+    job["outputs"] = {"out/{asset}.png"};
+    const std::string scene = read_text(folder_ / "in/box.gltf");
+    job["manifest"] = "job.json";
+    expect_result(batch(job), 64, "E-USAGE-SAMEFILE");
+    EXPECT_EQ(read_text(folder_ / "job.json"), job.dump());
+    job["manifest"] = "in/../in/box.gltf";
+    expect_result(batch(job), 64, "E-USAGE-SAMEFILE");
+    job["manifest"] = "out.jsonl";
+    job["contact_sheet"] = "in/box.gltf";
+    expect_result(batch(job), 64, "E-USAGE-SAMEFILE");
+    EXPECT_EQ(read_text(folder_ / "in/box.gltf"), scene);
+}
+
 TEST_F(Batch, OneFailureDoesNotEndTheRest) {
     folder_.write("in/broken.gltf", "{");
     json job = small_job();
@@ -194,6 +210,8 @@ TEST_F(Batch, MistakesHaveTheirPlace) {
             65,
             "E-JOB-KEY",
             "job.json#/outputs/0/size");
+    refused(R"({"outputs": [{"options": {}}]})", 65, "E-DOC-MISSING", "job.json#/outputs/0");
+    refused(R"({"contact_sheet": "a.png"})", 65, "E-JOB-VALUE", "job.json#/contact_sheet");
     refused(R"({"contact_sheet": "out.jsonl"})", 65, "E-JOB-VALUE", "job.json#/contact_sheet");
     expect_result(run({"batch", "none.json"}), 67, "E-JOB-MISSING");
 }

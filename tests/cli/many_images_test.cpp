@@ -288,6 +288,18 @@ TEST_F(ManyImages, SeveralScenesAreThoseOfSingleCommands) {
         expect_result(render_all(two, more), 64, "E-USAGE-CONFLICT");
 }
 
+TEST_F(ManyImages, AManifestReplacesNothingThatIsRead) {
+    folder_.write("views.json", R"({"views": [{"azimuth": 3}]})");
+    const std::string scene = text("box.gltf"), views = text("views.json");
+    const Texts cameras = {"--cameras", "all", "-o", "{view}.exr", "--manifest"};
+    expect_result(render("box.gltf", joined(cameras, {"box.gltf"})), 64, "E-USAGE-SAMEFILE");
+    expect_result(render("box.gltf", joined(cameras, {"Front.exr"})), 64, "E-USAGE-CONFLICT");
+    const Texts list = {"--views", "views.json", "-o", "{view}.exr", "--manifest", "views.json"};
+    expect_result(render("box.gltf", list), 64, "E-USAGE-SAMEFILE");
+    EXPECT_EQ(text("box.gltf"), scene);
+    EXPECT_EQ(text("views.json"), views);
+}
+
 TEST_F(ManyImages, MistakesAreRefused) {
     const auto views = [&](const std::string& list) {
         folder_.write("views.json", "{\"views\": " + list + "}");
