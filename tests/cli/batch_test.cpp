@@ -75,6 +75,16 @@ TEST_F(Batch, ImagesAreThoseOfSingleCommands) {
     EXPECT_EQ(told[7].at("asset"), "in/quad.gltf");
 }
 
+TEST_F(Batch, LooksMayDifferInTheirEnvironmentAlone) {
+    json job = small_job();
+    job["assets"] = {"in/quad.gltf"};
+    job["outputs"] = {"{look}.exr"};
+    expect_result(batch(job), 0, "OK");
+    const Texts studio = {"--env", "studio", "--exposure", "0.5", "-o", "one.exr"};
+    expect_result(render("in/quad.gltf", studio), 0, "OK");
+    expect_same("studio.exr", "one.exr");
+}
+
 TEST_F(Batch, ADryRunNamesTheFilesOfEachPart) {
     const Texts all = files_of(small_job());
     EXPECT_EQ(all.size(), 8U);
