@@ -152,6 +152,8 @@ std::string listed_output(const RenderArguments& arguments) {
 Result<void> complete_list(const RenderArguments& arguments, RenderRequest& request) {
     request.lists.asset = arguments.asset;
     request.lists.look = arguments.look;
+    request.lists.sampling = arguments.list.sampling;
+    request.lists.sampling.seed = request.options.seed;
     if (request.lists.manifest && request.standard_output) {
         return conflict("--manifest", "it is of files; give -o a file's name in place of -");
     }

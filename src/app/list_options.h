@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/option_entry.h"
+#include "session/view_sampling.h"
 
 #include <string>
 #include <vector>
@@ -19,8 +20,11 @@ struct SceneRun;
 /// The texts of these options as they stood on the command line.
 struct ListArguments {
     OptionText views, cameras, variants, turntable, manifest;
+    ViewSampling sampling;  ///< of `obscura dataset`, which reads it
 
-    bool is_asked() const { return views || cameras || variants || turntable; }
+    bool is_asked() const {
+        return views || cameras || variants || turntable || sampling.count > 0;
+    }
 };
 
 /// The arguments of each scene of a command, which may have several.

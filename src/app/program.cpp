@@ -7,6 +7,7 @@
 #include "app/command_line.h"
 #include "app/config_file.h"
 #include "app/crosscheck_options.h"
+#include "app/dataset_options.h"
 #include "app/denoise_options.h"
 #include "app/explain_pixel_options.h"
 #include "app/info_options.h"
@@ -34,6 +35,7 @@ Examples:
       writes helmet.png
   obscura render helmet.glb --env sky.hdr -o helmet.exr -o helmet.png
   obscura batch job.json
+  obscura dataset mug.glb --count 500 --write bop,coco -o mugs
   obscura denoise helmet.exr -o clean.exr
   obscura merge helmet.exr.*-of-4.film
   obscura info helmet.glb --json
@@ -47,6 +49,7 @@ Examples:
 struct Arguments {
     RenderArguments render;
     BatchArguments batch;
+    DatasetArguments dataset;
     DenoiseArguments denoise;
     MergeArguments merge;
     InfoArguments info;
@@ -68,6 +71,7 @@ Program describe(Arguments& arguments) {
                       bench::compiler_name();
     program.commands = {render_command(arguments.render),
                         batch_command(arguments.batch),
+                        dataset_command(arguments.dataset),
                         denoise_command(arguments.denoise),
                         merge_command(arguments.merge),
                         info_command(arguments.info),

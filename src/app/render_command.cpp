@@ -161,6 +161,7 @@ Result<void> execute(
             .parts = run.parts,
             .watch = watch,
             .kept = &kept,
+            .hooks = run.hooks,
             .display = std::move(*display)};
     if (request.check) return check_all(job);
     if (kept.scene == request.scene) job.asset_facts = kept.asset_facts;

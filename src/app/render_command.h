@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/render_job.h"
 #include "app/render_request.h"
-#include "session/image_parts.h"
 
 #include <functional>
 #include <string>
@@ -21,6 +21,7 @@ struct SceneRun {
     RenderRequest request;
     NamedTexts options;                 ///< as they were given: see options_for_merge
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
+    ImageHooks hooks = {};
 };
 
 /// Renders one after the other and prints messages; one that fails does not end the rest, unless

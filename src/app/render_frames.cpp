@@ -188,6 +188,8 @@ private:
         RenderStatistics& statistics = job_.renderer->statistics();
         const RenderStatistics before = statistics;
         Result<ChosenCamera> camera = poses_.look(index, is_last_pose(index), log);
+        if (camera && job_.hooks.aim)
+            camera = job_.hooks.aim(*job_.renderer, job_.request, *camera, log);
         if (!camera) return fail(camera.error());
         outcome.camera = *camera;
         const auto done = make_image(job_, *camera, turn_of(index), log, progress_);

@@ -231,8 +231,11 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     }
     job.watch.begin_writing();
     const Stopwatch writing;
-    const Result<void> written =
-        write_outputs(request, finished, job.display, job.watch.stop(), making.log);
+    Result<void> written;
+    if (job.hooks.label && !is_unfinished)
+        written = job.hooks.label(request, job.renderer->prepared(), making.camera, making.log);
+    if (written)
+        written = write_outputs(request, finished, job.display, job.watch.stop(), making.log);
     job.renderer->statistics().write_s += writing.seconds();
     job.renderer->recycle(std::move(finished.image));
     return written;

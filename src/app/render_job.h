@@ -8,6 +8,7 @@
 #include "session/image_parts.h"
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -34,6 +35,22 @@ struct KeptAsset {
     bool has_manifest = false;  ///< the rendering tells the manifest of its failures itself
 };
 
+/// What a data set does beside each image; empty ones: nothing.
+struct ImageHooks {
+    /// Chooses the camera of the posed and prepared image anew.
+    std::function<Result<ChosenCamera>(const AssetRenderer& renderer,
+                                       RenderRequest& request,
+                                       const ChosenCamera& camera,
+                                       Log& log)>
+        aim = {};
+    /// Writes what belongs to an image whose colours are finished, before these are written.
+    std::function<Result<void>(const RenderRequest& request,
+                               const PreparedScene& prepared,
+                               const ChosenCamera& camera,
+                               Log& log)>
+        label = {};
+};
+
 /// Runs one command, from the request to the statistics.
 struct Job {
     Log& log;                    ///< the command's; frames may have their own
@@ -43,6 +60,7 @@ struct Job {
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     Watch& watch;
     KeptAsset* kept = nullptr;  ///< of the rendering before; null: of none
+    ImageHooks hooks = {};
     std::optional<DisplayTransform> display = {};
     bool is_exposed = false;  ///< the display, by a camera's own exposure
     std::optional<AssetRenderer> renderer = {};

@@ -265,6 +265,15 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
     return done;
 }
 
+/// Where the nodes' meshes are in the world.
+std::vector<Affined> places_of_nodes(const Document& document) {
+    std::vector<Affined> out = world_transforms(document);
+    for (size_t i = 0; i < out.size(); ++i) {
+        if (document.nodes[i].skin >= 0) out[i] = Affined{};
+    }
+    return out;
+}
+
 /// A scene without textures and materials.
 Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials, Log& log) {
     const auto start = std::chrono::steady_clock::now();
@@ -275,6 +284,7 @@ Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials,
     Result<void> done = animator.pose(document, time_s);
     if (!done) return fail(std::move(done.error()));
     if (!animator.empty()) out.info.time_s = time_s;
+    if (options.places_nodes) out.node_places = places_of_nodes(document);
     materials = make_material_table(document);
     done = add_geometry(materials, out, log);
     if (!done) return fail(std::move(done.error()));

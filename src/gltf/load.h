@@ -66,6 +66,7 @@ struct LoadOptions {
     /// Scenes of an animated asset get Scene::frame_motion, with frames this far apart: for the
     /// layer `motion`.
     std::optional<double> frame_step_s = {};
+    bool places_nodes = false;  ///< scenes get Scene::node_places
 
     bool operator==(const LoadOptions&) const = default;
 };

@@ -202,6 +202,9 @@ struct Scene {
     /// The file's own environment, latitude-longitude in the world; null: it has none.
     std::shared_ptr<const ImageRgb32f> environment;
     std::vector<SceneCamera> cameras;
+    /// From a mesh to the world, by glTF node; a skinned mesh is in the world already. Empty: not
+    /// asked for.
+    std::vector<Affined> node_places;
     Bounds bounds;  ///< world space, of all triangles and shapes; an infinite plane counts as 1 m^2
     AssetInfo info;
 };

@@ -73,6 +73,9 @@ public:
     const Scene& scene() const;
     const gltf::Degraded& degraded() const { return degraded_; }
 
+    /// What the latest image was rendered of.
+    const PreparedScene& prepared() const { return *prepared_; }
+
     /// True while there is a posed or prepared scene; false after an error.
     bool has_scene() const { return scene_ || is_prepared_; }
 

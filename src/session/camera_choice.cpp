@@ -161,6 +161,7 @@ Result<Placed> place_outside(const Scene& scene, const CameraRequest& request, d
     placed.target_m = distance;
     placed.half_height_m = by_hand ? distance * placed.tan_half_yfov : framing.half_height_m;
     placed.description = by_hand                        ? "placed by eye, target and up"
+                         : request.inside               ? "placed inside the scene's box"
                          : request.framed_nodes.empty() ? "automatic framing of the whole scene"
                                                         : "automatic framing of a part";
     return placed;
@@ -296,6 +297,8 @@ bool shows_the_same(const SceneCamera& a, const SceneCamera& b) {
 Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect) {
     if (request.kept) return *request.kept;
     FrameLens lens{flat_yfov(request), aspect};
+    if (request.inside)
+        return view_inside(framed_bounds(scene, request), sample_inside(*request.inside), lens);
     lens.orthographic = wanted_model(request) == CameraModel::orthographic && !request.yfov_rad;
     const FramedGeometry geometry(scene, request.framed_nodes);
     const FramedGeometry box(framed_bounds(scene, request));  // where there is nothing but a size

@@ -9,6 +9,7 @@
 #include "scene/scene.h"
 #include "session/camera_build.h"
 #include "session/framing.h"
+#include "session/view_sampling.h"
 
 #include <memory>
 #include <optional>
@@ -36,6 +37,8 @@ struct CameraRequest {
     /// Those nodes and all below them, 1 by the node's number; empty: the whole scene.
     std::vector<char> framed_nodes = {};
     bool frames = false;  ///< the automatic framing goes before the file's cameras
+    /// A view from inside the scene's box takes the place of the automatic framing.
+    std::optional<InsideView> inside = {};
     /// The framing of a sequence's first frame, so that the view stands still while things move.
     std::optional<Framing> kept = {};
     /// Takes the place of the file's cameras.

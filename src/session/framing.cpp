@@ -178,6 +178,21 @@ Framing frame_view(const FramedGeometry& geometry,
     return framing;
 }
 
+Framing view_inside(const Bounds& bounds, const InsidePlace& place, const FrameLens& lens) {
+    FramingOptions direction;
+    direction.azimuth_rad = place.azimuth_rad;
+    direction.elevation_rad = place.elevation_rad;
+    const Axes axes = view_axes(direction);
+    const Box box = box_to_frame(bounds);
+    const double ahead = 0.5 * length(box.high - box.low);
+    const Vec3d eye = box.low + (box.high - box.low) * place.place;
+    Framing framing;
+    framing.view = {eye, eye - axes.z * ahead, axes.y};
+    framing.tan_half_yfov = std::tan(0.5 * lens.yfov_rad);
+    framing.half_height_m = ahead * framing.tan_half_yfov;
+    return framing;
+}
+
 Result<Affined> look_at(const Viewpoint& view) {
     const Vec3d backward = view.eye_m - view.target_m;
     const double distance = length(backward);

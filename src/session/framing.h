@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "scene/scene.h"
 #include "session/framed_geometry.h"
+#include "session/view_sampling.h"
 
 namespace obscura {
 
@@ -55,6 +56,9 @@ struct FrameLens {
 Framing frame_view(const FramedGeometry& geometry,
                    const FramingOptions& options,
                    const FrameLens& lens);
+
+/// A view from inside the bounds; its target is their half diagonal ahead.
+Framing view_inside(const Bounds& bounds, const InsidePlace& place, const FrameLens& lens);
 
 /// Rigid world_from_camera, looking from eye to target along -Z with `up` in the +Y half.
 ///

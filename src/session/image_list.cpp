@@ -92,6 +92,8 @@ Result<std::vector<View>> listed_views(const RenderRequest& request, const Asset
     if (!request.lists.views.empty()) return request.lists.views;
     if (request.lists.cameras) return views_of_cameras(request, offer.cameras);
     if (request.lists.turntable > 0) return views_of_turntable(request);
+    if (request.lists.sampling.count > 0)
+        return sample_views(request.lists.sampling, request.camera, offer.variants);
     const std::string& camera = request.camera.choice;
     return std::vector<View>{{camera.empty() ? "view" : camera, request.camera}};
 }
@@ -232,6 +234,8 @@ Result<std::vector<std::string>> variants_to_plan(const RenderRequest& request,
         if (view.variant && has(offered, *view.variant) && !has(*out, *view.variant))
             out->push_back(*view.variant);
     }
+    const ViewSampling& sampling = request.lists.sampling;
+    if (sampling.count > 0 && sampling.chooses_variant && !offered.empty()) return offered;
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "session/camera_choice.h"
 #include "session/frames.h"
+#include "session/view_sampling.h"
 
 #include <array>
 #include <filesystem>
@@ -35,6 +36,7 @@ struct ListRequest {
     int turntable = 0;                    ///< --turntable: this many steps of a whole turn
     std::optional<std::filesystem::path> views_file;  ///< --views
     std::vector<View> views;                          ///< those of the file
+    ViewSampling sampling;                            ///< of `obscura dataset`
     std::optional<std::filesystem::path> manifest;    ///< --manifest
     bool shares_manifest = false;  ///< with other parts of a job: what is there stays
     std::string asset;             ///< {asset} in names; empty: the scene's name
@@ -44,9 +46,13 @@ struct ListRequest {
     bool keeps_asset = false;      ///< a rendering of the same asset follows
 
     /// True when there is a list of images that is no sequence.
-    bool is_asked() const { return cameras || variants || turntable > 0 || views_file; }
+    bool is_asked() const {
+        return cameras || variants || turntable > 0 || views_file || sampling.count > 0;
+    }
     /// True when only the asset tells what is in it.
-    bool needs_asset() const { return cameras || variants; }
+    bool needs_asset() const {
+        return cameras || variants || (sampling.count > 0 && sampling.chooses_variant);
+    }
 };
 
 /// One image of a command: its output files, and what is to be seen.

@@ -5,6 +5,7 @@
 #include "base/json/json.h"
 #include "base/setting_names.h"
 #include "base/sha256.h"
+#include "session/opencv_camera.h"
 #include "session/outputs.h"
 
 #include <cerrno>
@@ -28,45 +29,15 @@ Json files_json(const RenderRequest& request, const ListedImage& image) {
     return out;
 }
 
-/// The matrix of intrinsics, for pixels counted from the image's upper left corner; null: the
-/// camera has none.
-Json intrinsics_json(const ChosenCamera& chosen, int width, int height) {
-    const Camera& camera = chosen.camera;
-    if (camera.model != CameraModel::pinhole && camera.model != CameraModel::thin_lens)
-        return nullptr;
-    const PinholeCamera& film = camera.pinhole;
-    const double half_height = static_cast<double>(film.tan_half_yfov);
-    const double half_width = half_height * static_cast<double>(film.aspect);
-    const double fx = 0.5 * width / half_width;
-    const double fy = 0.5 * height / half_height;
-    const double cx = 0.5 * width - fx * static_cast<double>(film.shift_x);
-    const double cy = 0.5 * height + fy * static_cast<double>(film.shift_y);
-    return {{fx, 0, cx}, {0, fy, cy}, {0, 0, 1}};
-}
-
-/// By OpenCV's axes: X_camera = R X_world + t, with +X to the right, +Y down, +Z ahead.
-void add_pose(const Camera& camera, Json& out) {
-    Affined from_world = inverse(affine_cast<double>(camera.world_from_camera));
-    for (int c = 0; c < 4; ++c) {
-        from_world.m[1][c] = -from_world.m[1][c];
-        from_world.m[2][c] = -from_world.m[2][c];
-    }
-    const auto& m = from_world.m;
-    out["R"] = Json::array();
-    for (const auto& row : m)
-        out["R"].push_back({row[0], row[1], row[2]});
-    out["t"] = {m[0][3], m[1][3], m[2][3]};
-}
-
 Json camera_json(const RenderRequest& request, const ChosenCamera& chosen) {
     const RenderOptions& options = request.options;
     Json out = {{"description", chosen.description},
                 {"width", options.width},
                 {"height", options.height},
-                {"K", intrinsics_json(chosen, options.width, options.height)}};
+                {"K", intrinsics_json(chosen, {options.width, options.height})}};
     const auto& distortion = chosen.settings.distortion;
     if (is_distorted(chosen.camera) && distortion) out["distortion"] = *distortion;
-    add_pose(chosen.camera, out);
+    add_pose_json(chosen.camera, out);
     return out;
 }
 
@@ -100,7 +71,7 @@ std::string manifest_line(const RenderRequest& request, const ImageOutcome& outc
         line["message"] = spell_settings(outcome.error->where + ": " + outcome.error->message,
                                          SettingNames::options);
     }
-    return escape_json_controls(line.dump(-1, ' ', false, Json::error_handler_t::replace));
+    return json_line(line);
 }
 
 Manifest::Manifest(std::filesystem::path file, int descriptor)

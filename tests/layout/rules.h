@@ -17,25 +17,10 @@ inline constexpr size_t max_columns = 100;
 inline constexpr size_t max_parameters = 5;
 
 /// The rooms in order of data flow: each may include itself and those before it.
-inline constexpr std::array<std::string_view, 19> rooms{"base",
-                                                        "math",
-                                                        "shape",
-                                                        "camera",
-                                                        "surface",
-                                                        "light",
-                                                        "image",
-                                                        "scene",
-                                                        "gltf",
-                                                        "accel",
-                                                        "stages",
-                                                        "film",
-                                                        "render",
-                                                        "denoise",
-                                                        "session",
-                                                        "crosscheck",
-                                                        "explain",
-                                                        "bench",
-                                                        "app"};
+inline constexpr std::array<std::string_view, 20> rooms{
+    "base",    "math",    "shape",      "camera",  "surface", "light",  "image",
+    "scene",   "gltf",    "accel",      "stages",  "film",    "render", "denoise",
+    "session", "dataset", "crosscheck", "explain", "bench",   "app"};
 
 /// Which rooms may include headers whose name begins with `prefix`.
 struct Owner {
@@ -66,7 +51,7 @@ inline constexpr std::array<Owner, 22> owners{
      {"embree4/", "accel"},
      {"CLI/", "app"},
      {"obscura/", "session"},
-     {"fmt/", "image session crosscheck explain bench app"}}};
+     {"fmt/", "image session dataset crosscheck explain bench app"}}};
 
 /// Public headers of rooms so large that they have an inside.
 struct PublicHeaders {

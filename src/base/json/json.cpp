@@ -4,8 +4,22 @@
 
 namespace obscura {
 
+namespace {
+
+/// In   indent: -1: one line
+std::string text_of(const Json& json, int indent) {
+    return escape_json_controls(json.dump(indent, ' ', false, Json::error_handler_t::replace));
+}
+
+}  // namespace
+
 std::string json_document(const Json& json) {
-    return escape_json_controls(json.dump(2, ' ', false, Json::error_handler_t::replace)) + '\n';
+    constexpr int indent = 2;
+    return text_of(json, indent) + '\n';
+}
+
+std::string json_line(const Json& json) {
+    return text_of(json, -1);
 }
 
 std::string escape_json_controls(std::string_view text) {

@@ -16,6 +16,9 @@ using Json = nlohmann::ordered_json;
 /// escaped, those that JSON allows too; bytes that are not UTF-8 become U+FFFD.
 std::string json_document(const Json& json);
 
+/// The same on one line, without its end.
+std::string json_line(const Json& json);
+
 /// JSON text whose strings have U+007F to U+009F escaped, too: JSON allows these control
 /// characters, but terminals act on them, and what escapes them for terminals writes no JSON.
 ///

@@ -1,0 +1,69 @@
+// dataset/image_labels.cpp - the labels of one image: its camera, and each object in it.
+// SPDX-License-Identifier: Apache-2.0
+#include "dataset/image_labels.h"
+
+#include <algorithm>
+
+namespace obscura::dataset {
+
+namespace {
+
+void extend(std::optional<PixelBox>& box, int x, int y) {
+    if (!box) {
+        box = PixelBox{x, y, 1, 1};
+        return;
+    }
+    const int right = std::max(box->left + box->width, x + 1);
+    const int bottom = std::max(box->top + box->height, y + 1);
+    box->left = std::min(box->left, x);
+    box->top = std::min(box->top, y);
+    box->width = right - box->left;
+    box->height = bottom - box->top;
+}
+
+}  // namespace
+
+std::vector<ObjectLabel> label_objects(const RayLabels& rays, const Scene& scene) {
+    std::vector<ObjectLabel> out;
+    const auto columns = static_cast<uint32_t>(rays.frame.width);
+    for (const Silhouette& silhouette : rays.silhouettes) {
+        ObjectLabel label;
+        label.node = silhouette.node;
+        label.pixels = silhouette.pixels.size();
+        for (const uint32_t pixel : silhouette.pixels) {
+            const int x = rays.frame.x + static_cast<int>(pixel % columns);
+            const int y = rays.frame.y + static_cast<int>(pixel / columns);
+            extend(label.box, x, y);
+            if (!rays.is_inside(pixel)) continue;
+            ++label.pixels_inside;
+            if (rays.node[rays.image_index(pixel)] != label.node) continue;
+            ++label.visible_pixels;
+            extend(label.visible_box, x, y);
+        }
+        if (label.pixels_inside == 0) continue;
+        label.pose = rigid_pose(scene.node_places[static_cast<size_t>(label.node)]);
+        out.push_back(std::move(label));
+    }
+    return out;
+}
+
+std::vector<uint8_t> silhouette_mask(const RayLabels& rays, int32_t node) {
+    std::vector<uint8_t> mask(rays.node.size());
+    for (const Silhouette& silhouette : rays.silhouettes) {
+        if (silhouette.node != node) continue;
+        for (const uint32_t pixel : silhouette.pixels) {
+            if (rays.is_inside(pixel)) mask[rays.image_index(pixel)] = 1;
+        }
+    }
+    return mask;
+}
+
+std::vector<uint8_t> visible_mask(const RayLabels& rays, int32_t node) {
+    std::vector<uint8_t> mask(rays.node.size());
+    std::transform(rays.node.begin(), rays.node.end(), mask.begin(), [&](int32_t seen) {
+        return static_cast<uint8_t>(seen == node ? 1 : 0);
+    });
+    return mask;
+}
+
+}  // namespace obscura::dataset

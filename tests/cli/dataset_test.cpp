@@ -1,0 +1,219 @@
+// tests/cli/dataset_test.cpp - obscura dataset: images with labels, in the formats of others.
+// SPDX-License-Identifier: Apache-2.0
+#include "cli/cli.h"
+#include "support/text_files.h"
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace obscura {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+using testing::HasSubstr;
+using Texts = std::vector<std::string>;
+using Rows = std::vector<std::vector<double>>;
+
+/// Two boxes of one mesh, the second one half as large and turned; two variants.
+class DatasetCommand : public Cli {
+protected:
+    void SetUp() override {
+        Cli::SetUp();
+        SmallScene scene = box_scene();
+        scene.nodes = R"({"name": "big", "mesh": 0}, {"name": "small", "mesh": 0,
+"translation": [2.5, 0.5, 0.5], "rotation": [0, 0.38268343, 0, 0.92387953],
+"scale": [0.5, 0.5, 0.5]})";
+        scene.roots = "0, 1";
+        scene.more.clear();
+        folder_.write("pair.gltf", gltf_text(scene));
+    }
+
+    /// `obscura dataset` of few and small images, unless `more` says otherwise.
+    ProgramRun dataset(const Texts& more, const Texts& scenes = {"pair.gltf"}) const {
+        Texts arguments = {"dataset"};
+        for (const auto& [option, value] :
+             {std::pair{"--size", "48x32"}, std::pair{"--spp", "1"}, std::pair{"--count", "4"}}) {
+            if (std::find(more.begin(), more.end(), option) != more.end()) continue;
+            arguments.insert(arguments.end(), {option, value});
+        }
+        return run(joined(joined(arguments, more), scenes));
+    }
+    json read(const std::string& file) const { return json::parse(read_text(folder_ / file)); }
+
+    /// The codes of a grey image of so many bits.
+    std::vector<int> codes(const std::string& file, int bits) const {
+        const auto image = read_image_file(folder_ / file);
+        EXPECT_TRUE(image) << file;
+        std::vector<int> out;
+        const double largest = std::exp2(bits) - 1;
+        for (const float value : image ? image->pixels : std::vector<float>())
+            out.push_back(static_cast<int>(std::lround(static_cast<double>(value) * largest)));
+        return out;
+    }
+
+    /// All files below a folder by their names, with their bytes.
+    std::map<std::string, std::string> files(const std::string& below) const {
+        std::map<std::string, std::string> out;
+        for (const auto& entry : fs::recursive_directory_iterator(folder_ / below)) {
+            if (entry.is_regular_file())
+                out[fs::relative(entry.path(), folder_ / below)] = read_text(entry.path());
+        }
+        return out;
+    }
+};
+
+/// Where a corner of a box of half a width of 1 is seen, in pixels, by BOP's numbers.
+std::array<double, 2> project(const json& camera, const json& pose, std::array<double, 3> p) {
+    const auto r = pose.at("cam_R_m2c").get<std::vector<double>>();
+    const auto t = pose.at("cam_t_m2c").get<std::vector<double>>();
+    const auto k = camera.at("cam_K").get<std::vector<double>>();
+    std::array<double, 3> x{};
+    for (size_t i = 0; i < 3; ++i)
+        x[i] = 1000 * (r[3 * i] * p[0] + r[3 * i + 1] * p[1] + r[3 * i + 2] * p[2]) + t[i];
+    return {k[0] * x[0] / x[2] + k[2], k[4] * x[1] / x[2] + k[5]};
+}
+
+TEST_F(DatasetCommand, BopPosesAndBoxesAreThoseOfTheCorners) {
+    expect_result(dataset({"--write", "bop", "-o", "d", "--size", "200x160"}), 0, "OK");
+    const json cameras = read("d/000000/scene_camera.json");
+    const json poses = read("d/000000/scene_gt.json");
+    const json infos = read("d/000000/scene_gt_info.json");
+    const json models = read("d/objects.json").at("objects");
+    ASSERT_EQ(models.size(), 2U);  // one mesh, in two sizes
+    EXPECT_EQ(models[0].at("mesh_index"), models[1].at("mesh_index"));
+    for (const char* image : {"0", "1", "2", "3"}) {
+        ASSERT_EQ(poses.at(image).size(), 2U);
+        for (size_t i = 0; i < 2; ++i) {
+            const json& pose = poses.at(image)[i];
+            EXPECT_EQ(pose.at("obj_id"), i + 1);
+            const double half = i == 0 ? 1 : 0.5;
+            double low[2] = {1e9, 1e9};
+            double high[2] = {-1e9, -1e9};
+            for (unsigned corner = 0; corner < 8; ++corner) {
+                std::array<double, 3> p{};
+                for (unsigned axis = 0; axis < 3; ++axis)
+                    p[axis] = ((corner >> axis) & 1U) != 0 ? half : -half;
+                const auto at = project(cameras.at(image), pose, p);
+                for (size_t axis = 0; axis < 2; ++axis) {
+                    low[axis] = std::min(low[axis], at[axis]);
+                    high[axis] = std::max(high[axis], at[axis]);
+                }
+            }
+            const auto box = infos.at(image)[i].at("bbox_obj").get<std::vector<int>>();
+            for (size_t axis = 0; axis < 2; ++axis) {
+                EXPECT_NEAR(box[axis], low[axis], 1.5);
+                EXPECT_NEAR(box[axis] + box[axis + 2], high[axis], 1.5);
+            }
+        }
+    }
+}
+
+TEST_F(DatasetCommand, MasksIdsAndCountsAreOfOnePiece) {
+    expect_result(dataset({"--write", "bop", "-o", "d"}), 0, "OK");
+    const json infos = read("d/000000/scene_gt_info.json");
+    for (const int image : {0, 1, 2, 3}) {
+        const std::string name = "00000" + std::to_string(image);
+        const std::vector<int> ids = codes("d/000000/segmentation/" + name + ".png", 16);
+        const std::vector<int> depths = codes("d/000000/depth/" + name + ".png", 16);
+        for (int object = 0; object < 2; ++object) {
+            const std::string mask = name + "_00000" + std::to_string(object) + ".png";
+            const std::vector<int> all = codes("d/000000/mask/" + mask, 8);
+            const std::vector<int> seen = codes("d/000000/mask_visib/" + mask, 8);
+            const json& info = infos.at(std::to_string(image))[static_cast<size_t>(object)];
+            EXPECT_EQ(std::count(seen.begin(), seen.end(), 255), info.at("px_count_visib"));
+            EXPECT_EQ(std::count(all.begin(), all.end(), 255), info.at("px_count_valid"));
+            for (size_t i = 0; i < ids.size(); ++i) {
+                EXPECT_EQ(ids[i] == object + 1, seen[i] == 255);
+                EXPECT_LE(seen[i], all[i]);
+                EXPECT_EQ(ids[i] == 0, depths[i] == 0);
+            }
+        }
+    }
+}
+
+TEST_F(DatasetCommand, CocoAndNerfNameTheImages) {
+    expect_result(
+        dataset({"--write", "coco,nerf", "-o", "d", "--exr"}, {"pair.gltf", "box.gltf"}), 0, "OK");
+    const json coco = read("d/coco_annotations.json");
+    ASSERT_EQ(coco.at("images").size(), 8U);
+    EXPECT_EQ(coco.at("categories").size(), 3U);
+    for (const json& image : coco.at("images")) {
+        const std::string file = "d/" + image.at("file_name").get<std::string>();
+        EXPECT_TRUE(fs::exists(folder_ / file)) << file;
+    }
+    EXPECT_GE(coco.at("annotations").size(), 8U);
+    EXPECT_EQ(coco.at("annotations")[0].at("segmentation").at("size"), json({32, 48}));
+    const json nerf = read("d/box/transforms.json");
+    ASSERT_EQ(nerf.at("frames").size(), 4U);
+    EXPECT_TRUE(fs::exists(folder_ / "d/box/exr/000003.exr"));
+    // The eye is behind the camera's +Z, as far as the box is away.
+    const auto m = nerf.at("frames")[0].at("transform_matrix").get<Rows>();
+    const double distance = std::hypot(m[0][3], m[1][3], m[2][3]);
+    for (size_t axis = 0; axis < 3; ++axis)
+        EXPECT_NEAR(m[axis][3], distance * m[axis][2], 1e-4 * distance);
+}
+
+TEST_F(DatasetCommand, PartsMakeTheSameFiles) {
+    const Texts options = {"--write", "bop,coco", "--seed", "5"};
+    expect_result(dataset(joined(options, {"-o", "whole"})), 0, "OK");
+    expect_result(dataset(joined(options, {"-o", "parts", "--part", "2/2"})), 0, "OK");
+    EXPECT_EQ(read("parts/coco_annotations.json").at("images").size(), 2U);
+    expect_result(dataset(joined(options, {"-o", "parts", "--part", "1/2"})), 0, "OK");
+    EXPECT_TRUE(files("whole") == files("parts"));
+    const ProgramRun again = dataset(joined(options, {"-o", "whole", "--skip-existing"}));
+    EXPECT_THAT(again.err, HasSubstr("skipped=4"));
+    EXPECT_TRUE(files("whole") == files("parts"));
+}
+
+TEST_F(DatasetCommand, ViewsFromInsideShowSomething) {
+    // A room: the box from inside, and a small one in it.
+    SmallScene scene = box_scene();
+    scene.nodes = R"({"mesh": 0, "scale": [-2, 2, 2]},
+{"mesh": 0, "translation": [0, -1.7, 0], "scale": [0.3, 0.3, 0.3]})";
+    scene.roots = "0, 1";
+    scene.more.clear();
+    folder_.write("room.gltf", gltf_text(scene));
+    expect_result(dataset({"--sample", "box", "-o", "d", "--fov", "60"}, {"room.gltf"}), 0, "OK");
+    for (const char* name : {"000000", "000001", "000002", "000003"}) {
+        const std::vector<int> ids = codes("d/room/segmentation/" + std::string(name) + ".png", 16);
+        EXPECT_EQ(std::count(ids.begin(), ids.end(), 0), 0) << name;
+        const json labels = read("d/room/labels/" + std::string(name) + ".json");
+        for (const json& coordinate : labels.at("camera").at("world_from_camera"))
+            EXPECT_LE(std::abs(coordinate[3].get<double>()), 2) << name;
+    }
+}
+
+TEST_F(DatasetCommand, DepthsBeyondTheStepsAreUnknown) {
+    const ProgramRun got = dataset({"-o", "d", "--depth-unit", "0.001", "--count", "1"});
+    expect_result(got, 0, "OK");
+    EXPECT_THAT(got.err, HasSubstr("they are 0, unknown"));
+    const std::vector<int> depths = codes("d/pair/depth/000000.png", 16);
+    EXPECT_EQ(std::count(depths.begin(), depths.end(), 0), 48 * 32);
+}
+
+TEST_F(DatasetCommand, MistakesAreRefused) {
+    expect_result(dataset({}), 64, "E-USAGE-CONFLICT");
+    expect_result(dataset({"-o", "d", "--write", "voc"}), 64, "E-USAGE-CHOICE");
+    expect_result(dataset({"-o", "d", "--vary", "light"}), 64, "E-USAGE-CHOICE");
+    expect_result(dataset({"-o", "d", "--fill", "0.9,0.5"}), 64, "E-USAGE-CONFLICT");
+    expect_result(
+        dataset({"-o", "d", "--fill", "0.5,0.9", "--sample", "box"}), 64, "E-USAGE-CONFLICT");
+    expect_result(dataset({"-o", "d/{view}"}), 64, "E-USAGE-CONFLICT");
+    EXPECT_FALSE(fs::exists(folder_ / "d"));
+    folder_.write("file", "");
+    expect_result(dataset({"-o", "file"}), 73, "E-OUT-CREATE");
+    expect_result(dataset({"-o", "d"}, {"none.gltf"}), 66, "E-SCENE-MISSING");
+    const ProgramRun dry = dataset({"-o", "dry", "--dry-run"});
+    EXPECT_EQ(split_lines(dry.out).size(), 4U);
+    EXPECT_FALSE(fs::exists(folder_ / "dry"));
+}
+
+TEST_F(DatasetCommand, DamagedLabelsAreNamed) {
+    expect_result(dataset({"-o", "d", "--write", "coco"}), 0, "OK");
+    folder_.write("d/pair/labels/000001.json", "{}");
+    const ProgramRun got = dataset({"-o", "d", "--write", "coco", "--skip-existing"});
+    expect_result(got, 65, "E-DATASET-LABELS");
+}
+
+}  // namespace
+}  // namespace obscura
