@@ -94,12 +94,16 @@ Result<EnvironmentTable> EnvironmentTable::create(const EnvironmentImage& image,
     EnvironmentTable table;
     table.width_ = image.width;
     table.height_ = image.height;
-    const double rotation_rad = std::remainder(rotation_deg, 360.0) * pi_d / 180.0;
-    table.cos_rotation_ = std::cos(rotation_rad);
-    table.sin_rotation_ = std::sin(rotation_rad);
+    table.turn(rotation_deg);
     table.copy_pixels(image.rgb, intensity);
     table.build_tables(sampling);
     return table;
+}
+
+void EnvironmentTable::turn(double rotation_deg) {
+    const double rotation_rad = std::remainder(rotation_deg, 360.0) * pi_d / 180.0;
+    cos_rotation_ = std::cos(rotation_rad);
+    sin_rotation_ = std::sin(rotation_rad);
 }
 
 void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {

@@ -45,6 +45,11 @@ public:
         double rotation_deg,
         EnvironmentSampling sampling = EnvironmentSampling::compensated);
 
+    /// Turns the map as create() does; nothing else depends on it.
+    ///
+    /// In      rotation_deg: finite
+    void turn(double rotation_deg);
+
     /// Valid for as long as the table lives, wherever it is moved.
     EnvironmentView view() const;
 

@@ -13,6 +13,7 @@
 #include "scene/touching_media.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace obscura {
 
@@ -65,11 +66,17 @@ EnvironmentSampling environment_sampling(const Scene& scene, const LightingOptio
     return alone ? EnvironmentSampling::by_radiance : EnvironmentSampling::compensated;
 }
 
-/// Makes the environment's table, unless the old one has the same source.
+/// Makes the environment's table, unless the old one has the same source or needs only to be turned.
 Result<void> make_environment(PreparedScene::Impl& impl,
                               const LightingOptions& lighting,
                               const EnvironmentSource& source) {
-    if (impl.environment && impl.environment_source == source) return {};
+    EnvironmentSource turned = impl.environment_source;
+    turned.rotation_deg = source.rotation_deg;
+    if (impl.environment && turned == source && std::isfinite(source.rotation_deg)) {
+        impl.environment->turn(source.rotation_deg);
+        impl.environment_source = source;
+        return {};
+    }
     std::vector<float> studio_pixels;
     EnvironmentImage image;
     if (source.chosen) {

@@ -63,5 +63,31 @@ TEST(PreparedScene, CatchersSampleTheEnvironmentByItsRadiance) {
     EXPECT_NEAR(sky_over_ground(prepared), 2, 1e-4);
 }
 
+TEST(PreparedScene, AnEnvironmentThatIsTurnedIsThatOfItsOwn) {
+    const auto scene = [] {
+        SceneBuilder builder;
+        builder.quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, builder.material({}));
+        return builder.take();
+    };
+    LightingOptions lighting;
+    lighting.environment = constant_environment(1);
+    for (int i = 0; i < 30; ++i)  // a lamp in one direction
+        lighting.environment->pixels[static_cast<size_t>(3 * 16 * 3 + i)] = 50;
+    Log log(Verbosity::quiet);
+    auto turned = PreparedScene::create(scene(), lighting, Isa::automatic, log).value();
+    lighting.environment_rotation_deg = 70;
+    ASSERT_TRUE(turned.update(scene(), lighting, log));
+    const auto anew = PreparedScene::create(scene(), lighting, Isa::automatic, log).value();
+    const EnvironmentView a = turned.impl().environment->view();
+    const EnvironmentView b = anew.impl().environment->view();
+    for (int i = 0; i < 100; ++i) {
+        const Vec3d direction =
+            normalize(Vec3d{std::cos(0.7 * i), 0.1 * (i % 9), std::sin(0.7 * i)});
+        EXPECT_EQ(environment_pdf(a, direction), environment_pdf(b, direction));
+    }
+    lighting.environment_rotation_deg = std::nan("");
+    EXPECT_FALSE(turned.update(scene(), lighting, log));
+}
+
 }  // namespace
 }  // namespace obscura::test
