@@ -37,6 +37,11 @@ struct AnimationInfo {
     double end_s = 0;  ///< when the last keyframe comes
 };
 
+struct NodeInfo {
+    std::string path;  ///< from its root: "/lamp/shade", as Cryptomatte layers name it
+    std::string mesh;  ///< empty: it has none
+};
+
 /// What a file holds, in its order.
 struct AssetInfo {
     std::string file;  ///< without folder
@@ -47,7 +52,8 @@ struct AssetInfo {
     std::vector<std::string> variants;
     std::vector<CameraInfo> cameras;  ///< of that scene
     std::vector<AnimationInfo> animations;
-    bool is_empty = true;  ///< nothing to see; the bounds are zero then
+    std::vector<NodeInfo> nodes;  ///< of all scenes
+    bool is_empty = true;         ///< nothing to see; the bounds are zero then
     std::array<double, 3> low = {0, 0, 0}, high = {0, 0, 0};  ///< of all that is seen, in metres
     std::size_t triangles = 0;                                ///< with every instance counted
 };

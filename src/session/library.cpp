@@ -1,13 +1,16 @@
 // session/library.cpp - the library's Session: opens assets, renders images, writes files.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
+#include "film/cryptomatte_names.h"
 #include "render/film_rows.h"
 #include "render/integrators.h"
+#include "scene/node_primitives.h"
 #include "session/focus.h"
 #include "session/library_asset.h"
 #include "session/library_image.h"
 #include "session/library_request.h"
 #include "session/lighting.h"
+#include "session/opencv_camera.h"
 #include "session/outputs.h"
 #include "session/requested_camera.h"
 
@@ -64,6 +67,8 @@ v0::AssetInfo info_of(const Scene& scene) {
     out.triangles = from.triangles_in_world;
     for (const AnimationInfo& animation : from.animations)
         out.animations.push_back({animation.name, animation.end_s});
+    for (std::string& path : node_paths(from))
+        out.nodes.push_back({std::move(path), mesh_name(from, out.nodes.size())});
     for (const SceneCamera& camera : scene.cameras) {
         v0::CameraInfo& added = out.cameras.emplace_back();
         added.name = camera.name;
@@ -181,6 +186,7 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     RenderRequest request = asked;
     request.load = asset.load;
     if (auto loaded = load_requested_camera(request, log); !loaded) return fail(loaded.error());
+    if (auto placed = place_opencv(view, request.camera); !placed) return fail(placed.error());
     const obscura::Result<ChosenCamera> camera = prepare(asset, view, request, log);
     if (!camera) {
         if (asset.renderer && !asset.renderer->has_scene()) asset.renderer.reset();

@@ -63,7 +63,7 @@ void expect_no_problems(const std::vector<SourceFile>& files, Rule rule) {
 /// Files outside of src/, named from the top: "tests/base/log_test.cpp".
 std::vector<SourceFile> read_outside_src() {
     std::vector<SourceFile> all;
-    for (const std::string folder : {"tests", "benchmarks", "include", "examples"}) {
+    for (const std::string folder : {"tests", "benchmarks", "include", "examples", "python"}) {
         if (!fs::exists(source_dir / folder)) continue;
         for (SourceFile file : read_sources(source_dir / folder)) {
             file.path = folder + "/" + file.path;
