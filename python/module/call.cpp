@@ -4,7 +4,10 @@
 
 #include <chrono>
 #include <exception>
+#include <stdexcept>
+#include <sys/types.h>
 #include <thread>
+#include <unistd.h>
 #include <utility>
 
 namespace obscura::python {
@@ -17,7 +20,46 @@ constexpr std::chrono::milliseconds pause{20};
 /// Tiles that wait for Python; more make the library wait, so that a slow callback takes no memory.
 constexpr std::size_t max_waiting = 64;
 
+/// The process in which the library was used first; 0: it was not.
+std::atomic<pid_t> process = 0;
+
+std::atomic<bool> ending = false;
+std::atomic<int> threads_inside = 0;
+
 }  // namespace
+
+bool is_forked() {
+    const pid_t first = process;
+    return first != 0 && first != getpid();
+}
+
+Inside::Inside() {
+    pid_t none = 0;
+    process.compare_exchange_strong(none, getpid());
+    if (is_forked()) {
+        throw std::runtime_error(
+            "obscura was used before this process was forked, and its threads are not here; start "
+            "processes by multiprocessing's method 'spawn'");
+    }
+    if (ending) throw std::runtime_error("Python is ending");
+    ++threads_inside;
+}
+
+Inside::~Inside() {
+    --threads_inside;
+}
+
+bool Inside::is_ending() {
+    return ending;
+}
+
+void Inside::end() {
+    if (is_forked()) return;
+    const py::gil_scoped_release released;
+    ending = true;
+    while (threads_inside > 0)
+        std::this_thread::sleep_for(pause);
+}
 
 void Call::post(const Message& message) {
     {
@@ -105,6 +147,7 @@ void Call::run(const std::function<void()>& work, const Listeners& listeners) {
     for (bool finished = false; !finished;) {
         Happened happened = wait();
         finished = happened.finished;
+        if (Inside::is_ending()) stop();
         if (of_python) continue;
         try {
             tell(happened, listeners);

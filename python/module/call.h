@@ -26,6 +26,24 @@ struct Listeners {
     py::object cancel;  ///< with is_set(), which is asked every few hundredths of a second
 };
 
+/// True in a process that was forked after the library had been used: its threads stayed behind.
+bool is_forked();
+
+/// A thread that came from Python and uses the library. At the end of the interpreter such threads
+/// are waited for, since Python would end them in the middle of C++.
+class Inside {
+public:
+    /// Throws RuntimeError once the interpreter ends, and in a forked process.
+    Inside();
+    ~Inside();
+    Inside(const Inside&) = delete;
+    Inside& operator=(const Inside&) = delete;
+
+    static bool is_ending();
+    /// Stops what is under way and waits for its end. With the GIL.
+    static void end();
+};
+
 /// One call of the library, on a thread of its own.
 ///
 /// The thread that made the call waits for it without the GIL. It alone calls Python: callbacks run

@@ -1,5 +1,6 @@
 // python/module/module.cpp - the module obscura._obscura, which the package obscura shows.
 // SPDX-License-Identifier: Apache-2.0
+#include "call.h"
 #include "session.h"
 #include "settings.h"
 
@@ -10,4 +11,5 @@ PYBIND11_MODULE(_obscura, module) {
     bind_asset(module);
     bind_image(module);
     bind_session(module);
+    py::module_::import("atexit").attr("register")(py::cpp_function(&Inside::end));
 }

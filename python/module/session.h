@@ -47,6 +47,7 @@ public:
     Turn& operator=(const Turn&) = delete;
 
 private:
+    const Inside inside_;
     SessionState& state_;
 };
 

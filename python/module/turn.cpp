@@ -2,22 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session.h"
 #include <chrono>
-#include <new>
-#include <sys/types.h>
-#include <unistd.h>
+#include <stdexcept>
 #include <utility>
 
 namespace obscura::python {
 
 namespace {
-
-/// The process in which the library was used first; 0: it was not.
-std::atomic<pid_t> process = 0;
-
-bool is_forked() {
-    const pid_t first = process;
-    return first != 0 && first != getpid();
-}
 
 /// In a forked process nothing of the library may run, not even what frees its memory: it would
 /// wait for threads that are not there.
@@ -43,13 +33,6 @@ AssetState::~AssetState() {
 }
 
 Turn::Turn(SessionState& state) : state_(state) {
-    pid_t none = 0;
-    process.compare_exchange_strong(none, getpid());
-    if (is_forked()) {
-        throw std::runtime_error(
-            "obscura was used before this process was forked, and its threads are not here; start "
-            "processes by multiprocessing's method 'spawn'");
-    }
     if (state.owner == std::this_thread::get_id()) {
         throw std::runtime_error(
             "a callback may not use the session that calls it; take another session");
@@ -60,6 +43,7 @@ Turn::Turn(SessionState& state) : state_(state) {
             mine = state.busy.try_lock_for(std::chrono::milliseconds(20));
         }
         if (!mine && PyErr_CheckSignals() != 0) throw py::error_already_set();
+        if (!mine && Inside::is_ending()) throw std::runtime_error("Python is ending");
     }
     state.owner = std::this_thread::get_id();
     if (!state.is_closed) return;
