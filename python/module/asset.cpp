@@ -1,5 +1,6 @@
 // python/module/asset.cpp - Asset, and what it tells of itself.
 // SPDX-License-Identifier: Apache-2.0
+#include "pixels.h"
 #include "session.h"
 
 namespace obscura::python {
@@ -35,7 +36,8 @@ void bind_parts(py::module_& module) {
             "world_from_camera",
             [](const CameraInfo& c) {
                 const std::array<py::ssize_t, 2> shape = {4, 4};
-                return py::array_t<double>(shape, c.world_from_camera.data());
+                return py::array_t<double>(
+                    shape, strides_of<double>(shape), c.world_from_camera.data());
             },
             "(4, 4) float64 for column vectors; looks along -Z, +Y is up.")
         .def_readonly("fov_deg", &CameraInfo::fov_deg, "Vertical, of perspective cameras.")

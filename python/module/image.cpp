@@ -159,9 +159,9 @@ void bind_mapping(py::class_<Image, ImagePointer>& image) {
 py::array_t<float> pixels_of(const PixelShape& shape,
                              const std::vector<float>& pixels,
                              const py::object& owner) {
-    const std::array<py::ssize_t, 3> sides = {
-        shape.height, shape.width, static_cast<py::ssize_t>(shape.channels)};
-    return py::array_t<float>(sides, pixels.data(), owner);
+    const auto channels = static_cast<py::ssize_t>(shape.channels);
+    const std::array<py::ssize_t, 3> sides = {shape.height, shape.width, channels};
+    return py::array_t<float>(sides, strides_of<float>(sides), pixels.data(), owner);
 }
 
 void bind_image(py::module_& module) {

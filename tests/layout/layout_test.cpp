@@ -117,6 +117,21 @@ TEST(Layout, RoomsLinkTheRoomsTheyInclude) {
     }
 }
 
+/// A front end binds the library and has no part in rendering.
+TEST(Layout, ThePythonModuleSeesThePublicHeadersAlone) {
+    const std::regex allowed(R"re(obscura/\w+\.h|pybind11/\w+\.h|\w+|sys/types\.h|unistd\.h)re");
+    const std::vector<SourceFile> files = read_sources(source_dir / "python" / "module");
+    ASSERT_FALSE(files.empty());
+    for (const SourceFile& file : files) {
+        for (const Include& include : find_includes(file.text)) {
+            const bool fits = include.quoted
+                                  ? fs::exists(source_dir / "python" / "module" / include.path)
+                                  : std::regex_match(include.path, allowed);
+            EXPECT_TRUE(fits) << file.path << ":" << include.line << ": " << include.path;
+        }
+    }
+}
+
 TEST(Layout, EverySourceSaysWhatItIs) {
     expect_no_problems(read_sources(source_dir / "src"), check_head);
 }
