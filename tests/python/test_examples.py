@@ -3,6 +3,7 @@
 SPDX-License-Identifier: Apache-2.0
 """
 
+import json
 import shutil
 import subprocess
 import sys
@@ -64,6 +65,24 @@ class Examples(Case):
             ahead = np.linalg.inv(one["K"]) @ np.stack([x, y, np.ones_like(x)])
             points = one["R"].T @ (ahead * one["depth_m"][seen] - one["t"][:, None])
             self.assertLess(np.abs(points).max(), 0.6)
+
+    def test_the_notebook_runs_and_its_formulas_hold(self):
+        notebook = SOURCE / "examples" / "python" / "lecture.ipynb"
+        cells = json.loads(notebook.read_text(encoding="utf-8"))["cells"]
+        code = "\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "code")
+        # Its pictures are for people: a stand-in draws none.
+        stand_in = "import sys, unittest.mock\n" + "".join(
+            f"sys.modules['{name}'] = unittest.mock.MagicMock()\n"
+            for name in ("matplotlib", "matplotlib.pyplot")
+        )
+        got = subprocess.run(
+            [sys.executable, "-B", "-c", stand_in + code],
+            cwd=notebook.parent,
+            capture_output=True,
+            text=True,
+            check=False,
+        )
+        self.assertEqual(got.returncode, 0, got.stderr)
 
 
 if __name__ == "__main__":
