@@ -93,7 +93,7 @@ def _build(stage):
 
 
 def _files(stage):
-    """(name in the wheel, file): a wheel has no links, so the library has its loader's name alone."""
+    """(name in the wheel, file). A wheel has no links: the library has its loader's name alone."""
     linked = {path.resolve() for path in stage.rglob("*") if path.is_symlink()}
     for path in sorted(stage.rglob("*")):
         if path.is_file() and (path.is_symlink() or path.resolve() not in linked):

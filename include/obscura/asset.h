@@ -52,8 +52,7 @@ struct AssetInfo {
     std::vector<std::string> variants;
     std::vector<CameraInfo> cameras;  ///< of that scene
     std::vector<AnimationInfo> animations;
-    std::vector<NodeInfo> nodes;  ///< of all scenes
-    bool is_empty = true;         ///< nothing to see; the bounds are zero then
+    bool is_empty = true;  ///< nothing to see; the bounds are zero then
     std::array<double, 3> low = {0, 0, 0}, high = {0, 0, 0};  ///< of all that is seen, in metres
     std::size_t triangles = 0;                                ///< with every instance counted
 };
@@ -65,6 +64,8 @@ struct AssetInfo {
 class OBSCURA_API Asset {
 public:
     const AssetInfo& info() const;
+    /// The nodes of all scenes, in the file's order; worked out in each call.
+    std::vector<NodeInfo> nodes() const;
 
     struct Impl;
     explicit Asset(std::shared_ptr<Impl> impl);

@@ -28,6 +28,15 @@ std::string shown(const std::string& type, const std::string& name) {
     return "<obscura." + type + " '" + name + "'>";
 }
 
+/// Worked out when they are asked for: in deep files paths are long.
+py::tuple nodes_of(AssetState& state) {
+    if (!state.nodes) {
+        if (!state.asset) throw py::value_error("the asset is closed");
+        state.nodes = state.asset->nodes();
+    }
+    return tuple_of(*state.nodes);
+}
+
 void bind_parts(py::module_& module) {
     py::class_<CameraInfo>(module, "CameraInfo", "A camera of a file.")
         .def_property_readonly("name", [](const CameraInfo& c) { return text(c.name); })
@@ -85,8 +94,6 @@ void bind_facts(Class& bound, Get get) {
     add(
         "animations", [](Info i) { return tuple_of(i.animations); }, "AnimationInfo.");
     add(
-        "nodes", [](Info i) { return tuple_of(i.nodes); }, "NodeInfo, of all scenes.");
-    add(
         "bounds",
         [](Info i) { return bounds_of(i); },
         "((x, y, z), (x, y, z)), the lowest and the highest corner of all that is seen, metres; "
@@ -108,7 +115,7 @@ void bind_asset(py::module_& module) {
         "image of\nthe same pose starts at once. Used by the session that opened it, which it "
         "keeps alive.");
     bind_facts(asset, [](const AssetState& state) -> const AssetInfo& { return state.info; });
-    asset
+    asset.def_property_readonly("nodes", nodes_of, "NodeInfo, of all scenes.")
         .def_property_readonly(
             "info", [](const AssetState& state) { return state.info; }, "All of it, as AssetInfo.")
         .def(

@@ -34,6 +34,7 @@ struct AssetState {
     std::shared_ptr<SessionState> session;
     std::optional<Asset> asset;  ///< none: it was closed
     AssetInfo info;
+    std::optional<std::vector<NodeInfo>> nodes;  ///< once they were asked for
 };
 
 /// The turn of this thread to use a session: others wait for its end, without the GIL. Throws

@@ -75,7 +75,10 @@ def from_colmap(model, width, height, params, qvec, tvec, **more):
 
 def _rotation(qvec):
     """The matrix of a quaternion of any length but zero."""
-    w, x, y, z = (float(number) for number in qvec)
+    numbers = [float(number) for number in qvec]
+    if len(numbers) != 4:
+        raise ValueError(f"qvec: expected qw, qx, qy, qz, not {len(numbers)} numbers")
+    w, x, y, z = numbers
     square = w * w + x * x + y * y + z * z
     if not square > 0:
         raise ValueError("qvec: it is no rotation, for its length is zero")

@@ -67,8 +67,6 @@ v0::AssetInfo info_of(const Scene& scene) {
     out.triangles = from.triangles_in_world;
     for (const AnimationInfo& animation : from.animations)
         out.animations.push_back({animation.name, animation.end_s});
-    for (std::string& path : node_paths(from))
-        out.nodes.push_back({std::move(path), mesh_name(from, out.nodes.size())});
     for (const SceneCamera& camera : scene.cameras) {
         v0::CameraInfo& added = out.cameras.emplace_back();
         added.name = camera.name;
@@ -249,6 +247,13 @@ const AssetInfo& Asset::info() const {
     return impl_->info;
 }
 
+std::vector<NodeInfo> Asset::nodes() const {
+    std::vector<NodeInfo> out;
+    for (std::string& path : node_paths(impl_->graph))
+        out.push_back({std::move(path), mesh_name(impl_->graph, out.size())});
+    return out;
+}
+
 Result<Asset> Session::open(const std::string& file, const AssetOptions& options) {
     return guarded<Asset>([&]() -> Result<Asset> {
         const ThreadArena threads(options.threads);
@@ -259,7 +264,12 @@ Result<Asset> Session::open(const std::string& file, const AssetOptions& options
         auto posed = asset->renderer->pose({}, asset->log);
         if (!posed) return library_error(posed.error());
         asset->is_posed = true;
-        asset->info = info_of(asset->renderer->scene());
+        const Scene& scene = asset->renderer->scene();
+        asset->info = info_of(scene);
+        asset->graph.node_names = scene.info.node_names;
+        asset->graph.node_parents = scene.info.node_parents;
+        asset->graph.node_meshes = scene.info.node_meshes;
+        asset->graph.meshes = scene.info.meshes;
         return Asset(std::move(asset));
     });
 }

@@ -100,7 +100,7 @@ def _channel_names(data):
 
 
 def _inflate(block, compression):
-    """OpenEXR's ZIP: sums of differences, the first half of the bytes between those of the second."""
+    """OpenEXR's ZIP: sums of differences, two halves of the bytes to be interleaved."""
     if compression == 0:
         return block
     packed = np.frombuffer(zlib.decompress(block), np.uint8).astype(np.int64)

@@ -30,7 +30,8 @@ class Examples(Case):
         )
         self.assertEqual(got.returncode, 1, got.stderr)
         self.assertIn("broken.gltf", got.stderr)
-        made = {path.relative_to(self.folder / "out").as_posix() for path in self.made("out", "png")}
+        out = self.folder / "out"
+        made = {path.relative_to(out).as_posix() for path in self.made("out", "png")}
         self.assertEqual(made, {"b.glb.png", "cornell/cornell.gltf.png"})
 
     def made(self, folder, suffix):

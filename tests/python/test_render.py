@@ -149,6 +149,8 @@ class Render(Case):
         )
         with self.assertRaisesRegex(ValueError, "PINHOLE, SIMPLE_RADIAL"):
             obscura.View.from_colmap("FOV", 40, 24, [], **numbers)
+        with self.assertRaisesRegex(ValueError, "qw, qx, qy, qz, not 3"):
+            obscura.View.from_colmap("PINHOLE", 40, 24, [1, 1, 1, 1], (1, 0, 0), (0, 0, 0))
         with self.assertRaisesRegex(ValueError, "4 numbers, not 3"):
             obscura.View.from_colmap("PINHOLE", 40, 24, [1, 2, 3], **numbers)
 
@@ -170,7 +172,8 @@ class Render(Case):
         with self.assertRaises(obscura.Error) as caught:
             self.session.open("no/such.glb")
         error = caught.exception
-        self.assertEqual((error.id, error.place, error.code), ("E-SCENE-MISSING", "no/such.glb", 66))
+        self.assertEqual((error.id, error.code), ("E-SCENE-MISSING", 66))
+        self.assertEqual(error.place, "no/such.glb")
         self.assertIn(error.text, str(error))
         self.assertIn("[E-SCENE-MISSING]", str(error))
         again = pickle.loads(pickle.dumps(error))
