@@ -120,10 +120,10 @@ void bind_asset(py::module_& module) {
             "info", [](const AssetState& state) { return state.info; }, "All of it, as AssetInfo.")
         .def(
             "close",
-            [](const AssetPointer& state) {
-                if (state->session->is_closed) return;
-                const Turn turn(*state->session);
-                close_asset(*state);
+            [](AssetState& state) {
+                if (state.session->is_closed) return;
+                const Turn turn(*state.session);
+                close_asset(state);
             },
             "Frees its memory; it can be rendered no more.")
         .def_property_readonly("closed", [](const AssetState& state) { return !state.asset; })

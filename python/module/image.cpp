@@ -75,10 +75,11 @@ py::dict ids_of(const Layer& layer) {
     return out;
 }
 
-py::list values_of(const ImagePointer& image) {
+py::list values_of(Image& image) {
+    const auto shared = py::cast(image, py::return_value_policy::reference).cast<ImagePointer>();
     py::list out;
-    for (const std::string& name : names_of(*image))
-        out.append(pixels_named(image, name));
+    for (const std::string& name : names_of(image))
+        out.append(pixels_named(shared, name));
     return out;
 }
 
@@ -140,9 +141,9 @@ void bind_mapping(py::class_<Image, ImagePointer>& image) {
         .def("keys", [](const Image& self) { return texts(names_of(self)); })
         .def("values", values_of)
         .def("items",
-             [](const ImagePointer& self) {
+             [](Image& self) {
                  return py::list(py::module_::import("builtins")
-                                     .attr("zip")(texts(names_of(*self)), values_of(self)));
+                                     .attr("zip")(texts(names_of(self)), values_of(self)));
              })
         .def(
             "get",

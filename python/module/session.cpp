@@ -159,9 +159,10 @@ void bind_messages(py::module_& module) {
         .def_property_readonly("channels", [](const TileCopy& t) { return texts(t.channels); })
         .def_property_readonly(
             "pixels",
-            [](const std::shared_ptr<TileCopy>& t) {
-                return pixels_of(
-                    {t->area.width, t->area.height, t->channels.size()}, t->pixels, py::cast(t));
+            [](TileCopy& t) {
+                return pixels_of({t.area.width, t.area.height, t.channels.size()},
+                                 t.pixels,
+                                 py::cast(t, py::return_value_policy::reference));
             },
             "(height, width, channels) float32, a copy.");
 }
@@ -248,14 +249,14 @@ void bind_session(py::module_& module) {
             py::arg("look") = py::none(),
             py::arg("sampling") = py::none(),
             render_doc)
-        .def("write", write, py::arg("image"), py::arg("path"), write_doc)
+        .def("write", write, py::arg("image").none(false), py::arg("path"), write_doc)
         .def(
             "close",
-            [](const SessionPointer& state) { close(*state); },
+            [](SessionState& state) { close(state); },
             "Frees the assets; what is called afterwards raises ValueError.")
-        .def_property_readonly("closed", [](const SessionPointer& s) { return s->is_closed; })
+        .def_property_readonly("closed", [](const SessionState& s) { return s.is_closed; })
         .def("__enter__", [](const py::object& self) { return self; })
-        .def("__exit__", [](const SessionPointer& state, const py::args&) { close(*state); });
+        .def("__exit__", [](SessionState& state, const py::args&) { close(state); });
 }
 
 }  // namespace obscura::python

@@ -221,6 +221,11 @@ class Sessions(Case):
             self.session.render(self.asset, progress=1)
         with self.assertRaisesRegex(TypeError, "cancel.*Event"):
             self.session.render(self.asset, cancel=True)
+        with self.assertRaises(TypeError):
+            self.session.write(None, "a.exr")
+        for method in (obscura.Session.close, obscura.Asset.close, obscura.Image.values):
+            with self.assertRaises(TypeError):
+                method(None)
         image = self.render()
         self.asset.close()
         self.assertTrue(self.asset.closed)
