@@ -5,7 +5,7 @@ set -euo pipefail
 # shellcheck source=scripts/setup.sh
 source "$(dirname -- "${BASH_SOURCE[0]}")/scripts/setup.sh"
 
-install_packages build test
+install_packages build test python
 if [[ -f "$OBSCURA_ROOT/build/release/build.ninja" ]]; then
     reconfigure release OBSCURA_ISAS all  # run.sh leaves out those of other CPUs
 fi

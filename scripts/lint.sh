@@ -23,7 +23,7 @@ check_format() {
         say "format is not checked: that needs clang-format 14, as in Debian 12"
         return 0
     fi
-    mapfile -d '' files < <(find src tests benchmarks include examples -type f \( -name '*.h' -o -name '*.cpp' \) \
+    mapfile -d '' files < <(find src tests benchmarks include examples python -type f \( -name '*.h' -o -name '*.cpp' \) \
         -print0 | sort -z)
     "$program" --dry-run --Werror "${files[@]}" || stop "run $program -i on the files above"
     say "format: ${#files[@]} files are as .clang-format wants them"

@@ -37,6 +37,11 @@ struct AnimationInfo {
     double end_s = 0;  ///< when the last keyframe comes
 };
 
+struct NodeInfo {
+    std::string path;  ///< from its root: "/lamp/shade", as Cryptomatte layers name it
+    std::string mesh;  ///< empty: it has none
+};
+
 /// What a file holds, in its order.
 struct AssetInfo {
     std::string file;  ///< without folder
@@ -59,6 +64,8 @@ struct AssetInfo {
 class OBSCURA_API Asset {
 public:
     const AssetInfo& info() const;
+    /// The nodes of all scenes, in the file's order; worked out in each call.
+    std::vector<NodeInfo> nodes() const;
 
     struct Impl;
     explicit Asset(std::shared_ptr<Impl> impl);

@@ -20,12 +20,22 @@ struct Rect {
     int x = 0, y = 0, width = 0, height = 0;
 };
 
+/// A camera as OpenCV and COLMAP describe it: +X right, +Y down, it looks along +Z. The world is
+/// glTF's. Matrices are row after row.
+struct OpenCvCamera {
+    std::array<double, 9> K = {1, 0, 0, 0, 1, 0, 0, 0, 1};  ///< fx 0 cx, 0 fy cy, 0 0 1; pixels
+    std::array<double, 9> R = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    Vector3 t = {0, 0, 0};      ///< metres: X_camera = R X_world + t
+    int width = 0, height = 0;  ///< of the image that K is for; 0: the View's
+    double pixel_center = 0.5;  ///< where K has the first pixel's centre: 0.5, or 0
+};
+
 /// A camera, an image size and a time. What is not set is as the file says; a file without camera
 /// is framed as a whole.
 ///
-/// Which camera: `world_from_camera` or `camera_json`, else any of `eye`, `target` and `up`, else
-/// `camera`, else the file's first one, else a view of all. docs/cameras.md explains the models and
-/// lenses.
+/// Which camera: `world_from_camera`, `camera_json` or `opencv`, else any of `eye`, `target` and
+/// `up`, else `camera`, else the file's first one, else a view of all. docs/cameras.md explains the
+/// models and lenses.
 struct View {
     int width = 1280;
     int height = 720;
@@ -37,6 +47,8 @@ struct View {
     std::optional<std::array<double, 16>> world_from_camera;
     /// A file with a camera as computer vision writes it, scaled to `width` and `height`.
     std::string camera_json;
+    /// The same without a file; its lens is `distortion`, or the fisheye "opencv".
+    std::optional<OpenCvCamera> opencv;
     std::optional<CameraModel> camera_model;
     std::optional<double> fov_deg;  ///< vertical angle; of a fisheye the whole one
 

@@ -66,7 +66,7 @@ EnvironmentSampling environment_sampling(const Scene& scene, const LightingOptio
     return alone ? EnvironmentSampling::by_radiance : EnvironmentSampling::compensated;
 }
 
-/// Makes the environment's table, unless the old one has the same source or needs only to be turned.
+/// Makes the environment's table, unless the old one has the same source, or is only to be turned.
 Result<void> make_environment(PreparedScene::Impl& impl,
                               const LightingOptions& lighting,
                               const EnvironmentSource& source) {

@@ -1,10 +1,13 @@
 // session/library.cpp - the library's Session: opens assets, renders images, writes files.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
+#include "film/cryptomatte_names.h"
 #include "render/film_rows.h"
 #include "render/integrators.h"
+#include "scene/node_primitives.h"
 #include "session/focus.h"
 #include "session/library_asset.h"
+#include "session/library_camera.h"
 #include "session/library_image.h"
 #include "session/library_request.h"
 #include "session/lighting.h"
@@ -181,6 +184,7 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     RenderRequest request = asked;
     request.load = asset.load;
     if (auto loaded = load_requested_camera(request, log); !loaded) return fail(loaded.error());
+    if (auto placed = place_opencv(view, request.camera); !placed) return fail(placed.error());
     const obscura::Result<ChosenCamera> camera = prepare(asset, view, request, log);
     if (!camera) {
         if (asset.renderer && !asset.renderer->has_scene()) asset.renderer.reset();
@@ -243,6 +247,13 @@ const AssetInfo& Asset::info() const {
     return impl_->info;
 }
 
+std::vector<NodeInfo> Asset::nodes() const {
+    std::vector<NodeInfo> out;
+    for (std::string& path : node_paths(impl_->graph))
+        out.push_back({std::move(path), mesh_name(impl_->graph, out.size())});
+    return out;
+}
+
 Result<Asset> Session::open(const std::string& file, const AssetOptions& options) {
     return guarded<Asset>([&]() -> Result<Asset> {
         const ThreadArena threads(options.threads);
@@ -253,7 +264,12 @@ Result<Asset> Session::open(const std::string& file, const AssetOptions& options
         auto posed = asset->renderer->pose({}, asset->log);
         if (!posed) return library_error(posed.error());
         asset->is_posed = true;
-        asset->info = info_of(asset->renderer->scene());
+        const Scene& scene = asset->renderer->scene();
+        asset->info = info_of(scene);
+        asset->graph.node_names = scene.info.node_names;
+        asset->graph.node_parents = scene.info.node_parents;
+        asset->graph.node_meshes = scene.info.node_meshes;
+        asset->graph.meshes = scene.info.meshes;
         return Asset(std::move(asset));
     });
 }

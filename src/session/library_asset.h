@@ -53,6 +53,7 @@ struct Asset::Impl {
     bool is_posed = false;  ///< as stored, not yet prepared
     std::optional<PreparedFor> prepared_for;
     AssetInfo info;
+    obscura::AssetInfo graph;  ///< the names and parents of nodes, their meshes; nothing else
 };
 
 }  // namespace obscura::v0

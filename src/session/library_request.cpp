@@ -185,10 +185,9 @@ void read_camera(const v0::View& view, CameraRequest& out, Checks& checks) {
                     "camera",
                     "it cannot go together with " + setting("eye") + ", " + setting("target") +
                         " or " + setting("up") + "; give one or the other");
-    for (const char* placing : {"world-from-camera", "camera-json"}) {
-        const bool given = placing == std::string_view("camera-json")
-                               ? !view.camera_json.empty()
-                               : view.world_from_camera.has_value();
+    for (const auto& [placing, given] : {std::pair{"world-from-camera", !!view.world_from_camera},
+                                         std::pair{"camera-json", !view.camera_json.empty()},
+                                         std::pair{"opencv", !!view.opencv}}) {
         checks.conflict(given && (by_hand || !view.camera.empty()),
                         placing,
                         "it places the camera; it cannot go together with " + setting("camera") +
@@ -197,6 +196,8 @@ void read_camera(const v0::View& view, CameraRequest& out, Checks& checks) {
     }
     checks.excludes(
         view.world_from_camera && !view.camera_json.empty(), "camera-json", "world-from-camera");
+    checks.excludes(view.opencv && view.world_from_camera, "opencv", "world-from-camera");
+    checks.excludes(view.opencv && !view.camera_json.empty(), "opencv", "camera-json");
     out.choice = view.camera;
     out.eye_m = point_of(view.eye);
     out.target_m = point_of(view.target);

@@ -63,7 +63,7 @@ void expect_no_problems(const std::vector<SourceFile>& files, Rule rule) {
 /// Files outside of src/, named from the top: "tests/base/log_test.cpp".
 std::vector<SourceFile> read_outside_src() {
     std::vector<SourceFile> all;
-    for (const std::string folder : {"tests", "benchmarks", "include", "examples"}) {
+    for (const std::string folder : {"tests", "benchmarks", "include", "examples", "python"}) {
         if (!fs::exists(source_dir / folder)) continue;
         for (SourceFile file : read_sources(source_dir / folder)) {
             file.path = folder + "/" + file.path;
@@ -114,6 +114,21 @@ TEST(Layout, RoomsLinkTheRoomsTheyInclude) {
     for (const std::string_view room : rooms) {
         EXPECT_EQ(linked[std::string(room)], included[std::string(room)])
             << "src/CMakeLists.txt links to " << room << " other rooms than it includes";
+    }
+}
+
+/// A front end binds the library and has no part in rendering.
+TEST(Layout, ThePythonModuleSeesThePublicHeadersAlone) {
+    const std::regex allowed(R"re(obscura/\w+\.h|pybind11/\w+\.h|\w+|sys/types\.h|unistd\.h)re");
+    const std::vector<SourceFile> files = read_sources(source_dir / "python" / "module");
+    ASSERT_FALSE(files.empty());
+    for (const SourceFile& file : files) {
+        for (const Include& include : find_includes(file.text)) {
+            const bool fits = include.quoted
+                                  ? fs::exists(source_dir / "python" / "module" / include.path)
+                                  : std::regex_match(include.path, allowed);
+            EXPECT_TRUE(fits) << file.path << ":" << include.line << ": " << include.path;
+        }
     }
 }
 

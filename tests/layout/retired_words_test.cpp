@@ -30,7 +30,8 @@ bool is_checked(const fs::path& file) {
 /// All sources and documents, from the top of the tree; not CHANGELOG.md, which tells the past.
 std::set<fs::path> checked_files() {
     std::set<fs::path> files = {"README.md"};
-    for (const char* folder : {"src", "tests", "docs", "benchmarks", "examples", "tools"}) {
+    for (const char* folder :
+         {"src", "tests", "docs", "benchmarks", "examples", "python", "tools"}) {
         if (!fs::exists(source_dir / folder)) continue;
         for (const fs::directory_entry& entry :
              fs::recursive_directory_iterator(source_dir / folder)) {

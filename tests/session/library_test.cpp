@@ -68,6 +68,8 @@ TEST(Library, AnAssetTellsWhatItHolds) {
     EXPECT_FALSE(info.is_empty);
     EXPECT_LT(info.low[0], info.high[0]);
     EXPECT_GT(info.triangles, 0U);
+    const auto path = [](const NodeInfo& node) { return node.path; };
+    EXPECT_THAT(asset->nodes(), Contains(testing::ResultOf(path, "/Floor")));
     const Result<Asset> moving = session.open(assets + "motion/motion.glb");
     ASSERT_TRUE(moving);
     ASSERT_FALSE(moving->info().animations.empty());
@@ -129,65 +131,6 @@ TEST(Library, ErrorsNameFieldsAndNoOptions) {
               "camera_json E-USAGE-CONFLICT");
     EXPECT_EQ(error_of([](View& v) { v.stereo_m = -1; }), "stereo E-USAGE-RANGE");
     EXPECT_TRUE(session.render(*asset, small_view(), {}, few_samples())) << "it can go on";
-}
-
-TEST(Library, CamerasOfComputerVisionAreScaledToTheImage) {
-    const std::string file = assets + "cornell/cornell.gltf";
-    const TempFolder folder;
-    View large = small_view();
-    large.camera_json = folder
-                            .write("large.json",
-                                   R"({"width": 80, "height": 48, "fx": 60, "fy": 60,
-"R": [[1, 0, 0], [0, -1, 0], [0, 0, -1]], "t": [0, 1, 4]})")
-                            .string();
-    View small = small_view();
-    small.camera_json = folder
-                            .write("small.json",
-                                   R"({"width": 40, "height": 24, "fx": 30, "fy": 30,
-"R": [[1, 0, 0], [0, -1, 0], [0, 0, -1]], "t": [0, 1, 4]})")
-                            .string();
-    const std::vector<float> pixels = fresh_image(file, small).pixels;
-    EXPECT_EQ(fresh_image(file, large).pixels, pixels);
-    EXPECT_NE(fresh_image(file, small_view()).pixels, pixels);
-    Session session;
-    const Result<Asset> asset = session.open(file);
-    ASSERT_TRUE(asset);
-    small.camera_json = (folder / "none.json").string();
-    const Result<Image> missing = session.render(*asset, small);
-    ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().id, "E-CAMJSON-MISSING");
-}
-
-TEST(Library, EverySettingOfACameraIsAField) {
-    const std::string file = assets + "cornell/cornell.gltf";
-    View fisheye = small_view();
-    fisheye.fisheye = "opencv";
-    View diagonal = fisheye;
-    diagonal.fisheye_fit = "diagonal";
-    EXPECT_NE(fresh_image(file, fisheye).pixels, fresh_image(file, diagonal).pixels);
-    View bent = fisheye;
-    bent.fisheye_coefficients = {{0.1, 0.02, 0, 0}};
-    EXPECT_NE(fresh_image(file, fisheye).pixels, fresh_image(file, bent).pixels);
-    View around = small_view();
-    around.camera_model = CameraModel::environment;
-    View eyes = around;
-    eyes.stereo_m = 0.2;
-    EXPECT_NE(fresh_image(file, around).pixels, fresh_image(file, eyes).pixels);
-    View ahead = around;
-    ahead.align = "view";
-    EXPECT_NE(fresh_image(file, around).pixels, fresh_image(file, ahead).pixels);
-    View barrel = small_view();
-    barrel.distortion = {{-0.2, 0, 0, 0, 0}};
-    EXPECT_NE(fresh_image(file, small_view()).pixels, fresh_image(file, barrel).pixels);
-    View opened = small_view();
-    opened.fstop = 2;
-    opened.aperture = "none.png";
-    Session session;
-    const Result<Asset> asset = session.open(file);
-    ASSERT_TRUE(asset);
-    const Result<Image> missing = session.render(*asset, opened);
-    ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().id, "E-APERTURE-MISSING");
 }
 
 TEST(Library, ExposureCountsInImagesForADisplay) {
