@@ -3,6 +3,7 @@
 #pragma once
 
 #include "obscura/api.h"
+#include "obscura/error.h"
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -52,7 +53,8 @@ struct AssetInfo {
     std::vector<std::string> variants;
     std::vector<CameraInfo> cameras;  ///< of that scene
     std::vector<AnimationInfo> animations;
-    bool is_empty = true;  ///< nothing to see; the bounds are zero then
+    std::vector<std::string> materials;  ///< names, by their numbers in the file
+    bool is_empty = true;                ///< nothing to see; the bounds are zero then
     std::array<double, 3> low = {0, 0, 0}, high = {0, 0, 0};  ///< of all that is seen, in metres
     std::size_t triangles = 0;                                ///< with every instance counted
 };
@@ -66,6 +68,21 @@ public:
     const AssetInfo& info() const;
     /// The nodes of all scenes, in the file's order; worked out in each call.
     std::vector<NodeInfo> nodes() const;
+
+    /// Sets a property of a node, mesh, material, light or camera for the images that follow,
+    /// whatever animations say; nothing is read again, and BVHs of meshes that only move stay.
+    /// info() stays as the file has it.
+    ///
+    /// pointer: of glTF's object model, as KHR_animation_pointer takes them:
+    /// "/nodes/3/translation",
+    /// "/nodes/3/extensions/KHR_node_visibility/visible" (1 or 0),
+    /// "/materials/2/pbrMetallicRoughness/baseColorFactor". value: as many numbers as it has, in
+    /// glTF's units; clamped to its range. Errors: E-SET-UNKNOWN, E-SET-VALUE.
+    Result<void> set(const std::string& pointer, const std::vector<double>& value);
+    /// The materials of a variant; empty: the file's own. Errors: E-VARIANT-UNKNOWN.
+    Result<void> set_variant(const std::string& name);
+    /// Undoes what set() did; the next image reads the file again.
+    void reset();
 
     struct Impl;
     explicit Asset(std::shared_ptr<Impl> impl);

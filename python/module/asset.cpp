@@ -37,6 +37,62 @@ py::tuple nodes_of(AssetState& state) {
     return tuple_of(*state.nodes);
 }
 
+/// A number, or a list of them of any length.
+std::vector<double> numbers_of(const py::object& value) {
+    const Place place{"Asset.set", "value"};
+    if (py::isinstance<py::bool_>(value)) return {py::cast<bool>(value) ? 1.0 : 0.0};
+    if (!py::isinstance<py::sequence>(value) && !py::isinstance<py::array>(value))
+        return {read_double(value, place)};
+    std::vector<double> out;
+    for (const py::handle one : value)
+        out.push_back(read_double(one, place));
+    return out;
+}
+
+constexpr const char* set_doc =
+    R"(Sets a property for the images that follow, whatever animations say.
+
+    set(pointer, value)
+
+pointer: of glTF's object model: '/nodes/3/translation', '/nodes/3/rotation' (x, y, z, w),
+'/materials/2/pbrMetallicRoughness/baseColorFactor', '/nodes/3/weights', ...
+value: a number or as many as it has, in glTF's units. Nothing is read again, and the BVHs of meshes
+that only move are kept.
+
+Raises obscura.Error 'E-SET-UNKNOWN' or 'E-SET-VALUE'.)";
+
+void bind_changes(py::class_<AssetState, AssetPointer>& asset) {
+    asset
+        .def(
+            "set",
+            [](AssetState& state, const py::object& pointer, const py::object& value) {
+                const std::string name = read_text(pointer, {"Asset.set", "pointer"});
+                const std::vector<double> numbers = numbers_of(value);
+                change_asset(state, [&](Asset& own) { return own.set(name, numbers); });
+            },
+            py::arg("pointer"),
+            py::arg("value"),
+            set_doc)
+        .def(
+            "set_variant",
+            [](AssetState& state, const py::object& name) {
+                const std::string variant =
+                    name.is_none() ? "" : read_text(name, {"Asset.set_variant", "name"});
+                change_asset(state, [&](Asset& own) { return own.set_variant(variant); });
+            },
+            py::arg("name"),
+            "Shows the materials of a variant; None: the file's own. Nothing is read again.")
+        .def(
+            "reset",
+            [](AssetState& state) {
+                change_asset(state, [](Asset& own) -> Result<void> {
+                    own.reset();
+                    return {};
+                });
+            },
+            "Undoes what set() and its like did; the next image reads the file again.");
+}
+
 void bind_parts(py::module_& module) {
     py::class_<CameraInfo>(module, "CameraInfo", "A camera of a file.")
         .def_property_readonly("name", [](const CameraInfo& c) { return text(c.name); })
@@ -94,6 +150,10 @@ void bind_facts(Class& bound, Get get) {
     add(
         "animations", [](Info i) { return tuple_of(i.animations); }, "AnimationInfo.");
     add(
+        "materials",
+        [](Info i) { return texts(i.materials); },
+        "Names, by their numbers in the file.");
+    add(
         "bounds",
         [](Info i) { return bounds_of(i); },
         "((x, y, z), (x, y, z)), the lowest and the highest corner of all that is seen, metres; "
@@ -115,6 +175,7 @@ void bind_asset(py::module_& module) {
         "image of\nthe same pose starts at once. Used by the session that opened it, which it "
         "keeps alive.");
     bind_facts(asset, [](const AssetState& state) -> const AssetInfo& { return state.info; });
+    bind_changes(asset);
     asset.def_property_readonly("nodes", nodes_of, "NodeInfo, of all scenes.")
         .def_property_readonly(
             "info", [](const AssetState& state) { return state.info; }, "All of it, as AssetInfo.")

@@ -215,6 +215,14 @@ in the display's encoding.)";
 
 }  // namespace
 
+void change_asset(AssetState& state, const std::function<Result<void>(Asset&)>& made) {
+    const Turn turn(*state.session);
+    if (!state.asset) throw py::value_error("the asset is closed");
+    Call call;
+    run<void>(
+        *state.session, call, {state.session->log, {}, {}, {}}, [&] { return made(*state.asset); });
+}
+
 void bind_session(py::module_& module) {
     bind_messages(module);
     py::class_<SessionState, SessionPointer>(module, "Session", session_doc)

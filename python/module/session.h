@@ -61,6 +61,9 @@ void bind_asset(py::module_& module);
 /// Adds Image, Layer and Statistics.
 void bind_image(py::module_& module);
 
+/// Changes an asset in a turn of its own; throws what is wrong.
+void change_asset(AssetState& state, const std::function<Result<void>(Asset&)>& made);
+
 /// Frees what an asset holds; it is the turn of this thread.
 void close_asset(AssetState& state);
 

@@ -9,51 +9,36 @@
 #include "dataset/aim.h"
 #include "dataset/write_formats.h"
 #include "dataset/write_labels.h"
-#include <filesystem>
-#include <system_error>
+#include <fmt/format.h>
+#include <memory>
 
 namespace obscura::app {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 /// What a scene's images are rendered and labelled by.
-SceneRun run_of(DatasetScene& scene, const dataset::LabelOptions& labels) {
+SceneRun run_of(DatasetScene& scene, const dataset::LabelOptions& options) {
     SceneRun run{std::move(scene.request), options_for_merge(scene.arguments)};
+    // Labels are parts of images: where these options change, images are made again.
+    if (options.writes_masks) run.options.emplace_back("--write", "bop");
+    if (options.depth_unit_mm)
+        run.options.emplace_back("--depth-unit", fmt::format("{}", *options.depth_unit_mm));
+    const auto writer = std::make_shared<dataset::LabelWriter>(options);
     run.hooks.aim = [](const AssetRenderer& renderer,
                        RenderRequest& request,
                        const ChosenCamera& camera,
                        Log& log) { return dataset::aim(renderer, request, camera, log); };
-    run.hooks.label = [labels](const RenderRequest& request,
+    run.hooks.label = [writer](const RenderRequest& request,
                                const PreparedScene& prepared,
                                const ChosenCamera& camera,
+                               const std::atomic<bool>& stop,
                                Log& log) {
-        return dataset::write_labels(labels, {request, prepared, camera}, log);
+        return writer->write({request, prepared, camera, stop}, log);
+    };
+    run.hooks.has_label = [writer](const ListedImage& image) {
+        return writer->has_written(image.outputs.front());
     };
     return run;
-}
-
-/// The folders of the labels; those of the images are made with these.
-///
-/// Errors  73 E-OUT-CREATE
-Result<void> make_folders(const dataset::Dataset& dataset) {
-    for (const dataset::SceneFolder& scene : dataset.scenes) {
-        std::vector<const char*> folders = {
-            dataset::depth_folder, dataset::segmentation_folder, dataset::labels_folder};
-        if (dataset.formats.bop)
-            folders.insert(folders.end(), {dataset::mask_folder, dataset::visible_mask_folder});
-        for (const char* folder : folders) {
-            std::error_code error;
-            fs::create_directories(scene.folder / folder, error);
-            if (!error) continue;
-            return fail(ExitCode::cannot_create,
-                        "E-OUT-CREATE",
-                        (scene.folder / folder).string(),
-                        "the folder cannot be made: " + error.message());
-        }
-    }
-    return {};
 }
 
 }  // namespace
@@ -70,7 +55,6 @@ int run_dataset(const DatasetArguments& arguments) {
                    {dataset.scenes[i].folder, dataset.formats.bop, request->depth_unit_mm}));
     }
     if (arguments.dry_run) return run_scenes(runs, dataset.root.string(), log);
-    if (auto made = make_folders(dataset); !made) return report_failure(made.error(), log);
     return run_scenes(
         runs, dataset.root.string(), log, [&] { return dataset::write_formats(dataset, log); });
 }

@@ -33,7 +33,12 @@ Result<FrameClaim> FrameClaim::make(Job& job, const ListedImage& image) {
         job.log.info(name_of(image) + " is there and is left as it is");
         return FrameClaim(Kind::is_there, job.watch);
     };
-    if (find_existing(job.request, image, fingerprint).is_finished) return skip();
+    const auto existing = [&] {
+        ExistingImage found = find_existing(job.request, image, fingerprint);
+        if (!found.is_finished || !job.hooks.has_label || job.hooks.has_label(image)) return found;
+        return ExistingImage{false, "its labels are not there"};
+    };
+    if (existing().is_finished) return skip();
     Result<std::unique_ptr<WorkLock>> lock;
     job.watch.begin_undoable([&]() -> Watch::LastTask {
         lock = WorkLock::take(lock_file(image));
@@ -49,10 +54,10 @@ Result<FrameClaim> FrameClaim::make(Job& job, const ListedImage& image) {
     if (!out.lock_->taken_from().empty())
         job.log.info(name_of(image) + ": its lock was left by " + out.lock_->taken_from());
     // Another may have finished it before the lock was ours.
-    const ExistingImage existing = find_existing(job.request, image, fingerprint);
-    if (existing.is_finished) return skip();
-    if (!existing.differs.empty())
-        job.log.info(name_of(image) + " is rendered again: " + existing.differs);
+    const ExistingImage found = existing();
+    if (found.is_finished) return skip();
+    if (!found.differs.empty())
+        job.log.info(name_of(image) + " is rendered again: " + found.differs);
     return out;
 }
 

@@ -232,8 +232,10 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     job.watch.begin_writing();
     const Stopwatch writing;
     Result<void> written;
-    if (job.hooks.label && !is_unfinished)
-        written = job.hooks.label(request, job.renderer->prepared(), making.camera, making.log);
+    if (job.hooks.label && is_unfinished) return {};  // a data set has whole images only
+    if (job.hooks.label)
+        written = job.hooks.label(
+            request, job.renderer->prepared(), making.camera, job.watch.stop(), making.log);
     if (written)
         written = write_outputs(request, finished, job.display, job.watch.stop(), making.log);
     job.renderer->statistics().write_s += writing.seconds();

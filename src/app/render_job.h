@@ -47,8 +47,11 @@ struct ImageHooks {
     std::function<Result<void>(const RenderRequest& request,
                                const PreparedScene& prepared,
                                const ChosenCamera& camera,
+                               const std::atomic<bool>& stop,
                                Log& log)>
         label = {};
+    /// With --skip-existing: whether that is there.
+    std::function<bool(const ListedImage& image)> has_label = {};
 };
 
 /// Runs one command, from the request to the statistics.

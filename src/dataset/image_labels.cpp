@@ -29,6 +29,7 @@ std::vector<ObjectLabel> label_objects(const RayLabels& rays, const Scene& scene
     for (const Silhouette& silhouette : rays.silhouettes) {
         ObjectLabel label;
         label.node = silhouette.node;
+        label.silhouette = &silhouette;
         label.pixels = silhouette.pixels.size();
         for (const uint32_t pixel : silhouette.pixels) {
             const int x = rays.frame.x + static_cast<int>(pixel % columns);
@@ -41,29 +42,21 @@ std::vector<ObjectLabel> label_objects(const RayLabels& rays, const Scene& scene
             extend(label.visible_box, x, y);
         }
         if (label.pixels_inside == 0) continue;
-        label.pose = rigid_pose(scene.node_places[static_cast<size_t>(label.node)]);
+        label.pose = rigid_pose(scene.node_places[static_cast<size_t>(label.node)].world_from_mesh);
         out.push_back(std::move(label));
     }
     return out;
 }
 
-std::vector<uint8_t> silhouette_mask(const RayLabels& rays, int32_t node) {
-    std::vector<uint8_t> mask(rays.node.size());
-    for (const Silhouette& silhouette : rays.silhouettes) {
-        if (silhouette.node != node) continue;
-        for (const uint32_t pixel : silhouette.pixels) {
-            if (rays.is_inside(pixel)) mask[rays.image_index(pixel)] = 1;
-        }
+Masks masks_of(const RayLabels& rays, const ObjectLabel& object) {
+    Masks out;
+    for (const uint32_t pixel : object.silhouette->pixels) {
+        if (!rays.is_inside(pixel)) continue;
+        const size_t index = rays.image_index(pixel);
+        out.all.push_back(static_cast<uint32_t>(index));
+        if (rays.node[index] == object.node) out.visible.push_back(static_cast<uint32_t>(index));
     }
-    return mask;
-}
-
-std::vector<uint8_t> visible_mask(const RayLabels& rays, int32_t node) {
-    std::vector<uint8_t> mask(rays.node.size());
-    std::transform(rays.node.begin(), rays.node.end(), mask.begin(), [&](int32_t seen) {
-        return static_cast<uint8_t>(seen == node ? 1 : 0);
-    });
-    return mask;
+    return out;
 }
 
 }  // namespace obscura::dataset

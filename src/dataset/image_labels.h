@@ -18,6 +18,7 @@ struct PixelBox {
 /// One object, a node with a mesh, in one image.
 struct ObjectLabel {
     int32_t node = 0;
+    const Silhouette* silhouette = nullptr;  ///< of the labels it was made of
     RigidPose pose;
     std::optional<PixelBox> box;          ///< of the silhouette, hidden or not
     std::optional<PixelBox> visible_box;  ///< of what is seen
@@ -34,8 +35,11 @@ struct ObjectLabel {
 /// The objects of which a pixel lies in the image, seen or hidden.
 std::vector<ObjectLabel> label_objects(const RayLabels& rays, const Scene& scene);
 
-/// Masks of the image, row after row, 1 inside: where an object lies, and where it is seen.
-std::vector<uint8_t> silhouette_mask(const RayLabels& rays, int32_t node);
-std::vector<uint8_t> visible_mask(const RayLabels& rays, int32_t node);
+/// Indices of the image's pixels, row after row, ascending.
+struct Masks {
+    std::vector<uint32_t> all;      ///< where an object lies
+    std::vector<uint32_t> visible;  ///< where it is seen
+};
+Masks masks_of(const RayLabels& rays, const ObjectLabel& object);
 
 }  // namespace obscura::dataset

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -29,6 +30,8 @@ struct Dataset {
     int count = 0;  ///< images of each scene
 };
 
+inline constexpr double min_depth_unit_mm = 1e-6;
+inline constexpr double max_depth_unit_mm = 1e6;
 inline constexpr double mm_per_m = 1000;  ///< lengths in files are millimetres
 
 inline constexpr const char* color_folder = "rgb";
@@ -37,6 +40,14 @@ inline constexpr const char* segmentation_folder = "segmentation";
 inline constexpr const char* labels_folder = "labels";
 inline constexpr const char* mask_folder = "mask";
 inline constexpr const char* visible_mask_folder = "mask_visib";
+inline constexpr const char* layers_folder = "exr";
+inline constexpr std::array all_folders = {color_folder,
+                                           depth_folder,
+                                           segmentation_folder,
+                                           labels_folder,
+                                           mask_folder,
+                                           visible_mask_folder,
+                                           layers_folder};
 inline constexpr const char* objects_file = "objects.json";
 
 /// "000017": of an image in all files' names.

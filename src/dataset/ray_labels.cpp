@@ -103,8 +103,10 @@ PixelRect frame_of(const Scene& scene, const Camera& camera, const RenderOptions
     return {-options.width, -options.height, 3 * options.width, 3 * options.height};
 }
 
-/// The node of a hit; -1: none.
+/// The node of a hit; -1: none, or one that the image does not show but what is behind it neither.
 int32_t node_of(const Scene& scene, const RowRays& rays, int i) {
+    constexpr uint8_t unseen = visibility_holdout | visibility_catcher;
+    if ((scene.visibility.of(rays.hit_primitive(i), rays.hit_instance(i)) & unseen) != 0) return -1;
     const int32_t node = scene.primitives[static_cast<size_t>(rays.hit_primitive(i))].node;
     if (rays.hit_instance(i) < 0) return node;
     return std::max(node, scene.instances[static_cast<size_t>(rays.hit_instance(i))].node);
@@ -163,8 +165,8 @@ private:
 
     /// Notes the hits, and lets the rays that have hit something go on behind it.
     void pass(bool is_first, RowRays& rays, std::vector<NodePixel>& found) const {
-        // Larger than the rounding of a hit's place, smaller than what anybody models.
-        constexpr float gap = 4e-6f;
+        // The rounding of a hit's place: a surface that is met again changes nothing.
+        constexpr float gap = 2.4e-7f;
         const int count = rays.count();
         rays.clear();
         for (int i = 0; i < count; ++i) {

@@ -20,7 +20,8 @@ struct Silhouette {
 struct RayLabels {
     int width = 0, height = 0;  ///< of the image
     PixelRect frame;            ///< from the image's upper left corner
-    std::vector<int32_t> node;  ///< of the image's pixels: the nearest surface's; -1: nothing there
+    /// Of the image's pixels: the nearest surface's; -1: nothing there, a holdout or a catcher.
+    std::vector<int32_t> node;
     /// Metres along the view axis, of a fisheye and an image of all directions from the eye;
     /// 0: nothing there.
     std::vector<float> depth_m;

@@ -2,20 +2,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "dataset/run_length.h"
 
+#include <algorithm>
+
 namespace obscura::dataset {
 
-std::vector<uint32_t> run_lengths(std::span<const uint8_t> mask, size_t width, size_t height) {
-    std::vector<uint32_t> out = {0};
-    bool is_inside = false;
-    for (size_t x = 0; x < width; ++x) {
-        for (size_t y = 0; y < height; ++y) {
-            if ((mask[y * width + x] != 0) != is_inside) {
-                is_inside = !is_inside;
-                out.push_back(0);
-            }
-            ++out.back();
-        }
+std::vector<uint32_t> run_lengths(std::span<const uint32_t> inside, size_t width, size_t height) {
+    std::vector<size_t> places;  // column after column
+    places.reserve(inside.size());
+    for (const uint32_t pixel : inside)
+        places.push_back(pixel % width * height + pixel / width);
+    std::sort(places.begin(), places.end());
+    std::vector<uint32_t> out;
+    size_t end = 0;  // of the runs so far
+    for (size_t i = 0; i < places.size();) {
+        size_t last = i;
+        while (last + 1 < places.size() && places[last + 1] == places[last] + 1)
+            ++last;
+        out.push_back(static_cast<uint32_t>(places[i] - end));
+        out.push_back(static_cast<uint32_t>(last + 1 - i));
+        end = places[last] + 1;
+        i = last + 1;
     }
+    if (end < width * height) out.push_back(static_cast<uint32_t>(width * height - end));
     return out;
 }
 

@@ -13,8 +13,8 @@ namespace obscura::dataset {
 /// Lengths of runs of a mask, column after column from the left, each from the top: first those
 /// outside (may be 0), then inside, and so on in turn.
 ///
-/// In      mask: width x height, row after row; not 0 is inside
-std::vector<uint32_t> run_lengths(std::span<const uint8_t> mask, size_t width, size_t height);
+/// In      inside: indices of the pixels inside, row after row, each once
+std::vector<uint32_t> run_lengths(std::span<const uint32_t> inside, size_t width, size_t height);
 
 /// Run lengths as the text that COCO's API reads as `counts`: from the third length on, the
 /// difference to the one two before; each number in groups of five bits, the lowest first, as

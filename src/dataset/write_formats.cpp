@@ -30,6 +30,7 @@ struct Model {
     json mesh;     ///< its index; null: `object` stands for itself
     json stretch;  ///< rows of a matrix
     int object = 0;
+    bool has_own_shape = false;
     std::vector<std::string> nodes = {};
 };
 
@@ -41,16 +42,18 @@ struct Record {
 };
 
 bool is_alike(const json& a, const json& b) {
-    constexpr double tolerance = 1e-6;
+    constexpr double tolerance = 1e-5;  // matrices may be written in single precision
+    double largest = 0;
+    double difference = 0;
     for (size_t r = 0; r < 3; ++r) {
         for (size_t c = 0; c < 3; ++c) {
             const double x = a[r][c].get<double>();
             const double y = b[r][c].get<double>();
-            if (std::abs(x - y) > tolerance * std::max({std::abs(x), std::abs(y), tolerance}))
-                return false;
+            largest = std::max({largest, std::abs(x), std::abs(y)});
+            difference = std::max(difference, std::abs(x - y));
         }
     }
-    return true;
+    return difference <= tolerance * largest;
 }
 
 /// Knows the number of each object's model, from 1 on in the order of scenes and nodes.
@@ -61,10 +64,12 @@ public:
             const int id = object.at("id").get<int>();
             Model model{
                 scene, object.at("mesh"), object.at("mesh_index"), object.at("stretch"), id};
+            model.has_own_shape = object.at("own_shape");
             const std::string node = object.at("node");
             if (model.name.empty()) model.name = node.substr(node.rfind('/') + 1);
             const auto same = std::find_if(all_.begin(), all_.end(), [&](const Model& other) {
-                return other.scene == scene && !model.mesh.is_null() && other.mesh == model.mesh &&
+                return !object.at("own_shape").get<bool>() && !other.has_own_shape &&
+                       other.scene == scene && !model.mesh.is_null() && other.mesh == model.mesh &&
                        is_alike(other.stretch, model.stretch);
             });
             const auto number = static_cast<int>(same - all_.begin()) + 1;
@@ -159,13 +164,15 @@ Result<void> write_bop(const SceneFolder& scene,
     return written;
 }
 
-/// transforms.json: cameras look along -Z, +Y is up; lengths are metres.
+/// transforms.json: cameras look along -Z, +Y is up; lengths are metres. Readers know the depth
+/// files and their steps by one name or the other.
 Result<void> write_nerf(const SceneFolder& scene, const std::vector<Record>& records) {
     if (records.empty()) return {};
     const json& labels = records.front().labels;
     const json& k = labels.at("camera").at("K");
     const double width = labels.at("width");
     const double height = labels.at("height");
+    const double metres = labels.at("depth_unit_mm").get<double>() / mm_per_m;  // of a step
     Json document = {{"camera_angle_x", 2 * std::atan(0.5 * width / k[0][0].get<double>())},
                      {"camera_angle_y", 2 * std::atan(0.5 * height / k[1][1].get<double>())},
                      {"fl_x", k[0][0]},
@@ -173,7 +180,9 @@ Result<void> write_nerf(const SceneFolder& scene, const std::vector<Record>& rec
                      {"cx", k[0][2]},
                      {"cy", k[1][2]},
                      {"w", width},
-                     {"h", height}};
+                     {"h", height},
+                     {"integer_depth_scale", metres},
+                     {"depth_unit_scale_factor", metres}};
     if (const auto found = labels.at("camera").find("distortion");
         found != labels.at("camera").end()) {
         constexpr std::array names = {"k1", "k2", "p1", "p2", "k3"};
@@ -259,6 +268,14 @@ Json models_document(const Dataset& dataset, const Models& models) {
     return {{"objects", std::move(list)}};
 }
 
+/// A scene that failed leaves nothing that looks like one.
+void remove_empty_folders(const fs::path& scene) {
+    std::error_code ignored;
+    for (const char* name : all_folders)
+        fs::remove(scene / name, ignored);
+    fs::remove(scene, ignored);
+}
+
 /// The labels of a scene's images that are there.
 Result<std::vector<Record>> read_records(const Dataset& dataset, size_t scene, Log& log) {
     std::vector<Record> out;
@@ -268,6 +285,9 @@ Result<std::vector<Record>> read_records(const Dataset& dataset, size_t scene, L
         if (!is_there(file)) continue;
         Result<json> labels = read(file, log);
         if (!labels) return fail(labels.error());
+        // Of an image in the making there are the labels alone.
+        const std::string image = labels->at("image");
+        if (!is_there(dataset.scenes[scene].folder / image)) continue;
         out.push_back({scene, i, std::move(*labels)});
     }
     return out;
@@ -294,6 +314,7 @@ Result<void> write_all(const Dataset& dataset, Log& log) {
         const Result<std::vector<Record>> records = read_records(dataset, scene, log);
         if (!records) return fail(records.error());
         const SceneFolder& folder = dataset.scenes[scene];
+        if (records->empty()) remove_empty_folders(folder.folder);
         Result<void> written;
         if (dataset.formats.bop && !records->empty()) written = write_bop(folder, *records, models);
         if (written && dataset.formats.nerf) written = write_nerf(folder, *records);

@@ -19,6 +19,7 @@
 #include <fmt/format.h>
 #include <set>
 #include <span>
+#include <system_error>
 
 namespace obscura::dataset {
 
@@ -49,12 +50,12 @@ Result<void> write_grey(const fs::path& file,
     return {};
 }
 
-UnsetArray<float> grey_of(std::span<const uint8_t> mask) {
+UnsetArray<float> grey_of(const RayLabels& rays, std::span<const uint32_t> inside) {
     UnsetArray<float> out;
-    out.resize(mask.size());
-    std::transform(mask.begin(), mask.end(), out.begin(), [](uint8_t inside) {
-        return static_cast<float>(inside);
-    });
+    out.resize(rays.node.size());
+    std::fill(out.begin(), out.end(), 0.0f);
+    for (const uint32_t pixel : inside)
+        out[pixel] = 1;
     return out;
 }
 
@@ -85,23 +86,39 @@ Result<size_t> write_depth(const fs::path& file, const RayLabels& rays, double u
     return lost;
 }
 
+/// An object of an image, with its masks.
+struct MaskedObject {
+    ObjectLabel label;
+    Masks masks;
+};
+
+std::vector<MaskedObject> masked_objects(const RayLabels& rays, const Scene& scene) {
+    std::vector<MaskedObject> out;
+    for (ObjectLabel& label : label_objects(rays, scene))
+        out.push_back({std::move(label), {}});
+    parallel_for(out.size(), [&](size_t i) { out[i].masks = masks_of(rays, out[i].label); });
+    return out;
+}
+
 /// Masks of each object, by its number among those of the image, as BOP names them.
-Result<void> write_masks(const LabelOptions& options,
+Result<void> write_masks(const fs::path& folder,
                          const std::string& name,
                          const RayLabels& rays,
-                         const std::vector<ObjectLabel>& objects) {
+                         const std::vector<MaskedObject>& objects,
+                         const std::atomic<bool>& stop) {
     std::vector<Result<void>> written(objects.size());
     constexpr int bits = 8;
     parallel_for(objects.size(), [&](size_t i) {
-        const int32_t node = objects[i].node;
+        if (stop) {
+            written[i] = fail(ExitCode::stopped_early, "E-STOPPED", name, "stopped on request");
+            return;
+        }
+        const Masks& masks = objects[i].masks;
         const std::string file = fmt::format("{}_{:06}.png", name, i);
-        written[i] = write_grey(
-            options.folder / mask_folder / file, rays, grey_of(silhouette_mask(rays, node)), bits);
+        written[i] = write_grey(folder / mask_folder / file, rays, grey_of(rays, masks.all), bits);
         if (!written[i]) return;
-        written[i] = write_grey(options.folder / visible_mask_folder / file,
-                                rays,
-                                grey_of(visible_mask(rays, node)),
-                                bits);
+        written[i] = write_grey(
+            folder / visible_mask_folder / file, rays, grey_of(rays, masks.visible), bits);
     });
     for (Result<void>& one : written) {
         if (!one) return std::move(one);
@@ -121,17 +138,18 @@ Json rows_json(const Affined& a) {
     return out;
 }
 
-Json mask_json(const RayLabels& rays, const std::vector<uint8_t>& mask) {
+Json mask_json(const RayLabels& rays, std::span<const uint32_t> inside) {
     const auto width = static_cast<size_t>(rays.width);
     const auto height = static_cast<size_t>(rays.height);
     return {{"size", {rays.height, rays.width}},
-            {"counts", coco_counts(run_lengths(mask, width, height))}};
+            {"counts", coco_counts(run_lengths(inside, width, height))}};
 }
 
 Json object_json(const RayLabels& rays,
-                 const ObjectLabel& object,
+                 const MaskedObject& masked,
                  const Affined& camera_from_world,
                  const std::string& path) {
+    const ObjectLabel& object = masked.label;
     const Affined pose = compose(camera_from_world, object.pose.world_from_model);
     return {{"id", object.node + 1},
             {"node", path},
@@ -144,8 +162,8 @@ Json object_json(const RayLabels& rays,
             {"pixels_inside", object.pixels_inside},
             {"pixels_visible", object.visible_pixels},
             {"visibility", object.visibility()},
-            {"mask", mask_json(rays, silhouette_mask(rays, object.node))},
-            {"mask_visible", mask_json(rays, visible_mask(rays, object.node))}};
+            {"mask", mask_json(rays, masked.masks.all)},
+            {"mask_visible", mask_json(rays, masked.masks.visible)}};
 }
 
 Json camera_json(const RenderRequest& request, const ChosenCamera& chosen) {
@@ -163,22 +181,23 @@ Json camera_json(const RenderRequest& request, const ChosenCamera& chosen) {
 }
 
 /// All nodes that something of the scene belongs to.
-Json objects_json(const Scene& scene) {
+Json objects_json(const Scene& scene, const std::vector<std::string>& paths) {
     std::set<int32_t> nodes;
     for_each_node_primitive(
         scene, [&](int32_t node, int32_t /*instance*/, const Primitive& /*primitive*/) {
             if (node >= 0) nodes.insert(node);
         });
-    const std::vector<std::string> paths = node_paths(scene.info);
     Json objects = Json::array();
     for (const int32_t node : nodes) {
         const auto number = static_cast<size_t>(node);
         const int32_t mesh = scene.info.node_meshes[number];
+        const NodePlace& place = scene.node_places[number];
         objects.push_back({{"id", node + 1},
                            {"node", paths[number]},
                            {"mesh", mesh_name(scene.info, number)},
                            {"mesh_index", mesh < 0 ? Json() : Json(mesh)},
-                           {"stretch", rows_json(rigid_pose(scene.node_places[number]).stretch)}});
+                           {"own_shape", place.has_own_shape},
+                           {"stretch", rows_json(rigid_pose(place.world_from_mesh).stretch)}});
     }
     return {{"asset", scene.info.file_name}, {"objects", std::move(objects)}};
 }
@@ -198,44 +217,73 @@ double depth_unit_mm(const RenderRequest& request, const Scene& scene) {
     const double around = radius * (std::sqrt(1 + 1 / (slope * slope)) + 1);
     const double farthest_m =
         request.lists.sampling.space == ViewSpace::box ? 2 * radius : std::max(around, 3 * radius);
-    return std::pow(10.0, std::ceil(std::log10(farthest_m * mm_per_m / largest_code)));
+    const double unit = std::pow(10.0, std::ceil(std::log10(farthest_m * mm_per_m / largest_code)));
+    return std::clamp(unit, min_depth_unit_mm, max_depth_unit_mm);
 }
 
-Result<void> write_labels(const LabelOptions& options, const LabelledImage& image, Log& log) {
-    const RenderRequest& request = image.request;
-    const Scene& scene = image.prepared.scene();
-    if (auto fits = check_segmentation(scene); !fits) return fits;
-    const RayLabels rays = trace_labels(image.prepared, image.camera.camera, request.options);
-    const std::vector<ObjectLabel> objects = label_objects(rays, scene);
-    const std::string name = request.outputs.front().stem().string();
-    const double unit_mm = options.depth_unit_mm.value_or(depth_unit_mm(request, scene));
+/// Once for all images: folders, names, and what is the same in all.
+Result<void> LabelWriter::begin(const Scene& scene) {
+    if (!paths_.empty()) return {};
+    for (const char* name : all_folders) {
+        const bool is_of_masks = name == mask_folder || name == visible_mask_folder;
+        if (name == color_folder || name == layers_folder) continue;  // made with the outputs
+        if (is_of_masks && !options_.writes_masks) continue;
+        std::error_code error;
+        fs::create_directories(options_.folder / name, error);
+        if (!error) continue;
+        return fail(ExitCode::cannot_create,
+                    "E-OUT-CREATE",
+                    (options_.folder / name).string(),
+                    "the folder cannot be made: " + error.message());
+    }
+    std::vector<std::string> paths = node_paths(scene.info);
+    auto written = write_json(options_.folder / objects_file, objects_json(scene, paths));
+    if (written) paths_ = std::move(paths);
+    return written;
+}
 
-    const fs::path color = request.outputs.front().filename();
-    const std::string png = name + ".png";
-    const Result<size_t> lost = write_depth(options.folder / depth_folder / png, rays, unit_mm);
+Result<void> LabelWriter::write_pixels(const LabelledImage& image,
+                                       const RayLabels& rays,
+                                       Log& log) const {
+    const std::string png = image.request.outputs.front().stem().string() + ".png";
+    const Result<size_t> lost = write_depth(options_.folder / depth_folder / png, rays, unit_mm_);
     if (!lost) return fail(lost.error());
     if (*lost > 0) {
-        log.warn((options.folder / depth_folder / png).string(),
+        log.warn((options_.folder / depth_folder / png).string(),
                  fmt::format("{} pixels are further away than 65535 steps of {} mm; they are 0, "
                              "unknown. --depth-unit takes larger steps",
                              *lost,
-                             unit_mm));
+                             unit_mm_));
     }
-    auto ids = write_segmentation(options.folder / segmentation_folder / png, rays);
-    if (!ids) return ids;
-    if (options.writes_masks) {
-        if (auto masks = write_masks(options, name, rays, objects); !masks) return masks;
+    return write_segmentation(options_.folder / segmentation_folder / png, rays);
+}
+
+Result<void> LabelWriter::write(const LabelledImage& image, Log& log) {
+    const RenderRequest& request = image.request;
+    const Scene& scene = image.prepared.scene();
+    if (auto fits = check_segmentation(scene); !fits) return fits;
+    if (auto begun = begin(scene); !begun) return begun;
+    unit_mm_ = options_.depth_unit_mm.value_or(depth_unit_mm(request, scene));
+    const RayLabels rays = trace_labels(image.prepared, image.camera.camera, request.options);
+    const std::vector<MaskedObject> objects = masked_objects(rays, scene);
+    const fs::path color = request.outputs.front().filename();
+    const std::string name = color.stem().string();
+    if (objects.empty()) log.warn(name, "the image shows no object; its labels are empty");
+    if (auto pixels = write_pixels(image, rays, log); !pixels) return pixels;
+    if (options_.writes_masks) {
+        auto masks = write_masks(options_.folder, name, rays, objects, image.stop);
+        if (!masks) return masks;
     }
-    const std::vector<std::string> paths = node_paths(scene.info);
     const Affined camera_from_world = opencv_from_world(image.camera.camera);
     Json list = Json::array();
-    for (const ObjectLabel& object : objects)
-        list.push_back(
-            object_json(rays, object, camera_from_world, paths[static_cast<size_t>(object.node)]));
+    for (const MaskedObject& object : objects)
+        list.push_back(object_json(
+            rays, object, camera_from_world, paths_[static_cast<size_t>(object.label.node)]));
+    const std::string png = name + ".png";
     const Json document = {
         {"image", (fs::path(color_folder) / color).string()},
         {"depth", (fs::path(depth_folder) / png).string()},
-        {"depth_unit_mm", unit_mm},
+        {"depth_unit_mm", unit_mm_},
         {"depth_along", measures_from_eye(image.camera.camera.model) ? "ray" : "axis"},
         {"segmentation", (fs::path(segmentation_folder) / png).string()},
         {"width", rays.width},
@@ -245,8 +293,18 @@ Result<void> write_labels(const LabelOptions& options, const LabelledImage& imag
         {"environment_rotation", request.environment_rotation_deg},
         {"time", scene.info.time_s ? Json(*scene.info.time_s) : Json()},
         {"objects", std::move(list)}};
-    if (auto all = write_json(options.folder / objects_file, objects_json(scene)); !all) return all;
-    return write_json(options.folder / labels_folder / (name + ".json"), document);
+    return write_json(options_.folder / labels_folder / (name + ".json"), document);
+}
+
+bool LabelWriter::has_written(const fs::path& image) const {
+    const std::string name = image.stem().string();
+    const auto is_there = [&](const fs::path& file) {
+        std::error_code error;
+        return fs::file_size(options_.folder / file, error) > 0 && !error;
+    };
+    return is_there(fs::path(labels_folder) / (name + ".json")) &&
+           is_there(fs::path(depth_folder) / (name + ".png")) &&
+           is_there(fs::path(segmentation_folder) / (name + ".png"));
 }
 
 }  // namespace obscura::dataset

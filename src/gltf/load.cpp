@@ -17,6 +17,7 @@
 #include "gltf/parse/asset_file.h"
 #include "gltf/parse/variants.h"
 #include "gltf/pose.h"
+#include "gltf/scene_warnings.h"
 #include "image/oiio.h"
 #include "scene/frame_motion.h"
 #include "scene/points_lines_radii.h"
@@ -75,34 +76,6 @@ bool may_need_oiio(const Document& document) {
         return !name.ends_with("webp") && !name.ends_with("ktx2");
     };
     return std::any_of(document.images.begin(), document.images.end(), may_need);
-}
-
-void warn_about_whole(const Document& document, const Scene& scene, Log& log) {
-    if (scene.bounds.empty()) {
-        log.warn(document.file,
-                 "the scene has no triangles, shapes, points, lines or splats; only its "
-                 "surroundings will "
-                 "be seen");
-        return;
-    }
-    const Vec3f extent = scene.bounds.high - scene.bounds.low;
-    const float farthest =
-        std::max(max_component(abs(scene.bounds.low)), max_component(abs(scene.bounds.high)));
-    constexpr float coarse = 1e5f;  // single precision then has steps of 1/160 of the extent
-    if (farthest > coarse * max_component(extent)) {
-        log.warn(document.file,
-                 "the scene lies so far from the origin, for its size, that positions lose "
-                 "precision");
-    }
-    constexpr float smallest_m = 1e-6f;
-    constexpr float largest_m = 1e12f;
-    const float size = max_component(extent);
-    if ((size > 0 && size < smallest_m) || farthest > largest_m) {
-        log.warn(
-            document.file,
-            "the scene is smaller than 1e-6 m or reaches further than 1e12 m: single precision "
-            "finds wrong hits and light there; a scale on its root nodes helps");
-    }
 }
 
 /// Time of each animation's last keyframe.
@@ -266,10 +239,14 @@ Result<void> PosedAsset::Impl::add_geometry(MaterialTable& materials, Scene& out
 }
 
 /// Where the nodes' meshes are in the world.
-std::vector<Affined> places_of_nodes(const Document& document) {
-    std::vector<Affined> out = world_transforms(document);
-    for (size_t i = 0; i < out.size(); ++i) {
-        if (document.nodes[i].skin >= 0) out[i] = Affined{};
+std::vector<NodePlace> places_of_nodes(const Document& document) {
+    std::vector<NodePlace> out;
+    for (const Affined& place : world_transforms(document)) {
+        const GltfNode& node = document.nodes[out.size()];
+        const bool bends =
+            node.mesh >= 0 && document.meshes[static_cast<size_t>(node.mesh)].target_count > 0;
+        const bool has_own_shape = node.skin >= 0 || bends || is_instanced(node.instancing);
+        out.push_back({node.skin >= 0 ? Affined{} : place, has_own_shape});
     }
     return out;
 }
@@ -283,7 +260,7 @@ Result<Scene> PosedAsset::Impl::pose_at(double time_s, MaterialTable& materials,
     out.light_profiles = light_profiles;
     Result<void> done = animator.pose(document, time_s);
     if (!done) return fail(std::move(done.error()));
-    if (!animator.empty()) out.info.time_s = time_s;
+    if (animator.plays()) out.info.time_s = time_s;
     if (options.places_nodes) out.node_places = places_of_nodes(document);
     materials = make_material_table(document);
     done = add_geometry(materials, out, log);
@@ -313,7 +290,7 @@ Result<std::vector<ScenePose>> PosedAsset::Impl::poses_at(const std::vector<doub
 
 /// The poses one frame before a time, at it, and one frame after it; none unless they are wanted.
 Result<std::vector<ScenePose>> PosedAsset::Impl::frames_around(double time_s, double& seconds) {
-    if (!options.frame_step_s || animator.empty()) return std::vector<ScenePose>{};
+    if (!options.frame_step_s || !animator.plays()) return std::vector<ScenePose>{};
     const double step_s = *options.frame_step_s;
     return poses_at({time_s - step_s, time_s, time_s + step_s}, seconds);
 }
@@ -463,6 +440,15 @@ Result<void> PosedAsset::choose_variant(const std::string& name) {
     const Result<std::vector<char>> hidden =
         hide_parts(impl_->options.hidden, impl_->asset.document);
     if (!hidden) return fail(hidden.error());
+    return {};
+}
+
+Result<void> PosedAsset::set_value(const std::string& pointer, const std::vector<double>& value) {
+    Document& document = impl_->asset.document;
+    const Result<SetValue> wanted = check_set_value(pointer, value, document);
+    if (!wanted) return fail(wanted.error());
+    impl_->animator.set(*wanted, document);
+    if (impl_->animator.mark(document)) impl_->geometry = {};
     return {};
 }
 

@@ -135,6 +135,13 @@ public:
     /// Errors  64 E-VARIANT-UNKNOWN
     Result<void> choose_variant(const std::string& name);
 
+    /// Sets a property to a value in all scenes that follow, whatever animations say: nodes,
+    /// materials, lights, cameras.
+    ///
+    /// In      pointer: as those of KHR_animation_pointer: "/nodes/3/translation"
+    /// Errors  64 E-SET-UNKNOWN, E-SET-VALUE
+    Result<void> set_value(const std::string& pointer, const std::vector<double>& value);
+
     /// What all its scenes have in common.
     const AssetInfo& info() const;
 

@@ -160,18 +160,43 @@ Result<Animator> Animator::create(const Document& document,
     return out;
 }
 
-void Animator::mark(Document& document) const {
+bool Animator::plays() const {
+    return std::any_of(
+        tracks_.begin(), tracks_.end(), [](const Track& track) { return track.fixed.empty(); });
+}
+
+void Animator::set(const SetValue& wanted, const Document& document) {
+    const auto known = std::find_if(tracks_.begin(), tracks_.end(), [&](const Track& track) {
+        return !track.fixed.empty() && track.channel.property == wanted.channel.property;
+    });
+    if (known == tracks_.end()) {
+        add({wanted.channel, {}, wanted.value}, document);
+        return;
+    }
+    known->fixed = wanted.value;
+    std::rotate(known, known + 1, tracks_.end());  // the latest one counts
+}
+
+bool Animator::mark(Document& document) const {
+    bool is_new = false;
+    const auto set_flag = [&](bool& flag) {
+        is_new = is_new || !flag;
+        flag = true;
+    };
     for (const Track& track : tracks_) {
         const ChannelPath path = track.channel.property.path;
         const auto target = static_cast<size_t>(track.channel.property.target);
-        if (path == ChannelPath::weights) document.nodes[target].bends = true;
-        if (path == ChannelPath::mesh_weights) document.meshes[target].bends = true;
-        if (moves_node(path) || path == ChannelPath::visible) document.nodes[target].moves = true;
+        if (path == ChannelPath::weights) set_flag(document.nodes[target].bends);
+        if (path == ChannelPath::mesh_weights) set_flag(document.meshes[target].bends);
+        if (moves_node(path) || path == ChannelPath::visible)
+            set_flag(document.nodes[target].moves);
     }
+    return is_new;
 }
 
 Result<void> Animator::apply(const Track& track, Document& document, double time_s) const {
-    const std::vector<double> value = sample(track.keys, time_s);
+    const std::vector<double> value =
+        track.fixed.empty() ? sample(track.keys, time_s) : track.fixed;
     const AnimatedProperty& property = track.channel.property;
     const auto target = static_cast<size_t>(property.target);
     switch (property.path) {

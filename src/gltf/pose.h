@@ -4,6 +4,7 @@
 
 #include "gltf/animation.h"
 #include "gltf/parse/light_camera_entries.h"
+#include "gltf/set_value.h"
 
 #include <array>
 #include <optional>
@@ -24,9 +25,15 @@ public:
                                    const std::vector<int>& animations);
 
     bool empty() const { return tracks_.empty(); }
+    /// True when there are animations, and not only values that were set.
+    bool plays() const;
 
-    /// Says of each node and mesh of the document whether it is animated.
-    void mark(Document& document) const;
+    /// Sets a property to a value at all times, in place of what animations and earlier calls say.
+    void set(const SetValue& wanted, const Document& document);
+
+    /// Says of each node and mesh of the document whether it is animated. True when that is new
+    /// for any: geometry that was static may be so no more.
+    bool mark(Document& document) const;
 
     /// Writes every animated value at a time into the document. All of them are written whatever
     /// the time is: a document may be posed again and again, in any order.
@@ -38,6 +45,7 @@ private:
     struct Track {
         GltfChannel channel;
         Keyframes keys;
+        std::vector<double> fixed = {};  ///< the value, where it was set; then there are no keys
     };
 
     /// The file's value of a quaternion with single animated numbers. It is restored before every

@@ -162,6 +162,13 @@ struct Bounds {
     bool empty() const { return !(low.x <= high.x); }
 };
 
+/// Where a node's mesh is.
+struct NodePlace {
+    Affined world_from_mesh;  ///< a skinned mesh is in the world already
+    /// A skin, weights or instancing give it a shape that other nodes with its mesh have not.
+    bool has_own_shape = false;
+};
+
 /// Everything that an image needs, except the choice of the camera and an environment from outside
 /// the file.
 ///
@@ -202,9 +209,7 @@ struct Scene {
     /// The file's own environment, latitude-longitude in the world; null: it has none.
     std::shared_ptr<const ImageRgb32f> environment;
     std::vector<SceneCamera> cameras;
-    /// From a mesh to the world, by glTF node; a skinned mesh is in the world already. Empty: not
-    /// asked for.
-    std::vector<Affined> node_places;
+    std::vector<NodePlace> node_places;  ///< by glTF node; empty: not asked for
     Bounds bounds;  ///< world space, of all triangles and shapes; an infinite plane counts as 1 m^2
     AssetInfo info;
 };

@@ -64,6 +64,13 @@ public:
     }
     Result<void> choose_variant(const std::string& name) { return asset_->choose_variant(name); }
 
+    /// Sets a property from the next pose on; see PosedAsset.
+    ///
+    /// Errors  64 E-SET-UNKNOWN, E-SET-VALUE
+    Result<void> set_value(const std::string& pointer, const std::vector<double>& value) {
+        return asset_->set_value(pointer, value);
+    }
+
     /// Poses the scene at a time; this replaces the previous pose.
     ///
     /// Errors  those of load_gltf

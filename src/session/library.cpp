@@ -65,6 +65,11 @@ v0::AssetInfo info_of(const Scene& scene) {
     out.scene = from.scene;
     out.variants = from.variants;
     out.triangles = from.triangles_in_world;
+    for (size_t i = 0; i < scene.material_numbers.size(); ++i) {
+        const auto number = static_cast<size_t>(scene.material_numbers[i] + 1);
+        if (out.materials.size() < number) out.materials.resize(number);
+        if (number > 0) out.materials[number - 1] = scene.material_names[i];
+    }
     for (const AnimationInfo& animation : from.animations)
         out.animations.push_back({animation.name, animation.end_s});
     for (const SceneCamera& camera : scene.cameras) {
@@ -97,7 +102,24 @@ Result<void> read(v0::Asset::Impl& asset, const ReadFor& wanted, Log& log) {
         AssetRenderer::open(asset.file, asset.load, asset.read_for.times, log);
     if (!renderer) return fail(renderer.error());
     asset.renderer = std::move(*renderer);
+    asset.has_plan = false;
+    for (const auto& [pointer, value] : asset.values) {
+        if (auto done = asset.renderer->set_value(pointer, value); !done) return done;
+    }
     return {};
+}
+
+/// Lets an asset be changed: it is posed anew for the next image.
+template <typename Change>
+v0::Result<void> change(v0::Asset::Impl& asset, const Change& made) {
+    return guarded<void>([&]() -> v0::Result<void> {
+        if (auto there = read(asset, asset.read_for, asset.log); !there)
+            return library_error(there.error());
+        if (const Result<void> done = made(*asset.renderer); !done)
+            return library_error(done.error());
+        asset.is_changed = true;
+        return {};
+    });
 }
 
 PoseTimes times_of(const v0::View& view) {
@@ -126,20 +148,25 @@ Result<ChosenCamera> prepare(v0::Asset::Impl& asset,
                              request.environment_intensity,
                              request.environment_rotation_deg,
                              request.isa};
+    const bool is_there = asset.prepared_for && asset.prepared_for->isa == wanted.isa;
     // The thickness of points and lines depends on the camera.
+    const bool keeps_pose = is_there && asset.prepared_for->has_pose_of(wanted) &&
+                            !asset.is_changed && !has_points_lines(renderer.scene());
     const bool same = asset.prepared_for == wanted;
-    if (same && !has_points_lines(renderer.scene())) return renderer.look_again(request, log);
+    if (same && keeps_pose) return renderer.look_again(request, log);
+    if (!is_there) renderer.start_anew();
     asset.prepared_for.reset();
     if (!same) {
         Result<LightingOptions> lighting = load_lighting(request, log);
         if (!lighting) return fail(lighting.error());
         asset.lighting = std::move(*lighting);
-        renderer.start_anew();
     }
-    if (!asset.is_posed || times) {
+    if (keeps_pose) {
+        renderer.prepare_again();
+    } else if (!asset.is_posed || asset.is_changed || times) {
         if (auto posed = renderer.pose(times_of(view), log); !posed) return fail(posed.error());
     }
-    asset.is_posed = false;
+    asset.is_posed = asset.is_changed = false;
     Result<ChosenCamera> camera = renderer.prepare(request, asset.lighting, log);
     if (camera) asset.prepared_for = wanted;
     return camera;
@@ -252,6 +279,34 @@ std::vector<NodeInfo> Asset::nodes() const {
     for (std::string& path : node_paths(impl_->graph))
         out.push_back({std::move(path), mesh_name(impl_->graph, out.size())});
     return out;
+}
+
+Result<void> Asset::set(const std::string& pointer, const std::vector<double>& value) {
+    Result<void> done =
+        change(*impl_, [&](AssetRenderer& renderer) { return renderer.set_value(pointer, value); });
+    if (!done) return done;
+    std::erase_if(impl_->values, [&](const auto& known) { return known.first == pointer; });
+    impl_->values.emplace_back(pointer, value);
+    return done;
+}
+
+Result<void> Asset::set_variant(const std::string& name) {
+    return change(*impl_, [&](AssetRenderer& renderer) -> obscura::Result<void> {
+        if (!impl_->has_plan) {
+            std::vector<std::string> all = renderer.info().variants;
+            all.emplace_back();
+            if (auto planned = renderer.plan_variants(all, true); !planned) return planned;
+            impl_->has_plan = true;
+        }
+        auto chosen = renderer.choose_variant(name);
+        if (chosen) impl_->load.variant = name;
+        return chosen;
+    });
+}
+
+void Asset::reset() {
+    impl_->values.clear();
+    impl_->renderer.reset();
 }
 
 Result<Asset> Session::open(const std::string& file, const AssetOptions& options) {

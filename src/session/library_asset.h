@@ -7,6 +7,9 @@
 
 #include <obscura/session.h>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace obscura {
 
@@ -25,6 +28,9 @@ struct PreparedFor {
     Isa isa = Isa::automatic;
 
     bool operator==(const PreparedFor&) const = default;
+    bool has_pose_of(const PreparedFor& other) const {
+        return time_s == other.time_s && shutter_s == other.shutter_s;
+    }
 };
 
 /// Purposes for which a file was read.
@@ -51,6 +57,10 @@ struct Asset::Impl {
     std::optional<AssetRenderer> renderer;  ///< none: the file is read again
     LightingOptions lighting;
     bool is_posed = false;  ///< as stored, not yet prepared
+    /// What was set, in that order: to be set again where the file is read again.
+    std::vector<std::pair<std::string, std::vector<double>>> values;
+    bool is_changed = false;  ///< a value was set or a variant chosen since the latest pose
+    bool has_plan = false;    ///< of all variants: any may be chosen
     std::optional<PreparedFor> prepared_for;
     AssetInfo info;
     obscura::AssetInfo graph;  ///< the names and parents of nodes, their meshes; nothing else

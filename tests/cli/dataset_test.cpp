@@ -199,6 +199,8 @@ TEST_F(DatasetCommand, MistakesAreRefused) {
     expect_result(
         dataset({"-o", "d", "--fill", "0.5,0.9", "--sample", "box"}), 64, "E-USAGE-CONFLICT");
     expect_result(dataset({"-o", "d/{view}"}), 64, "E-USAGE-CONFLICT");
+    expect_result(
+        dataset({"-o", "d", "--write", "bop", "--distortion", "0.1,0"}), 64, "E-USAGE-CONFLICT");
     EXPECT_FALSE(fs::exists(folder_ / "d"));
     folder_.write("file", "");
     expect_result(dataset({"-o", "file"}), 73, "E-OUT-CREATE");
@@ -208,9 +210,62 @@ TEST_F(DatasetCommand, MistakesAreRefused) {
     EXPECT_FALSE(fs::exists(folder_ / "dry"));
 }
 
+TEST_F(DatasetCommand, WhatIsMissingIsMadeAgain) {
+    const Texts options = {"-o", "d", "--write", "bop"};
+    expect_result(dataset(options), 0, "OK");
+    const auto whole = files("d");
+    for (const char* file : {"labels/000001.json", "depth/000002.png", "segmentation/000003.png"}) {
+        fs::remove(folder_ / "d/000000" / file);
+        const ProgramRun again = dataset(joined(options, {"--skip-existing"}));
+        EXPECT_THAT(again.err, HasSubstr("its labels are not there"));
+        EXPECT_THAT(again.err, HasSubstr("skipped=3"));
+        EXPECT_TRUE(files("d") == whole) << file;
+    }
+    // Another step of the depths is another image.
+    const ProgramRun other = dataset(joined(options, {"--skip-existing", "--depth-unit", "1"}));
+    EXPECT_THAT(other.err, HasSubstr("skipped=0"));
+    // An image that is not there is in no format.
+    fs::remove(folder_ / "d/000000/rgb/000001.png");
+    expect_result(
+        dataset(joined(options, {"--skip-existing", "--depth-unit", "1", "--part", "1/4"})),
+        0,
+        "OK");
+    EXPECT_FALSE(read("d/000000/scene_gt.json").contains("1"));
+    EXPECT_TRUE(read("d/000000/scene_gt.json").contains("2"));
+}
+
+TEST_F(DatasetCommand, MatricesOfSinglePrecisionAreOneModel) {
+    SmallScene scene = box_scene();
+    scene.nodes.clear();
+    scene.roots.clear();
+    for (int i = 0; i < 6; ++i) {
+        const double c = std::cos(0.7 * i);
+        const double s = std::sin(0.7 * i);
+        const auto text = [](double x) { return std::to_string(x); };  // six decimals
+        scene.nodes += (i == 0 ? "" : ", ") + std::string(R"({"mesh": 0, "matrix": [)") +
+                       text(2 * c) + ", 0, " + text(-2 * s) + ", 0, 0, 2, 0, 0, " + text(2 * s) +
+                       ", 0, " + text(2 * c) + ", 0, " + text(5.0 * i) + ", 0, 0, 1]}";
+        scene.roots += (i == 0 ? "" : ", ") + std::to_string(i);
+    }
+    scene.more.clear();
+    folder_.write("six.gltf", gltf_text(scene));
+    expect_result(dataset({"-o", "d", "--count", "1"}, {"six.gltf"}), 0, "OK");
+    const json models = read("d/objects.json").at("objects");
+    ASSERT_EQ(models.size(), 1U);
+    EXPECT_EQ(models[0].at("nodes").size(), 6U);
+}
+
+TEST_F(DatasetCommand, ASceneThatFailsLeavesNoFolder) {
+    const Texts scenes = {"pair.gltf", "broken.gltf"};
+    folder_.write("broken.gltf", "{");
+    EXPECT_NE(dataset({"-o", "d", "--write", "bop"}, scenes).code, 0);
+    EXPECT_FALSE(fs::exists(folder_ / "d/000001"));
+    EXPECT_TRUE(fs::exists(folder_ / "d/000000/scene_gt.json"));
+}
+
 TEST_F(DatasetCommand, DamagedLabelsAreNamed) {
     expect_result(dataset({"-o", "d", "--write", "coco"}), 0, "OK");
-    folder_.write("d/pair/labels/000001.json", "{}");
+    folder_.write("d/pair/labels/000001.json", R"({"image": "rgb/000001.png"})");
     const ProgramRun got = dataset({"-o", "d", "--write", "coco", "--skip-existing"});
     expect_result(got, 65, "E-DATASET-LABELS");
 }

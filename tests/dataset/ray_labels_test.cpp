@@ -4,6 +4,7 @@
 
 #include "dataset/image_labels.h"
 #include "support/scene_builder.h"
+#include <algorithm>
 
 namespace obscura::dataset {
 namespace {
@@ -97,16 +98,46 @@ TEST_F(TwoSquares, WhatLeavesTheImageCountsInThePixelsOfAll) {
 }
 
 TEST_F(TwoSquares, MasksAreOfTheImage) {
-    const RayLabels rays = trace(1.51);
-    const std::vector<uint8_t> all = silhouette_mask(rays, 0);
-    const std::vector<uint8_t> seen = visible_mask(rays, 0);
-    size_t hidden = 0;
-    for (size_t i = 0; i < all.size(); ++i) {
-        EXPECT_LE(seen[i], all[i]);
-        hidden += all[i] - seen[i];
+    const RayLabels rays = trace(0.75, {1, 0, 0});
+    for (const ObjectLabel& object : label_objects(rays, prepared_->scene())) {
+        const Masks masks = masks_of(rays, object);
+        EXPECT_EQ(masks.all.size(), object.pixels_inside);
+        EXPECT_EQ(masks.visible.size(), object.visible_pixels);
+        for (const uint32_t pixel : masks.visible)
+            EXPECT_EQ(rays.node[pixel], object.node);
+        EXPECT_TRUE(std::includes(
+            masks.all.begin(), masks.all.end(), masks.visible.begin(), masks.visible.end()));
     }
+}
+
+TEST_F(TwoSquares, AHoldoutHidesAndIsNoObject) {
+    Scene scene = prepared_->take_scene();
+    scene.visibility.primitives = {0, visibility_holdout};
+    Log log(Verbosity::quiet);
+    ASSERT_TRUE(prepared_->update(std::move(scene), {}, log));
+    const std::vector<Silhouette> found = trace(1.51).silhouettes;
+    ASSERT_EQ(found.size(), 1U);
+    const RayLabels rays = trace(1.51);
     const std::vector<ObjectLabel> objects = label_objects(rays, prepared_->scene());
-    EXPECT_EQ(hidden, objects[0].pixels - objects[0].visible_pixels);
+    EXPECT_EQ(objects[0].node, 0);
+    EXPECT_NEAR(objects[0].visibility(), 0.5, 0.02);
+}
+
+TEST_F(TwoSquares, FarFromTheOriginLayersStayApart) {
+    const Vec3f far{3e5f, 0, 0};
+    test::SceneBuilder builder;
+    const int32_t material = builder.material({});
+    builder.quad(far + Vec3f{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, material);
+    builder.quad(far + Vec3f{-1, -1, 0.5f}, {2, 0, 0}, {0, 2, 0}, material);
+    Scene scene = builder.take();
+    scene.node_places.resize(2);
+    Log log(Verbosity::quiet);
+    prepared_.emplace(PreparedScene::create(std::move(scene), {}, Isa::automatic, log).value());
+    const RayLabels rays = trace(1.5, far);
+    ASSERT_EQ(rays.silhouettes.size(), 2U);
+    EXPECT_NEAR(static_cast<double>(rays.silhouettes[0].pixels.size()),
+                static_cast<double>(rays.silhouettes[1].pixels.size()),
+                4.0 * size);
 }
 
 TEST_F(TwoSquares, BackFacesAreNotThere) {

@@ -30,18 +30,17 @@ std::vector<int64_t> lengths_of(const std::string& counts) {
 }
 
 TEST(RunLength, GoesDownTheColumns) {
-    const std::vector<uint8_t> mask = {0,
-                                       1,
-                                       1,  //
-                                       0,
-                                       1,
-                                       0};
-    EXPECT_EQ(run_lengths(mask, 3, 2), (std::vector<uint32_t>{2, 3, 1}));
+    // 0 1 1
+    // 0 1 0
+    EXPECT_EQ(run_lengths(std::vector<uint32_t>{1, 2, 4}, 3, 2), (std::vector<uint32_t>{2, 3, 1}));
+    // 0 1 0
+    // 0 0 1
+    EXPECT_EQ(run_lengths(std::vector<uint32_t>{1, 5}, 3, 2), (std::vector<uint32_t>{2, 1, 2, 1}));
 }
 
 TEST(RunLength, BeginsOutside) {
-    EXPECT_EQ(run_lengths(std::vector<uint8_t>{1, 1}, 2, 1), (std::vector<uint32_t>{0, 2}));
-    EXPECT_EQ(run_lengths(std::vector<uint8_t>{0, 0}, 2, 1), (std::vector<uint32_t>{2}));
+    EXPECT_EQ(run_lengths(std::vector<uint32_t>{0, 1}, 2, 1), (std::vector<uint32_t>{0, 2}));
+    EXPECT_EQ(run_lengths({}, 2, 1), (std::vector<uint32_t>{2}));
 }
 
 TEST(RunLength, TextHasGroupsOfFiveBits) {
@@ -56,10 +55,11 @@ TEST(RunLength, TextHasGroupsOfFiveBits) {
 TEST(RunLength, TextKeepsEveryMask) {
     std::mt19937 random(5);
     for (const int one_in : {2, 3, 50, 5000}) {
-        std::vector<uint8_t> mask(300 * 200);
-        for (uint8_t& inside : mask)
-            inside = random() % static_cast<unsigned>(one_in) == 0 ? 1 : 0;
-        const std::vector<uint32_t> lengths = run_lengths(mask, 300, 200);
+        std::vector<uint32_t> inside;
+        for (uint32_t pixel = 0; pixel < 300 * 200; ++pixel) {
+            if (random() % static_cast<unsigned>(one_in) == 0) inside.push_back(pixel);
+        }
+        const std::vector<uint32_t> lengths = run_lengths(inside, 300, 200);
         const std::vector<int64_t> read = lengths_of(coco_counts(lengths));
         EXPECT_TRUE(std::equal(lengths.begin(), lengths.end(), read.begin(), read.end()));
         EXPECT_EQ(std::accumulate(read.begin(), read.end(), int64_t{0}), 300 * 200);

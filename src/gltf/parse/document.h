@@ -198,7 +198,7 @@ struct GltfProfileUse {
 struct GltfNode {
     std::string name;
     GltfTrs trs;              ///< what parent_from_node is made of, unless has_matrix
-    bool has_matrix = false;  ///< such a node cannot be animated
+    bool has_matrix = false;  ///< such a node has no `trs` and cannot be animated
     Affined parent_from_node;
     std::vector<double> weights;  ///< of its mesh's morph targets; empty: the mesh's own
     int mesh = -1;
@@ -274,7 +274,7 @@ struct Document {
     std::vector<GltfSampler> samplers;
     std::vector<GltfTexture> textures;
     std::vector<GltfMaterial> materials;
-    std::vector<MaterialFactors> material_factors;  ///< of each; kept where there are animations
+    std::vector<MaterialFactors> material_factors;  ///< of each
     std::vector<GltfMesh> meshes;
     std::vector<GltfNode> nodes;
     std::vector<GltfScene> scenes;

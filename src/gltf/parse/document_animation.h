@@ -62,6 +62,8 @@ struct AnimatedProperty {
     int element = -1;  ///< the one number of a list, or the one weight, that changes; -1: all
     int entry = -1;    ///< in the table of numbers that the path's objects have
     int texture = -1;  ///< of texture_transform: entry of the texture in material_entries
+
+    bool operator==(const AnimatedProperty&) const = default;
 };
 
 /// True for rotations, which follow the shortest arc.

@@ -207,14 +207,13 @@ void read_textures(DocumentReading& reading) {
 
 void read_materials(DocumentReading& reading) {
     Document& document = reading.document;
-    const bool animated = !reading.model.animations.empty();
     const auto read = [&](const tinygltf::Material& file, const ModelElement& place, size_t index) {
         const Value value = material_value(file);
         const ValueReader material(value, place.pointer(), reading.fault);
         const MaterialFactors factors = read_material_factors(reading, material);
         document.materials.push_back(finish_material(factors, document));
         document.materials.back().name = name_or(file.name, "material", index);
-        if (animated) document.material_factors.push_back(factors);
+        document.material_factors.push_back(factors);
     };
     each_element(reading, "materials", reading.model.materials, read);
 }
