@@ -43,7 +43,7 @@ std::vector<ObjectLabel> label_objects(const RayLabels& rays, const Scene& scene
         }
         if (label.pixels_inside == 0) continue;
         label.pose = rigid_pose(scene.node_places[static_cast<size_t>(label.node)].world_from_mesh);
-        out.push_back(std::move(label));
+        out.push_back(label);
     }
     return out;
 }

@@ -94,8 +94,8 @@ struct MaskedObject {
 
 std::vector<MaskedObject> masked_objects(const RayLabels& rays, const Scene& scene) {
     std::vector<MaskedObject> out;
-    for (ObjectLabel& label : label_objects(rays, scene))
-        out.push_back({std::move(label), {}});
+    for (const ObjectLabel& label : label_objects(rays, scene))
+        out.push_back({label, {}});
     parallel_for(out.size(), [&](size_t i) { out[i].masks = masks_of(rays, out[i].label); });
     return out;
 }

@@ -1,5 +1,6 @@
 // gltf/scene_warnings.cpp - warnings about a scene as a whole.
 // SPDX-License-Identifier: Apache-2.0
+#include "gltf/scene_warnings.h"
 
 #include <algorithm>
 

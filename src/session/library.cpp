@@ -66,7 +66,7 @@ v0::AssetInfo info_of(const Scene& scene) {
     out.variants = from.variants;
     out.triangles = from.triangles_in_world;
     for (size_t i = 0; i < scene.material_numbers.size(); ++i) {
-        const auto number = static_cast<size_t>(scene.material_numbers[i] + 1);
+        const auto number = static_cast<size_t>(int64_t{scene.material_numbers[i]} + 1);
         if (out.materials.size() < number) out.materials.resize(number);
         if (number > 0) out.materials[number - 1] = scene.material_names[i];
     }
