@@ -24,6 +24,9 @@ install(TARGETS obscura_library EXPORT obscura-targets
   LIBRARY COMPONENT library NAMELINK_COMPONENT development)
 install(DIRECTORY ${CMAKE_SOURCE_DIR}/include/obscura TYPE INCLUDE COMPONENT development)
 install(FILES ${CMAKE_SOURCE_DIR}/LICENSE TYPE DOC COMPONENT program)
+# What `obscura bench` and `crosscheck` measure where no scene is given.
+install(DIRECTORY ${CMAKE_SOURCE_DIR}/assets DESTINATION ${CMAKE_INSTALL_DATADIR}/obscura
+  COMPONENT program PATTERN "*.py" EXCLUDE PATTERN generator EXCLUDE)
 
 # find_package(obscura) and pkg-config
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/obscura)

@@ -25,7 +25,7 @@ inline constexpr OptionInfo assets_option = {
     .name = "--assets",
     .argument = "DIR",
     .help = "Where to look for scenes when none is given",
-    .fallback = "the folder assets beside the program or above it",
+    .fallback = "the folder assets beside the program or above it, or as installed",
     .files = "/",
     .excludes = {"SCENE"}};
 

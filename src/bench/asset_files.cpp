@@ -50,13 +50,15 @@ Result<std::vector<fs::path>> find_assets(const fs::path& folder) {
 
 Result<fs::path> find_assets_folder(const fs::path& start) {
     for (fs::path folder = start;; folder = folder.parent_path()) {
-        std::error_code error;
-        if (fs::is_directory(folder / "assets", error) && find_assets(folder / "assets")) {
-            return folder / "assets";
+        for (const char* below : {"assets", "share/obscura/assets"}) {  // as built, as installed
+            std::error_code error;
+            if (fs::is_directory(folder / below, error) && find_assets(folder / below))
+                return folder / below;
         }
         if (folder == folder.root_path() || folder.empty()) break;
     }
-    return no_assets(start, "no folder 'assets' with scenes lies here or above");
+    return no_assets(start,
+                     "no folder 'assets' or 'share/obscura/assets' with scenes lies here or above");
 }
 
 }  // namespace obscura::bench

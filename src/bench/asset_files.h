@@ -17,7 +17,7 @@ size_t read_all(const std::vector<std::filesystem::path>& files);
 /// Errors  67 E-BENCH-ASSETS there are none, or the folder cannot be read
 Result<std::vector<std::filesystem::path>> find_assets(const std::filesystem::path& folder);
 
-/// The first folder called "assets" with scenes in it, in `start` or above it.
+/// The first folder "assets" or "share/obscura/assets" with scenes in it, in `start` or above it.
 ///
 /// Errors  67 E-BENCH-ASSETS
 Result<std::filesystem::path> find_assets_folder(const std::filesystem::path& start);

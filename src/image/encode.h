@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,17 @@ struct CodedImage {
 
 /// Encodes as WebP through libwebp: with loss below quality 100, without at 100.
 ///
-/// In      image: 3 or 4 channels; is_srgb: adds the profile of sRGB
+/// In      image: 3 or 4 channels; is_srgb: adds the profile of sRGB; metadata: its texts become an
+///         XMP packet
 /// Errors  70 E-OUT-ENCODE
 Result<std::vector<std::byte>> encode_webp(const CodedImage& image,
                                            int quality,
                                            bool is_srgb,
+                                           const ImageMetadata& metadata,
                                            const std::string& where);
+
+/// The fingerprint in a WebP's XMP packet; "": it has none. Nothing: it is no WebP.
+std::optional<std::string> fingerprint_of_webp(const std::vector<std::byte>& file);
 
 /// Encodes as AVIF through OpenImageIO, which needs a file for that: one of its own in the folder
 /// for temporary files, removed in the end.

@@ -127,7 +127,7 @@ Result<std::vector<std::byte>> encode_for_display(const OutputTarget& target,
     if (target.format == OutputFormat::avif) {
         return encode_avif(coded, encodable.quality, target.name);
     }
-    return encode_webp(coded, encodable.quality, encodable.is_srgb(), target.name);
+    return encode_webp(coded, encodable.quality, encodable.is_srgb(), metadata, target.name);
 }
 
 }  // namespace obscura

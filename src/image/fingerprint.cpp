@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/fingerprint.h"
 
+#include "base/file_bytes.h"
+#include "image/encode.h"
 #include "image/oiio.h"
 #include "image/output_format.h"
 
@@ -41,6 +43,7 @@ std::optional<std::string> read_fingerprint(const std::filesystem::path& file) {
     const std::optional<OutputFormat> format = output_format_of(file);
     if (format == OutputFormat::exr) return fingerprint_of_exr(file);
     if (!format || !entry_of(*format).has_texts) return {};
+    if (format == OutputFormat::webp) return fingerprint_of_webp(read_file_bytes(file, {}).bytes);
     const Result<const OiioModule*>& oiio = oiio_module();
     if (!oiio) return {};
     const std::string name(fingerprint_name);

@@ -11,8 +11,8 @@
 
 namespace obscura {
 
-/// The attribute of EXRs and PNGs; in the description of JPEGs and TIFFs, which have no names of
-/// one's own, "obscura:fingerprint=0123456789abcdef".
+/// The attribute of EXRs and PNGs, and a property in the XMP of WebPs; in the description of JPEGs
+/// and TIFFs, which have no names of one's own, "obscura:fingerprint=0123456789abcdef".
 inline constexpr std::string_view fingerprint_name = "obscura:fingerprint";
 
 /// The fingerprint in an image's metadata; "": it has none.

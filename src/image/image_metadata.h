@@ -56,8 +56,8 @@ struct StandardAttributes {
 /// Metadata of an image. An EXR has the standard attributes, Software, copyright (also as owner),
 /// colorInteropID (of the space where it has one, or "data"), chromaticities (colour only),
 /// obscura:asset, obscura:samplesPerPixel (int), obscura:seed (int; text beyond 2^31 - 1, so that
-/// it stays exact) and the extra ones; PNG, JPEG and TIFF have Software, Copyright and the
-/// fingerprint. Nothing in it depends on the time or machine of a run, so that equal images are
+/// it stays exact) and the extra ones; PNG, JPEG, TIFF and WebP have Software, Copyright and
+/// the fingerprint. Nothing in it depends on the time or machine of a run, so that equal images are
 /// equal files.
 struct ImageMetadata {
     std::string software;   ///< "Obscura 0.1.0"

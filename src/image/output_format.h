@@ -32,7 +32,7 @@ inline constexpr std::array output_formats = {
     OutputFormatEntry{"png", OutputFormat::png, {".png", nullptr}, 1 << 20, 16, true, true, 0},
     OutputFormatEntry{"jpeg", OutputFormat::jpeg, {".jpg", ".jpeg"}, 65500, 8, false, true, 95},
     OutputFormatEntry{"tiff", OutputFormat::tiff, {".tif", ".tiff"}, 1 << 20, 16, true, true, 0},
-    OutputFormatEntry{"webp", OutputFormat::webp, {".webp", nullptr}, 16383, 8, true, false, 90},
+    OutputFormatEntry{"webp", OutputFormat::webp, {".webp", nullptr}, 16383, 8, true, true, 90},
     OutputFormatEntry{"avif", OutputFormat::avif, {".avif", nullptr}, 65536, 8, true, false, 90}};
 
 const OutputFormatEntry& entry_of(OutputFormat format) noexcept;

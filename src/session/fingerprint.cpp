@@ -130,7 +130,7 @@ Result<void> check_skips_existing(const RenderRequest& request) {
         if (!format || entry_of(*format).has_texts) continue;
         return conflict(output.string() +
                         " cannot hold a fingerprint, by which a finished image is known; "
-                        "EXR, PNG, JPEG and TIFF can");
+                        "EXR, PNG, JPEG, TIFF and WebP can");
     }
     return {};
 }

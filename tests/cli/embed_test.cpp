@@ -81,6 +81,7 @@ TEST_F(Installed, ThePackageIsWhole) {
     const ProgramRun got = shell(
         "prefix/bin/obscura --version\n"
         "grep -q Apache prefix/share/doc/*/LICENSE\n"
+        "test -f prefix/share/obscura/assets/cornell/cornell.gltf\n"
         "cd prefix/share; grep -q spp man/man1/obscura.1\n"
         "grep -q spp bash-completion/completions/obscura\n"
         "grep -q spp zsh/site-functions/_obscura\n"

@@ -200,15 +200,15 @@ TEST_F(SkipExisting, LocksGoWithSignalsAndThoseOfKilledProgramsAreStale) {
 }
 
 TEST_F(SkipExisting, WhatCannotTellIsRefused) {
-    for (const Texts& options : std::vector<Texts>{{"-o", "a.webp"},
+    for (const Texts& options : std::vector<Texts>{{"-o", "a.avif"},
                                                    {"-o", "a.exr", "-o", "a.avif"},
                                                    {"-o", "-"},
                                                    {"-o", "a.exr", "--part", "1/2"}}) {
         expect_result(
             render("box.gltf", joined(options, {"--skip-existing"})), 64, "E-USAGE-CONFLICT");
     }
-    EXPECT_THAT(render("box.gltf", {"--skip-existing", "-o", "a.webp"}).err,
-                HasSubstr("EXR, PNG, JPEG and TIFF can"));
+    EXPECT_THAT(render("box.gltf", {"--skip-existing", "-o", "a.avif"}).err,
+                HasSubstr("EXR, PNG, JPEG, TIFF and WebP can"));
     expect_result(render("box.gltf", {"--priority", "high"}), 64, "E-USAGE-CHOICE");
 }
 

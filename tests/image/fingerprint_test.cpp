@@ -30,7 +30,7 @@ TEST(Fingerprint, IsReadFromEveryFormatThatHoldsTexts) {
 
 TEST(Fingerprint, IsNotInFilesThatCannotBeRead) {
     const TempFolder folder;
-    for (const char* name : {"a.exr", "a.png", "a.jpg", "a.tif"}) {
+    for (const char* name : {"a.exr", "a.png", "a.jpg", "a.tif", "a.webp"}) {
         EXPECT_FALSE(read_fingerprint(folder / name)) << "there is no file";
         EXPECT_FALSE(read_fingerprint(folder.write(name, "nonsense")));
         EXPECT_FALSE(read_fingerprint(folder.write(name, "")));
