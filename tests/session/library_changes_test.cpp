@@ -94,6 +94,23 @@ TEST_F(Changes, ANodeIsSeenWhereItWasMoved) {
     expect_same(render(asset), render(open(far_)));
 }
 
+TEST_F(Changes, ANodeMovesAfterSomethingElseChanged) {
+    // Images of the first change keep geometry in which the node stands still.
+    SmallScene scene = two_boxes(R"("translation": [2, 1, 0])");
+    scene.roots = "1, 2";  // one box alone, which is no instance while it stands still
+    const std::string file = write("one.gltf", scene);
+    const std::string lamp = "/extensions/KHR_lights_punctual/lights/0/intensity";
+    Asset asset = open(file);
+    ASSERT_TRUE(asset.set(lamp, {1.5}));
+    render(asset);
+    ASSERT_TRUE(asset.set("/nodes/1/translation", {3, 0.5, 1}));
+    const Image later = render(asset);
+    Asset at_once = open(file);
+    ASSERT_TRUE(at_once.set(lamp, {1.5}));
+    ASSERT_TRUE(at_once.set("/nodes/1/translation", {3, 0.5, 1}));
+    expect_same(later, render(at_once));
+}
+
 TEST_F(Changes, AMatrixGivesWayToItsParts) {
     // A mirror, a quarter turn about X, and a place.
     const std::string matrix =
