@@ -5,6 +5,7 @@
 #include "base/atomic_file.h"
 #include "base/json/json.h"
 #include "base/parallel.h"
+#include "base/setting_names.h"
 #include "film/cryptomatte_names.h"
 #include "image/write.h"
 #include "scene/node_primitives.h"
@@ -251,9 +252,10 @@ Result<void> LabelWriter::write_pixels(const LabelledImage& image,
     if (*lost > 0) {
         log.warn((options_.folder / depth_folder / png).string(),
                  fmt::format("{} pixels are further away than 65535 steps of {} mm; they are 0, "
-                             "unknown. --depth-unit takes larger steps",
+                             "unknown. {} takes larger steps",
                              *lost,
-                             unit_mm_));
+                             unit_mm_,
+                             setting("depth-unit")));
     }
     return write_segmentation(options_.folder / segmentation_folder / png, rays);
 }

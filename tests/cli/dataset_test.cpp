@@ -193,7 +193,7 @@ TEST_F(DatasetCommand, ViewsFromInsideShowSomething) {
 TEST_F(DatasetCommand, DepthsBeyondTheStepsAreUnknown) {
     const ProgramRun got = dataset({"-o", "d", "--depth-unit", "0.001", "--count", "1"});
     expect_result(got, 0, "OK");
-    EXPECT_THAT(got.err, HasSubstr("they are 0, unknown"));
+    EXPECT_THAT(got.err, HasSubstr("they are 0, unknown. --depth-unit takes"));
     const std::vector<int> depths = codes("d/pair/depth/000000.png", 16);
     EXPECT_EQ(std::count(depths.begin(), depths.end(), 0), 48 * 32);
 }

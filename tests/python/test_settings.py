@@ -101,9 +101,12 @@ class Settings(Case):
         listed = {}
         for node in ast.parse(stubs.read_text()).body:
             if isinstance(node, ast.ClassDef):
+                entries = [entry for entry in node.body if not isinstance(entry, ast.Expr)]
                 listed[node.name] = {
-                    getattr(entry, "name", None) or entry.target.id for entry in node.body
+                    getattr(entry, "name", None) or entry.target.id for entry in entries
                 }
+                for base in node.bases:  # what AssetInfo and Asset have in common
+                    listed[node.name] |= listed.get(getattr(base, "id", None), set())
         mapping = {"keys", "values", "items", "get"}  # which typing's Mapping has
         for name in obscura.__all__:
             shown = {entry for entry in vars(getattr(obscura, name)) if entry[0] != "_"}
