@@ -47,6 +47,8 @@ endif()
 
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpdemux libwebpmux)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
+# The server. Its headers must be read with the definitions that the library was built with.
+pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 
 # A header alone, and only that: no version's CMake file is needed.
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h PATH_SUFFIXES tinygltf REQUIRED)

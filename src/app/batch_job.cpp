@@ -4,6 +4,7 @@
 
 #include "app/command_line.h"
 #include "app/distinct_files.h"
+#include "app/json_options.h"
 #include "app/numbers.h"
 #include "app/render_options.h"
 #include "base/json/json_file.h"
@@ -42,47 +43,6 @@ bool is_of_command(const std::string& name) {
     return std::find(all.begin(), all.end(), name) != all.end();
 }
 
-/// A value as the text of an option; nothing: it is of no such type.
-std::optional<std::string> text_of(const json& value) {
-    if (value.is_string()) return value.get<std::string>();
-    if (value.is_number() || value.is_boolean()) return value.dump();
-    return {};
-}
-
-/// The texts of a value that may be several.
-std::optional<std::vector<std::string>> texts_of(const json& value) {
-    std::vector<std::string> out;
-    if (!value.is_array()) {
-        const auto text = text_of(value);
-        if (!text) return {};
-        return std::vector<std::string>{*text};
-    }
-    for (const json& one : value) {
-        const auto text = text_of(one);
-        if (!text) return {};
-        out.push_back(*text);
-    }
-    return out;
-}
-
-/// Sets an option to what the job says; "": done, else what is expected.
-std::string set_option(const BoundOption& option, const json& value) {
-    const std::optional<std::vector<std::string>> texts = texts_of(value);
-    if (!texts) return "expected a string, a number, true, false, or an array of these";
-    if (auto* const* flag = std::get_if<bool*>(&option.target)) {
-        if (!value.is_boolean()) return "expected true or false";
-        **flag = value.get<bool>();
-    } else if (auto* const* list = std::get_if<std::vector<std::string>*>(&option.target)) {
-        **list = *texts;
-    } else if (auto* const* target = std::get_if<OptionText*>(&option.target)) {
-        std::string joined;
-        for (const std::string& text : *texts)
-            joined += (joined.empty() ? "" : ",") + text;
-        **target = joined;
-    }
-    return "";
-}
-
 /// The members "options" of one object, over what is set already.
 void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
     const auto options = tree.find("options");
@@ -92,14 +52,12 @@ void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
         bind_all(std::span(render_option_groups()), run.arguments);
     inside.each_key([&](const std::string& key) {
         const std::string name = "--" + key;
-        const auto found = std::find_if(table.begin(), table.end(), [&](const BoundOption& one) {
-            return long_name(one.info) == name;
-        });
-        if (found == table.end() || is_of_command(name)) {
+        const BoundOption* const found = find_option(table, name);
+        if (found == nullptr || is_of_command(name)) {
             inside.fault(key, "E-JOB-KEY", "there is no such option for a job's pictures");
             return;
         }
-        const std::string expected = set_option(*found, options->at(key));
+        const std::string expected = set_from_json(*found, options->at(key));
         if (!expected.empty()) inside.fault(key, value_id, expected);
         run.places[name] = inside.pointer() + json_pointer_part(key);
     });

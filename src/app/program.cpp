@@ -15,6 +15,7 @@
 #include "app/outcome.h"
 #include "app/print_docs.h"
 #include "app/render_options.h"
+#include "app/serve_options.h"
 #include "app/signals.h"
 #include "bench/machine.h"
 #include "image/process_settings.h"
@@ -36,6 +37,8 @@ Examples:
   obscura render helmet.glb --env sky.hdr -o helmet.exr -o helmet.png
   obscura batch job.json
   obscura dataset mug.glb --count 500 --write bop,coco -o mugs
+  obscura view helmet.glb
+  obscura serve --root products
   obscura denoise helmet.exr -o clean.exr
   obscura merge helmet.exr.*-of-4.film
   obscura info helmet.glb --json
@@ -50,6 +53,8 @@ struct Arguments {
     RenderArguments render;
     BatchArguments batch;
     DatasetArguments dataset;
+    ServeArguments serve;
+    ServeArguments view;
     DenoiseArguments denoise;
     MergeArguments merge;
     InfoArguments info;
@@ -72,6 +77,8 @@ Program describe(Arguments& arguments) {
     program.commands = {render_command(arguments.render),
                         batch_command(arguments.batch),
                         dataset_command(arguments.dataset),
+                        serve_command(arguments.serve),
+                        view_command(arguments.view),
                         denoise_command(arguments.denoise),
                         merge_command(arguments.merge),
                         info_command(arguments.info),

@@ -36,13 +36,31 @@ struct DisplayAndView {
     std::string view;
 };
 
+std::vector<std::string> displays_of(const ocio::Config& config) {
+    std::vector<std::string> out;
+    for (int i = 0; i < config.getNumDisplays(); ++i)
+        out.emplace_back(config.getDisplay(i));
+    return out;
+}
+
+std::vector<std::string> views_of(const ocio::Config& config, const std::string& display) {
+    std::vector<std::string> out;
+    for (int i = 0; i < config.getNumViews(display.c_str()); ++i)
+        out.emplace_back(config.getView(display.c_str(), i));
+    return out;
+}
+
+/// Brings one of the names to the front; the others keep their order.
+void put_first(std::vector<std::string>& names, const std::string& first) {
+    const auto found = std::find(names.begin(), names.end(), first);
+    if (found != names.end()) std::rotate(names.begin(), found, found + 1);
+}
+
 Result<DisplayAndView> choose(const NamedConfig& from, const DisplayOptions& options) {
     const ocio::Config& config = *from.config;
     DisplayAndView chosen{config.getDefaultDisplay(), {}};
     if (!options.display.empty()) {
-        std::vector<std::string> displays;
-        for (int i = 0; i < config.getNumDisplays(); ++i)
-            displays.push_back(config.getDisplay(i));
+        const std::vector<std::string> displays = displays_of(config);
         chosen.display = find_name(displays, options.display);
         if (chosen.display.empty()) {
             return bad_configuration(
@@ -51,13 +69,9 @@ Result<DisplayAndView> choose(const NamedConfig& from, const DisplayOptions& opt
                 from.name + " has no such display; it has " + quoted_list(displays));
         }
     }
-    const char* display = chosen.display.c_str();
-    chosen.view = config.getDefaultView(display);
+    chosen.view = config.getDefaultView(chosen.display.c_str());
     if (!options.view.empty()) {
-        std::vector<std::string> views;
-        for (int i = 0; i < config.getNumViews(display); ++i) {
-            views.push_back(config.getView(display, i));
-        }
+        const std::vector<std::string> views = views_of(config, chosen.display);
         chosen.view = find_name(views, options.view);
         if (chosen.view.empty()) {
             return bad_configuration("E-OCIO-VIEW",
@@ -70,6 +84,20 @@ Result<DisplayAndView> choose(const NamedConfig& from, const DisplayOptions& opt
 }
 
 }  // namespace
+
+Result<std::vector<DisplayChoice>> display_choices(const std::string& ocio_file, Log& log) {
+    const Result<NamedConfig> from = load_config(ocio_file, log);
+    if (!from) return fail(from.error());
+    const ocio::Config& config = *from->config;
+    std::vector<std::string> displays = displays_of(config);
+    put_first(displays, config.getDefaultDisplay());
+    std::vector<DisplayChoice> out;
+    for (const std::string& display : displays) {
+        out.push_back({display, views_of(config, display)});
+        put_first(out.back().views, config.getDefaultView(display.c_str()));
+    }
+    return out;
+}
 
 DisplayTransform::DisplayTransform(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 DisplayTransform::DisplayTransform(DisplayTransform&&) noexcept = default;

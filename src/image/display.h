@@ -10,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -21,6 +22,18 @@ struct DisplayOptions {
     /// From the space of the scene values (image/rendering_space.h); none: it is Rec.709.
     std::optional<Matrix3> rec709_from_scene = {};
 };
+
+/// A display of a config, and the views that it has.
+struct DisplayChoice {
+    std::string name;
+    std::vector<std::string> views;  ///< the display's own choice first
+};
+
+/// The displays of a config, its own choice first.
+///
+/// In      ocio_file: as in DisplayOptions
+/// Errors  78 E-OCIO-FILE
+Result<std::vector<DisplayChoice>> display_choices(const std::string& ocio_file, Log& log);
 
 /// What RGB code values mean, as ITU-T H.273 counts it and PNG's cICP chunk stores it: full range,
 /// no matrix.

@@ -5,12 +5,10 @@
 #include "render/film_rows.h"
 #include "render/integrators.h"
 #include "scene/node_primitives.h"
-#include "session/focus.h"
 #include "session/library_asset.h"
 #include "session/library_camera.h"
 #include "session/library_image.h"
 #include "session/library_request.h"
-#include "session/lighting.h"
 #include "session/outputs.h"
 #include "session/requested_camera.h"
 
@@ -89,87 +87,13 @@ v0::AssetInfo info_of(const Scene& scene) {
     return out;
 }
 
-/// Reads the file for the purposes of this call. They change what is made of the file, so that
-/// another purpose reads it again.
-Result<void> read(v0::Asset::Impl& asset, const ReadFor& wanted, Log& log) {
-    if (asset.renderer && asset.read_for == wanted) return {};
-    asset.read_for = wanted;
-    asset.load.keeps_uv = asset.read_for.uv;
-    asset.renderer.reset();
-    asset.is_posed = false;
-    asset.prepared_for.reset();
-    Result<AssetRenderer> renderer =
-        AssetRenderer::open(asset.file, asset.load, asset.read_for.times, log);
-    if (!renderer) return fail(renderer.error());
-    asset.renderer = std::move(*renderer);
-    asset.has_plan = false;
-    for (const auto& [pointer, value] : asset.values) {
-        if (auto done = asset.renderer->set_value(pointer, value); !done) return done;
-    }
-    return {};
-}
-
-/// Lets an asset be changed: it is posed anew for the next image.
+/// Lets an asset be changed.
 template <typename Change>
-v0::Result<void> change(v0::Asset::Impl& asset, const Change& made) {
+v0::Result<void> change(const Change& made) {
     return guarded<void>([&]() -> v0::Result<void> {
-        if (auto there = read(asset, asset.read_for, asset.log); !there)
-            return library_error(there.error());
-        if (const Result<void> done = made(*asset.renderer); !done)
-            return library_error(done.error());
-        asset.is_changed = true;
+        if (const Result<void> done = made(); !done) return library_error(done.error());
         return {};
     });
-}
-
-PoseTimes times_of(const v0::View& view) {
-    PoseTimes times;
-    times.time_s = view.time_s.value_or(0);
-    if (view.shutter_s) {
-        times.shutter = gltf::ShutterTimes{times.time_s + (*view.shutter_s)[0],
-                                           times.time_s + (*view.shutter_s)[1]};
-    }
-    return times;
-}
-
-/// Brings the asset to the pose and light of an image, unless it is there already, and chooses the
-/// camera.
-Result<ChosenCamera> prepare(v0::Asset::Impl& asset,
-                             const v0::View& view,
-                             const RenderRequest& request,
-                             Log& log) {
-    const bool times = view.time_s || view.shutter_s;
-    if (auto done = read(asset, {times, wants_uv(request.options)}, log); !done)
-        return fail(done.error());
-    AssetRenderer& renderer = *asset.renderer;
-    const PreparedFor wanted{view.time_s,
-                             view.shutter_s,
-                             request.environment.value_or("").string(),
-                             request.environment_intensity,
-                             request.environment_rotation_deg,
-                             request.isa};
-    const bool is_there = asset.prepared_for && asset.prepared_for->isa == wanted.isa;
-    // The thickness of points and lines depends on the camera.
-    const bool keeps_pose = is_there && asset.prepared_for->has_pose_of(wanted) &&
-                            !asset.is_changed && !has_points_lines(renderer.scene());
-    const bool same = asset.prepared_for == wanted;
-    if (same && keeps_pose) return renderer.look_again(request, log);
-    if (!is_there) renderer.start_anew();
-    asset.prepared_for.reset();
-    if (!same) {
-        Result<LightingOptions> lighting = load_lighting(request, log);
-        if (!lighting) return fail(lighting.error());
-        asset.lighting = std::move(*lighting);
-    }
-    if (keeps_pose) {
-        renderer.prepare_again();
-    } else if (!asset.is_posed || asset.is_changed || times) {
-        if (auto posed = renderer.pose(times_of(view), log); !posed) return fail(posed.error());
-    }
-    asset.is_posed = asset.is_changed = false;
-    Result<ChosenCamera> camera = renderer.prepare(request, asset.lighting, log);
-    if (camera) asset.prepared_for = wanted;
-    return camera;
 }
 
 /// The callbacks of a control, called by one thread at a time.
@@ -209,21 +133,19 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
     Log& log = asset.has_images ? asset.later.begin() : asset.log;
     asset.has_images = true;
     RenderRequest request = asked;
-    request.load = asset.load;
+    request.load = asset.asset.load();
     if (auto loaded = load_requested_camera(request, log); !loaded) return fail(loaded.error());
     if (auto placed = place_opencv(view, request.camera); !placed) return fail(placed.error());
-    const obscura::Result<ChosenCamera> camera = prepare(asset, view, request, log);
-    if (!camera) {
-        if (asset.renderer && !asset.renderer->has_scene()) asset.renderer.reset();
-        return fail(camera.error());
-    }
+    const obscura::Result<ChosenCamera> camera =
+        asset.asset.prepare(request, {view.time_s, view.shutter_s}, log);
+    if (!camera) return fail(camera.error());
     if (cancelled()) return stopped();
     std::mutex mutex;
     const RenderHooks hooks{watched_by(control, mutex), control.cancel};
-    auto finished = asset.renderer->render(request, *camera, hooks, asset.log);
+    auto finished = asset.asset.renderer().render(request, *camera, hooks, asset.log);
     if (!finished) return fail(finished.error());
     Image image = library_image(*finished, request, *camera);
-    asset.renderer->recycle(std::move(finished->image));
+    asset.asset.renderer().recycle(std::move(finished->image));
     ImageStatistics& statistics = image.statistics;
     statistics.render_seconds = finished->render_seconds;
     statistics.paths = finished->counters.paths;
@@ -282,44 +204,24 @@ std::vector<NodeInfo> Asset::nodes() const {
 }
 
 Result<void> Asset::set(const std::string& pointer, const std::vector<double>& value) {
-    Result<void> done =
-        change(*impl_, [&](AssetRenderer& renderer) { return renderer.set_value(pointer, value); });
-    if (!done) return done;
-    std::erase_if(impl_->values, [&](const auto& known) { return known.first == pointer; });
-    impl_->values.emplace_back(pointer, value);
-    return done;
+    return change([&] { return impl_->asset.set_value(pointer, value, impl_->log); });
 }
 
 Result<void> Asset::set_variant(const std::string& name) {
-    return change(*impl_, [&](AssetRenderer& renderer) -> obscura::Result<void> {
-        if (!impl_->has_plan) {
-            std::vector<std::string> all = renderer.info().variants;
-            all.emplace_back();
-            if (auto planned = renderer.plan_variants(all, true); !planned) return planned;
-            impl_->has_plan = true;
-        }
-        auto chosen = renderer.choose_variant(name);
-        if (chosen) impl_->load.variant = name;
-        return chosen;
-    });
+    return change([&] { return impl_->asset.set_variant(name, impl_->log); });
 }
 
 void Asset::reset() {
-    impl_->values.clear();
-    impl_->renderer.reset();
+    impl_->asset.reset();
 }
 
 Result<Asset> Session::open(const std::string& file, const AssetOptions& options) {
     return guarded<Asset>([&]() -> Result<Asset> {
         const ThreadArena threads(options.threads);
-        auto asset = std::make_shared<Asset::Impl>(impl_->sink);
-        asset->file = file;
-        asset->load = load_options_of(options);
-        if (auto done = read(*asset, {}, asset->log); !done) return library_error(done.error());
-        auto posed = asset->renderer->pose({}, asset->log);
-        if (!posed) return library_error(posed.error());
-        asset->is_posed = true;
-        const Scene& scene = asset->renderer->scene();
+        auto asset = std::make_shared<Asset::Impl>(impl_->sink, file, load_options_of(options));
+        if (auto opened = asset->asset.open(asset->log); !opened)
+            return library_error(opened.error());
+        const Scene& scene = asset->asset.renderer().scene();
         asset->info = info_of(scene);
         asset->graph.node_names = scene.info.node_names;
         asset->graph.node_parents = scene.info.node_parents;

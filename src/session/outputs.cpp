@@ -356,6 +356,35 @@ std::string degraded_text(const gltf::Degraded& degraded) {
                        degraded.triangles);
 }
 
+Result<EncodedFile> encode_output(const RenderRequest& request,
+                                  const FinishedImage& finished,
+                                  const OutputTarget& target,
+                                  const std::optional<DisplayTransform>& display) {
+    const bool exr = target.format == OutputFormat::exr;
+    const DisplayTransform* const transform = display ? &*display : nullptr;
+    return with_content(request, finished, exr, transform, [&](const Content& content) {
+        return encode_image(target, content.image, content.metadata, content.exr, content.encoding);
+    });
+}
+
+DisplayedImage displayed_image(const RenderRequest& request,
+                               const FinishedImage& finished,
+                               const std::optional<DisplayTransform>& display) {
+    const DisplayTransform* const transform = display ? &*display : nullptr;
+    return with_content(request, finished, false, transform, [](const Content& content) {
+        std::optional<OutputImage> whole;
+        if (content.image.part_of) whole = whole_image(content.image);
+        const OutputImage& image = whole ? *whole : content.image;
+        DisplayEncoding encoding = content.encoding;
+        if (!content.metadata.is_color) encoding.transform = nullptr;
+        DisplayedImage out{image.width, image.height, 0, {}};
+        out.codes = display_codes<uint8_t>(image, true, encoding);
+        const size_t pixels = static_cast<size_t>(out.width) * static_cast<size_t>(out.height);
+        out.channels = static_cast<int>(out.codes.size() / pixels);
+        return out;
+    });
+}
+
 Result<void> write_outputs(const RenderRequest& request,
                            const FinishedImage& finished,
                            const std::optional<DisplayTransform>& display,
@@ -398,11 +427,7 @@ Result<void> write_outputs(const RenderRequest& request,
     if (!request.standard_output) return {};
     if (stop) return stopped(standard_output_name);
     const OutputTarget target{*request.standard_output, standard_output_name};
-    const auto encode = [&](const Content& content) {
-        return encode_image(target, content.image, content.metadata, content.exr, content.encoding);
-    };
-    const bool exr = target.format == OutputFormat::exr;
-    const Result<EncodedFile> encoded = with_content(request, finished, exr, transform, encode);
+    const Result<EncodedFile> encoded = encode_output(request, finished, target, display);
     if (!encoded) return fail(encoded.error());
     warn_of(encoded->report, target.name, log);
     return write_fully(STDOUT_FILENO, encoded->bytes, standard_output_name);

@@ -7,8 +7,10 @@
 #include "session/segmentation.h"
 
 #include <atomic>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace obscura {
 
@@ -85,6 +87,25 @@ struct FinishedImage {
     RenderCounters counters;
     double render_seconds = 0;
 };
+
+/// A file of an image in memory, as write_outputs writes it.
+///
+/// Errors  those of encode_image
+Result<EncodedFile> encode_output(const RenderRequest& request,
+                                  const FinishedImage& finished,
+                                  const OutputTarget& target,
+                                  const std::optional<DisplayTransform>& display);
+
+/// Interleaved 8-bit codes: grey, RGB, or RGB and straight alpha.
+struct DisplayedImage {
+    int width = 0, height = 0, channels = 0;
+    std::vector<uint8_t> codes;
+};
+
+/// What a PNG of an image shows, without the PNG.
+DisplayedImage displayed_image(const RenderRequest& request,
+                               const FinishedImage& finished,
+                               const std::optional<DisplayTransform>& display);
 
 /// Writes every output, each whole or not at all, standard output last; stops between two when a
 /// signal came. Warns of what a file could not keep. A file that cannot be written is not lost: see

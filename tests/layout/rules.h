@@ -17,10 +17,10 @@ inline constexpr size_t max_columns = 100;
 inline constexpr size_t max_parameters = 5;
 
 /// The rooms in order of data flow: each may include itself and those before it.
-inline constexpr std::array<std::string_view, 20> rooms{
-    "base",    "math",    "shape",      "camera",  "surface", "light",  "image",
-    "scene",   "gltf",    "accel",      "stages",  "film",    "render", "denoise",
-    "session", "dataset", "crosscheck", "explain", "bench",   "app"};
+inline constexpr std::array<std::string_view, 21> rooms{
+    "base",    "math",    "shape", "camera",     "surface", "light",  "image",
+    "scene",   "gltf",    "accel", "stages",     "film",    "render", "denoise",
+    "session", "dataset", "serve", "crosscheck", "explain", "bench",  "app"};
 
 /// Which rooms may include headers whose name begins with `prefix`.
 struct Owner {
@@ -29,7 +29,7 @@ struct Owner {
 };
 
 /// To add a library: one line here, one in third_party/README.md, one in third_party/packages.txt.
-inline constexpr std::array<Owner, 22> owners{
+inline constexpr std::array<Owner, 23> owners{
     {{"tbb/", "base"},
      {"oneapi/", "base"},
      {"tl/", "base"},
@@ -49,6 +49,7 @@ inline constexpr std::array<Owner, 22> owners{
      {"meshoptimizer", "gltf"},
      {"embree3/", "accel"},
      {"embree4/", "accel"},
+     {"httplib.h", "serve"},
      {"CLI/", "app"},
      {"obscura/", "session"},
      {"fmt/", "image session dataset crosscheck explain bench app"}}};

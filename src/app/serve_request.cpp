@@ -1,0 +1,160 @@
+// app/serve_request.cpp - turns the option texts of `obscura serve` into a request.
+// SPDX-License-Identifier: Apache-2.0
+#include "app/serve_request.h"
+
+#include "app/json_options.h"
+#include "app/memory_option.h"
+#include "app/render_options.h"
+#include "app/serve_options.h"
+
+#include "serve/guard.h"
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <system_error>
+
+namespace obscura::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// clang-format off
+/// Options that a client may give. Those that name files would let it read any.
+constexpr std::array image_option_names = {
+    "--size", "--spp", "--noise-target", "--spp-min", "--depth", "--seed", "--filter",
+    "--integrator", "--ao-distance", "--wire-width", "--denoise", "--clamp-direct",
+    "--clamp-indirect", "--caustics", "--regularize", "--background", "--page", "--exposure",
+    "--view", "--display", "--no-dither", "--scene", "--variant", "--animation", "--time",
+    "--lenient", "--hide", "--lights", "--catcher", "--catcher-reflections", "--env",
+    "--env-intensity", "--env-rotation", "--camera", "--camera-model", "--eye", "--target", "--up",
+    "--fov", "--azimuth", "--elevation", "--zoom", "--magnification", "--focal-length", "--sensor",
+    "--shift", "--near", "--far", "--fstop", "--lens-radius", "--focus-distance", "--focus-on",
+    "--blades", "--blade-rotation", "--anamorphic", "--ev100", "--shutter-speed", "--iso",
+    "--fisheye", "--fisheye-fit", "--projection", "--align", "--stereo", "--point-size",
+    "--line-width"};
+// clang-format on
+
+bool is_image_option(const std::string& name) {
+    return std::find(image_option_names.begin(), image_option_names.end(), name) !=
+           image_option_names.end();
+}
+
+Result<RenderRequest> image_request(const RenderArguments& common,
+                                    const fs::path& scene,
+                                    const serve::Options& options) {
+    RenderArguments texts = common;
+    texts.scene_file = scene.string();
+    texts.default_ending = ".png";
+    const std::vector<BoundOption> table = bind_all(std::span(render_option_groups()), texts);
+    for (const auto& [key, value] : options.items()) {
+        const std::string name = "--" + key;
+        const BoundOption* const option = find_option(table, name);
+        if (option == nullptr || !is_image_option(name)) {
+            return fail(
+                ExitCode::usage, "E-USAGE", "/options/" + key, "a picture has no such option");
+        }
+        const std::string expected = set_from_json(*option, value);
+        if (!expected.empty())
+            return fail(ExitCode::usage, "E-USAGE-CHOICE", "/options/" + key, expected);
+    }
+    return make_render_request(texts);
+}
+
+/// A word as a shell takes it.
+std::string quoted_word(const std::string& word) {
+    constexpr std::string_view plain =
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@%";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
+    std::string out = "'";
+    for (const char c : word)
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+/// Where a client's own files lie is unknown: an upload has its name alone.
+std::string file_word(const std::string& name) {
+    return name.starts_with("upload:") ? fs::path(name).filename().string() : name;
+}
+
+std::string command_line(const std::string& scene, const serve::Options& options) {
+    RenderArguments texts;
+    const std::vector<BoundOption> table = bind_all(std::span(render_option_groups()), texts);
+    std::string out = "obscura render " + quoted_word(file_word(scene));
+    for (const auto& [key, value] : options.items()) {
+        const BoundOption* const option = find_option(table, "--" + key);
+        if (option == nullptr) continue;
+        const bool is_file = key == "env" && value.is_string();
+        const serve::Options shown =
+            is_file ? serve::Options(file_word(value.get<std::string>())) : value;
+        for (const std::string& word : words_from_json(*option, shown))
+            out += " " + quoted_word(word);
+    }
+    return out + " -o " + quoted_word(fs::path(file_word(scene)).stem().string() + ".png");
+}
+
+Result<void> choose_roots(const ServeArguments& arguments, ServeRequest& request) {
+    std::vector<fs::path>& roots = request.server.service.roots;
+    for (const std::string& root : arguments.roots)
+        roots.emplace_back(root);
+    if (!arguments.file.empty()) {
+        const fs::path file = arguments.file;
+        std::error_code error;
+        if (!fs::is_regular_file(file, error)) {
+            return fail(ExitCode::missing_scene,
+                        "E-SCENE-MISSING",
+                        file.string(),
+                        "expected a .gltf or .glb file");
+        }
+        request.file = file.filename().string();
+        roots.insert(roots.begin(), file.has_parent_path() ? file.parent_path() : fs::path("."));
+    } else if (roots.empty()) {
+        roots.emplace_back(".");
+    }
+    for (const fs::path& root : roots) {
+        std::error_code error;
+        if (fs::is_directory(root, error)) continue;
+        return fail(ExitCode::usage, "E-SERVE-ROOT", root.string(), "expected a folder");
+    }
+    return {};
+}
+
+Result<void> choose_token(const ServeArguments& arguments, serve::ServerOptions& server) {
+    const bool is_loopback = server.address.starts_with("127.") || server.address == "::1" ||
+                             server.address == "localhost";
+    if (!is_loopback && !arguments.token) {
+        return conflict("--listen",
+                        "others reach this address: choose a --token that only those know who may "
+                        "use this machine");
+    }
+    if (arguments.token && arguments.token->empty())
+        return conflict("--token", "the text is empty; --no-token is for none");
+    if (!arguments.no_token) server.token = arguments.token.value_or(serve::random_token());
+    return {};
+}
+
+}  // namespace
+
+serve::OptionReader image_options(const RenderArguments& common) {
+    return {[common](const fs::path& scene, const serve::Options& options) {
+                return image_request(common, scene, options);
+            },
+            command_line};
+}
+
+Result<ServeRequest> make_serve_request(const ServeArguments& arguments) {
+    ServeArguments texts = arguments;
+    const Command command = serve_command(texts);
+    if (auto fit = check_combinations(command.options); !fit) return fail(fit.error());
+    ServeRequest request;
+    if (auto read = read_options(serve_option_groups(), texts, request); !read)
+        return fail(read.error());
+    if (auto chosen = choose_roots(arguments, request); !chosen) return fail(chosen.error());
+    if (auto chosen = choose_token(arguments, request.server); !chosen) return fail(chosen.error());
+    if (request.max_upload) request.server.service.max_upload = request.max_upload->bytes;
+    request.render = arguments.render;
+    request.server.service.options = image_options(arguments.render);
+    return request;
+}
+
+}  // namespace obscura::app

@@ -1,0 +1,26 @@
+// serve/answers.h - what the server says, as JSON.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/json/json.h"
+
+#include "serve/viewer.h"
+#include <string>
+#include <vector>
+
+namespace obscura::serve {
+
+/// The HTTP status that fits an error best.
+int http_status_of(const Error& error);
+
+/// {"error": {"id", "place", "text", "code", "also"}}; settings have their plain names.
+Json error_answer(const Error& error);
+
+/// What there is to choose from in an asset, and its bounds.
+Json asset_answer(const Scene& scene, const std::vector<std::string>& warnings);
+
+Json camera_answer(const LookAt& camera);
+
+Json pick_answer(const Pick& pick);
+
+}  // namespace obscura::serve

@@ -1,0 +1,267 @@
+// serve/http.cpp - what every route of the server has in common.
+// SPDX-License-Identifier: Apache-2.0
+#include "serve/http.h"
+
+#include "base/json/json_text.h"
+#include "base/log.h"
+
+#include "serve/answers.h"
+#include <algorithm>
+#include <array>
+#include <exception>
+#include <new>
+
+namespace obscura::serve {
+
+namespace {
+
+constexpr size_t largest_json = 4U << 20U;
+
+tl::unexpected<Error> too_large(const std::string& where, uint64_t bytes) {
+    return fail(ExitCode::refused,
+                "E-SERVE-SIZE",
+                where,
+                "larger than " + std::to_string(bytes) + " bytes, which is the most");
+}
+
+void send(Answer&& answer, httplib::Response& response) {
+    response.status = answer.status;
+    for (const auto& [name, value] : answer.headers)
+        response.set_header(name, value);
+    if (answer.bytes.empty()) {
+        response.set_content(answer.body, answer.type);
+        return;
+    }
+    const auto provide = [bytes = answer.bytes, owner = answer.owner](
+                             size_t offset, size_t length, httplib::DataSink& sink) {
+        return sink.write(bytes.data() + offset, length);
+    };
+    response.set_content_provider(answer.bytes.size(), answer.type, provide);
+}
+
+void send(Result<Answer>&& answer, httplib::Response& response) {
+    if (answer) {
+        send(std::move(*answer), response);
+        return;
+    }
+    const Error& error = answer.error();
+    send(json_result(error_answer(error), http_status_of(error)), response);
+}
+
+Sender sender_of(const httplib::Request& request) {
+    return {request.get_header_value("Host"),
+            request.get_header_value("Origin"),
+            request.get_header_value("Authorization"),
+            request.has_param("token") ? request.get_param_value("token") : ""};
+}
+
+/// For answers that the library makes itself.
+Error error_of_status(int status) {
+    constexpr int not_found = 404, too_large = 413;
+    if (status == not_found)
+        return {ExitCode::usage, "E-SERVE-UNKNOWN", "path", "there is nothing here"};
+    if (status == too_large)
+        return {ExitCode::refused, "E-SERVE-SIZE", "body", "the request is too large"};
+    return {
+        ExitCode::bad_data, "E-SERVE-REQUEST", "request", "it is no request that is understood"};
+}
+
+}  // namespace
+
+Answer json_result(const Json& json, int status) {
+    Answer out;
+    out.status = status;
+    out.body = json_line(json) + "\n";
+    out.headers = {{"Cache-Control", "no-store"}};
+    return out;
+}
+
+/// A request that names no length has no body; reading one would wait for the connection's end.
+Body::Body(const httplib::Request& request, const httplib::ContentReader& reader)
+    : request_(request),
+      reader_(reader),
+      is_read_(!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding")) {}
+
+Result<void> Body::read(const ByteSink& sink) {
+    if (is_read_) return {};
+    is_read_ = true;
+    Result<void> done;
+    const bool is_whole = reader_([&](const char* bytes, size_t count) {
+        if (done) done = sink(std::as_bytes(std::span(bytes, count)));
+        return true;
+    });
+    if (!done) return done;
+    if (!is_whole) {
+        return fail(ExitCode::bad_data,
+                    "E-SERVE-BODY",
+                    "body",
+                    "the request ends before all of it came, or is too large");
+    }
+    return {};
+}
+
+void Body::drain() {
+    if (is_read_) return;
+    is_read_ = true;
+    reader_([](const char* /*bytes*/, size_t /*count*/) { return true; });
+}
+
+Result<nlohmann::json> Body::json() {
+    if (!request_.get_header_value("Content-Type").starts_with("application/json")) {
+        return fail(ExitCode::refused,
+                    "E-SERVE-TYPE",
+                    "Content-Type",
+                    "expected a body of application/json");
+    }
+    std::string text;
+    const auto read_all = read([&](std::span<const std::byte> more) -> Result<void> {
+        if (text.size() + more.size() > largest_json) return too_large("body", largest_json);
+        text.append(reinterpret_cast<const char*>(more.data()), more.size());
+        return {};
+    });
+    if (!read_all) return fail(read_all.error());
+    Log log;
+    return parse_json_text(text, "body", log);
+}
+
+Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
+    std::map<std::string, std::string> out;
+    if (is_read_) return out;
+    is_read_ = true;
+    std::string* field = nullptr;
+    uint64_t bytes = 0;
+    const bool is_whole = reader_(
+        [&](const httplib::MultipartFormData& part) {
+            field = &out[part.name];
+            return true;
+        },
+        [&](const char* data, size_t count) {
+            bytes += count;
+            if (bytes <= max_bytes) field->append(data, count);
+            return true;
+        });
+    if (bytes > max_bytes) return too_large("form", max_bytes);
+    if (is_whole) return out;
+    return fail(ExitCode::bad_data, "E-SERVE-BODY", "form", "expected multipart/form-data");
+}
+
+Result<void> Routes::admit(const httplib::Request& request) const {
+    const Sender sender = sender_of(request);
+    if (auto own = guard_.check_site(sender); !own) return own;
+    return guard_.check_token(sender);
+}
+
+void Routes::get_openly(const std::string& pattern, const Get& get) {
+    server_.Get(pattern, [=, this](const httplib::Request& request, httplib::Response& response) {
+        const auto own = guard_.check_site(sender_of(request));
+        send(own ? get(request) : Result<Answer>(fail(own.error())), response);
+    });
+}
+
+void Routes::get(const std::string& pattern, const Get& get) {
+    server_.Get(pattern, [=, this](const httplib::Request& request, httplib::Response& response) {
+        const auto admitted = admit(request);
+        send(admitted ? get(request) : Result<Answer>(fail(admitted.error())), response);
+    });
+}
+
+httplib::Server::HandlerWithContentReader Routes::with_body(const WithBody& work) const {
+    return [=, this](const httplib::Request& request,
+                     httplib::Response& response,
+                     const httplib::ContentReader& reader) {
+        Body body(request, reader);
+        const auto admitted = admit(request);
+        Result<Answer> answer =
+            admitted ? work(request, body) : Result<Answer>(fail(admitted.error()));
+        body.drain();
+        send(std::move(answer), response);
+    };
+}
+
+void Routes::post(const std::string& pattern, const WithBody& work) {
+    server_.Post(pattern, with_body(work));
+}
+
+void Routes::put(const std::string& pattern, const WithBody& work) {
+    server_.Put(pattern, with_body(work));
+}
+
+void Routes::remove(const std::string& pattern, const WithBody& work) {
+    server_.Delete(pattern, with_body(work));
+}
+
+void Routes::refuse_the_rest() {
+    const WithBody nothing = [](const auto& /*request*/, Body& /*body*/) -> Result<Answer> {
+        return fail(error_of_status(404));
+    };
+    post(".*", nothing);
+    put(".*", nothing);
+    remove(".*", nothing);
+    server_.Patch(".*", with_body(nothing));
+    server_.set_pre_routing_handler([](const httplib::Request& request,
+                                       httplib::Response& response) {
+        constexpr std::array<std::string_view, 6> known = {
+            "GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"};
+        const bool is_known = std::find(known.begin(), known.end(), request.method) != known.end();
+        if (is_known) return httplib::Server::HandlerResponse::Unhandled;
+        constexpr int not_allowed = 405;
+        send(json_result(error_answer(error_of_status(not_allowed)), not_allowed), response);
+        return httplib::Server::HandlerResponse::Handled;
+    });
+    server_.set_error_handler([](const httplib::Request& /*request*/, httplib::Response& response) {
+        if (!response.body.empty() || response.content_length_ > 0) return;
+        send(json_result(error_answer(error_of_status(response.status)), response.status),
+             response);
+    });
+    server_.set_exception_handler([](const httplib::Request& /*request*/,
+                                     httplib::Response& response,
+                                     const std::exception_ptr& cause) {
+        Error error{ExitCode::internal, "E-INTERNAL", "server", "an exception of unknown kind"};
+        try {
+            std::rethrow_exception(cause);
+        } catch (const std::bad_alloc&) {
+            error = {ExitCode::out_of_memory, "E-MEM", "server", "out of memory"};
+        } catch (const std::exception& known) {
+            error.message = known.what();
+        } catch (...) {  // keeps its message
+        }
+        send(Result<Answer>(fail(std::move(error))), response);
+    });
+}
+
+ConnectionThreads::Enqueued ConnectionThreads::enqueue(std::function<void()> task) {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return idle_ > tasks_.size() || threads_.size() < max_; });
+    tasks_.push_back(std::move(task));
+    if (idle_ < tasks_.size()) threads_.emplace_back([this] { work(); });
+    changed_.notify_all();
+    return Enqueued(true);
+}
+
+void ConnectionThreads::work() {
+    std::unique_lock lock(mutex_);
+    while (true) {
+        ++idle_;
+        changed_.notify_all();
+        changed_.wait(lock, [&] { return ends_ || !tasks_.empty(); });
+        --idle_;
+        if (tasks_.empty()) return;
+        const std::function<void()> task = std::move(tasks_.front());
+        tasks_.pop_front();
+        lock.unlock();
+        task();
+        lock.lock();
+    }
+}
+
+void ConnectionThreads::shutdown() {
+    {
+        const std::lock_guard lock(mutex_);
+        ends_ = true;
+    }
+    changed_.notify_all();
+    for (std::thread& thread : threads_)
+        thread.join();
+}
+
+}  // namespace obscura::serve

@@ -1,0 +1,111 @@
+// serve/http.h - cpp-httplib, with what every route of the server has in common.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "base/atomic_file.h"
+#include "base/error.h"
+#include "base/json/json.h"
+
+#include "serve/guard.h"
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <httplib.h>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace obscura::serve {
+
+/// What a client gets.
+struct Answer {
+    int status = 200;
+    std::string type = "application/json";
+    std::string body = {};
+    /// In place of `body`, kept alive by `owner` until it is sent.
+    std::span<const char> bytes = {};
+    std::shared_ptr<const void> owner = {};
+    std::vector<std::pair<std::string, std::string>> headers = {};
+};
+
+Answer json_result(const Json& json, int status = 200);
+
+/// The body of a request. What nobody reads is read and thrown away in the end: else it would be
+/// taken for the next request.
+class Body {
+public:
+    Body(const httplib::Request& request, const httplib::ContentReader& reader);
+
+    /// Hands over all of it. After an error of the sink the rest is thrown away.
+    ///
+    /// Errors  those of the sink; 65 E-SERVE-BODY it ends before its time
+    Result<void> read(const ByteSink& sink);
+    /// The text of a JSON object.
+    ///
+    /// Errors  77 E-SERVE-TYPE the request does not say that it is JSON; E-SERVE-SIZE; 65 E-JSON-*
+    Result<nlohmann::json> json();
+    /// The fields of a form as browsers and curl send it, each with its bytes.
+    ///
+    /// Errors  77 E-SERVE-SIZE; 65 E-SERVE-BODY
+    Result<std::map<std::string, std::string>> form(uint64_t max_bytes);
+    void drain();
+
+private:
+    const httplib::Request& request_;
+    const httplib::ContentReader& reader_;
+    bool is_read_;
+};
+
+/// Makes routes: each is called for those whom the guard lets in.
+class Routes {
+public:
+    using Get = std::function<Result<Answer>(const httplib::Request&)>;
+    using WithBody = std::function<Result<Answer>(const httplib::Request&, Body&)>;
+
+    Routes(httplib::Server& server, const Guard& guard) : server_(server), guard_(guard) {}
+
+    /// Open to all who name this server: without the token.
+    void get_openly(const std::string& pattern, const Get& get);
+    void get(const std::string& pattern, const Get& get);
+    void post(const std::string& pattern, const WithBody& work);
+    void put(const std::string& pattern, const WithBody& work);
+    void remove(const std::string& pattern, const WithBody& work);
+    /// For all that no route is for, and for faults of the protocol. To be called last.
+    void refuse_the_rest();
+
+private:
+    Result<void> admit(const httplib::Request& request) const;
+    httplib::Server::HandlerWithContentReader with_body(const WithBody& work) const;
+
+    httplib::Server& server_;
+    const Guard& guard_;
+};
+
+/// Answers each connection in a thread of its own, up to a number; further clients wait to be
+/// accepted.
+class ConnectionThreads final : public httplib::TaskQueue {
+public:
+    explicit ConnectionThreads(size_t most) : max_(most) {}
+
+    using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+    Enqueued enqueue(std::function<void()> task) override;
+    void shutdown() override;
+
+private:
+    void work();
+
+    const size_t max_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::deque<std::function<void()>> tasks_;
+    std::vector<std::thread> threads_;
+    size_t idle_ = 0;
+    bool ends_ = false;
+};
+
+}  // namespace obscura::serve
