@@ -56,6 +56,7 @@ constexpr std::array command_options = {"--skip-existing",
                                         "--texture-memory",
                                         "--texture-cache",
                                         "--isa",
+                                        "--display-server",
                                         "--write-retries",
                                         "--quiet",
                                         "--verbose"};

@@ -29,7 +29,7 @@ constexpr uint64_t largest_file = 64U << 20;
 
 /// Options that are a command's and not a picture's.
 bool is_of_command(const std::string& name) {
-    constexpr std::array<std::string_view, 11> all = {"--output",
+    constexpr std::array<std::string_view, 12> all = {"--output",
                                                       "--format",
                                                       "--quiet",
                                                       "--verbose",
@@ -39,7 +39,8 @@ bool is_of_command(const std::string& name) {
                                                       "--part-by",
                                                       "--skip-existing",
                                                       "--manifest",
-                                                      "--stats"};
+                                                      "--stats",
+                                                      "--display-server"};
     return std::find(all.begin(), all.end(), name) != all.end();
 }
 

@@ -95,6 +95,7 @@ bool is_left_out(const std::string& name) {
     static const std::vector<std::string> names = {"--part",
                                                    "--part-by",
                                                    "--farm",
+                                                   "--display-server",
                                                    "--checkpoint",
                                                    "--checkpoint-interval",
                                                    "--keep-checkpoint",
@@ -162,6 +163,10 @@ Result<void> complete_part(const PartArguments& arguments, RenderRequest& reques
     if (request.part_by == PartBy::samples) {
         if (is_aov(request.options.integrator))
             return conflict("--part-by", "this integrator takes no samples; use tiles");
+        if (request.display_server) {
+            return conflict("--display-server",
+                            "a share of a picture's samples cannot be shown; use --part-by tiles");
+        }
         request.part->of = PartOf::samples;
     }
     if (!request.standard_output) return {};

@@ -243,11 +243,11 @@ public:
 
     /// What others hold comes once more in the end.
     void render() {
-        for (size_t i = 0; i < runs_.size() && !is_stopped(); ++i)
-            render_one(i, runs_.size() > 1);
-        const std::vector<size_t> locked = std::move(locked_);
-        for (size_t i = 0; i < locked.size() && !is_stopped(); ++i)
-            render_one(locked[i], false);
+        const RenderRequest& first = runs_.front().request;
+        if (first.display_server && !first.lists.lists_only)
+            kept_.viewer = std::make_unique<DisplayServer>(*first.display_server, log_);
+        render_all_scenes();
+        if (kept_.viewer) kept_.viewer->finish(received_stop_signal() != 0);
     }
 
     bool is_stopped() const { return !failures_.empty() && stops_all(failures_.back()); }
@@ -255,6 +255,14 @@ public:
     std::vector<Error>& failures() { return failures_; }
 
 private:
+    void render_all_scenes() {
+        for (size_t i = 0; i < runs_.size() && !is_stopped(); ++i)
+            render_one(i, runs_.size() > 1);
+        const std::vector<size_t> locked = std::move(locked_);
+        for (size_t i = 0; i < locked.size() && !is_stopped(); ++i)
+            render_one(locked[i], false);
+    }
+
     /// In   comes_again: where others hold what is left
     void render_one(size_t i, bool comes_again) {
         RenderRequest& request = runs_[i].request;

@@ -24,9 +24,19 @@ struct Making {
     const ChosenCamera& camera;
     const Turn& turn;
     Log& log;
-    FilmKeeper* keeper = nullptr;  ///< null: nothing is kept before the end
+    DisplayServer* viewer = nullptr;  ///< null: nobody looks on
+    FilmKeeper* keeper = nullptr;     ///< null: nothing is kept before the end
     RenderHooks hooks = {};
 };
+
+/// What a viewer calls an image: not as it calls the file when it opens that, too.
+std::string shown_name(const RenderRequest& request) {
+    const std::string file =
+        request.outputs.empty() ? standard_output_name : request.outputs.front().generic_string();
+    if (!is_part_of_image(request)) return file + " (rendering)";
+    const FilmPart& part = *request.part;
+    return fmt::format("{} (rendering {} of {})", file, part.index + 1, part.count);
+}
 
 /// The head of a film state of this image.
 FilmStateHead head_of(const Job& job) {
@@ -106,6 +116,16 @@ Result<void> write_snapshot(const Making& making) {
     return write_outputs(request, finished, making.job.display, stop, unheard);
 }
 
+/// What is in a checkpoint, which no tile will be finished of.
+Result<std::vector<FilmArea>> fill(const Making& making, Film& film) {
+    Result<std::vector<FilmArea>> filled = making.keeper->fill(film);
+    if (!filled || making.viewer == nullptr) return filled;
+    const ImagePart origin = film.part_of.value_or(ImagePart{});
+    for (const FilmArea& area : *filled)
+        making.viewer->add(film, {area.x + origin.x, area.y + origin.y, area.width, area.height});
+    return filled;
+}
+
 /// What is done beside rendering; `has_failed` must outlive it.
 Watch::Tasks tasks_of(const Making& making, bool& has_failed) {
     Watch::Tasks out;
@@ -134,7 +154,7 @@ Result<RenderedFilm> render_film(Making& making) {
     if (is_part_of_image(job.request)) share.part = job.request.part;
     if (keeper != nullptr) {
         if (!share.part) share.part = FilmPart{};
-        share.fill = [&](Film& film) { return keeper->fill(film); };
+        share.fill = [&](Film& film) { return fill(making, film); };
         share.begin_passes = [&](const PassFilm& film) { return keeper->begin_passes(film); };
         const bool writes_sums = is_part_of_samples(job.request);
         share.wants_film = [=] { return !writes_sums && received_stop_signal() == 0; };
@@ -217,6 +237,7 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     }
     FinishedImage finished =
         job.renderer->finish(request, making.camera, std::move(film), making.log);
+    if (making.viewer != nullptr) making.viewer->add(finished.image);
     const double camera_ev =
         making.camera.ev100 ? std::log2(exposure_scale(*making.camera.ev100)) : 0;
     const double exposure_ev = request.display.exposure_ev + camera_ev;
@@ -325,10 +346,13 @@ Result<void> make_image(
         keeper.emplace(head_of(job), file);
         if (auto found = keeper->find(run.resume, log); !found) return found;
     }
-    Making making{job, camera, turn, log, keeper ? &*keeper : nullptr};
+    DisplayServer* const viewer = job.kept != nullptr ? job.kept->viewer.get() : nullptr;
+    if (viewer != nullptr) viewer->begin_image(shown_name(request));
+    Making making{job, camera, turn, log, viewer, keeper ? &*keeper : nullptr};
     making.hooks.stop = &job.watch.stop();
     making.hooks.progress = [&](const FinishedTile& tile) {
         if (keeper) keeper->add(tile);
+        if (viewer != nullptr) viewer->add(tile);
         progress.update((static_cast<double>(turn.done) + tile.done) /
                         static_cast<double>(turn.count));
     };

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "app/display_server.h"
 #include "app/progress.h"
 #include "app/watch.h"
 #include "session/asset_renderer.h"
@@ -10,6 +11,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -33,6 +35,7 @@ struct KeptAsset {
     /// Files of all renderings so far, by the first one that writes them; SIZE_MAX: it is read.
     std::map<std::filesystem::path, size_t> written = {};
     bool has_manifest = false;  ///< the rendering tells the manifest of its failures itself
+    std::unique_ptr<DisplayServer> viewer = {};  ///< who is shown all images; null: nobody
 };
 
 /// What a data set does beside each image; empty ones: nothing.

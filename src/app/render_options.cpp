@@ -4,6 +4,7 @@
 
 #include "app/compression.h"
 #include "app/delivery_options.h"
+#include "app/display_connection.h"
 #include "app/frames.h"
 #include "app/layer_options.h"
 #include "app/lens_options.h"
@@ -397,6 +398,12 @@ constexpr Entry program[] = {
     {{.name = "--stats", .argument = "FILE.json",
       .help = "Write times, rays, memory and warnings as JSON", .files = "json"},
      text_at<&A::stats>, name_at<&R::statistics>},
+    {{.name = "--display-server", .argument = "HOST[:PORT]",
+      .help = "Show the picture in the viewer tev while it is rendered: pass after pass, and at "
+              "last as files have it, before the view. Where no viewer answers, a warning says so. "
+              "Only this option makes the program use the network",
+      .fallback = "none; port 14158", .excludes = {"--check"}},
+     text_at<&A::display_server>, parsed_at<parse_display_address, &R::display_server>},
     {{.name = "--write-retries", .argument = "N",
       .help = "Try so many times more to write an image that cannot be written, after 1, 2, 4 ... "
               "seconds. In the end a copy goes to $TMPDIR",

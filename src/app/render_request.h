@@ -39,7 +39,7 @@ struct RenderArguments {
     std::optional<std::string> integrator, ao_distance, wire_width, filter, crypto_levels;
     std::optional<std::string> clamp_direct, clamp_indirect, caustics;
     std::optional<std::string> crypto_manifest, exr_layout, compression, exr_tiles;
-    std::optional<std::string> priority;
+    std::optional<std::string> priority, display_server;
     std::optional<std::string> point_size, line_width, max_memory;
     std::optional<std::string> texture_memory, texture_cache;
     std::optional<std::string> view, display, ocio, exposure, stats, write_retries;

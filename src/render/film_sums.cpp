@@ -119,6 +119,23 @@ Film FilmSums::film(const LayerPlan& plan, const Film& like) const {
     return out;
 }
 
+FilmSums::TileSoFar FilmSums::beauty_of(size_t i, const Film& like) const {
+    const SumsTile& tile = tiles_[i];
+    const Tile& area = tile.tile;
+    const ImagePart whole = like.part_of.value_or(ImagePart{like.width, like.height, 0, 0});
+    Film out;
+    out.width = area.width;
+    out.height = area.height;
+    out.channels = like.channels;
+    out.part_of = ImagePart{whole.width, whole.height, area.x, area.y};
+    out.pixels = zero_array<float>(static_cast<size_t>(area.width) *
+                                   static_cast<size_t>(area.height) * like.channels.size());
+    TilePattern pattern;
+    const std::lock_guard lock(tile.using_it);
+    if (tile.samples > 0) store_beauty(tile.sums, pattern, out);
+    return {std::move(out), tile.samples};
+}
+
 void FilmSums::put_tile(size_t i, StateWriter& out) const {
     const SumsTile& tile = tiles_[i];
     const std::lock_guard lock(tile.using_it);

@@ -59,6 +59,13 @@ public:
     void store(const LayerPlan& plan, Film& film) const;
     /// The same into a new film, which has the size and layers of another one.
     Film film(const LayerPlan& plan, const Film& like) const;
+    /// The beauty of one tile so far, as a part of that image, and the samples of its pixel with
+    /// fewest.
+    struct TileSoFar {
+        Film film;
+        int samples = 0;
+    };
+    TileSoFar beauty_of(size_t tile, const Film& like) const;
 
     /// All of it, to go on from. `take` is called before `sample`; it returns false when the tiles
     /// are others, or have more samples than the target, and then the object is of no more use.

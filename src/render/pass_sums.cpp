@@ -47,8 +47,10 @@ void PassSums::sample(const FilmWork& work) {
         const size_t turn = next++;
         sample_tile(work, ends[turn / count], turn % count);
         if (!work.progress || stop.load(std::memory_order_relaxed)) return;
-        const Tile& area = tiles()[turn % count].tile;
-        work.progress({fraction(), {area.x, area.y, area.width, area.height}, &work.film});
+        const size_t i = turn % count;
+        const Tile& area = tiles()[i].tile;
+        work.progress(
+            {fraction(), {area.x, area.y, area.width, area.height}, &work.film, {}, this, i});
     });
 }
 

@@ -25,6 +25,7 @@
 
 namespace obscura {
 
+class FilmSums;
 struct PassFilm;
 struct RaycastNotes;
 
@@ -231,6 +232,10 @@ struct FinishedTile {
     PixelRect area;                ///< from the image's top left corner
     const Film* film;              ///< other threads may be writing its pixels outside `area`
     RenderCounters counters = {};  ///< of this tile; 0 with RenderOptions::adaptive
+    /// Where the film has its pixels only at the end: they are in the sums so far, whose tile this
+    /// is, see FilmSums::beauty_of; null: in the film. Not where FilmSums keeps blocks.
+    const FilmSums* sums = nullptr;
+    size_t index = 0;
 };
 
 /// Called from any thread after every tile; with RenderOptions::adaptive in each pass, and at last

@@ -104,6 +104,8 @@ Result<void> charge_film(const Scene& scene,
     if (options.adaptive) bytes_per_pixel += beauty * sizeof(float) + 21;
     if (options.adaptive || takes_passes(request)) bytes_per_pixel += pass_bytes(*layers);
     bytes_per_pixel += block_bytes(request, 4 + layer_channels);
+    // What a viewer is still to see, of this image and of the one before.
+    if (request.display_server) bytes_per_pixel += 2 * beauty * sizeof(float);
     const auto width = static_cast<uint64_t>(options.crop ? options.crop->width : options.width);
     const auto height = static_cast<uint64_t>(options.crop ? options.crop->height : options.height);
     constexpr uint64_t bytes_per_thread = 8U << 20;  // its batch of paths and its tile's sums

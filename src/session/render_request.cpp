@@ -17,7 +17,7 @@ namespace obscura {
 bool is_followed(const RenderRequest& request) {
     const LongRun& run = request.long_run;
     return run.has_checkpoint || run.time_limit_s || run.snapshot_interval_s ||
-           is_part_of_samples(request);
+           request.display_server || is_part_of_samples(request);
 }
 
 bool takes_passes(const RenderRequest& request) {

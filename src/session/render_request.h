@@ -15,6 +15,7 @@
 #include "session/frames.h"
 #include "session/image_list.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
@@ -44,6 +45,12 @@ struct LongRun {
     Resume resume = Resume::automatic;
     std::optional<double> time_limit_s, snapshot_interval_s;
     bool skips_existing = false;  ///< --skip-existing: what is there already is left as it is
+};
+
+/// Where a viewer listens.
+struct DisplayAddress {
+    std::string host;
+    uint16_t port = 0;
 };
 
 struct RenderRequest {
@@ -91,6 +98,7 @@ struct RenderRequest {
     PartBy part_by = PartBy::automatic;    ///< in a merge: how the parts were
     int write_retries = 0;                 ///< --write-retries: of an image's files
     LongRun long_run;
+    std::optional<DisplayAddress> display_server;  ///< --display-server: who is shown the image
     bool check = false;  ///< --check: nothing is built, rendered or written
 };
 

@@ -257,6 +257,34 @@ TEST_F(PassesOfAFilm, OfSomeSamplesAddUpToTheBitsOfAll) {
     }
 }
 
+TEST_F(PassesOfAFilm, FinishedTilesAreShownAsTheyAre) {
+    RenderOptions asked = options(20);
+    asked.crop = PixelRect{5, 3, 60, 40};
+    FilmShare share{FilmPart{}};
+    share.begin_passes = [](const PassFilm& /*film*/) { return Result<void>(); };
+    asked.share = &share;
+    const ThreadLimit limit(1);
+    Film shown{
+        60, 40, {"R", "G", "B", "A"}, zero_array<float>(60 * 40 * 4), ImagePart{71, 45, 5, 3}};
+    int calls = 0;
+    const auto progress = [&](const FinishedTile& tile) {
+        const auto [film, samples] = tile.sums->beauty_of(tile.index, *tile.film);
+        EXPECT_EQ(film.width, tile.area.width);
+        EXPECT_EQ(film.part_of->y, tile.area.y);
+        for (int y = tile.area.y; y < tile.area.y + film.height; ++y)
+            std::copy_n(film.pixels.data() + 4 * pixel_index(film, tile.area.x, y),
+                        4 * film.width,
+                        shown.pixels.data() + 4 * pixel_index(shown, tile.area.x, y));
+        ++calls;
+        EXPECT_EQ(samples, pass_ends(20)[static_cast<size_t>((calls - 1) / 4)]);
+    };
+    const std::atomic<bool> stop = false;
+    const Camera camera = look_at({0, 1.5f, 5}, {0, 0.9f, 0}, 0.8f, 71, 45);
+    const RenderResult result = render(scene_, camera, asked, progress, stop).value();
+    EXPECT_EQ(calls, 4 * 4) << "tiles in passes";
+    EXPECT_EQ(shown.pixels, result.film.pixels);
+}
+
 TEST_F(PassesOfAFilm, DoNotTakeWhatIsNotTheirs) {
     render_passes_of(options(16), nothing);
     const std::string kept = bytes();
