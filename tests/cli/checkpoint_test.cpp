@@ -201,7 +201,7 @@ TEST_F(Checkpoints, TheOneBeforeADamagedOneIsUsed) {
 TEST_F(Checkpoints, ThatCannotBeWrittenDoNotEndARendering) {
     const Texts options = {"--checkpoint=absent/a.film", "--checkpoint-interval", "0.05"};
     const ProgramRun got =
-        render("box.gltf", joined({"--size", "64x64", "--spp", "256", "-o", "a.exr"}, options));
+        render("box.gltf", joined({"--size", "64x64", "--spp", "2048", "-o", "a.exr"}, options));
     expect_result(got, 0, "OK");
     EXPECT_THAT(got.err, HasSubstr("WARN absent/a.film: no checkpoint: "));
 }
