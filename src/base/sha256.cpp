@@ -1,4 +1,4 @@
-// base/sha256.cpp - SHA-256 of files, by OpenSSL.
+// base/sha256.cpp - SHA-256 of files and of bytes in memory, by OpenSSL.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/sha256.h"
 
@@ -9,6 +9,30 @@
 #include <vector>
 
 namespace obscura {
+
+namespace {
+
+using Digest = std::array<unsigned char, EVP_MAX_MD_SIZE>;
+
+std::string hexadecimal(const Digest& digest, unsigned int size) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string out;
+    for (unsigned int i = 0; i < size; ++i) {
+        out += digits[digest[i] >> 4];
+        out += digits[digest[i] & 15];
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string sha256_of(std::span<const std::byte> bytes) {
+    Digest digest = {};
+    unsigned int size = 0;
+    const int done =
+        EVP_Digest(bytes.data(), bytes.size(), digest.data(), &size, EVP_sha256(), nullptr);
+    return done == 1 ? hexadecimal(digest, size) : std::string();
+}
 
 std::optional<FileDigest> digest_file(const std::filesystem::path& file) {
     constexpr size_t block = size_t{1} << 20;
@@ -25,14 +49,10 @@ std::optional<FileDigest> digest_file(const std::filesystem::path& file) {
         out.bytes += count;
     }
     if (in.bad()) return {};
-    std::array<unsigned char, EVP_MAX_MD_SIZE> digest = {};
+    Digest digest = {};
     unsigned int size = 0;
     if (EVP_DigestFinal_ex(context.get(), digest.data(), &size) != 1) return {};
-    constexpr std::string_view digits = "0123456789abcdef";
-    for (unsigned int i = 0; i < size; ++i) {
-        out.sha256 += digits[digest[i] >> 4];
-        out.sha256 += digits[digest[i] & 15];
-    }
+    out.sha256 = hexadecimal(digest, size);
     return out;
 }
 

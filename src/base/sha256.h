@@ -1,10 +1,12 @@
-// base/sha256.h - SHA-256 of files.
+// base/sha256.h - SHA-256 of files and of bytes in memory.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 
 namespace obscura {
@@ -17,5 +19,8 @@ struct FileDigest {
 
 /// Nothing: the file cannot be read.
 std::optional<FileDigest> digest_file(const std::filesystem::path& file);
+
+/// 64 hexadecimal digits, in lower case; "": OpenSSL has no SHA-256.
+std::string sha256_of(std::span<const std::byte> bytes);
 
 }  // namespace obscura

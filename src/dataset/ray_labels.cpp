@@ -112,6 +112,10 @@ int32_t node_of(const Scene& scene, const RowRays& rays, int i) {
     return std::max(node, scene.instances[static_cast<size_t>(rays.hit_instance(i))].node);
 }
 
+int32_t material_of(const Scene& scene, const RowRays& rays, int i) {
+    return scene.primitives[static_cast<size_t>(rays.hit_primitive(i))].material;
+}
+
 using NodePixel = std::pair<int32_t, uint32_t>;
 
 /// Traces one row after the other.
@@ -180,6 +184,7 @@ private:
             if (is_first && out_.is_inside(pixel)) {
                 const size_t index = out_.image_index(pixel);
                 out_.node[index] = node;
+                if (node >= 0) out_.material[index] = material_of(scene_, rays, i);
                 out_.depth_m[index] = depth_of(origin + direction * t);
             }
             const float step = t + gap * (length(origin) + t);
@@ -245,6 +250,7 @@ RayLabels trace_labels(const PreparedScene& prepared,
                           : PixelRect{0, 0, options.width, options.height};
     const size_t pixels = static_cast<size_t>(out.width) * static_cast<size_t>(out.height);
     out.node.assign(pixels, -1);
+    out.material.assign(pixels, -1);
     out.depth_m.assign(pixels, 0.0f);
     std::vector<std::vector<NodePixel>> rows(static_cast<size_t>(out.frame.height));
     const Tracer tracer(prepared, camera, takes_all ? max_surfaces : 1, out);

@@ -22,6 +22,7 @@ struct RayLabels {
     PixelRect frame;            ///< from the image's upper left corner
     /// Of the image's pixels: the nearest surface's; -1: nothing there, a holdout or a catcher.
     std::vector<int32_t> node;
+    std::vector<int32_t> material;  ///< the same surface's, in Scene::materials; -1 likewise
     /// Metres along the view axis, of a fisheye and an image of all directions from the eye;
     /// 0: nothing there.
     std::vector<float> depth_m;

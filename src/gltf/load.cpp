@@ -35,6 +35,9 @@ namespace obscura::gltf {
 
 namespace {
 
+/// A quarter turn about +X: LoadOptions::z_up.
+constexpr Affined y_up_from_z_up = {{{1, 0, 0, 0}, {0, 0, 1, 0}, {0, -1, 0, 0}}};
+
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
@@ -182,6 +185,7 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     asset = std::move(*opened);
     Document& document = asset.document;
     document.keeps_uv = options.keeps_uv;
+    if (options.z_up) document.world_from_root = y_up_from_z_up;
     if (!options.info_only && may_need_oiio(document)) open_oiio_ahead();
     const Result<int> chosen = choose_scene(document, options, log);
     if (!chosen) return fail(chosen.error());

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "image/oiio_module.h"
 #include "image/write.h"
 
 #include <cstddef>
@@ -35,6 +36,19 @@ Result<std::vector<std::byte>> encode_for_display(const OutputTarget& target,
                                                   const OutputImage& image,
                                                   const ImageMetadata& metadata,
                                                   const DisplayEncoding& encoding);
+
+/// Numbers that are no colours: what is written is what is read, without a display, an alpha to
+/// divide by or anything beside the pixels.
+struct ExactImage {
+    int width = 0, height = 0, channels = 0;
+    OiioType type = OiioType::uint8;
+    const void* codes = nullptr;  ///< interleaved
+};
+
+/// Encodes numbers: as PNG, which has 8 and 16 bits, or as TIFF, which has floats too.
+///
+/// Errors  69 E-OIIO; 70 E-OUT-ENCODE with the library's message
+Result<std::vector<std::byte>> encode_exact(const OutputTarget& target, const ExactImage& image);
 
 /// Interleaved codes of an image: grey, RGB, or RGB and straight alpha.
 struct CodedImage {

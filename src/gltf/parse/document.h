@@ -296,6 +296,7 @@ struct Document {
     bool keeps_uv = false;                    ///< LoadOptions::keeps_uv
     bool reads_occlusion = false;             ///< LoadOptions::occlusion
     std::optional<Matrix3> from_rec709 = {};  ///< LoadOptions::from_rec709
+    Affined world_from_root = {};             ///< above all nodes without a parent
 
     /// "scene.glb#/accessors/12", for messages.
     std::string at(std::string_view pointer) const { return file + "#" + std::string(pointer); }

@@ -124,7 +124,8 @@ std::vector<Affined> transforms(const Document& document, bool ends_at_groups) {
     std::vector<Affined> out(document.nodes.size());
     walk_down(document, [&](int parent, size_t i) {
         const GltfNode& node = document.nodes[i];
-        const Affined above = parent < 0 ? Affined{} : out[static_cast<size_t>(parent)];
+        const Affined above =
+            parent < 0 ? document.world_from_root : out[static_cast<size_t>(parent)];
         out[i] = ends_at_groups && node.moves ? Affined{} : compose(above, node.parent_from_node);
     });
     return out;
@@ -174,7 +175,7 @@ std::vector<PlacedNode> place_nodes(const Document& document, int scene, Log& lo
     std::vector<char> seen = lower_levels(document);
     std::vector<PlacedNode> open;
     for (const int root : scene_roots(document, scene, log)) {
-        open.push_back({root, Affined{}});
+        open.push_back({root, document.world_from_root});
         while (!open.empty()) {
             PlacedNode next = open.back();
             open.pop_back();
