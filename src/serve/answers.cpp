@@ -65,6 +65,40 @@ int http_status_of(const Error& error) {
     }
 }
 
+int simple_status_of(const Error& error) {
+    constexpr int bad_request = 400, internal = 500;
+    for (const char* id : {"E-SERVE-TOKEN", "E-SERVE-HOST", "E-SERVE-ORIGIN", "E-SERVE-SIZE"}) {
+        if (error.id == id) return http_status_of(error);
+    }
+    if (error.id == "E-OIIO" || error.id == "E-ISA") return internal;
+    switch (error.code) {
+        case ExitCode::usage:
+        case ExitCode::bad_data:
+        case ExitCode::missing_scene:
+        case ExitCode::bad_resource:
+        case ExitCode::unsupported:
+        case ExitCode::refused:
+        case ExitCode::configuration:
+            return bad_request;
+        default:
+            return internal;
+    }
+}
+
+std::string error_text(const Error& error) {
+    constexpr size_t longest = 4000;
+    std::string out;
+    const auto add = [&](const Error& one) {
+        if (out.size() > longest) return;
+        out += one.id + " " + spell_settings(one.where, SettingNames::plain) + ": " +
+               spell_settings(one.message, SettingNames::plain) + "\n";
+    };
+    add(error);
+    for (const Error& other : error.also)
+        add(other);
+    return out.substr(0, 2 * longest);
+}
+
 Json error_answer(const Error& error) {
     return {{"error", error_object(error)}};
 }

@@ -13,6 +13,12 @@ namespace obscura::serve {
 /// The HTTP status that fits an error best.
 int http_status_of(const Error& error);
 
+/// The same in few words, for clients that tell only success, their own faults and the server's.
+int simple_status_of(const Error& error);
+
+/// A line for each error, "E-... place: text", as people read it; cut off before it is a page.
+std::string error_text(const Error& error);
+
 /// {"error": {"id", "place", "text", "code", "also"}}; settings have their plain names.
 Json error_answer(const Error& error);
 

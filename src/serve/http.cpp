@@ -48,6 +48,20 @@ void send(Result<Answer>&& answer, httplib::Response& response) {
     send(json_result(error_answer(error), http_status_of(error)), response);
 }
 
+void send_or_say(Result<Answer>&& answer, httplib::Response& response) {
+    if (answer) {
+        send(std::move(*answer), response);
+        return;
+    }
+    const Error& error = answer.error();
+    Answer told;
+    told.status = simple_status_of(error);
+    told.type = "text/plain; charset=utf-8";
+    told.body = error_text(error);
+    told.headers = {{"Cache-Control", "no-store"}};
+    send(std::move(told), response);
+}
+
 Sender sender_of(const httplib::Request& request) {
     return {request.get_header_value("Host"),
             request.get_header_value("Origin"),
@@ -83,6 +97,8 @@ Body::Body(const httplib::Request& request, const httplib::ContentReader& reader
       is_read_(!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding")) {}
 
 Result<void> Body::read(const ByteSink& sink) {
+    if (request_.is_multipart_form_data())
+        return fail(ExitCode::bad_data, "E-SERVE-BODY", "body", "expected the data, not a form");
     if (is_read_) return {};
     is_read_ = true;
     Result<void> done;
@@ -103,7 +119,12 @@ Result<void> Body::read(const ByteSink& sink) {
 void Body::drain() {
     if (is_read_) return;
     is_read_ = true;
-    reader_([](const char* /*bytes*/, size_t /*count*/) { return true; });
+    const auto forget = [](const char* /*bytes*/, size_t /*count*/) { return true; };
+    if (request_.is_multipart_form_data()) {  // for which the library has another reader
+        reader_([](const httplib::MultipartFormData& /*part*/) { return true; }, forget);
+    } else {
+        reader_(forget);
+    }
 }
 
 Result<nlohmann::json> Body::json() {
@@ -126,6 +147,8 @@ Result<nlohmann::json> Body::json() {
 
 Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
     std::map<std::string, std::string> out;
+    if (!request_.is_multipart_form_data())
+        return fail(ExitCode::bad_data, "E-SERVE-BODY", "form", "expected multipart/form-data");
     if (is_read_) return out;
     is_read_ = true;
     std::string* field = nullptr;
@@ -142,7 +165,7 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
         });
     if (bytes > max_bytes) return too_large("form", max_bytes);
     if (is_whole) return out;
-    return fail(ExitCode::bad_data, "E-SERVE-BODY", "form", "expected multipart/form-data");
+    return fail(ExitCode::bad_data, "E-SERVE-BODY", "form", "it ends before its time");
 }
 
 Result<void> Routes::admit(const httplib::Request& request) const {
@@ -165,7 +188,7 @@ void Routes::get(const std::string& pattern, const Get& get) {
     });
 }
 
-httplib::Server::HandlerWithContentReader Routes::with_body(const WithBody& work) const {
+httplib::Server::HandlerWithContentReader Routes::with_body(const WithBody& work, Send send) const {
     return [=, this](const httplib::Request& request,
                      httplib::Response& response,
                      const httplib::ContentReader& reader) {
@@ -179,15 +202,19 @@ httplib::Server::HandlerWithContentReader Routes::with_body(const WithBody& work
 }
 
 void Routes::post(const std::string& pattern, const WithBody& work) {
-    server_.Post(pattern, with_body(work));
+    server_.Post(pattern, with_body(work, send));
+}
+
+void Routes::post_for_people(const std::string& pattern, const WithBody& work) {
+    server_.Post(pattern, with_body(work, send_or_say));
 }
 
 void Routes::put(const std::string& pattern, const WithBody& work) {
-    server_.Put(pattern, with_body(work));
+    server_.Put(pattern, with_body(work, send));
 }
 
 void Routes::remove(const std::string& pattern, const WithBody& work) {
-    server_.Delete(pattern, with_body(work));
+    server_.Delete(pattern, with_body(work, send));
 }
 
 void Routes::refuse_the_rest() {
@@ -197,7 +224,7 @@ void Routes::refuse_the_rest() {
     post(".*", nothing);
     put(".*", nothing);
     remove(".*", nothing);
-    server_.Patch(".*", with_body(nothing));
+    server_.Patch(".*", with_body(nothing, send));
     server_.set_pre_routing_handler([](const httplib::Request& request,
                                        httplib::Response& response) {
         constexpr std::array<std::string_view, 6> known = {

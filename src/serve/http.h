@@ -73,6 +73,8 @@ public:
     void get_openly(const std::string& pattern, const Get& get);
     void get(const std::string& pattern, const Get& get);
     void post(const std::string& pattern, const WithBody& work);
+    /// As post, but errors are plain text: for clients that show people what they get.
+    void post_for_people(const std::string& pattern, const WithBody& work);
     void put(const std::string& pattern, const WithBody& work);
     void remove(const std::string& pattern, const WithBody& work);
     /// For all that no route is for, and for faults of the protocol. To be called last.
@@ -80,7 +82,8 @@ public:
 
 private:
     Result<void> admit(const httplib::Request& request) const;
-    httplib::Server::HandlerWithContentReader with_body(const WithBody& work) const;
+    using Send = void (*)(Result<Answer>&&, httplib::Response&);
+    httplib::Server::HandlerWithContentReader with_body(const WithBody& work, Send send) const;
 
     httplib::Server& server_;
     const Guard& guard_;

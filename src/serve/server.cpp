@@ -7,6 +7,7 @@
 #include "serve/answers.h"
 #include "serve/http.h"
 #include "serve/page_files.h"
+#include "serve/route_drake.h"
 #include <cctype>
 #include <charconv>
 #include <thread>
@@ -109,6 +110,7 @@ struct Server::Impl {
         route_files();
         route_views();
         route_images();
+        route_drake(routes, service, sent_scenes, is_ending);
         routes.refuse_the_rest();
     }
 
@@ -125,6 +127,7 @@ struct Server::Impl {
     const ServerOptions options;
     const Guard guard;
     Service service;
+    SceneCache sent_scenes;
     httplib::Server http;
     Routes routes;
     int port = 0;

@@ -72,6 +72,13 @@ Result<Options> Service::with_files_found(const Options& options) const {
     return out;
 }
 
+Result<RenderRequest> Service::request(const std::filesystem::path& scene,
+                                       const Options& options) const {
+    const Result<Options> found = with_files_found(options);
+    if (!found) return fail(found.error());
+    return options_.options.request(scene, *found);
+}
+
 Result<Json> Service::open_view(const std::string& file) {
     const Result<std::filesystem::path> scene = files_.find(file);
     if (!scene) return fail(scene.error());

@@ -46,6 +46,13 @@ public:
     Result<std::shared_ptr<Viewer>> viewer(const std::string& view) const;
     Result<void> close_view(const std::string& view);
 
+    /// A request for an image of a scene, by a client's options.
+    ///
+    /// Errors  those of with_files_found and OptionReader::request
+    Result<RenderRequest> request(const std::filesystem::path& scene, const Options& options) const;
+    /// Bytes of a file that a client sends, at most.
+    uint64_t max_upload() const { return options_.max_upload; }
+
     /// Options whose files were found below the roots.
     ///
     /// Errors  64 E-USAGE-*; those of KnownFiles::find
