@@ -67,7 +67,8 @@ struct LoadOptions {
     /// layer `motion`.
     std::optional<double> frame_step_s = {};
     bool places_nodes = false;  ///< scenes get Scene::node_places
-    /// The file's up is +Z, against glTF: all of it is turned so that its +Z becomes the world's +Y.
+    /// The file's up is +Z, against glTF: all of it is turned so that its +Z becomes the world's
+    /// +Y.
     bool z_up = false;
 
     bool operator==(const LoadOptions&) const = default;

@@ -16,7 +16,7 @@ namespace obscura::serve {
 namespace {
 
 constexpr int largest_side = 65536;       // as --size has it
-constexpr int64_t most_pixels = 1 << 29;  // likewise
+constexpr int64_t max_pixels = 1 << 29;  // likewise
 
 tl::unexpected<Error> bad_field(const std::string& name, const std::string& message) {
     return fail(ExitCode::usage, "E-DRAKE-FIELD", name, message);
@@ -147,7 +147,7 @@ Result<DrakeRequest> read_drake_form(const Form& form) {
     out.image = read_image_type(fields);
     out.width = fields.side("width");
     out.height = fields.side("height");
-    if (int64_t{1} * out.width * out.height > most_pixels)
+    if (int64_t{1} * out.width * out.height > max_pixels)
         fields.refuse("width", "the image has more than 2^29 pixels");
     out.near_m = fields.positive("near");
     out.far_m = fields.positive("far");

@@ -68,7 +68,7 @@ Result<std::shared_ptr<SentScene>> SceneCache::scene_of(const std::string& sha25
     std::deque<Kept> closed;  // goes when nobody holds the lock
     const std::lock_guard lock(mutex_);
     if (auto known = find(sha256)) return known;  // another request was faster
-    while (!scenes_.empty() && scenes_.size() >= most_) {
+    while (!scenes_.empty() && scenes_.size() >= max_count_) {
         closed.push_back(std::move(scenes_.back()));
         scenes_.pop_back();
     }

@@ -41,7 +41,7 @@ struct SentScene {
 /// The latest few scenes, by their content. Any thread may call.
 class SceneCache {
 public:
-    explicit SceneCache(size_t most = 4) : most_(most) {}
+    explicit SceneCache(size_t max_count = 4) : max_count_(max_count) {}
 
     /// The scene of these bytes, a .gltf or .glb; one that is new takes the place of the one that
     /// nobody asked for longest. It is not opened yet.
@@ -62,7 +62,7 @@ private:
 
     std::shared_ptr<SentScene> find(const std::string& sha256);
 
-    const size_t most_;
+    const size_t max_count_;
     mutable std::mutex mutex_;
     std::deque<Kept> scenes_;  ///< the latest first
 };

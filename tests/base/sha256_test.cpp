@@ -22,5 +22,13 @@ TEST(Sha256, OfTheStandardsExamples) {
     EXPECT_FALSE(digest_file(folder / "none"));
 }
 
+TEST(Sha256, OfBytesInMemory) {
+    const std::string text = "abc";
+    EXPECT_EQ(sha256_of(std::as_bytes(std::span(text))),
+              "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(sha256_of({}),  // known everywhere as that of nothing
+              "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
 }  // namespace
 }  // namespace obscura

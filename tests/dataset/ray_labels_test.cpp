@@ -17,9 +17,10 @@ protected:
 
     TwoSquares() {
         test::SceneBuilder builder;
-        const int32_t material = builder.material({});
-        builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, material);
-        builder.quad({0, -1, 1}, {1, 0, 0}, {0, 2, 0}, material);
+        far_material_ = builder.material({});
+        near_material_ = builder.material({});
+        builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, far_material_);
+        builder.quad({0, -1, 1}, {1, 0, 0}, {0, 2, 0}, near_material_);
         Scene scene = builder.take();
         scene.node_places.resize(2);
         Log log(Verbosity::quiet);
@@ -45,9 +46,19 @@ protected:
         return count;
     }
 
+    int32_t far_material_ = 0, near_material_ = 0;
     std::optional<PreparedScene> prepared_;
     RenderOptions options_;
 };
+
+TEST_F(TwoSquares, EveryPixelHasTheMaterialOfItsNode) {
+    const RayLabels rays = trace(1.51);
+    ASSERT_NE(far_material_, near_material_);
+    for (size_t i = 0; i < rays.node.size(); ++i) {
+        const std::array<int32_t, 3> materials = {-1, far_material_, near_material_};
+        ASSERT_EQ(rays.material[i], materials[static_cast<size_t>(rays.node[i] + 1)]) << i;
+    }
+}
 
 TEST_F(TwoSquares, WhatIsHiddenCountsToo) {
     const double half = 1.51;
