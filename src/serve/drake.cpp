@@ -15,7 +15,7 @@ namespace obscura::serve {
 
 namespace {
 
-constexpr int largest_side = 65536;       // as --size has it
+constexpr int largest_side = 65536;      // as --size has it
 constexpr int64_t max_pixels = 1 << 29;  // likewise
 
 tl::unexpected<Error> bad_field(const std::string& name, const std::string& message) {
