@@ -249,10 +249,12 @@ Result<void> list_all(Job& job) {
     if (auto listed = poses.find_images(job.log); !listed) return listed;
     std::string text;
     const std::vector<ListedImage>& images = poses.list().images;
-    for (const size_t i : indices_to_render(job.whole, images.size())) {
+    const std::vector<size_t> indices = indices_to_render(job.whole, images.size());
+    for (const size_t i : indices) {
         for (const std::filesystem::path& file : all_files(job.whole, images[i]))
             text += escape_control(file.string()) + "\n";
     }
+    job.log.info(fmt::format("{} images", indices.size()));
     return print_output(text);
 }
 

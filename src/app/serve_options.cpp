@@ -16,6 +16,7 @@ namespace {
 using A = ServeArguments;
 using R = ServeRequest;
 using S = serve::ServerOptions;
+using J = serve::JobsOptions;
 using Entry = OptionEntry<A, R>;
 
 constexpr const char* serve_notes = R"(
@@ -59,7 +60,14 @@ constexpr Entry entries[] = {
       .help = "The largest file that clients may send, and the most that is kept of all of them: "
               "where it is too little, the oldest go",
       .fallback = "1G"},
-     text_at<&A::max_upload>, parsed_at<parse_memory_size, &R::max_upload>}};
+     text_at<&A::max_upload>, parsed_at<parse_memory_size, &R::max_upload>},
+    {{.name = "--jobs", .argument = "DIR",
+      .help = "A folder for the jobs of clients, which keeps their files when the server ends",
+      .fallback = "a temporary one", .files = "/"},
+     text_at<&A::jobs>},
+    {{.name = "--jobs-at-once", .argument = "N",
+      .help = "Jobs that run at the same time; the others wait", .range = {1, 64}},
+     text_at<&A::jobs_at_once>, number_at<&R::server, &S::jobs, &J::at_once>}};
 
 constexpr Entry view_entries[] = {
     {{.name = "MODEL", .help = "The model, a .gltf or .glb file", .files = "gltf glb"},

@@ -5,11 +5,11 @@
 #include "app/json_options.h"
 #include "app/memory_option.h"
 #include "app/render_options.h"
+#include "app/serve_jobs.h"
 #include "app/serve_options.h"
 
 #include "serve/guard.h"
-#include <algorithm>
-#include <array>
+#include "serve/option_names.h"
 #include <filesystem>
 #include <system_error>
 
@@ -18,27 +18,6 @@ namespace obscura::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-// clang-format off
-/// Options that a client may give. Those that name files would let it read any.
-constexpr std::array image_option_names = {
-    "--size", "--spp", "--noise-target", "--spp-min", "--depth", "--seed", "--filter",
-    "--integrator", "--ao-distance", "--wire-width", "--denoise", "--clamp-direct",
-    "--clamp-indirect", "--caustics", "--regularize", "--background", "--page", "--exposure",
-    "--view", "--display", "--no-dither", "--scene", "--variant", "--animation", "--time",
-    "--lenient", "--hide", "--lights", "--catcher", "--catcher-reflections", "--env",
-    "--env-intensity", "--env-rotation", "--camera", "--camera-model", "--eye", "--target", "--up",
-    "--fov", "--azimuth", "--elevation", "--zoom", "--magnification", "--focal-length", "--sensor",
-    "--shift", "--near", "--far", "--fstop", "--lens-radius", "--focus-distance", "--focus-on",
-    "--blades", "--blade-rotation", "--anamorphic", "--ev100", "--shutter-speed", "--iso",
-    "--fisheye", "--fisheye-fit", "--projection", "--align", "--stereo", "--point-size",
-    "--line-width"};
-// clang-format on
-
-bool is_image_option(const std::string& name) {
-    return std::find(image_option_names.begin(), image_option_names.end(), name) !=
-           image_option_names.end();
-}
 
 Result<RenderRequest> image_request(const RenderArguments& common,
                                     const fs::path& scene,
@@ -50,7 +29,7 @@ Result<RenderRequest> image_request(const RenderArguments& common,
     for (const auto& [key, value] : options.items()) {
         const std::string name = "--" + key;
         const BoundOption* const option = find_option(table, name);
-        if (option == nullptr || !is_image_option(name)) {
+        if (option == nullptr || !serve::is_view_option(key)) {
             return fail(
                 ExitCode::usage, "E-USAGE", "/options/" + key, "a picture has no such option");
         }
@@ -153,6 +132,8 @@ Result<ServeRequest> make_serve_request(const ServeArguments& arguments) {
     if (auto chosen = choose_token(arguments, request.server); !chosen) return fail(chosen.error());
     if (request.max_upload) request.server.service.max_upload = request.max_upload->bytes;
     request.render = arguments.render;
+    if (arguments.jobs) request.server.jobs.folder = *arguments.jobs;
+    complete_jobs_options(arguments.render, request.server.jobs);
     request.server.service.options = image_options(arguments.render);
     return request;
 }

@@ -15,7 +15,7 @@ namespace obscura::app {
 struct ServeArguments {
     std::string file;  ///< of `obscura view`: opened at once
     std::vector<std::string> roots;
-    OptionText listen, port, token, max_upload;
+    OptionText listen, port, token, max_upload, jobs, jobs_at_once;
     bool no_token = false;
     bool no_browser = false;
     RenderArguments render;  ///< options that all pictures get

@@ -44,9 +44,11 @@ Json error_object(const Error& error) {
 
 int http_status_of(const Error& error) {
     constexpr int bad_request = 400, unauthorized = 401, forbidden = 403, not_found = 404;
-    constexpr int too_large = 413, unprocessable = 422, internal = 500, no_storage = 507;
+    constexpr int too_large = 413, unprocessable = 422, internal = 500, unavailable = 503;
+    constexpr int no_storage = 507;
     if (error.id == "E-SERVE-TOKEN") return unauthorized;
     if (error.id == "E-SERVE-SIZE") return too_large;
+    if (error.id == "E-SERVE-BUSY") return unavailable;
     if (error.id.starts_with("E-SERVE-UNKNOWN")) return not_found;
     if (error.id.starts_with("E-SERVE-")) return forbidden;
     switch (error.code) {

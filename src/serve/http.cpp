@@ -28,6 +28,17 @@ void send(Answer&& answer, httplib::Response& response) {
     response.status = answer.status;
     for (const auto& [name, value] : answer.headers)
         response.set_header(name, value);
+    if (answer.stream) {
+        response.set_chunked_content_provider(
+            answer.type, [stream = std::move(answer.stream)](size_t, httplib::DataSink& sink) {
+                return stream(sink);
+            });
+        return;
+    }
+    if (answer.part && answer.size > 0) {
+        response.set_content_provider(answer.size, answer.type, std::move(answer.part));
+        return;
+    }
     if (answer.bytes.empty()) {
         response.set_content(answer.body, answer.type);
         return;
@@ -134,6 +145,9 @@ Result<nlohmann::json> Body::json() {
                     "Content-Type",
                     "expected a body of application/json");
     }
+    // Said before more comes than the library takes, which would be an error without a reason.
+    if (request_.get_header_value<uint64_t>("Content-Length") > largest_json)
+        return too_large("body", largest_json);
     std::string text;
     const auto read_all = read([&](std::span<const std::byte> more) -> Result<void> {
         if (text.size() + more.size() > largest_json) return too_large("body", largest_json);

@@ -30,6 +30,11 @@ struct Answer {
     /// In place of `body`, kept alive by `owner` until it is sent.
     std::span<const char> bytes = {};
     std::shared_ptr<const void> owner = {};
+    /// In place of both: called until it calls sink.done(), or returns false: the client is gone.
+    std::function<bool(httplib::DataSink& sink)> stream = {};
+    /// In place of these: hands over some of the `size` bytes, from an offset on.
+    std::function<bool(size_t offset, size_t length, httplib::DataSink& sink)> part = {};
+    size_t size = 0;
     std::vector<std::pair<std::string, std::string>> headers = {};
 };
 

@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
+#include <glob.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -168,6 +169,30 @@ Result<fs::path> KnownFiles::find(const std::string& name) const {
     const fs::path plain = fs::path(inside).lexically_normal();
     if (leads_out || *plain.begin() == "..") return refused(name);
     return fail(ExitCode::missing_scene, "E-SCENE-MISSING", escape_control(name), "not found");
+}
+
+std::vector<std::string> KnownFiles::match(const std::string& pattern) const {
+    constexpr size_t longest_answer = 10000;
+    std::vector<std::string> out;
+    for (const fs::path& root : roots_) {
+        std::string whole;
+        for (const char c : root.string() + "/")
+            whole += std::string("*?[\\").find(c) != std::string::npos ? std::string{'\\', c}
+                                                                       : std::string(1, c);
+        glob_t found = {};
+        if (::glob((whole + pattern).c_str(), 0, nullptr, &found) == 0) {
+            for (size_t i = 0; i < found.gl_pathc && out.size() < longest_answer; ++i) {
+                const fs::path file = found.gl_pathv[i];
+                std::error_code ignored;
+                if (kind_of(file) == FileKind::model && fs::is_regular_file(file, ignored))
+                    out.push_back(file.lexically_relative(root).string());
+            }
+        }
+        ::globfree(&found);
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
 }
 
 Result<fs::path> KnownFiles::new_part() {

@@ -45,6 +45,12 @@ public:
     ///         66 E-SCENE-MISSING there is no such file
     Result<std::filesystem::path> find(const std::string& name) const;
 
+    /// The models below the roots that fit a pattern with *, ? and [...] as in a shell, by their
+    /// names; at most 10,000. find() says of each whether it may be read.
+    ///
+    /// In      pattern: relative, without ..
+    std::vector<std::string> match(const std::string& pattern) const;
+
     /// Keeps a file that a client sends; `send` hands over its bytes. The same bytes are kept once.
     /// Where all uploads together take too much, the oldest go.
     ///

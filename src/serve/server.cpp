@@ -6,6 +6,7 @@
 
 #include "serve/answers.h"
 #include "serve/http.h"
+#include "serve/job_routes.h"
 #include "serve/page_files.h"
 #include "serve/route_drake.h"
 #include <cctype>
@@ -95,6 +96,7 @@ struct Server::Impl {
         : options(std::move(from)),
           guard(options.address, options.token),
           service(options.service),
+          jobs(options.jobs, service),
           routes(http, guard) {
         constexpr time_t read_s = 10, write_s = 30, keep_alive_s = 30;
         http.new_task_queue = [] { return new ConnectionThreads(max_connections); };
@@ -111,6 +113,7 @@ struct Server::Impl {
         route_views();
         route_images();
         route_drake(routes, service, sent_scenes, is_ending);
+        route_jobs(routes, jobs);
         routes.refuse_the_rest();
     }
 
@@ -128,6 +131,7 @@ struct Server::Impl {
     const Guard guard;
     Service service;
     SceneCache sent_scenes;
+    Jobs jobs;
     httplib::Server http;
     Routes routes;
     int port = 0;
@@ -310,6 +314,7 @@ void Server::run(const std::atomic<bool>& stop) {
             std::this_thread::sleep_for(interval);
             if (!stop) continue;
             impl_->is_ending = true;
+            impl_->jobs.stop();
             impl_->http.stop();  // of no effect before it has begun to listen: once more
         }
     });

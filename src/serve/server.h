@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "serve/jobs.h"
 #include "serve/service.h"
 #include <atomic>
 #include <memory>
@@ -14,6 +15,7 @@ struct ServerOptions {
     int port = 8420;    ///< 0: one that is free
     std::string token;  ///< that clients must know; empty: none is asked for
     ServiceOptions service;
+    JobsOptions jobs;
 };
 
 /// Listens at one address. Every answer but a file, a picture and the page is JSON, errors too.

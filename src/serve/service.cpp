@@ -61,7 +61,10 @@ Result<Json> Service::choices() const {
 Result<Options> Service::with_files_found(const Options& options) const {
     Options out = options;
     const auto env = out.find("env");
-    if (env == out.end() || !env->is_string()) return out;
+    if (env == out.end()) return out;
+    // An array would be put together to the name of a file that nobody has looked up.
+    if (!env->is_string())
+        return fail(ExitCode::usage, "E-USAGE-CHOICE", "/options/env", "expected a string");
     const auto name = env->get<std::string>();
     const auto built_in = parse_built_in_environment(name);
     if (!built_in) return fail(built_in.error());
