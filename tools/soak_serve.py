@@ -51,6 +51,7 @@ class Findings:
         self.counts = collections.Counter()
         self.statuses = collections.Counter()
         self.found = collections.Counter()
+        self.ends = collections.Counter()
         self.examples = {}
         self.slowest = (0.0, "")
 
@@ -208,7 +209,13 @@ class Client:
             return self.submit()
         job = "/api/jobs/" + self.random.choice(self.jobs)
         self.ask("list of jobs", "GET", "/api/jobs")
-        self.ask("job", "GET", job)
+        status, content = self.ask("job", "GET", job)
+        told = json.loads(content) if status == 200 else {}
+        if told.get("exit_code") is not None:
+            with self.findings.lock:
+                self.findings.ends[f"{told['state']} {told['exit_code']}"] += 1
+            if told["exit_code"] > 128 and told["exit_code"] != 143:
+                self.findings.add("a job ended by a signal", json.dumps(told)[:300])
         status, content = self.ask("files of job", "GET", job + "/files")
         files = json.loads(content).get("files", []) if status == 200 else []
         name = self.random.choice(files)["file"] if files else "none.png"
@@ -366,6 +373,7 @@ def print_summary(findings):
     print("  " + ", ".join(f"{kind} {n}" for kind, n in sorted(findings.counts.items())))
     print("statuses: " + ", ".join(f"{status}: {n}" for status, n in
                                    sorted(findings.statuses.items(), key=str)))
+    print("ends of jobs seen: " + ", ".join(f"{end}: {n}" for end, n in findings.ends.items()))
     print(f"slowest answer: {findings.slowest[0]:.1f} s, {findings.slowest[1]}")
     for kind, n in findings.found.items():
         print(f"FINDING {kind}, {n} times, such as: {findings.examples[kind]}")

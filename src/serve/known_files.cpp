@@ -183,9 +183,8 @@ std::vector<std::string> KnownFiles::match(const std::string& pattern) const {
         if (::glob((whole + pattern).c_str(), 0, nullptr, &found) == 0) {
             for (size_t i = 0; i < found.gl_pathc && out.size() < longest_answer; ++i) {
                 const fs::path file = found.gl_pathv[i];
-                std::error_code ignored;
-                if (kind_of(file) == FileKind::model && fs::is_regular_file(file, ignored))
-                    out.push_back(file.lexically_relative(root).string());
+                const std::string name = file.lexically_relative(root).string();
+                if (kind_of(file) == FileKind::model && find(name)) out.push_back(name);
             }
         }
         ::globfree(&found);

@@ -45,8 +45,8 @@ public:
     ///         66 E-SCENE-MISSING there is no such file
     Result<std::filesystem::path> find(const std::string& name) const;
 
-    /// The models below the roots that fit a pattern with *, ? and [...] as in a shell, by their
-    /// names; at most 10,000. find() says of each whether it may be read.
+    /// The models that find() finds and a pattern with *, ? and [...] as in a shell fits, by their
+    /// names; at most 10,000.
     ///
     /// In      pattern: relative, without ..
     std::vector<std::string> match(const std::string& pattern) const;

@@ -11,6 +11,7 @@
 #include "serve/route_drake.h"
 #include <cctype>
 #include <charconv>
+#include <malloc.h>
 #include <thread>
 
 namespace obscura::serve {
@@ -57,6 +58,14 @@ int number_after(const std::string& text) {
     int value = 0;
     std::from_chars(text.data(), text.data() + text.size(), value);
     return value;
+}
+
+/// Gives memory that was freed back to the system: each thread's share of it would stay, and grow
+/// with what clients open and close.
+void return_memory() {
+#ifdef __GLIBC__
+    ::malloc_trim(0);
+#endif
 }
 
 /// For the fragment of a URL.
@@ -310,8 +319,10 @@ void Server::run(const std::atomic<bool>& stop) {
     std::atomic<bool> is_over = false;
     std::thread watch([&] {
         constexpr std::chrono::milliseconds interval(50);
-        while (!is_over) {
+        constexpr int intervals_to_trim = 100;
+        for (int i = 1; !is_over; ++i) {
             std::this_thread::sleep_for(interval);
+            if (i % intervals_to_trim == 0) return_memory();
             if (!stop) continue;
             impl_->is_ending = true;
             impl_->jobs.stop();

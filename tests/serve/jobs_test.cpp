@@ -128,6 +128,24 @@ TEST_F(JobsTest, AJobTellsWhatBecameOfIt) {
     EXPECT_EQ(files["files"][1]["file"], "words.txt");
 }
 
+TEST_F(JobsTest, PatternsTakeModelsBelowTheRoots) {
+    fs::create_directories(folder_ / "root/[in]");
+    folder_.write("root/[in]/b.gltf", "b");
+    folder_.write("root/notes.txt", "notes");
+    fs::create_directories(folder_ / "root/folder.glb");
+    fs::create_symlink(folder_ / "program", folder_ / "root/out.glb");
+    fs::create_symlink(folder_ / "root/a.glb", folder_ / "root/in.glb");
+    fs::create_directory_symlink(folder_.path(), folder_ / "root/up");
+    folder_.write("secret.glb", "secret");
+    using Names = std::vector<std::string>;
+    const KnownFiles& files = service_->files();
+    EXPECT_EQ(files.match("*"), (Names{"a.glb", "in.glb"}));
+    EXPECT_EQ(files.match("*/*"), Names{"[in]/b.gltf"});
+    EXPECT_EQ(files.match("[!a]*.gl?"), Names{"in.glb"});
+    EXPECT_EQ(files.match(".*/*.glb"), (Names{"./a.glb", "./in.glb"}));  // none of ../
+    EXPECT_EQ(files.match("none*"), Names());
+}
+
 TEST_F(JobsTest, FilesOutsideOfTheJobStayThere) {
     begin();
     const std::string id = submit("plain");
