@@ -54,7 +54,7 @@ public:
         options.update(checked_options(given_, ""));
         out_.job = json{{"options", options}, {"assets", json::array()}};
         each_element("assets", "files", [&](json element, size_t index, const std::string& place) {
-            add_assets(element, index, place);
+            add_assets(std::move(element), index, place);
         });
         each_element("looks", "name", [&](json element, size_t, const std::string&) {
             out_.job["looks"].push_back(std::move(element));
