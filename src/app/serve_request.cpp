@@ -132,6 +132,7 @@ Result<ServeRequest> make_serve_request(const ServeArguments& arguments) {
     if (auto chosen = choose_token(arguments, request.server); !chosen) return fail(chosen.error());
     if (request.max_upload) request.server.service.max_upload = request.max_upload->bytes;
     request.render = arguments.render;
+    request.server.service.ocio_file = arguments.render.ocio.value_or("");
     if (arguments.jobs) request.server.jobs.folder = *arguments.jobs;
     complete_jobs_options(arguments.render, request.server.jobs);
     request.server.service.options = image_options(arguments.render);

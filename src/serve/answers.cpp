@@ -50,7 +50,10 @@ int http_status_of(const Error& error) {
     if (error.id == "E-SERVE-SIZE") return too_large;
     if (error.id == "E-SERVE-BUSY") return unavailable;
     if (error.id.starts_with("E-SERVE-UNKNOWN")) return not_found;
-    if (error.id.starts_with("E-SERVE-")) return forbidden;
+    for (const char* id : {"E-SERVE-HOST", "E-SERVE-ORIGIN", "E-SERVE-TYPE"}) {
+        if (error.id == id) return forbidden;
+    }
+    if (error.id == "E-SERVE-BODY" || error.id == "E-SERVE-REQUEST") return bad_request;
     switch (error.code) {
         case ExitCode::usage:
             return bad_request;

@@ -7,9 +7,7 @@
 #include "session/outputs.h"
 
 #include "dataset/ray_labels.h"
-#include <exception>
-#include <new>
-
+#include "serve/guarded.h"
 namespace obscura::serve {
 
 namespace {
@@ -102,15 +100,11 @@ Result<Bytes> make_image(OpenAsset& asset, const DrakeJob& job) {
 }  // namespace
 
 Result<Bytes> make_drake_image(SentScene& scene, const DrakeJob& job) {
-    try {
+    return guarded<Bytes>([&] {
         const std::lock_guard lock(scene.mutex);
         const ThreadArena threads(job.request.threads);
         return make_image(scene.asset, job);
-    } catch (const std::bad_alloc&) {
-        return fail(ExitCode::out_of_memory, "E-MEM", "render", "out of memory");
-    } catch (const std::exception& error) {
-        return fail(ExitCode::internal, "E-INTERNAL", "render", error.what());
-    }
+    });
 }
 
 }  // namespace obscura::serve

@@ -29,9 +29,13 @@ std::string_view without_port(std::string_view host) {
 
 }  // namespace
 
+std::string host_in_url(const std::string& address) {
+    return address.find(':') == std::string::npos ? address : "[" + address + "]";
+}
+
 Guard::Guard(const std::string& address, std::string token) : token_(std::move(token)) {
     if (address == "0.0.0.0" || address == "::") return;
-    names_ = {address};
+    names_ = {host_in_url(address)};
     const bool is_loopback = address.starts_with("127.") || address == "::1";
     if (is_loopback || address == "localhost")
         names_.insert(names_.end(), {"localhost", "127.0.0.1", "[::1]"});

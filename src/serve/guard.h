@@ -42,6 +42,9 @@ private:
     std::string token_;
 };
 
+/// An address as URLs and the header Host have it: IPv6 in brackets.
+std::string host_in_url(const std::string& address);
+
 /// 128 bits from the system's source of randomness, as 32 hexadecimal digits.
 std::string random_token();
 

@@ -6,6 +6,7 @@
 #include "base/log.h"
 
 #include "serve/answers.h"
+#include "serve/connections.h"
 #include <algorithm>
 #include <array>
 #include <exception>
@@ -102,15 +103,21 @@ Answer json_result(const Json& json, int status) {
 }
 
 /// A request that names no length has no body; reading one would wait for the connection's end.
-Body::Body(const httplib::Request& request, const httplib::ContentReader& reader)
+Body::Body(const httplib::Request& request,
+           const httplib::ContentReader& reader,
+           uint64_t max_bytes)
     : request_(request),
       reader_(reader),
+      max_bytes_(max_bytes),
       is_read_(!request.has_header("Content-Length") && !request.has_header("Transfer-Encoding")) {}
 
 Result<void> Body::read(const ByteSink& sink) {
     if (request_.is_multipart_form_data())
         return fail(ExitCode::bad_data, "E-SERVE-BODY", "body", "expected the data, not a form");
     if (is_read_) return {};
+    // Said before more comes than the library takes, which would be an error without a reason.
+    if (request_.get_header_value<uint64_t>("Content-Length") > max_bytes_)
+        return too_large("body", max_bytes_);
     is_read_ = true;
     Result<void> done;
     const bool is_whole = reader_([&](const char* bytes, size_t count) {
@@ -119,10 +126,8 @@ Result<void> Body::read(const ByteSink& sink) {
     });
     if (!done) return done;
     if (!is_whole) {
-        return fail(ExitCode::bad_data,
-                    "E-SERVE-BODY",
-                    "body",
-                    "the request ends before all of it came, or is too large");
+        return fail(
+            ExitCode::bad_data, "E-SERVE-BODY", "body", "the request ends before all of it came");
     }
     return {};
 }
@@ -183,6 +188,7 @@ Result<std::map<std::string, std::string>> Body::form(uint64_t max_bytes) {
 }
 
 Result<void> Routes::admit(const httplib::Request& request) const {
+    note_request();
     const Sender sender = sender_of(request);
     if (auto own = guard_.check_site(sender); !own) return own;
     return guard_.check_token(sender);
@@ -190,6 +196,7 @@ Result<void> Routes::admit(const httplib::Request& request) const {
 
 void Routes::get_openly(const std::string& pattern, const Get& get) {
     server_.Get(pattern, [=, this](const httplib::Request& request, httplib::Response& response) {
+        note_request();
         const auto own = guard_.check_site(sender_of(request));
         send(own ? get(request) : Result<Answer>(fail(own.error())), response);
     });
@@ -206,7 +213,7 @@ httplib::Server::HandlerWithContentReader Routes::with_body(const WithBody& work
     return [=, this](const httplib::Request& request,
                      httplib::Response& response,
                      const httplib::ContentReader& reader) {
-        Body body(request, reader);
+        Body body(request, reader, max_body_);
         const auto admitted = admit(request);
         Result<Answer> answer =
             admitted ? work(request, body) : Result<Answer>(fail(admitted.error()));
@@ -268,41 +275,6 @@ void Routes::refuse_the_rest() {
         }
         send(Result<Answer>(fail(std::move(error))), response);
     });
-}
-
-ConnectionThreads::Enqueued ConnectionThreads::enqueue(std::function<void()> task) {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return idle_ > tasks_.size() || threads_.size() < max_; });
-    tasks_.push_back(std::move(task));
-    if (idle_ < tasks_.size()) threads_.emplace_back([this] { work(); });
-    changed_.notify_all();
-    return Enqueued(true);
-}
-
-void ConnectionThreads::work() {
-    std::unique_lock lock(mutex_);
-    while (true) {
-        ++idle_;
-        changed_.notify_all();
-        changed_.wait(lock, [&] { return ends_ || !tasks_.empty(); });
-        --idle_;
-        if (tasks_.empty()) return;
-        const std::function<void()> task = std::move(tasks_.front());
-        tasks_.pop_front();
-        lock.unlock();
-        task();
-        lock.lock();
-    }
-}
-
-void ConnectionThreads::shutdown() {
-    {
-        const std::lock_guard lock(mutex_);
-        ends_ = true;
-    }
-    changed_.notify_all();
-    for (std::thread& thread : threads_)
-        thread.join();
 }
 
 }  // namespace obscura::serve

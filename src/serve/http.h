@@ -7,16 +7,12 @@
 #include "base/json/json.h"
 
 #include "serve/guard.h"
-#include <condition_variable>
-#include <deque>
 #include <functional>
 #include <httplib.h>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <span>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -44,7 +40,8 @@ Answer json_result(const Json& json, int status = 200);
 /// taken for the next request.
 class Body {
 public:
-    Body(const httplib::Request& request, const httplib::ContentReader& reader);
+    /// In      max_bytes: of data that is no JSON
+    Body(const httplib::Request& request, const httplib::ContentReader& reader, uint64_t max_bytes);
 
     /// Hands over all of it. After an error of the sink the rest is thrown away.
     ///
@@ -63,6 +60,7 @@ public:
 private:
     const httplib::Request& request_;
     const httplib::ContentReader& reader_;
+    const uint64_t max_bytes_;
     bool is_read_;
 };
 
@@ -72,7 +70,11 @@ public:
     using Get = std::function<Result<Answer>(const httplib::Request&)>;
     using WithBody = std::function<Result<Answer>(const httplib::Request&, Body&)>;
 
-    Routes(httplib::Server& server, const Guard& guard) : server_(server), guard_(guard) {}
+    /// In      max_body: bytes of a request's body
+    Routes(httplib::Server& server, const Guard& guard, uint64_t max_body)
+        : server_(server), guard_(guard), max_body_(max_body) {
+        server.set_payload_max_length(max_body);
+    }
 
     /// Open to all who name this server: without the token.
     void get_openly(const std::string& pattern, const Get& get);
@@ -92,28 +94,7 @@ private:
 
     httplib::Server& server_;
     const Guard& guard_;
-};
-
-/// Answers each connection in a thread of its own, up to a number; further clients wait to be
-/// accepted.
-class ConnectionThreads final : public httplib::TaskQueue {
-public:
-    explicit ConnectionThreads(size_t most) : max_(most) {}
-
-    using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
-    Enqueued enqueue(std::function<void()> task) override;
-    void shutdown() override;
-
-private:
-    void work();
-
-    const size_t max_;
-    std::mutex mutex_;
-    std::condition_variable changed_;
-    std::deque<std::function<void()>> tasks_;
-    std::vector<std::thread> threads_;
-    size_t idle_ = 0;
-    bool ends_ = false;
+    const uint64_t max_body_;
 };
 
 }  // namespace obscura::serve

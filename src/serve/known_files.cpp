@@ -11,7 +11,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <fcntl.h>
-#include <glob.h>
+#include <fnmatch.h>
 #include <system_error>
 #include <unistd.h>
 
@@ -22,7 +22,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view upload_prefix = "upload:";
-constexpr size_t longest_list = 2000;
+constexpr size_t longest_list = 10000;
+constexpr size_t max_entries = 200000;  ///< that are looked at below a root
 constexpr int deepest_folder = 6;
 
 std::string lower_ending(const fs::path& file) {
@@ -123,8 +124,9 @@ std::vector<KnownFile> KnownFiles::list() const {
         std::error_code error;
         fs::recursive_directory_iterator at(
             root, fs::directory_options::skip_permission_denied, error);
-        for (; !error && at != fs::recursive_directory_iterator() && out.size() < longest_list;
-             at.increment(error)) {
+        size_t seen = 0;
+        for (; !error && at != fs::recursive_directory_iterator() && seen < max_entries;
+             at.increment(error), ++seen) {
             if (at->path().filename().string().starts_with('.') || at.depth() > deepest_folder)
                 at.disable_recursion_pending();
             const auto kind = kind_of(at->path());
@@ -141,6 +143,7 @@ std::vector<KnownFile> KnownFiles::list() const {
     const auto end = std::unique(
         out.begin(), out.end(), [](const auto& a, const auto& b) { return a.name == b.name; });
     out.erase(end, out.end());
+    if (out.size() > longest_list) out.resize(longest_list);
     return out;
 }
 
@@ -171,26 +174,14 @@ Result<fs::path> KnownFiles::find(const std::string& name) const {
     return fail(ExitCode::missing_scene, "E-SCENE-MISSING", escape_control(name), "not found");
 }
 
+/// Among the files of list(): what a pattern costs does not depend on the pattern.
 std::vector<std::string> KnownFiles::match(const std::string& pattern) const {
-    constexpr size_t longest_answer = 10000;
     std::vector<std::string> out;
-    for (const fs::path& root : roots_) {
-        std::string whole;
-        for (const char c : root.string() + "/")
-            whole += std::string("*?[\\").find(c) != std::string::npos ? std::string{'\\', c}
-                                                                       : std::string(1, c);
-        glob_t found = {};
-        if (::glob((whole + pattern).c_str(), 0, nullptr, &found) == 0) {
-            for (size_t i = 0; i < found.gl_pathc && out.size() < longest_answer; ++i) {
-                const fs::path file = found.gl_pathv[i];
-                const std::string name = file.lexically_relative(root).string();
-                if (kind_of(file) == FileKind::model && find(name)) out.push_back(name);
-            }
-        }
-        ::globfree(&found);
+    for (const KnownFile& file : list()) {
+        const bool fits =
+            ::fnmatch(pattern.c_str(), file.name.c_str(), FNM_PATHNAME | FNM_PERIOD) == 0;
+        if (fits && file.kind == FileKind::model) out.push_back(file.name);
     }
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
 }
 
@@ -219,19 +210,23 @@ Result<std::string> KnownFiles::enter(const fs::path& part, const std::string& n
     const auto digest = digest_file(part);
     if (!digest) return not_written(part);
     const std::lock_guard lock(mutex_);
-    std::erase_if(uploads_, [&](const Upload& known) {
-        if (known.sha256 != digest->sha256) return false;
-        bytes_ -= known.bytes;
-        return true;
-    });
-    make_room(digest->bytes);
-    const fs::path folder = folder_ / digest->sha256;
+    const fs::path file = folder_ / digest->sha256 / name;
     std::error_code error;
-    fs::create_directories(folder, error);
-    fs::rename(part, folder / name, error);
+    const auto known = std::find_if(uploads_.begin(), uploads_.end(), [&](const Upload& one) {
+        return one.sha256 == digest->sha256;
+    });
+    if (known != uploads_.end()) {  // under another name it is the same file
+        std::rotate(known, known + 1, uploads_.end());
+        const fs::path kept = fs::directory_iterator(file.parent_path(), error)->path();
+        if (!error && !fs::exists(file, error)) fs::create_hard_link(kept, file, error);
+    } else {
+        make_room(digest->bytes);
+        fs::create_directories(file.parent_path(), error);
+        fs::rename(part, file, error);
+        uploads_.push_back({digest->sha256, digest->bytes});
+        bytes_ += digest->bytes;
+    }
     if (error) return fail(ExitCode::io_error, "E-OUT-WRITE", name, error.message());
-    uploads_.push_back({digest->sha256, digest->bytes});
-    bytes_ += digest->bytes;
     return std::string(upload_prefix) + digest->sha256 + "/" + name;
 }
 

@@ -36,7 +36,7 @@ public:
     KnownFiles(const KnownFiles&) = delete;
     KnownFiles& operator=(const KnownFiles&) = delete;
 
-    /// The models and environments below the roots: at most 2,000, by their names.
+    /// The models and environments below the roots: at most 10,000, by their names.
     std::vector<KnownFile> list() const;
 
     /// The file of a name: below the first root that has it, or of an upload.

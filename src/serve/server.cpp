@@ -5,10 +5,13 @@
 #include "image/output_format.h"
 
 #include "serve/answers.h"
+#include "serve/connections.h"
 #include "serve/http.h"
 #include "serve/job_routes.h"
 #include "serve/page_files.h"
 #include "serve/route_drake.h"
+#include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <malloc.h>
@@ -22,6 +25,18 @@ constexpr size_t max_connections = 256;
 /// Clients that ask for the next picture get an answer within this time, so that one that is gone
 /// is noticed.
 constexpr std::chrono::milliseconds patience_of_polls(5000);
+
+/// What a picture is saved as.
+struct FileType {
+    std::string_view ending;
+    OutputFormat format;
+    const char* type;
+};
+constexpr std::array<FileType, 5> file_types = {{{"png", OutputFormat::png, "image/png"},
+                                                 {"exr", OutputFormat::exr, "image/x-exr"},
+                                                 {"webp", OutputFormat::webp, "image/webp"},
+                                                 {"jpg", OutputFormat::jpeg, "image/jpeg"},
+                                                 {"tif", OutputFormat::tiff, "image/tiff"}}};
 
 /// What pages may do: nothing that this server does not serve.
 const httplib::Headers safe_headers = {
@@ -106,16 +121,15 @@ struct Server::Impl {
           guard(options.address, options.token),
           service(options.service),
           jobs(options.jobs, service),
-          routes(http, guard) {
+          routes(http, guard, options.service.max_upload + (1U << 20U)) {
         constexpr time_t read_s = 10, write_s = 30, keep_alive_s = 30;
-        http.new_task_queue = [] { return new ConnectionThreads(max_connections); };
+        http.new_task_queue = [this] { return new ConnectionThreads(max_connections, is_ending); };
         http.set_read_timeout(read_s);
         http.set_write_timeout(write_s);
         http.set_keep_alive_timeout(keep_alive_s);
         http.set_keep_alive_max_count(1000000);
         http.set_tcp_nodelay(true);
         http.set_socket_options(reuse_address);
-        http.set_payload_max_length(options.service.max_upload + (1U << 20U));
         http.set_default_headers(safe_headers);
         route_page();
         route_files();
@@ -235,16 +249,20 @@ Result<Answer> Server::Impl::picture(const httplib::Request& request) const {
 Result<Answer> Server::Impl::image(const httplib::Request& request) const {
     const auto viewer = viewer_of(request);
     if (!viewer) return fail(viewer.error());
-    const std::string ending = parameter(request, "format");
-    const std::string name = "picture." + (ending.empty() ? "png" : ending);
-    const auto format = output_format_of(name);
-    if (!format)
-        return fail(ExitCode::usage, "E-OUT-FORMAT", name, "expected png, exr, webp or jpg");
-    Result<EncodedFile> file = (*viewer)->file({*format, name});
+    const std::string asked = parameter(request, "format");
+    const auto format = std::find_if(file_types.begin(), file_types.end(), [&](const auto& one) {
+        return one.ending == (asked.empty() ? "png" : asked);
+    });
+    if (format == file_types.end()) {
+        return fail(
+            ExitCode::usage, "E-OUT-FORMAT", "format", "expected png, exr, webp, jpg or tif");
+    }
+    const std::string name = "picture." + std::string(format->ending);
+    Result<EncodedFile> file = (*viewer)->file({format->format, name});
     if (!file) return fail(file.error());
     const auto kept = std::make_shared<const EncodedFile>(std::move(*file));
     Answer out;
-    out.type = ending == "exr" ? "image/x-exr" : "image/" + (ending == "jpg" ? "jpeg" : ending);
+    out.type = format->type;
     out.bytes = {reinterpret_cast<const char*>(kept->bytes.data()), kept->bytes.size()};
     out.owner = kept;
     out.headers = {{"Content-Disposition", "attachment; filename=\"" + name + "\""},
@@ -304,7 +322,7 @@ int Server::port() const {
 std::string Server::url(const std::string& file) const {
     const ServerOptions& options = impl_->options;
     const bool is_any = options.address == "0.0.0.0" || options.address == "::";
-    const std::string host = is_any ? "localhost" : options.address;
+    const std::string host = is_any ? "localhost" : host_in_url(options.address);
     std::string out = "http://" + host + ":" + std::to_string(impl_->port) + "/";
     std::string fragment;
     if (!options.token.empty()) fragment = "token=" + options.token;

@@ -29,6 +29,25 @@ constexpr std::array<LayerTitle, 9> layer_titles = {{{"path", "Beauty"},
                                                      {"uv", "Texture coordinates"},
                                                      {"heat", "Cost of rays"}}};
 
+/// An error of a file by the name that the client knows it by.
+Error with_name(Error error, const std::filesystem::path& file, const std::string& name) {
+    const std::string path = file.string();
+    for (std::string* text : {&error.where, &error.message}) {
+        for (size_t at = 0; (at = text->find(path, at)) != std::string::npos; at += name.size())
+            text->replace(at, path.size(), name);
+    }
+    for (Error& other : error.also)
+        other = with_name(std::move(other), file, name);
+    return error;
+}
+
+Error no_such_view(const std::string& view) {
+    return {ExitCode::usage,
+            "E-SERVE-UNKNOWN",
+            escape_control(view),
+            "there is no such view, or it was closed to make room; open one anew"};
+}
+
 }  // namespace
 
 Service::Service(ServiceOptions options)
@@ -45,7 +64,7 @@ Json Service::list_files() const {
 
 Result<Json> Service::choices() const {
     Log log;
-    const Result<std::vector<DisplayChoice>> displays = display_choices("", log);
+    const Result<std::vector<DisplayChoice>> displays = display_choices(options_.ocio_file, log);
     if (!displays) return fail(displays.error());
     Json out = {{"version", OBSCURA_VERSION},
                 {"environments", {"studio", "neutral", "white", "sky:40,30"}},
@@ -85,11 +104,13 @@ Result<RenderRequest> Service::request(const std::filesystem::path& scene,
 Result<Json> Service::open_view(const std::string& file) {
     const Result<std::filesystem::path> scene = files_.find(file);
     if (!scene) return fail(scene.error());
+    if (kind_of(*scene) != FileKind::model)
+        return fail(ExitCode::usage, "E-SERVE-NAME", file, "expected a .glb or .gltf file");
     Result<RenderRequest> request = options_.options.request(*scene, Options::object());
     if (!request) return fail(request.error());
     Open open{file, *scene, std::make_shared<Viewer>(*scene, request->load)};
     const Result<LookAt> camera = open.viewer->open({0, std::move(*request), ""});
-    if (!camera) return fail(camera.error());
+    if (!camera) return fail(with_name(camera.error(), *scene, file));
     Json out;
     std::string id;
     const std::shared_ptr<Viewer> viewer = open.viewer;
@@ -122,10 +143,7 @@ Result<Service::Open> Service::find_open(const std::string& view) const {
     const std::lock_guard lock(mutex_);
     const auto found = views_.find(view);
     if (found != views_.end()) return found->second;
-    return fail(ExitCode::usage,
-                "E-SERVE-UNKNOWN",
-                escape_control(view),
-                "there is no such view, or it was closed to make room; open one anew");
+    return fail(no_such_view(view));
 }
 
 Result<Json> Service::wish(const std::string& view, const Options& options) {
@@ -139,7 +157,8 @@ Result<Json> Service::wish(const std::string& view, const Options& options) {
     {
         const std::lock_guard lock(mutex_);
         const auto known = views_.find(view);
-        number = known != views_.end() ? ++known->second.wishes : 0;
+        if (known == views_.end()) return fail(no_such_view(view));
+        number = ++known->second.wishes;
     }
     open->viewer->want({number, std::move(*request), rendering_of(*found)});
     return Json{{"wish", number}, {"command", options_.options.command(open->file, options)}};

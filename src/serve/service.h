@@ -18,6 +18,7 @@ struct ServiceOptions {
     std::vector<std::filesystem::path> roots;  ///< folders whose files clients may name
     uint64_t max_upload = 1ULL << 30U;         ///< bytes
     OptionReader options;
+    std::string ocio_file = {};  ///< of all pictures; empty: as DisplayOptions say
 };
 
 /// The viewers of all clients, and the files that they may name. Any thread may call.

@@ -4,9 +4,8 @@
 
 #include "base/parallel.h"
 
-#include <exception>
+#include "serve/guarded.h"
 #include <future>
-#include <new>
 
 namespace obscura::serve {
 
@@ -17,18 +16,6 @@ constexpr std::chrono::seconds patience(3);
 
 tl::unexpected<Error> nothing_there() {
     return fail(ExitCode::usage, "E-VIEW-EMPTY", "view", "there is no picture yet");
-}
-
-/// Calls it; exceptions become errors.
-template <typename T>
-Result<T> guarded(const std::function<Result<T>()>& body) {
-    try {
-        return body();
-    } catch (const std::bad_alloc&) {
-        return fail(ExitCode::out_of_memory, "E-MEM", "render", "out of memory");
-    } catch (const std::exception& error) {
-        return fail(ExitCode::internal, "E-INTERNAL", "render", error.what());
-    }
 }
 
 LookAt look_of(const ChosenCamera& camera, const Scene& scene) {
@@ -72,6 +59,7 @@ Result<LookAt> Viewer::open(const Wish& wish) {
 
 void Viewer::want(Wish wish) {
     const std::lock_guard lock(mutex_);
+    if (wish.number < wish_.number) return;  // two came at once, and the later one was here first
     // What only changes how samples are shown does not end the rendering: see refine().
     if (wish.rendering != wish_.rendering) stop_ = true;
     wish_ = std::move(wish);
@@ -107,7 +95,7 @@ Result<T> Viewer::on_worker(const std::function<Result<T>()>& task) {
     {
         const std::lock_guard lock(mutex_);
         if (!worker_.joinable()) return nothing_there();
-        tasks_.emplace_back([&] { answer.set_value(guarded(task)); });
+        tasks_.emplace_back([&] { answer.set_value(guarded<T>(task)); });
         stop_ = true;
         last_asked_ = Clock::now();
     }

@@ -97,7 +97,7 @@ private:
     Result<void> render_small(const Wish& wish);
     Result<void> render_whole(Shown&& begun);
     void refine(const FilmKeeper& keeper, const std::atomic<bool>& is_over);
-    void show_so_far(const FilmKeeper& keeper, int samples);
+    Result<void> show_so_far(const FilmKeeper& keeper, int samples);
     Result<void> show(Shown& shown);
     void publish(ShownImage&& picture);
     bool take_wish_of_display();

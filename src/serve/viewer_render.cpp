@@ -6,6 +6,7 @@
 #include "session/denoising.h"
 #include "session/film_keeper.h"
 
+#include "serve/guarded.h"
 #include "serve/viewer.h"
 #include <algorithm>
 #include <array>
@@ -41,6 +42,29 @@ RenderRequest smaller(const RenderRequest& request, int factor) {
 int next_samples(int samples) {
     return samples < 1 ? 1 : samples * 2;
 }
+
+/// A thread that works while this lives; it is told when it is over. Its exceptions end it alone.
+class Beside {
+public:
+    explicit Beside(const std::function<void(const std::atomic<bool>& is_over)>& work)
+        : thread_([this, work] {
+              const Result<void> done = guarded<void>([&]() -> Result<void> {
+                  work(is_over_);
+                  return {};
+              });
+              static_cast<void>(done);
+          }) {}
+    ~Beside() {
+        is_over_ = true;
+        thread_.join();
+    }
+    Beside(const Beside&) = delete;
+    Beside& operator=(const Beside&) = delete;
+
+private:
+    std::atomic<bool> is_over_ = false;
+    std::thread thread_;
+};
 
 /// The first pixel of a layer.
 double value_of(const FinishedImage& image, std::string_view layer, size_t channel) {
@@ -124,11 +148,11 @@ Result<void> Viewer::render_whole(Shown&& begun) {
     share.wants_film = [&] { return !stop_; };
     share.leave = [&](const Film& /*film*/) { keeper.leave(); };
     const RenderHooks hooks{[&](const FinishedTile& tile) { keeper.add(tile); }, &stop_, &share};
-    std::atomic<bool> is_over = false;
-    std::thread beside([&] { refine(keeper, is_over); });
-    Result<RenderedFilm> film = asset_.renderer().render_film(request, camera, hooks);
-    is_over = true;
-    beside.join();
+    Result<RenderedFilm> film = [&] {
+        const Beside beside(
+            [&](const std::atomic<bool>& is_over) { return refine(keeper, is_over); });
+        return asset_.renderer().render_film(request, camera, hooks);
+    }();
     if (!film && film.error().id == "E-STOPPED") {
         const std::lock_guard lock(mutex_);
         has_work_ = true;
@@ -163,7 +187,9 @@ void Viewer::refine(const FilmKeeper& keeper, const std::atomic<bool>& is_over) 
         if (is_over || stop_) return;
         const bool is_worth_it = samples >= due && samples < target;
         if (!is_worth_it && !(is_shown_anew && samples > 0)) continue;
-        show_so_far(keeper, samples);
+        // Where there is no memory for it, or no display, the finished picture's error says so.
+        const Result<void> shown = show_so_far(keeper, samples);
+        if (!shown) return;
         due = next_samples(samples);
     }
 }
@@ -180,9 +206,9 @@ bool Viewer::take_wish_of_display() {
     return true;
 }
 
-void Viewer::show_so_far(const FilmKeeper& keeper, int samples) {
+Result<void> Viewer::show_so_far(const FilmKeeper& keeper, int samples) {
     std::optional<Film> film = keeper.film_so_far();
-    if (!film) return;
+    if (!film) return {};
     const std::lock_guard lock(showing_);
     RenderRequest request = shown_.wish.request;
     request.denoise = false;
@@ -194,9 +220,7 @@ void Viewer::show_so_far(const FilmKeeper& keeper, int samples) {
         asset_.renderer().finish(request, shown_.camera, std::move(rendered), log);
     shown_.image = std::make_shared<const FinishedImage>(std::move(image));
     shown_.state.samples = samples;
-    // A display that cannot be made is told of with the finished picture.
-    const Result<void> shown = show(shown_);
-    static_cast<void>(shown);
+    return show(shown_);
 }
 
 /// With showing_ locked where `shown` is the member.

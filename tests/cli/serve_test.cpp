@@ -160,7 +160,7 @@ TEST_F(Serve, UploadsAreOpenedByTheirNames) {
             client.put("/api/views/" + view, {{"options", {{"size", "8x8"}, {"spp", 1}}}});
         EXPECT_THAT(taken.at("command").get<std::string>(), HasSubstr("render triangle.gltf --"));
         EXPECT_EQ(client.picture(view).first.at("width"), 8);
-        EXPECT_EQ(error_id(client.upload("a.exe", "MZ", 403)), "E-SERVE-NAME");
+        EXPECT_EQ(error_id(client.upload("a.exe", "MZ", 400)), "E-SERVE-NAME");
         const json broken = client.upload("broken.glb", "glTF no more");
         EXPECT_NE(error_id(client.post("/api/views", {{"file", broken.at("file")}}, 422)), "OK");
         std::string thief = gltf_text(triangle_scene());
@@ -169,8 +169,10 @@ TEST_F(Serve, UploadsAreOpenedByTheirNames) {
         const json stolen = client.upload("thief.gltf", thief);
         EXPECT_EQ(error_id(client.post("/api/views", {{"file", stolen.at("file")}}, 422)),
                   "E-URI-REFUSED");
-        EXPECT_EQ(error_id(client.upload("large.glb", std::string(1100000, 'x'), 413)),
-                  "E-SERVE-SIZE");
+        for (const size_t bytes : {1100000U, 3000000U}) {
+            EXPECT_EQ(error_id(client.upload("large.glb", std::string(bytes, 'x'), 413)),
+                      "E-SERVE-SIZE");
+        }
         EXPECT_EQ(client.get("/api/files").at("files").size(), 3U);
     });
 }
@@ -232,7 +234,7 @@ TEST_F(Serve, EveryErrorIsAnswered) {
         };
         EXPECT_EQ(id("/api/views", {{"file", "none.glb"}}, 404), "E-SCENE-MISSING");
         EXPECT_EQ(id("/api/views", {{"file", "../quad.gltf"}}, 422), "E-URI-REFUSED");
-        EXPECT_EQ(id("/api/views", {{"file", 7}}, 403), "E-SERVE-BODY");
+        EXPECT_EQ(id("/api/views", {{"file", 7}}, 400), "E-SERVE-BODY");
         EXPECT_EQ(id("/api/nothing", {}, 404), "E-SERVE-UNKNOWN");
         EXPECT_EQ(error_id(client.get("/nothing", 404)), "E-SERVE-UNKNOWN");
         const auto no_json = client.http.Post("/api/views", "{", json_type);
@@ -306,7 +308,6 @@ TEST_F(Serve, BrokenRequestsAndVanishingClientsDoNoHarm) {
         const std::string answer = raw_answer(client.port, outer);
         EXPECT_THAT(answer, HasSubstr(" 401 "));
         EXPECT_THAT(answer, testing::Not(HasSubstr(" 200 ")));
-        EXPECT_THAT(raw_answer(client.port, "POST /api/files?name=a.glb HTTP/1.1\r\nHost: x"), "");
         const std::string view = client.post("/api/views", {{"file", "quad.gltf"}}).at("view");
         client.put("/api/views/" + view, {{"options", {{"size", "640x360"}, {"spp", 100000}}}});
         for (int i = 0; i < 20; ++i) {

@@ -26,6 +26,9 @@ TEST(Guard, OnlyThisMachinesNamesAreItsOwn) {
     const Guard one_address("192.168.7.9", "");
     EXPECT_EQ(id_of(one_address.check_site(sender("192.168.7.9:80"))), "OK");
     EXPECT_EQ(id_of(one_address.check_site(sender("localhost"))), "E-SERVE-HOST");
+    const Guard long_address("fd00::7", "");
+    EXPECT_EQ(id_of(long_address.check_site(sender("[fd00::7]:80"))), "OK");
+    EXPECT_EQ(host_in_url("::1"), "[::1]");
     const Guard all_addresses("0.0.0.0", "");
     EXPECT_EQ(id_of(all_addresses.check_site(sender("render.studio:8420"))), "OK");
 }

@@ -142,7 +142,7 @@ TEST_F(JobsTest, PatternsTakeModelsBelowTheRoots) {
     EXPECT_EQ(files.match("*"), (Names{"a.glb", "in.glb"}));
     EXPECT_EQ(files.match("*/*"), Names{"[in]/b.gltf"});
     EXPECT_EQ(files.match("[!a]*.gl?"), Names{"in.glb"});
-    EXPECT_EQ(files.match(".*/*.glb"), (Names{"./a.glb", "./in.glb"}));  // none of ../
+    EXPECT_EQ(files.match(".*/*.glb"), Names());  // none of ../
     EXPECT_EQ(files.match("none*"), Names());
 }
 

@@ -82,6 +82,17 @@ TEST_F(KnownFilesTest, NamesNeverLeadOut) {
     EXPECT_EQ(id_of("upload:a.glb"), "E-SCENE-MISSING");
 }
 
+TEST_F(KnownFilesTest, PatternsFitModelsAndNeverLeadOut) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(files_->match("*.glb"), (Names{"a.glb", "in.glb"}));
+    EXPECT_EQ(files_->match("shoes/*"), (Names{"shoes/left.gltf"}));
+    EXPECT_EQ(files_->match("*/*"), (Names{"shoes/left.gltf"}));
+    EXPECT_EQ(files_->match("[a-b].glb"), (Names{"a.glb"}));
+    for (const char* none :
+         {"*.hdr", ".?/*", "shoes/.?/*.glb", "shoes/.*/*", "*/.?/.?/*.glb", "/*"})
+        EXPECT_EQ(files_->match(none), Names()) << none;
+}
+
 TEST_F(KnownFilesTest, UploadsAreKeptByTheirBytes) {
     const Result<std::string> first = keep("C:\\Users\\me\\shoe.glb", "twenty bytes of shoe");
     ASSERT_TRUE(first) << first.error().message;
@@ -93,6 +104,10 @@ TEST_F(KnownFilesTest, UploadsAreKeptByTheirBytes) {
     const Result<std::string> again = keep("folder/shoe.glb", "twenty bytes of shoe");
     ASSERT_TRUE(again);
     EXPECT_EQ(*again, *first);
+    const Result<std::string> other = keep("boot.glb", "twenty bytes of shoe");
+    ASSERT_TRUE(other);
+    EXPECT_EQ(text_of(*files_->find(*other)), "twenty bytes of shoe");
+    EXPECT_TRUE(fs::equivalent(*files_->find(*other), *file));
     EXPECT_EQ(id_of(*first + "/../../../secret.glb"), "E-URI-REFUSED");
     EXPECT_EQ(id_of("upload:../secret.glb"), "E-URI-REFUSED");
     const fs::path kept = file->parent_path().parent_path();

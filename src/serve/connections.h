@@ -1,0 +1,66 @@
+// serve/connections.h - threads that answer connections: how many there are, and how they end.
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <functional>
+#include <httplib.h>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace obscura::serve {
+
+/// To be called when a whole request has come, by the thread that answers it.
+void note_request();
+
+/// Answers each connection in a thread of its own, up to a number. Where all are taken, the one
+/// that has asked for nothing longest is closed, once that is long enough: clients that send a byte
+/// now and then, or nothing, keep nobody out. Where none has waited so long, new ones wait to be
+/// accepted.
+class ConnectionThreads final : public httplib::TaskQueue {
+public:
+    /// In      max: threads; is_ending: when it becomes true, nothing is accepted any more;
+    ///         patience: with which connections are waited for, while others wait for a thread
+    ConnectionThreads(size_t max,
+                      const std::atomic<bool>& is_ending,
+                      std::chrono::milliseconds patience = std::chrono::seconds(10))
+        : max_(max), is_ending_(is_ending), patience_(patience) {}
+
+    using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
+    Enqueued enqueue(std::function<void()> task) override;
+    /// Closes all connections, and waits for their threads.
+    void shutdown() override;
+
+private:
+    using Clock = std::chrono::steady_clock;
+
+    /// A connection, by its descriptor; -1: it was not found.
+    struct Connection {
+        int socket = -1;
+        std::function<void()> task;
+    };
+
+    void work();
+    bool has_room() const { return idle_ > waiting_.size() || threads_.size() < max_; }
+    void close_idlest();
+
+    const size_t max_;
+    const std::atomic<bool>& is_ending_;
+    const std::chrono::milliseconds patience_;
+    std::mutex mutex_;  ///< of what follows
+    std::condition_variable changed_;
+    std::deque<Connection> waiting_;
+    std::map<int, std::atomic<Clock::rep>> open_;  ///< when each last had a request
+    std::vector<std::thread> threads_;
+    size_t idle_ = 0;
+    bool ends_ = false;
+};
+
+}  // namespace obscura::serve
