@@ -20,18 +20,24 @@ namespace obscura::serve {
 /// To be called when a whole request has come, by the thread that answers it.
 void note_request();
 
+/// Whether the client whose request this thread answers has gone; any thread may ask until the
+/// answer is sent.
+std::function<bool()> client_is_gone();
+
 /// Answers each connection in a thread of its own, up to a number. Where all are taken, the one
 /// that has asked for nothing longest is closed, once that is long enough: clients that send a byte
 /// now and then, or nothing, keep nobody out. Where none has waited so long, new ones wait to be
 /// accepted.
 class ConnectionThreads final : public httplib::TaskQueue {
 public:
-    /// In      max: threads; is_ending: when it becomes true, nothing is accepted any more;
+    /// In      port: that the connections come to; max: threads; is_ending: when it becomes true,
+    ///         nothing is accepted any more;
     ///         patience: with which connections are waited for, while others wait for a thread
-    ConnectionThreads(size_t max,
+    ConnectionThreads(int port,
+                      size_t max,
                       const std::atomic<bool>& is_ending,
                       std::chrono::milliseconds patience = std::chrono::seconds(10))
-        : max_(max), is_ending_(is_ending), patience_(patience) {}
+        : port_(port), max_(max), is_ending_(is_ending), patience_(patience) {}
 
     using Enqueued = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));
     Enqueued enqueue(std::function<void()> task) override;
@@ -51,6 +57,7 @@ private:
     bool has_room() const { return idle_ > waiting_.size() || threads_.size() < max_; }
     void close_idlest();
 
+    const int port_;
     const size_t max_;
     const std::atomic<bool>& is_ending_;
     const std::chrono::milliseconds patience_;

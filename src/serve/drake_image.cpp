@@ -97,11 +97,20 @@ Result<Bytes> make_image(OpenAsset& asset, const DrakeJob& job) {
     return color_image(look, job, log);
 }
 
+Result<Bytes> stopped() {
+    return fail(ExitCode::stopped_early, "E-STOPPED", "render", "stopped on request");
+}
+
 }  // namespace
 
 Result<Bytes> make_drake_image(SentScene& scene, const DrakeJob& job) {
-    return guarded<Bytes>([&] {
-        const std::lock_guard lock(scene.mutex);
+    return guarded<Bytes>([&]() -> Result<Bytes> {
+        constexpr std::chrono::milliseconds interval(100);
+        std::unique_lock lock(scene.mutex, std::defer_lock);
+        while (!lock.try_lock_for(interval)) {
+            if (job.stop) return stopped();
+        }
+        if (job.stop) return stopped();
         const ThreadArena threads(job.request.threads);
         return make_image(scene.asset, job);
     });

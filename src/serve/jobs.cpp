@@ -69,8 +69,6 @@ Jobs::~Jobs() {
     stop();
     for (std::thread& worker : workers_)
         worker.join();
-    std::error_code ignored;
-    if (options_.folder.empty() && !root_.empty()) fs::remove_all(root_, ignored);
 }
 
 void Jobs::stop() {
@@ -85,10 +83,10 @@ Result<fs::path> Jobs::root() {
     std::error_code error;
     fs::path folder = options_.folder;
     if (folder.empty()) {
-        std::string pattern = fs::temp_directory_path(error) / "obscura-jobs-XXXXXX";
-        if (error || ::mkdtemp(pattern.data()) == nullptr)
-            return cannot_make(pattern, std::error_code(errno, std::generic_category()));
-        folder = pattern;
+        Result<std::unique_ptr<const OwnFolder>> own = OwnFolder::make("jobs");
+        if (!own) return fail(own.error());
+        own_folder_ = std::move(*own);
+        folder = own_folder_->path();
     }
     fs::create_directories(folder, error);
     if (error) return cannot_make(folder, error);

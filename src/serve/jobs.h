@@ -4,6 +4,7 @@
 
 #include "serve/child_process.h"
 #include "serve/job.h"
+#include "serve/own_folder.h"
 #include "serve/program_output.h"
 #include "serve/service.h"
 #include <atomic>
@@ -87,6 +88,7 @@ private:
     std::atomic<bool> ends_ = false;
     mutable std::mutex mutex_;  ///< of what follows
     std::condition_variable changed_;
+    std::unique_ptr<const OwnFolder> own_folder_;  ///< where none was asked for
     std::filesystem::path root_;              ///< of the jobs' folders; empty: there was none yet
     std::deque<std::shared_ptr<Job>> jobs_;   ///< the oldest first
     std::deque<std::shared_ptr<Job>> queue_;  ///< those that wait

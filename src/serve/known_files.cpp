@@ -113,11 +113,6 @@ KnownFiles::KnownFiles(std::vector<fs::path> roots, uint64_t max_upload)
     }
 }
 
-KnownFiles::~KnownFiles() {
-    std::error_code ignored;
-    if (!folder_.empty()) fs::remove_all(folder_, ignored);
-}
-
 std::vector<KnownFile> KnownFiles::list() const {
     std::vector<KnownFile> out;
     for (const fs::path& root : roots_) {
@@ -154,7 +149,7 @@ Result<fs::path> KnownFiles::find(const std::string& name) const {
     if (name.starts_with(upload_prefix)) {
         const std::lock_guard lock(mutex_);
         folders.clear();
-        if (!folder_.empty()) folders.push_back(folder_);
+        if (folder_ != nullptr) folders.push_back(folder_->path());
         inside = name.substr(upload_prefix.size());
     }
     if (inside.empty() || fs::path(inside).is_absolute()) return refused(name);
@@ -187,20 +182,19 @@ std::vector<std::string> KnownFiles::match(const std::string& pattern) const {
 
 Result<fs::path> KnownFiles::new_part() {
     const std::lock_guard lock(mutex_);
-    if (folder_.empty()) {
-        std::error_code error;
-        std::string pattern = fs::temp_directory_path(error) / "obscura-uploads-XXXXXX";
-        if (error || ::mkdtemp(pattern.data()) == nullptr) return not_written(pattern);
-        folder_ = fs::canonical(pattern, error);
+    if (folder_ == nullptr) {
+        Result<std::unique_ptr<const OwnFolder>> folder = OwnFolder::make("uploads");
+        if (!folder) return fail(folder.error());
+        folder_ = std::move(*folder);
     }
-    return folder_ / ("part" + std::to_string(++parts_));
+    return folder_->path() / ("part" + std::to_string(++parts_));
 }
 
 /// With mutex_ locked.
 void KnownFiles::make_room(uint64_t bytes) {
     while (!uploads_.empty() && bytes_ + bytes > max_upload_) {
         std::error_code ignored;
-        fs::remove_all(folder_ / uploads_.front().sha256, ignored);
+        fs::remove_all(folder_->path() / uploads_.front().sha256, ignored);
         bytes_ -= uploads_.front().bytes;
         uploads_.pop_front();
     }
@@ -210,7 +204,7 @@ Result<std::string> KnownFiles::enter(const fs::path& part, const std::string& n
     const auto digest = digest_file(part);
     if (!digest) return not_written(part);
     const std::lock_guard lock(mutex_);
-    const fs::path file = folder_ / digest->sha256 / name;
+    const fs::path file = folder_->path() / digest->sha256 / name;
     std::error_code error;
     const auto known = std::find_if(uploads_.begin(), uploads_.end(), [&](const Upload& one) {
         return one.sha256 == digest->sha256;

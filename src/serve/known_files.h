@@ -4,10 +4,12 @@
 
 #include "base/atomic_file.h"
 
+#include "serve/own_folder.h"
 #include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -31,8 +33,6 @@ class KnownFiles {
 public:
     /// In      roots: folders; max_upload: bytes of a file, and of all uploads together
     KnownFiles(std::vector<std::filesystem::path> roots, uint64_t max_upload);
-    /// Removes the uploads.
-    ~KnownFiles();
     KnownFiles(const KnownFiles&) = delete;
     KnownFiles& operator=(const KnownFiles&) = delete;
 
@@ -72,11 +72,11 @@ private:
 
     std::vector<std::filesystem::path> roots_;
     uint64_t max_upload_;
-    mutable std::mutex mutex_;      ///< of what follows
-    std::filesystem::path folder_;  ///< of uploads; empty: there was none yet
-    std::deque<Upload> uploads_;    ///< the oldest first
-    uint64_t bytes_ = 0;            ///< of all of them
-    int parts_ = 0;                 ///< that were begun
+    mutable std::mutex mutex_;                 ///< of what follows
+    std::unique_ptr<const OwnFolder> folder_;  ///< of uploads; null: there was none yet
+    std::deque<Upload> uploads_;               ///< the oldest first
+    uint64_t bytes_ = 0;                       ///< of all of them
+    int parts_ = 0;                            ///< that were begun
 };
 
 }  // namespace obscura::serve

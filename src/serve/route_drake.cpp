@@ -4,6 +4,8 @@
 
 #include "base/sha256.h"
 
+#include "serve/beside.h"
+#include "serve/connections.h"
 #include "serve/drake_image.h"
 
 namespace obscura::serve {
@@ -53,10 +55,16 @@ void route_drake(Routes& routes,
         if (!scene) return fail(scene.error());
         request->scene = (*scene)->file;
         request->load.z_up = settings->z_up;
+        std::atomic<bool> is_in_vain = false;
+        const Beside watch([&, is_gone = client_is_gone()](const std::atomic<bool>& is_over) {
+            constexpr std::chrono::milliseconds interval(100);
+            for (; !is_over && !is_in_vain; std::this_thread::sleep_for(interval))
+                is_in_vain = stop || is_gone();
+        });
         Result<std::vector<std::byte>> file =
-            make_drake_image(**scene, {*wanted, settings->labels, *request, stop});
+            make_drake_image(**scene, {*wanted, settings->labels, *request, is_in_vain});
         if (file) return file_answer(std::move(*file), wanted->image);
-        scenes.forget(**scene);
+        if (!is_in_vain) scenes.forget(**scene);
         return fail(file.error());
     };
     routes.post_for_people("/render", render);

@@ -5,24 +5,13 @@
 #include "base/atomic_file.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <string_view>
-#include <system_error>
 
 namespace obscura::serve {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-Result<fs::path> new_folder() {
-    std::error_code error;
-    std::string pattern = fs::temp_directory_path(error) / "obscura-scene-XXXXXX";
-    if (!error && ::mkdtemp(pattern.data()) != nullptr) return fs::path(pattern);
-    if (!error) error = std::error_code(errno, std::generic_category());
-    return fail(ExitCode::io_error, "E-OUT-WRITE", pattern, error.message());
-}
 
 bool is_glb(std::span<const std::byte> bytes) {
     constexpr std::string_view magic = "glTF";
@@ -33,20 +22,14 @@ bool is_glb(std::span<const std::byte> bytes) {
 }
 
 Result<std::shared_ptr<SentScene>> write_scene(std::span<const std::byte> bytes) {
-    const Result<fs::path> path = new_folder();
-    if (!path) return fail(path.error());
-    auto folder = std::make_unique<const OwnFolder>(*path);
-    const fs::path file = *path / (is_glb(bytes) ? "scene.glb" : "scene.gltf");
+    Result<std::unique_ptr<const OwnFolder>> folder = OwnFolder::make("scene");
+    if (!folder) return fail(folder.error());
+    const fs::path file = (*folder)->path() / (is_glb(bytes) ? "scene.glb" : "scene.gltf");
     if (auto written = write_file_atomically(file, bytes); !written) return fail(written.error());
-    return std::make_shared<SentScene>(std::move(folder), file);
+    return std::make_shared<SentScene>(std::move(*folder), file);
 }
 
 }  // namespace
-
-OwnFolder::~OwnFolder() {
-    std::error_code ignored;
-    fs::remove_all(path_, ignored);
-}
 
 /// With mutex_ locked.
 std::shared_ptr<SentScene> SceneCache::find(const std::string& sha256) {

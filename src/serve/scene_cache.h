@@ -4,6 +4,7 @@
 
 #include "session/open_asset.h"
 
+#include "serve/own_folder.h"
 #include <deque>
 #include <filesystem>
 #include <memory>
@@ -13,20 +14,6 @@
 
 namespace obscura::serve {
 
-/// A folder of its own for temporary files, removed with all that is in it.
-class OwnFolder {
-public:
-    explicit OwnFolder(std::filesystem::path path) : path_(std::move(path)) {}
-    ~OwnFolder();
-    OwnFolder(const OwnFolder&) = delete;
-    OwnFolder& operator=(const OwnFolder&) = delete;
-
-    const std::filesystem::path& path() const { return path_; }
-
-private:
-    std::filesystem::path path_;
-};
-
 /// A scene that a client sent. Whoever uses the asset holds the lock.
 struct SentScene {
     SentScene(std::unique_ptr<const OwnFolder>&& kept, std::filesystem::path sent)
@@ -34,7 +21,7 @@ struct SentScene {
 
     const std::unique_ptr<const OwnFolder> folder;
     const std::filesystem::path file;  ///< in the folder
-    std::mutex mutex;                  ///< of `asset`
+    std::timed_mutex mutex;            ///< of `asset`
     OpenAsset asset;
 };
 

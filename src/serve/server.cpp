@@ -7,9 +7,9 @@
 #include "serve/answers.h"
 #include "serve/connections.h"
 #include "serve/http.h"
-#include "serve/job_routes.h"
 #include "serve/page_files.h"
 #include "serve/route_drake.h"
+#include "serve/route_jobs.h"
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -123,7 +123,9 @@ struct Server::Impl {
           jobs(options.jobs, service),
           routes(http, guard, options.service.max_upload + (1U << 20U)) {
         constexpr time_t read_s = 10, write_s = 30, keep_alive_s = 30;
-        http.new_task_queue = [this] { return new ConnectionThreads(max_connections, is_ending); };
+        http.new_task_queue = [this] {
+            return new ConnectionThreads(port, max_connections, is_ending);
+        };
         http.set_read_timeout(read_s);
         http.set_write_timeout(write_s);
         http.set_keep_alive_timeout(keep_alive_s);
@@ -231,7 +233,8 @@ Result<Answer> Server::Impl::picture(const httplib::Request& request) const {
     // In short waits: the server's end does not wait for the clients.
     constexpr std::chrono::milliseconds slice(250);
     std::shared_ptr<const ShownImage> picture;
-    for (auto waited = slice; !picture && waited <= patience_of_polls && !is_ending;
+    const std::function<bool()> is_gone = client_is_gone();
+    for (auto waited = slice; !picture && waited <= patience_of_polls && !is_ending && !is_gone();
          waited += slice)
         picture = (*viewer)->wait_for(after, slice);
     if (!picture) {

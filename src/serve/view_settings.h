@@ -5,6 +5,7 @@
 #include "base/json/json.h"
 #include "session/render_request.h"
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -30,6 +31,12 @@ struct Wish {
     int number = 0;
     RenderRequest request;
     std::string rendering;  ///< what its samples depend on: the same text, the same samples
+    std::chrono::steady_clock::time_point since = std::chrono::steady_clock::now();
+
+    /// Since it came.
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - since).count();
+    }
 };
 
 /// Options that change how finished samples are shown, and nothing else.

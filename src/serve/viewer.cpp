@@ -64,7 +64,7 @@ void Viewer::want(Wish wish) {
     if (wish.rendering != wish_.rendering) stop_ = true;
     wish_ = std::move(wish);
     has_work_ = true;
-    wished_ = last_asked_ = Clock::now();
+    last_asked_ = Clock::now();
     if (!worker_.joinable()) worker_ = std::thread([this] { run(); });
     wake_.notify_all();
 }
@@ -153,13 +153,13 @@ void Viewer::render(const Wish& wish) {
     if (done) return;
     ShownImage failure;
     failure.wish = wish.number;
+    failure.seconds = wish.seconds();
     failure.error = done.error();
     publish(std::move(failure));
 }
 
 void Viewer::publish(ShownImage&& picture) {
     const std::lock_guard lock(mutex_);
-    picture.seconds = std::chrono::duration<double>(Clock::now() - wished_).count();
     // A rendering that was begun again first has to come as far as the one before it.
     const bool is_behind = image_ && image_->wish == picture.wish && !picture.error &&
                            picture.samples < image_->samples;

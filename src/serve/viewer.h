@@ -119,7 +119,6 @@ private:
     std::condition_variable wake_, news_;
     Wish wish_;
     bool has_work_ = false;  ///< `wish_` is not shown, or not finished
-    Clock::time_point wished_ = Clock::now();
     std::deque<std::function<void()>> tasks_;
     std::shared_ptr<const ShownImage> image_;
     int serial_ = 0;

@@ -6,7 +6,7 @@
 #include "session/denoising.h"
 #include "session/film_keeper.h"
 
-#include "serve/guarded.h"
+#include "serve/beside.h"
 #include "serve/viewer.h"
 #include <algorithm>
 #include <array>
@@ -42,29 +42,6 @@ RenderRequest smaller(const RenderRequest& request, int factor) {
 int next_samples(int samples) {
     return samples < 1 ? 1 : samples * 2;
 }
-
-/// A thread that works while this lives; it is told when it is over. Its exceptions end it alone.
-class Beside {
-public:
-    explicit Beside(const std::function<void(const std::atomic<bool>& is_over)>& work)
-        : thread_([this, work] {
-              const Result<void> done = guarded<void>([&]() -> Result<void> {
-                  work(is_over_);
-                  return {};
-              });
-              static_cast<void>(done);
-          }) {}
-    ~Beside() {
-        is_over_ = true;
-        thread_.join();
-    }
-    Beside(const Beside&) = delete;
-    Beside& operator=(const Beside&) = delete;
-
-private:
-    std::atomic<bool> is_over_ = false;
-    std::thread thread_;
-};
 
 /// The first pixel of a layer.
 double value_of(const FinishedImage& image, std::string_view layer, size_t channel) {
@@ -112,7 +89,7 @@ Result<void> Viewer::render_small(const Wish& wish) {
     if (factor < 2) return {};
     const auto begin = Clock::now();
     Shown small;
-    small.wish = {wish.number, smaller(wish.request, std::min(factor, 8)), ""};
+    small.wish = {wish.number, smaller(wish.request, std::min(factor, 8)), "", wish.since};
     small.state.wish = wish.number;
     small.state.of = samples_taken(options);
     Log log;
@@ -236,6 +213,7 @@ Result<void> Viewer::show(Shown& shown) {
     }
     ShownImage picture = shown.state;
     picture.wish = shown.wish.number;
+    picture.seconds = shown.wish.seconds();
     picture.image = displayed_image(request, *shown.image, shown.display);
     publish(std::move(picture));
     return {};

@@ -39,7 +39,7 @@ class SmallServer {
 public:
     explicit SmallServer(std::chrono::milliseconds patience) {
         server_.new_task_queue = [=, this] {
-            return new ConnectionThreads(2, is_ending_, patience);
+            return new ConnectionThreads(port_, 2, is_ending_, patience);
         };
         server_.set_read_timeout(60);
         server_.Get("/", [](const httplib::Request&, httplib::Response& response) {

@@ -93,9 +93,11 @@ protected:
         return out;
     }
 
-    httplib::Result post(const Fields& fields, const std::string& query = "token=secret") const {
+    httplib::Result post(const Fields& fields,
+                         const std::string& query = "token=secret",
+                         int patience_ms = 120000) const {
         httplib::Client client("127.0.0.1", server_->port());
-        client.set_read_timeout(120);
+        client.set_read_timeout(std::chrono::milliseconds(patience_ms));
         httplib::MultipartFormDataItems items;
         for (const auto& [name, value] : fields) {
             const bool is_file = name == "scene";
@@ -331,6 +333,14 @@ TEST_F(DrakeServer, WhatIsNoFormIsToldAsText) {
     EXPECT_EQ(got->status, 400);
     EXPECT_THAT(got->body, HasSubstr("E-SERVE-BODY"));
     EXPECT_THAT(got->get_header_value("Content-Type"), HasSubstr("text/plain"));
+}
+
+TEST_F(DrakeServer, AClientThatGoesLeavesTheSceneToOthers) {
+    const std::string unlimited = "token=secret&spp=1000000";
+    EXPECT_FALSE(post(form("color"), unlimited, 300));
+    const auto next = post(form("color"), "token=secret&spp=1", 60000);
+    ASSERT_TRUE(next);
+    EXPECT_EQ(next->status, 200);
 }
 
 TEST_F(DrakeServer, TheTokenIsAskedFor) {

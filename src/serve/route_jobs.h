@@ -1,4 +1,4 @@
-// serve/job_routes.h - the HTTP routes of jobs.
+// serve/route_jobs.h - the HTTP routes of jobs.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

@@ -1,6 +1,6 @@
-// serve/job_routes.cpp - the HTTP routes of jobs.
+// serve/route_jobs.cpp - the HTTP routes of jobs.
 // SPDX-License-Identifier: Apache-2.0
-#include "serve/job_routes.h"
+#include "serve/route_jobs.h"
 
 #include <algorithm>
 #include <array>
