@@ -18,6 +18,7 @@
 #include "app/serve_options.h"
 #include "app/signals.h"
 #include "bench/machine.h"
+#include "image/oiio.h"
 #include "image/process_settings.h"
 
 #include <algorithm>
@@ -111,9 +112,18 @@ std::vector<const char*> full_words(int argc, char** argv, Arguments& arguments)
     return words;
 }
 
+/// However the command ends.
+struct AtTheEnd {
+    AtTheEnd() = default;
+    ~AtTheEnd() { wait_for_oiio(); }
+    AtTheEnd(const AtTheEnd&) = delete;
+    AtTheEnd& operator=(const AtTheEnd&) = delete;
+};
+
 }  // namespace
 
 int run_program(int argc, char** argv) {
+    const AtTheEnd waits_for_libraries;
     ignore_broken_pipes();
     own_process_settings();
     Arguments arguments;

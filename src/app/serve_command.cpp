@@ -55,7 +55,6 @@ int serve(const Result<ServeRequest>& request, Log& log) {
     open_oiio_ahead();  // textures will need it
     if (request->opens_browser) open_in_browser(url);
     (*server)->run(signals.flag());
-    static_cast<void>(oiio_module());  // not while it is still being opened
     return report_success(request->server.address, log);
 }
 

@@ -6,6 +6,7 @@
 
 #include <dlfcn.h>
 #include <filesystem>
+#include <mutex>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -73,6 +74,12 @@ Result<const OiioModule*> open_module() {
     return cannot_open(why);
 }
 
+/// At the end of a process that ends by exit, it is waited for.
+std::jthread& opening_thread() {
+    static std::jthread thread;
+    return thread;
+}
+
 }  // namespace
 
 const Result<const OiioModule*>& oiio_module() {
@@ -82,10 +89,14 @@ const Result<const OiioModule*>& oiio_module() {
 
 void open_oiio_ahead() {
     try {
-        // At the process's end it is waited for: nothing may be opened while all is being closed.
-        static const std::jthread opening([] { (void)oiio_module(); });
+        static std::once_flag begun;
+        std::call_once(begun, [] { opening_thread() = std::jthread([] { (void)oiio_module(); }); });
     } catch (const std::system_error&) {  // no more threads: it is opened when it is needed
     }
+}
+
+void wait_for_oiio() {
+    if (opening_thread().joinable()) opening_thread().join();
 }
 
 bool is_written_by_oiio(OutputFormat format) {

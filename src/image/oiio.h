@@ -18,6 +18,11 @@ const Result<const OiioModule*>& oiio_module();
 /// Begins to open the module beside what else there is to do; does nothing from the second call on.
 void open_oiio_ahead();
 
+/// Waits until what open_oiio_ahead has begun is done. A program calls it in the end, before it
+/// exits: what the libraries register for the exit is called while the others are still being
+/// opened, otherwise.
+void wait_for_oiio();
+
 /// True for formats that OpenImageIO writes; the others have libraries of their own.
 bool is_written_by_oiio(OutputFormat format);
 
