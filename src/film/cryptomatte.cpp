@@ -141,9 +141,12 @@ void CryptomattePixel::write_ranks(uint32_t samples, std::span<float> ranks) con
     IdCount last{cryptomatte_no_object, std::numeric_limits<uint32_t>::max()};
     for (size_t i = 0; i + 1 < ranks.size(); i += 2) {
         last = whole.next_rank(last);
+        if (last.count == 0) {  // no more: the usual case after the first
+            std::fill(ranks.begin() + static_cast<std::ptrdiff_t>(i), ranks.end(), 0.0f);
+            return;
+        }
         ranks[i] = cryptomatte_id(last.hash);
-        // A pixel without samples has no ids either: 0 of 1.
-        ranks[i + 1] = static_cast<float>(static_cast<double>(last.count) / std::max(samples, 1u));
+        ranks[i + 1] = static_cast<float>(static_cast<double>(last.count) / samples);
     }
 }
 

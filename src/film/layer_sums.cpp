@@ -23,14 +23,6 @@ bool is_majority(const Layer& layer) {
     return std::holds_alternative<MajorityNode>(layer.source);
 }
 
-bool is_reduced(const Layer& layer, Reduction reduction) {
-    const Aov* aov = aov_of(layer);
-    return aov != nullptr && entry_of(*aov).reduction == reduction;
-}
-
-/// Light layers are red, green and blue.
-constexpr size_t light_channels = 3;
-
 /// What LayerSums::add_means knows.
 constexpr bool has_one_or_three_channels(const AovEntry& entry) {
     return entry.reduction != Reduction::mean || entry.letters.size() == 1 ||
@@ -45,30 +37,14 @@ bool is_in(const PartMean& mean, size_t sample) {
     return second == (mean.part == SamplePart::second_half);
 }
 
-/// 1 where no light could arrive.
-float ratio(double arrived, double unoccluded) {
-    return unoccluded > 0 ? static_cast<float>(arrived / unoccluded) : 1.0f;
-}
-
-/// Writes the pixels of one layer.
-///
-/// In      at: as of store
-///         value: writes the channels of a pixel of the tile
-template <typename Value>
-void write_pixels(std::span<const size_t> at, FilmLayer& layer, const Value& value) {
-    const size_t channels = layer.layer.channels.size();
-    for (size_t p = 0; p < at.size(); ++p)
-        value(p, std::span(layer.pixels.data() + at[p] * channels, channels));
-}
-
 }  // namespace
 
 LayerPlan::LayerPlan(std::span<const Layer> layers, CryptomatteHashes hashes, bool catches)
     : hashes_(std::move(hashes)), catches_(catches) {
     for (const Layer& layer : layers)
         add_layer(layer);
-    if (has_nearest_ || mattes_ > 0) opacity_ = written_aov(Aov::opacity);
-    if (has_nearest_) distance_ = written_aov(Aov::distance);
+    if (has_nearest() || mattes_ > 0) opacity_ = written_aov(Aov::opacity);
+    if (has_nearest()) distance_ = written_aov(Aov::distance);
 }
 
 size_t LayerPlan::written_aov(Aov aov) {
@@ -87,7 +63,8 @@ void LayerPlan::add_layer(const Layer& layer) {
             source.first_sum = std::exchange(sums_, sums_ + channels);
         } else {
             source.first_value = std::exchange(values_, values_ + channels);
-            has_nearest_ = true;
+            const auto own = static_cast<size_t>(channel_count(*aov));
+            nearest_.push_back({source.aov, source.first_value, own, channels});
         }
     } else if (const auto* names = std::get_if<CryptomatteNames>(&layer.source)) {
         const bool materials = *names == CryptomatteNames::materials;
@@ -141,7 +118,7 @@ void LayerSums::begin(const LayerPlan& plan, size_t pixels) {
     sums_.resize(pixels * plan.sums_);
     sums_are_new_.assign(plan.sums_, 1);
     nearest_values_.assign(pixels * plan.values_, 0.0f);
-    nearest_m_.assign(plan.has_nearest_ ? pixels : 0, std::numeric_limits<float>::infinity());
+    nearest_m_.assign(plan.has_nearest() ? pixels : 0, std::numeric_limits<float>::infinity());
     luminance_.assign(plan.has_variance_ ? pixels : 0, {});
     rays_.assign(plan.counts_rays_ ? pixels : 0, 0);
     mattes_.assign(pixels * plan.mattes_, {});
@@ -151,7 +128,7 @@ void LayerSums::add(const LayerPlan& plan, const BatchShape& batch, const Worksp
     if (plan.sums_ > 0) add_means(plan, batch, work);
     if (plan.lights_ > 0 || plan.has_shadow_) add_light(plan, batch, work);
     if (plan.parts_ > 0) add_parts(plan, batch, work);
-    if (plan.has_nearest_) add_nearest(plan, batch, work);
+    if (plan.has_nearest()) add_nearest(plan, batch, work);
     if (plan.mattes_ > 0) add_mattes(plan, batch, work);
     if (plan.has_variance_ || plan.counts_rays_) add_statistics(plan, batch, work);
 }
@@ -194,12 +171,39 @@ void LayerSums::add_to_block(const std::array<const float*, N>& columns,
         add(part);
 }
 
+/// The sum of a whole block from an index on, as add_to_block and total make it.
+float block_sum(const float* column, size_t index) {
+    std::array<float, 4> parts;
+    const float* const from = column + index;
+    for (size_t k = 0; k < 4; ++k)
+        parts[k] = ((from[k] + from[4 + k]) + from[8 + k]) + from[12 + k];
+    static_assert(sum_block_samples == 16);
+    return (parts[0] + parts[1]) + (parts[2] + parts[3]);
+}
+
+/// Adds whole blocks of samples to sums that are between blocks.
+template <size_t N>
+void LayerSums::add_blocks(const BatchShape& batch,
+                           const std::array<const float*, N>& columns,
+                           Sum* begun) {
+    for (size_t p = 0; p < batch.pixels.size(); ++p) {
+        Sum* const sums = begun + batch.pixels[p] * N;
+        const size_t end = (p + 1) * batch.samples;
+        for (size_t index = p * batch.samples; index < end; index += sum_block_samples) {
+            for (size_t c = 0; c < N; ++c)
+                sums[c].blocks += static_cast<double>(block_sum(columns[c], index));
+        }
+    }
+}
+
 /// Adds channels of a batch's samples to sums of each pixel.
 template <size_t N>
 void LayerSums::add_columns(const BatchShape& batch,
                             const std::array<const float*, N>& columns,
                             size_t first_sum) {
     Sum* const begun = begun_sums(first_sum, N);
+    if (batch.first_sample % sum_block_samples == 0 && batch.samples % sum_block_samples == 0)
+        return add_blocks<N>(batch, columns, begun);
     for (size_t p = 0; p < batch.pixels.size(); ++p) {
         Sum* const sums = begun + batch.pixels[p] * N;
         std::array<Sum, N> at;
@@ -287,28 +291,46 @@ void LayerSums::add_parts(const LayerPlan& plan, const BatchShape& batch, const 
     }
 }
 
+/// The nearest of some hits, if it is nearer than a distance: the first of those as near; `end` if
+/// there is none. Distances that are no hit's are 0.
+size_t nearest_hit(
+    const float* hit, const float* distance_m, size_t begin, size_t end, float nearer_than_m) {
+    // Most pixels' samples lie on one surface: a minimum in four parts needs no branches.
+    constexpr float none_m = std::numeric_limits<float>::infinity();
+    std::array<float, 4> parts_m = {none_m, none_m, none_m, none_m};
+    const auto far_m = [&](size_t i) { return hit[i] == 0.0f ? none_m : distance_m[i]; };
+    const auto lower = [](float a, float b) { return a < b ? a : b; };
+    size_t i = begin;
+    for (; i + 4 <= end; i += 4) {
+        for (size_t k = 0; k < 4; ++k)
+            parts_m[k] = lower(far_m(i + k), parts_m[k]);
+    }
+    for (; i < end; ++i)
+        parts_m[0] = lower(far_m(i), parts_m[0]);
+    const float nearest_m = lower(lower(parts_m[0], parts_m[1]), lower(parts_m[2], parts_m[3]));
+    if (!(nearest_m < nearer_than_m)) return end;
+    i = begin;
+    while (far_m(i) != nearest_m)
+        ++i;
+    return i;
+}
+
 void LayerSums::add_nearest(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {
     const float* hit = work.aov_outputs[plan.opacity_].columns[0];
     const float* distance_m = work.aov_outputs[plan.distance_].columns[0];
-    size_t slot = 0;
+    size_t begin = 0;
     for (const uint32_t p : batch.pixels) {
-        const size_t end = slot + batch.samples;
-        size_t best = end;
-        for (; slot < end; ++slot) {
-            if (hit[slot] == 0.0f || !(distance_m[slot] < nearest_m_[p])) continue;
-            nearest_m_[p] = distance_m[slot];
-            best = slot;
-        }
+        const size_t end = begin + batch.samples;
+        const size_t best = nearest_hit(hit, distance_m, begin, end, nearest_m_[p]);
+        begin = end;
         if (best == end) continue;
-        for (size_t k = 0; k < plan.layers_.size(); ++k) {
-            if (!is_reduced(plan.layers_[k], Reduction::nearest)) continue;
-            const LayerPlan::Source& source = plan.sources_[k];
-            const AovOutput& output = work.aov_outputs[source.aov];
-            float* value = &nearest_values_[p * plan.values_ + source.first_value];
-            const int own = channel_count(output.aov);
-            for (int c = 0; c < own; ++c)
-                value[c] = output.columns[c][best];
-            std::fill(value + own, value + plan.layers_[k].channels.size(), 1.0f);
+        nearest_m_[p] = distance_m[best];
+        float* value = &nearest_values_[p * plan.values_];
+        for (const LayerPlan::Nearest& layer : plan.nearest_) {
+            const float* const* from = work.aov_outputs[layer.aov].columns;
+            for (size_t c = 0; c < layer.own; ++c)
+                value[layer.first_value + c] = from[c][best];
+            std::fill_n(value + layer.first_value + layer.own, layer.channels - layer.own, 1.0f);
         }
     }
 }
@@ -357,104 +379,6 @@ void LayerSums::add_statistics(const LayerPlan& plan,
             if (plan.counts_rays_) rays_[p] += work.rays_cast[slot];
         }
     }
-}
-
-void LayerSums::store(const LayerPlan& plan, const SampledPixels& pixels, Film& film) const {
-    const std::span<const size_t> at = pixels.at;
-    const std::span<const int> samples = pixels.samples;
-    const auto count = [&](size_t p) { return static_cast<uint32_t>(samples[p]); };
-    for (size_t k = 0; k < plan.layers_.size(); ++k) {
-        const Layer& layer = plan.layers_[k];
-        const LayerPlan::Source& source = plan.sources_[k];
-        const auto write = [&](const auto& value) { write_pixels(at, film.layers[k], value); };
-        const auto matte = [&](size_t p) -> const CryptomattePixel& {
-            return mattes_[p * plan.mattes_ + source.matte];
-        };
-        if (std::holds_alternative<LightLayer>(layer.source)) {
-            store_light(source, pixels, film.layers[k]);
-        } else if (is_reduced(layer, Reduction::mean)) {
-            write([&, sums = sums_of(source.first_sum)](size_t p, std::span<float> out) {
-                for (size_t c = 0; c < out.size(); ++c)
-                    out[c] = static_cast<float>(sums[p * out.size() + c].total() / samples[p]);
-            });
-        } else if (const auto* mean = std::get_if<PartMean>(&layer.source)) {
-            write([&, sums = sums_of(source.first_sum)](size_t p, std::span<float> out) {
-                const size_t part = samples_in(*mean, static_cast<size_t>(samples[p]));
-                const double inverse = part > 0 ? 1.0 / static_cast<double>(part) : 0.0;
-                for (size_t c = 0; c < out.size(); ++c)
-                    out[c] = static_cast<float>(sums[p * out.size() + c].total() * inverse);
-            });
-        } else if (std::holds_alternative<ShadowRatio>(layer.source)) {
-            store_ratio(source, pixels, film.layers[k]);
-        } else if (is_reduced(layer, Reduction::nearest)) {
-            write([&](size_t p, std::span<float> out) {
-                const float* from = &nearest_values_[p * plan.values_ + source.first_value];
-                std::copy_n(from, out.size(), out.begin());
-            });
-        } else if (is_majority(layer)) {
-            write([&](size_t p, std::span<float> out) {
-                out[0] = static_cast<float>(matte(p).majority(count(p)));
-            });
-        } else if (source.hashes != nullptr) {
-            write([&](size_t p, std::span<float> out) { matte(p).write_ranks(count(p), out); });
-        } else {
-            const auto wanted = std::get<SampleStatistic>(layer.source);
-            write(
-                [&](size_t p, std::span<float> out) { out[0] = statistic(wanted, p, samples[p]); });
-        }
-    }
-}
-
-/// Of what a shadow catcher hides, the part that shows.
-void LayerSums::store_light(const LayerPlan::Source& source,
-                            const SampledPixels& pixels,
-                            FilmLayer& layer) const {
-    const bool catches = !pixels.catchers.empty();
-    const Sum* const front = sums_of(source.first_sum);
-    const Sum* const behind = catches ? sums_of(source.first_behind) : nullptr;
-    if (front == nullptr && behind == nullptr) return;
-    write_pixels(pixels.at, layer, [&](size_t p, std::span<float> out) {
-        const double passes =
-            behind != nullptr ? 1 - shadow_alpha(pixels.catchers[p].total()) : 0.0;
-        for (size_t c = 0; c < out.size(); ++c) {
-            const size_t at = p * light_channels + c;
-            double sum = front != nullptr ? front[at].total() : 0.0;
-            if (behind != nullptr) sum += passes * behind[at].total();
-            out[c] = static_cast<float>(sum / pixels.samples[p]);
-        }
-    });
-}
-
-void LayerSums::store_ratio(const LayerPlan::Source& source,
-                            const SampledPixels& pixels,
-                            FilmLayer& layer) const {
-    const Sum* const shadowed = sums_of(source.first_sum);
-    const Sum* const unshadowed = sums_of(source.first_sum + light_channels);
-    const auto total = [](const Sum* sums, size_t at) {
-        return sums != nullptr ? sums[at].total() : 0.0;
-    };
-    write_pixels(pixels.at, layer, [&](size_t p, std::span<float> out) {
-        for (size_t c = 0; c < out.size(); ++c) {
-            const size_t at = p * light_channels + c;
-            out[c] = ratio(total(shadowed, at), total(unshadowed, at));
-        }
-    });
-}
-
-float LayerSums::statistic(SampleStatistic statistic, size_t pixel, double samples) const {
-    switch (statistic) {
-        case SampleStatistic::sample_count:
-            return static_cast<float>(samples);
-        case SampleStatistic::cost:
-            return static_cast<float>(rays_[pixel]);
-        case SampleStatistic::variance:
-            break;
-    }
-    if (samples < 2) return 0;
-    const Luminance y = luminance_[pixel].total();
-    const double mean = y.sum / samples;
-    const double spread = std::max(y.squares / samples - mean * mean, 0.0);
-    return static_cast<float>(spread / (samples - 1));
 }
 
 }  // namespace obscura

@@ -64,11 +64,21 @@ private:
         size_t light = 0;  ///< number among the light layers
     };
 
+    /// A layer of the nearest sample's values.
+    struct Nearest {
+        size_t aov = 0;          ///< index in aovs_
+        size_t first_value = 0;  ///< as of Source
+        size_t own = 0;          ///< channels of the AOV
+        size_t channels = 0;     ///< of the layer; those beyond its own are 1
+    };
+
+    bool has_nearest() const { return !nearest_.empty(); }
     size_t written_aov(Aov aov);
     void add_layer(const Layer& layer);
 
     std::vector<Layer> layers_;
     std::vector<Source> sources_;  ///< by layer
+    std::vector<Nearest> nearest_;
     std::vector<Aov> aovs_;
     CryptomatteHashes hashes_;
     size_t sums_ = 0;                    ///< a pixel's sums of AOVs and light
@@ -77,12 +87,14 @@ private:
     size_t lights_ = 0;                  ///< light layers
     size_t parts_ = 0;                   ///< layers of a part of the samples
     size_t opacity_ = 0, distance_ = 0;  ///< in aovs_
-    bool has_nearest_ = false;
     bool counts_rays_ = false;
     bool has_variance_ = false;
     bool has_shadow_ = false;
     bool catches_ = false;
 };
+
+/// Layers of light are red, green and blue.
+inline constexpr size_t light_channels = 3;
 
 /// Bytes that LayerSums takes for a layer, of each pixel, at most.
 ///
@@ -149,6 +161,10 @@ private:
                              size_t number,
                              size_t count,
                              std::array<Sum, N>& sums);
+    template <size_t N>
+    static void add_blocks(const BatchShape&,
+                           const std::array<const float*, N>& columns,
+                           Sum* begun);
     template <size_t N>
     void add_columns(const BatchShape&,
                      const std::array<const float*, N>& columns,

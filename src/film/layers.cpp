@@ -139,6 +139,11 @@ Layer layer_named(const std::string& name, int crypto_levels) {
 
 }  // namespace
 
+bool is_reduced(const Layer& layer, Reduction reduction) {
+    const Aov* aov = std::get_if<Aov>(&layer.source);
+    return aov != nullptr && entry_of(*aov).reduction == reduction;
+}
+
 std::vector<LayerDescription> all_layers() {
     std::vector<LayerDescription> out;
     for (const AovEntry& entry : aov_entries) {

@@ -68,6 +68,9 @@ struct Layer {
         source;
 };
 
+/// Whether a layer is an AOV whose samples become a pixel in this way.
+bool is_reduced(const Layer& layer, Reduction reduction);
+
 /// A line of `--list-aovs`.
 struct LayerDescription {
     std::string name, channels, reduction, help;

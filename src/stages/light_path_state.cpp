@@ -292,10 +292,18 @@ void LightPathState::release(size_t event) {
 void LightPathState::finish(const SampleView& samples) {
     for (const RestingLight& light : resting_light())
         share_out(light);
-    for (uint32_t slot = 0; slot < static_cast<uint32_t>(count_); ++slot) {
-        const float size =
-            std::fabs(samples.r[slot]) + std::fabs(samples.g[slot]) + std::fabs(samples.b[slot]);
-        if (size <= largest_sample) continue;
+    const auto is_usable = [&](size_t slot) {
+        return std::fabs(samples.r[slot]) + std::fabs(samples.g[slot]) +
+                   std::fabs(samples.b[slot]) <=
+               largest_sample;
+    };
+    // Counted first, which needs no branches: nearly always there are none.
+    uint32_t unusable = 0;
+    for (size_t slot = 0; slot < static_cast<size_t>(count_); ++slot)
+        unusable += is_usable(slot) ? 0U : 1U;
+    for (uint32_t slot = 0; slot < static_cast<uint32_t>(count_) && unusable > 0; ++slot) {
+        if (is_usable(slot)) continue;
+        --unusable;
         for (const ColorColumns& columns : {columns_.layers, shadow_columns_}) {
             for (int k = 0; k < *columns.used_count; ++k)
                 clear_color(columns, columns.used[k], slot);
