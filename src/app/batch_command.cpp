@@ -10,6 +10,7 @@
 #include "app/render_command.h"
 #include "app/render_options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <system_error>
 
@@ -67,14 +68,13 @@ bool is_of_another_part(const JobRun& run, const BatchJob& job, const FilmPart& 
     return run.asset % static_cast<size_t>(part.count) != static_cast<size_t>(part.index);
 }
 
-/// The runs of a job, or of a part of it.
+/// The runs of a job; those of other parts are marked.
 Result<std::vector<SceneRun>> runs_of(const BatchJob& job,
                                       const BatchArguments& arguments,
                                       const std::optional<FilmPart>& part) {
     std::vector<SceneRun> runs;
     for (size_t i = 0; i < job.runs.size(); ++i) {
         const JobRun& run = job.runs[i];
-        if (part && is_of_another_part(run, job, *part)) continue;
         Result<RenderRequest> request = request_of_run(run);
         if (!request) return fail(request.error());
         if (part && job.assets < static_cast<size_t>(part->count)) {
@@ -85,6 +85,7 @@ Result<std::vector<SceneRun>> runs_of(const BatchJob& job,
         request->lists.lists_only = arguments.dry_run;
         request->lists.shares_manifest = part.has_value();
         runs.push_back({std::move(*request), options_for_merge(run.arguments)});
+        runs.back().is_of_another_part = part && is_of_another_part(run, job, *part);
     }
     return runs;
 }
@@ -127,7 +128,9 @@ int run_batch(const BatchArguments& arguments) {
     if (!runs) return report_failure(runs.error(), log);
     const Result<void> apart = check_own_files(*job, arguments.job_file, *runs);
     if (!apart) return report_failure(apart.error(), log);
-    if (runs->empty()) {
+    const bool has_none = std::all_of(
+        runs->begin(), runs->end(), [](const SceneRun& run) { return run.is_of_another_part; });
+    if (has_none) {
         log.info("this part of the job has no pictures");
         return report_success(arguments.job_file, log);
     }

@@ -3,6 +3,7 @@
 #include "app/render_command.h"
 
 #include "app/distinct_files.h"
+#include "app/exposure_groups.h"
 #include "app/list_options.h"
 #include "app/listed_poses.h"
 #include "app/memory_option.h"
@@ -230,6 +231,8 @@ void drop_environments(KeptAsset& kept, std::span<const SceneRun> later) {
 class SceneRuns {
 public:
     SceneRuns(std::vector<SceneRun>& runs, Log& log) : runs_(runs), log_(log) {
+        meter_exposures(runs_, kept_, log_);
+        std::erase_if(runs_, [](const SceneRun& run) { return run.is_of_another_part; });
         for (const SceneRun& run : runs)
             time_limits_s_.push_back(run.request.long_run.time_limit_s);
         // What one rendering reads no other may write.

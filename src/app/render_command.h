@@ -22,13 +22,14 @@ struct SceneRun {
     NamedTexts options;                 ///< as they were given: see options_for_merge
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     ImageHooks hooks = {};
+    bool is_of_another_part = false;  ///< of the command: only metered for --exposure auto
 };
 
 /// Renders one after the other and prints messages; one that fails does not end the rest, unless
 /// the program is to stop. Returns the exit code.
 ///
-/// In      runs: one at least; where: what the closing line names; finish: done after the last,
-///         also after failures, unless the program is to stop
+/// In      runs: one at least, not all of another part; where: what the closing line
+///         names; finish: done after the last, also after failures, unless the program is to stop
 int run_scenes(
     std::vector<SceneRun>& runs,
     const std::string& where,

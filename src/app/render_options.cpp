@@ -165,6 +165,19 @@ Result<void> read_environment_rotation(const OptionInfo& info, const std::string
     return read_number<&R::environment_rotation_deg>(info, degrees, r);
 }
 
+/// A number, "auto", or "auto:" with a group's name behind it.
+Result<void> read_exposure(const OptionInfo& info, const std::string& text, R& r) {
+    constexpr std::string_view named = "auto:";
+    const bool has_name = text.starts_with(named) && text.size() > named.size();
+    if (text != "auto" && !has_name)
+        return read_number<&R::display, &D::exposure_ev>(info, text, r);
+    r.exposure_group = has_name ? text.substr(named.size()) : "";
+    return {};
+}
+
+constexpr OptionReader<R> exposure = {.read = read_exposure,
+                                      .show = show_number<&R::display, &D::exposure_ev>};
+
 constexpr OptionReader<R> environment_rotation = {
     .read = read_environment_rotation, .show = show_number<&R::environment_rotation_deg>};
 
@@ -317,9 +330,11 @@ constexpr Entry light[] = {
      text_at<&A::occlusion>, choice_at<occlusions, &R::load, &L::occlusion>}};
 
 constexpr Entry display[] = {
-    {{.name = "--exposure", .argument = "EV", .help = "Brighter by this many stops",
+    {{.name = "--exposure", .argument = "EV|auto[:GROUP]",
+      .help = "Brighter by this many stops. auto meters the light on what is seen: one exposure "
+              "for all scenes of the command; of a job's pictures, for those of a look or a GROUP",
       .range = {-50, 50}},
-     text_at<&A::exposure>, number_at<&R::display, &D::exposure_ev>},
+     text_at<&A::exposure>, exposure},
     {{.name = "--view", .argument = "NAME",
       .help = "View of the OpenColorIO display. Built in: \"ACES 1.0 SDR\", \"Un-tone-mapped\", "
               "\"Khronos PBR Neutral\", Raw",

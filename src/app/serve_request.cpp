@@ -37,7 +37,14 @@ Result<RenderRequest> image_request(const RenderArguments& common,
         if (!expected.empty())
             return fail(ExitCode::usage, "E-USAGE-CHOICE", "/options/" + key, expected);
     }
-    return make_render_request(texts);
+    Result<RenderRequest> request = make_render_request(texts);
+    if (request && request->exposure_group) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-CHOICE",
+                    "/options/exposure",
+                    "expected a number: a view that moves is not metered");
+    }
+    return request;
 }
 
 /// A word as a shell takes it.

@@ -5,6 +5,7 @@
 #include "render/integrators.h"
 #include "session/denoising.h"
 #include "session/film_keeper.h"
+#include "session/smaller_image.h"
 
 #include "serve/beside.h"
 #include "serve/viewer.h"
@@ -19,24 +20,6 @@ namespace {
 
 /// A moving view shows its first picture within 0.1 s, with the client's share in it.
 constexpr double first_image_s = 0.05;
-
-/// The same view with so many times fewer pixels on each side, of one sample each.
-RenderRequest smaller(const RenderRequest& request, int factor) {
-    RenderRequest out = request;
-    RenderOptions& options = out.options;
-    options.width = std::max(options.width / factor, 1);
-    options.height = std::max(options.height / factor, 1);
-    options.samples_per_pixel = 1;
-    options.adaptive.reset();
-    options.layers.clear();
-    out.denoise = false;
-    if (out.camera.focus_on_px) {
-        auto& pixel = *out.camera.focus_on_px;
-        pixel = {std::min(pixel[0] / factor, options.width - 1),
-                 std::min(pixel[1] / factor, options.height - 1)};
-    }
-    return out;
-}
 
 /// As many samples as all pixels must have before the next picture is worth its time.
 int next_samples(int samples) {
@@ -89,7 +72,7 @@ Result<void> Viewer::render_small(const Wish& wish) {
     if (factor < 2) return {};
     const auto begin = Clock::now();
     Shown small;
-    small.wish = {wish.number, smaller(wish.request, std::min(factor, 8)), "", wish.since};
+    small.wish = {wish.number, smaller_image(wish.request, std::min(factor, 8), 1), "", wish.since};
     small.state.wish = wish.number;
     small.state.of = samples_taken(options);
     Log log;

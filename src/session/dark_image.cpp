@@ -5,6 +5,7 @@
 #include "base/setting_names.h"
 #include "base/text.h"
 #include "math/vec.h"
+#include "session/exposure_meter.h"
 #include "session/preview.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double darkest = 0.01;              ///< mean of the whole image
 constexpr double darkest_covered = 1.0 / 16;  ///< mean of what is covered: small things may be lit
-constexpr double middle_grey = 0.18;
 
 /// Offset of a channel in a pixel.
 std::optional<size_t> find_channel(const OutputImage& image, const char* name) {

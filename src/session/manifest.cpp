@@ -62,6 +62,7 @@ std::string manifest_line(const RenderRequest& request, const ImageOutcome& outc
     line["frame"] = image.number ? Json(*image.number) : Json();
     line["time_s"] = image.time_s;
     line["camera"] = outcome.camera ? camera_json(request, *outcome.camera) : Json();
+    line["exposure"] = request.display.exposure_ev;
     line["seconds"] = outcome.seconds;
     line["was_there"] = outcome.was_there;
     line["warnings"] = outcome.warnings;

@@ -83,6 +83,8 @@ struct RenderRequest {
     std::string color_space;  ///< --color-space; empty: lin_rec709
     RenderingSpace space;     ///< what it means: set by use_color_space
     DisplayOptions display;
+    /// --exposure auto: the exposure is metered, one for all images of a group; "": of the look.
+    std::optional<std::string> exposure_group;
     DisplayEncoding encoding;  ///< --bits, --quality, --no-dither, --page; without its transform
     ExrOptions exr;            ///< --float, --compression, --exr-layout and the like
     bool denoise = false;      ///< --denoise

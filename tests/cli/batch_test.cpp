@@ -4,6 +4,7 @@
 
 #include "cli/cli.h"
 #include "support/text_files.h"
+#include <map>
 #include <nlohmann/json.hpp>
 
 namespace obscura {
@@ -177,6 +178,59 @@ TEST_F(Batch, WhatIsReadIsNeverReplaced) {
     job["contact_sheet"] = "in/box.gltf";
     expect_result(batch(job), 64, "E-USAGE-SAMEFILE");
     EXPECT_EQ(read_text(folder_ / "in/box.gltf"), scene);
+}
+
+TEST_F(Batch, AnAutomaticExposureIsOneForALookOrAGroup) {
+    json job = small_job();
+    job["options"]["exposure"] = "auto";
+    job["looks"] = json::parse(R"([{"name": "dim", "options": {"env-intensity": 0.25}},
+                                   {"name": "bright", "options": {"env-intensity": 4}}])");
+    job["options"]["env"] = "white";
+    job["options"]["lights"] = "off";
+    job["outputs"] = {"{asset}_{look}.png"};
+    const auto exposures = [&] {
+        std::map<std::string, double> out;
+        for (const json& line : lines("out.jsonl")) {
+            const auto [at, is_new] = out.emplace(line.at("look"), line.at("exposure"));
+            EXPECT_EQ(at->second, line.at("exposure")) << "one for all assets of a look";
+        }
+        return out;
+    };
+    expect_result(batch(job), 0, "OK");
+    ASSERT_EQ(lines("out.jsonl").size(), 4U);
+    const std::map<std::string, double> of_looks = exposures();
+    EXPECT_NEAR(of_looks.at("dim"), 4 + of_looks.at("bright"), 0.011) << "a sixteenth of the light";
+    const std::string dim = json(of_looks.at("dim")).dump();
+    const Texts dim_look = {"--env", "white", "--lights", "off", "--env-intensity", "0.25"};
+    const Texts exposed = {"--exposure", dim, "-o", "one.png"};
+    expect_result(render("in/quad.gltf", joined(dim_look, exposed)), 0, "OK");
+    expect_same("quad_dim.png", "one.png");
+    // It is the same to parts, to finished images, and in another order.
+    const ProgramRun again = batch(job, {"--skip-existing", "--part", "2/2"});
+    expect_result(again, 0, "OK");
+    EXPECT_EQ(result_of(again)->skipped, 2);
+    job["assets"] = {"in/quad.gltf", "in/box.gltf"};
+    expect_result(batch(job, {"--threads", "1"}), 0, "OK");
+    EXPECT_EQ(exposures(), of_looks);
+    job["options"]["exposure"] = "auto:all";
+    expect_result(batch(job), 0, "OK");
+    EXPECT_EQ(exposures().at("dim"), exposures().at("bright"));
+}
+
+TEST_F(Batch, WhatCannotBeMeteredIsLeftOut) {
+    folder_.write("in/broken.gltf", "{");
+    json job = small_job();
+    job["options"]["exposure"] = "auto";
+    job["looks"] = {"a"};
+    job["outputs"] = {"{asset}.png"};
+    expect_result(batch(job), 65, "E-JSON-SYNTAX");
+    EXPECT_EQ(lines("out.jsonl").size(), 3U);
+    job["assets"] = {"in/broken.gltf"};
+    const ProgramRun got = batch(job);
+    expect_result(got, 65, "E-JSON-SYNTAX");
+    EXPECT_THAT(got.err, HasSubstr("shows nothing that can be metered"));
+    job["options"]["exposure"] = "auto:";
+    expect_result(batch(job), 64, "E-USAGE-NUMBER");
 }
 
 TEST_F(Batch, OneFailureDoesNotEndTheRest) {
