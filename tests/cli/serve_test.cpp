@@ -251,6 +251,7 @@ TEST_F(Serve, EveryErrorIsAnswered) {
         EXPECT_EQ(wish({{"env", "/etc/passwd"}}, 422), "E-URI-REFUSED");
         EXPECT_EQ(wish({{"spp", "many"}}, 400), "E-USAGE-NUMBER");
         EXPECT_EQ(wish({{"spp", {{"a", 1}}}}, 400), "E-USAGE-CHOICE");
+        EXPECT_EQ(wish({{"exposure", "auto"}}, 400), "E-USAGE-CHOICE");
         EXPECT_EQ(wish({{"camera", "None"}, {"size", "8x8"}}, 200), "OK");
         const auto [failure, nothing] = client.picture(view);
         EXPECT_EQ(error_id(failure), "E-CAM-UNKNOWN");
