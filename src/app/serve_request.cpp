@@ -9,6 +9,7 @@
 #include "app/serve_options.h"
 
 #include "serve/guard.h"
+#include "serve/known_files.h"
 #include "serve/option_names.h"
 #include <filesystem>
 #include <system_error>
@@ -60,7 +61,7 @@ std::string quoted_word(const std::string& word) {
 
 /// Where a client's own files lie is unknown: an upload has its name alone.
 std::string file_word(const std::string& name) {
-    return name.starts_with("upload:") ? fs::path(name).filename().string() : name;
+    return serve::is_upload(name) ? fs::path(name).filename().string() : name;
 }
 
 std::string command_line(const std::string& scene, const serve::Options& options) {
@@ -106,9 +107,7 @@ Result<void> choose_roots(const ServeArguments& arguments, ServeRequest& request
 }
 
 Result<void> choose_token(const ServeArguments& arguments, serve::ServerOptions& server) {
-    const bool is_loopback = server.address.starts_with("127.") || server.address == "::1" ||
-                             server.address == "localhost";
-    if (!is_loopback && !arguments.token) {
+    if (!serve::is_loopback(server.address) && !arguments.token) {
         return conflict("--listen",
                         "others reach this address: choose a --token that only those know who may "
                         "use this machine");

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/file_bytes.h"
 
+#include "base/descriptor.h"
+
 #include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
@@ -12,22 +14,6 @@
 namespace obscura {
 
 namespace {
-
-/// A file descriptor that closes itself.
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
 
 FileBytes failed(FileFault fault, std::string reason) {
     FileBytes out;
@@ -59,7 +45,7 @@ FileBytes failed_from_errno(int code) {
 
 FileBytes read_file_bytes(const std::filesystem::path& path, const ReadLimits& limits) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
-    if (file.number() < 0) return failed_from_errno(errno);
+    if (!file.is_open()) return failed_from_errno(errno);
     struct stat status = {};
     if (::fstat(file.number(), &status) != 0) return failed_from_errno(errno);
     if (!S_ISREG(status.st_mode)) {

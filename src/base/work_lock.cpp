@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/work_lock.h"
 
+#include "base/descriptor.h"
+
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -29,27 +31,6 @@ namespace fs = std::filesystem;
 constexpr std::chrono::seconds touch_period{5};
 constexpr std::chrono::milliseconds settling_time{200};
 constexpr mode_t new_file_mode = 0666;
-
-/// An open file.
-class Descriptor {
-public:
-    explicit Descriptor(int number) : number_(number) {}
-    Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-    Descriptor& operator=(Descriptor&& other) noexcept {
-        std::swap(number_, other.number_);
-        return *this;
-    }
-    ~Descriptor() { close(); }
-
-    int number() const { return number_; }
-    bool is_open() const { return number_ >= 0; }
-    void close() {
-        if (number_ >= 0) ::close(std::exchange(number_, -1));
-    }
-
-private:
-    int number_;
-};
 
 /// Makes a file that must not be there yet.
 Descriptor make_file(const fs::path& file) {

@@ -1,5 +1,6 @@
 // image/environment.cpp - reads an environment map from disk as finite linear RGB.
 // SPDX-License-Identifier: Apache-2.0
+#include "base/descriptor.h"
 #include "base/memory_budget.h"
 #include "image/corrupt.h"
 #include "image/decode.h"
@@ -33,32 +34,18 @@ tl::unexpected<Error> missing(const std::string& where, const std::string& why) 
     return fail(ExitCode::bad_resource, "E-ENV-MISSING", where, why);
 }
 
-class Descriptor {
-public:
-    explicit Descriptor(int value) : value_(value) {}
-    ~Descriptor() {
-        if (value_ >= 0) ::close(value_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int get() const { return value_; }
-
-private:
-    int value_;
-};
-
 /// The whole file. A pipe or a device is refused without waiting for it.
 Result<std::vector<std::byte>> read_regular_file(const std::filesystem::path& file) {
     const std::string where = file.string();
     const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     struct stat status = {};
-    if (descriptor.get() < 0 || ::fstat(descriptor.get(), &status) != 0) {
+    if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0) {
         return missing(where, "cannot be opened: " + std::generic_category().message(errno));
     }
     if (!S_ISREG(status.st_mode)) return missing(where, "this is not a regular file");
     std::vector<std::byte> bytes(static_cast<size_t>(status.st_size));
     for (size_t done = 0; done < bytes.size();) {
-        const ssize_t count = ::read(descriptor.get(), bytes.data() + done, bytes.size() - done);
+        const ssize_t count = ::read(descriptor.number(), bytes.data() + done, bytes.size() - done);
         if (count < 0 && errno == EINTR) continue;
         if (count < 0) {
             return missing(where, "cannot be read: " + std::generic_category().message(errno));

@@ -3,6 +3,7 @@
 #include "serve/guard.h"
 
 #include <algorithm>
+#include <arpa/inet.h>
 #include <array>
 #include <random>
 
@@ -29,6 +30,14 @@ std::string_view without_port(std::string_view host) {
 
 }  // namespace
 
+bool is_loopback(const std::string& address) {
+    constexpr unsigned first_byte = 24;
+    in_addr number = {};  // a name may begin with 127., too
+    if (::inet_pton(AF_INET, address.c_str(), &number) == 1)
+        return ntohl(number.s_addr) >> first_byte == IN_LOOPBACKNET;
+    return address == "::1" || address == "localhost";
+}
+
 std::string host_in_url(const std::string& address) {
     return address.find(':') == std::string::npos ? address : "[" + address + "]";
 }
@@ -36,9 +45,7 @@ std::string host_in_url(const std::string& address) {
 Guard::Guard(const std::string& address, std::string token) : token_(std::move(token)) {
     if (address == "0.0.0.0" || address == "::") return;
     names_ = {host_in_url(address)};
-    const bool is_loopback = address.starts_with("127.") || address == "::1";
-    if (is_loopback || address == "localhost")
-        names_.insert(names_.end(), {"localhost", "127.0.0.1", "[::1]"});
+    if (is_loopback(address)) names_.insert(names_.end(), {"localhost", "127.0.0.1", "[::1]"});
 }
 
 bool Guard::is_own_name(std::string_view host_and_port) const {

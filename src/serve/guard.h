@@ -42,6 +42,9 @@ private:
     std::string token_;
 };
 
+/// Whether only this machine reaches an address: "127.0.0.1", "::1", "localhost".
+bool is_loopback(const std::string& address);
+
 /// An address as URLs and the header Host have it: IPv6 in brackets.
 std::string host_in_url(const std::string& address);
 

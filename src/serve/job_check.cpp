@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "base/text.h"
 
+#include "serve/known_files.h"
 #include "serve/option_names.h"
 #include <algorithm>
 #include <charconv>
@@ -177,8 +178,8 @@ private:
 
     /// The names that a pattern stands for: itself, where there is such a file.
     std::vector<std::string> names_of(const std::string& pattern, const std::string& place) {
-        const bool is_upload = pattern.starts_with("upload:");
-        if (!is_upload && !stays_inside(pattern)) {
+        const bool was_sent = is_upload(pattern);
+        if (!was_sent && !stays_inside(pattern)) {
             refuse({ExitCode::refused,
                     "E-URI-REFUSED",
                     escape_control(pattern),
@@ -186,7 +187,7 @@ private:
                    place);
             return {};
         }
-        if (is_upload || !has_signs(pattern) || files_.find(pattern)) return {pattern};
+        if (was_sent || !has_signs(pattern) || files_.find(pattern)) return {pattern};
         std::vector<std::string> names = files_.match(pattern);
         if (names.empty()) {
             refuse({ExitCode::missing_scene,

@@ -53,10 +53,6 @@ Result<fs::path> linked(const fs::path& file, const fs::path& folder) {
     return link;
 }
 
-bool is_upload(const std::string& name) {
-    return name.starts_with("upload:");
-}
-
 }  // namespace
 
 Jobs::Jobs(JobsOptions options, Service& service)

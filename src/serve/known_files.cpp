@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/known_files.h"
 
+#include "base/descriptor.h"
 #include "base/log.h"
 #include "base/sha256.h"
 #include "base/text.h"
@@ -68,22 +69,6 @@ tl::unexpected<Error> not_written(const fs::path& file) {
                 std::error_code(errno, std::generic_category()).message());
 }
 
-/// An open file, closed in the end.
-class Descriptor {
-public:
-    explicit Descriptor(const fs::path& file)
-        : number_(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600)) {}
-    ~Descriptor() {
-        if (number_ >= 0) ::close(number_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int number() const { return number_; }
-
-private:
-    int number_;
-};
-
 /// A file that is removed unless it went elsewhere.
 struct PartOfUpload {
     fs::path path;
@@ -94,6 +79,10 @@ struct PartOfUpload {
 };
 
 }  // namespace
+
+bool is_upload(std::string_view name) {
+    return name.starts_with(upload_prefix);
+}
 
 std::optional<FileKind> kind_of(const fs::path& file) {
     const std::string ending = lower_ending(file);
@@ -146,7 +135,7 @@ Result<fs::path> KnownFiles::find(const std::string& name) const {
     if (name.find('\0') != std::string::npos) return refused(name);
     std::vector<fs::path> folders = roots_;
     std::string inside = name;
-    if (name.starts_with(upload_prefix)) {
+    if (is_upload(name)) {
         const std::lock_guard lock(mutex_);
         folders.clear();
         if (folder_ != nullptr) folders.push_back(folder_->path());
@@ -238,8 +227,9 @@ Result<std::string> KnownFiles::keep(const std::string& name,
     const PartOfUpload part{*path};
     uint64_t bytes = 0;
     {
-        const Descriptor file(part.path);
-        if (file.number() < 0) return not_written(part.path);
+        constexpr int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode = 0600;
+        const Descriptor file(::open(part.path.c_str(), flags, mode));
+        if (!file.is_open()) return not_written(part.path);
         const auto sink = [&](std::span<const std::byte> more) -> Result<void> {
             bytes += more.size();
             if (bytes > max_upload_) {

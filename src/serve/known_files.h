@@ -13,12 +13,16 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura::serve {
 
 /// What a file is good for.
 enum class FileKind { model, environment };
+
+/// Whether a client names a file that was sent: "upload:<sha256>/shoe.glb".
+bool is_upload(std::string_view name);
 
 /// By the ending of its name; nothing: it is neither.
 std::optional<FileKind> kind_of(const std::filesystem::path& file);

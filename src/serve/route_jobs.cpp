@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/route_jobs.h"
 
+#include "base/descriptor.h"
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -41,28 +43,25 @@ const char* type_of_file(const std::filesystem::path& file) {
 class ServedFile {
 public:
     explicit ServedFile(const std::filesystem::path& file)
-        : descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
+        : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {
         struct stat status = {};
-        if (descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0)
+        if (is_open() && ::fstat(file_.number(), &status) == 0)
             size_ = static_cast<size_t>(status.st_size);
     }
-    ~ServedFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    ServedFile(const ServedFile&) = delete;
-    ServedFile& operator=(const ServedFile&) = delete;
 
-    bool is_open() const { return descriptor_ >= 0; }
+    bool is_open() const { return file_.is_open(); }
     size_t size() const { return size_; }
     bool hand_over(size_t offset, size_t length, httplib::DataSink& sink) const {
         std::array<char, 1U << 16U> bytes;
-        const ssize_t count = ::pread(
-            descriptor_, bytes.data(), std::min(length, bytes.size()), static_cast<off_t>(offset));
+        const ssize_t count = ::pread(file_.number(),
+                                      bytes.data(),
+                                      std::min(length, bytes.size()),
+                                      static_cast<off_t>(offset));
         return count > 0 && sink.write(bytes.data(), static_cast<size_t>(count));
     }
 
 private:
-    const int descriptor_;
+    const Descriptor file_;
     size_t size_ = 0;
 };
 

@@ -29,7 +29,7 @@ struct Owner {
 };
 
 /// To add a library: one line here, one in third_party/README.md, one in third_party/packages.txt.
-inline constexpr std::array<Owner, 25> owners{
+inline constexpr std::array<Owner, 26> owners{
     {{"tbb/", "base"},
      {"oneapi/", "base"},
      {"tl/", "base"},
@@ -50,6 +50,7 @@ inline constexpr std::array<Owner, 25> owners{
      {"embree3/", "accel"},
      {"embree4/", "accel"},
      {"httplib.h", "serve"},
+     {"arpa/", "serve"},
      {"netinet/", "serve"},
      {"CLI/", "app"},
      {"netdb.h", "app"},  // of all rooms, only this one uses the network

@@ -33,6 +33,13 @@ TEST(Guard, OnlyThisMachinesNamesAreItsOwn) {
     EXPECT_EQ(id_of(all_addresses.check_site(sender("render.studio:8420"))), "OK");
 }
 
+TEST(Guard, NamesThatLookLikeThisMachineAreNot) {
+    for (const char* own : {"127.0.0.1", "127.7.7.7", "::1", "localhost"})
+        EXPECT_TRUE(is_loopback(own)) << own;
+    for (const char* other : {"127.example.com", "0.0.0.0", "192.168.7.9", "::", ""})
+        EXPECT_FALSE(is_loopback(other)) << other;
+}
+
 TEST(Guard, PagesOfOtherSitesAreRefused) {
     const Guard guard("127.0.0.1", "");
     const std::string host = "localhost:8420";
@@ -59,6 +66,8 @@ TEST(Guard, TheTokenMustBeRightInEveryCharacter) {
                               "Bearer abcd12345",
                               "Bearer abcd1234abcd1234",
                               "Bearer Abcd1234",
+                              "Bearer abcd1235",
+                              "Bearer axxxxxx4",
                               "Basic abcd1234"})
         EXPECT_EQ(with(wrong, ""), "E-SERVE-TOKEN") << wrong;
     EXPECT_EQ(with("Bearer wrong", "abcd1234"), "E-SERVE-TOKEN");
