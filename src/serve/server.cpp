@@ -243,7 +243,7 @@ Result<Answer> Server::Impl::picture(const httplib::Request& request) const {
         return nothing;
     }
     if (!picture->error) return codes_answer(picture->image, image_header(*picture), picture);
-    Json answer = error_answer(*picture->error);
+    Json answer = error_answer(service.told(request.matches[1], *picture->error));
     answer["serial"] = picture->serial;
     answer["wish"] = picture->wish;
     return json_result(answer, 422);  // never 404: the view is there
@@ -284,14 +284,14 @@ void Server::Impl::route_images() {
         if (!x) return fail(x.error());
         if (!y) return fail(y.error());
         const Result<Pick> picked = (*viewer)->pick(*x, *y);
-        if (!picked) return fail(picked.error());
+        if (!picked) return fail(service.told(request.matches[1], picked.error()));
         return json_result(pick_answer(*picked));
     });
     routes.get("/api/views/([^/]+)/matte", [this](const auto& request) -> Result<Answer> {
         const auto viewer = viewer_of(request);
         if (!viewer) return fail(viewer.error());
         Result<DisplayedImage> matte = (*viewer)->matte(parameter(request, "node"));
-        if (!matte) return fail(matte.error());
+        if (!matte) return fail(service.told(request.matches[1], matte.error()));
         const auto kept = std::make_shared<const DisplayedImage>(std::move(*matte));
         const Json header = {{"width", kept->width}, {"height", kept->height}, {"channels", 1}};
         return codes_answer(*kept, json_line(header), kept);

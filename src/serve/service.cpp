@@ -108,7 +108,8 @@ Result<Json> Service::open_view(const std::string& file) {
         return fail(ExitCode::usage, "E-SERVE-NAME", file, "expected a .glb or .gltf file");
     Result<RenderRequest> request = options_.options.request(*scene, Options::object());
     if (!request) return fail(request.error());
-    Open open{file, *scene, std::make_shared<Viewer>(*scene, request->load)};
+    Open open{
+        file, *scene, {{scene->string(), file}}, std::make_shared<Viewer>(*scene, request->load)};
     const Result<LookAt> camera = open.viewer->open({0, std::move(*request), ""});
     if (!camera) return fail(with_name(camera.error(), *scene, file));
     Json out;
@@ -159,6 +160,9 @@ Result<Json> Service::wish(const std::string& view, const Options& options) {
         const auto known = views_.find(view);
         if (known == views_.end()) return fail(no_such_view(view));
         number = ++known->second.wishes;
+        const auto env = found->find("env");
+        if (env != found->end() && *env != options.at("env"))
+            known->second.names[env->get<std::string>()] = options.at("env").get<std::string>();
     }
     open->viewer->want({number, std::move(*request), rendering_of(*found)});
     return Json{{"wish", number}, {"command", options_.options.command(open->file, options)}};
@@ -176,6 +180,17 @@ Result<void> Service::close_view(const std::string& view) {
     const std::lock_guard lock(mutex_);
     views_.erase(view);
     return {};
+}
+
+Error Service::told(const std::string& view, Error error) const {
+    const Result<Open> open = find_open(view);
+    if (!open) return error;
+    for (const auto& [file, name] : open->names)
+        error = with_name(std::move(error), file, name);
+    const bool is_missing = error.code == ExitCode::missing_scene && is_upload(open->file);
+    if (is_missing && !files_.find(open->file))
+        error.message = "this upload went to make room for newer ones; send it again";
+    return error;
 }
 
 }  // namespace obscura::serve

@@ -46,6 +46,9 @@ public:
     /// Errors  64 E-SERVE-UNKNOWN
     Result<std::shared_ptr<Viewer>> viewer(const std::string& view) const;
     Result<void> close_view(const std::string& view);
+    /// An error of a view's images as its client is told it: with the names of files that the
+    /// client knows, not where they lie.
+    Error told(const std::string& view, Error error) const;
 
     /// A request for an image of a scene, by a client's options.
     ///
@@ -63,6 +66,7 @@ private:
     struct Open {
         std::string file;  ///< as the client said it
         std::filesystem::path scene;
+        std::map<std::string, std::string> names;  ///< of files, as the client says them
         std::shared_ptr<Viewer> viewer;
         int wishes = 0;
     };
