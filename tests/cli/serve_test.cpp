@@ -121,8 +121,11 @@ TEST_F(Serve, AImageIsThatOfTheCommandThatItTells) {
         EXPECT_EQ(header.at("samples"), 6);
         std::ofstream(folder_ / "codes", std::ios::binary) << codes;
         const auto saved = client.http.Get("/api/views/" + view + "/image?format=png");
-        ASSERT_TRUE(saved);
+        const auto plain = client.http.Get("/api/views/" + view + "/image");
+        ASSERT_TRUE(saved && plain);
         EXPECT_EQ(saved->get_header_value("Content-Type"), "image/png");
+        EXPECT_EQ(plain->get_header_value("Content-Type"), "image/png");
+        EXPECT_EQ(plain->body, saved->body);
         std::ofstream(folder_ / "saved.png", std::ios::binary) << saved->body;
     });
     expect_result(got, 0, "OK");
@@ -162,7 +165,9 @@ TEST_F(Serve, UploadsAreOpenedByTheirNames) {
         EXPECT_EQ(client.picture(view).first.at("width"), 8);
         EXPECT_EQ(error_id(client.upload("a.exe", "MZ", 400)), "E-SERVE-NAME");
         const json broken = client.upload("broken.glb", "glTF no more");
-        EXPECT_NE(error_id(client.post("/api/views", {{"file", broken.at("file")}}, 422)), "OK");
+        const json refused = client.post("/api/views", {{"file", broken.at("file")}}, 422);
+        EXPECT_THAT(refused.at("error").at("place").get<std::string>(),
+                    testing::StartsWith(broken.at("file").get<std::string>()));
         std::string thief = gltf_text(triangle_scene());
         const size_t uri = thief.find("data:");
         thief.replace(uri, thief.find('"', uri) - uri, "/etc/passwd");
@@ -239,6 +244,8 @@ TEST_F(Serve, EveryErrorIsAnswered) {
         EXPECT_EQ(error_id(client.get("/nothing", 404)), "E-SERVE-UNKNOWN");
         const auto no_json = client.http.Post("/api/views", "{", json_type);
         EXPECT_EQ(error_id(ServerClient::read(no_json, "{", 422)), "E-JSON-SYNTAX");
+        const json large = {{"file", std::string(5U << 20U, 'x')}};
+        EXPECT_EQ(id("/api/views", large, 413), "E-SERVE-SIZE");
         EXPECT_EQ(error_id(client.put("/api/views/v9", {{"options", json::object()}}, 404)),
                   "E-SERVE-UNKNOWN");
         const std::string view = client.post("/api/views", {{"file", "quad.gltf"}}).at("view");

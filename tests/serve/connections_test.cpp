@@ -42,9 +42,10 @@ public:
             return new ConnectionThreads(port_, 2, is_ending_, patience);
         };
         server_.set_read_timeout(60);
-        server_.Get("/", [](const httplib::Request&, httplib::Response& response) {
+        server_.Get("/", [](const httplib::Request& request, httplib::Response& response) {
             note_request();
             response.set_content("here", "text/plain");
+            response.set_header("Port", std::to_string(request.remote_port));
         });
         port_ = server_.bind_to_any_port("127.0.0.1");
         thread_ = std::thread([this] { server_.listen_after_bind(); });
@@ -79,6 +80,39 @@ TEST(Connections, SlowOnesMakeRoom) {
     const auto answer = client.Get("/");
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->body, "here");
+}
+
+/// The client's port, by which its connections differ.
+std::string port_of(httplib::Client& client) {
+    const auto answer = client.Get("/");
+    return answer ? answer->get_header_value("Port") : "";
+}
+
+TEST(Connections, TheOneThatAskedLastStays) {
+    SmallServer server(std::chrono::milliseconds(200));
+    httplib::Client busy("127.0.0.1", server.port()), late("127.0.0.1", server.port());
+    busy.set_keep_alive(true);
+    const std::string port = port_of(busy);
+    ASSERT_NE(port, "");
+    const SlowClient idle(server.port());
+    ASSERT_TRUE(idle.is_connected());
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // until it has its thread
+    EXPECT_EQ(port_of(busy), port);
+    late.set_keep_alive(true);
+    late.set_read_timeout(30);
+    EXPECT_NE(port_of(late), "");
+    EXPECT_EQ(port_of(busy), port);
+}
+
+TEST(Connections, NoneIsClosedBeforeItsTime) {
+    SmallServer server(std::chrono::hours(1));
+    httplib::Client first("127.0.0.1", server.port());
+    first.set_keep_alive(true);
+    const std::string port = port_of(first);
+    const SlowClient a(server.port()), b(server.port());
+    ASSERT_TRUE(a.is_connected() && b.is_connected());
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    EXPECT_EQ(port_of(first), port);
 }
 
 TEST(Connections, TheEndDoesNotWaitForThem) {

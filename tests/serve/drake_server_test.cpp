@@ -60,11 +60,14 @@ protected:
         options.port = 0;
         options.token = "secret";
         options.service.options = app::image_options({});
+        options.service.max_upload = max_upload;
         auto server = Server::listen(options);
         ASSERT_TRUE(server) << server.error().message;
         server_ = std::move(*server);
         thread_ = std::thread([this] { server_->run(stop_); });
     }
+    static constexpr uint64_t max_upload = 8U << 20U;
+
     void TearDown() override {
         stop_ = true;
         if (thread_.joinable()) thread_.join();
@@ -333,6 +336,14 @@ TEST_F(DrakeServer, WhatIsNoFormIsToldAsText) {
     EXPECT_EQ(got->status, 400);
     EXPECT_THAT(got->body, HasSubstr("E-SERVE-BODY"));
     EXPECT_THAT(got->get_header_value("Content-Type"), HasSubstr("text/plain"));
+}
+
+TEST_F(DrakeServer, LargeFormsAreRefused) {
+    const std::string scene(max_upload + (1U << 17U), ' ');
+    const auto got = post(form("color", scene));
+    ASSERT_TRUE(got);
+    EXPECT_EQ(got->status, 413);
+    EXPECT_THAT(got->body, HasSubstr("E-SERVE-SIZE"));
 }
 
 TEST_F(DrakeServer, AClientThatGoesLeavesTheSceneToOthers) {

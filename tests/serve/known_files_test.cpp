@@ -19,6 +19,8 @@ protected:
     void SetUp() override {
         fs::create_directories(folder_ / "root/shoes/.hidden");
         folder_.write("secret.glb", "secret");
+        fs::create_directories(folder_ / "root2");
+        folder_.write("root2/secret.glb", "secret");
         folder_.write("root/a.glb", "a");
         folder_.write("root/sky.hdr", "sky");
         folder_.write("root/notes.txt", "notes");
@@ -69,6 +71,7 @@ TEST_F(KnownFilesTest, NamesNeverLeadOut) {
     const std::string absolute = (folder_ / "root/a.glb").string();
     for (const std::string& name : {std::string("../secret.glb"),
                                     std::string("shoes/../../secret.glb"),
+                                    std::string("../root2/secret.glb"),
                                     std::string("out.glb"),
                                     absolute,
                                     std::string("/etc/passwd"),
@@ -124,7 +127,9 @@ TEST_F(KnownFilesTest, TheOldestUploadsMakeRoom) {
     EXPECT_EQ(id_of(*a), "OK");
     EXPECT_EQ(id_of(*b), "E-SCENE-MISSING");
     EXPECT_EQ(id_of(*c), "OK");
-    EXPECT_EQ(keep("d.glb", std::string(101, 'd')).error().id, "E-SERVE-SIZE");
+    const Result<std::string> d = keep("d.glb", std::string(101, 'd'));
+    ASSERT_FALSE(d);
+    EXPECT_EQ(d.error().id, "E-SERVE-SIZE");
     EXPECT_EQ(id_of(*c), "OK");
 }
 
