@@ -46,6 +46,12 @@ Result<DenoiseRequest> make_denoise_request(const DenoiseArguments& arguments) {
     render.writes_images = false;
     Result<RenderRequest> display = make_render_request(render);
     if (!display) return fail(display.error());
+    if (display->exposure_group) {
+        return fail(ExitCode::usage,
+                    "E-USAGE-CHOICE",
+                    "--exposure",
+                    "expected a number: there is no scene whose light could be metered");
+    }
     DenoiseRequest request;
     request.file = arguments.file;
     request.keep_noisy = arguments.keep_noisy;

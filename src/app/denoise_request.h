@@ -25,8 +25,8 @@ struct DenoiseRequest {
     RenderRequest render;  ///< the outputs of other formats, their display, threads
 };
 
-/// Errors  64 E-USAGE-CONFLICT no output; E-USAGE-SAMEFILE two of one name; E-OUT-FORMAT; those of
-///         make_render_request
+/// Errors  64 E-USAGE-CONFLICT no output; E-USAGE-SAMEFILE two of one name; E-USAGE-CHOICE an
+///         exposure to be metered; E-OUT-FORMAT; those of make_render_request
 Result<DenoiseRequest> make_denoise_request(const DenoiseArguments& arguments);
 
 }  // namespace obscura::app

@@ -331,8 +331,8 @@ constexpr Entry light[] = {
 
 constexpr Entry display[] = {
     {{.name = "--exposure", .argument = "EV|auto[:GROUP]",
-      .help = "Brighter by this many stops. auto meters the light on what is seen: one exposure "
-              "for all scenes of the command; of a job's pictures, for those of a look or a GROUP",
+      .help = "Brighter by this many stops. auto, for scenes, meters the light on what is seen: "
+              "one exposure for all of the command; of a job, for the pictures of a look or GROUP",
       .range = {-50, 50}},
      text_at<&A::exposure>, exposure},
     {{.name = "--view", .argument = "NAME",

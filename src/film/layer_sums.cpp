@@ -37,6 +37,40 @@ bool is_in(const PartMean& mean, size_t sample) {
     return second == (mean.part == SamplePart::second_half);
 }
 
+/// The sum of a whole block from an index on, as LayerSums::add_to_block and Sum::total make it.
+float block_sum(const float* column, size_t index) {
+    std::array<float, 4> parts;
+    const float* const from = column + index;
+    for (size_t k = 0; k < 4; ++k)
+        parts[k] = ((from[k] + from[4 + k]) + from[8 + k]) + from[12 + k];
+    static_assert(sum_block_samples == 16);
+    return (parts[0] + parts[1]) + (parts[2] + parts[3]);
+}
+
+/// The nearest of some hits, if it is nearer than a distance: the first of those as near; `end` if
+/// there is none. Distances that are no hit's are 0.
+size_t nearest_hit(
+    const float* hit, const float* distance_m, size_t begin, size_t end, float nearer_than_m) {
+    // Most pixels' samples lie on one surface: a minimum in four parts needs no branches.
+    constexpr float none_m = std::numeric_limits<float>::infinity();
+    std::array<float, 4> parts_m = {none_m, none_m, none_m, none_m};
+    const auto far_m = [&](size_t i) { return hit[i] == 0.0f ? none_m : distance_m[i]; };
+    const auto lower = [](float a, float b) { return a < b ? a : b; };
+    size_t i = begin;
+    for (; i + 4 <= end; i += 4) {
+        for (size_t k = 0; k < 4; ++k)
+            parts_m[k] = lower(far_m(i + k), parts_m[k]);
+    }
+    for (; i < end; ++i)
+        parts_m[0] = lower(far_m(i), parts_m[0]);
+    const float nearest_m = lower(lower(parts_m[0], parts_m[1]), lower(parts_m[2], parts_m[3]));
+    if (!(nearest_m < nearer_than_m)) return end;
+    i = begin;
+    while (far_m(i) != nearest_m)
+        ++i;
+    return i;
+}
+
 }  // namespace
 
 LayerPlan::LayerPlan(std::span<const Layer> layers, CryptomatteHashes hashes, bool catches)
@@ -171,16 +205,6 @@ void LayerSums::add_to_block(const std::array<const float*, N>& columns,
         add(part);
 }
 
-/// The sum of a whole block from an index on, as add_to_block and total make it.
-float block_sum(const float* column, size_t index) {
-    std::array<float, 4> parts;
-    const float* const from = column + index;
-    for (size_t k = 0; k < 4; ++k)
-        parts[k] = ((from[k] + from[4 + k]) + from[8 + k]) + from[12 + k];
-    static_assert(sum_block_samples == 16);
-    return (parts[0] + parts[1]) + (parts[2] + parts[3]);
-}
-
 /// Adds whole blocks of samples to sums that are between blocks.
 template <size_t N>
 void LayerSums::add_blocks(const BatchShape& batch,
@@ -289,30 +313,6 @@ void LayerSums::add_parts(const LayerPlan& plan, const BatchShape& batch, const 
             }
         }
     }
-}
-
-/// The nearest of some hits, if it is nearer than a distance: the first of those as near; `end` if
-/// there is none. Distances that are no hit's are 0.
-size_t nearest_hit(
-    const float* hit, const float* distance_m, size_t begin, size_t end, float nearer_than_m) {
-    // Most pixels' samples lie on one surface: a minimum in four parts needs no branches.
-    constexpr float none_m = std::numeric_limits<float>::infinity();
-    std::array<float, 4> parts_m = {none_m, none_m, none_m, none_m};
-    const auto far_m = [&](size_t i) { return hit[i] == 0.0f ? none_m : distance_m[i]; };
-    const auto lower = [](float a, float b) { return a < b ? a : b; };
-    size_t i = begin;
-    for (; i + 4 <= end; i += 4) {
-        for (size_t k = 0; k < 4; ++k)
-            parts_m[k] = lower(far_m(i + k), parts_m[k]);
-    }
-    for (; i < end; ++i)
-        parts_m[0] = lower(far_m(i), parts_m[0]);
-    const float nearest_m = lower(lower(parts_m[0], parts_m[1]), lower(parts_m[2], parts_m[3]));
-    if (!(nearest_m < nearer_than_m)) return end;
-    i = begin;
-    while (far_m(i) != nearest_m)
-        ++i;
-    return i;
 }
 
 void LayerSums::add_nearest(const LayerPlan& plan, const BatchShape& batch, const Workspace& work) {

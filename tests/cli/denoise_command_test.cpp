@@ -250,6 +250,7 @@ TEST_F(DenoiseCommand, RefusesFilesOfOthersAndPixelsThatAreNoNumbers) {
 TEST_F(DenoiseCommand, NeedsAnOutputAndOptionsThatFit) {
     expect_result(shot({"--denoising-data"}, "a.exr"), 0, "OK");
     expect_result(denoise({"a.exr"}), 64, "E-USAGE-CONFLICT");
+    expect_result(denoise({"a.exr", "-o", "b.png", "--exposure", "auto"}), 64, "E-USAGE-CHOICE");
     expect_result(denoise({"a.exr", "-o", "b.exr", "-o", "b.exr"}), 64, "E-USAGE-SAMEFILE");
     expect_result(denoise({"a.exr", "-o", "b.txt"}), 64, "E-OUT-FORMAT");
     expect_result(denoise({"a.exr", "-o", "nowhere/b.exr"}), 73, "E-OUT-CREATE");

@@ -55,6 +55,18 @@ protected:
     }
 };
 
+TEST_F(Parts, MergeWithTheExposureThatWasMetered) {
+    const Texts dim = {"--env", "white", "--env-intensity", "0.1", "--lights", "off"};
+    expect_result(render("box.gltf", joined(dim, {"-o", "plain.png"})), 0, "OK");
+    const Texts metered = joined(dim, {"--exposure", "auto"});
+    expect_result(render("box.gltf", joined(metered, {"-o", "whole.png"})), 0, "OK");
+    const ProgramRun merge = merged("a.png", 2, metered);
+    expect_result(merge, 0, "OK");
+    EXPECT_THAT(merge.err, Not(HasSubstr("metered"))) << "parts know the number";
+    expect_same_bits("a.png", "whole.png");
+    EXPECT_NE(read_text(folder_ / "whole.png"), read_text(folder_ / "plain.png"));
+}
+
 TEST_F(Parts, MergeToTheBitsOfOneRendering) {
     expect_equal_bits({"--size", "40x37", "--crop", "3,2,31,33"}, {"a.exr"});
     expect_equal_bits({"--integrator", "normal"}, {"a.exr"});

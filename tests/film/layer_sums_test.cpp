@@ -86,8 +86,12 @@ Film film_of(const std::vector<size_t>& batches) {
 }
 
 TEST(LayerSums, HowSamplesAreCutIntoBatchesChangesNoBit) {
-    const std::vector<std::vector<size_t>> cuts = {
-        {70}, {16, 16, 16, 16, 6}, {32, 32, 6}, {16, 1, 15, 32, 6}, {5, 11, 30, 2, 16, 6}};
+    const std::vector<std::vector<size_t>> cuts = {{70},
+                                                   {16, 16, 16, 16, 6},
+                                                   {32, 32, 6},
+                                                   {16, 1, 15, 32, 6},
+                                                   {3, 16, 32, 13, 6},
+                                                   {5, 11, 30, 2, 16, 6}};
     const Film first = film_of(std::vector<size_t>(samples, 1));
     for (const std::vector<size_t>& cut : cuts) {
         const Film film = film_of(cut);

@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <string>
 
 namespace obscura::test {
@@ -132,6 +134,23 @@ TEST_F(LightPathStates, LightAtRestGoesBehindCatchersWithTheRest) {
     EXPECT_EQ(behind("specular_direct"), 6.0f);
     finish();
     expect_direct(0);
+}
+
+TEST_F(LightPathStates, SamplesThatAreThrownAwayLeaveNothingInLayers) {
+    constexpr uint32_t samples = 4;
+    state_.begin(table_, samples, true, true);
+    for (uint32_t slot = 0; slot < samples; ++slot)
+        state_.add_path_light(slot, background_class(table_), {4, 4, 4});
+    std::array<float, samples> red = {4, std::numeric_limits<float>::quiet_NaN(), 4, 2e30f};
+    std::array<float, samples> rest = {4, 4, 4, 4};
+    state_.finish({red.data(), rest.data(), rest.data(), rest.data()});
+    const ColorView background = state_.layer(number_of("background"));
+    ASSERT_NE(background.r, nullptr);
+    const std::array<float, samples> left = {4, 0, 4, 0};
+    for (size_t slot = 0; slot < samples; ++slot) {
+        EXPECT_EQ(background.r[slot], left[slot]) << slot;
+        EXPECT_EQ(background.b[slot], left[slot]) << slot;
+    }
 }
 
 }  // namespace
