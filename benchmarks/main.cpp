@@ -53,7 +53,7 @@ Result<void> load_inputs(const std::filesystem::path& scene_file,
         EnvironmentTable::create({image->width, image->height, image->pixels.data()}, 1, 0);
     if (!table) return fail(table.error());
     in.environment = std::move(*table);
-    in.lighting.environment = std::move(*image);
+    in.lighting.environment = std::make_shared<const ImageRgb32f>(std::move(*image));
     in.columns.emplace(in.scene, *in.environment);
     auto camera = choose_camera(in.scene, {}, 1280, 720, log);
     if (!camera) return fail(camera.error());

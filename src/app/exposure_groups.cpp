@@ -9,8 +9,6 @@
 #include "camera/exposure.h"
 #include "session/exposure_meter.h"
 #include "session/preview.h"
-#include "session/requested_camera.h"
-#include "session/views_file.h"
 
 #include <algorithm>
 #include <cmath>
@@ -65,7 +63,7 @@ Result<void> meter_images(Job& job, Log& log, std::vector<double>& stops) {
 }
 
 /// What is metered of a run; nothing after an error.
-std::vector<double> meter(const SceneRun& run, KeptAsset& kept) {
+std::vector<double> meter(const SceneRun& run, KeptForLater& kept) {
     RenderRequest request = run.request;
     request.lists.keeps_asset = true;
     std::vector<double> stops;
@@ -74,9 +72,7 @@ std::vector<double> meter(const SceneRun& run, KeptAsset& kept) {
     // Nothing can be lost: signals and the time limit end the program at once.
     Watch watch(request.scene.string(), unheard, {request.long_run.time_limit_s, {}, {}});
     Result<void> done = use_memory_limit(request.max_memory, memory_bound());
-    if (done) done = load_requested_camera(request, unheard);
-    if (done) done = load_views(request, unheard);
-    if (done) done = use_color_space(request, unheard);
+    if (done) done = read_named_files(request, unheard);
     if (!done) return {};
     const ThreadLimit threads(request.threads);
     Job job{.log = unheard,
@@ -84,9 +80,13 @@ std::vector<double> meter(const SceneRun& run, KeptAsset& kept) {
             .request = request,
             .options = run.options,
             .watch = watch,
-            .kept = &kept,
+            .kept = kept,
             .hooks = run.hooks};
     done = meter_images(job, unheard, stops);
+    // Nobody has heard it; the rendering will tell.
+    job.asset_notes.forget_telling();
+    for (auto& [key, environment] : kept.environments)
+        environment.notes.forget_telling();
     if (done) {
         leave_asset(job);
     } else {
@@ -105,7 +105,7 @@ void use_exposure(double exposure_ev, SceneRun& run) {
 
 }  // namespace
 
-void meter_exposures(std::vector<SceneRun>& runs, KeptAsset& kept, Log& log) {
+void meter_exposures(std::vector<SceneRun>& runs, KeptForLater& kept, Log& log) {
     std::map<std::string, std::vector<double>> groups;
     for (const SceneRun& run : runs) {
         const RenderRequest& request = run.request;

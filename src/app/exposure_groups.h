@@ -11,7 +11,7 @@ namespace obscura::app {
 /// to four images count, evenly spread over its whole list, whatever part of it will be rendered.
 /// A run that cannot be metered is left out; it will say why when it is rendered.
 ///
-/// In, out   kept: the asset that was metered last stays
-void meter_exposures(std::vector<SceneRun>& runs, KeptAsset& kept, Log& log);
+/// In, out   kept: what was metered stays open where there is memory
+void meter_exposures(std::vector<SceneRun>& runs, KeptForLater& kept, Log& log);
 
 }  // namespace obscura::app

@@ -2,47 +2,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/listed_poses.h"
 
+#include "base/memory_budget.h"
 #include "base/stopwatch.h"
 #include "render/points_lines_sizes.h"
 #include "session/lighting.h"
+#include "session/repeated_log.h"
 #include "session/segmentation.h"
 
-#include <algorithm>
+#include <utility>
 
 namespace obscura::app {
-
-namespace {
-
-/// When an image's scene is posed.
-PoseTimes times_of(const RenderRequest& request, double time_s, bool is_last) {
-    PoseTimes times{time_s, {}, is_last};
-    if (request.shutter) {
-        const double frame_s = 1 / request.fps;
-        times.shutter = gltf::ShutterTimes{time_s + request.shutter->open * frame_s,
-                                           time_s + request.shutter->close * frame_s,
-                                           time_s};
-    }
-    return times;
-}
-
-bool has_times(const RenderRequest& request) {
-    const std::vector<View>& views = request.lists.views;
-    return request.load.time_s || request.frames || request.shutter ||
-           std::any_of(views.begin(), views.end(), [](const View& view) {
-               return view.time_s.has_value();
-           });
-}
-
-}  // namespace
 
 std::string environment_key(const RenderRequest& request) {
     if (!request.environment) return "";
     return request.color_space + "\n" + request.environment->string();
-}
-
-double ListedPoses::first_time_s() const {
-    if (!whole_.frames) return whole_.load.time_s.value_or(0);
-    return whole_.frames->time_s(whole_.frames->numbers.front());
 }
 
 Result<void> ListedPoses::load_once() {
@@ -52,60 +25,71 @@ Result<void> ListedPoses::load_once() {
     return loaded;
 }
 
-/// Opens the asset, unless the rendering before has left it as it would be.
+/// Opens the asset, unless it is open or was read ahead.
 Result<void> ListedPoses::open(Log& log) {
-    KeptAsset* const kept = job_.kept;
-    const bool fits = kept != nullptr && kept->renderer && kept->scene == whole_.scene &&
-                      kept->load == whole_.load && kept->has_times == has_times(whole_) &&
-                      kept->isa == whole_.isa;
-    if (fits) {
-        job_.renderer = std::move(kept->renderer);
-        job_.renderer->statistics() = {};
+    KeptAssets& assets = job_.kept.assets;
+    if (std::optional<KeptAsset> kept = assets.take(asset_use(whole_))) {
+        take(std::move(*kept), log);
+        return {};
     }
-    if (kept != nullptr) kept->renderer.reset();
-    if (fits) return {};
-    Result<AssetRenderer> renderer =
-        AssetRenderer::open(whole_.scene, whole_.load, has_times(whole_), log);
+    if (memory_share_taken() > max_share_of_kept) assets.close_all();
+    Log noted = noted_log(log, job_.asset_notes);
+    Result<AssetRenderer> renderer = open_asset(whole_, noted);
     if (!renderer) return fail(renderer.error());
     job_.renderer = std::move(*renderer);
+    notes_pose_ = true;
     return {};
+}
+
+void ListedPoses::take(KeptAsset&& asset, Log& log) {
+    log.detail(whole_.scene.string() + (asset.pose ? " was read ahead" : " is open already"));
+    job_.renderer = std::move(asset.renderer);
+    if (!asset.facts.empty()) job_.kept.asset_facts[whole_.scene] = std::move(asset.facts);
+    job_.asset_notes = std::move(asset.notes);
+    job_.asset_notes.tell(log);
+    has_told_pose_ = true;
+    posed_ = asset.pose;
+    if (!posed_) job_.renderer->statistics() = {};
 }
 
 /// Reads or makes the environment, unless the job has had it before.
 Result<void> ListedPoses::light(Log& log) {
-    RenderRequest request = whole_;
-    std::optional<ImageRgb32f> known;
-    if (job_.kept != nullptr && request.environment) {
-        const auto found = job_.kept->environments.find(environment_key(request));
-        if (found != job_.kept->environments.end()) {
-            known = std::move(found->second.image);
-            job_.kept->environments.erase(found);
-        }
-    }
-    if (known) request.environment.reset();
-    Result<LightingOptions> lighting = load_lighting(request, log);
+    KeptForLater::Environment& kept = job_.kept.environments[environment_key(whole_)];
+    if (kept.image) kept.notes.tell(log);
+    Log noted = noted_log(log, kept.notes);
+    Result<LightingOptions> lighting = load_lighting(whole_, noted, kept.image);
     if (!lighting) return fail(lighting.error());
-    if (known) {
-        lighting->environment = std::move(known);
-        lighting->environment_name = whole_.environment->string();
-    }
+    kept.image = lighting->environment;
     job_.lighting = std::move(*lighting);
+    job_.lighting.environments = job_.kept.environment_tables;
     return {};
 }
 
 Result<void> ListedPoses::load(Log& log) {
     const Stopwatch loading;
     if (auto opened = open(log); !opened) return opened;
-    if (auto found = job_.renderer->find_framed_nodes(whole_.camera); !found) return found;
+    AssetRenderer& renderer = *job_.renderer;
+    if (auto found = renderer.find_framed_nodes(whole_.camera); !found) return found;
     job_.request.camera.framed_nodes = whole_.camera.framed_nodes;
-    const auto variants = variants_to_plan(whole_, job_.renderer->info().variants);
-    if (!variants) return fail(variants.error());
-    auto planned = job_.renderer->plan_variants(*variants, whole_.lists.keeps_asset);
-    if (!planned) return planned;
+    if (auto planned = plan_variants(whole_, renderer); !planned) return planned;
     if (auto lit = light(log); !lit) return lit;
     if (auto there = check_writers(whole_); !there) return there;
-    job_.renderer->statistics().load_s = loading.seconds();
+    RenderStatistics& statistics = renderer.statistics();
+    if (!posed_) statistics.load_s = loading.seconds();
+    if (before_close_) {
+        before_close_->load_s += statistics.load_s;
+        statistics = std::move(*before_close_);
+        before_close_.reset();
+    }
     return {};
+}
+
+void ListedPoses::close() {
+    if (job_.renderer) before_close_ = job_.renderer->statistics();
+    job_.renderer.reset();
+    job_.asset_notes = {};
+    posed_.reset();
+    lit_.reset();
 }
 
 Result<void> ListedPoses::find_images(Log& log) {
@@ -117,7 +101,7 @@ Result<void> ListedPoses::find_images(Log& log) {
     if (whole_.lists.cameras) {
         const auto variants = listed_variants(whole_, offer.variants);
         if (!variants) return fail(variants.error());
-        const Pose first = {first_time_s(), variants->front()};
+        const AssetPose first = pose_at(whole_, first_time_s(whole_), variants->front());
         if (auto posed = pose_as(first, false, log); !posed) return posed;
         for (const SceneCamera& camera : job_.renderer->scene().cameras)
             offer.cameras.push_back(camera.name);
@@ -138,16 +122,31 @@ void ListedPoses::begin_image(size_t index) {
     job_.request.camera.kept = kept->second[image.view].framing;
 }
 
-ListedPoses::Pose ListedPoses::pose_of(size_t index) const {
-    return {list_.images[index].time_s, list_.images[index].variant};
+AssetPose ListedPoses::pose_of(size_t index) const {
+    return pose_at(whole_, list_.images[index].time_s, list_.images[index].variant);
 }
 
-Result<void> ListedPoses::pose_as(const Pose& pose, bool is_last, Log& log) {
-    if (posed_ == pose && job_.renderer->has_scene()) return {};
+Result<void> ListedPoses::pose_as(const AssetPose& pose, bool is_last, Log& log) {
+    if (posed_ == pose && job_.renderer->has_scene()) {
+        if (is_last) job_.renderer->forget_asset();
+        return {};
+    }
+    if (std::exchange(notes_pose_, false)) {
+        Log noted = noted_log(log, job_.asset_notes);
+        return pose_anew(pose, is_last, noted);
+    }
+    if (!has_told_pose_) return pose_anew(pose, is_last, log);
+    RepeatedLog repeated(log, SettingNames::options);
+    return pose_anew(pose, is_last, repeated.begin());
+}
+
+Result<void> ListedPoses::pose_anew(const AssetPose& pose, bool is_last, Log& log) {
     posed_.reset();
     lit_.reset();
-    if (auto chosen = job_.renderer->choose_variant(pose.second); !chosen) return chosen;
-    const auto posed = job_.renderer->pose(times_of(whole_, pose.first, is_last), log);
+    if (auto chosen = job_.renderer->choose_variant(pose.variant); !chosen) return chosen;
+    PoseTimes times = pose.times;
+    times.is_last = is_last;
+    const auto posed = job_.renderer->pose(times, log);
     if (posed) posed_ = pose;
     return posed;
 }
@@ -165,14 +164,14 @@ void ListedPoses::keep_views(const std::string& variant) {
 }
 
 Result<void> ListedPoses::pose(size_t index, bool is_last, Log& log) {
-    const Pose wanted = pose_of(index);
+    const AssetPose wanted = pose_of(index);
     // All keep the view of the first frame, whoever renders it.
-    if (is_sequence() && !kept_.contains(wanted.second)) {
-        const Pose first = {first_time_s(), wanted.second};
+    if (is_sequence() && !kept_.contains(wanted.variant)) {
+        const AssetPose first = pose_at(whole_, first_time_s(whole_), wanted.variant);
         const bool is_first = wanted == first;
         if (auto posed = pose_as(first, is_last && is_first, is_first ? log : job_.log); !posed)
             return posed;
-        keep_views(wanted.second);
+        keep_views(wanted.variant);
         begin_image(index);
     }
     if (auto posed = pose_as(wanted, is_last, log); !posed) return posed;
@@ -202,24 +201,11 @@ Result<ChosenCamera> ListedPoses::look(size_t index, bool is_last, Log& log) {
 }
 
 void leave_asset(Job& job) {
-    if (job.kept == nullptr) return;
-    const RenderRequest& whole = job.whole;
-    KeptAsset& kept = *job.kept;
-    if (job.lighting.environment && whole.environment) {
-        ImageRgb32f& image = *job.lighting.environment;
-        const uint64_t bytes = image.pixels.size() * sizeof(float);
-        auto charge = charge_memory(MemoryUse::environment, job.lighting.environment_name, bytes);
-        if (charge)
-            kept.environments[environment_key(whole)] = {std::move(image), std::move(*charge)};
-    }
-    kept.renderer.reset();
-    if (!whole.lists.keeps_asset) return;
-    kept.scene = whole.scene;
-    kept.load = whole.load;
-    kept.has_times = has_times(whole);
-    kept.isa = whole.isa;
-    kept.asset_facts = std::move(job.asset_facts);
-    kept.renderer = std::move(job.renderer);
+    if (!job.renderer || !job.whole.lists.keeps_asset) return;
+    KeptAsset asset{std::move(*job.renderer)};
+    job.renderer.reset();
+    asset.notes = std::move(job.asset_notes);
+    job.kept.assets.keep(asset_use(job.whole), std::move(asset));
 }
 
 }  // namespace obscura::app

@@ -33,6 +33,9 @@ public:
     /// Errors  those of loading, of the environment too; 69 E-OIIO
     Result<void> load_once();
 
+    /// Closes the asset; what comes next reads it again.
+    void close();
+
     /// Makes the job's request that of an image.
     void begin_image(size_t index);
 
@@ -49,7 +52,6 @@ public:
     Result<ChosenCamera> look(size_t index, bool is_last, Log& log);
 
 private:
-    using Pose = std::pair<double, std::string>;  ///< time and variant
     /// What each view keeps of a sequence's first frame.
     struct KeptView {
         Bounds bounds;
@@ -59,26 +61,30 @@ private:
     using Light = std::pair<double, double>;
 
     bool is_sequence() const { return whole_.frames && whole_.frames->numbers.size() > 1; }
-    double first_time_s() const;
-    Pose pose_of(size_t index) const;
+    AssetPose pose_of(size_t index) const;
     Result<void> load(Log& log);
     Result<void> open(Log& log);
+    void take(KeptAsset&& asset, Log& log);
     Result<void> light(Log& log);
-    Result<void> pose_as(const Pose& pose, bool is_last, Log& log);
+    Result<void> pose_as(const AssetPose& pose, bool is_last, Log& log);
+    Result<void> pose_anew(const AssetPose& pose, bool is_last, Log& log);
     void keep_views(const std::string& variant);
 
     Job& job_;
     RenderRequest whole_;
     ImageList list_;
-    std::optional<Pose> posed_;
+    std::optional<AssetPose> posed_;
     std::optional<Light> lit_;  ///< nothing: the pose has not been prepared
     std::map<std::string, std::vector<KeptView>> kept_;  ///< of a sequence, by variant
+    bool notes_pose_ = false;     ///< what the next pose has to say belongs to Job::asset_notes
+    bool has_told_pose_ = false;  ///< these came with the asset, and were told
+    std::optional<RenderStatistics> before_close_;
 };
 
 /// Tells environments apart, whose colours are those of the rendering space; "": there is none.
 std::string environment_key(const RenderRequest& request);
 
-/// Leaves asset and environment to the next rendering of a job, the latter where there is memory.
+/// Leaves the asset to later renderings of a job that need it.
 void leave_asset(Job& job);
 
 }  // namespace obscura::app

@@ -12,17 +12,18 @@
 #include "app/render_job.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
+#include "base/memory_budget.h"
 #include "base/parallel.h"
 #include "base/priority.h"
 #include "base/stopwatch.h"
 #include "session/image_parts.h"
 #include "session/manifest.h"
 #include "session/outputs.h"
-#include "session/requested_camera.h"
 #include "session/statistics.h"
-#include "session/views_file.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <fmt/format.h>
 #include <span>
 
@@ -126,19 +127,19 @@ Result<void> tell_statistics(Job& job, const UsedMachine& used) {
 }
 
 /// --dry-run
-Result<void> list_images_of(const SceneRun& run, Watch& watch, KeptAsset& kept, Log& log) {
+Result<void> list_images_of(const SceneRun& run, Watch& watch, KeptForLater& kept, Log& log) {
     Job job{.log = log,
             .whole = run.request,
             .request = run.request,
             .options = run.options,
             .watch = watch,
-            .kept = &kept};
+            .kept = kept};
     return list_all(job);
 }
 
 /// Out   skipped: images that were there already
 Result<void> execute(
-    const SceneRun& run, Watch& watch, KeptAsset& kept, Log& log, size_t& skipped) {
+    const SceneRun& run, Watch& watch, KeptForLater& kept, Log& log, size_t& skipped) {
     const RenderRequest& request = run.request;
     const Stopwatch total;
     if (auto begins = check_address_space(address_space_left()); !begins) return begins;
@@ -161,11 +162,11 @@ Result<void> execute(
             .options = run.options,
             .parts = run.parts,
             .watch = watch,
-            .kept = &kept,
+            .kept = kept,
             .hooks = run.hooks,
-            .display = std::move(*display)};
+            .display = std::move(*display),
+            .threads = threads.threads()};
     if (request.check) return check_all(job);
-    if (kept.scene == request.scene) job.asset_facts = kept.asset_facts;
     Progress progress(request.verbosity, lines_of(request), request.farm);
     Result<void> done = render_all(job, progress);
     skipped = job.skipped;
@@ -177,12 +178,10 @@ Result<void> execute(
 /// Renders the images of one scene.
 ///
 /// Out   skipped: images that were there already
-Result<void> render_scene(SceneRun& run, KeptAsset& kept, Log& log, size_t& skipped) {
+Result<void> render_scene(SceneRun& run, KeptForLater& kept, Log& log, size_t& skipped) {
     RenderRequest& request = run.request;
     Watch watch(request.scene.string(), log, watch_times(request.long_run));
-    if (auto loaded = load_requested_camera(request, log); !loaded) return loaded;
-    if (auto read = load_views(request, log); !read) return read;
-    if (auto colored = use_color_space(request, log); !colored) return colored;
+    if (auto read = read_named_files(request, log); !read) return read;
     if (run.parts != nullptr && run.parts->are_of_samples()) request.part_by = PartBy::samples;
     const Result<void> done = execute(run, watch, kept, log, skipped);
     watch.end();
@@ -218,13 +217,32 @@ void note_failure(const RenderRequest& request, const Error& error) {
         (void)manifest->add(manifest_line(request, outcome));
 }
 
-/// Drops the environments that no later rendering needs.
-void drop_environments(KeptAsset& kept, std::span<const SceneRun> later) {
+/// Drops what no later rendering needs.
+void drop_unneeded(KeptForLater& kept, std::span<const SceneRun> later) {
+    const auto is_of_any = [&](const auto& fits) {
+        return std::any_of(
+            later.begin(), later.end(), [&](const SceneRun& run) { return fits(run.request); });
+    };
     std::erase_if(kept.environments, [&](const auto& entry) {
-        return std::none_of(later.begin(), later.end(), [&](const SceneRun& run) {
-            return environment_key(run.request) == entry.first;
-        });
+        return !is_of_any(
+            [&](const RenderRequest& request) { return environment_key(request) == entry.first; });
     });
+    kept.assets.close_unless([&](const AssetUse& use) {
+        return is_of_any([&](const RenderRequest& request) { return request.scene == use.scene; });
+    });
+}
+
+/// Whether an asset that was opened for one rendering serves another, as far as that is known
+/// before their files are read.
+bool opens_alike(const RenderRequest& a, const RenderRequest& b) {
+    return a.scene == b.scene && a.load == b.load && a.isa == b.isa &&
+           a.color_space == b.color_space;
+}
+
+/// Whether what follows a rendering is known to be rendered here.
+bool knows_what_follows(const RenderRequest& request) {
+    return !request.long_run.skips_existing && !request.part && !request.check &&
+           !request.lists.lists_only;
 }
 
 /// Renders scene after scene; one that fails does not end the rest, unless the program is to stop.
@@ -233,6 +251,7 @@ public:
     SceneRuns(std::vector<SceneRun>& runs, Log& log) : runs_(runs), log_(log) {
         meter_exposures(runs_, kept_, log_);
         std::erase_if(runs_, [](const SceneRun& run) { return run.is_of_another_part; });
+        drop_unneeded(kept_, runs_);
         for (const SceneRun& run : runs)
             time_limits_s_.push_back(run.request.long_run.time_limit_s);
         // What one rendering reads no other may write.
@@ -254,6 +273,12 @@ public:
     }
 
     bool is_stopped() const { return !failures_.empty() && stops_all(failures_.back()); }
+    /// Ends the program where a thread still reads ahead, which nobody would wait for.
+    int end_stopped(int code) const {
+        if (!kept_.assets.is_reading()) return code;
+        std::fflush(nullptr);
+        std::_Exit(code);
+    }
     size_t skipped() const { return skipped_; }
     std::vector<Error>& failures() { return failures_; }
 
@@ -269,20 +294,20 @@ private:
     /// In   comes_again: where others hold what is left
     void render_one(size_t i, bool comes_again) {
         RenderRequest& request = runs_[i].request;
-        request.lists.keeps_asset =
-            i + 1 < runs_.size() && runs_[i + 1].request.scene == request.scene;
+        request.lists.keeps_asset = comes_again && keeps_asset(i);
+        kept_.read_ahead = {};
+        if (comes_again) kept_.read_ahead = [this, i](int threads) { read_ahead(i + 1, threads); };
         request.long_run.time_limit_s = time_limits_s_[i];
         kept_.run = i;
         kept_.has_manifest = false;
         // What one scene warns of stands in its images' headers, and not in the others'.
-        Log own(
-            log_.verbosity() == Verbosity::verbose ? Verbosity::verbose : Verbosity::normal,
-            [&](const LogMessage& message) { pass_on(message); },
-            SettingNames::options);
+        Log own(log_.verbosity() == Verbosity::verbose ? Verbosity::verbose : Verbosity::normal,
+                passed_to(log_),
+                SettingNames::options);
         size_t there = 0;
         Result<void> done = shorten_time_limit(request, total_.seconds());
         if (done) done = render_scene(runs_[i], kept_, runs_.size() == 1 ? log_ : own, there);
-        drop_environments(kept_, std::span(runs_).subspan(i + 1));
+        drop_unneeded(kept_, std::span(runs_).subspan(i + 1));
         skipped_ += there;
         if (done) return;
         if (comes_again && done.error().id == "E-LOCKED") {
@@ -293,12 +318,22 @@ private:
         add_failure(i, std::move(done.error()));
     }
 
-    void pass_on(const LogMessage& message) {
-        if (message.is_warning) {
-            log_.warn(message.where, message.text);
-        } else {
-            log_.info(message.text);
-        }
+    bool keeps_asset(size_t i) const {
+        return std::any_of(
+            runs_.begin() + static_cast<long>(i) + 1, runs_.end(), [&](const SceneRun& later) {
+                return opens_alike(runs_[i].request, later.request);
+            });
+    }
+
+    /// Begins to read the asset of a rendering while the one before goes on.
+    void read_ahead(size_t i, int threads) {
+        if (i >= runs_.size() || threads < 2) return;
+        RenderRequest request = runs_[i].request;
+        const bool is_open = request.scene == runs_[i - 1].request.scene;
+        if (is_open || !knows_what_follows(request)) return;
+        if (memory_share_taken() > max_share_of_kept) return;
+        request.lists.keeps_asset = keeps_asset(i);
+        kept_.assets.read_ahead(std::move(request), threads);
     }
 
     void add_failure(size_t i, Error error) {
@@ -319,7 +354,7 @@ private:
     Log& log_;
     std::vector<std::optional<double>> time_limits_s_;  ///< of the whole command
     const Stopwatch total_;
-    KeptAsset kept_;
+    KeptForLater kept_;
     std::vector<size_t> locked_;
     size_t skipped_ = 0;
     std::vector<Error> failures_;
@@ -374,16 +409,19 @@ int run_scenes(std::vector<SceneRun>& runs,
     const std::string counts =
         first.long_run.skips_existing ? fmt::format(" skipped={}", all.skipped()) : "";
     const Result<void> finished = all.is_stopped() ? Result<void>() : finish();
+    const bool is_stopped = all.is_stopped();
     std::vector<Error>& failures = all.failures();
     if (failures.empty() && !finished) return report_failure(finished.error(), log, counts);
     if (failures.empty()) return report_success(where, log, counts);
     const int signal = received_stop_signal();
     const Error& last = failures.back();
-    if (last.id == "E-STOPPED" && signal != 0) return report_stop(signal, where, last.message, log);
+    if (last.id == "E-STOPPED" && signal != 0)
+        return all.end_stopped(report_stop(signal, where, last.message, log));
     Error error = all_failures(std::move(failures), runs.size());
     if (!finished) error.also.push_back(finished.error());
     tell_farm(error, first);
-    return report_failure(error, log, counts);
+    const int code = report_failure(error, log, counts);
+    return is_stopped ? all.end_stopped(code) : code;
 }
 
 }  // namespace obscura::app

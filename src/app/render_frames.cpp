@@ -51,15 +51,16 @@ std::vector<size_t> indices_to_render(const RenderRequest& request, size_t count
 void find_facts(Job& job) {
     const Isa isa = job.request.isa;
     const std::string isa_name = has_isa(isa) ? stage_table_for(isa).isa : "";
-    if (job.asset_facts.empty()) job.asset_facts = facts_of_asset(job.whole.scene);
-    job.facts = facts_of(job.request, job.asset_facts, isa_name, embree_version());
+    NamedTexts& asset = job.kept.asset_facts[job.whole.scene];
+    if (asset.empty()) asset = facts_of_asset(job.whole.scene);
+    job.facts = facts_of(job.request, asset, isa_name, embree_version());
 }
 
 /// No two renderings of a job may write one file.
 ///
 /// Errors  64 E-USAGE-SAMEFILE
 Result<void> note_files(Job& job, const std::vector<ListedImage>& images) {
-    KeptAsset& kept = *job.kept;
+    KeptForLater& kept = job.kept;
     std::error_code error;
     for (const ListedImage& image : images) {
         for (const std::filesystem::path& file : all_files(job.whole, image)) {
@@ -85,7 +86,8 @@ public:
     /// Goes through the images; those of others once more in the end.
     Result<void> run() {
         if (auto opened = open_manifest(); !opened) return opened;
-        if (auto listed = list(); !listed) return note_no_list(listed.error());
+        if (auto listed = with_memory([&] { return list(); }); !listed)
+            return note_no_list(listed.error());
         if (job_.request.long_run.skips_existing) find_facts(job_);
         std::vector<size_t> left = indices_to_render(job_.request, images().size());
         asked_ = left.size();
@@ -110,7 +112,7 @@ private:
         Result<Manifest> manifest = Manifest::open(*request.lists.manifest, false);
         if (!manifest) return fail(manifest.error());
         manifest_.emplace(std::move(*manifest));
-        job_.kept->has_manifest = true;
+        job_.kept.has_manifest = true;
         return {};
     }
 
@@ -119,6 +121,18 @@ private:
         const RenderRequest& request = poses_.whole();
         if (auto own = note_files(job_, images()); !own) return own;
         return request.lists.needs_asset() ? check_files(request, images()) : Result<void>();
+    }
+
+    /// Does something once more when memory lacks that was taken for what comes later.
+    template <typename Action>
+    Result<void> with_memory(const Action& act) {
+        const Result<void> done = act();
+        const bool lacks_memory = !done && done.error().code == ExitCode::out_of_memory;
+        if (!lacks_memory || !job_.kept.assets.close_all()) return done;
+        job_.log.detail("memory lacks: what was read ahead is closed");
+        poses_.close();
+        job_.watch.begin_preparing();
+        return act();
     }
 
     /// An asset whose images are not known has one line.
@@ -165,7 +179,7 @@ private:
         const Stopwatch making;
         ImageOutcome outcome = outcome_of(index);
         Log& log = index == 0 ? job_.log : later_.begin();
-        Result<void> done = render_one(index, log, outcome);
+        Result<void> done = with_memory([&] { return render_one(index, log, outcome); });
         outcome.seconds = making.seconds();
         outcome.warnings = log.warnings();
         if (!done) outcome.error = done.error();
@@ -192,6 +206,7 @@ private:
             camera = job_.hooks.aim(*job_.renderer, job_.request, *camera, log);
         if (!camera) return fail(camera.error());
         outcome.camera = *camera;
+        if (job_.kept.read_ahead) job_.kept.read_ahead(job_.threads);
         const auto done = make_image(job_, *camera, turn_of(index), log, progress_);
         if (!done) return done;
         job_.watch.begin_preparing();

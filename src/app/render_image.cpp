@@ -346,7 +346,7 @@ Result<void> make_image(
         keeper.emplace(head_of(job), file);
         if (auto found = keeper->find(run.resume, log); !found) return found;
     }
-    DisplayServer* const viewer = job.kept != nullptr ? job.kept->viewer.get() : nullptr;
+    DisplayServer* const viewer = job.kept.viewer.get();
     if (viewer != nullptr) viewer->begin_image(shown_name(request));
     Making making{job, camera, turn, log, viewer, keeper ? &*keeper : nullptr};
     making.hooks.stop = &job.watch.stop();

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "app/display_server.h"
+#include "app/kept_assets.h"
 #include "app/progress.h"
 #include "app/watch.h"
+#include "render/environment_cache.h"
 #include "session/asset_renderer.h"
 #include "session/image_parts.h"
 
@@ -17,20 +19,20 @@
 
 namespace obscura::app {
 
-/// What a rendering leaves for the next one of a job.
-struct KeptAsset {
-    std::optional<AssetRenderer> renderer = {};
-    std::filesystem::path scene = {};
-    gltf::LoadOptions load = {};  ///< that it was opened with
-    bool has_times = false;
-    Isa isa = Isa::automatic;
-    NamedTexts asset_facts = {};  ///< of the scene's files
+/// What the renderings of a job have in common, and leave for each other.
+struct KeptForLater {
+    KeptAssets assets = {};
+    /// Facts of their files, by the scene.
+    std::map<std::filesystem::path, NamedTexts> asset_facts = {};
     struct Environment {
-        ImageRgb32f image;
-        MemoryCharge charge;
+        std::shared_ptr<const ImageRgb32f> image;
+        Notes notes;  ///< what reading it had to say
     };
-    /// Those that later renderings need, too, by environment_key.
+    /// Those that later renderings need, too, by environment_key, and their tables.
     std::map<std::string, Environment> environments = {};
+    std::shared_ptr<EnvironmentCache> environment_tables = std::make_shared<EnvironmentCache>();
+    /// Begins to read the asset of the next rendering; an empty one: nothing is read ahead.
+    std::function<void(int threads)> read_ahead = {};
     size_t run = 0;  ///< the rendering, by its number
     /// Files of all renderings so far, by the first one that writes them; SIZE_MAX: it is read.
     std::map<std::filesystem::path, size_t> written = {};
@@ -65,12 +67,14 @@ struct Job {
     NamedTexts options;          ///< as they were given, for --part, --checkpoint, fingerprints
     const ImageParts* parts = nullptr;  ///< where pixels come from; null: they are rendered
     Watch& watch;
-    KeptAsset* kept = nullptr;  ///< of the rendering before; null: of none
+    KeptForLater& kept;
     ImageHooks hooks = {};
     std::optional<DisplayTransform> display = {};
     bool is_exposed = false;  ///< the display, by a camera's own exposure
     std::optional<AssetRenderer> renderer = {};
+    int threads = 1;  ///< that it renders with
     LightingOptions lighting = {};
+    Notes asset_notes = {};       ///< what opening the asset and its first pose had to say
     NamedTexts asset_facts = {};  ///< those of the scene's own files
     NamedTexts facts = {};        ///< that pixels depend on; files are read for them before loading
     NamedTexts image_facts = {};  ///< those of ListedImage, of the image that is being made

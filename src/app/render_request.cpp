@@ -17,7 +17,9 @@
 #include "math/warp.h"
 #include "session/image_names.h"
 #include "session/model_settings.h"
+#include "session/requested_camera.h"
 #include "session/segmentation.h"
+#include "session/views_file.h"
 
 #include <algorithm>
 #include <variant>
@@ -213,6 +215,12 @@ Result<void> complete(const RenderArguments& arguments, RenderRequest& request) 
 }
 
 }  // namespace
+
+Result<void> read_named_files(RenderRequest& request, Log& log) {
+    if (auto loaded = load_requested_camera(request, log); !loaded) return loaded;
+    if (auto read = load_views(request, log); !read) return read;
+    return use_color_space(request, log);
+}
 
 Verbosity verbosity_of(const RenderArguments& arguments) {
     return arguments.quiet     ? Verbosity::quiet

@@ -65,6 +65,11 @@ struct RenderArguments {
 ///         E-USAGE-CHOICE, E-USAGE-CONFLICT, E-USAGE-SAMEFILE; those of read_layers
 Result<RenderRequest> make_render_request(const RenderArguments& arguments);
 
+/// Reads the files that a request names, except the scene and images: camera, views, colour space.
+///
+/// Errors  those of load_requested_camera, load_views and use_color_space
+Result<void> read_named_files(RenderRequest& request, Log& log);
+
 /// What --quiet and --verbose ask for.
 Verbosity verbosity_of(const RenderArguments& arguments);
 

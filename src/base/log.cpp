@@ -55,6 +55,11 @@ void Log::warn(std::string_view where, std::string_view text) {
     if (sink_ && verbosity_ != Verbosity::quiet) sink_({true, place, sentence});
 }
 
+void Log::warn_again(std::string_view where, std::string_view text) {
+    const std::lock_guard lock(mutex_);
+    warnings_.push_back(shown(where) + ": " + shown(text));
+}
+
 void Log::info(std::string_view text) {
     if (!sink_ || verbosity_ == Verbosity::quiet) return;
     const std::string sentence = shown(text);

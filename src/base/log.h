@@ -38,6 +38,8 @@ public:
 
     /// Kept for --stats; shown unless quiet.
     void warn(std::string_view where, std::string_view text);
+    /// Kept as warn() does, but not shown: somebody has seen it before.
+    void warn_again(std::string_view where, std::string_view text);
     /// Shown unless quiet.
     void info(std::string_view text);
     /// As info(), but only when verbose.

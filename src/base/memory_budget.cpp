@@ -106,6 +106,12 @@ void remove_memory_limit() {
     set_memory_limit(UINT64_MAX, "");
 }
 
+double memory_share_taken() {
+    const int64_t limit = budget().limit;
+    if (limit == INT64_MAX) return 0;
+    return static_cast<double>(budget().used) / static_cast<double>(std::max<int64_t>(limit, 1));
+}
+
 Result<MemoryCharge> charge_memory(MemoryUse use, const std::string& where, uint64_t bytes) {
     if (bytes > INT64_MAX / 2) return fail(memory_refusal(use, where, bytes));
     auto item = std::make_shared<Item>(use, where);

@@ -19,6 +19,9 @@ enum class MemoryUse { program, scene_text, buffers, textures, geometry, environ
 void set_memory_limit(uint64_t bytes, const std::string& source);
 void remove_memory_limit();
 
+/// How much of the budget is taken, from 0 to 1; 0: there is none.
+double memory_share_taken();
+
 /// What the program takes before it reads anything: its code, its libraries, its threads' stacks.
 inline constexpr uint64_t program_memory_bytes = 160U << 20;
 

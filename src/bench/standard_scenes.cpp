@@ -131,7 +131,7 @@ LightingOptions sky() {
             image.pixels.insert(image.pixels.end(), {0.7f * light, 0.85f * light, 1.1f * light});
     }
     LightingOptions out;
-    out.environment = std::move(image);
+    out.environment = std::make_shared<const ImageRgb32f>(std::move(image));
     return out;
 }
 
@@ -258,7 +258,7 @@ LightingOptions soft_boxes() {
         }
     }
     LightingOptions out;
-    out.environment = std::move(image);
+    out.environment = std::make_shared<const ImageRgb32f>(std::move(image));
     return out;
 }
 

@@ -96,6 +96,8 @@ struct ShutterTimes {
     double open_s = 0;
     double close_s = 0;
     double time_s = 0;  ///< the image's own, for LoadOptions::frame_step_s
+
+    bool operator==(const ShutterTimes&) const = default;
 };
 
 /// An asset that is read once and posed at many times: the file is parsed, and its images are

@@ -162,8 +162,9 @@ Result<void> check_environment_size(int64_t width, int64_t height, const std::st
         return fits;
     }
     // Asked here, before there are pixels; who keeps the environment charges it.
-    const auto has_room =
-        charge_memory(MemoryUse::environment, where, environment_memory_bytes(width, height));
+    const uint64_t bytes =
+        environment_image_bytes(width, height) + environment_table_bytes(width, height);
+    const auto has_room = charge_memory(MemoryUse::environment, where, bytes);
     if (!has_room) return fail(has_room.error());
     if (width == 2 * height) return {};
     return fail(ExitCode::bad_data,

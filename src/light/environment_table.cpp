@@ -71,18 +71,26 @@ Result<void> check(const EnvironmentImage& image, double intensity, double rotat
                         " pixels; accepted are sides from 1 to " +
                         std::to_string(max_environment_side));
     }
-    if (!(intensity >= 0) || !std::isfinite(intensity) || !std::isfinite(rotation_deg)) {
-        return fail(ExitCode::usage,
-                    "E-ENV-OPTION",
-                    "environment map",
-                    "intensity must be a finite number of at least 0 and rotation a finite number "
-                    "of degrees; they are " +
-                        std::to_string(intensity) + " and " + std::to_string(rotation_deg));
+    if (!(intensity >= 0) || !std::isfinite(intensity)) {
+        return fail(
+            ExitCode::usage,
+            "E-ENV-OPTION",
+            "environment map",
+            "intensity must be a finite number of at least 0; it is " + std::to_string(intensity));
     }
-    return {};
+    return check_rotation(rotation_deg);
 }
 
 }  // namespace
+
+Result<void> check_rotation(double rotation_deg) {
+    if (std::isfinite(rotation_deg)) return {};
+    return fail(
+        ExitCode::usage,
+        "E-ENV-OPTION",
+        "environment map",
+        "rotation must be a finite number of degrees; it is " + std::to_string(rotation_deg));
+}
 
 Result<EnvironmentTable> EnvironmentTable::create(const EnvironmentImage& image,
                                                   double intensity,
@@ -94,16 +102,10 @@ Result<EnvironmentTable> EnvironmentTable::create(const EnvironmentImage& image,
     EnvironmentTable table;
     table.width_ = image.width;
     table.height_ = image.height;
-    table.turn(rotation_deg);
+    table.rotation_deg_ = rotation_deg;
     table.copy_pixels(image.rgb, intensity);
     table.build_tables(sampling);
     return table;
-}
-
-void EnvironmentTable::turn(double rotation_deg) {
-    const double rotation_rad = std::remainder(rotation_deg, 360.0) * pi_d / 180.0;
-    cos_rotation_ = std::cos(rotation_rad);
-    sin_rotation_ = std::sin(rotation_rad);
 }
 
 void EnvironmentTable::copy_pixels(const float* rgb, double intensity) {
@@ -153,12 +155,14 @@ void EnvironmentTable::build_tables(EnvironmentSampling sampling) {
 }
 
 EnvironmentView EnvironmentTable::view() const {
-    return {pixels_.data(),
-            choice_.view(),
-            width_,
-            height_,
-            static_cast<float>(cos_rotation_),
-            static_cast<float>(sin_rotation_)};
+    return turned({pixels_.data(), choice_.view(), width_, height_}, rotation_deg_);
+}
+
+EnvironmentView turned(EnvironmentView view, double rotation_deg) {
+    const double rotation_rad = std::remainder(rotation_deg, 360.0) * pi_d / 180.0;
+    view.cos_rotation = static_cast<float>(std::cos(rotation_rad));
+    view.sin_rotation = static_cast<float>(std::sin(rotation_rad));
+    return view;
 }
 
 }  // namespace obscura

@@ -45,11 +45,6 @@ public:
         double rotation_deg,
         EnvironmentSampling sampling = EnvironmentSampling::compensated);
 
-    /// Turns the map as create() does; nothing else depends on it.
-    ///
-    /// In      rotation_deg: finite
-    void turn(double rotation_deg);
-
     /// Valid for as long as the table lives, wherever it is moved.
     EnvironmentView view() const;
 
@@ -71,11 +66,18 @@ private:
     PixelChoice choice_;
     int width_ = 0;
     int height_ = 0;
-    double cos_rotation_ = 1;
-    double sin_rotation_ = 0;
+    double rotation_deg_ = 0;
     double power_ = 0;
     bool black_ = true;
     int64_t repaired_values_ = 0;
 };
+
+/// Errors  64 E-ENV-OPTION the rotation is not finite
+Result<void> check_rotation(double rotation_deg);
+
+/// The same map turned as EnvironmentTable::create() does, whatever its rotation was.
+///
+/// In      rotation_deg: finite
+EnvironmentView turned(EnvironmentView view, double rotation_deg);
 
 }  // namespace obscura

@@ -4,7 +4,6 @@
 
 #include "base/setting_names.h"
 #include "base/stopwatch.h"
-#include "light/studio.h"
 #include "render/shape_light_table.h"
 #include "scene/alike_textures.h"
 #include "scene/edge_scale.h"
@@ -50,10 +49,6 @@ bool needs_studio(const Scene& scene, const LightTable& lights) {
            brightest_shape_radiance(scene) < min_lamp_radiance;
 }
 
-EnvironmentImage image_of(const ImageRgb32f& image) {
-    return {image.width, image.height, image.pixels.data()};
-}
-
 /// Shadow catchers take light samples alone.
 EnvironmentSampling environment_sampling(const Scene& scene, const LightingOptions& lighting) {
     const auto has_catcher = [](const std::vector<uint8_t>& flags) {
@@ -66,48 +61,32 @@ EnvironmentSampling environment_sampling(const Scene& scene, const LightingOptio
     return alone ? EnvironmentSampling::by_radiance : EnvironmentSampling::compensated;
 }
 
-/// Makes the environment's table, unless the old one has the same source, or is only to be turned.
+/// Errors  those of EnvironmentCache::table; 64 E-ENV-OPTION the rotation is not finite
 Result<void> make_environment(PreparedScene::Impl& impl,
                               const LightingOptions& lighting,
                               const EnvironmentSource& source) {
-    EnvironmentSource turned = impl.environment_source;
-    turned.rotation_deg = source.rotation_deg;
-    if (impl.environment && turned == source && std::isfinite(source.rotation_deg)) {
-        impl.environment->turn(source.rotation_deg);
-        impl.environment_source = source;
-        return {};
-    }
-    std::vector<float> studio_pixels;
-    EnvironmentImage image;
-    if (source.chosen) {
-        image = image_of(*lighting.environment);
-    } else if (source.own) {
-        image = image_of(*source.own);
-    } else {
-        studio_pixels = make_studio_pixels();
-        image = {studio_width, studio_height, studio_pixels.data()};
-    }
-    auto environment = EnvironmentTable::create(
-        image, lighting.environment_intensity, lighting.environment_rotation_deg, source.sampling);
-    if (!environment) return fail(environment.error());
-    impl.environment = std::move(*environment);
-    impl.environment_source = source;
+    if (auto turns = check_rotation(lighting.environment_rotation_deg); !turns) return turns;
+    EnvironmentCache& cache =
+        lighting.environments != nullptr ? *lighting.environments : impl.environments;
+    impl.environment.reset();  // the cache may make room for the new one
+    auto table = cache.table(source, lighting.environment_name);
+    if (!table) return fail(std::move(table.error()));
+    impl.environment = std::move(*table);
+    impl.environment_rotation_deg = lighting.environment_rotation_deg;
     return {};
 }
 
 /// Uses the environment that the user chose, else the scene's own, else the studio if nothing
 /// lights the scene.
 Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lighting, Log& log) {
-    const EnvironmentSource source{lighting.environment.has_value(),
-                                   lighting.environment_name,
-                                   impl.scene.environment,
+    const std::shared_ptr<const ImageRgb32f>& own = impl.scene.environment;
+    const EnvironmentSource source{lighting.environment ? lighting.environment : own,
                                    lighting.environment_intensity,
-                                   lighting.environment_rotation_deg,
                                    environment_sampling(impl.scene, lighting)};
-    if (source.chosen && source.own) {
+    if (lighting.environment && own) {
         log.info(setting("env") + " takes the place of the environment that the file brings");
     }
-    if (!source.chosen && !source.own) {
+    if (!source.image) {
         impl.lights = make_light_table(impl.scene, nullptr);
         if (!needs_studio(impl.scene, impl.lights)) {
             impl.environment.reset();
@@ -117,7 +96,7 @@ Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lig
                  " FILE chooses another)");
     }
     Result<void> made = make_environment(impl, lighting, source);
-    if (made) impl.lights = make_light_table(impl.scene, &*impl.environment);
+    if (made) impl.lights = make_light_table(impl.scene, impl.environment.get());
     return made;
 }
 
@@ -192,8 +171,12 @@ SceneView PreparedScene::Impl::view() const {
     out.textures = view_of(scene.textures);
     out.lights = lights.view();
     out.has_environment = environment && !environment->black();
-    if (out.has_environment) out.environment = environment->view();
+    if (out.has_environment) out.environment = environment_view();
     return out;
+}
+
+EnvironmentView PreparedScene::Impl::environment_view() const {
+    return turned(environment->view(), environment_rotation_deg);
 }
 
 Error missing_isa() {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accel/accel.h"
+#include "render/environment_cache.h"
 #include "render/light_table.h"
 #include "render/render.h"
 
@@ -11,23 +12,11 @@
 
 namespace obscura {
 
-/// Where an environment comes from: the user's choice, else the scene's own, else the studio; how
-/// it is turned and sampled.
-struct EnvironmentSource {
-    bool chosen = false;
-    std::string name;  ///< of the chosen one
-    std::shared_ptr<const ImageRgb32f> own;
-    double intensity = 1;
-    double rotation_deg = 0;
-    EnvironmentSampling sampling = EnvironmentSampling::compensated;
-
-    bool operator==(const EnvironmentSource&) const = default;
-};
-
 struct PreparedScene::Impl {
     Scene scene;
-    std::optional<EnvironmentTable> environment;
-    EnvironmentSource environment_source;  ///< of the current environment
+    std::shared_ptr<const EnvironmentTable> environment;  ///< null: there is none
+    double environment_rotation_deg = 0;
+    EnvironmentCache environments;  ///< where LightingOptions brings none
     LightTable lights;
     std::optional<Accel> accel;
     const StageTable* stages = nullptr;
@@ -37,6 +26,7 @@ struct PreparedScene::Impl {
     BuildSeconds build_seconds;
 
     SceneView view() const;
+    EnvironmentView environment_view() const;  ///< of an environment that there is, turned
 };
 
 }  // namespace obscura

@@ -205,7 +205,7 @@ RaycastLights make_raycast_lights(const PreparedScene::Impl& impl) {
                                      [](const CentreLight& light) { return !shines(light); }),
                       out.centres.end());
     const bool has_environment = impl.environment && !impl.environment->black();
-    if (has_environment) out.ambient = project_environment(impl.environment->view());
+    if (has_environment) out.ambient = project_environment(impl.environment_view());
     out.headlight = !impl.environment && out.centres.empty() && impl.lights.punctual.empty();
     return out;
 }

@@ -25,6 +25,7 @@
 
 namespace obscura {
 
+class EnvironmentCache;
 class FilmSums;
 struct PassFilm;
 struct RaycastNotes;
@@ -63,11 +64,14 @@ struct PixelRect {
 };
 
 struct LightingOptions {
-    std::optional<ImageRgb32f> environment;  ///< none: the scene's own, else the studio
-    std::string environment_name = {};       ///< tells one from another; see PreparedScene::update
-    double environment_intensity = 1;        ///< of any environment
-    double environment_rotation_deg = 0;     ///< about +Y, counter-clockwise seen from above
-    bool catcher_ground = false;             ///< RenderOptions::catcher_ground_m will be set
+    /// Null: the scene's own, else the studio. Scenes and cache tell one from another by it.
+    std::shared_ptr<const ImageRgb32f> environment;
+    std::string environment_name = {};    ///< for messages
+    double environment_intensity = 1;     ///< of any environment
+    double environment_rotation_deg = 0;  ///< about +Y, counter-clockwise seen from above
+    bool catcher_ground = false;          ///< RenderOptions::catcher_ground_m will be set
+    /// Has the tables of environments that several scenes have in common; null: each has its own.
+    std::shared_ptr<EnvironmentCache> environments = {};
 };
 
 /// Adaptive sampling: samples are taken where they lower the noise of the picture. See

@@ -106,7 +106,6 @@ Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
         turned->environment_rotation_deg += camera_azimuth_deg(camera->basis.world_from_camera);
     }
     const LightingOptions& used = turned ? *turned : lighting;
-    if (auto fits = charge_environment(used, charges_); !fits) return fail(fits.error());
     Scene scene = std::move(*scene_);
     scene_.reset();
     if (prepared_) {

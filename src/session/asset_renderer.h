@@ -19,6 +19,8 @@ struct PoseTimes {
     double time_s = 0;
     std::optional<gltf::ShutterTimes> shutter = {};  ///< open around that time
     bool is_last = false;  ///< no other pose will be asked for: memory is given back sooner
+
+    bool operator==(const PoseTimes&) const = default;
 };
 
 /// Callbacks that follow a rendering, and may stop it.
@@ -76,6 +78,9 @@ public:
     /// Errors  those of load_gltf
     Result<void> pose(const PoseTimes& times, Log& log);
 
+    /// Gives memory back: no other pose than the present one will be asked for.
+    void forget_asset() { asset_.reset(); }
+
     /// The posed scene; after prepare(), points and lines are as thick as the request says.
     const Scene& scene() const;
     const gltf::Degraded& degraded() const { return degraded_; }
@@ -85,6 +90,7 @@ public:
 
     /// True while there is a posed or prepared scene; false after an error.
     bool has_scene() const { return scene_ || is_prepared_; }
+    bool is_prepared() const { return is_prepared_; }
 
     /// Makes the prepared pose ready for prepare() once more, for another light; what is built and
     /// still fits is kept.

@@ -6,7 +6,6 @@
 #include "film/layer_sums.h"
 #include "film/light_groups.h"
 #include "film/light_path_plan.h"
-#include "image/environment_memory.h"
 #include "render/integrators.h"
 #include "scene/scene_memory.h"
 #include "session/image_parts.h"
@@ -75,16 +74,6 @@ uint64_t finishing_bytes(const RenderRequest& request, uint64_t film_bytes) {
 
 Result<void> charge_geometry(const Scene& scene, MemoryCharges& charges) {
     return recharge(charges.geometry, MemoryUse::geometry, "", geometry_bytes(scene));
-}
-
-Result<void> charge_environment(const LightingOptions& lighting, MemoryCharges& charges) {
-    charges.environment = {};
-    if (!lighting.environment) return {};
-    const ImageRgb32f& image = *lighting.environment;
-    return recharge(charges.environment,
-                    MemoryUse::environment,
-                    "",
-                    environment_memory_bytes(image.width, image.height));
 }
 
 Result<void> charge_film(const Scene& scene,

@@ -10,11 +10,11 @@
 
 namespace obscura {
 
-/// What one session has taken; the BVH and the asset's own bytes keep their charges themselves.
+/// What one session has taken; the BVH, environments and the asset's own
+/// bytes keep their charges themselves.
 struct MemoryCharges {
     std::vector<MemoryCharge> textures;  ///< shared with the asset, which may go before its texels
     MemoryCharge geometry;
-    MemoryCharge environment;
     MemoryCharge film;
 };
 
@@ -22,9 +22,6 @@ struct MemoryCharges {
 ///
 /// Errors  33 E-MEM; so all
 Result<void> charge_geometry(const Scene& scene, MemoryCharges& charges);
-
-/// Charges the environment that was chosen and its sampling tables.
-Result<void> charge_environment(const LightingOptions& lighting, MemoryCharges& charges);
 
 /// Charges the film with its layers, what its samples are gathered in, and what is made of it when
 /// it is denoised and written. To be called before there is a film.

@@ -217,6 +217,45 @@ TEST_F(Batch, AnAutomaticExposureIsOneForALookOrAGroup) {
     EXPECT_EQ(exposures().at("dim"), exposures().at("bright"));
 }
 
+TEST_F(Batch, AnAssetIsReadOnceAndTheNextOneAhead) {
+    const auto count = [](const std::string& text, const std::string& part) {
+        size_t out = 0;
+        for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+            ++out;
+        return out;
+    };
+    json job = small_job();
+    json scene = json::parse(read_text(folder_ / "in/quad.gltf"));
+    scene["extensionsUsed"].push_back("EXT_unheard_of");
+    folder_.write("in/quad.gltf", scene.dump());
+    const ProgramRun alone = batch(job, {"--verbose", "--threads", "1"});
+    expect_result(alone, 0, "OK");
+    EXPECT_EQ(count(alone.err, "is open already"), 6U) << alone.err;
+    EXPECT_EQ(count(alone.err, "was read ahead"), 0U);
+    const std::string small = read_text(folder_ / "out/quad/day_small.exr");
+    const ProgramRun ahead = batch(job, {"--verbose", "--threads", "2"});
+    expect_result(ahead, 0, "OK");
+    EXPECT_EQ(count(ahead.err, "is open already"), 6U);
+    EXPECT_EQ(count(ahead.err, "in/quad.gltf was read ahead"), 1U);
+    EXPECT_EQ(count(ahead.err, "EXT_unheard_of"), 1U) << "it is shown once";
+    EXPECT_EQ(read_text(folder_ / "out/quad/day_small.exr"), small);
+    for (const json& line : lines("out.jsonl")) {
+        const bool warns = line.at("warnings").dump().find("EXT_unheard_of") != std::string::npos;
+        EXPECT_EQ(warns, line.at("asset") == "in/quad.gltf") << line;
+    }
+    // Metering has read them.
+    job["options"]["exposure"] = "auto";
+    for (json& look : job["looks"])
+        look["options"].erase("exposure");
+    const ProgramRun metered = batch(job, {"--verbose", "--threads", "2"});
+    expect_result(metered, 0, "OK");
+    EXPECT_EQ(count(metered.err, "is open already"), 8U) << metered.err;
+    EXPECT_EQ(count(metered.err, "EXT_unheard_of"), 1U);
+    // Where others may render what follows, nothing is read for it.
+    const ProgramRun shared = batch(job, {"--verbose", "--threads", "2", "--skip-existing"});
+    EXPECT_EQ(count(shared.err, "was read ahead"), 0U);
+}
+
 TEST_F(Batch, WhatCannotBeMeteredIsLeftOut) {
     folder_.write("in/broken.gltf", "{");
     json job = small_job();

@@ -224,7 +224,7 @@ TEST(LightBounds, TheTableChoosesBetweenTheTreeAndLightsWithoutPlace) {
     PunctualLight sun;
     sun.type = static_cast<int32_t>(PunctualType::directional);
     scene.lights.push_back(sun);
-    const ImageRgb32f image = constant_environment(0.5f);
+    const ImageRgb32f image = *constant_environment(0.5f);
     const EnvironmentTable sky =
         EnvironmentTable::create({image.width, image.height, image.pixels.data()}, 1, 0).value();
     const LightTable table = make_light_table(scene, &sky);

@@ -25,7 +25,7 @@ PunctualLight bulb(PunctualType type, float intensity) {
 }
 
 EnvironmentTable sky(float radiance) {
-    const ImageRgb32f image = constant_environment(radiance);
+    const ImageRgb32f image = *constant_environment(radiance);
     return EnvironmentTable::create({image.width, image.height, image.pixels.data()}, 1, 0).value();
 }
 

@@ -22,7 +22,7 @@ TEST(PreparedScene, AnInstructionSetThatTheProcessorLacksIsRefused) {
 
 /// How much denser light samples are in a sky of 2 than on the ground of 1 below it.
 double sky_over_ground(const PreparedScene& scene) {
-    const EnvironmentView view = scene.impl().environment->view();
+    const EnvironmentView view = scene.impl().environment_view();
     return environment_pdf(view, normalize(Vec3d{0.3, 0.9, 0.2})) /
            environment_pdf(view, normalize(Vec3d{0.3, -0.9, 0.2}));
 }
@@ -38,12 +38,11 @@ TEST(PreparedScene, CatchersSampleTheEnvironmentByItsRadiance) {
                                           of_instance ? flags : 0);
         return scene;
     };
-    LightingOptions sky;
-    sky.environment = ImageRgb32f{};
-    sky.environment->width = 16;
-    sky.environment->height = 8;
+    ImageRgb32f bright_above{16, 8, {}};
     for (int i = 0; i < 16 * 8 * 3; ++i)
-        sky.environment->pixels.push_back(i < 16 * 4 * 3 ? 2.0F : 1.0F);
+        bright_above.pixels.push_back(i < 16 * 4 * 3 ? 2.0F : 1.0F);
+    LightingOptions sky;
+    sky.environment = shared(std::move(bright_above));
     LightingOptions over_ground = sky;
     over_ground.catcher_ground = true;
     Log log(Verbosity::quiet);
@@ -69,17 +68,18 @@ TEST(PreparedScene, AnEnvironmentThatIsTurnedIsThatOfItsOwn) {
         builder.quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, builder.material({}));
         return builder.take();
     };
+    ImageRgb32f with_lamp = *constant_environment(1);
+    for (int i = 0; i < 30; ++i)  // in one direction
+        with_lamp.pixels[static_cast<size_t>(3 * 16 * 3 + i)] = 50;
     LightingOptions lighting;
-    lighting.environment = constant_environment(1);
-    for (int i = 0; i < 30; ++i)  // a lamp in one direction
-        lighting.environment->pixels[static_cast<size_t>(3 * 16 * 3 + i)] = 50;
+    lighting.environment = shared(std::move(with_lamp));
     Log log(Verbosity::quiet);
     auto turned = PreparedScene::create(scene(), lighting, Isa::automatic, log).value();
     lighting.environment_rotation_deg = 70;
     ASSERT_TRUE(turned.update(scene(), lighting, log));
     const auto anew = PreparedScene::create(scene(), lighting, Isa::automatic, log).value();
-    const EnvironmentView a = turned.impl().environment->view();
-    const EnvironmentView b = anew.impl().environment->view();
+    const EnvironmentView a = turned.impl().environment_view();
+    const EnvironmentView b = anew.impl().environment_view();
     for (int i = 0; i < 100; ++i) {
         const Vec3d direction =
             normalize(Vec3d{std::cos(0.7 * i), 0.1 * (i % 9), std::sin(0.7 * i)});
@@ -87,6 +87,61 @@ TEST(PreparedScene, AnEnvironmentThatIsTurnedIsThatOfItsOwn) {
     }
     lighting.environment_rotation_deg = std::nan("");
     EXPECT_FALSE(turned.update(scene(), lighting, log));
+}
+
+TEST(PreparedScene, ScenesThatFollowHaveTheTableOfOneEnvironment) {
+    const auto scene = [] {
+        SceneBuilder builder;
+        builder.quad({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}, builder.material({}));
+        return builder.take();
+    };
+    Log log(Verbosity::quiet);
+    LightingOptions lighting;
+    lighting.environment = constant_environment(1);
+    lighting.environments = std::make_shared<EnvironmentCache>();
+    const auto table_of = [&](const LightingOptions& light) {
+        const auto prepared = PreparedScene::create(scene(), light, Isa::automatic, log).value();
+        return prepared.impl().environment;
+    };
+    const auto first = table_of(lighting);
+    LightingOptions turned = lighting;
+    turned.environment_rotation_deg = 30;
+    EXPECT_EQ(table_of(turned), first);
+    LightingOptions studio;
+    studio.environments = lighting.environments;
+    const auto of_studio = table_of(studio);
+    EXPECT_NE(of_studio, first);
+    EXPECT_EQ(table_of(lighting), first) << "each has its own";
+    EXPECT_EQ(table_of(studio), of_studio);
+    LightingOptions brighter = lighting;
+    brighter.environment_intensity = 2;
+    const auto bright = table_of(brighter);
+    EXPECT_DOUBLE_EQ(bright->power(), 2 * first->power());
+    LightingOptions other = lighting;
+    other.environment = constant_environment(1);
+    EXPECT_NE(table_of(other), first);
+}
+
+TEST(PreparedScene, TablesOfEnvironmentsGoWithTheirImages) {
+    EnvironmentCache cache;
+    const EnvironmentSource other{constant_environment(2)};
+    std::weak_ptr<const EnvironmentTable> dim, bright;
+    auto image = constant_environment(1);
+    dim = cache.table({image, 1}, "sky").value();
+    EXPECT_FALSE(dim.expired());
+    bright = cache.table({image, 2}, "sky").value();
+    EXPECT_TRUE(dim.expired()) << "the image has another table";
+    ASSERT_TRUE(cache.table(other, "other"));
+    EXPECT_FALSE(bright.expired()) << "somebody holds the image";
+    image.reset();
+    ASSERT_TRUE(cache.table({nullptr}, "studio"));
+    EXPECT_TRUE(bright.expired());
+    set_memory_limit(program_memory_bytes + 1000, "this test");
+    const auto refused = cache.table({other.image, 3}, "other");
+    remove_memory_limit();
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().id, "E-MEM");
+    EXPECT_EQ(refused.error().where, "other");
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ TEST(RaycastLights, LampsAreNeverBrighterThanTheirSurface) {
 }
 
 TEST(RaycastLights, AHeadlightOnlyWhereThereIsNoOtherLight) {
-    const auto lights_of = [](float emission, bool bulb, std::optional<ImageRgb32f> sky) {
+    const auto lights_of = [](float emission, bool bulb, std::shared_ptr<const ImageRgb32f> sky) {
         SceneBuilder builder;
         Material m;
         std::fill_n(m.emission, 3, emission);

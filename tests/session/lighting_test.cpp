@@ -22,6 +22,8 @@ TEST(LoadLighting, TakesWhatTheRequestSays) {
     EXPECT_EQ(lighting->environment_intensity, 2);
     EXPECT_EQ(lighting->environment_rotation_deg, 30);
     EXPECT_TRUE(lighting->environment);
+    const auto again = load_lighting(request, log, lighting->environment);
+    EXPECT_EQ(again->environment, lighting->environment) << "it is not made once more";
 }
 
 }  // namespace

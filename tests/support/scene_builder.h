@@ -122,11 +122,16 @@ private:
     Scene scene_;
 };
 
+/// For LightingOptions::environment.
+inline std::shared_ptr<const ImageRgb32f> shared(ImageRgb32f image) {
+    return std::make_shared<const ImageRgb32f>(std::move(image));
+}
+
 /// A constant environment of the given radiance.
-inline ImageRgb32f constant_environment(float radiance) {
+inline std::shared_ptr<const ImageRgb32f> constant_environment(float radiance) {
     ImageRgb32f image{16, 8, {}};
     image.pixels.assign(16 * 8 * 3, radiance);
-    return image;
+    return shared(std::move(image));
 }
 
 /// A pinhole camera at `eye` that looks at `target`.

@@ -46,7 +46,7 @@ LightingOptions mixed_light() {
             sky.pixels[static_cast<size_t>(y * 64 + x) * 3] = 15.0f;
     }
     LightingOptions lighting;
-    lighting.environment = sky;
+    lighting.environment = shared(sky);
     return lighting;
 }
 

@@ -286,7 +286,7 @@ TEST(Environment, FollowsTheDocumentedOrientation) {
     }
     for (const Vec3f& d : {Vec3f{1, 0, 0}, Vec3f{0, 0.2f, 1}, Vec3f{0.3f, -0.9f, -0.5f}}) {
         LightingOptions lighting;
-        lighting.environment = map;
+        lighting.environment = shared(map);
         RenderOptions options = small_image();
         options.samples_per_pixel = 4;
         const Camera camera = look_at({0, 0, 0}, d, 0.01f, image_size, image_size);

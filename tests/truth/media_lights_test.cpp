@@ -238,7 +238,7 @@ TEST(MediaLights, LightSamplingAndThePhaseFunctionFindTheSameLight) {
     sky.pixels.assign(64 * 32 * 3, 0.2f);
     std::fill_n(sky.pixels.begin() + (6 * 64 + 20) * 3, 3, 100.0f);
     FrontView view{.samples = 256};
-    view.lighting.environment = sky;
+    view.lighting.environment = shared(sky);
     for (const float g : {0.0f, 0.7f}) {
         SCOPED_TRACE(g);
         const Film both = film_from_front(lit_clouds(g), view);

@@ -100,15 +100,16 @@ LightingOptions sky_over(const Vec3f& below) {
             image.pixels.insert(image.pixels.end(), {color.x, color.y, color.z});
         }
     }
-    out.environment = image;
+    out.environment = shared(image);
     return out;
 }
 
 LightingOptions all_around(const Vec3f& color) {
-    LightingOptions out;
-    out.environment = ImageRgb32f{4, 2, {}};
+    ImageRgb32f image{4, 2, {}};
     for (int i = 0; i < 8; ++i)
-        out.environment->pixels.insert(out.environment->pixels.end(), {color.x, color.y, color.z});
+        image.pixels.insert(image.pixels.end(), {color.x, color.y, color.z});
+    LightingOptions out;
+    out.environment = shared(std::move(image));
     return out;
 }
 

@@ -57,7 +57,7 @@ LightingOptions sky() {
         const float bright = i % 16 < 5 ? 2.0f : 0.5f;
         image.pixels.insert(image.pixels.end(), {bright, 0.8f * bright, 0.6f * bright});
     }
-    out.environment = image;
+    out.environment = shared(image);
     return out;
 }
 
