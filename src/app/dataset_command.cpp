@@ -24,10 +24,10 @@ SceneRun run_of(DatasetScene& scene, const dataset::LabelOptions& options) {
     if (options.depth_unit_mm)
         run.options.emplace_back("--depth-unit", fmt::format("{}", *options.depth_unit_mm));
     const auto writer = std::make_shared<dataset::LabelWriter>(options);
-    run.hooks.aim = [](const AssetRenderer& renderer,
-                       RenderRequest& request,
-                       const ChosenCamera& camera,
-                       Log& log) { return dataset::aim(renderer, request, camera, log); };
+    run.hooks.aim =
+        [](AssetRenderer& renderer, RenderRequest& request, const ChosenCamera& camera, Log& log) {
+            return dataset::aim(renderer, request, camera, log);
+        };
     run.hooks.label = [writer](const RenderRequest& request,
                                const PreparedScene& prepared,
                                const ChosenCamera& camera,

@@ -83,6 +83,14 @@ std::vector<double> meter(const SceneRun& run, KeptForLater& kept) {
             .kept = kept,
             .hooks = run.hooks};
     done = meter_images(job, unheard, stops);
+    // The number must not depend on the memory that others left.
+    const bool lacks_memory = !done && done.error().code == ExitCode::out_of_memory;
+    if (lacks_memory && give_back(kept)) {
+        job.renderer.reset();
+        job.asset_notes = {};
+        stops.clear();
+        done = meter_images(job, unheard, stops);
+    }
     // Nobody has heard it; the rendering will tell.
     job.asset_notes.forget_telling();
     for (auto& [key, environment] : kept.environments)

@@ -9,13 +9,14 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
+#include <system_error>
 
 namespace obscura::app {
 
 namespace {
 
 bool has_times(const RenderRequest& request) {
-    const std::vector<View>& views = request.lists.views;
+    const std::vector<View>& views = *request.lists.views;
     return request.load.time_s || request.frames || request.shutter ||
            std::any_of(views.begin(), views.end(), [](const View& view) {
                return view.time_s.has_value();
@@ -31,8 +32,8 @@ Result<AssetPose> first_pose(const RenderRequest& request, const AssetRenderer& 
     if (!variants) return fail(variants.error());
     double time_s = first_time_s(request);
     std::string variant = variants->front();
-    if (!request.lists.views.empty()) {
-        const View& view = request.lists.views.front();
+    if (!request.lists.views->empty()) {
+        const View& view = request.lists.views->front();
         time_s = view.time_s.value_or(time_s);
         variant = view.variant.value_or(variant);
     }
@@ -112,21 +113,23 @@ void KeptAssets::read_ahead(RenderRequest request, int threads) {
     });
     if (is_open || reading_.valid()) return;
     scene_being_read_ = request.scene;
-    reading_ = std::async(
-        std::launch::async,
-        [threads](RenderRequest asked) -> std::optional<Entry> {
-            try {
-                const ThreadArena arena(threads);
-                Notes notes;
-                Result<Entry> done = read(std::move(asked), notes);
-                if (!done) return {};
-                done->second.notes = std::move(notes);
-                return std::move(*done);
-            } catch (const std::exception&) {  // no memory: it may be there in its turn
-                return {};
-            }
-        },
-        std::move(request));
+    const auto read_it = [threads](RenderRequest asked) -> std::optional<Entry> {
+        try {
+            const ThreadArena arena(threads);
+            Notes notes;
+            Result<Entry> done = read(std::move(asked), notes);
+            if (!done) return {};
+            done->second.notes = std::move(notes);
+            return std::move(*done);
+        } catch (const std::exception&) {  // no memory: it may be there in its turn
+            return {};
+        }
+    };
+    try {
+        reading_ = std::async(std::launch::async, read_it, std::move(request));
+    } catch (const std::system_error&) {  // there is no thread
+        scene_being_read_.clear();
+    }
 }
 
 bool KeptAssets::is_reading() const {

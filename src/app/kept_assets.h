@@ -85,12 +85,13 @@ public:
     /// Closes all, and waits for what is being read. False: there was nothing.
     bool close_all();
 
-    /// Closes what no later rendering needs.
+    /// Closes what no later rendering needs, and waits for it where it is being read.
     ///
-    /// In      is_needed: says so of a use
+    /// In      is_needed: says so of a scene
     template <typename Needed>
     void close_unless(const Needed& is_needed) {
-        std::erase_if(open_, [&](const auto& entry) { return !is_needed(entry.first); });
+        if (reading_.valid() && !is_needed(scene_being_read_)) finish_reading();
+        std::erase_if(open_, [&](const auto& entry) { return !is_needed(entry.first.scene); });
     }
 
 private:

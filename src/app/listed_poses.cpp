@@ -20,7 +20,8 @@ std::string environment_key(const RenderRequest& request) {
 
 Result<void> ListedPoses::load_once() {
     if (job_.renderer) return {};
-    Result<void> loaded = load(job_.log);
+    RepeatedLog repeated(job_.log, SettingNames::options);
+    Result<void> loaded = load(is_reopened_ ? repeated.begin() : job_.log);
     if (!loaded) job_.renderer.reset();
     return loaded;
 }
@@ -90,6 +91,12 @@ void ListedPoses::close() {
     job_.asset_notes = {};
     posed_.reset();
     lit_.reset();
+    has_told_pose_ = is_reopened_ = true;
+}
+
+void ListedPoses::tell_again(Log& log) {
+    job_.asset_notes.tell(log);
+    job_.kept.environments[environment_key(whole_)].notes.tell(log);
 }
 
 Result<void> ListedPoses::find_images(Log& log) {
@@ -131,13 +138,11 @@ Result<void> ListedPoses::pose_as(const AssetPose& pose, bool is_last, Log& log)
         if (is_last) job_.renderer->forget_asset();
         return {};
     }
-    if (std::exchange(notes_pose_, false)) {
-        Log noted = noted_log(log, job_.asset_notes);
-        return pose_anew(pose, is_last, noted);
-    }
-    if (!has_told_pose_) return pose_anew(pose, is_last, log);
     RepeatedLog repeated(log, SettingNames::options);
-    return pose_anew(pose, is_last, repeated.begin());
+    Log& heard = has_told_pose_ ? repeated.begin() : log;
+    if (!std::exchange(notes_pose_, false)) return pose_anew(pose, is_last, heard);
+    Log noted = noted_log(heard, job_.asset_notes);
+    return pose_anew(pose, is_last, noted);
 }
 
 Result<void> ListedPoses::pose_anew(const AssetPose& pose, bool is_last, Log& log) {
@@ -153,13 +158,13 @@ Result<void> ListedPoses::pose_anew(const AssetPose& pose, bool is_last, Log& lo
 
 /// The framing of the first frame, in every view.
 void ListedPoses::keep_views(const std::string& variant) {
-    const Scene& scene = job_.renderer->scene();
+    const FramedScene framed = job_.renderer->framed_scene();
     std::vector<KeptView>& kept = kept_[variant];
     for (const View& view : list_.views) {
         RenderRequest request = request_of(whole_, view, list_.images.front());
-        request.camera.framed = scene.bounds;
+        request.camera.framed = framed.scene.bounds;
         const double aspect = static_cast<double>(request.options.width) / request.options.height;
-        kept.push_back({scene.bounds, automatic_framing(scene, request.camera, aspect)});
+        kept.push_back({framed.scene.bounds, automatic_framing(framed, request.camera, aspect)});
     }
 }
 
@@ -206,6 +211,15 @@ void leave_asset(Job& job) {
     job.renderer.reset();
     asset.notes = std::move(job.asset_notes);
     job.kept.assets.keep(asset_use(job.whole), std::move(asset));
+}
+
+bool give_back(KeptForLater& kept) {
+    const bool had_assets = kept.assets.close_all();
+    const bool had_tables = kept.environment_tables->drop_unused();
+    const size_t images = std::erase_if(kept.environments, [](const auto& entry) {
+        return entry.second.image && entry.second.image.use_count() == 1;
+    });
+    return had_assets || had_tables || images > 0;
 }
 
 }  // namespace obscura::app

@@ -36,6 +36,9 @@ public:
     /// Closes the asset; what comes next reads it again.
     void close();
 
+    /// Adds what reading asset and environment has warned of to the log of a further image.
+    void tell_again(Log& log);
+
     /// Makes the job's request that of an image.
     void begin_image(size_t index);
 
@@ -77,7 +80,8 @@ private:
     std::optional<Light> lit_;  ///< nothing: the pose has not been prepared
     std::map<std::string, std::vector<KeptView>> kept_;  ///< of a sequence, by variant
     bool notes_pose_ = false;     ///< what the next pose has to say belongs to Job::asset_notes
-    bool has_told_pose_ = false;  ///< these came with the asset, and were told
+    bool has_told_pose_ = false;  ///< what posing has to say was told before
+    bool is_reopened_ = false;    ///< what reading has to say was told before
     std::optional<RenderStatistics> before_close_;
 };
 
@@ -86,5 +90,8 @@ std::string environment_key(const RenderRequest& request);
 
 /// Leaves the asset to later renderings of a job that need it.
 void leave_asset(Job& job);
+
+/// Gives the memory back that later renderings would have used. False: there was none.
+bool give_back(KeptForLater& kept);
 
 }  // namespace obscura::app

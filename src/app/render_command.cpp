@@ -36,10 +36,17 @@ std::string skipped_text(size_t skipped) {
     return skipped == 0 ? "" : fmt::format("; {} {} there", skipped, skipped == 1 ? "was" : "were");
 }
 
-void log_summary(const RenderRequest& request,
-                 const RenderStatistics& statistics,
-                 size_t skipped,
-                 Log& log) {
+/// "rendered 12 images"; of a single one "rendered".
+std::string rendered_text(const Job& job) {
+    const RenderRequest& request = job.whole;
+    if (!request.frames && !request.lists.is_asked()) return "rendered";
+    const char* const unit = request.lists.is_asked() ? "image" : "frame";
+    return fmt::format("rendered {} {}{}", job.rendered, unit, job.rendered == 1 ? "" : "s");
+}
+
+void log_summary(const Job& job, const RenderStatistics& statistics) {
+    const RenderRequest& request = job.whole;
+    Log& log = job.log;
     std::string names;
     if (is_part_of_image(request)) {
         names = part_file(request.outputs.front(), *request.part).string();
@@ -53,8 +60,6 @@ void log_summary(const RenderRequest& request,
     const auto millions = [&](uint64_t count) {
         return static_cast<double>(count) / seconds * 1e-6;
     };
-    const std::string what =
-        request.frames ? fmt::format("rendered {} frames", statistics.frames.size()) : "rendered";
     if (statistics.adaptive) {
         const SamplesTaken& taken = *statistics.adaptive;
         const std::string noise =
@@ -66,12 +71,12 @@ void log_summary(const RenderRequest& request,
                              noise));
     }
     log.info(fmt::format("{} in {:.2f} s: {:.2f} M paths/s, {:.2f} M rays/s; wrote {}{}",
-                         what,
+                         rendered_text(job),
                          statistics.render_s,
                          millions(statistics.counters.paths),
                          millions(total_rays(statistics.counters)),
                          names,
-                         skipped_text(skipped)));
+                         skipped_text(job.skipped)));
 }
 
 Result<void> write_statistics(const RenderRequest& request, const RenderStatistics& statistics) {
@@ -122,7 +127,7 @@ Result<void> tell_statistics(Job& job, const UsedMachine& used) {
     statistics.total_s = used.seconds;
     statistics.warnings = job.log.warnings();
     if (auto written = write_statistics(job.whole, statistics); !written) return written;
-    if (job.renderer) log_summary(job.whole, statistics, job.skipped, job.log);
+    if (job.renderer) log_summary(job, statistics);
     return check_counters(statistics.counters, job.whole);
 }
 
@@ -227,8 +232,8 @@ void drop_unneeded(KeptForLater& kept, std::span<const SceneRun> later) {
         return !is_of_any(
             [&](const RenderRequest& request) { return environment_key(request) == entry.first; });
     });
-    kept.assets.close_unless([&](const AssetUse& use) {
-        return is_of_any([&](const RenderRequest& request) { return request.scene == use.scene; });
+    kept.assets.close_unless([&](const std::filesystem::path& scene) {
+        return is_of_any([&](const RenderRequest& request) { return request.scene == scene; });
     });
 }
 

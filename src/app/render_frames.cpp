@@ -6,6 +6,7 @@
 #include "app/listed_poses.h"
 #include "app/outcome.h"
 #include "app/render_job.h"
+#include "base/parallel.h"
 #include "base/stopwatch.h"
 #include "session/focus.h"
 #include "session/manifest.h"
@@ -13,6 +14,9 @@
 #include "stages/dispatch.h"
 
 #include <fmt/format.h>
+#include <future>
+#include <memory>
+#include <system_error>
 
 namespace obscura::app {
 
@@ -77,6 +81,28 @@ Result<void> note_files(Job& job, const std::vector<ListedImage>& images) {
     return {};
 }
 
+struct MadeImage {
+    ImageOutcome outcome;
+    FrameStatistics figures = {};
+};
+
+/// An image whose files are written while the next one is rendered.
+struct WrittenBeside {
+    MadeImage made;
+    RenderRequest request;
+    FinishedImage finished;
+    MemoryCharge charge;
+    Notes notes = {};
+    Result<void> noted = {};  ///< in the manifest
+    std::future<Result<void>> done = {};
+};
+
+/// However writing ends, the watch is told.
+struct EndOfWriting {
+    Watch& watch;
+    ~EndOfWriting() { watch.end_writing_beside(); }
+};
+
 /// The images of a command, of which those that are not there are rendered.
 class FrameRun {
 public:
@@ -85,8 +111,18 @@ public:
 
     /// Goes through the images; those of others once more in the end.
     Result<void> run() {
+        Result<void> done = render_images();
+        if (auto before = finish_beside(); done && !before) done = before;
+        if (job_.renderer) job_.renderer->statistics().write_s += write_beside_s_;
+        if (!done) return done;
+        if (!failures_.empty()) return fail(all_failures());
+        return check_none_left(of_others_, job_.request);
+    }
+
+private:
+    Result<void> render_images() {
         if (auto opened = open_manifest(); !opened) return opened;
-        if (auto listed = with_memory([&] { return list(); }); !listed)
+        if (auto listed = with_memory(job_.log, [&](Log& log) { return list(log); }); !listed)
             return note_no_list(listed.error());
         if (job_.request.long_run.skips_existing) find_facts(job_);
         std::vector<size_t> left = indices_to_render(job_.request, images().size());
@@ -96,14 +132,11 @@ public:
         for (int pass = 0; pass < passes && !left.empty(); ++pass) {
             if (auto done = render_free_ones(left); !done) return done;
         }
-        std::vector<ListedImage> of_others;
         for (const size_t i : left)
-            of_others.push_back(images()[i]);
-        if (!failures_.empty()) return fail(all_failures());
-        return check_none_left(of_others, job_.request);
+            of_others_.push_back(images()[i]);
+        return {};
     }
 
-private:
     const std::vector<ListedImage>& images() const { return poses_.list().images; }
 
     Result<void> open_manifest() {
@@ -116,23 +149,33 @@ private:
         return {};
     }
 
-    Result<void> list() {
-        if (auto listed = poses_.find_images(job_.log); !listed) return listed;
+    Result<void> list(Log& log) {
+        if (auto listed = poses_.find_images(log); !listed) return listed;
         const RenderRequest& request = poses_.whole();
         if (auto own = note_files(job_, images()); !own) return own;
         return request.lists.needs_asset() ? check_files(request, images()) : Result<void>();
     }
 
-    /// Does something once more when memory lacks that was taken for what comes later.
+    /// Does something once more when memory lacks that was taken for what comes later, or for an
+    /// image that is being written.
+    ///
+    /// In      act: takes the log
     template <typename Action>
-    Result<void> with_memory(const Action& act) {
-        const Result<void> done = act();
+    Result<void> with_memory(Log& log, const Action& act) {
+        const Result<void> done = act(log);
         const bool lacks_memory = !done && done.error().code == ExitCode::out_of_memory;
-        if (!lacks_memory || !job_.kept.assets.close_all()) return done;
-        job_.log.detail("memory lacks: what was read ahead is closed");
-        poses_.close();
+        if (!lacks_memory) return done;
+        const bool had_image = beside_ != nullptr;
+        if (auto before = finish_beside(); !before) return before;
+        const bool had_more = give_back(job_.kept);
+        if (!had_image && !had_more) return done;
+        if (had_more) job_.log.detail("memory lacks: what later renderings need is given back");
+        const AssetRenderer* const renderer = job_.renderer ? &*job_.renderer : nullptr;
+        const bool is_whole = renderer != nullptr && renderer->has_scene() && renderer->can_pose();
+        if (!is_whole) poses_.close();
         job_.watch.begin_preparing();
-        return act();
+        RepeatedLog repeated(log, SettingNames::options);
+        return act(repeated.begin());
     }
 
     /// An asset whose images are not known has one line.
@@ -140,7 +183,7 @@ private:
         const ListedImage image;
         ImageOutcome outcome{image, View{}};
         outcome.error = error;
-        if (auto noted = note(outcome); !noted) return noted;
+        if (auto noted = note(job_.request, outcome); !noted) return noted;
         return fail(error);
     }
 
@@ -156,7 +199,7 @@ private:
                 ++job_.skipped;
                 ImageOutcome outcome = outcome_of(i);
                 outcome.was_there = true;
-                if (auto noted = note(outcome); !noted) return noted;
+                if (auto noted = note(job_.request, outcome); !noted) return noted;
             }
             if (claim->kind() != FrameClaim::Kind::to_render) continue;
             if (auto done = render_and_note(i); !done) return done;
@@ -170,53 +213,145 @@ private:
         return {image, poses_.list().views[image.view]};
     }
 
-    Result<void> note(const ImageOutcome& outcome) {
-        return manifest_ ? manifest_->add(manifest_line(job_.request, outcome)) : Result<void>();
+    /// In      request: of the image
+    Result<void> note(const RenderRequest& request, const ImageOutcome& outcome) {
+        return manifest_ ? manifest_->add(manifest_line(request, outcome)) : Result<void>();
     }
 
     /// A failure of one image of a list is kept for the end.
     Result<void> render_and_note(size_t index) {
         const Stopwatch making;
-        ImageOutcome outcome = outcome_of(index);
+        MadeImage made{outcome_of(index)};
         Log& log = index == 0 ? job_.log : later_.begin();
-        Result<void> done = with_memory([&] { return render_one(index, log, outcome); });
-        outcome.seconds = making.seconds();
-        outcome.warnings = log.warnings();
+        job_.unwritten.reset();
+        job_.leaves_files = may_write_beside(index);
+        const Result<void> done =
+            with_memory(log, [&](Log& own) { return render_one(index, own, made); });
+        if (has_ended_) return done;  // by the image before: of this one there is nothing
+        made.outcome.seconds = making.seconds();
+        made.outcome.warnings = log.warnings();
+        if (auto before = finish_beside(); !before) return before;
+        if (done && job_.unwritten) {
+            write_beside(std::move(made));
+            return {};
+        }
+        const Result<void> noted = note_end(job_.request, made.outcome, done);
+        return done && !noted ? noted : conclude(made, done);
+    }
+
+    /// Tells the manifest how an image ended.
+    Result<void> note_end(const RenderRequest& request,
+                          ImageOutcome& outcome,
+                          const Result<void>& done) {
         if (!done) outcome.error = done.error();
-        if (auto noted = note(outcome); done && !noted) return noted;
-        const bool goes_on = job_.request.lists.is_asked() && job_.renderer && !done &&
-                             done.error().code != ExitCode::stopped_early;
+        return note(request, outcome);
+    }
+
+    /// Counts an image that is written or has failed. Out: an error that ends the rest.
+    Result<void> conclude(const MadeImage& made, const Result<void>& done) {
+        const ListedImage& image = made.outcome.image;
+        if (done) {
+            ++job_.rendered;
+            if (image.label.empty()) return {};
+            if (job_.renderer) job_.renderer->statistics().frames.push_back(made.figures);
+            job_.log.info(fmt::format(
+                "{} is written, {} of {}", image.label, job_.rendered + job_.skipped, asked_));
+            return {};
+        }
+        const Error& error = done.error();
+        const bool goes_on =
+            job_.request.lists.is_asked() && job_.renderer && error.code != ExitCode::stopped_early;
         if (!goes_on) return done;
-        job_.log.warn(outcome.image.label.empty() ? outcome.image.outputs.front().string()
-                                                  : outcome.image.label,
-                      "this image fails: " + done.error().where + ": " + done.error().message +
-                          " [" + done.error().id + "]; the others go on");
-        job_.watch.begin_preparing();
-        failures_.push_back(std::move(done.error()));
+        job_.log.warn(image.label.empty() ? image.outputs.front().string() : image.label,
+                      "this image fails: " + error.where + ": " + error.message + " [" + error.id +
+                          "]; the others go on");
+        if (!job_.unwritten) job_.watch.begin_preparing();
+        failures_.push_back(error);
         return {};
     }
 
-    Result<void> render_one(size_t index, Log& log, ImageOutcome& outcome) {
+    Result<void> render_one(size_t index, Log& log, MadeImage& made) {
         if (auto loaded = poses_.load_once(); !loaded) return loaded;
+        if (index != 0) poses_.tell_again(log);
         if (job_.facts.empty()) find_facts(job_);
-        RenderStatistics& statistics = job_.renderer->statistics();
+        const RenderStatistics& statistics = job_.renderer->statistics();
         const RenderStatistics before = statistics;
         Result<ChosenCamera> camera = poses_.look(index, is_last_pose(index), log);
         if (camera && job_.hooks.aim)
             camera = job_.hooks.aim(*job_.renderer, job_.request, *camera, log);
         if (!camera) return fail(camera.error());
-        outcome.camera = *camera;
+        made.outcome.camera = *camera;
         if (job_.kept.read_ahead) job_.kept.read_ahead(job_.threads);
+        if (camera->ev100 || job_.is_exposed) {  // it changes the display
+            if (auto before = finish_beside(); !before) return before;
+        }
         const auto done = make_image(job_, *camera, turn_of(index), log, progress_);
         if (!done) return done;
-        job_.watch.begin_preparing();
-        ++rendered_;
-        const ListedImage& image = images()[index];
-        if (image.label.empty()) return {};
-        statistics.frames.push_back(frame_statistics(image, before, statistics));
-        job_.log.info(
-            fmt::format("{} is written, {} of {}", image.label, rendered_ + job_.skipped, asked_));
+        if (!job_.unwritten) job_.watch.begin_preparing();
+        made.figures = frame_statistics(made.outcome.image, before, statistics);
         return {};
+    }
+
+    /// Whether an image's files are written while the next one is rendered. Where that may be cut
+    /// short, or others look at the files, they are written at once.
+    bool may_write_beside(size_t index) const {
+        const RenderRequest& request = job_.request;
+        const LongRun& run = request.long_run;
+        const bool is_simple = job_.parts == nullptr && !request.part && !is_followed(request);
+        return is_simple && job_.threads > 1 && index != last_ && !run.time_limit_s &&
+               !run.skips_existing;
+    }
+
+    /// Begins to write the files of the image that is finished.
+    void write_beside(MadeImage&& made) {
+        job_.watch.begin_writing_beside();
+        job_.watch.begin_preparing();
+        beside_.reset(new WrittenBeside{std::move(made),
+                                        job_.request,
+                                        std::move(*job_.unwritten),
+                                        job_.renderer->take_film_charge()});
+        job_.unwritten.reset();
+        const auto write = [this, image = beside_.get()] {
+            const EndOfWriting end{job_.watch};
+            return write_and_note(*image);
+        };
+        try {
+            beside_->done = std::async(std::launch::async, write);
+        } catch (const std::system_error&) {  // there is no thread: it is done when waited for
+            beside_->done = std::async(std::launch::deferred, write);
+        }
+    }
+
+    /// In a thread of its own.
+    Result<void> write_and_note(WrittenBeside& image) {
+        const ThreadArena arena(job_.threads);
+        const Stopwatch writing;
+        Log log = noting_log(job_.log.verbosity(), image.notes);
+        Result<void> done =
+            write_outputs(image.request, image.finished, job_.display, job_.watch.stop(), log);
+        if (!done && done.error().id == "E-STOPPED") done.error().message.clear();
+        MadeImage& made = image.made;
+        made.figures.write_s = writing.seconds();
+        made.outcome.seconds += made.figures.write_s;
+        for (const std::string& warning : log.warnings())
+            made.outcome.warnings.push_back(warning);
+        image.noted = note_end(image.request, made.outcome, done);
+        return done;
+    }
+
+    /// Waits for the files that are being written. Out: an error that ends the rest.
+    Result<void> finish_beside() {
+        if (!beside_) return {};
+        const std::unique_ptr<WrittenBeside> image = std::move(beside_);
+        const Result<void> done = image->done.get();
+        RepeatedLog repeated(job_.log, SettingNames::options);
+        image->notes.tell(repeated.begin());
+        write_beside_s_ += image->made.figures.write_s;
+        if (job_.renderer) job_.renderer->recycle(std::move(image->finished.image));
+        const Result<void> concluded =
+            done && !image->noted ? image->noted : conclude(image->made, done);
+        has_ended_ = !concluded;
+        return concluded;
     }
 
     /// With locks nobody knows which image comes last, unless there is one only.
@@ -229,7 +364,7 @@ private:
     }
 
     Turn turn_of(size_t index) const {
-        const size_t done = rendered_ + job_.skipped + failures_.size();
+        const size_t done = job_.rendered + job_.skipped + failures_.size() + (beside_ ? 1 : 0);
         return {done, asked_, index == 0, index == last_ && !may_come_back()};
     }
 
@@ -245,10 +380,13 @@ private:
     ListedPoses poses_;
     RepeatedLog later_;
     std::optional<Manifest> manifest_;
+    std::unique_ptr<WrittenBeside> beside_;  ///< the image before, which has not been counted yet
+    std::vector<ListedImage> of_others_;
     std::vector<Error> failures_;
-    size_t asked_ = 0;     ///< number of images that this command is to render
-    size_t rendered_ = 0;  ///< of them, those that it has rendered
-    size_t last_ = 0;      ///< of them, the index of the last one
+    bool has_ended_ = false;  ///< an image's files, written beside the next one, ended the rest
+    double write_beside_s_ = 0;
+    size_t asked_ = 0;  ///< number of images that this command is to render
+    size_t last_ = 0;   ///< of them, the index of the last one
 };
 
 }  // namespace
@@ -286,7 +424,7 @@ Result<void> check_all(Job& job) {
         poses.begin_image(i);
         if (auto posed = poses.pose(i, i + 1 == count, log); !posed) return posed;
         const Result<ChosenCamera> chosen =
-            choose_unfocused_camera(job.renderer->scene(), job.request, log);
+            choose_unfocused_camera(job.renderer->framed_scene(), job.request, log);
         if (!chosen) return fail(chosen.error());
         const Result<void> exposed = expose(job, *chosen, log);
         if (!exposed) return exposed;

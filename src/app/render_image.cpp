@@ -257,6 +257,11 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     if (job.hooks.label)
         written = job.hooks.label(
             request, job.renderer->prepared(), making.camera, job.watch.stop(), making.log);
+    if (written && job.leaves_files && !is_unfinished) {
+        job.renderer->statistics().write_s += writing.seconds();
+        job.unwritten = std::move(finished);
+        return {};
+    }
     if (written)
         written = write_outputs(request, finished, job.display, job.watch.stop(), making.log);
     job.renderer->statistics().write_s += writing.seconds();

@@ -43,10 +43,8 @@ struct KeptForLater {
 /// What a data set does beside each image; empty ones: nothing.
 struct ImageHooks {
     /// Chooses the camera of the posed and prepared image anew.
-    std::function<Result<ChosenCamera>(const AssetRenderer& renderer,
-                                       RenderRequest& request,
-                                       const ChosenCamera& camera,
-                                       Log& log)>
+    std::function<Result<ChosenCamera>(
+        AssetRenderer& renderer, RenderRequest& request, const ChosenCamera& camera, Log& log)>
         aim = {};
     /// Writes what belongs to an image whose colours are finished, before these are written.
     std::function<Result<void>(const RenderRequest& request,
@@ -79,7 +77,10 @@ struct Job {
     NamedTexts facts = {};        ///< that pixels depend on; files are read for them before loading
     NamedTexts image_facts = {};  ///< those of ListedImage, of the image that is being made
     bool has_begun = false;       ///< the first image is being rendered
-    size_t skipped = 0;           ///< images that were there, with --skip-existing
+    size_t rendered = 0;
+    size_t skipped = 0;         ///< images that were there, with --skip-existing
+    bool leaves_files = false;  ///< make_image leaves a finished image in `unwritten`
+    std::optional<FinishedImage> unwritten = {};
 };
 
 /// Where a command stands with its images.
@@ -95,8 +96,9 @@ struct Turn {
 /// Errors  78 E-OCIO-*
 Result<void> expose(Job& job, const ChosenCamera& camera, Log& log);
 
-/// Renders the posed and prepared image, or takes its pixels from parts, and writes its files; with
-/// --part the part's file. Keeps a checkpoint and writes snapshots meanwhile, if asked to.
+/// Renders the posed and prepared image, or takes its pixels from parts, and writes its files, or
+/// leaves that to the caller; with --part the part's file. Keeps a checkpoint and writes snapshots
+/// meanwhile, if asked to.
 ///
 /// Errors  those of rendering and writing; 75 E-STOPPED a signal came: the message says what was
 ///         kept; 75 E-TIME-LIMIT; those of FilmKeeper::find

@@ -80,6 +80,16 @@ void Watch::begin_preparing() {
     phase_ = Phase::preparing;
 }
 
+void Watch::begin_writing_beside() {
+    const std::lock_guard lock(mutex_);
+    ++writing_beside_;
+}
+
+void Watch::end_writing_beside() {
+    const std::lock_guard lock(mutex_);
+    --writing_beside_;
+}
+
 void Watch::end() {
     const std::lock_guard lock(mutex_);
     phase_ = Phase::ending;
@@ -109,7 +119,8 @@ void Watch::look_after() {
     const bool is_signalled = received_stop_signal() != 0;
     const bool is_late = times_.time_limit_s && seconds() >= *times_.time_limit_s;
     if (phase_ == Phase::preparing || phase_ == Phase::finishing) {
-        if (is_signalled || (is_late && phase_ == Phase::preparing)) end_now(!is_signalled);
+        const bool ends = is_signalled || (is_late && phase_ == Phase::preparing);
+        if (ends && writing_beside_ == 0) end_now(!is_signalled);
         return;
     }
     if (phase_ != Phase::rendering) return;

@@ -61,8 +61,12 @@ public:
     [[nodiscard]] bool begin_finishing();
     /// Files are being written, whole or not at all: not to be cut short.
     void begin_writing();
-    /// The image is written; the next one is loaded and built.
+    /// The next image is loaded and built.
     void begin_preparing();
+    /// Files are being written while something else goes on: as long as they are, nothing ends at
+    /// once.
+    void begin_writing_beside();
+    void end_writing_beside();
     /// The command ends, and says so itself.
     void end();
     /// Begins something, and takes from it what is to be done first when a signal or the time limit
@@ -96,6 +100,7 @@ private:
     Tasks tasks_;
     std::function<void()> last_task_;
     Repetition saves_, snapshots_;
+    int writing_beside_ = 0;
     bool ending_ = false;
     std::atomic<bool> time_is_up_ = false;
     std::thread thread_;

@@ -49,7 +49,7 @@ double score(const PreparedScene& prepared, const Camera& camera, const RenderOp
 
 }  // namespace
 
-Result<ChosenCamera> aim(const AssetRenderer& renderer,
+Result<ChosenCamera> aim(AssetRenderer& renderer,
                          RenderRequest& request,
                          const ChosenCamera& camera,
                          Log& log) {

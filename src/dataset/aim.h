@@ -13,7 +13,7 @@ namespace obscura::dataset {
 /// In, out  request: of this image; becomes that of the chosen view
 /// In       camera: of the first view
 /// Errors   those of AssetRenderer::look_again
-Result<ChosenCamera> aim(const AssetRenderer& renderer,
+Result<ChosenCamera> aim(AssetRenderer& renderer,
                          RenderRequest& request,
                          const ChosenCamera& camera,
                          Log& log);

@@ -37,14 +37,21 @@ Result<std::shared_ptr<const EnvironmentTable>> EnvironmentCache::table(
         if (entry.source == source) return share(entry.made);
     }
     // Before the new one is made, as both may not fit.
-    std::erase_if(entries_, [&](const Entry& entry) {
-        const std::shared_ptr<const ImageRgb32f>& image = entry.source.image;
-        return image == source.image || (image && image.use_count() == 1);
-    });
+    drop_unheld();
+    std::erase_if(entries_, [&](const Entry& entry) { return entry.source.image == source.image; });
     Result<std::shared_ptr<const Charged>> made = make(source, name);
     if (!made) return fail(std::move(made.error()));
     entries_.push_back({source, *made});
     return share(*made);
+}
+
+void EnvironmentCache::drop_unheld() {
+    std::erase_if(entries_, [](const Entry& entry) { return entry.source.image.use_count() == 1; });
+}
+
+bool EnvironmentCache::drop_unused() {
+    return std::erase_if(entries_, [](const Entry& entry) { return entry.made.use_count() == 1; }) >
+           0;
 }
 
 }  // namespace obscura

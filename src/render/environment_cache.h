@@ -25,13 +25,19 @@ struct EnvironmentSource {
 /// time.
 class EnvironmentCache {
 public:
-    /// The table of a source, not turned. It stays here until its image has another one, or until
-    /// nobody else holds its image. Its bytes are in the memory budget.
+    /// The table of a source, not turned. It stays here until its image has another one. Its bytes
+    /// are in the memory budget.
     ///
     /// In      name: for messages
     /// Errors  those of EnvironmentTable::create; 33 E-MEM
     Result<std::shared_ptr<const EnvironmentTable>> table(const EnvironmentSource& source,
                                                           const std::string& name);
+
+    /// Drops tables whose image nobody else holds; table() does so, too, before it makes one.
+    void drop_unheld();
+
+    /// Drops tables that no scene uses. False: there was none.
+    bool drop_unused();
 
 private:
     struct Charged {

@@ -90,6 +90,7 @@ Result<void> make_lighting(PreparedScene::Impl& impl, const LightingOptions& lig
         impl.lights = make_light_table(impl.scene, nullptr);
         if (!needs_studio(impl.scene, impl.lights)) {
             impl.environment.reset();
+            impl.environments.drop_unheld();
             return {};
         }
         log.info("the scene has no light: using the built-in studio (" + setting("env") +

@@ -61,6 +61,7 @@ Result<void> AssetRenderer::pose(const PoseTimes& times, Log& log) {
     if (is_prepared_) asset_->take_back(prepared_->take_scene());
     scene_.reset();
     is_prepared_ = false;
+    geometry_.forget();
     Result<Scene> scene = times.shutter ? asset_->scene_between(*times.shutter, times.is_last, log)
                                         : asset_->scene_at(times.time_s, times.is_last, log);
     if (!scene) return fail(scene.error());
@@ -97,7 +98,7 @@ const Scene& AssetRenderer::scene() const {
 Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
                                             const LightingOptions& lighting,
                                             Log& log) {
-    Result<ChosenCamera> camera = choose_unfocused_camera(*scene_, request, log);
+    Result<ChosenCamera> camera = choose_unfocused_camera(framed_scene(), request, log);
     if (!camera) return camera;
     if (has_points_lines(*scene_)) size_points_lines(request.points_lines, camera->camera, *scene_);
     std::optional<LightingOptions> turned;
@@ -121,6 +122,7 @@ Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
         prepared_ = std::move(*created);
     }
     is_prepared_ = true;
+    if (!prepared_->scene().curve_points.empty()) geometry_.forget();  // curves were split
     if (!is_aov(request.options.integrator)) {
         const auto& eye = camera->camera.world_from_camera.m;
         warn_of_enclosed_lights(*prepared_, {eye[0][3], eye[1][3], eye[2][3]}, log);
@@ -135,8 +137,8 @@ Result<ChosenCamera> AssetRenderer::prepare(const RenderRequest& request,
     return camera;
 }
 
-Result<ChosenCamera> AssetRenderer::look_again(const RenderRequest& request, Log& log) const {
-    Result<ChosenCamera> camera = choose_unfocused_camera(prepared_->scene(), request, log);
+Result<ChosenCamera> AssetRenderer::look_again(const RenderRequest& request, Log& log) {
+    Result<ChosenCamera> camera = choose_unfocused_camera(framed_scene(), request, log);
     if (!camera) return camera;
     if (auto focused = focus(*prepared_, request, log, *camera); !focused) {
         return fail(focused.error());
@@ -152,7 +154,8 @@ Result<RenderOptions> AssetRenderer::options_of_image(const RenderRequest& reque
     if (request.denoise) add_denoising_layers(options);
     set_half_runs(options);
     if (request.catcher_ground) {
-        const FramedGeometry geometry(prepared_->scene(), request.camera.framed_nodes);
+        const FramedGeometry& geometry =
+            geometry_.of(prepared_->scene(), request.camera.framed_nodes);
         options.catcher_ground_m = static_cast<float>(geometry.farthest({0, -1, 0}).y);
     }
     options.moving_camera = camera.moving;

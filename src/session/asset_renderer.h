@@ -4,6 +4,7 @@
 
 #include "gltf/load.h"
 #include "render/render.h"
+#include "session/framed_geometry.h"
 #include "session/memory_charges.h"
 #include "session/outputs.h"
 #include "session/render_request.h"
@@ -11,6 +12,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace obscura {
 
@@ -80,6 +82,8 @@ public:
 
     /// Gives memory back: no other pose than the present one will be asked for.
     void forget_asset() { asset_.reset(); }
+    /// False after the last pose.
+    bool can_pose() const { return asset_.has_value(); }
 
     /// The posed scene; after prepare(), points and lines are as thick as the request says.
     const Scene& scene() const;
@@ -110,7 +114,10 @@ public:
     /// Chooses another camera for the prepared pose; points and lines stay as thick as they are.
     ///
     /// Errors  those of choose_unfocused_camera and focus
-    Result<ChosenCamera> look_again(const RenderRequest& request, Log& log) const;
+    Result<ChosenCamera> look_again(const RenderRequest& request, Log& log);
+
+    /// For views of the present pose that are chosen elsewhere.
+    FramedScene framed_scene() { return {scene(), &geometry_}; }
 
     /// Renders the prepared pose.
     ///
@@ -129,6 +136,10 @@ public:
                          const ChosenCamera& camera,
                          RenderedFilm&& rendered,
                          const Log& log);
+
+    /// What the latest image has taken from the memory budget, for who keeps it while another one
+    /// is rendered.
+    MemoryCharge take_film_charge() { return std::exchange(charges_.film, {}); }
 
     /// Memory of an image that is no longer needed, for the next one.
     void recycle(OutputImage&& image) { film_memory_ = std::move(image.pixels); }
@@ -149,6 +160,7 @@ private:
     std::optional<Scene> scene_;             ///< posed, not yet prepared
     std::optional<PreparedScene> prepared_;  ///< of the latest image
     bool is_prepared_ = false;               ///< `prepared_` is of the latest pose
+    KeptGeometry geometry_;                  ///< of the latest pose
     gltf::Degraded degraded_;                ///< what the latest scene lacks
     UnsetArray<float> film_memory_;
     RenderStatistics statistics_;

@@ -146,8 +146,10 @@ Viewpoint viewpoint_by_hand(const CameraRequest& request, const Viewpoint& frame
     return view;
 }
 
-Result<Placed> place_outside(const Scene& scene, const CameraRequest& request, double aspect) {
-    const Framing framing = automatic_framing(scene, request, aspect);
+Result<Placed> place_outside(const FramedScene& framed,
+                             const CameraRequest& request,
+                             double aspect) {
+    const Framing framing = automatic_framing(framed, request, aspect);
     const bool by_hand = request.eye_m || request.target_m || request.up;
     const Viewpoint view = by_hand ? viewpoint_by_hand(request, framing.view) : framing.view;
     const Result<Affined> world_from_camera = look_at(view);
@@ -236,7 +238,8 @@ CameraSettings join_settings(const Placed& placed, const CameraRequest& request)
 }
 
 /// Asks each source in turn; the first that applies decides.
-Result<Placed> place(const Scene& scene, const CameraRequest& request, double aspect) {
+Result<Placed> place(const FramedScene& framed, const CameraRequest& request, double aspect) {
+    const Scene& scene = framed.scene;
     const BoundingSphere sphere = bounding_sphere(framed_bounds(scene, request));
     const bool by_hand = request.eye_m || request.target_m || request.up;
     Result<Placed> placed = Placed{};
@@ -252,7 +255,7 @@ Result<Placed> place(const Scene& scene, const CameraRequest& request, double as
         if (!index) return fail(index.error());
         placed = place_from_file(scene, *index, aspect);
     } else {
-        return place_outside(scene, request, aspect);
+        return place_outside(framed, request, aspect);
     }
     if (placed) override_lens(*placed, request, sphere);
     return placed;
@@ -294,22 +297,29 @@ bool shows_the_same(const SceneCamera& a, const SceneCamera& b) {
 
 }  // namespace
 
-Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect) {
+Framing automatic_framing(const FramedScene& framed, const CameraRequest& request, double aspect) {
+    const Scene& scene = framed.scene;
     if (request.kept) return *request.kept;
     FrameLens lens{flat_yfov(request), aspect};
     if (request.inside)
         return view_inside(framed_bounds(scene, request), sample_inside(*request.inside), lens);
     lens.orthographic = wanted_model(request) == CameraModel::orthographic && !request.yfov_rad;
-    const FramedGeometry geometry(scene, request.framed_nodes);
+    KeptGeometry of_this_view;
+    KeptGeometry& kept = framed.kept != nullptr ? *framed.kept : of_this_view;
+    const FramedGeometry& geometry = kept.of(scene, request.framed_nodes);
     const FramedGeometry box(framed_bounds(scene, request));  // where there is nothing but a size
     return frame_view(geometry.empty() ? box : geometry, request.framing, lens);
 }
 
-Result<ChosenCamera> choose_camera(
-    const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log) {
+Result<ChosenCamera> choose_camera(const FramedScene& framed,
+                                   const CameraRequest& request,
+                                   int width_px,
+                                   int height_px,
+                                   Log& log) {
+    const Scene& scene = framed.scene;
     const double aspect = static_cast<double>(width_px) / height_px;
     const BoundingSphere sphere = bounding_sphere(framed_bounds(scene, request));
-    const Result<Placed> placed = place(scene, request, aspect);
+    const Result<Placed> placed = place(framed, request, aspect);
     if (!placed) return fail(placed.error());
     if (const Result<void> fits = check_model_has(request.settings, placed->model); !fits) {
         return fail(fits.error());

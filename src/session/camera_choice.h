@@ -82,7 +82,7 @@ struct ChosenCamera {
 ///         65 E-CAM-SINGULAR a node flattens its camera, 65 E-CAM-RANGE it does not fit 32-bit
 ///         floats; 67 E-IMG-* and E-APERTURE-* the image of an aperture
 Result<ChosenCamera> choose_camera(
-    const Scene& scene, const CameraRequest& request, int width_px, int height_px, Log& log);
+    const FramedScene& framed, const CameraRequest& request, int width_px, int height_px, Log& log);
 
 /// RenderOptions::frame_cameras of a chosen camera; empty where it stands still, as cameras do that
 /// are not the file's.
@@ -93,7 +93,7 @@ Result<std::vector<Camera>> choose_frame_cameras(const Scene& scene,
                                                  const ChosenCamera& chosen);
 
 /// The automatic framing of the scene; `kept`, where there is one.
-Framing automatic_framing(const Scene& scene, const CameraRequest& request, double aspect);
+Framing automatic_framing(const FramedScene& framed, const CameraRequest& request, double aspect);
 
 /// Focuses at another distance along the view axis; all else stays.
 ///

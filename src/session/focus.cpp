@@ -30,12 +30,12 @@ Result<double> depth_of_pixel(const PreparedScene& prepared,
 
 }  // namespace
 
-Result<ChosenCamera> choose_unfocused_camera(const Scene& scene,
+Result<ChosenCamera> choose_unfocused_camera(const FramedScene& framed,
                                              const RenderRequest& request,
                                              Log& log) {
     const RenderOptions& options = request.options;
     Result<ChosenCamera> chosen =
-        choose_camera(scene, request.camera, options.width, options.height, log);
+        choose_camera(framed, request.camera, options.width, options.height, log);
     if (!chosen) return chosen;
     if (request.overscan && chosen->camera.model == CameraModel::environment) {
         return fail(ExitCode::usage,

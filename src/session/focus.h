@@ -11,7 +11,7 @@ namespace obscura {
 ///
 /// Errors  those of choose_camera; 64 E-CAM-FOCUS the pixel is outside the image, or the camera
 ///         has no lens; E-CAM-OVERSCAN overscan around an image of all directions
-Result<ChosenCamera> choose_unfocused_camera(const Scene& scene,
+Result<ChosenCamera> choose_unfocused_camera(const FramedScene& framed,
                                              const RenderRequest& request,
                                              Log& log);
 

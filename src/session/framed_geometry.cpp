@@ -15,7 +15,7 @@ namespace {
 
 using Box = std::array<Vec3f, 2>;
 
-constexpr int32_t chunk_size = 2048;
+constexpr int32_t chunk_size = 256;
 
 Vec3d wide(const Vec3f& v) {
     return {v.x, v.y, v.z};
@@ -161,34 +161,42 @@ void FramedGeometry::each_point(const Chunk& chunk, const Visit& visit) const {
     }
 }
 
+template <typename Search>
+void FramedGeometry::look_into(const Chunk& chunk, Search& search) const {
+    each_point(chunk, [&](const Vec3f& centre, float radius) {
+        search.take(wide(centre), static_cast<double>(radius));
+    });
+}
+
 /// Looks first where the bound is greatest: it then spares nearly all else.
 template <typename Search>
 void FramedGeometry::run(Search& search) const {
     search.enter(nullptr);
     for (const Vec3d& corner : corners_)
         search.take(corner, 0);
-    const auto look_into = [&](const Item& item) {
-        search.enter(item.world_from_object);
-        if (!(search.bound(item.box) > search.best)) return;
-        for (size_t i = item.chunks.first; i < item.chunks.first + item.chunks.count; ++i) {
-            if (!(search.bound(chunks_[i].box) > search.best)) continue;
-            each_point(chunks_[i], [&](const Vec3f& centre, float radius) {
-                search.take(wide(centre), static_cast<double>(radius));
-            });
+    const auto each_chunk = [&](const auto& visit) {
+        for (const Item& item : items_) {
+            search.enter(item.world_from_object);
+            if (!(search.bound(item.box) > search.best)) continue;
+            for (size_t i = item.chunks.first; i < item.chunks.first + item.chunks.count; ++i) {
+                const double bound = search.bound(chunks_[i].box);
+                if (bound > search.best) visit(item, chunks_[i], bound);
+            }
         }
     };
-    const Item* first = nullptr;
+    const Item* likely_item = nullptr;
+    const Chunk* likely = nullptr;
     double most = -INFINITY;
-    for (const Item& item : items_) {
-        search.enter(item.world_from_object);
-        const double bound = search.bound(item.box);
-        if (!(bound > most)) continue;
+    each_chunk([&](const Item& item, const Chunk& chunk, double bound) {
+        if (!(bound > most)) return;
         most = bound;
-        first = &item;
-    }
-    if (first != nullptr) look_into(*first);
-    for (const Item& item : items_)
-        look_into(item);
+        likely_item = &item;
+        likely = &chunk;
+    });
+    if (likely == nullptr) return;
+    search.enter(likely_item->world_from_object);
+    look_into(*likely, search);
+    each_chunk([&](const Item&, const Chunk& chunk, double) { look_into(chunk, search); });
 }
 
 void FramedGeometry::add_chunks(size_t primitive) {
@@ -215,6 +223,7 @@ void FramedGeometry::add_corners(const Vec3f& low, const Vec3f& high) {
 
 FramedGeometry::FramedGeometry(const Bounds& box) {
     if (!box.empty()) add_corners(box.low, box.high);
+    box_ = box;
 }
 
 FramedGeometry::FramedGeometry(const Scene& scene, const std::vector<char>& nodes)
@@ -256,6 +265,7 @@ FramedGeometry::FramedGeometry(const Scene& scene, const std::vector<char>& node
             grow(item.box, chunks_[i].box[0], chunks_[i].box[1]);
     }
     std::erase_if(items_, [](const Item& item) { return !(item.box[0].x <= item.box[1].x); });
+    box_ = find_box();
 }
 
 Vec3d FramedGeometry::farthest(const Vec3d& direction) const {
@@ -270,7 +280,7 @@ double FramedGeometry::farthest_from(const Vec3d& centre) const {
     return std::max(search.best, 0.0);
 }
 
-Bounds FramedGeometry::box() const {
+Bounds FramedGeometry::find_box() const {
     Bounds out;
     if (empty()) return out;
     out.low = {static_cast<float>(farthest({-1, 0, 0}).x),
@@ -280,6 +290,16 @@ Bounds FramedGeometry::box() const {
                 static_cast<float>(farthest({0, 1, 0}).y),
                 static_cast<float>(farthest({0, 0, 1}).z)};
     return out;
+}
+
+const FramedGeometry& KeptGeometry::of(const Scene& scene, const std::vector<char>& nodes) {
+    if (geometry_ && nodes_ == nodes) {
+        geometry_->follow(scene);
+    } else {
+        nodes_ = nodes;
+        geometry_.emplace(scene, nodes);
+    }
+    return *geometry_;
 }
 
 }  // namespace obscura

@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace obscura {
@@ -22,6 +23,9 @@ public:
 
     bool empty() const { return items_.empty() && corners_.empty(); }
 
+    /// The scene has been moved to another place in memory.
+    void follow(const Scene& scene) { scene_ = &scene; }
+
     /// The point that lies farthest along a direction; the origin where there is none.
     Vec3d farthest(const Vec3d& direction) const;
 
@@ -29,7 +33,7 @@ public:
     double farthest_from(const Vec3d& centre) const;
 
     /// The box along the world's axes.
-    Bounds box() const;
+    const Bounds& box() const { return box_; }
 
 private:
     /// Some triangles, shapes, spheres or segments of a primitive, with their box.
@@ -57,12 +61,39 @@ private:
     void each_point(const Chunk& chunk, const Visit& visit) const;
     template <typename Search>
     void run(Search& search) const;
+    template <typename Search>
+    void look_into(const Chunk& chunk, Search& search) const;
+    Bounds find_box() const;
 
     const Scene* scene_ = nullptr;
     std::vector<Chunk> chunks_;
     std::vector<Range> chunks_of_primitive_;
     std::vector<Item> items_;
     std::vector<Vec3d> corners_;  ///< single points in the world
+    Bounds box_;
+};
+
+/// The geometry of one pose for all views of it, made when the first one needs it.
+class KeptGeometry {
+public:
+    /// In      scene: the pose, wherever it is now; nodes: as for FramedGeometry
+    /// Out     valid until the next call
+    const FramedGeometry& of(const Scene& scene, const std::vector<char>& nodes);
+
+    /// Another pose follows.
+    void forget() { geometry_.reset(); }
+
+private:
+    std::vector<char> nodes_;
+    std::optional<FramedGeometry> geometry_;
+};
+
+/// A scene as it is posed, with what views of it have in common.
+struct FramedScene {
+    FramedScene(const Scene& posed, KeptGeometry* views = nullptr) : scene(posed), kept(views) {}
+
+    const Scene& scene;
+    KeptGeometry* kept;  ///< null: this is the only view
 };
 
 }  // namespace obscura

@@ -141,7 +141,7 @@ Framing frame_view(const FramedGeometry& geometry,
                    const FramingOptions& options,
                    const FrameLens& lens) {
     const Axes axes = view_axes(options);
-    const Bounds bounds = geometry.box();
+    const Bounds& bounds = geometry.box();
     const Box box = box_to_frame(bounds);
     const Vec3d middle = (box.low + box.high) * 0.5;
     const bool stands_in = bounds.empty() || length(wide(bounds.low) - box.low) > 0;

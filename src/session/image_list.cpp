@@ -89,7 +89,7 @@ std::vector<View> views_of_turntable(const RenderRequest& request) {
 }
 
 Result<std::vector<View>> listed_views(const RenderRequest& request, const AssetOffer& offer) {
-    if (!request.lists.views.empty()) return request.lists.views;
+    if (!request.lists.views->empty()) return *request.lists.views;
     if (request.lists.cameras) return views_of_cameras(request, offer.cameras);
     if (request.lists.turntable > 0) return views_of_turntable(request);
     if (request.lists.sampling.count > 0)
@@ -230,7 +230,7 @@ Result<std::vector<std::string>> variants_to_plan(const RenderRequest& request,
     const auto has = [](const std::vector<std::string>& names, const std::string& name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
-    for (const View& view : request.lists.views) {
+    for (const View& view : *request.lists.views) {
         if (view.variant && has(offered, *view.variant) && !has(*out, *view.variant))
             out->push_back(*view.variant);
     }

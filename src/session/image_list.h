@@ -9,6 +9,7 @@
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -35,9 +36,10 @@ struct ListRequest {
     std::optional<std::string> variants;  ///< --variants: likewise
     int turntable = 0;                    ///< --turntable: this many steps of a whole turn
     std::optional<std::filesystem::path> views_file;  ///< --views
-    std::vector<View> views;                          ///< those of the file
-    ViewSampling sampling;                            ///< of `obscura dataset`
-    std::optional<std::filesystem::path> manifest;    ///< --manifest
+    /// Those of the file; images' requests share them.
+    std::shared_ptr<const std::vector<View>> views = std::make_shared<const std::vector<View>>();
+    ViewSampling sampling;                          ///< of `obscura dataset`
+    std::optional<std::filesystem::path> manifest;  ///< --manifest
     bool shares_manifest = false;  ///< with other parts of a job: what is there stays
     std::string asset;             ///< {asset} in names; empty: the scene's name
     std::string look = "default";  ///< {look}, of a job of `obscura batch`

@@ -207,7 +207,7 @@ Result<void> load_views(RenderRequest& request, Log& log) {
     if (views.empty()) reader.fault("views", value_id, "expected one view at least");
     check_times(reader, views, request);
     if (fault.error) return fail(std::move(*fault.error));
-    request.lists.views = std::move(views);
+    request.lists.views = std::make_shared<const std::vector<View>>(std::move(views));
     return {};
 }
 

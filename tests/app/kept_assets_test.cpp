@@ -33,8 +33,9 @@ TEST(KeptAssets, AreTakenOnceByTheirUse) {
     RenderRequest unlit = request;
     unlit.load.lights.off = true;
     RenderRequest timed = request;
-    timed.lists.views.emplace_back();
-    timed.lists.views.back().time_s = 1;
+    View later;
+    later.time_s = 1;
+    timed.lists.views = std::make_shared<const std::vector<View>>(1, later);
     EXPECT_FALSE(assets.take(asset_use(unlit)));
     EXPECT_FALSE(assets.take(asset_use(timed)));
     EXPECT_TRUE(assets.take(asset_use(request)));
@@ -45,12 +46,15 @@ TEST(KeptAssets, AreClosedWhenNothingNeedsThem) {
     KeptAssets assets;
     const RenderRequest request = request_for(cornell);
     assets.keep(asset_use(request), opened(request));
-    assets.close_unless([&](const AssetUse& use) { return use.scene == cornell; });
+    assets.close_unless([&](const std::filesystem::path& scene) { return scene == cornell; });
     EXPECT_TRUE(assets.close_all());
     EXPECT_FALSE(assets.close_all()) << "there is nothing";
     assets.keep(asset_use(request), opened(request));
-    assets.close_unless([](const AssetUse&) { return false; });
+    assets.close_unless([](const std::filesystem::path&) { return false; });
     EXPECT_FALSE(assets.take(asset_use(request)));
+    assets.read_ahead(request, 2);
+    assets.close_unless([](const std::filesystem::path&) { return false; });
+    EXPECT_FALSE(assets.close_all()) << "nothing is left of what was read ahead";
 }
 
 TEST(KeptAssets, WhatIsReadAheadStandsAsItsFirstImageShowsIt) {

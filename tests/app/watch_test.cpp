@@ -4,6 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
 namespace obscura::app {
 namespace {
 
@@ -28,6 +32,19 @@ TEST(Repetition, TakesAtMostItsShareOfTheTime) {
 TEST(Repetition, TheFirstCheckpointIsEarly) {
     EXPECT_EQ(first_checkpoint_s(300), 30);
     EXPECT_EQ(first_checkpoint_s(5), 5);
+}
+
+TEST(Watch, EndsNothingAtOnceWhileFilesAreWrittenBeside) {
+    const auto write_beside = [] {
+        Log log;
+        Watch watch("scene", log, {0.001, {}, {}});
+        watch.begin_writing_beside();
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        std::fputs("written\n", stderr);
+        watch.end_writing_beside();
+        std::this_thread::sleep_for(std::chrono::minutes(1));
+    };
+    EXPECT_EXIT(write_beside(), testing::ExitedWithCode(75), "written\n(.|\n)*E-TIME-LIMIT");
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 #include "cli/cli.h"
 #include "support/text_files.h"
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sys/resource.h>
 
 namespace obscura {
 namespace {
@@ -173,6 +175,98 @@ TEST_F(ManyImages, OneFailureDoesNotEndTheRest) {
     EXPECT_EQ(told[3].at("files")[0].at("file"), "b.exr");
     EXPECT_EQ(told[3].at("files")[0].at("bytes"), fs::file_size(folder_ / "b.exr"));
     EXPECT_EQ(told[3].at("files")[0].at("sha256").get<std::string>().size(), 64U);
+}
+
+TEST_F(ManyImages, FilesAreWrittenInTurnWhileTheNextImageIsRendered) {
+    folder_.write("views.json", R"({"views": [
+        {"name": "a", "azimuth": 10}, {"name": "b", "azimuth": 20, "width": 40, "height": 30},
+        {"name": "c", "azimuth": 30}, {"name": "d", "azimuth": 40}]})");
+    const auto told = [&](const std::string& threads) {
+        const Texts files = {"--views", "views.json", "-o", "{view}.exr", "-o", "{view}.png"};
+        const ProgramRun got =
+            render("quad.gltf", joined(files, {"--threads", threads, "--manifest", "m.jsonl"}));
+        expect_result(got, 0, "OK");
+        for (const char* step : {"a is written, 1 of 4", "d is written, 4 of 4"})
+            EXPECT_THAT(got.err, HasSubstr(step));
+        std::vector<json> out = lines("m.jsonl");
+        for (json& line : out)
+            line.erase("seconds");
+        return out;
+    };
+    const std::vector<json> one_by_one = told("1");
+    ASSERT_EQ(one_by_one.size(), 4U);
+    EXPECT_EQ(one_by_one[3].at("view"), "d");
+    for (const char* name : {"a.exr", "b.png", "c.exr", "d.png"})
+        fs::remove(folder_ / name);
+    EXPECT_EQ(told("2"), one_by_one) << "with the same checksums";
+}
+
+TEST_F(ManyImages, AFileThatCannotBeWrittenFailsItsImageAlone) {
+    folder_.write("views.json", R"({"views": [
+        {"name": "a"}, {"name": "large", "width": 200, "height": 200}, {"name": "b"}]})");
+    for (const char* threads : {"1", "2"}) {
+        ProgramSetup limited = setup({"render",
+                                      "quad.gltf",
+                                      "--size",
+                                      "8x8",
+                                      "--spp",
+                                      "1",
+                                      "--float",
+                                      "--write-retries",
+                                      "0",
+                                      "--views",
+                                      "views.json",
+                                      "-o",
+                                      "{view}.exr",
+                                      "--manifest",
+                                      "m.jsonl",
+                                      "--threads",
+                                      threads},
+                                     folder_);
+        limited.before_start = [] {
+            const rlimit limit = {30000, 30000};
+            setrlimit(RLIMIT_FSIZE, &limit);
+        };
+        const ProgramRun got = run_program_with(limited);
+        expect_result(got, 74, "E-OUT-WRITE");
+        EXPECT_THAT(got.err, HasSubstr("1 of 3 images failed"));
+        const std::vector<json> told = lines("m.jsonl");
+        ASSERT_EQ(told.size(), 3U) << threads;
+        EXPECT_EQ(told[0].at("id"), "OK");
+        EXPECT_EQ(told[1].at("id"), "E-OUT-WRITE");
+        EXPECT_EQ(told[2].at("id"), "OK");
+        EXPECT_TRUE(fs::exists(folder_ / "b.exr") && !fs::exists(folder_ / "large.exr"));
+    }
+}
+
+/// Points are as thick as each view says, so that their pose is made anew for each.
+TEST_F(ManyImages, TakeTheMemoryOfOneImageWhereThereIsNoMore) {
+    json scene = json::parse(text("quad.gltf"));
+    scene["meshes"][0]["primitives"][0]["mode"] = 0;
+    folder_.write("points.gltf", scene.dump());
+    const auto turntable = [&](int mebibytes) {
+        return render("points.gltf",
+                      {"--turntable",
+                       "3",
+                       "--size",
+                       "1000x1000",
+                       "--spp",
+                       "1",
+                       "--threads",
+                       "2",
+                       "--max-memory",
+                       std::to_string(mebibytes) + "M",
+                       "-o",
+                       "{frame}.exr"});
+    };
+    constexpr int program_mebibytes = 160;
+    const ProgramRun none = turntable(program_mebibytes + 8);
+    expect_result(none, 33, "E-MEM");
+    std::smatch found;
+    ASSERT_TRUE(std::regex_search(none.err, found, std::regex("film would take ([0-9]+) MiB")));
+    const int film_mebibytes = std::stoi(found[1]);
+    ASSERT_GT(film_mebibytes, 20);
+    expect_result(turntable(program_mebibytes + film_mebibytes + 10), 0, "OK");
 }
 
 TEST_F(ManyImages, WhatAllNeedEndsTheCommand) {

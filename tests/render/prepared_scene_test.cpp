@@ -136,6 +136,10 @@ TEST(PreparedScene, TablesOfEnvironmentsGoWithTheirImages) {
     image.reset();
     ASSERT_TRUE(cache.table({nullptr}, "studio"));
     EXPECT_TRUE(bright.expired());
+    const auto used = cache.table(other, "other").value();
+    EXPECT_TRUE(cache.drop_unused()) << "the studio's";
+    EXPECT_FALSE(cache.drop_unused());
+    EXPECT_EQ(cache.table(other, "other").value(), used);
     set_memory_limit(program_memory_bytes + 1000, "this test");
     const auto refused = cache.table({other.image, 3}, "other");
     remove_memory_limit();

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 namespace obscura {
 namespace {
 
@@ -61,6 +63,38 @@ TEST(AssetRenderer, ACameraThatThereIsNotLeavesThePose) {
     EXPECT_EQ(camera.error().where, setting("camera"));
     EXPECT_TRUE(renderer->has_scene());
     EXPECT_TRUE(renderer->prepare(small_request(), {}, log));
+}
+
+TEST(AssetRenderer, ViewsOfOnePoseShareWhatFramesThem) {
+    Log log;
+    RenderRequest request = small_request();
+    request.camera.frames = true;
+    request.camera.framing.azimuth_rad = 1;
+    const auto place = [](const Result<ChosenCamera>& camera) {
+        const auto& m = camera.value().camera.world_from_camera.m;
+        return std::array{m[0][3], m[1][3], m[2][3]};
+    };
+    const auto opened = [&] {
+        AssetRenderer renderer = AssetRenderer::open(cornell, {}, false, log).value();
+        EXPECT_TRUE(renderer.plan_variants({""}, true));
+        return renderer;
+    };
+    AssetRenderer renderer = opened();
+    ASSERT_TRUE(renderer.pose({}, log));
+    const auto first = place(renderer.prepare(request, {}, log));
+    EXPECT_EQ(place(renderer.look_again(request, log)), first);
+    renderer.prepare_again();
+    EXPECT_EQ(place(renderer.prepare(request, {}, log)), first) << "for another light";
+    // Another pose is framed anew.
+    const std::vector<double> aside = {20, 0, 0};
+    ASSERT_TRUE(renderer.set_value("/nodes/0/translation", aside));
+    ASSERT_TRUE(renderer.pose({}, log));
+    const auto moved = place(renderer.prepare(request, {}, log));
+    EXPECT_NE(moved, first);
+    AssetRenderer other = opened();
+    ASSERT_TRUE(other.set_value("/nodes/0/translation", aside));
+    ASSERT_TRUE(other.pose({}, log));
+    EXPECT_EQ(place(other.prepare(request, {}, log)), moved);
 }
 
 }  // namespace

@@ -41,8 +41,9 @@ TEST(ImageFingerprint, OfAFrameIsThatOfItsNumberAndOfTheFirstOne) {
 
 TEST(ImageFingerprint, OfAListIsThatOfTheViewAndTheVariant) {
     RenderRequest request;
-    request.lists.views = {{.name = "a", .camera = {}, .text = "{\"azimuth\":1}"},
-                           {.name = "b", .camera = {}, .text = "{\"azimuth\":2}"}};
+    std::vector<View> views = {{.name = "a", .camera = {}, .text = "{\"azimuth\":1}"},
+                               {.name = "b", .camera = {}, .text = "{\"azimuth\":2}"}};
+    request.lists.views = std::make_shared<const std::vector<View>>(views);
     const auto prints = [&] {
         std::vector<std::string> out;
         const AssetOffer offer{.variants = {"red", "blue"}, .cameras = {}};
@@ -54,7 +55,8 @@ TEST(ImageFingerprint, OfAListIsThatOfTheViewAndTheVariant) {
     const std::vector<std::string> two = prints();
     ASSERT_EQ(two.size(), 2U);
     EXPECT_NE(two[0], two[1]);
-    request.lists.views[0].name = "another";
+    views[0].name = "another";
+    request.lists.views = std::make_shared<const std::vector<View>>(views);
     EXPECT_EQ(prints(), two) << "a name changes no pixel";
     request.lists.variants = "all";
     const std::vector<std::string> four = prints();

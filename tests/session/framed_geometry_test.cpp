@@ -100,5 +100,25 @@ TEST(FramedGeometry, ABoxHasItsCorners) {
     EXPECT_EQ(box.box().high.y, 2);
 }
 
+TEST(KeptGeometry, FollowsItsSceneAndIsMadeForOtherNodes) {
+    Scene scene = instanced_cloud();
+    const auto reach = [](const FramedGeometry& geometry) {
+        const Vec3d direction = {-1, 2, 0.5};
+        return dot(geometry.farthest(direction), direction);
+    };
+    const double most = reach(FramedGeometry(scene));
+    KeptGeometry kept;
+    EXPECT_EQ(reach(kept.of(scene, {})), most);
+    Scene moved = std::move(scene);
+    scene = {};  // what it was is gone
+    EXPECT_EQ(reach(kept.of(moved, {})), most);
+    EXPECT_EQ(reach(kept.of(moved, {0, 1})), reach(FramedGeometry(moved, {0, 1})));
+    EXPECT_EQ(reach(kept.of(moved, {})), most);
+    moved.instances[1].world_from_object = {{{1, 0, 0, 1000}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    kept.forget();
+    EXPECT_EQ(kept.of(moved, {}).box().high.x, FramedGeometry(moved).box().high.x);
+    EXPECT_GT(kept.of(moved, {}).box().high.x, 900);
+}
+
 }  // namespace
 }  // namespace obscura
