@@ -56,7 +56,10 @@ void ListedPoses::take(KeptAsset&& asset, Log& log) {
 /// Reads or makes the environment, unless the job has had it before.
 Result<void> ListedPoses::light(Log& log) {
     KeptForLater::Environment& kept = job_.kept.environments[environment_key(whole_)];
-    if (kept.image) kept.notes.tell(log);
+    if (kept.image) {
+        log.detail(whole_.environment->string() + " is there already");
+        kept.notes.tell(log);
+    }
     Log noted = noted_log(log, kept.notes);
     Result<LightingOptions> lighting = load_lighting(whole_, noted, kept.image);
     if (!lighting) return fail(lighting.error());

@@ -169,7 +169,8 @@ private:
         if (auto before = finish_beside(); !before) return before;
         const bool had_more = give_back(job_.kept);
         if (!had_image && !had_more) return done;
-        if (had_more) job_.log.detail("memory lacks: what later renderings need is given back");
+        job_.log.detail(had_more ? "memory lacks: what later renderings need is given back"
+                                 : "memory lacks: the image before is written first");
         const AssetRenderer* const renderer = job_.renderer ? &*job_.renderer : nullptr;
         const bool is_whole = renderer != nullptr && renderer->has_scene() && renderer->can_pose();
         if (!is_whole) poses_.close();

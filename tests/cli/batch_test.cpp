@@ -232,6 +232,8 @@ TEST_F(Batch, AnAssetIsReadOnceAndTheNextOneAhead) {
     expect_result(alone, 0, "OK");
     EXPECT_EQ(count(alone.err, "is open already"), 6U) << alone.err;
     EXPECT_EQ(count(alone.err, "was read ahead"), 0U);
+    EXPECT_EQ(count(alone.err, "sky:40,30 is there already"), 3U) << "of four renderings";
+    EXPECT_EQ(count(alone.err, "studio is there already"), 3U);
     const std::string small = read_text(folder_ / "out/quad/day_small.exr");
     const ProgramRun ahead = batch(job, {"--verbose", "--threads", "2"});
     expect_result(ahead, 0, "OK");

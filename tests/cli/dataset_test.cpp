@@ -281,5 +281,18 @@ TEST_F(DatasetCommand, DamagedLabelsAreNamed) {
     expect_result(got, 65, "E-DATASET-LABELS");
 }
 
+/// A view from a random place between two far things shows neither, unless it is aimed.
+TEST_F(DatasetCommand, IsMeteredWhereItsViewsAim) {
+    SmallScene scene = box_scene();
+    scene.nodes = R"({"mesh": 0}, {"mesh": 0, "translation": [40, 40, 40]})";
+    scene.roots = "0, 1";
+    scene.more.clear();
+    folder_.write("far.gltf", gltf_text(scene));
+    const ProgramRun got = dataset(
+        {"--sample", "box", "--exposure", "auto", "--env", "white", "-o", "far"}, {"far.gltf"});
+    expect_result(got, 0, "OK");
+    EXPECT_THAT(got.err, HasSubstr("metered in 4 small images"));
+}
+
 }  // namespace
 }  // namespace obscura

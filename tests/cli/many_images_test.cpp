@@ -12,6 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 using Texts = std::vector<std::string>;
 
 class ManyImages : public Cli {
@@ -178,6 +179,9 @@ TEST_F(ManyImages, OneFailureDoesNotEndTheRest) {
 }
 
 TEST_F(ManyImages, FilesAreWrittenInTurnWhileTheNextImageIsRendered) {
+    json scene = json::parse(text("quad.gltf"));
+    scene["extensionsUsed"].push_back("EXT_unheard_of");
+    folder_.write("quad.gltf", scene.dump());
     folder_.write("views.json", R"({"views": [
         {"name": "a", "azimuth": 10}, {"name": "b", "azimuth": 20, "width": 40, "height": 30},
         {"name": "c", "azimuth": 30}, {"name": "d", "azimuth": 40}]})");
@@ -186,8 +190,10 @@ TEST_F(ManyImages, FilesAreWrittenInTurnWhileTheNextImageIsRendered) {
         const ProgramRun got =
             render("quad.gltf", joined(files, {"--threads", threads, "--manifest", "m.jsonl"}));
         expect_result(got, 0, "OK");
-        for (const char* step : {"a is written, 1 of 4", "d is written, 4 of 4"})
+        for (const char* step : {"a is written, 1 of 4", "d is written, 4 of 4", "rendered 4 ima"})
             EXPECT_THAT(got.err, HasSubstr(step));
+        const size_t warned = got.err.find("EXT_unheard_of");
+        EXPECT_EQ(got.err.find("EXT_unheard_of", warned + 1), std::string::npos) << "shown once";
         std::vector<json> out = lines("m.jsonl");
         for (json& line : out)
             line.erase("seconds");
@@ -196,6 +202,10 @@ TEST_F(ManyImages, FilesAreWrittenInTurnWhileTheNextImageIsRendered) {
     const std::vector<json> one_by_one = told("1");
     ASSERT_EQ(one_by_one.size(), 4U);
     EXPECT_EQ(one_by_one[3].at("view"), "d");
+    for (const json& line : one_by_one) {
+        ASSERT_EQ(line.at("warnings").size(), 1U) << line;
+        EXPECT_THAT(line.at("warnings")[0].dump(), HasSubstr("EXT_unheard_of"));
+    }
     for (const char* name : {"a.exr", "b.png", "c.exr", "d.png"})
         fs::remove(folder_ / name);
     EXPECT_EQ(told("2"), one_by_one) << "with the same checksums";
@@ -256,6 +266,7 @@ TEST_F(ManyImages, TakeTheMemoryOfOneImageWhereThereIsNoMore) {
                        "2",
                        "--max-memory",
                        std::to_string(mebibytes) + "M",
+                       "--verbose",
                        "-o",
                        "{frame}.exr"});
     };
@@ -266,7 +277,11 @@ TEST_F(ManyImages, TakeTheMemoryOfOneImageWhereThereIsNoMore) {
     ASSERT_TRUE(std::regex_search(none.err, found, std::regex("film would take ([0-9]+) MiB")));
     const int film_mebibytes = std::stoi(found[1]);
     ASSERT_GT(film_mebibytes, 20);
-    expect_result(turntable(program_mebibytes + film_mebibytes + 10), 0, "OK");
+    const ProgramRun narrow = turntable(program_mebibytes + film_mebibytes + 10);
+    expect_result(narrow, 0, "OK");
+    EXPECT_THAT(narrow.err, HasSubstr("the image before is written first"));
+    const ProgramRun wide = turntable(program_mebibytes + 2 * film_mebibytes + 10);
+    EXPECT_THAT(wide.err, Not(HasSubstr("memory lacks")));
 }
 
 TEST_F(ManyImages, WhatAllNeedEndsTheCommand) {
