@@ -120,6 +120,7 @@ def run_in_blender(work, samples, environment):
             scene = cycles_scene.CyclesScene(asset, environment, DEPTH)
             scene.scene.render.image_settings.file_format = "PNG"
             scene.scene.render.image_settings.color_depth = "8"
+            scene.scene.view_settings.view_transform = "Standard"
             scene.scene.cycles.samples = samples
         camera = picture["camera"]
         render = scene.scene.render
