@@ -51,7 +51,7 @@ Result<std::pair<AssetUse, KeptAsset>> read(RenderRequest request, Notes& notes)
     if (!pose) return fail(pose.error());
     if (auto chosen = renderer->choose_variant(pose->variant); !chosen) return fail(chosen.error());
     if (auto posed = renderer->pose(pose->times, log); !posed) return fail(posed.error());
-    NamedTexts facts = facts_of_asset(request.scene);
+    NamedTexts facts = facts_of_asset(renderer->files());
     KeptAsset asset{std::move(*renderer), std::move(facts)};
     asset.pose = *pose;
     return std::pair(asset_use(request), std::move(asset));

@@ -8,6 +8,7 @@
 #include "app/render_job.h"
 #include "base/parallel.h"
 #include "base/stopwatch.h"
+#include "gltf/asset_files.h"
 #include "session/focus.h"
 #include "session/manifest.h"
 #include "session/repeated_log.h"
@@ -56,8 +57,11 @@ void find_facts(Job& job) {
     const Isa isa = job.request.isa;
     const std::string isa_name = has_isa(isa) ? stage_table_for(isa).isa : "";
     NamedTexts& asset = job.kept.asset_facts[job.whole.scene];
-    if (asset.empty()) asset = facts_of_asset(job.whole.scene);
-    job.facts = facts_of(job.request, asset, isa_name, embree_version());
+    if (asset.empty()) {
+        asset = facts_of_asset(job.renderer ? job.renderer->files()
+                                            : gltf::files_of_asset(job.whole.scene));
+    }
+    job.facts = facts_of(job.request, asset, isa_name, embree_version(), job.kept.checksums);
 }
 
 /// No two renderings of a job may write one file.
@@ -284,7 +288,7 @@ private:
         made.outcome.camera = *camera;
         if (job_.kept.read_ahead) job_.kept.read_ahead(job_.threads);
         if (camera->ev100 || job_.is_exposed) {  // it changes the display
-            if (auto before = finish_beside(); !before) return before;
+            if (auto written = finish_beside(); !written) return written;
         }
         const auto done = make_image(job_, *camera, turn_of(index), log, progress_);
         if (!done) return done;

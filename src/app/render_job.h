@@ -24,6 +24,7 @@ struct KeptForLater {
     KeptAssets assets = {};
     /// Facts of their files, by the scene.
     std::map<std::filesystem::path, NamedTexts> asset_facts = {};
+    FileChecksums checksums = {};  ///< of other files
     struct Environment {
         std::shared_ptr<const ImageRgb32f> image;
         Notes notes;  ///< what reading it had to say

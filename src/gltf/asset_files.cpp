@@ -28,13 +28,8 @@ void add_file(const fs::path& folder,
 
 }  // namespace
 
-std::vector<fs::path> files_of_asset(const fs::path& file) {
+std::vector<fs::path> files_of_document(const Document& document, const fs::path& file) {
     std::vector<fs::path> files = {file};
-    Log silent(Verbosity::quiet);
-    Problems problems(true);  // reported when the asset is loaded
-    const Result<OpenedAsset> asset = open_asset(file, problems, silent, {});
-    if (!asset) return files;
-    const Document& document = asset->document;
     const fs::path folder = file.parent_path();
     for (const GltfBuffer& buffer : document.buffers)
         add_file(folder, buffer.uri, files);
@@ -43,6 +38,14 @@ std::vector<fs::path> files_of_asset(const fs::path& file) {
     for (const GltfLightProfile& profile : document.profiles)
         add_file(folder, profile.uri, files);
     return files;
+}
+
+std::vector<fs::path> files_of_asset(const fs::path& file) {
+    Log silent(Verbosity::quiet);
+    Problems problems(true);  // reported when the asset is loaded
+    const Result<OpenedAsset> asset = open_asset(file, problems, silent, {});
+    if (!asset) return {file};
+    return files_of_document(asset->document, file);
 }
 
 }  // namespace obscura::gltf

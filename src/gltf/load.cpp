@@ -3,6 +3,7 @@
 #include "gltf/load.h"
 
 #include "base/setting_names.h"
+#include "gltf/asset_files.h"
 #include "gltf/chosen_parts.h"
 #include "gltf/decode/meshopt.h"
 #include "gltf/geometry/instancing.h"
@@ -123,6 +124,7 @@ struct PosedAsset::Impl {
     BufferStore buffers;
     Animator animator;
     AssetInfo info;  ///< what all scenes of the asset have in common
+    std::vector<std::filesystem::path> files;
     TextureStore textures;
     GeometryStore geometry;
     std::optional<std::vector<Affined>> anchors;  ///< see MeshSources
@@ -184,6 +186,7 @@ Result<void> PosedAsset::Impl::open(bool has_time, Log& log) {
     if (!opened) return fail(std::move(opened.error()));
     asset = std::move(*opened);
     Document& document = asset.document;
+    files = files_of_document(document, file);
     document.keeps_uv = options.keeps_uv;
     if (options.z_up) document.world_from_root = y_up_from_z_up;
     if (!options.info_only && may_need_oiio(document)) open_oiio_ahead();
@@ -458,6 +461,10 @@ Result<void> PosedAsset::set_value(const std::string& pointer, const std::vector
 
 const AssetInfo& PosedAsset::info() const {
     return impl_->info;
+}
+
+const std::vector<std::filesystem::path>& PosedAsset::files() const {
+    return impl_->files;
 }
 
 Result<std::vector<char>> PosedAsset::subtree(const std::string& pattern) const {

@@ -150,6 +150,9 @@ public:
     /// What all its scenes have in common.
     const AssetInfo& info() const;
 
+    /// Those of files_of_asset.
+    const std::vector<std::filesystem::path>& files() const;
+
     /// The nodes whose names fit the pattern, and all below them: 1 by the node's number.
     ///
     /// Errors  64 E-NODE-UNKNOWN

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace obscura {
 
@@ -55,6 +56,9 @@ public:
     ///
     /// Errors  64 E-NODE-UNKNOWN
     Result<void> find_framed_nodes(CameraRequest& camera) const;
+
+    /// All files of the asset: see gltf/asset_files.h.
+    const std::vector<std::filesystem::path>& files() const { return files_; }
 
     /// What all poses have in common.
     const AssetInfo& info() const { return asset_->info(); }
@@ -148,7 +152,8 @@ public:
     RenderStatistics& statistics() { return statistics_; }
 
 private:
-    explicit AssetRenderer(gltf::PosedAsset asset) : asset_(std::move(asset)) {}
+    explicit AssetRenderer(gltf::PosedAsset asset)
+        : files_(asset.files()), asset_(std::move(asset)) {}
 
     /// The request's options, with what the prepared pose and the camera add.
     ///
@@ -156,6 +161,7 @@ private:
     Result<RenderOptions> options_of_image(const RenderRequest& request,
                                            const ChosenCamera& camera);
 
+    std::vector<std::filesystem::path> files_;
     std::optional<gltf::PosedAsset> asset_;  ///< until the last pose
     std::optional<Scene> scene_;             ///< posed, not yet prepared
     std::optional<PreparedScene> prepared_;  ///< of the latest image

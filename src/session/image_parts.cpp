@@ -3,7 +3,6 @@
 #include "session/image_parts.h"
 
 #include "base/checksum.h"
-#include "gltf/asset_files.h"
 #include "render/counts.h"
 
 #include <algorithm>
@@ -22,9 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Reads piece by piece: before loading there may be no memory for the whole file.
-void add_file(const std::string& name, const fs::path& file, NamedTexts& facts) {
+std::optional<std::string> checksum_of_file(const fs::path& file) {
     std::error_code error;
-    if (!fs::is_regular_file(file, error)) return;
+    if (!fs::is_regular_file(file, error)) return {};
     std::ifstream stream(file, std::ios::binary);
     std::vector<char> piece(size_t{1} << 20);
     RunningChecksum sum;
@@ -32,8 +31,8 @@ void add_file(const std::string& name, const fs::path& file, NamedTexts& facts) 
         stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
         sum.add(std::as_bytes(std::span(piece.data(), static_cast<size_t>(stream.gcount()))));
     }
-    if (!stream.eof()) return;
-    facts.emplace_back(name, checksum_text(sum.value()));
+    if (!stream.eof()) return {};
+    return checksum_text(sum.value());
 }
 
 tl::unexpected<Error> refuse_parts(const char* id,
@@ -158,30 +157,42 @@ fs::path checkpoint_file(const RenderRequest& request) {
     return asked;
 }
 
-NamedTexts facts_of_asset(const fs::path& scene) {
+std::optional<std::string> FileChecksums::of(const fs::path& file) {
+    const auto known = known_.find(file);
+    if (known != known_.end()) return known->second;
+    return known_.emplace(file, checksum_of_file(file)).first->second;
+}
+
+NamedTexts facts_of_asset(const std::vector<fs::path>& files) {
     NamedTexts facts;
-    for (const fs::path& file : gltf::files_of_asset(scene))
-        add_file(std::string(asset_file_fact) + file.filename().string(), file, facts);
+    for (const fs::path& file : files) {
+        if (const auto sum = checksum_of_file(file))
+            facts.emplace_back(std::string(asset_file_fact) + file.filename().string(), *sum);
+    }
     return facts;
 }
 
 NamedTexts facts_of(const RenderRequest& request,
                     const NamedTexts& asset,
                     const std::string& isa,
-                    const std::string& embree) {
+                    const std::string& embree,
+                    FileChecksums& checksums) {
     NamedTexts facts = {{"the program's version", OBSCURA_VERSION},
                         {"Embree's version", embree},
                         {"the instruction set", isa}};
     facts.insert(facts.end(), asset.begin(), asset.end());
-    if (request.environment) add_file("the environment's file", *request.environment, facts);
-    if (request.camera_json) add_file("the camera's file", *request.camera_json, facts);
+    const auto add_file = [&](const char* name, const fs::path& file) {
+        if (const auto sum = checksums.of(file)) facts.emplace_back(name, *sum);
+    };
+    if (request.environment) add_file("the environment's file", *request.environment);
+    if (request.camera_json) add_file("the camera's file", *request.camera_json);
     if (request.camera.settings.aperture_file)
-        add_file("the aperture's file", *request.camera.settings.aperture_file, facts);
+        add_file("the aperture's file", *request.camera.settings.aperture_file);
     const char* const ocio = std::getenv("OCIO");
     if (!request.display.ocio_file.empty()) {
-        add_file("the OpenColorIO config", request.display.ocio_file, facts);
+        add_file("the OpenColorIO config", request.display.ocio_file);
     } else if (ocio != nullptr) {
-        add_file("the OpenColorIO config", ocio, facts);
+        add_file("the OpenColorIO config", ocio);
     }
     return facts;
 }

@@ -7,6 +7,8 @@
 #include "session/render_request.h"
 
 #include <filesystem>
+#include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +23,16 @@ std::filesystem::path part_file(const std::filesystem::path& output, const FilmP
 ///
 /// In      request: its outputs are those of the frame
 std::filesystem::path checkpoint_file(const RenderRequest& request);
+
+/// Checksums of files, each of which is read once.
+class FileChecksums {
+public:
+    /// Nothing: it cannot be read.
+    std::optional<std::string> of(const std::filesystem::path& file);
+
+private:
+    std::map<std::filesystem::path, std::optional<std::string>> known_;
+};
 
 /// Whether a part of a picture is rendered, not some of a sequence's frames.
 bool is_part_of_image(const RenderRequest& request);
@@ -38,10 +50,11 @@ inline constexpr std::string_view asset_file_fact = "the file ";
 NamedTexts facts_of(const RenderRequest& request,
                     const NamedTexts& asset,
                     const std::string& isa,
-                    const std::string& embree);
+                    const std::string& embree,
+                    FileChecksums& checksums);
 
 /// The part of these that tells of an asset's own files.
-NamedTexts facts_of_asset(const std::filesystem::path& scene);
+NamedTexts facts_of_asset(const std::vector<std::filesystem::path>& files);
 
 /// What differs between the options, without the names of outputs, or else the facts of two
 /// renderings: "--spp: 16 and 64; --seed: nothing and 7"; "": nothing.

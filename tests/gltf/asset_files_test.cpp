@@ -3,6 +3,7 @@
 #include "gltf/asset_files.h"
 
 #include "gltf/images.h"
+#include "gltf/load.h"
 
 #include <gtest/gtest.h>
 
@@ -35,6 +36,16 @@ TEST(AssetFiles, WhatCannotBeReadIsAFileAlone) {
     const auto broken = folder.write("broken.gltf", "{");
     EXPECT_THAT(files_of_asset(broken), ElementsAre(broken));
     EXPECT_THAT(files_of_asset(folder / "absent.glb"), ElementsAre(folder / "absent.glb"));
+}
+
+TEST(AssetFiles, OfAnOpenAssetAreTheSame) {
+    for (const char* name : {"cornell/cornell.gltf", "alpha_test/alpha_test.gltf"}) {
+        const std::filesystem::path file = OBSCURA_SOURCE_DIR "/assets/" + std::string(name);
+        Log log;
+        const Result<PosedAsset> asset = PosedAsset::open(file, {}, false, log);
+        ASSERT_TRUE(asset) << name;
+        EXPECT_EQ(asset->files(), files_of_asset(file));
+    }
 }
 
 }  // namespace

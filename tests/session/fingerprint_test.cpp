@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/fingerprint.h"
 
+#include "session/image_parts.h"
+
 #include <gtest/gtest.h>
 
 #include "support/temp_folder.h"
@@ -79,6 +81,18 @@ TEST(ExistingImages, NeedEveryFile) {
     const ExistingImage damaged = find_existing(request, frame, "1");
     EXPECT_FALSE(damaged.is_finished);
     EXPECT_EQ(damaged.differs, (folder / "a.exr").string() + " cannot be read");
+}
+
+TEST(FileChecksums, AreOfWhatWasReadOnce) {
+    const TempFolder folder;
+    const auto file = folder.write("sky.hdr", "one");
+    FileChecksums checksums;
+    const auto first = checksums.of(file);
+    ASSERT_TRUE(first);
+    folder.write("sky.hdr", "two");
+    EXPECT_EQ(checksums.of(file), first);
+    EXPECT_NE(FileChecksums().of(file), first);
+    EXPECT_FALSE(checksums.of(folder / "absent.hdr"));
 }
 
 }  // namespace
