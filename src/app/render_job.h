@@ -74,7 +74,6 @@ struct Job {
     int threads = 1;  ///< that it renders with
     LightingOptions lighting = {};
     Notes asset_notes = {};       ///< what opening the asset and its first pose had to say
-    NamedTexts asset_facts = {};  ///< those of the scene's own files
     NamedTexts facts = {};        ///< that pixels depend on; files are read for them before loading
     NamedTexts image_facts = {};  ///< those of ListedImage, of the image that is being made
     bool has_begun = false;       ///< the first image is being rendered

@@ -69,7 +69,9 @@ Result<void> make_environment(PreparedScene::Impl& impl,
     EnvironmentCache& cache =
         lighting.environments != nullptr ? *lighting.environments : impl.environments;
     impl.environment.reset();  // the cache may make room for the new one
-    auto table = cache.table(source, lighting.environment_name);
+    const std::string& name =
+        lighting.environment ? lighting.environment_name : impl.scene.info.file_name;
+    auto table = cache.table(source, name);
     if (!table) return fail(std::move(table.error()));
     impl.environment = std::move(*table);
     impl.environment_rotation_deg = lighting.environment_rotation_deg;

@@ -98,7 +98,6 @@ public:
 
     /// True while there is a posed or prepared scene; false after an error.
     bool has_scene() const { return scene_ || is_prepared_; }
-    bool is_prepared() const { return is_prepared_; }
 
     /// Makes the prepared pose ready for prepare() once more, for another light; what is built and
     /// still fits is kept.

@@ -10,8 +10,8 @@
 
 namespace obscura {
 
-/// What one session has taken; the BVH, environments and the asset's own
-/// bytes keep their charges themselves.
+/// What one session has taken; the BVH, environments and the asset's own bytes keep their charges
+/// themselves.
 struct MemoryCharges {
     std::vector<MemoryCharge> textures;  ///< shared with the asset, which may go before its texels
     MemoryCharge geometry;

@@ -65,7 +65,7 @@ TEST(KeptAssets, WhatIsReadAheadStandsAsItsFirstImageShowsIt) {
     std::optional<KeptAsset> asset = assets.take(asset_use(request));
     ASSERT_TRUE(asset);
     EXPECT_EQ(asset->pose, pose_at(request, 0.5, ""));
-    EXPECT_TRUE(asset->renderer.has_scene() && !asset->renderer.is_prepared());
+    EXPECT_TRUE(asset->renderer.has_scene());
     EXPECT_FALSE(asset->facts.empty());
     Log log;
     asset->notes.tell(log);

@@ -258,6 +258,27 @@ TEST_F(Batch, AnAssetIsReadOnceAndTheNextOneAhead) {
     EXPECT_EQ(count(shared.err, "was read ahead"), 0U);
 }
 
+TEST_F(Batch, AnEnvironmentIsReadOnceForAllAssets) {
+    const std::string file = (folder_ / "sky.exr").string();
+    const std::vector<float> half_negative = {1, 1, 1, -1, -1, -1};
+    const auto output = OIIO::ImageOutput::create(file);
+    ASSERT_TRUE(output->open(file, OIIO::ImageSpec(2, 1, 3)) &&
+                output->write_image(OIIO::TypeFloat, half_negative.data()) && output->close());
+    json job = small_job();
+    job["options"]["env"] = "sky.exr";
+    job["looks"] = {"a", {{"name", "b"}, {"options", {{"exposure", 1}}}}};
+    for (const char* exposure : {"0", "auto"}) {
+        job["options"]["exposure"] = exposure;
+        const ProgramRun got = batch(job);
+        expect_result(got, 0, "OK");
+        const size_t warned = got.err.find("values are negative");
+        EXPECT_NE(warned, std::string::npos);
+        EXPECT_EQ(got.err.find("values are negative", warned + 1), std::string::npos) << got.err;
+        for (const json& line : lines("out.jsonl"))
+            EXPECT_THAT(line.at("warnings").dump(), HasSubstr("values are negative"));
+    }
+}
+
 TEST_F(Batch, WhatCannotBeMeteredIsLeftOut) {
     folder_.write("in/broken.gltf", "{");
     json job = small_job();
