@@ -26,7 +26,8 @@ struct Control {
     int tile_size = 16;        ///< pixels, from 1 to 256
     /// When it becomes true, rendering ends soon with the error E-STOPPED. Null: nobody stops it.
     const std::atomic<bool>* cancel = nullptr;
-    /// Called with the finished share in [0, 1], from any thread, by one at a time.
+    /// Called with the finished share in [0, 1], which never falls, from any thread, by one at a
+    /// time.
     std::function<void(double)> progress;
     /// Called with each tile when it is finished, in no particular order; likewise. With
     /// Sampling::noise_target each comes several times, in every pass with less noise.

@@ -12,6 +12,7 @@
 #include "session/outputs.h"
 #include "session/requested_camera.h"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <obscura/obscura.h>
@@ -96,11 +97,17 @@ v0::Result<void> change(const Change& made) {
     });
 }
 
-/// The callbacks of a control, called by one thread at a time.
-ProgressFunction watched_by(const v0::Control& control, std::mutex& mutex) {
+struct ToldProgress {
+    std::mutex mutex;
+    double share = 0;
+};
+
+/// The callbacks of a control, called by one thread at a time. A tile that is finished first may
+/// come here second: the share does not fall because of it.
+ProgressFunction watched_by(const v0::Control& control, ToldProgress& told) {
     if (!control.progress && !control.tile) return {};
     return [&](const FinishedTile& tile) {
-        const std::lock_guard lock(mutex);
+        const std::lock_guard lock(told.mutex);
         if (control.tile) {
             const Film& film = *tile.film;
             const PixelRect& area = tile.area;
@@ -110,7 +117,8 @@ ProgressFunction watched_by(const v0::Control& control, std::mutex& mutex) {
                  film.pixels.data() + pixel_index(film, area.x, area.y) * film.channels.size(),
                  static_cast<size_t>(film.width) * film.channels.size()});
         }
-        if (control.progress) control.progress(tile.done);
+        told.share = std::max(told.share, tile.done);
+        if (control.progress) control.progress(told.share);
     };
 }
 
@@ -140,8 +148,8 @@ obscura::Result<Image> render_image(Asset::Impl& asset,
         asset.asset.prepare(request, {view.time_s, view.shutter_s}, log);
     if (!camera) return fail(camera.error());
     if (cancelled()) return stopped();
-    std::mutex mutex;
-    const RenderHooks hooks{watched_by(control, mutex), control.cancel};
+    ToldProgress told;
+    const RenderHooks hooks{watched_by(control, told), control.cancel};
     auto finished = asset.asset.renderer().render(request, *camera, hooks, asset.log);
     if (!finished) return fail(finished.error());
     Image image = library_image(*finished, request, *camera);

@@ -77,14 +77,21 @@ TEST(PreparedScene, AnEnvironmentThatIsTurnedIsThatOfItsOwn) {
     auto turned = PreparedScene::create(scene(), lighting, Isa::automatic, log).value();
     lighting.environment_rotation_deg = 70;
     ASSERT_TRUE(turned.update(scene(), lighting, log));
-    const auto anew = PreparedScene::create(scene(), lighting, Isa::automatic, log).value();
-    const EnvironmentView a = turned.impl().environment_view();
-    const EnvironmentView b = anew.impl().environment_view();
+    const ImageRgb32f& map = *lighting.environment;
+    const EnvironmentImage image{map.width, map.height, map.pixels.data()};
+    const auto anew = EnvironmentTable::create(image, 1, 70).value();
+    const auto straight = EnvironmentTable::create(image, 1, 0).value();
+    int moved = 0;
     for (int i = 0; i < 100; ++i) {
         const Vec3d direction =
             normalize(Vec3d{std::cos(0.7 * i), 0.1 * (i % 9), std::sin(0.7 * i)});
-        EXPECT_EQ(environment_pdf(a, direction), environment_pdf(b, direction));
+        const auto density = [&](const EnvironmentView& view) {
+            return environment_pdf(view, direction);
+        };
+        EXPECT_EQ(density(turned.impl().environment_view()), density(anew.view()));
+        moved += density(anew.view()) != density(straight.view()) ? 1 : 0;
     }
+    EXPECT_GT(moved, 10);
     lighting.environment_rotation_deg = std::nan("");
     EXPECT_FALSE(turned.update(scene(), lighting, log));
 }

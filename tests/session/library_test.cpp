@@ -245,6 +245,29 @@ TEST(Library, TilesCoverTheImageWithItsPixels) {
     EXPECT_EQ(image.pixels[0], whole.pixels[size_t{(2 * 40 + 3) * 4}]);
 }
 
+TEST(Library, ProgressNeverFalls) {
+    Session session;
+    const Result<Asset> asset = session.open(assets + "cornell/cornell.gltf");
+    ASSERT_TRUE(asset);
+    double share = 0;
+    int falls = 0;
+    Control control;
+    control.threads = 2;
+    control.tile_size = 1;
+    control.progress = [&](double done) {
+        falls += done < share ? 1 : 0;
+        share = done;
+        // The other thread waits meanwhile, and is not always the next.
+        if (done < 0.5) std::this_thread::sleep_for(std::chrono::microseconds(50));
+    };
+    for (int i = 0; i < 5; ++i) {
+        share = 0;
+        ASSERT_TRUE(session.render(*asset, small_view(), {}, few_samples(), control));
+    }
+    EXPECT_EQ(falls, 0);
+    EXPECT_EQ(share, 1);
+}
+
 TEST(Library, ANoiseTargetIsReachedWithinItsNumbersOfSamples) {
     Session session;
     const Result<Asset> asset = session.open(assets + "cornell/cornell.gltf");
