@@ -15,6 +15,7 @@ inline RTCRayHit ask_again(const Accel::Impl& impl,
                            RTCFilterFunctionN filter,
                            const RayColumns& rays,
                            int index) {
+    context.nearest = nullptr;  // of the packet
     Query query(context, false);
     query.set_filter(filter);
     RTCRayHit out;

@@ -6,6 +6,7 @@
 
 namespace obscura {
 
+struct NearestHitCalls;
 struct PacketMoves;
 struct ShapeCallbacks;
 struct SplatCallbacks;
@@ -14,6 +15,7 @@ struct AccelFunctions {
     const ShapeCallbacks* shapes = nullptr;
     const PacketMoves* packets = nullptr;
     const SplatCallbacks* splats = nullptr;
+    const NearestHitCalls* nearest = nullptr;
 };
 
 /// In   embree_isa: as Accel::build; "" takes the widest that this CPU has

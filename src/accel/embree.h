@@ -16,6 +16,7 @@ namespace obscura {
 
 struct CrossingNotes;
 struct Cutaway;
+struct NearestHits;
 struct PassedBack;
 
 /// Scene flag that Query::set_filter requires.
@@ -42,6 +43,7 @@ struct QueryContext {
     unsigned char* thin_walls = nullptr;  ///< by ray id: set to 1 if the ray passes one
     std::vector<PassedBack>* passed_backs = nullptr;  ///< see SeeThrough
     const Cutaway* cutaway = nullptr;                 ///< likewise
+    NearestHits* nearest = nullptr;      ///< of the packet; null: hits are as Embree finds them
     CrossingNotes* crossings = nullptr;  ///< records all, hits nothing; see accel/crossings.cpp
 };
 

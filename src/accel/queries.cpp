@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_impl.h"
 #include "accel/infinite_planes.h"
+#include "accel/nearest_hits.h"
 #include "accel/packets.h"
 #include "accel/safe_ray.h"
 #include "accel/scene_records.h"
@@ -88,6 +89,9 @@ int Accel::intersect(const RayColumns& rays,
     // Packets of 16 for bounces too: where rays diverge Embree continues ray by ray, still faster
     // than with calls of one ray each (obscura bench shows both).
     Query query(context, coherence == Coherence::coherent);
+    NearestHits nearest;
+    context.nearest = &nearest;
+    query.set_filter(impl_->functions.nearest->keep_nearest);
     context.keys = rays.key;
     context.fixed_threshold = see_through.fixed_alpha || rays.key == nullptr;
     context.segment = see_through.segment;
@@ -110,7 +114,9 @@ int Accel::intersect(const RayColumns& rays,
             std::fill_n(hits.primitive + first, packet, -1);
             continue;
         }
+        impl_->functions.nearest->begin(block.ray, first, nearest);
         query.intersect16(valid.lane, impl_->top, &block);
+        std::copy_n(nearest.t, packet, block.ray.tfar);  // Embree looked a little beyond
         store_packet(*impl_, valid, block, hits, first);
         settle_tied_hits(*impl_, context, block.hit, first, {rays, hits});
         if (see_through.culls_back_faces) {

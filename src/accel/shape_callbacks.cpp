@@ -1,5 +1,6 @@
 // accel/shape_callbacks.cpp - Embree's callbacks for shapes; compiled once per instruction set.
 // SPDX-License-Identifier: Apache-2.0
+#include "accel/nearest_hits.h"
 #include "accel/shape_geometry.h"
 #include "math/word_of.h"
 
@@ -238,6 +239,24 @@ void note_crossings(const Call& call, int i, unsigned geometry) {
     }
 }
 
+/// Ends a ray at a hit, unless the hit so far comes first: see NearestHits.
+OBSCURA_INLINE bool stops(const Call& call, int i, const Found& found, unsigned geometry) {
+    NearestHits* const nearest = call.context.nearest;
+    if (nearest == nullptr) {
+        call.rays.tfar()[i] = found.t;
+        return true;
+    }
+    const int lane = static_cast<int>(call.rays.id(i)) - nearest->first_id;
+    const CandidateHit candidate{found.t,
+                                 static_cast<int32_t>(call.context.embree.instID[0]),
+                                 static_cast<int32_t>(geometry),
+                                 found.index};
+    if (!takes(*nearest, lane, candidate)) return false;
+    const bool may_be_flat = call.geometry.records != nullptr;
+    call.rays.tfar()[i] = end_of_search(found.t, nearest->coordinates[lane], may_be_flat);
+    return true;
+}
+
 void intersect(const RTCIntersectFunctionNArguments* args) {
     const auto& geometry = *static_cast<const ShapeGeometry*>(args->geometryUserPtr);
     const auto& context = *reinterpret_cast<const QueryContext*>(args->context);
@@ -257,7 +276,7 @@ void intersect(const RTCIntersectFunctionNArguments* args) {
     }
     find_hits(call, [&](int index, const Found& found) {
         const auto i = static_cast<unsigned>(index);
-        rays.tfar()[index] = found.t;
+        if (!stops(call, index, found, args->geomID)) return;
         RTCHitN_Ng_x(hits, n, i) = -rays.column<&RTCRay::dir_x>()[index];
         RTCHitN_Ng_y(hits, n, i) = -rays.column<&RTCRay::dir_y>()[index];
         RTCHitN_Ng_z(hits, n, i) = -rays.column<&RTCRay::dir_z>()[index];

@@ -1,8 +1,9 @@
 // accel/tied_hits.h - hits on edges of triangles, where the neighbour is met in the same place.
 // SPDX-License-Identifier: Apache-2.0
 //
-// Embree takes the last one of them that it tests, and in which order it tests them depends on the
-// other rays of the packet. Obscura takes that with the lowest ids.
+// An edge may lie on a side of the boxes around its triangles. Whether Embree then looks into both
+// depends on the other rays of the packet. Obscura takes what a ray of its own finds there: of
+// triangles that are equally near, that with the lowest ids.
 #pragma once
 
 #include "accel/accel_impl.h"
