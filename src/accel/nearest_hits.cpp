@@ -37,16 +37,6 @@ struct Candidates {
         return bits;
     }
     OBSCURA_INLINE float* t() const { return &RTCRayN_tfar(args.ray, args.N, i); }
-    OBSCURA_INLINE Vec3<Lanes> direction() const {
-        return {load(&RTCRayN_dir_x(args.ray, args.N, i)),
-                load(&RTCRayN_dir_y(args.ray, args.N, i)),
-                load(&RTCRayN_dir_z(args.ray, args.N, i))};
-    }
-    OBSCURA_INLINE Vec3<Lanes> ng() const {
-        return {load(&RTCHitN_Ng_x(args.hit, args.N, i)),
-                load(&RTCHitN_Ng_y(args.hit, args.N, i)),
-                load(&RTCHitN_Ng_z(args.hit, args.N, i))};
-    }
     OBSCURA_INLINE LanesI instance() const {
         return load(words(&RTCHitN_instID(args.hit, args.N, i, 0)));
     }
@@ -58,8 +48,8 @@ struct Candidates {
     }
 };
 
-/// Which of the candidates that are as near as the hits so far have lower ids, as
-/// takes() has it.
+/// Which of the candidates that are as near as the hits so far have lower ids, as takes()
+/// has it.
 OBSCURA_INLINE Mask have_lower_ids(const Candidates& at, const NearestHits& nearest) {
     const unsigned i = at.i;
     const auto compare = [](LanesI a, const int32_t* column, Mask or_else) {
@@ -90,12 +80,7 @@ OBSCURA_INLINE void keep_nearest_of_one(const RTCFilterFunctionNArguments& args,
         args.valid[i] = 0;
         return;
     }
-    const Vec3f ng{
-        RTCHitN_Ng_x(args.hit, n, i), RTCHitN_Ng_y(args.hit, n, i), RTCHitN_Ng_z(args.hit, n, i)};
-    const Vec3f direction{RTCRayN_dir_x(args.ray, n, i),
-                          RTCRayN_dir_y(args.ray, n, i),
-                          RTCRayN_dir_z(args.ray, n, i)};
-    t = end_of_search(t, nearest.coordinates[lane], grazes(direction, ng));
+    t = end_of_search(t, nearest.coordinates[lane]);
 }
 
 /// Candidates [i, i + lane_count) of a whole packet.
@@ -113,8 +98,7 @@ OBSCURA_INLINE void keep_nearest_of_many(const Candidates& at, Mask valid, Neare
     replace(nearest.geometry + i, taken, at.geometry());
     replace(nearest.element + i, taken, at.element());
     const Lanes coordinates = load(nearest.coordinates + i);
-    const Lanes end = end_of_search(t, coordinates, grazes(at.direction(), at.ng()));
-    store(at.t(), select(taken, end, t));
+    store(at.t(), select(taken, end_of_search(t, coordinates), t));
 }
 
 void keep_nearest(const RTCFilterFunctionNArguments* args) {

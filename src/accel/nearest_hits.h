@@ -10,7 +10,6 @@
 
 #include "accel/embree.h"
 #include "accel/packets.h"
-#include "math/vec.h"
 
 namespace obscura {
 
@@ -56,21 +55,13 @@ OBSCURA_INLINE bool takes(NearestHits& nearest, int lane, const CandidateHit& ca
     return true;
 }
 
-/// Whether a ray grazes a surface: where it enters a flat box is then rounded much more.
-template <typename T>
-OBSCURA_INLINE auto grazes(const Vec3<T>& direction, const Vec3<T>& normal) {
-    constexpr float square_of_cosine = 0x1p-12f;
-    const T along = dot(direction, normal);
-    return along * along < dot(direction, direction) * dot(normal, normal) * T(square_of_cosine);
-}
-
 /// How far Embree has to look for all that lies at the distance t. Hits and entries into boxes are
-/// within 2^-20 of the numbers that they come from, over the cosine at which rays meet surfaces.
+/// rounded to some 2^-20 of the numbers that they come from, more where rays graze them.
 ///
-/// In      coordinates: as in NearestHits; grazes: cosines of less than 1/64, down to 1/8192
-template <typename T, typename Condition>
-OBSCURA_INLINE T end_of_search(T t, T coordinates, Condition grazes) {
-    return t + (t + coordinates) * select(grazes, T(0x1p-7f), T(0x1p-14f));
+/// In      coordinates: as in NearestHits
+template <typename T>
+OBSCURA_INLINE T end_of_search(T t, T coordinates) {
+    return t + (t + coordinates) * T(0x1p-14f);
 }
 
 }  // namespace OBSCURA_ISA

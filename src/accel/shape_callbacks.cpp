@@ -252,8 +252,7 @@ OBSCURA_INLINE bool stops(const Call& call, int i, const Found& found, unsigned 
                                  static_cast<int32_t>(geometry),
                                  found.index};
     if (!takes(*nearest, lane, candidate)) return false;
-    const bool may_be_flat = call.geometry.records != nullptr;
-    call.rays.tfar()[i] = end_of_search(found.t, nearest->coordinates[lane], may_be_flat);
+    call.rays.tfar()[i] = end_of_search(found.t, nearest->coordinates[lane]);
     return true;
 }
 

@@ -97,15 +97,20 @@ std::vector<Hit> hits_of(const Accel& accel,
     return out;
 }
 
-/// Rays from within the unit cube, and some from afar that graze its sides.
+/// Rays from within the cube, some from afar, and some that graze one of its sides.
 RayList rays_at_the_cube() {
     Pcg32 random(7);
     RayList rays;
-    for (int i = 0; i < 40000 / thorough; ++i) {
-        const bool from_afar = i % 8 == 0;
-        const Vec3f origin = random_in_cube(random, 0.6F);
-        const Vec3f direction = random_unit(random);
-        rays.add(from_afar ? origin - direction * 300.0F : origin, direction);
+    const int count = 40000 / thorough;
+    for (int i = 0; i < count; ++i) {
+        Vec3f origin = random_in_cube(random, 0.6F);
+        Vec3f direction = random_unit(random);
+        if (i % 8 == 0) origin = origin - direction * 300.0F;
+        if (i < count / 4) {
+            direction.x = std::pow(10.0F, between(random, -6, -1.5F));
+            origin.x = 1 - between(random, 0, 0.5F) * direction.x;
+        }
+        rays.add(origin, direction);
     }
     return rays;
 }
@@ -137,9 +142,9 @@ TEST(CoplanarSurfaces, AHitIsThatOfTheRayAlone) {
             const BuiltScene in_world = build(cube_of_two_layers(turn), name);
             EXPECT_EQ(other_hits(in_world.accel, rays), 0) << name;
         }
-        const std::vector<Affined> placings = {turned(), turned()};
-        const BuiltScene twice = build(instanced(cube_of_two_layers(turned()), placings), name);
-        EXPECT_EQ(other_hits(twice.accel, rays), 0) << name << ", instances";
+        const std::vector<Affined> placings(5, turned());
+        const BuiltScene often = build(instanced(cube_of_two_layers(turned()), placings), name);
+        EXPECT_EQ(other_hits(often.accel, rays), 0) << name << ", instances";
     }
 }
 
@@ -155,6 +160,32 @@ TEST(CoplanarSurfaces, ShapesCountAsTriangles) {
         const std::string name = embree_isa_for(isa);
         const BuiltScene built = build(Scene(scene), name);
         EXPECT_EQ(other_hits(built.accel, rays), 0) << name;
+    }
+}
+
+/// A square, all of whose triangles are there `times` times, in one primitive.
+Scene repeated_square(size_t times) {
+    SceneBuilder builder;
+    builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material({}));
+    Scene scene = builder.take();
+    const std::vector<uint32_t> once(scene.indices.begin(), scene.indices.end());
+    for (size_t k = 1; k < times; ++k)
+        scene.indices.insert(scene.indices.end(), once.begin(), once.end());
+    scene.primitives[0].triangle_count = static_cast<int32_t>(scene.indices.size() / 3);
+    return scene;
+}
+
+TEST(CoplanarSurfaces, OfEquallyNearTrianglesTheFirstIsHit) {
+    for (const Isa isa : all_isas()) {
+        const BuiltScene built = build(repeated_square(20), embree_isa_for(isa));
+        RayList rays;
+        for (int i = 0; i < 64; ++i)
+            rays.add({-0.9F + 0.027F * static_cast<float>(i), 0.31F, 3}, {0, 0, -1});
+        for (const Coherence coherence : both_ways) {
+            rays.intersect(built.accel, coherence);
+            for (size_t i = 0; i < 64; ++i)
+                EXPECT_LT(rays.triangle[i], 2);
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/shape_scenes.h"
 #include <limits>
 
 namespace obscura {
@@ -328,6 +329,25 @@ TEST(Queries, CameraRaysPassSingleSidedBacks) {
     rays.add({0.3F, 0.2F, 9}, {0, 0, -1});
     rays.intersect(built.accel, Coherence::coherent);
     EXPECT_EQ(rays.primitive[0], 6);
+}
+
+TEST(Queries, CameraRaysMeetShapesBehindPassedBacks) {
+    for (const Isa isa : all_isas()) {
+        SceneBuilder builder;
+        add_square(builder, 2, builder.material({}), true);
+        Scene scene = builder.take();
+        add_shape(scene, make_shape(ShapeKind::box, 1, 1, 1), 0);
+        const BuiltScene built = build(std::move(scene), embree_isa_for(isa));
+        RayList rays;
+        for (int i = 0; i < 16; ++i)
+            rays.add({-0.5F + 0.06F * static_cast<float>(i), 0.2F, 5}, {0, 0, -1});
+        rays.intersect(built.accel, Coherence::coherent, {.culls_back_faces = true});
+        for (int i = 0; i < 16; ++i) {
+            ASSERT_TRUE(rays.hit(i));
+            EXPECT_EQ(rays.primitive[static_cast<size_t>(i)], 1);
+            EXPECT_EQ(rays.t[static_cast<size_t>(i)], 4);
+        }
+    }
 }
 
 TEST(Queries, OnlyBacksAreAMiss) {
