@@ -17,10 +17,13 @@ namespace {
 
 constexpr int signal_base = 128;  // as shells say it
 
+/// Where a child has its end of the pipe between its server and it.
+constexpr int lifeline = STDERR_FILENO + 1;
+
 /// What a child is to find when it begins.
 class SpawnPlan {
 public:
-    explicit SpawnPlan(const ChildSetup& setup) {
+    SpawnPlan(const ChildSetup& setup, const Descriptor& end_of_pipe) {
         constexpr int flags = O_WRONLY | O_CREAT | O_TRUNC, mode = 0600;
         posix_spawn_file_actions_init(&actions_);
         posix_spawn_file_actions_addopen(&actions_, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
@@ -31,8 +34,9 @@ public:
             posix_spawn_file_actions_addopen(
                 &actions_, STDERR_FILENO, setup.err.c_str(), flags, mode);
         }
+        posix_spawn_file_actions_adddup2(&actions_, end_of_pipe.number(), lifeline);
         // The HTTP library's sockets stay open across exec: a port would stay taken.
-        posix_spawn_file_actions_addclosefrom_np(&actions_, STDERR_FILENO + 1);
+        posix_spawn_file_actions_addclosefrom_np(&actions_, lifeline + 1);
         posix_spawn_file_actions_addchdir_np(&actions_, setup.folder.c_str());
         posix_spawnattr_init(&attributes_);
         posix_spawnattr_setpgroup(&attributes_, 0);
@@ -61,10 +65,29 @@ private:
     posix_spawnattr_t attributes_ = {};
 };
 
+/// Has the system send SIGTERM to a process group when nobody has the other end of a pipe any more.
+void end_with_pipe(const Descriptor& end_of_pipe, pid_t group) {
+    ::fcntl(end_of_pipe.number(), F_SETOWN, -group);
+    ::fcntl(end_of_pipe.number(), F_SETSIG, SIGTERM);
+    ::fcntl(end_of_pipe.number(), F_SETFL, O_ASYNC);
+}
+
+Error cannot_be_run(const std::string& program, int failure) {
+    return {ExitCode::io_error,
+            "E-JOB-START",
+            program,
+            "cannot be run: " + std::generic_category().message(failure)};
+}
+
 }  // namespace
 
 Result<ChildProcess> ChildProcess::start(const ChildSetup& setup) {
-    const SpawnPlan plan(setup);
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0)
+        return fail(cannot_be_run(setup.words.front(), errno));
+    const Descriptor end_of_child(ends[0]);
+    Descriptor own_end(ends[1]);
+    const SpawnPlan plan(setup, end_of_child);
     std::vector<std::string> words = setup.words;
     std::vector<char*> pointers;
     for (std::string& word : words)
@@ -73,15 +96,15 @@ Result<ChildProcess> ChildProcess::start(const ChildSetup& setup) {
     pid_t process = 0;
     const int failure = ::posix_spawn(
         &process, pointers.front(), plan.actions(), plan.attributes(), pointers.data(), environ);
-    if (failure == 0) return ChildProcess(process);
-    return fail(ExitCode::io_error,
-                "E-JOB-START",
-                words.front(),
-                "cannot be run: " + std::generic_category().message(failure));
+    if (failure != 0) return fail(cannot_be_run(words.front(), failure));
+    end_with_pipe(end_of_child, process);
+    return ChildProcess(process, std::move(own_end));
 }
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
-    : process_(std::exchange(other.process_, 0)), code_(other.code_) {}
+    : process_(std::exchange(other.process_, 0)),
+      pipe_(std::move(other.pipe_)),
+      code_(other.code_) {}
 
 ChildProcess::~ChildProcess() {
     if (process_ == 0 || code_) return;

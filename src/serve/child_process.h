@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/descriptor.h"
 #include "base/error.h"
 
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <sys/types.h>
+#include <utility>
 #include <vector>
 
 namespace obscura::serve {
@@ -21,7 +23,8 @@ struct ChildSetup {
 /// A running program, with all that it starts itself. One thread at a time may use it.
 class ChildProcess {
 public:
-    /// It reads nothing, and has none of the server's files and sockets.
+    /// It reads nothing, and has none of the server's files and sockets. When this program ends
+    /// without waiting for it, killed for example, the system sends it SIGTERM.
     ///
     /// Errors  74 E-JOB-START the program cannot be run
     static Result<ChildProcess> start(const ChildSetup& setup);
@@ -37,9 +40,10 @@ public:
     void send(int signal) const;
 
 private:
-    explicit ChildProcess(pid_t process) : process_(process) {}
+    ChildProcess(pid_t process, Descriptor pipe) : process_(process), pipe_(std::move(pipe)) {}
 
     pid_t process_ = 0;  ///< 0: moved away
+    Descriptor pipe_;    ///< the end whose closing ends it
     std::optional<int> code_;
 };
 

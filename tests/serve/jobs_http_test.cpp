@@ -176,6 +176,22 @@ TEST_F(JobsHttp, ImagesAreThoseOfBatch) {
     EXPECT_EQ(end(), 0);
 }
 
+TEST_F(JobsHttp, AKilledServerTakesItsJobsAlong) {
+    end();
+    begin({"--token", "secret", "--jobs", "jobs"});
+    const std::string id = submit(long_job()).at("job");
+    ASSERT_TRUE(becomes_so([&] { return state(id) == "running"; }));
+    const fs::path log = folder_ / "jobs" / id / "log.txt";
+    ASSERT_TRUE(becomes_so([&] { return !read_whole_file(log).empty(); }));
+    server_->send(SIGKILL);
+    ASSERT_TRUE(becomes_so([&] { return server_->code().has_value(); }));
+    EXPECT_EQ(*server_->code(), 128 + SIGKILL);
+    server_.reset();
+    EXPECT_TRUE(becomes_so([&] {
+        return read_whole_file(log).find("RESULT code=143") != std::string::npos;
+    })) << read_whole_file(log);
+}
+
 TEST_F(JobsHttp, WhatMayNotBeIsRefusedWithItsPlace) {
     const json plain = {{"assets", {"box.gltf"}}};
     const auto with = [&](const char* key, const json& value) {
