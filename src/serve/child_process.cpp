@@ -83,8 +83,7 @@ Error cannot_be_run(const std::string& program, int failure) {
 
 Result<ChildProcess> ChildProcess::start(const ChildSetup& setup) {
     int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0)
-        return fail(cannot_be_run(setup.words.front(), errno));
+    if (::pipe2(ends, O_CLOEXEC) != 0) return fail(cannot_be_run(setup.words.front(), errno));
     const Descriptor end_of_child(ends[0]);
     Descriptor own_end(ends[1]);
     const SpawnPlan plan(setup, end_of_child);
