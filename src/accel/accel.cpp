@@ -105,6 +105,15 @@ Result<void> require_curves(const Scene& scene, bool has_curves) {
                 "EMBREE_GEOMETRY_CURVE is needed");
 }
 
+Result<void> require_filters(bool has_filters) {
+    if (has_filters) return {};
+    return fail(ExitCode::unsupported,
+                "E-EMBREE-FILTERS",
+                "Embree",
+                "this Embree was built without filter functions; one built with "
+                "EMBREE_FILTER_FUNCTION is needed");
+}
+
 Error device_failure(RTCError code) {
     if (code == RTC_ERROR_OUT_OF_MEMORY) {
         return Error{ExitCode::out_of_memory,
@@ -142,6 +151,9 @@ Result<std::unique_ptr<Accel::Impl>> open_device(const Scene& scene, const Kerne
     const auto property =
         rtcGetDeviceProperty(impl->device, RTC_DEVICE_PROPERTY_CURVE_GEOMETRY_SUPPORTED);
     if (auto done = require_curves(scene, property != 0); !done) return fail(done.error());
+    const auto filters =
+        rtcGetDeviceProperty(impl->device, RTC_DEVICE_PROPERTY_FILTER_FUNCTION_SUPPORTED);
+    if (auto done = require_filters(filters != 0); !done) return fail(done.error());
     rtcSetDeviceErrorFunction(impl->device, note_error, &impl->errors);
     impl->functions = accel_functions_for(kernels.isa);
     Result<MemoryCharge> charge = charge_memory(MemoryUse::bvh, "", 0);

@@ -57,7 +57,8 @@ public:
     ///
     /// In      scene: outlives this object; its vertex and index arrays are shared, not copied
     ///         embree_isa: "" or an Embree isa name such as "avx2"
-    /// Errors  33 E-MEM; 69 E-EMBREE-CURVES lines, and an Embree without curves; 70 E-EMBREE
+    /// Errors  33 E-MEM; 69 E-EMBREE-CURVES lines, and an Embree without curves; 69
+    ///         E-EMBREE-FILTERS an Embree without filter functions; 70 E-EMBREE
     static Result<Accel> build(const Scene& scene, const std::string& embree_isa);
 
     /// Updates to another pose of the same asset. Keeps the BVHs of geometry whose stamp, position

@@ -58,6 +58,11 @@ struct SharedArrays {
 /// Errors  69 E-EMBREE-CURVES
 Result<void> require_curves(const Scene& scene, bool has_curves);
 
+/// Every hit passes one, and alpha needs them: Embree may have been built without.
+///
+/// Errors  69 E-EMBREE-FILTERS
+Result<void> require_filters(bool has_filters);
+
 /// Why there is no device. Embree has a code for it, but no text.
 Error device_failure(RTCError code);
 

@@ -2,19 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/nearest_hits.h"
 
-#include <limits>
+#include <cmath>
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
 namespace {
 
-void begin(const RTCRay16& rays, int first, NearestHits& nearest) {
+void begin(const RTCRay16& rays, int first, float scene_size, NearestHits& nearest) {
+    // Of large numbers far away the rounding counts, but less than the room that there is for rays
+    // that graze what is near.
+    const Lanes far_away(scene_size * 0x1p-5f);
     nearest.first_id = first;
     for (int i = 0; i < packet; i += lane_count) {
-        store(nearest.t + i, Lanes(std::numeric_limits<float>::infinity()));
-        store(nearest.coordinates + i,
-              abs(load(rays.org_x + i)) + abs(load(rays.org_y + i)) + abs(load(rays.org_z + i)));
+        store(nearest.t + i, Lanes(INFINITY));
+        const Lanes origin =
+            abs(load(rays.org_x + i)) + abs(load(rays.org_y + i)) + abs(load(rays.org_z + i));
+        store(nearest.coordinates + i, origin + far_away);
     }
 }
 
@@ -37,6 +41,19 @@ struct Candidates {
         return bits;
     }
     OBSCURA_INLINE float* t() const { return &RTCRayN_tfar(args.ray, args.N, i); }
+    OBSCURA_INLINE Vec3<Lanes> origin() const {
+        return {load(&RTCRayN_org_x(args.ray, args.N, i)),
+                load(&RTCRayN_org_y(args.ray, args.N, i)),
+                load(&RTCRayN_org_z(args.ray, args.N, i))};
+    }
+    OBSCURA_INLINE Vec3<Lanes> direction() const {
+        return {load(&RTCRayN_dir_x(args.ray, args.N, i)),
+                load(&RTCRayN_dir_y(args.ray, args.N, i)),
+                load(&RTCRayN_dir_z(args.ray, args.N, i))};
+    }
+    OBSCURA_INLINE int32_t id(unsigned k) const {
+        return static_cast<int32_t>(RTCRayN_id(args.ray, args.N, i + k));
+    }
     OBSCURA_INLINE LanesI instance() const {
         return load(words(&RTCHitN_instID(args.hit, args.N, i, 0)));
     }
@@ -50,15 +67,14 @@ struct Candidates {
 
 /// Which of the candidates that are as near as the hits so far have lower ids, as takes()
 /// has it.
-OBSCURA_INLINE Mask have_lower_ids(const Candidates& at, const NearestHits& nearest) {
-    const unsigned i = at.i;
+OBSCURA_INLINE Mask have_lower_ids(const Candidates& at, const NearestHits& nearest, int lane) {
     const auto compare = [](LanesI a, const int32_t* column, Mask or_else) {
         const LanesI b = load(column);
         return (a < b) | ((a == b) & or_else);
     };
-    const Mask element = compare(at.element(), nearest.element + i, Mask(false));
-    const Mask geometry = compare(at.geometry(), nearest.geometry + i, element);
-    return compare(at.instance(), nearest.instance + i, geometry);
+    const Mask element = compare(at.element(), nearest.element + lane, Mask(false));
+    const Mask geometry = compare(at.geometry(), nearest.geometry + lane, element);
+    return compare(at.instance(), nearest.instance + lane, geometry);
 }
 
 OBSCURA_INLINE void replace(int32_t* column, Mask taken, LanesI value) {
@@ -80,37 +96,56 @@ OBSCURA_INLINE void keep_nearest_of_one(const RTCFilterFunctionNArguments& args,
         args.valid[i] = 0;
         return;
     }
-    t = end_of_search(t, nearest.coordinates[lane]);
+    float coordinates = nearest.coordinates[lane];
+    if (candidate.instance >= 0) {
+        const Vec3f origin{RTCRayN_org_x(args.ray, n, i),
+                           RTCRayN_org_y(args.ray, n, i),
+                           RTCRayN_org_z(args.ray, n, i)};
+        const Vec3f direction{RTCRayN_dir_x(args.ray, n, i),
+                              RTCRayN_dir_y(args.ray, n, i),
+                              RTCRayN_dir_z(args.ray, n, i)};
+        coordinates = max(coordinates, own_coordinates(origin, direction));
+    }
+    t = end_of_search(t, coordinates);
 }
 
-/// Candidates [i, i + lane_count) of a whole packet.
-OBSCURA_INLINE void keep_nearest_of_many(const Candidates& at, Mask valid, NearestHits& nearest) {
-    const unsigned i = at.i;
+/// Candidates whose rays have lanes one after the other, from `lane` on.
+OBSCURA_INLINE void keep_nearest_of_many(const Candidates& at, int lane, NearestHits& nearest) {
+    const Mask valid = at.valid();
     const Lanes t = load(at.t());
-    const Lanes best = load(nearest.t + i);
+    const Lanes best = load(nearest.t + lane);
     Mask taken = valid & (t < best);
     const Mask tied = valid & (t == best);
-    if (any(tied)) taken = taken | (tied & have_lower_ids(at, nearest));
-    store(at.args.valid + i, select(taken, LanesI(-1), LanesI(0)));
+    if (any(tied)) taken = taken | (tied & have_lower_ids(at, nearest, lane));
+    store(at.args.valid + at.i, select(taken, LanesI(-1), LanesI(0)));
     if (none(taken)) return;
-    store(nearest.t + i, select(taken, t, best));
-    replace(nearest.instance + i, taken, at.instance());
-    replace(nearest.geometry + i, taken, at.geometry());
-    replace(nearest.element + i, taken, at.element());
-    const Lanes coordinates = load(nearest.coordinates + i);
+    const LanesI instance = at.instance();
+    store(nearest.t + lane, select(taken, t, best));
+    replace(nearest.instance + lane, taken, instance);
+    replace(nearest.geometry + lane, taken, at.geometry());
+    replace(nearest.element + lane, taken, at.element());
+    Lanes coordinates = load(nearest.coordinates + lane);
+    if (any(instance >= LanesI(0)))
+        coordinates = max(coordinates, own_coordinates(at.origin(), at.direction()));
     store(at.t(), select(taken, end_of_search(t, coordinates), t));
 }
 
 void keep_nearest(const RTCFilterFunctionNArguments* args) {
     NearestHits& nearest = *reinterpret_cast<const QueryContext*>(args->context)->nearest;
-    // Where Embree's packets are narrower than ours, it also sorts the rays by their directions.
-    const bool is_ours = args->N == packet;
     for (unsigned i = 0; i < args->N; i += lane_count) {
         const Candidates at{*args, i};
         uint32_t bits = at.valid_bits();
-        if (is_ours && (bits & (bits - 1)) != 0) {
-            keep_nearest_of_many(at, at.valid(), nearest);
-            continue;
+        if ((bits & (bits - 1)) != 0) {
+            // Embree's packets may be narrower than ours, and parts of them.
+            const auto first = static_cast<unsigned>(__builtin_ctz(bits));
+            const auto last = 31U - static_cast<unsigned>(__builtin_clz(bits));
+            const int lane = at.id(first) - nearest.first_id - static_cast<int>(first);
+            const bool are_neighbours =
+                at.id(last) - at.id(first) == static_cast<int>(last - first);
+            if (are_neighbours && lane >= 0 && lane <= packet - lane_count) {
+                keep_nearest_of_many(at, lane, nearest);
+                continue;
+            }
         }
         for (; bits != 0; bits &= bits - 1)
             keep_nearest_of_one(*args, i + static_cast<unsigned>(__builtin_ctz(bits)), nearest);

@@ -10,6 +10,8 @@
 #include "accel/tied_hits.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace obscura {
 
@@ -79,6 +81,16 @@ void store_packet(const Accel::Impl& impl,
     }
 }
 
+/// 0 where the scene has no end.
+float largest_coordinate(const Bounds& bounds) {
+    float largest = 0;
+    for (const Vec3f& corner : {bounds.low, bounds.high}) {
+        for (const float coordinate : {corner.x, corner.y, corner.z})
+            largest = std::max(largest, std::abs(coordinate));
+    }
+    return std::isfinite(largest) ? largest : 0.0f;
+}
+
 }  // namespace
 
 int Accel::intersect(const RayColumns& rays,
@@ -90,6 +102,7 @@ int Accel::intersect(const RayColumns& rays,
     // than with calls of one ray each (obscura bench shows both).
     Query query(context, coherence == Coherence::coherent);
     NearestHits nearest;
+    const float scene_size = largest_coordinate(impl_->scene->bounds);
     context.nearest = &nearest;
     query.set_filter(impl_->functions.nearest->keep_nearest);
     context.keys = rays.key;
@@ -114,7 +127,9 @@ int Accel::intersect(const RayColumns& rays,
             std::fill_n(hits.primitive + first, packet, -1);
             continue;
         }
-        impl_->functions.nearest->begin(block.ray, first, nearest);
+        // Embree may trace idle lanes, too: they have hits of their own.
+        std::iota(block.ray.id, block.ray.id + packet, static_cast<unsigned>(first));
+        impl_->functions.nearest->begin(block.ray, first, scene_size, nearest);
         query.intersect16(valid.lane, impl_->top, &block);
         std::copy_n(nearest.t, packet, block.ray.tfar);  // Embree looked a little beyond
         store_packet(*impl_, valid, block, hits, first);

@@ -252,7 +252,12 @@ OBSCURA_INLINE bool stops(const Call& call, int i, const Found& found, unsigned 
                                  static_cast<int32_t>(geometry),
                                  found.index};
     if (!takes(*nearest, lane, candidate)) return false;
-    call.rays.tfar()[i] = end_of_search(found.t, nearest->coordinates[lane]);
+    float coordinates = nearest->coordinates[lane];
+    if (candidate.instance >= 0) {
+        const ShapeRay<float> ray = call.rays.ray(i);
+        coordinates = max(coordinates, own_coordinates(ray.origin, ray.direction));
+    }
+    call.rays.tfar()[i] = end_of_search(found.t, coordinates);
     return true;
 }
 

@@ -51,9 +51,9 @@ void keep_lowest(const RTCFilterFunctionNArguments* args) {
 bool LowestHit::takes(const RTCFilterFunctionNArguments* args, unsigned i) {
     const unsigned n = args->N;
     const float found_t = RTCRayN_tfar(args->ray, n, i);
-    const unsigned ids[] = {RTCHitN_instID(args->hit, n, i, 0),
-                            RTCHitN_geomID(args->hit, n, i),
-                            RTCHitN_primID(args->hit, n, i)};
+    const int32_t ids[] = {static_cast<int32_t>(RTCHitN_instID(args->hit, n, i, 0)),
+                           static_cast<int32_t>(RTCHitN_geomID(args->hit, n, i)),
+                           static_cast<int32_t>(RTCHitN_primID(args->hit, n, i))};
     const auto found = std::tie(found_t, ids[0], ids[1], ids[2]);
     auto lowest = std::tie(t, instance, geometry, triangle);
     const bool is_lower = found < lowest;

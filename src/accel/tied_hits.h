@@ -16,7 +16,7 @@ namespace obscura {
 /// The hit that a query with a filter has found so far.
 struct LowestHit {
     float t = std::numeric_limits<float>::infinity();
-    unsigned instance = 0, geometry = 0, triangle = 0;
+    int32_t instance = 0, geometry = 0, triangle = 0;  ///< in the order of NearestHits
 
     /// Whether a candidate of a filter function is nearer, or as near and has lower ids. If so, it
     /// is the one from now on; if not, the filter is to reject it.

@@ -18,7 +18,7 @@ namespace {
 constexpr int signal_base = 128;  // as shells say it
 
 /// Where a child has its end of the pipe between its server and it.
-constexpr int lifeline = STDERR_FILENO + 1;
+constexpr int lifeline_number = STDERR_FILENO + 1;
 
 /// What a child is to find when it begins.
 class SpawnPlan {
@@ -34,9 +34,9 @@ public:
             posix_spawn_file_actions_addopen(
                 &actions_, STDERR_FILENO, setup.err.c_str(), flags, mode);
         }
-        posix_spawn_file_actions_adddup2(&actions_, end_of_pipe.number(), lifeline);
+        posix_spawn_file_actions_adddup2(&actions_, end_of_pipe.number(), lifeline_number);
         // The HTTP library's sockets stay open across exec: a port would stay taken.
-        posix_spawn_file_actions_addclosefrom_np(&actions_, lifeline + 1);
+        posix_spawn_file_actions_addclosefrom_np(&actions_, lifeline_number + 1);
         posix_spawn_file_actions_addchdir_np(&actions_, setup.folder.c_str());
         posix_spawnattr_init(&attributes_);
         posix_spawnattr_setpgroup(&attributes_, 0);
@@ -65,12 +65,24 @@ private:
     posix_spawnattr_t attributes_ = {};
 };
 
-/// Has the system send SIGTERM to a process group when nobody has the other end of a pipe any more.
-void end_with_pipe(const Descriptor& end_of_pipe, pid_t group) {
-    ::fcntl(end_of_pipe.number(), F_SETOWN, -group);
-    ::fcntl(end_of_pipe.number(), F_SETSIG, SIGTERM);
-    ::fcntl(end_of_pipe.number(), F_SETFL, O_ASYNC);
-}
+/// A pipe whose closing is told to a process group, by SIGTERM.
+struct Lifeline {
+    Descriptor of_child, own;
+
+    /// Errors  errno
+    static std::optional<Lifeline> open() {
+        int ends[2];
+        if (::pipe2(ends, O_CLOEXEC) != 0) return {};
+        Descriptor low(ends[0]);
+        Lifeline out{Descriptor(::fcntl(low.number(), F_DUPFD_CLOEXEC, lifeline_number)),
+                     Descriptor(ends[1])};
+        if (!out.of_child.is_open()) return {};
+        const int end = out.of_child.number();
+        if (::fcntl(end, F_SETSIG, SIGTERM) != 0 || ::fcntl(end, F_SETFL, O_ASYNC) != 0) return {};
+        return out;
+    }
+    void tell(pid_t group) const { ::fcntl(of_child.number(), F_SETOWN, -group); }
+};
 
 Error cannot_be_run(const std::string& program, int failure) {
     return {ExitCode::io_error,
@@ -82,11 +94,9 @@ Error cannot_be_run(const std::string& program, int failure) {
 }  // namespace
 
 Result<ChildProcess> ChildProcess::start(const ChildSetup& setup) {
-    int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0) return fail(cannot_be_run(setup.words.front(), errno));
-    const Descriptor end_of_child(ends[0]);
-    Descriptor own_end(ends[1]);
-    const SpawnPlan plan(setup, end_of_child);
+    std::optional<Lifeline> pipe = Lifeline::open();
+    if (!pipe) return fail(cannot_be_run(setup.words.front(), errno));
+    const SpawnPlan plan(setup, pipe->of_child);
     std::vector<std::string> words = setup.words;
     std::vector<char*> pointers;
     for (std::string& word : words)
@@ -96,8 +106,8 @@ Result<ChildProcess> ChildProcess::start(const ChildSetup& setup) {
     const int failure = ::posix_spawn(
         &process, pointers.front(), plan.actions(), plan.attributes(), pointers.data(), environ);
     if (failure != 0) return fail(cannot_be_run(words.front(), failure));
-    end_with_pipe(end_of_child, process);
-    return ChildProcess(process, std::move(own_end));
+    pipe->tell(process);
+    return ChildProcess(process, std::move(pipe->own));
 }
 
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept

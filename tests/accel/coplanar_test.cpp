@@ -145,6 +145,11 @@ TEST(CoplanarSurfaces, AHitIsThatOfTheRayAlone) {
         const std::vector<Affined> placings(5, turned());
         const BuiltScene often = build(instanced(cube_of_two_layers(turned()), placings), name);
         EXPECT_EQ(other_hits(often.accel, rays), 0) << name << ", instances";
+        // Their own coordinates may be much larger.
+        const Scene far_away = cube_of_two_layers(scaling(1, 1, 1, {-4096, 0, 2048}));
+        const std::vector<Affined> back(3, scaling(1, 1, 1, {4096, 0, -2048}));
+        const BuiltScene shifted = build(instanced(far_away, back), name);
+        EXPECT_EQ(other_hits(shifted.accel, rays), 0) << name << ", shifted";
     }
 }
 

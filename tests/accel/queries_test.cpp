@@ -45,6 +45,14 @@ TEST(Accel, LinesNeedAnEmbreeWithCurves) {
     EXPECT_EQ(without.error().code, ExitCode::unsupported);
 }
 
+TEST(Accel, FilterFunctionsAreNeeded) {
+    EXPECT_TRUE(require_filters(true));
+    const Result<void> without = require_filters(false);
+    ASSERT_FALSE(without);
+    EXPECT_EQ(without.error().id, "E-EMBREE-FILTERS");
+    EXPECT_EQ(without.error().code, ExitCode::unsupported);
+}
+
 TEST(Accel, ADeviceThatFindsNoMemoryIsNoBug) {
     const Error memory = device_failure(RTC_ERROR_OUT_OF_MEMORY);
     EXPECT_EQ(memory.id, "E-MEM");
@@ -128,6 +136,25 @@ TEST(Queries, UnsafeRaysAreRefusedAndCounted) {
                 if (i % 2 == 0) {
                     EXPECT_NEAR(rays.t[index], 5.0F, 1e-5F);
                 }
+            }
+        }
+    }
+}
+
+TEST(Queries, RefusedRaysTakeNoHitsFromTheOthers) {
+    const auto [origin, direction] = unsafe_rays().front();
+    for (const Isa isa : all_isas()) {
+        const BuiltScene built = one_square(isa);
+        for (int refused = 0; refused < 32; ++refused) {
+            RayList rays;
+            for (int i = 0; i < refused; ++i)
+                rays.add(origin, direction);
+            for (int i = 0; i < 5; ++i)
+                rays.add({0.1F * static_cast<float>(i), 0.2F, 3}, {0, 0, -1});
+            for (const Coherence coherence : both_ways) {
+                EXPECT_EQ(rays.intersect(built.accel, coherence), refused);
+                for (int i = 0; i < refused + 5; ++i)
+                    EXPECT_EQ(rays.hit(i), i >= refused) << refused << ", " << i;
             }
         }
     }
