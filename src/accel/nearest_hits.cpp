@@ -135,7 +135,7 @@ void keep_nearest(const RTCFilterFunctionNArguments* args) {
     for (unsigned i = 0; i < args->N; i += lane_count) {
         const Candidates at{*args, i};
         uint32_t bits = at.valid_bits();
-        if ((bits & (bits - 1)) != 0) {
+        if (i + lane_count <= args->N && (bits & (bits - 1)) != 0) {
             // Embree's packets may be narrower than ours, and parts of them.
             const auto first = static_cast<unsigned>(__builtin_ctz(bits));
             const auto last = 31U - static_cast<unsigned>(__builtin_clz(bits));
