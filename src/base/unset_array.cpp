@@ -37,4 +37,8 @@ void free_large_pages(void* memory, size_t bytes) {
     munmap(memory, whole_pages(bytes));
 }
 
+void use_small_pages(void* memory, size_t bytes) {
+    madvise(memory, whole_pages(bytes), MADV_NOHUGEPAGE);  // a hint, like the other
+}
+
 }  // namespace obscura

@@ -14,6 +14,8 @@ namespace obscura {
 /// then brings in 2 MiB, instead of 512 faults. Throws std::bad_alloc.
 void* allocate_large_pages(size_t bytes);
 void free_large_pages(void* memory, size_t bytes);
+/// Lets memory that nobody has written yet come page by page, however small the pages.
+void use_small_pages(void* memory, size_t bytes);
 
 /// std::allocator, but with large pages for two large pages or more: random reads then cause fewer
 /// TLB misses.
@@ -59,12 +61,15 @@ struct UnsetAllocator : LargePageAllocator<T> {
 template <typename T>
 using UnsetArray = std::vector<T, UnsetAllocator<T>>;
 
-/// An array of zeros. A large one costs memory and time only where it is written.
+/// An array of zeros. A large one costs memory and time only where it is written, in small pages.
 template <typename T>
 UnsetArray<T> zero_array(size_t count) {
     UnsetArray<T> out(count);
-    if (count < LargePageAllocator<T>::smallest_large / sizeof(T))
+    if (count < LargePageAllocator<T>::smallest_large / sizeof(T)) {
         std::fill(out.begin(), out.end(), T{});
+    } else {
+        use_small_pages(out.data(), count * sizeof(T));
+    }
     return out;
 }
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <vector>
 
 namespace obscura {
 
@@ -14,15 +16,20 @@ float ratio(double arrived, double unoccluded) {
     return unoccluded > 0 ? static_cast<float>(arrived / unoccluded) : 1.0f;
 }
 
-/// Writes the pixels of one layer.
+/// Writes the pixels of one layer, but no zeros over zeros: an array of those takes no memory where
+/// nothing is written.
 ///
 /// In      at: as of store
 ///         value: writes the channels of a pixel of the tile
 template <typename Value>
 void write_pixels(std::span<const size_t> at, FilmLayer& layer, const Value& value) {
-    const size_t channels = layer.layer.channels.size();
-    for (size_t p = 0; p < at.size(); ++p)
-        value(p, std::span(layer.pixels.data() + at[p] * channels, channels));
+    std::vector<float> pixel(layer.layer.channels.size());
+    for (size_t p = 0; p < at.size(); ++p) {
+        value(p, std::span<float>(pixel));
+        float* const to = layer.pixels.data() + at[p] * pixel.size();
+        if (std::memcmp(to, pixel.data(), pixel.size() * sizeof(float)) != 0)
+            std::copy(pixel.begin(), pixel.end(), to);
+    }
 }
 
 }  // namespace
@@ -57,10 +64,7 @@ void LayerSums::store(const LayerPlan& plan, const SampledPixels& pixels, Film& 
         } else if (is_reduced(layer, Reduction::nearest)) {
             write([&](size_t p, std::span<float> out) {
                 const float* from = &nearest_values_[p * plan.values_ + source.first_value];
-                const float* end = from + out.size();
-                // Large arrays of zeros take no memory where nothing is written.
-                if (std::any_of(from, end, [](float value) { return value != 0; }))
-                    std::copy(from, end, out.begin());
+                std::copy_n(from, out.size(), out.begin());
             });
         } else if (std::holds_alternative<MajorityNode>(layer.source)) {
             write([&](size_t p, std::span<float> out) {

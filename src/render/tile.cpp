@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace obscura {
 
@@ -53,6 +54,18 @@ void copy_back(std::span<const uint32_t> numbers, const std::vector<T>& from, st
         to[numbers[i]] = from[i];
 }
 
+/// How many pixels and samples of each fill a batch: whole blocks of samples where there are so
+/// many, which sums add fastest.
+///
+/// In      pixels, samples: that there are, at least 1
+std::pair<int, int> batch_shape(int pixels, int samples) {
+    constexpr auto block = static_cast<int>(sum_block_samples);
+    const int pixels_at_once = std::min(pixels, batch_size / std::min(samples, block));
+    const int samples_at_once = batch_size / pixels_at_once;
+    return {pixels_at_once,
+            samples_at_once < block ? samples_at_once : samples_at_once / block * block};
+}
+
 /// Samples the pixels [first, first + count) of the list in `state`.
 ///
 /// Out     whether all samples were taken: not when `work.stop` is set
@@ -64,8 +77,7 @@ bool sample_list(const TileWork& work,
     WavefrontInput in = work.wavefront;
     in.recorder = state.recorder.get();
     const auto listed = static_cast<int>(pixels.size());
-    const int per_batch = std::max(1, batch_size / listed);
-    const int pixels_per_batch = std::min(listed, batch_size);
+    const auto [pixels_per_batch, per_batch] = batch_shape(listed, range.count);
     for (int first = 0; first < listed; first += pixels_per_batch) {
         in.batch.pixel_x = state.xs.data() + first;
         in.batch.pixel_y = state.ys.data() + first;

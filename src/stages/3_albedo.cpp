@@ -88,9 +88,10 @@ OBSCURA_INLINE Vec3<Lanes> throughput_at_hits(const SceneView& scene,
 HitAlbedo albedo_at(const SceneView& scene,
                     const HitLanes& hit,
                     const PathLanes& path,
-                    const SurfaceInteraction& interaction) {
+                    const SurfaceInteraction& interaction,
+                    const CommonTexel& common) {
     const HitGeometry& g = interaction.g;
-    const FoundSlots slots = find_slots(scene, g, interaction.filter);
+    const FoundSlots slots = find_slots(scene, g, interaction.filter, common);
     const BsdfParams<Lanes> base = bsdf_params(scene, g, interaction.filter, slots);
     const SurfaceAlbedo<Lanes> core = surface_albedo(base);
     HitAlbedo out{core.all, core.spread < Lanes(min_spread)};
@@ -131,7 +132,8 @@ int follow_albedo(const SceneView& scene,
                 hit,
                 path,
                 {Filtering::bilinear, splat3(Lanes(0.5f)), batch.footprint_fraction});
-            const HitAlbedo found = albedo_at(scene, hit, path, interaction);
+            const CommonTexel common = find_common_texel(scene, interaction.g, interaction.filter);
+            const HitAlbedo found = albedo_at(scene, hit, path, interaction, common);
             if (!last) goes_on = hits & found.passed_on;
             const Vec3<Lanes> through = throughput_at_hits(scene, hits, path, hit.t);
             albedo = select(hits, through * found.color, albedo);

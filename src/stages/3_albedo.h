@@ -27,12 +27,14 @@ struct HitAlbedo {
 ///   unlit                base colour
 /// Emission is not part of it.
 ///
-/// In      path: its medium stack; interaction: of these hits, by HitUse::attributes
+/// In      path: its medium stack; interaction: of these hits, by HitUse::attributes; common: of
+///         the same
 /// Source  Open Image Denoise, documentation, "Albedos"
 HitAlbedo albedo_at(const SceneView& scene,
                     const HitLanes& hit,
                     const PathLanes& path,
-                    const SurfaceInteraction& interaction);
+                    const SurfaceInteraction& interaction,
+                    const CommonTexel& common);
 
 /// Writes the albedo that paths find behind mirrors and glass: throughput times the albedo of the
 /// hit. A path that leaves the scene counts its throughput, as if the surroundings were white:

@@ -64,16 +64,20 @@ OBSCURA_INLINE LanesI material_of(const SceneView& scene, const HitLanes& hit) {
 /// The texture slot of a material at the hits, found by bilinear filtering.
 template <auto slot>
 OBSCURA_INLINE FoundSlot bilinear_slot(const SceneView& scene,
-                                       const SurfaceInteraction& interaction) {
-    return find_slot<slot>(scene, interaction.g, interaction.g.material, interaction.filter, {});
+                                       const SurfaceInteraction& interaction,
+                                       const CommonTexel& common) {
+    return find_slot<slot>(
+        scene, interaction.g, interaction.g.material, interaction.filter, common);
 }
 
 /// A number of the material times a channel of its texture.
 OBSCURA_INLINE Lanes textured(const SceneView& scene,
                               const SurfaceInteraction& interaction,
+                              const CommonTexel& common,
                               Lanes factor,
                               int channel) {
-    const auto slot = bilinear_slot<&Material::metallic_roughness_texture>(scene, interaction);
+    const auto slot =
+        bilinear_slot<&Material::metallic_roughness_texture>(scene, interaction, common);
     if (none(slot.used)) return factor;
     const Vec3<Lanes> texel = read_slot(scene, interaction.g, slot, interaction.filter).rgb;
     return select(slot.used, factor * (channel == 1 ? texel.y : texel.z), factor);
@@ -87,7 +91,7 @@ OBSCURA_INLINE Vec3<Lanes> emission_color(const SceneView& scene,
     const LanesI flags = g.material.integer<&Material::flags>();
     const Mask seen = (interaction.cos_front >= Lanes(0.0f)) |
                       has_bits<Lanes>(flags, material_double_sided | material_unlit);
-    const auto slot = bilinear_slot<&Material::emissive_texture>(scene, interaction);
+    const auto slot = bilinear_slot<&Material::emissive_texture>(scene, interaction, {});
     if (any(slot.used)) {
         const Vec3<Lanes> texel = read_slot(scene, g, slot, interaction.filter).rgb;
         emission = select(slot.used, emission * texel, emission);
@@ -97,8 +101,9 @@ OBSCURA_INLINE Vec3<Lanes> emission_color(const SceneView& scene,
 
 OBSCURA_INLINE Vec3<Lanes> normal_with_map(const SceneView& scene,
                                            const HitLanes& hit,
-                                           const SurfaceInteraction& interaction) {
-    const auto slot = bilinear_slot<&Material::normal_texture>(scene, interaction);
+                                           const SurfaceInteraction& interaction,
+                                           const CommonTexel& common) {
+    const auto slot = bilinear_slot<&Material::normal_texture>(scene, interaction, common);
     const TangentLanes tangents = read_tangents(scene, hit, interaction.g, slot.used);
     return shading_normal(scene, interaction, tangents, slot);
 }
@@ -146,6 +151,7 @@ OBSCURA_INLINE Vec3<Lanes> aov_of_hit(const AovGroup& at, Aov aov) {
 
 OBSCURA_INLINE Vec3<Lanes> aov_of_surface(const AovGroup& at,
                                           const SurfaceInteraction& interaction,
+                                          const CommonTexel& common,
                                           Aov aov) {
     const Lanes zero(0.0f);
     const SceneView& scene = at.scene;
@@ -160,25 +166,28 @@ OBSCURA_INLINE Vec3<Lanes> aov_of_surface(const AovGroup& at,
             return select(tangents.known, tangents.tangent, splat3(zero));
         }
         case Aov::facing: {
-            const Vec3<Lanes> normal = normal_with_map(scene, at.hit, interaction);
+            const Vec3<Lanes> normal = normal_with_map(scene, at.hit, interaction, common);
             return {abs(dot(normal, at.path.direction)), zero, zero};
         }
         case Aov::base_color: {
-            const auto slot = bilinear_slot<&Material::base_color_texture>(scene, interaction);
+            const auto slot =
+                bilinear_slot<&Material::base_color_texture>(scene, interaction, common);
             return base_color(scene, g, interaction.filter, slot);
         }
         case Aov::roughness:
-            return {textured(scene, interaction, g.material.number<&Material::roughness>(), 1),
-                    zero,
-                    zero};
+            return {
+                textured(scene, interaction, common, g.material.number<&Material::roughness>(), 1),
+                zero,
+                zero};
         case Aov::metallic:
-            return {textured(scene, interaction, g.material.number<&Material::metallic>(), 2),
-                    zero,
-                    zero};
+            return {
+                textured(scene, interaction, common, g.material.number<&Material::metallic>(), 2),
+                zero,
+                zero};
         case Aov::emission_color:
             return emission_color(scene, interaction);
         default:
-            return normal_with_map(scene, at.hit, interaction);
+            return normal_with_map(scene, at.hit, interaction, common);
     }
 }
 
@@ -217,11 +226,12 @@ void write_aovs(const SceneView& scene,
         if (!any_surface) continue;
         const SurfaceInteraction interaction = find_surface_interaction<HitUse::attributes>(
             scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f)), batch.footprint_fraction});
+        const CommonTexel common = find_common_texel(scene, interaction.g, interaction.filter);
         for (const AovOutput& out : columns.outputs) {
             if (looks_beyond(out.aov)) {
-                write_aov_beyond(group, interaction, columns, out);
+                write_aov_beyond(group, interaction, common, columns, out);
             } else if (needs_surface(out.aov)) {
-                store_aov(out, group, aov_of_surface(group, interaction, out.aov));
+                store_aov(out, group, aov_of_surface(group, interaction, common, out.aov));
             }
         }
     }

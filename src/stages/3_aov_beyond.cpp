@@ -13,11 +13,12 @@ namespace {
 /// Writes the albedo of the hits, or that a later hit will tell it.
 void store_albedo(const AovGroup& at,
                   const SurfaceInteraction& interaction,
+                  const CommonTexel& common,
                   float* passed_on,
                   const AovOutput& out) {
     PathLanes path = at.path;
     path.medium_stack = LanesU(at.batch.medium_stack);  // rays of pixel centres have none
-    HitAlbedo albedo = albedo_at(at.scene, at.hit, path, interaction);
+    HitAlbedo albedo = albedo_at(at.scene, at.hit, path, interaction, common);
     if (passed_on != nullptr) {
         store(passed_on + at.first, select(at.hits & albedo.passed_on, Lanes(1.0f), Lanes(0.0f)));
         albedo.color = select(albedo.passed_on, splat3(Lanes(0.0f)), albedo.color);
@@ -40,9 +41,10 @@ void store_motion(const AovGroup& at,
 
 void write_aov_beyond(const AovGroup& at,
                       const SurfaceInteraction& interaction,
+                      const CommonTexel& common,
                       const AovColumns& columns,
                       const AovOutput& out) {
-    if (out.aov == Aov::albedo) store_albedo(at, interaction, columns.passed_on, out);
+    if (out.aov == Aov::albedo) store_albedo(at, interaction, common, columns.passed_on, out);
     if (out.aov == Aov::motion) store_motion(at, interaction.g.position, columns.frames, out);
 }
 

@@ -35,9 +35,10 @@ constexpr bool looks_beyond(Aov aov) {
 
 /// Writes one of these AOVs, whichever it is.
 ///
-/// In      interaction: of the hits, by HitUse::attributes; columns: as write_aovs
+/// In      interaction, common: of the hits, by HitUse::attributes; columns: as write_aovs
 void write_aov_beyond(const AovGroup& at,
                       const SurfaceInteraction& interaction,
+                      const CommonTexel& common,
                       const AovColumns& columns,
                       const AovOutput& out);
 

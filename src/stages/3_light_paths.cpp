@@ -3,7 +3,6 @@
 #include "stages/3_light_paths.h"
 
 #include "stages/light_paths.h"
-#include "surface/lobe_shares.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -61,11 +60,11 @@ void find_shares(Mask lanes, const Scattering& at, StoredShares& out) {
     LobeShares<Lanes> shares;
     // Called once: a second inlined copy might round differently, and bits depend on neighbours.
     if (any(others)) {
-        share_bsdf(s.bsdf, s.lobes, at.wo, at.wi, shares);
+        share_bsdf(s.bsdf, s.lobes, at.light, shares);
         store_shares(others, shares, out);
     }
     if (any(layered)) {
-        share_layered(s.layers.params, s.layers.weights, at.wo, at.wi, shares);
+        share_layered(s.layers.params, s.layers.weights, at.light, shares);
         store_shares(layered, shares, out);
     }
 }

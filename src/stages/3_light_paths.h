@@ -4,6 +4,7 @@
 
 #include "stages/3_surface.h"
 #include "stages/stages.h"
+#include "surface/lobe_shares.h"
 
 namespace obscura {
 inline namespace OBSCURA_ISA {
@@ -30,11 +31,10 @@ void add_shadow_layers(const LightPathColumns& columns,
                        const ShadowView& shadows,
                        const uint8_t* occluded);
 
-/// A scattering from one direction into another, in the shading frame.
+/// A scattering at shaded points.
 struct Scattering {
     const ShadingPoint& s;
-    Vec3<Lanes> wo;
-    Vec3<Lanes> wi;
+    ScatteredLight<Lanes> light;
 };
 
 /// Weights of the shadow rays of a group, and the light classes that they belong to. Must come

@@ -215,7 +215,11 @@ OBSCURA_INLINE int add_shadow_rays(const Bounce& bounce,
     useful = useful & (max_component(radiance) > Lanes(0.0f));
     if (batch.strategies == sample_bsdfs) useful = useful & (light.pdf == Lanes(0.0f));
     if (bounce.light_paths != nullptr && any(useful)) {
-        scatter_shadow(*bounce.light_paths, useful, path.slot, group.light.light, {s, wo, wi});
+        scatter_shadow(*bounce.light_paths,
+                       useful,
+                       path.slot,
+                       group.light.light,
+                       {s, {wo, wi, bsdf.value_cos}});
     }
     const Vec3<Lanes> start =
         s.any_layers ? select(reflected_side, s.light_start, s.transmitted_start) : s.light_start;
@@ -273,7 +277,10 @@ OBSCURA_INLINE int add_next_rays(const Bounce& bounce,
     const Lanes survives = survival(throughput, bounce.number);
     goes_on = goes_on & (random.roulette < survives) & (max_component(throughput) > Lanes(0.0f));
     if (bounce.light_paths != nullptr && any(goes_on))
-        scatter_path(*bounce.light_paths, goes_on, path.slot, {s, wo, sample.direction});
+        scatter_path(*bounce.light_paths,
+                     goes_on,
+                     path.slot,
+                     {s, {wo, sample.direction, sample.at.value_cos}});
     PathLanes next;
     next.origin = s.start;
     next.direction = direction;

@@ -34,8 +34,8 @@ struct FoundSlots {
 
 OBSCURA_INLINE FoundSlots find_slots(const SceneView& scene,
                                      const HitGeometry& g,
-                                     const TextureFilter& filter) {
-    const CommonTexel common = find_common_texel(scene, g, filter);
+                                     const TextureFilter& filter,
+                                     const CommonTexel& common) {
     return {
         find_slot<&Material::normal_texture, Detail::single>(scene, g, g.material, filter, common),
         find_slot<&Material::metallic_roughness_texture>(scene, g, g.material, filter, common),
@@ -199,7 +199,8 @@ OBSCURA_INLINE ShadingPoint shading_point(const SceneView& scene,
         find_surface_interaction<HitUse::start_rays>(scene, hit, path, reading);
     const HitGeometry& g = interaction.g;
     const TextureFilter& filter = interaction.filter;
-    const FoundSlots slots = find_slots(scene, g, filter);
+    const CommonTexel common = find_common_texel(scene, g, filter);
+    const FoundSlots slots = find_slots(scene, g, filter, common);
 
     ShadingPoint s;
     s.time = hit.time;

@@ -135,10 +135,11 @@ OBSCURA_INLINE Lanes texture_footprint(const HitGeometry& g,
 /// read.
 struct FoundSlot {
     Mask used;
-    SlotLanes lanes;   ///< for Filtering::bilinear
-    LanesU texel;      ///< index in the arena, for Filtering::stochastic
+    SlotLanes lanes;   ///< for Filtering::bilinear, unless `common` is set
+    LanesU texel;      ///< index in the arena; of the texture's first one if `common` is set
     LanesI low_plane;  ///< of its texture
     Mask srgb;
+    const BilinearTexels<Lanes>* common = nullptr;  ///< of CommonTexel, for Filtering::bilinear
 };
 
 /// Which texel stands for a footprint. mean: a texel of the mip level that matches the footprint's
@@ -146,18 +147,19 @@ struct FoundSlot {
 /// make minified surfaces smoother.
 enum class Detail { mean, single };
 
-/// The texel that all textures of a material with material_textures_alike share; found once.
+/// The texels that all textures of a material with material_textures_alike share; found once, and
+/// counted from the start of a texture.
 struct CommonTexel {
-    bool usable = false;  ///< all lanes have such a material
-    Mask used;            ///< and texture coordinates
-    LanesI mean, single;  ///< texel numbers by Detail, counted from the start of a texture
+    bool usable = false;             ///< all lanes have such a material
+    Mask used;                       ///< and texture coordinates
+    LanesI mean, single;             ///< for Filtering::stochastic, by Detail
+    BilinearTexels<Lanes> bilinear;  ///< for Filtering::bilinear
 };
 
 OBSCURA_INLINE CommonTexel find_common_texel(const SceneView& scene,
                                              const HitGeometry& g,
                                              const TextureFilter& filter) {
     CommonTexel common;
-    if (filter.filtering == Filtering::bilinear) return common;
     if (!all(has_bits<Lanes>(g.material.integer<&Material::flags>(), material_textures_alike)))
         return common;
     // Absent slots have texture -1, and the coordinates of the others.
@@ -170,17 +172,28 @@ OBSCURA_INLINE CommonTexel find_common_texel(const SceneView& scene,
     const TextureInfo<Lanes> info = texture_info<Lanes>(scene.textures, s.texture);
     const Lanes footprint = texture_footprint(g, s, filter);
     const LanesI start = info.record.integer<&TextureRecord::level_offset>();
+    common.usable = true;
+    common.used = s.used;
+    if (filter.filtering == Filtering::bilinear) {
+        common.bilinear = bilinear_texels<Lanes>(info, s.uv, footprint);
+        common.bilinear.upper = common.bilinear.upper - start;
+        common.bilinear.lower = common.bilinear.lower - start;
+        return common;
+    }
     const LanesI mean = stochastic_texel<Lanes>(info, s.uv, footprint, filter.random);
     LanesI single = mean;
     if (any(normal >= LanesI(0))) {
         single = stochastic_single_texel<Lanes>(info, s.uv, footprint, filter.random);
     }
-    return {true, s.used, mean - start, single - start};
+    common.mean = mean - start;
+    common.single = single - start;
+    return common;
 }
 
 /// Finds what a slot reads, and asks for its memory.
 ///
-/// In  slot: a TextureSlot of the record; common: of the core material's record, or none
+/// In  slot: a TextureSlot of the record; common: of the core material's record, or none. It must
+///     outlive what is returned
 template <auto slot, Detail detail = Detail::mean, typename Record>
 OBSCURA_INLINE FoundSlot find_slot(const SceneView& scene,
                                    const HitGeometry& g,
@@ -194,11 +207,16 @@ OBSCURA_INLINE FoundSlot find_slot(const SceneView& scene,
         if (none(found.used)) return found;
         const TableRecord<Lanes, TextureRecord> record(scene.textures.records,
                                                        select(found.used, texture, LanesI(0)));
-        const LanesI texel = record.integer<&TextureRecord::level_offset>() +
-                             (detail == Detail::mean ? common.mean : common.single);
+        LanesI texel = record.integer<&TextureRecord::level_offset>();
+        if (filter.filtering == Filtering::bilinear) {
+            found.common = &common.bilinear;
+        } else {
+            texel = texel + (detail == Detail::mean ? common.mean : common.single);
+        }
         found.texel = as_uint(select(found.used, texel, LanesI(0)));
         found.srgb = has_bits<Lanes>(record.integer<&TextureRecord::sampler>(), sampler_srgb);
         found.low_plane = low_plane_of(scene.textures, record);
+        if (filter.filtering == Filtering::bilinear) return found;
     } else {
         found.lanes = slot_lanes<slot>(scene, g, material, texture);
         found.used = found.lanes.used;
@@ -221,6 +239,10 @@ OBSCURA_INLINE Rgba<Lanes> read_slot(const SceneView& scene,
                                      const FoundSlot& found,
                                      const TextureFilter& filter) {
     if (filter.filtering == Filtering::bilinear) {
+        if (found.common != nullptr) {
+            return read_bilinear<Lanes>(
+                scene.textures, *found.common, as_int(found.texel), found.low_plane, found.srgb);
+        }
         return sample_texture_bilinear<Lanes>(scene.textures,
                                               found.lanes.texture,
                                               found.lanes.uv,

@@ -29,98 +29,122 @@ inline constexpr std::array<ScatterEvent, scatter_event_count> scatter_events =
 
 inline namespace OBSCURA_ISA {
 
+/// A scattering from one direction into another, in the shading frame.
+template <typename F>
+struct ScatteredLight {
+    Vec3<F> wo, wi;
+    Vec3<F> value_cos;  ///< of the whole material, by evaluate_bsdf or evaluate_layered
+};
+
 /// What each lobe of the list makes of the light from one direction, and where it is singular.
 template <typename F>
 struct LobeShares {
     bool is_known[Lobes::count];  ///< false: the lobe sends no light, and the rest is not set
     Vec3<F> share[Lobes::count];  ///< of the sum: they add up to 1 in each channel
     MaskOf<F> singular[Lobes::count];
+    MaskOf<F> takes_rest[Lobes::count];  ///< of what the other lobes leave
 };
 
 template <typename F>
-OBSCURA_INLINE void set_share(int lobe,
-                              const Vec3<F>& value,
-                              MaskOf<F> singular,
-                              LobeShares<F>& out) {
+OBSCURA_INLINE void set_share(
+    int lobe, const Vec3<F>& value, MaskOf<F> singular, MaskOf<F> takes_rest, LobeShares<F>& out) {
     out.is_known[lobe] = true;
     out.share[lobe] = value;
     out.singular[lobe] = singular;
+    out.takes_rest[lobe] = takes_rest;
 }
 
-/// Turns the lobes' values into shares. Where no lobe sends light, the first one takes all.
-///
-/// In   the first lobe is known
+/// Turns the lobes' values into shares of the material's own value. One lobe, whose value nobody
+/// needs then, gets what is left.
 template <typename F>
-OBSCURA_INLINE void normalize_shares(LobeShares<F>& out) {
+OBSCURA_INLINE void normalize_shares(const Vec3<F>& value_cos, LobeShares<F>& out) {
     const F zero(0.0f);
     const F one(1.0f);
-    Vec3<F> sum = splat3(zero);
+    const auto inverse = [&](const F& sum) { return one / max(sum, F(1e-37f)); };
+    const Vec3<F> scale{inverse(value_cos.x), inverse(value_cos.y), inverse(value_cos.z)};
+    Vec3<F> left = splat3(one);
     for (int k = 0; k < Lobes::count; ++k) {
-        if (out.is_known[k]) sum = sum + out.share[k];
+        if (!out.is_known[k]) continue;
+        const Vec3<F> share = out.share[k] * scale;
+        const Vec3<F> at_most{min(share.x, left.x), min(share.y, left.y), min(share.z, left.z)};
+        out.share[k] = select(out.takes_rest[k], splat3(zero), at_most);
+        left = left - out.share[k];
     }
-    const auto scale = [&](const F& total) {
-        return select(total > zero, one / max(total, F(1e-37f)), zero);
-    };
-    const Vec3<F> scales{scale(sum.x), scale(sum.y), scale(sum.z)};
+    const auto unless_rounding = [&](const F& x) { return select(x > F(4e-7f), x, zero); };
+    left = {unless_rounding(left.x), unless_rounding(left.y), unless_rounding(left.z)};
     for (int k = 0; k < Lobes::count; ++k) {
-        if (out.is_known[k]) out.share[k] = out.share[k] * scales;
+        if (out.is_known[k]) out.share[k] = select(out.takes_rest[k], left, out.share[k]);
     }
-    const auto dark = [&](const F& total, const F& share) {
-        return select(total > zero, share, one);
-    };
-    Vec3<F>& first = out.share[0];
-    first = {dark(sum.x, first.x), dark(sum.y, first.y), dark(sum.z, first.z)};
 }
 
 /// The shares of evaluate_bsdf's two lobes.
 template <typename F>
 OBSCURA_INLINE void share_bsdf(const BsdfParams<F>& p,
                                const LobeWeights<F>& lobes,
-                               const Vec3<F>& wo,
-                               const Vec3<F>& wi,
+                               const ScatteredLight<F>& light,
                                LobeShares<F>& out) {
     for (bool& known : out.is_known)
         known = false;
-    const Vec3<F> h = normalize(wo + wi);
-    const Vec3<F> fresnel = lobes.specular_f0 + lobes.specular_rise * schlick_weight(dot(wo, h));
-    const F length_o = smith_length(wo.z, p.alpha);
-    const F length_i = smith_length(wi.z, p.alpha);
-    const F facets =
-        ggx_distribution(h, p.alpha) * smith_visibility(wo.z, length_o, wi.z, length_i);
-    static_assert(Lobes::index<Diffuse>() == 0);
-    set_share(0, p.base_color * (lobes.diffuse * F(1.0f / pi_f)), MaskOf<F>(false), out);
+    const Vec3<F> diffuse = p.base_color * (lobes.diffuse * F(1.0f / pi_f) * light.wi.z);
     const MaskOf<F> singular = p.alpha <= F(min_ggx_alpha);
-    set_share(Lobes::index<FacetReflection>(), fresnel * facets, singular, out);
-    normalize_shares(out);
+    const MaskOf<F> none(false);
+    set_share(Lobes::index<Diffuse>(), diffuse, none, none, out);
+    set_share(Lobes::index<FacetReflection>(), splat3(F(0.0f)), singular, MaskOf<F>(true), out);
+    normalize_shares(light.value_cos, out);
 }
 
-/// Adds one lobe's value, and dims those before it where it is a layer over them.
+/// Where a lobe takes what the others leave. It is the lobe that takes longest to evaluate: sheen
+/// where there is some, else the facets, on the side that the light goes to.
+template <typename L, typename F>
+OBSCURA_INLINE MaskOf<F> takes_rest(const Reflection<F>& at) {
+    const F zero(0.0f);
+    const MaskOf<F> above = at.wi.z > zero;
+    const MaskOf<F> has_sheen = max_component(at.p.sheen_color) > zero;
+    if constexpr (std::is_same_v<L, Sheen>) {
+        return above & has_sheen;
+    } else if constexpr (std::is_same_v<L, FacetReflection>) {
+        return above & (!has_sheen);
+    } else if constexpr (std::is_same_v<L, FacetTransmission>) {
+        return !above;
+    } else {
+        return MaskOf<F>(false);
+    }
+}
+
+/// Adds one lobe's value, unless it takes the rest, and dims those before it where it is a layer
+/// over them.
 template <typename L, typename F>
 OBSCURA_INLINE void share_lobe(const Reflection<F>& reflected,
                                const Transmission<F>& transmitted,
                                LobeShares<F>& out) {
     constexpr int k = Lobes::index<L>();
     const F zero(0.0f);
+    const Vec3<F> none = splat3(zero);
+    const LayeredWeights<F>& w = reflected.w;
     out.is_known[k] = false;
     if constexpr (!L::always_exists) {
-        if (!L::exists(reflected.p, reflected.w)) return;
+        if (!L::exists(reflected.p, w)) return;
     }
     const auto above = reflected.wi.z > zero;
-    const MaskOf<F> singular = L::is_singular(reflected.p, reflected.w);
-    if constexpr (L::place == LobePlace::transmitted) {
-        const Vec3<F> value = L::evaluate(transmitted).value_cos;
-        set_share(k, select(above, splat3(zero), value), singular, out);
-    } else if constexpr (L::place == LobePlace::base) {
-        const Vec3<F> value = L::evaluate(reflected).value_cos * reflected.wi.z;
-        set_share(k, select(above, value, splat3(zero)), singular, out);
-    } else {
+    const MaskOf<F> singular = L::is_singular(reflected.p, w);
+    const MaskOf<F> rest = takes_rest<L>(reflected);
+    Vec3<F> value = none;
+    if constexpr (L::place == LobePlace::layer) {
         const LayerValue<F> layer = L::evaluate(reflected);
         for (int below = 0; below < k; ++below) {
             if (out.is_known[below])
                 out.share[below] = out.share[below] * select(above, layer.passes, F(1.0f));
         }
-        set_share(k, select(above, layer.value_cos, splat3(zero)), singular, out);
+        if constexpr (!std::is_same_v<L, Sheen>)  // which takes the rest in all lanes that have it
+            value = select(above, layer.value_cos, none);
+    } else if constexpr (L::place == LobePlace::base) {
+        if (any(above & (!rest)))
+            value = select(above, L::evaluate(reflected).value_cos * reflected.wi.z, none);
+    } else if constexpr (!std::is_same_v<L, FacetTransmission>) {
+        value = select(above, none, L::evaluate(transmitted).value_cos);
+        value = value * (w.below_coat * w.below_sheen);
     }
+    set_share(k, value, singular, rest, out);
 }
 
 template <typename F, typename... L>
@@ -135,13 +159,13 @@ OBSCURA_INLINE void share_lobes(LobeList<L...>,
 template <typename F>
 OBSCURA_INLINE void share_layered(const LayeredParams<F>& p,
                                   const LayeredWeights<F>& w,
-                                  const Vec3<F>& wo,
-                                  const Vec3<F>& wi,
+                                  const ScatteredLight<F>& light,
                                   LobeShares<F>& out) {
+    const auto& [wo, wi, value_cos] = light;
     const Reflection<F> reflected{p, w, wo, wi, normalize(wo + wi)};
     const Transmission<F> transmitted{p, w, wo, wi, abs(wi.z)};
     share_lobes(Lobes{}, reflected, transmitted, out);
-    normalize_shares(out);
+    normalize_shares(value_cos, out);
 }
 
 }  // namespace OBSCURA_ISA

@@ -288,45 +288,87 @@ OBSCURA_INLINE Two<UintOf<F>> gather_texels(const uint32_t* texels,
     return {gather<F>(texels, left), gather<F>(texels, right)};
 }
 
-/// Reads the bilinearly filtered value of the nearest mip level: no randomness, four texels.
+/// The four texels of a bilinear look-up, and their weights.
+template <typename F>
+struct BilinearTexels {
+    IntOf<F> upper, lower;  ///< numbers of the texels at the begin of two rows
+    IntOf<F> left, right;   ///< to be added to those
+    bool side_by_side;      ///< right is left + 1 in all lanes
+    F fx, fy;               ///< how near the right and the lower ones are
+};
+
+/// Finds the texels of the nearest mip level: no randomness.
+///
+/// In      footprint: area in UV space that the look-up stands for
+template <typename F>
+OBSCURA_INLINE BilinearTexels<F> bilinear_texels(const TextureInfo<F>& info,
+                                                 const Vec2<F>& uv,
+                                                 const F& footprint) {
+    const F lod = level_of_detail<F>(info, footprint);
+    const TexelPosition<F> at = texel_position<F>(info, uv, lod, F(0.5f));
+    const F x = select(at.nearest, floor(at.x), at.x - F(0.5f));
+    const F y = select(at.nearest, floor(at.y), at.y - F(0.5f));
+    const IntOf<F> x0 = to_int(floor(x));
+    const IntOf<F> y0 = to_int(floor(y));
+    const auto row_begin = [&](const IntOf<F>& line) {
+        const IntOf<F> row = wrap_texel<F>(line, at.level.height, at.wrap_v);
+        return at.level.offset + row * at.level.width;
+    };
+    BilinearTexels<F> out;
+    out.upper = row_begin(y0);
+    out.lower = row_begin(y0 + IntOf<F>(1));
+    out.left = wrap_texel<F>(x0, at.level.width, at.wrap_u);
+    out.right = wrap_texel<F>(x0 + IntOf<F>(1), at.level.width, at.wrap_u);
+    out.side_by_side = all(out.right == out.left + IntOf<F>(1));
+    out.fx = x - floor(x);
+    out.fy = y - floor(y);
+    return out;
+}
+
+/// Reads four texels and adds them up by their weights.
+///
+/// In      shift: from the texture for which they were found to the one that is read
+///         low_plane: of its texture
+template <typename F>
+OBSCURA_INLINE Rgba<F> read_bilinear(const TextureView& view,
+                                     const BilinearTexels<F>& at,
+                                     const IntOf<F>& shift,
+                                     const IntOf<F>& low_plane,
+                                     const MaskOf<F>& srgb) {
+    Rgba<F> sum{splat3(F(0.0f)), F(0.0f)};
+    for (int line = 0; line < 2; ++line) {
+        const IntOf<F> start = (line == 0 ? at.upper : at.lower) + shift;
+        const Two<UintOf<F>> texels =
+            gather_texels<F>(view.texels, start + at.left, start + at.right, at.side_by_side);
+        const F weight = line == 0 ? F(1.0f) - at.fy : at.fy;
+        Two<UintOf<F>> low = texels;
+        if (view.wide) {
+            const IntOf<F> low_start = start + low_plane;
+            low = gather_texels<F>(
+                view.texels, low_start + at.left, low_start + at.right, at.side_by_side);
+        }
+        const auto decode = [&](const UintOf<F>& texel, const UintOf<F>& low_bytes) {
+            return view.wide ? decode_wide_texel<F>(texel, low_bytes, srgb)
+                             : decode_texel<F>(texel, srgb);
+        };
+        add_texel<F>(decode(texels.x, low.x), (F(1.0f) - at.fx) * weight, sum);
+        add_texel<F>(decode(texels.y, low.y), at.fx * weight, sum);
+    }
+    return sum;
+}
+
+/// Reads the bilinearly filtered value of the nearest mip level.
 template <typename F>
 OBSCURA_INLINE Rgba<F> sample_texture_bilinear(const TextureView& view,
                                                const IntOf<F>& texture,
                                                const Vec2<F>& uv,
                                                const F& footprint) {
     const TextureInfo<F> info = texture_info<F>(view, texture);
-    const F lod = level_of_detail<F>(info, footprint);
-    const TexelPosition<F> at = texel_position<F>(info, uv, lod, F(0.5f));
-    const F x = select(at.nearest, floor(at.x), at.x - F(0.5f));
-    const F y = select(at.nearest, floor(at.y), at.y - F(0.5f));
-    const F fx = x - floor(x);
-    const F fy = y - floor(y);
-    const IntOf<F> x0 = to_int(floor(x));
-    const IntOf<F> y0 = to_int(floor(y));
-    const MaskOf<F> srgb = has_bits<F>(info.sampler, sampler_srgb);
-    Rgba<F> sum{splat3(F(0.0f)), F(0.0f)};
-    const IntOf<F> left = wrap_texel<F>(x0, at.level.width, at.wrap_u);
-    const IntOf<F> right = wrap_texel<F>(x0 + IntOf<F>(1), at.level.width, at.wrap_u);
-    const bool side_by_side = all(right == left + IntOf<F>(1));
-    for (int line = 0; line < 2; ++line) {
-        const IntOf<F> row = wrap_texel<F>(y0 + IntOf<F>(line), at.level.height, at.wrap_v);
-        const IntOf<F> start = at.level.offset + row * at.level.width;
-        const Two<UintOf<F>> texels =
-            gather_texels<F>(view.texels, start + left, start + right, side_by_side);
-        const F weight = line == 0 ? F(1.0f) - fy : fy;
-        Two<UintOf<F>> low = texels;
-        if (view.wide) {
-            const IntOf<F> low_start = start + low_plane_of<F>(view, info.record);
-            low = gather_texels<F>(view.texels, low_start + left, low_start + right, side_by_side);
-        }
-        const auto decode = [&](const UintOf<F>& texel, const UintOf<F>& low_bytes) {
-            return view.wide ? decode_wide_texel<F>(texel, low_bytes, srgb)
-                             : decode_texel<F>(texel, srgb);
-        };
-        add_texel<F>(decode(texels.x, low.x), (F(1.0f) - fx) * weight, sum);
-        add_texel<F>(decode(texels.y, low.y), fx * weight, sum);
-    }
-    return sum;
+    return read_bilinear<F>(view,
+                            bilinear_texels<F>(info, uv, footprint),
+                            IntOf<F>(0),
+                            low_plane_of<F>(view, info.record),
+                            has_bits<F>(info.sampler, sampler_srgb));
 }
 
 }  // namespace OBSCURA_ISA

@@ -74,7 +74,8 @@ struct LobeList {
 ///     numbers and textures are members of MaterialLayers: surface/material_layers.h says which
 ///     places read them from glTF.
 ///  4. What knows the lobes one by one: surface/surface_albedo.h (the layer `albedo`) and
-///     ambient_layers of stages/3_raycast.cpp. A layer takes its part of what lies below it, beside
+///     ambient_layers of stages/3_raycast.cpp, and takes_rest of surface/lobe_shares.h, if the lobe
+///     takes long to evaluate. A layer takes its part of what lies below it, beside
 ///     below_coat and below_sheen, in layered_bsdf.h, straight_transmission.h and the lobes of the
 ///     base.
 ///  5. Its test: a case in tests/statistics/layered_bsdf_test.cpp and one in
