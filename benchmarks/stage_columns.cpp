@@ -15,7 +15,7 @@ namespace {
 
 constexpr int image_width = 1280;
 constexpr int image_height = 720;
-constexpr int tile_side = 16;
+constexpr int samples_at_once = 16;  // of a pixel, as the renderer fills its batches
 
 /// Copies whole columns: path state is nothing but pointers to columns of 32-bit words.
 template <typename Columns>
@@ -30,7 +30,10 @@ void copy_columns(const Columns& from, const Columns& to, int count) {
 }  // namespace
 
 StageColumns::StageColumns(const PreparedScene& prepared, const Camera& camera, int at_bounce)
-    : scene(prepared.impl()), view(scene.view()), bounce(at_bounce), pixels(tile_side * tile_side) {
+    : scene(prepared.impl()),
+      view(scene.view()),
+      bounce(at_bounce),
+      pixels(batch_size / samples_at_once) {
     for (int i = 0; i < pixels; ++i) {  // 4x4 blocks, as the renderer orders a tile's pixels
         const int block = i / 16;
         xs_.push_back(image_width / 2 + block % 4 * 4 + i % 4);
@@ -41,7 +44,7 @@ StageColumns::StageColumns(const PreparedScene& prepared, const Camera& camera, 
     batch.height = image_height;
     batch.pixel_x = xs_.data();
     batch.pixel_y = ys_.data();
-    batch.samples = batch_size / pixels;
+    batch.samples = samples_at_once;
     batch.background[3] = 1.0f;
 
     count_ = pixels * batch.samples;
