@@ -10,7 +10,7 @@
 
 namespace obscura::benchmarks {
 
-/// Entries in every column: a quarter of the renderer's batch, so that all columns stay within a
+/// Entries in every column: half of the renderer's batch, so that all columns stay within a
 /// core's second-level cache.
 inline constexpr int kernel_size = 1024;
 

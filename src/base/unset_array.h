@@ -14,7 +14,7 @@ namespace obscura {
 /// then brings in 2 MiB, instead of 512 faults. Throws std::bad_alloc.
 void* allocate_large_pages(size_t bytes);
 void free_large_pages(void* memory, size_t bytes);
-/// Lets memory that nobody has written yet come page by page, however small the pages.
+/// Small pages for memory of allocate_large_pages that nobody has written yet, with its bytes.
 void use_small_pages(void* memory, size_t bytes);
 
 /// std::allocator, but with large pages for two large pages or more: random reads then cause fewer

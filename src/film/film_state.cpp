@@ -255,11 +255,9 @@ Film copy_areas(const Film& film, std::span<const FilmArea> areas) {
     out.height = film.height;
     out.channels = film.channels;
     out.part_of = film.part_of;
-    out.pixels.assign(film.pixels.size(), 0.0f);
-    for (const FilmLayer& layer : film.layers) {
-        out.layers.push_back({layer.layer, {}, layer.names});
-        out.layers.back().pixels.assign(layer.pixels.size(), 0.0f);
-    }
+    out.pixels = zero_array<float>(film.pixels.size());
+    for (const FilmLayer& layer : film.layers)
+        out.layers.push_back({layer.layer, zero_array<float>(layer.pixels.size()), layer.names});
     const auto copy = [&](const UnsetArray<float>& from, UnsetArray<float>& pixels, size_t size) {
         for (const FilmArea& area : areas) {
             for (int y = area.y; y < area.y + area.height; ++y) {

@@ -3,8 +3,8 @@
 #include "film/layer_sums.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <vector>
 
 namespace obscura {
@@ -20,15 +20,18 @@ float ratio(double arrived, double unoccluded) {
 /// nothing is written.
 ///
 /// In      at: as of store
-///         value: writes the channels of a pixel of the tile
+///         value: writes all channels of a pixel of the tile
 template <typename Value>
 void write_pixels(std::span<const size_t> at, FilmLayer& layer, const Value& value) {
     std::vector<float> pixel(layer.layer.channels.size());
+    const auto is_zero = [](float x) { return std::bit_cast<uint32_t>(x) == 0; };
+    const auto are_zeros = [&](const float* from) {
+        return std::all_of(from, from + pixel.size(), is_zero);
+    };
     for (size_t p = 0; p < at.size(); ++p) {
         value(p, std::span<float>(pixel));
         float* const to = layer.pixels.data() + at[p] * pixel.size();
-        if (std::memcmp(to, pixel.data(), pixel.size() * sizeof(float)) != 0)
-            std::copy(pixel.begin(), pixel.end(), to);
+        if (!are_zeros(pixel.data()) || !are_zeros(to)) std::copy(pixel.begin(), pixel.end(), to);
     }
 }
 

@@ -54,13 +54,14 @@ void copy_back(std::span<const uint32_t> numbers, const std::vector<T>& from, st
         to[numbers[i]] = from[i];
 }
 
-/// How many pixels and samples of each fill a batch: whole blocks of samples where there are so
-/// many, which sums add fastest.
+/// How many pixels and samples of each fill a batch: whole 4x4 blocks of pixels, and whole blocks
+/// of samples, which sums add fastest, where there are so many.
 ///
 /// In      pixels, samples: that there are, at least 1
 std::pair<int, int> batch_shape(int pixels, int samples) {
     constexpr auto block = static_cast<int>(sum_block_samples);
-    const int pixels_at_once = std::min(pixels, batch_size / std::min(samples, block));
+    const int room = batch_size / std::min(samples, block) / 16 * 16;
+    const int pixels_at_once = std::min(pixels, room);
     const int samples_at_once = batch_size / pixels_at_once;
     return {pixels_at_once,
             samples_at_once < block ? samples_at_once : samples_at_once / block * block};
@@ -77,12 +78,11 @@ bool sample_list(const TileWork& work,
     WavefrontInput in = work.wavefront;
     in.recorder = state.recorder.get();
     const auto listed = static_cast<int>(pixels.size());
-    const auto [pixels_per_batch, per_batch] = batch_shape(listed, range.count);
-    for (int first = 0; first < listed; first += pixels_per_batch) {
+    for (int first = 0; first < listed;) {
+        const auto [count, per_batch] = batch_shape(listed - first, range.count);
         in.batch.pixel_x = state.xs.data() + first;
         in.batch.pixel_y = state.ys.data() + first;
         const auto start = static_cast<size_t>(first);
-        const int count = std::min(pixels_per_batch, listed - first);
         for (int done = 0; done < range.count; done += per_batch) {
             if (work.stop.load(std::memory_order_relaxed)) return false;
             in.batch.first_sample = range.first + static_cast<uint32_t>(done);
@@ -100,6 +100,7 @@ bool sample_list(const TileWork& work,
                                    static_cast<size_t>(in.batch.first_sample)};
             sums.layers.add(work.layers, shape, state.work);
         }
+        first += count;
     }
     return true;
 }

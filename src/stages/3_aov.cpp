@@ -125,6 +125,21 @@ constexpr bool needs_surface(Aov aov) {
     }
 }
 
+/// AOVs that read textures which a material may have laid alike.
+constexpr bool reads_alike_textures(Aov aov) {
+    switch (aov) {
+        case Aov::normal:
+        case Aov::facing:
+        case Aov::base_color:
+        case Aov::albedo:
+        case Aov::roughness:
+        case Aov::metallic:
+            return true;
+        default:
+            return false;
+    }
+}
+
 OBSCURA_INLINE Vec3<Lanes> aov_of_hit(const AovGroup& at, Aov aov) {
     const Lanes zero(0.0f);
     const auto one = [&](Lanes value) { return Vec3<Lanes>{value, zero, zero}; };
@@ -207,8 +222,11 @@ void write_aovs(const SceneView& scene,
                 int count,
                 const AovColumns& columns) {
     bool any_surface = false;
-    for (const AovOutput& out : columns.outputs)
+    bool any_alike = false;
+    for (const AovOutput& out : columns.outputs) {
         any_surface |= needs_surface(out.aov);
+        any_alike |= reads_alike_textures(out.aov);
+    }
     for (int i = 0; i < count; i += lane_count) {
         const Mask hits =
             lanes_in_range(i, count) & (load(columns.hits.primitive + i) >= LanesI(0));
@@ -226,7 +244,8 @@ void write_aovs(const SceneView& scene,
         if (!any_surface) continue;
         const SurfaceInteraction interaction = find_surface_interaction<HitUse::attributes>(
             scene, hit, path, {Filtering::bilinear, splat3(Lanes(0.5f)), batch.footprint_fraction});
-        const CommonTexel common = find_common_texel(scene, interaction.g, interaction.filter);
+        CommonTexel common;
+        if (any_alike) common = find_common_texel(scene, interaction.g, interaction.filter);
         for (const AovOutput& out : columns.outputs) {
             if (looks_beyond(out.aov)) {
                 write_aov_beyond(group, interaction, common, columns, out);

@@ -40,7 +40,7 @@ struct ScatteredLight {
 template <typename F>
 struct LobeShares {
     bool is_known[Lobes::count];  ///< false: the lobe sends no light, and the rest is not set
-    Vec3<F> share[Lobes::count];  ///< of the sum: they add up to 1 in each channel
+    Vec3<F> share[Lobes::count];  ///< of the sum, in each channel; see share_rounding
     MaskOf<F> singular[Lobes::count];
     MaskOf<F> takes_rest[Lobes::count];  ///< of what the other lobes leave
 };
@@ -54,8 +54,11 @@ OBSCURA_INLINE void set_share(
     out.takes_rest[lobe] = takes_rest;
 }
 
-/// Turns the lobes' values into shares of the material's own value. One lobe, whose value nobody
-/// needs then, gets what is left.
+/// Shares add up to 1 within this: a smaller rest is rounding, and nobody's.
+inline constexpr float share_rounding = 1e-6f;
+
+/// Turns the lobes' values into shares of the material's own value. The lobe that takes the rest
+/// needs no value.
 template <typename F>
 OBSCURA_INLINE void normalize_shares(const Vec3<F>& value_cos, LobeShares<F>& out) {
     const F zero(0.0f);
@@ -70,7 +73,7 @@ OBSCURA_INLINE void normalize_shares(const Vec3<F>& value_cos, LobeShares<F>& ou
         out.share[k] = select(out.takes_rest[k], splat3(zero), at_most);
         left = left - out.share[k];
     }
-    const auto unless_rounding = [&](const F& x) { return select(x > F(4e-7f), x, zero); };
+    const auto unless_rounding = [&](const F& x) { return select(x > F(share_rounding), x, zero); };
     left = {unless_rounding(left.x), unless_rounding(left.y), unless_rounding(left.z)};
     for (int k = 0; k < Lobes::count; ++k) {
         if (out.is_known[k]) out.share[k] = select(out.takes_rest[k], left, out.share[k]);
@@ -93,19 +96,22 @@ OBSCURA_INLINE void share_bsdf(const BsdfParams<F>& p,
     normalize_shares(light.value_cos, out);
 }
 
-/// Where a lobe takes what the others leave. It is the lobe that takes longest to evaluate: sheen
-/// where there is some, else the facets, on the side that the light goes to.
+/// The lanes in which a lobe takes what the others leave, which exactly one lobe does: the one that
+/// takes longest to evaluate of those on the side that the light goes to.
 template <typename L, typename F>
 OBSCURA_INLINE MaskOf<F> takes_rest(const Reflection<F>& at) {
     const F zero(0.0f);
     const MaskOf<F> above = at.wi.z > zero;
     const MaskOf<F> has_sheen = max_component(at.p.sheen_color) > zero;
+    const MaskOf<F> transmits = at.w.transmitted > zero;
     if constexpr (std::is_same_v<L, Sheen>) {
         return above & has_sheen;
     } else if constexpr (std::is_same_v<L, FacetReflection>) {
         return above & (!has_sheen);
     } else if constexpr (std::is_same_v<L, FacetTransmission>) {
-        return !above;
+        return (!above) & transmits;
+    } else if constexpr (std::is_same_v<L, DiffuseTransmission>) {
+        return (!above) & (!transmits);
     } else {
         return MaskOf<F>(false);
     }
@@ -140,7 +146,7 @@ OBSCURA_INLINE void share_lobe(const Reflection<F>& reflected,
     } else if constexpr (L::place == LobePlace::base) {
         if (any(above & (!rest)))
             value = select(above, L::evaluate(reflected).value_cos * reflected.wi.z, none);
-    } else if constexpr (!std::is_same_v<L, FacetTransmission>) {
+    } else if (any((!above) & (!rest))) {
         value = select(above, none, L::evaluate(transmitted).value_cos);
         value = value * (w.below_coat * w.below_sheen);
     }

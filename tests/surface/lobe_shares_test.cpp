@@ -1,5 +1,5 @@
-// tests/surface/lobe_shares_test.cpp - each lobe has its own part of the light, and no light is
-// left. SPDX-License-Identifier: Apache-2.0
+// tests/surface/lobe_shares_test.cpp - each lobe has its own part of the light.
+// SPDX-License-Identifier: Apache-2.0
 #include "surface/lobe_shares.h"
 
 #include <gtest/gtest.h>
@@ -46,6 +46,7 @@ Vec3d share_of(const LobeShares<double>& shares, size_t lobe) {
 }
 
 void expect_channel(double share, double value, double sum, size_t lobe) {
+    EXPECT_TRUE(share >= 0 && share <= 1) << "lobe " << lobe << ": " << share;
     if (sum > 0) {
         EXPECT_NEAR(share, value / sum, 1e-6) << "lobe " << lobe;
     }
@@ -104,40 +105,98 @@ TEST(LobeShares, OfTheCoreMaterialAreThoseOfTheLayeredOneWithoutLayers) {
     }
 }
 
-/// The share of a lobe in the lanes of a group whose first lane has sheen or not.
-[[gnu::noinline]] LaneArray<float> share_beside(int lobe, float sheen_of_first) {
+/// Which sides and lobes the lanes of a group have; their own lobes are the first lane's alone.
+struct GroupCase {
+    float side;                   ///< of wi: 1 above, -1 below
+    float sheen, transmission;    ///< of the first lane
+    float base, diffuse_through;  ///< of all lanes
+};
+
+LayeredParams<Lanes> group_params(const GroupCase& group) {
     const LayeredParams<float> p = plain_layers(0.2F);
+    const Mask first = lane_numbers() == LanesI(0);
     LayeredParams<Lanes> many{};
-    many.base_color = splat3(Lanes(0.5F));
-    many.metallic = Lanes(0.0F);
+    many.base_color = {Lanes(group.base), Lanes(0.5F), Lanes(0.0F)};
+    many.metallic = many.coat = Lanes(0.0F);
     many.alpha = {Lanes(p.alpha.x), Lanes(p.alpha.y)};
     many.f0 = splat3(Lanes(p.f0.x));
     many.f90 = Lanes(p.f90);
     many.eta = Lanes(p.eta);
     many.solid = Mask(false);
-    many.transmission = many.diffuse_transmission = many.coat = Lanes(0.0F);
-    many.diffuse_transmission_color = splat3(Lanes(1.0F));
-    const LanesI number = lane_numbers();
-    many.sheen_color = splat3(select(number == LanesI(0), Lanes(sheen_of_first), Lanes(0.0F)));
+    many.transmission = select(first, Lanes(group.transmission), Lanes(0.0F));
+    many.diffuse_transmission = Lanes(group.diffuse_through);
+    many.diffuse_transmission_color = {Lanes(0.0F), Lanes(1.0F), Lanes(0.5F)};
+    many.sheen_color = splat3(select(first, Lanes(group.sheen), Lanes(0.0F)));
     many.sheen_alpha = many.coat_alpha = Lanes(1.0F);
     many.coat_normal = {Lanes(0.0F), Lanes(0.0F), Lanes(1.0F)};
     many.thin_film = {Lanes(0.0F), Lanes(1.3F), Lanes(400.0F)};
+    return many;
+}
+
+/// The shares of all lobes in one lane: 0 for those that are not known.
+using LaneShares = std::array<Vec3f, lobe_count>;
+
+[[gnu::noinline]] std::array<LaneShares, 2> shares_of(const GroupCase& group) {
+    const LayeredParams<Lanes> p = group_params(group);
     const Vec3<Lanes> wo = normalize(Vec3<Lanes>{Lanes(0.3F), Lanes(-0.2F), Lanes(0.9F)});
     const Vec3<Lanes> wi =
-        normalize(Vec3<Lanes>{Lanes(-0.4F), from_int<Lanes>(number) * Lanes(0.05F), Lanes(0.7F)});
-    const LayeredWeights<Lanes> w = layered_weights(many, wo);
+        normalize(Vec3<Lanes>{Lanes(-0.4F), Lanes(0.15F), Lanes(0.7F * group.side)});
+    const LayeredWeights<Lanes> w = layered_weights(p, wo);
     LobeShares<Lanes> shares;
-    share_layered(many, w, {wo, wi, evaluate_layered(many, w, wo, wi).value_cos}, shares);
-    return lane_array(shares.share[lobe].x);
+    share_layered(p, w, {wo, wi, evaluate_layered(p, w, wo, wi).value_cos}, shares);
+    std::array<LaneShares, 2> out{};
+    for (size_t k = 0; k < lobe_count; ++k) {
+        if (!shares.is_known[k]) continue;
+        for (int i = 0; i < 2; ++i)
+            out[static_cast<size_t>(i)][k] = lane(shares.share[k], i);
+    }
+    return out;
 }
 
 TEST(LobeShares, OfALaneDoNotDependOnItsNeighbours) {
-    for (const int lobe : {Lobes::index<Diffuse>(), Lobes::index<FacetReflection>()}) {
-        const LaneArray<float> with = share_beside(lobe, 0.8F);
-        const LaneArray<float> without = share_beside(lobe, 0.0F);
-        EXPECT_LT(with[0], without[0]);
-        for (size_t i = 1; i < with.size(); ++i)
-            EXPECT_EQ(with[i], without[i]) << "lobe " << lobe << ", lane " << i;
+    for (const float side : {1.0F, -1.0F}) {
+        const GroupCase plain{side, 0, 0, 0.5F, 0.4F};
+        const LaneShares alone = shares_of(plain)[1];
+        GroupCase cloth = plain;
+        cloth.sheen = 0.8F;
+        GroupCase glass = plain;
+        glass.transmission = 0.7F;
+        for (const GroupCase& group : {cloth, glass}) {
+            const auto [first, second] = shares_of(group);
+            for (size_t k = 0; k < lobe_count; ++k) {
+                EXPECT_EQ(second[k].x, alone[k].x) << "lobe " << k << ", side " << side;
+                EXPECT_EQ(second[k].y, alone[k].y) << "lobe " << k << ", side " << side;
+                EXPECT_EQ(second[k].z, alone[k].z) << "lobe " << k << ", side " << side;
+            }
+        }
+    }
+}
+
+TEST(LobeShares, AddUpToOneInEveryLane) {
+    for (const float side : {1.0F, -1.0F}) {
+        for (const auto& lane : shares_of({side, 0.8F, 0.7F, 0.0F, 0.4F})) {
+            Vec3f sum{0, 0, 0};
+            for (const Vec3f& share : lane)
+                sum = sum + share;
+            EXPECT_NEAR(sum.x, 1, 2 * share_rounding) << side;
+            EXPECT_NEAR(sum.y, 1, 2 * share_rounding) << side;
+            EXPECT_NEAR(sum.z, 1, 2 * share_rounding) << side;
+        }
+    }
+}
+
+/// As surfaces are below which a smooth lobe was taken away.
+TEST(LobeShares, FacetsWithoutLightHaveNone) {
+    Pcg32 random(34);
+    for (int n = 0; n < 2000; ++n) {
+        const BsdfParams<float> p{{random.next_float(), 0.5F, 1.0F}, 0.0F, 0.3F};
+        const Vec3f wo = normalize(direction_above(random, 0.05F));
+        const Vec3f wi = normalize(direction_above(random, 0.05F));
+        LobeWeights<float> weights = lobe_weights(p, wo.z);
+        weights.specular_f0 = weights.specular_rise = {0, 0, 0};
+        LobeShares<float> shares{};
+        share_bsdf(p, weights, {wo, wi, evaluate_bsdf(p, weights, wo, wi).value_cos}, shares);
+        ASSERT_EQ(max_component(shares.share[Lobes::index<FacetReflection>()]), 0.0F) << n;
     }
 }
 

@@ -56,18 +56,30 @@ Scene textured_floor(int32_t gap) {
     return scene;
 }
 
-UnsetArray<float> image(int32_t gap) {
+Film image(int32_t gap) {
     RenderOptions options;
     options.width = options.height = 48;
     options.samples_per_pixel = 4;
+    const std::vector<std::string> names = {
+        "base_color", "roughness", "metallic", "albedo", "facing"};
+    options.layers = layers_of(names, 2).value();
     const Camera camera = look_at({0.2f, 1, 3}, {0, 0, 0}, 0.9f, 48, 48);
-    return render_scene(textured_floor(gap), {}, camera, options).film.pixels;
+    Scene scene = textured_floor(gap);
+    mark_alike_textures(scene);
+    return std::move(render_scene(std::move(scene), {}, camera, options).film);
 }
 
 TEST(AlikeTextures, ImagesAreTheSameTogetherAndAlone) {
-    const UnsetArray<float> together = image(0);
-    EXPECT_EQ(together, image(5));
-    EXPECT_GT(*std::max_element(together.begin(), together.end()), 0.1f);
+    const Film together = image(0);
+    const Film alone = image(5);
+    EXPECT_EQ(together.pixels, alone.pixels);
+    EXPECT_GT(*std::max_element(together.pixels.begin(), together.pixels.end()), 0.1f);
+    for (size_t k = 0; k < together.layers.size(); ++k) {
+        const UnsetArray<float>& pixels = together.layers[k].pixels;
+        const std::string& name = together.layers[k].layer.name;
+        EXPECT_EQ(pixels, alone.layers[k].pixels) << name;
+        EXPECT_GT(*std::max_element(pixels.begin(), pixels.end()), 0.1f) << name;
+    }
 }
 
 TEST(AlikeTextures, SameLayoutAndCoordinatesAreMarked) {

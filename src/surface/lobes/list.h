@@ -73,11 +73,11 @@ struct LobeList {
 ///  3. Its reader: a function of stages/3_layers.cpp that fills its Params for each hit. New
 ///     numbers and textures are members of MaterialLayers: surface/material_layers.h says which
 ///     places read them from glTF.
-///  4. What knows the lobes one by one: surface/surface_albedo.h (the layer `albedo`) and
-///     ambient_layers of stages/3_raycast.cpp, and takes_rest of surface/lobe_shares.h, if the lobe
-///     takes long to evaluate. A layer takes its part of what lies below it, beside
-///     below_coat and below_sheen, in layered_bsdf.h, straight_transmission.h and the lobes of the
-///     base.
+///  4. What knows the lobes one by one: surface/surface_albedo.h (the layer `albedo`),
+///     ambient_layers of stages/3_raycast.cpp, and takes_rest of surface/lobe_shares.h, which is
+///     true of one lobe in each lane. A layer takes its part of what lies below it, beside
+///     below_coat and below_sheen, in layered_bsdf.h, lobe_shares.h, straight_transmission.h and
+///     the lobes of the base.
 ///  5. Its test: a case in tests/statistics/layered_bsdf_test.cpp and one in
 ///     tests/surface/layered_bsdf_test.cpp; its Params in tests/support/layered_materials.h.
 using Lobes =
