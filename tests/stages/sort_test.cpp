@@ -150,7 +150,8 @@ TEST_P(Sort, HitsAreOpaqueAndMissesTakeTheBackground) {
 TEST_P(Sort, EachPathKeepsTheSurfaceThatItHits) {
     Pcg32 random(13);
     for (surface_count_ = 2; surface_count_ <= 3; ++surface_count_) {
-        for (const size_t count : {1U, 15U, 16U, 100U, 4096U}) {
+        for (const size_t count :
+             {size_t{1}, size_t{15}, size_t{16}, size_t{100}, size_t{batch_size}}) {
             std::vector<bool> mixed(count);
             for (size_t i = 0; i < count; ++i)
                 mixed[i] = random.next_float() < 0.7f;
