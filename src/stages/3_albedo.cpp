@@ -47,11 +47,10 @@ void add_layers(const AlbedoQuery& query, const BsdfParams<Lanes>& base, HitAlbe
     LayerContext context{
         tangents, frame_around(normal), normal, interaction.ng, normal, front, layered};
     LayeredPoint point;
-    read_layered_point({scene, g, interaction.filter, path, hit.shared}, base, context, point);
+    read_layers({scene, g, interaction.filter, path, hit.shared}, base, context, point);
     InsideLanes inside{splat3(Lanes(1.0f)), Mask(false)};
     if (scene.scatters) inside = look_inside(scene, layered, point.boundary.transmitted_stack);
-    const SurfaceAlbedo<Lanes> albedo =
-        surface_albedo(point.params, point.weights, inside.reflectance);
+    const SurfaceAlbedo<Lanes> albedo = surface_albedo(point.params, inside.reflectance);
     out.color = select(layered, albedo.all, out.color);
     const Mask clear = (albedo.spread < Lanes(min_spread)) & (!inside.scatters);
     out.passed_on = (layered & (clear | point.boundary.hidden)) | ((!layered) & out.passed_on);
@@ -93,8 +92,11 @@ HitAlbedo albedo_at(const SceneView& scene,
     const HitGeometry& g = interaction.g;
     const FoundSlots slots = find_slots(scene, g, interaction.filter, common);
     const BsdfParams<Lanes> base = bsdf_params(scene, g, interaction.filter, slots);
-    const SurfaceAlbedo<Lanes> core = surface_albedo(base);
-    HitAlbedo out{core.all, core.spread < Lanes(min_spread)};
+    HitAlbedo out{splat3(Lanes(0.0f)), Mask(false)};
+    if (!all(g.material.integer<&Material::layers>() >= LanesI(0))) {
+        const SurfaceAlbedo<Lanes> core = surface_albedo(base);
+        out = {core.all, core.spread < Lanes(min_spread)};
+    }
     add_layers({scene, hit, path, interaction}, base, out);
     if (scene.scatters) {  // what scatters on its way is not followed
         const Mask around = look_inside(scene, Mask(true), path.medium_stack).scatters;

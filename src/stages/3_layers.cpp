@@ -215,6 +215,8 @@ OBSCURA_INLINE void disperse(const LayerReader& layers,
     out.tint = select(first, wavelength.color, out.tint);
 }
 
+/// Weights that are worked out apart would have to read all parameters again.
+template <bool weighs>
 void read_point(const LayerReader& layers,
                 const LayerHit& hit,
                 const BsdfParams<Lanes>& base,
@@ -253,7 +255,7 @@ void read_point(const LayerReader& layers,
     const Lanes blurred = invisible_width(p.eta);
     p.alpha.x = select(p.solid, max(p.alpha.x, blurred), p.alpha.x);
     p.alpha.y = select(p.solid, max(p.alpha.y, blurred), p.alpha.y);
-    out.weights = layered_weights(p, to_local(context.frame, context.wo));
+    if constexpr (weighs) out.weights = layered_weights(p, to_local(context.frame, context.wo));
     out.lets_through =
         out.layered & ((p.transmission > Lanes(0.0f)) | (p.diffuse_transmission > Lanes(0.0f)));
 }
@@ -265,7 +267,15 @@ void read_layered_point(const LayerHit& hit,
                         LayerContext& context,
                         LayeredPoint& out) {
     const LayerReader reader(hit.scene, hit.geometry, hit.filter, context.layered);
-    read_point(reader, hit, base, context, out);
+    read_point<true>(reader, hit, base, context, out);
+}
+
+void read_layers(const LayerHit& hit,
+                 const BsdfParams<Lanes>& base,
+                 LayerContext& context,
+                 LayeredPoint& out) {
+    const LayerReader reader(hit.scene, hit.geometry, hit.filter, context.layered);
+    read_point<false>(reader, hit, base, context, out);
 }
 
 StraightLight<Lanes> take_straight(LayeredPoint& point, const Vec3<Lanes>& wo) {

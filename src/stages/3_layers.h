@@ -53,6 +53,12 @@ void read_layered_point(const LayerHit& hit,
                         LayerContext& context,
                         LayeredPoint& out);
 
+/// The same without weights, for those who need none of this view.
+void read_layers(const LayerHit& hit,
+                 const BsdfParams<Lanes>& base,
+                 LayerContext& context,
+                 LayeredPoint& out);
+
 /// take_straight_light of the lanes that have layers; the others let nothing pass straight.
 StraightLight<Lanes> take_straight(LayeredPoint& point, const Vec3<Lanes>& wo);
 

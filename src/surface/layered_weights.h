@@ -49,13 +49,24 @@ OBSCURA_INLINE void set_probabilities(LobeList<L...>,
     ((L::probability(w) = wanted[SampledLobes::index<L>()] * scale), ...);
 }
 
+/// Shares for one view direction, wo.z > 0.
+///
+/// Out     w: but for the probabilities. Returns what they follow from
+template <typename F>
+OBSCURA_INLINE LobeView<F> weigh_all(const LayeredParams<F>& p,
+                                     const Vec3<F>& wo,
+                                     LayeredWeights<F>& w) {
+    weigh_layers(Lobes::At<LobePlace::layer, false>{}, p, wo, w);
+    const LobeView<F> view{p, wo, facet_weights(p, wo)};
+    weigh_lobes(Lobes{}, view, w);
+    return view;
+}
+
 /// Shares and probabilities for one view direction, wo.z > 0.
 template <typename F>
 OBSCURA_INLINE LayeredWeights<F> layered_weights(const LayeredParams<F>& p, const Vec3<F>& wo) {
     LayeredWeights<F> w;
-    weigh_layers(Lobes::At<LobePlace::layer, false>{}, p, wo, w);
-    const LobeView<F> view{p, wo, facet_weights(p, wo)};
-    weigh_lobes(Lobes{}, view, w);
+    const LobeView<F> view = weigh_all(p, wo, w);
     set_probabilities(SampledLobes{}, view, w);
     return w;
 }

@@ -77,18 +77,17 @@ OBSCURA_INLINE F invisible_width(const F& eta) {
 /// goes through glass has the base colour, and where the inside scatters light, the colour in
 /// which that comes back.
 ///
-/// In      w: layered_weights along the normal; inside: reflectance of what lies behind the
-///         surface, 1 where light goes on
+/// In      inside: reflectance of what lies behind the surface, 1 where light goes on
 /// Errors  none: an estimate, mostly within 0.02; below sheen up to 0.06 too much, since light that
 ///         leaves at grazing angles loses more to it
 /// Source  LayeredWeights: the sum of what evaluate_layered integrates to
 template <typename F>
-OBSCURA_INLINE SurfaceAlbedo<F> surface_albedo(const LayeredParams<F>& p,
-                                               const LayeredWeights<F>& w,
-                                               const Vec3<F>& inside) {
+OBSCURA_INLINE SurfaceAlbedo<F> surface_albedo(const LayeredParams<F>& p, const Vec3<F>& inside) {
     const F zero(0.0f);
     const F one(1.0f);
-    const FacetWeights<F> s = facet_weights(p, Vec3<F>{zero, zero, one});
+    const Vec3<F> along{zero, zero, one};
+    LayeredWeights<F> w;
+    const LobeView<F> view = weigh_all(p, along, w);
     const F below_coat = w.below_coat;
     const F below = below_coat * w.below_sheen;
 
@@ -96,7 +95,7 @@ OBSCURA_INLINE SurfaceAlbedo<F> surface_albedo(const LayeredParams<F>& p,
                           p.diffuse_transmission_color * p.diffuse_transmission;
     const Vec3<F> diffuse =
         color * (w.diffuse * below) + p.sheen_color * (Sheen::albedo(w) * below_coat);
-    const FacetAlbedo<F> reflected = facet_albedo(p, w, s);
+    const FacetAlbedo<F> reflected = facet_albedo(p, w, view.facets);
     const F left = one - p.metallic - max_component(reflected.dielectric);
     const F through = select(p.solid, p.transmission * max(left, zero), w.transmitted);
     const Vec3<F> facets =

@@ -47,7 +47,7 @@ Vec3d sampled_albedo(const LayeredParams<float>& p, int samples) {
 
 SurfaceAlbedo<float> layered_albedo(const LayeredParams<float>& p) {
     const Vec3f white{1, 1, 1};
-    return surface_albedo(p, layered_weights(p, Vec3f{0, 0, 1}), white);
+    return surface_albedo(p, white);
 }
 
 TEST(SurfaceAlbedo, OfLayersIsWhatSamplingFinds) {
