@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "support/bsdf_albedo.h"
 #include "support/splat_scenes.h"
 #include "support/thin_wall_scenes.h"
 #include "truth/dielectric_scene.h"
@@ -278,6 +279,41 @@ TEST(LightLayers, KnowDirectFromIndirectLight) {
     expect_sum(below, is_any);
     EXPECT_GT(mean_of(below, "diffuse_direct"), 1);
     EXPECT_LT(mean_of(below, "diffuse_indirect"), 0.1 * mean_of(below, "diffuse_direct"));
+}
+
+/// Plastic in the sun: the diffuse part is what the facets leave, by their albedo.
+TEST(LightLayers, DiffuseAndSpecularAreThoseOfTheFormula) {
+    constexpr double sun_lux = 10;
+    const Vec3f target{0, 0.1f, 0};
+    const Vec3f eye{-0.5f, 0.9f, 0.2f};
+    const Vec3d to_eye = normalize(Vec3d{-0.5, 0.8, 0.2});
+    const Vec3d wo{to_eye.x, to_eye.z, to_eye.y};  // the normal is y in the world
+    const Vec3d wi{0.6, 0, 0.8};
+    for (const float roughness : {0.2f, 0.6f}) {
+        ThinWallScene scene;
+        scene.light(slanting_sun());
+        const int32_t plastic = scene.builder.material(surface(roughness, 0));
+        scene.builder.quad({-1, target.y, 1}, {2, 0, 0}, {0, 0, -2}, plastic);
+        const RenderResult result = render_scene(scene.take(),
+                                                 {},
+                                                 look_at(eye, target, 1e-4f, room_side, room_side),
+                                                 light_options(components(), 1));
+        const double leaves =
+            1 -
+            quadrature_albedo(bsdf_of({0, 0, 0}, 0, static_cast<double>(roughness)), wo).albedo.x;
+        const double base[] = {0.7, 0.35, 0.14};
+        const BsdfParams<double> p =
+            bsdf_of({base[0], base[1], base[2]}, 0, static_cast<double>(roughness));
+        const Vec3d all = evaluate_bsdf(p, lobe_weights(p, wo.z), wo, wi).value_cos * sun_lux;
+        const double totals[] = {all.x, all.y, all.z};
+        for (size_t c = 0; c < 3; ++c) {
+            const double diffuse = base[c] * leaves / pi_d * wi.z * sun_lux;
+            EXPECT_NEAR(mean_of(result, "diffuse_direct", c), diffuse, 2e-3 * diffuse) << c;
+            const double specular = totals[c] - diffuse;
+            EXPECT_GT(specular, 0.02);
+            EXPECT_NEAR(mean_of(result, "specular_direct", c), specular, 5e-3 * totals[c]) << c;
+        }
+    }
 }
 
 LightGroupOptions three_groups() {
