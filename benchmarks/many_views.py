@@ -35,6 +35,8 @@ def read_settings(arguments):
     settings = parser.parse_args(arguments)
     if not 0 < settings.large <= settings.views:
         parser.error("--large takes a number from 1 to that of --views")
+    if settings.repeat < 1:
+        parser.error("--repeat takes a number from 1")
     return settings
 
 

@@ -215,7 +215,7 @@ OBSCURA_INLINE void disperse(const LayerReader& layers,
     out.tint = select(first, wavelength.color, out.tint);
 }
 
-/// Weights that are worked out apart would have to read all parameters again.
+/// With the weights or without: apart, they would have to load all the parameters again.
 template <bool weighs>
 void read_point(const LayerReader& layers,
                 const LayerHit& hit,

@@ -151,6 +151,41 @@ TEST(AlbedoLayer, IsWhatARoughSurfaceSendsBackOfWhiteSurroundings) {
     }
 }
 
+/// Pixels beside each other are worked out together: a layered material's neighbour without layers
+/// must keep its own albedo, and the other way round.
+TEST(AlbedoLayer, DoesNotDependOnTheMaterialsNearby) {
+    const std::vector<NamedMaterial> materials = rough_materials();
+    const NamedMaterial& core = materials.front();
+    for (const NamedMaterial& one : materials) {
+        if (!one.layered) continue;
+        AlbedoScene scene;
+        const int32_t left = scene.add(core.core);
+        const int32_t right = scene.add(one.core, &one.layers);
+        scene.builder.quad({-9, -9, 0}, {8.75f, 0, 0}, {0, 18, 0}, left);
+        scene.builder.quad({-0.25f, -9, 0}, {9, 0, 0}, {0, 18, 0}, right);
+        const RenderOptions options = albedo_options(1);
+        const RenderResult both = render_scene(scene.take(), {}, albedo_camera(), options);
+        for (const NamedMaterial* alone : {&core, &one}) {
+            AlbedoScene wall;
+            wall.wall(0, wall.add(alone->core, alone->layered ? &alone->layers : nullptr));
+            const RenderResult expected = render_scene(wall.take(), {}, albedo_camera(), options);
+            constexpr size_t border = 3;  // within the blocks of pixels that go together
+            const size_t first = alone == &core ? 0 : border;
+            const size_t end = alone == &core ? border : side;
+            for (size_t y = 0; y < side; ++y) {
+                for (size_t x = first; x < end; ++x) {
+                    const size_t at = (y * side + x) * 3;
+                    const auto pixel = [&](const RenderResult& result) {
+                        const float* values = result.film.layers.front().pixels.data() + at;
+                        return Vec3f{values[0], values[1], values[2]};
+                    };
+                    expect_color(pixel(both), pixel(expected), 1e-5f, one.name);
+                }
+            }
+        }
+    }
+}
+
 /// A mirror that fills the view, and behind the camera a wall that tells its base colour exactly.
 Scene mirror_and_wall(const Vec3f& wall, float mirror_roughness = 0) {
     AlbedoScene scene;
