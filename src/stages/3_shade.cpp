@@ -100,6 +100,25 @@ OBSCURA_INLINE void draw_ahead(const Bounce& bounce,
         draw_light_pixel(scene, draws[g]);
 }
 
+/// Hits before misses; paths that the light tree chooses a light for come after the others.
+OBSCURA_INLINE SortedCounts sort_paths(const Bounce& bounce,
+                                       int count_in,
+                                       const ShadeColumns& columns) {
+    const LightTreeView& tree = bounce.scene.lights.tree;
+    if (tree.nodes == nullptr || bounce.is_over) return sort_hits_from_misses(count_in, columns);
+    TreeDraws draws;
+    for (int i = 0; i < count_in; i += lane_count) {
+        const LanesU random = random_pair(load(columns.paths.key + i),
+                                          load(columns.paths.sample + i),
+                                          bounce.number,
+                                          RandomUse::light)
+                                  .x;
+        const Mask by_tree = as_int(random >> 2) >= LanesI(tree.first_random);
+        draws.by_group[i / lane_count] = static_cast<uint16_t>(mask_bits(by_tree));
+    }
+    return sort_hits_from_misses(count_in, columns, &draws);
+}
+
 /// Probability with which the light tree chose the emitters that BSDF rays hit.
 OBSCURA_INLINE Lanes chosen_by_tree(const SceneView& scene,
                                     const ShadeColumns& columns,
@@ -383,7 +402,7 @@ ShadeCounts shade(const SceneView& scene,
                   const ShadeColumns& columns) {
     const Bounce bounce = begin_bounce(scene, batch, number, columns);
     if (number == 0) set_camera_alpha(batch, count_in, columns);
-    const SortedCounts sorted = sort_hits_from_misses(count_in, columns);
+    const SortedCounts sorted = sort_paths(bounce, count_in, columns);
     shade_misses(scene, batch, number, sorted.misses, columns);
     LightDraw draws[groups_ahead];
     ShadeCounts out;

@@ -84,9 +84,18 @@ struct SortedCounts {
     int misses = 0;
 };
 
+/// The paths that the light tree chooses a light for: one bit a path, one word a group.
+struct TreeDraws {
+    uint16_t by_group[batch_size / lane_count];
+};
+
 /// Moves the hits to the front of their columns and the misses to columns.misses. Hits are sorted
 /// by primitive where that saves much: lanes that share a surface share its records.
-SortedCounts sort_hits_from_misses(int count, const ShadeColumns& columns);
+///
+/// In      tree_draws: null, or paths whose hits come last, so that few groups descend the tree
+SortedCounts sort_hits_from_misses(int count,
+                                   const ShadeColumns& columns,
+                                   const TreeDraws* tree_draws = nullptr);
 
 }  // namespace OBSCURA_ISA
 }  // namespace obscura

@@ -11,7 +11,8 @@ inline namespace OBSCURA_ISA {
 
 namespace {
 
-/// With more primitives than this, several share a bucket.
+/// With more primitives than this, several share a bucket. Paths that the light tree chooses a
+/// light for have buckets of their own, after those of the others.
 constexpr uint32_t bucket_count = 1024;
 
 /// The hits and misses of a batch, as path indices.
@@ -33,10 +34,13 @@ int mixed_groups(int count, const HitView& hits) {
     return mixed;
 }
 
-void find_order(int count, const HitView& hits, Order& order) {
-    uint16_t begins[bucket_count] = {};
+void find_order(int count, const HitView& hits, const TreeDraws* tree_draws, Order& order) {
+    uint16_t begins[2 * bucket_count] = {};
     const auto bucket = [&](int index) {
-        return static_cast<uint32_t>(hits.primitive[index]) % bucket_count;
+        const uint32_t own = static_cast<uint32_t>(hits.primitive[index]) % bucket_count;
+        if (tree_draws == nullptr) return own;
+        const uint32_t group = tree_draws->by_group[index / lane_count];
+        return own + bucket_count * ((group >> (index % lane_count)) & 1U);
     };
     int misses = 0;
     uint32_t last = 0;
@@ -105,11 +109,14 @@ SortedCounts pack_hits(int count_in, const ShadeColumns& columns) {
 
 }  // namespace
 
-SortedCounts sort_hits_from_misses(int count_in, const ShadeColumns& columns) {
+SortedCounts sort_hits_from_misses(int count_in,
+                                   const ShadeColumns& columns,
+                                   const TreeDraws* tree_draws) {
     const int groups = (count_in + lane_count - 1) / lane_count;
-    if (mixed_groups(count_in, columns.hits) * 4 <= groups) return pack_hits(count_in, columns);
+    if (tree_draws == nullptr && mixed_groups(count_in, columns.hits) * 4 <= groups)
+        return pack_hits(count_in, columns);
     Order order;
-    find_order(count_in, columns.hits, order);
+    find_order(count_in, columns.hits, tree_draws, order);
     take_misses(columns.paths, order, columns.misses);
     sort_hits(columns.paths, columns.hits, order);
     return order.counts;

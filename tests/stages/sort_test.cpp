@@ -1,6 +1,7 @@
 // tests/stages/sort_test.cpp - hits and misses are separated; each keeps its own path.
 // SPDX-License-Identifier: Apache-2.0
 #include "accel/accel_scenes.h"
+#include "render/light_bounds.h"
 #include "render/prepared_scene.h"
 #include "stages/wavefront.h"
 
@@ -19,8 +20,18 @@ float blue_of(int surface) {
     return 2.0f + static_cast<float>(surface);
 }
 
+/// A sun, and as many points of light that the light tree chooses among.
+void add_lights(Scene& scene) {
+    PunctualLight light;
+    std::fill_n(light.intensity, 3, 1.0f);
+    scene.lights.assign(min_tree_lights, light);
+    light.type = static_cast<int32_t>(PunctualType::directional);
+    light.direction[2] = -1;
+    scene.lights.push_back(light);
+}
+
 /// Unlit squares that show their colours, and nothing around them.
-PreparedScene unlit_squares(Isa isa) {
+PreparedScene unlit_squares(Isa isa, bool with_lights) {
     SceneBuilder builder;
     for (int surface = 0; surface <= surfaces[2]; ++surface) {
         Material m;
@@ -31,7 +42,9 @@ PreparedScene unlit_squares(Isa isa) {
         builder.quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, builder.material(m));
     }
     Log log(Verbosity::quiet);
-    auto prepared = PreparedScene::create(builder.take(), {}, isa, log);
+    Scene scene = builder.take();
+    if (with_lights) add_lights(scene);
+    auto prepared = PreparedScene::create(std::move(scene), {}, isa, log);
     if (!prepared) throw std::runtime_error(prepared.error().message);
     return std::move(*prepared);
 }
@@ -82,6 +95,24 @@ protected:
         }
     }
 
+    /// In      fewest, most: of the squares that are hit
+    void expect_own_surfaces(int fewest, int most) {
+        Pcg32 random(13);
+        for (surface_count_ = fewest; surface_count_ <= most; ++surface_count_) {
+            for (const size_t count :
+                 {size_t{1}, size_t{15}, size_t{16}, size_t{100}, size_t{batch_size}}) {
+                std::vector<bool> mixed(count);
+                for (size_t i = 0; i < count; ++i)
+                    mixed[i] = random.next_float() < 0.7f;
+                for (const std::vector<bool>& is_hit : {mixed, std::vector<bool>(count, true)}) {
+                    shade(is_hit, 1);
+                    expect_slots(is_hit, 1);
+                }
+            }
+        }
+    }
+
+    PreparedScene scene_ = unlit_squares(GetParam(), false);
     int surface_count_ = 1;   ///< how many of `surfaces` are hit
     bool ascending_ = false;  ///< path i has sample index i, as from the camera; else reversed
     int dark_every_ = 0;      ///< every so many paths have no throughput; 0: none has
@@ -122,7 +153,6 @@ private:
         }
     }
 
-    PreparedScene scene_ = unlit_squares(GetParam());
     Workspace work_;
 };
 
@@ -148,19 +178,12 @@ TEST_P(Sort, HitsAreOpaqueAndMissesTakeTheBackground) {
 }
 
 TEST_P(Sort, EachPathKeepsTheSurfaceThatItHits) {
-    Pcg32 random(13);
-    for (surface_count_ = 2; surface_count_ <= 3; ++surface_count_) {
-        for (const size_t count :
-             {size_t{1}, size_t{15}, size_t{16}, size_t{100}, size_t{batch_size}}) {
-            std::vector<bool> mixed(count);
-            for (size_t i = 0; i < count; ++i)
-                mixed[i] = random.next_float() < 0.7f;
-            for (const std::vector<bool>& is_hit : {mixed, std::vector<bool>(count, true)}) {
-                shade(is_hit, 1);
-                expect_slots(is_hit, 1);
-            }
-        }
-    }
+    expect_own_surfaces(2, 3);
+}
+
+TEST_P(Sort, EachPathKeepsItAmongThoseThatTheLightTreeLights) {
+    scene_ = unlit_squares(GetParam(), true);
+    expect_own_surfaces(1, 3);
 }
 
 TEST_P(Sort, ShadowRaysInTheOrderOfTheirSlotsAreAddedTogether) {
