@@ -90,7 +90,13 @@ complain() {
     printf '%s of call %s: %s (exit code %s)\n' "$1" "$2" "$4" "$3"
 }
 
-is_one_of() { cmp -s "$1" "old.$2" || cmp -s "$1" "new.$2"; }
+# The header tells of warnings, such as of a checkpoint that was not written, and its fingerprint of
+# what could be read once more: these may differ, and the checksum of a PNG's words.
+is_new() {
+    [[ "$(stat -c %s "$1")" == "$(stat -c %s "new.$2")" ]] &&
+        (($(cmp -l "$1" "new.$2" | wc -l) <= 24))
+}
+is_one_of() { cmp -s "$1" "old.$2" || is_new "$1" "$2"; }
 
 try() {
     local fault="$1" number="$2" code=0
@@ -102,7 +108,7 @@ try() {
     runs=$((runs + 1))
     case "$code" in
         0)
-            if ! cmp -s a.exr new.exr || ! cmp -s a.png new.png; then
+            if ! is_new a.exr exr || ! is_new a.png png; then
                 complain "$fault" "$number" "$code" "success without the new pictures"
             fi
             ;;

@@ -46,6 +46,35 @@ OBSCURA_INLINE U pixel_key(const U& x, const U& y, uint32_t seed_low, uint32_t s
     return hash_word(U(key + U(seed_high)));
 }
 
+/// The random numbers of a pixel: those of `key` from number `first` on.
+template <typename U>
+struct PixelSequence {
+    U key, first;
+};
+
+/// Side of the blocks of pixels that share one sequence in z_order_sequence.
+inline constexpr uint32_t z_order_side = 64;
+
+/// The pixels of a block follow one another along a Z-shaped curve, each with 2^sample_bits
+/// numbers: what neighbours draw is stratified together, and their errors cancel.
+///
+/// In      x, y: of the pixel, also below 0; sample_bits: up to 20
+/// Source  Ahmed and Wonka, "Screen-Space Blue-Noise Diffusion of Monte Carlo Sampling Error via
+///         Hierarchical Ordering of Pixels", ACM Transactions on Graphics 39(6), 2020. sobol_pair
+///         scrambles the order anew for every pair.
+template <typename U>
+OBSCURA_INLINE PixelSequence<U> z_order_sequence(
+    const U& x, const U& y, uint32_t seed_low, uint32_t seed_high, int sample_bits) {
+    const auto spread = [](U bits) {
+        bits = bits & U(z_order_side - 1);
+        bits = (bits | (bits << 4)) & U(0x0F0FU);
+        bits = (bits | (bits << 2)) & U(0x3333U);
+        return U((bits | (bits << 1)) & U(0x5555U));
+    };
+    const U along = spread(x) | (spread(y) << 1);
+    return {pixel_key(U(x >> 6), U(y >> 6), seed_low, seed_high), along << sample_bits};
+}
+
 /// Owen scrambling; input and result have their bits reversed.
 /// Source  Laine and Karras, "Stratified Sampling for Stochastic Transparency", 2011; constants of
 ///         N. Vegdahl, "Building a Better LK Hash", 2021
@@ -72,7 +101,8 @@ OBSCURA_INLINE U sobol_second_reversed(U x) {
 
 /// One two-dimensional point, each number a full 32-bit fraction.
 ///
-/// In      key: pixel_key; index_reversed: reverse_bits(sample number); pair: see RandomUse
+/// In      key: pixel_key; index_reversed: reverse_bits(sample number), which in a PixelSequence
+///         begins at `first`; pair: see RandomUse
 /// Source  Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020: shuffled, padded points
 template <typename U>
 OBSCURA_INLINE Vec2<U> sobol_pair(const U& key, const U& index_reversed, uint32_t pair) {

@@ -3,6 +3,7 @@
 #include "render/integrators.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace obscura {
 
@@ -42,7 +43,15 @@ int samples_taken(const RenderOptions& options) {
 }
 
 float footprint_fraction(int samples) {
-    return 1.0f / static_cast<float>(std::min(samples, min_samples_of_finest_footprint));
+    return 1.0f / static_cast<float>(std::min(samples, min_samples_to_go_on));
+}
+
+// What pixels share when each takes few samples shows most; later on, more samples may follow.
+// Where pixels take different numbers of them, their blocks have gaps.
+int z_order_bits(const RenderOptions& options) {
+    const int samples = samples_taken(options);
+    if (options.adaptive || samples >= min_samples_to_go_on) return -1;
+    return std::bit_width(static_cast<unsigned>(samples - 1));
 }
 
 }  // namespace obscura

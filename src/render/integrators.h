@@ -77,12 +77,15 @@ std::vector<std::string> film_channels(Integrator integrator);
 int samples_taken(const RenderOptions& options);
 
 /// Fraction of a pixel's footprint that one sample's texture look-up covers: 1 / samples, with a
-/// minimum so that look-ups still hit the caches. Nothing else in a sample depends on how many
-/// follow it.
+/// minimum so that look-ups still hit the caches.
 /// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 10.1.1
 float footprint_fraction(int samples);
 
-/// From so many samples on, footprint_fraction is the same.
-inline constexpr int min_samples_of_finest_footprint = 64;
+/// BatchSettings::z_order_bits: with few samples of every pixel, neighbours share random numbers.
+int z_order_bits(const RenderOptions& options);
+
+/// From so many samples on, a sample does not depend on how many follow it: footprint_fraction and
+/// z_order_bits are the same.
+inline constexpr int min_samples_to_go_on = 64;
 
 }  // namespace obscura

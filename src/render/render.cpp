@@ -72,6 +72,7 @@ WavefrontInput make_wavefront_input(const PreparedScene::Impl& scene,
     batch.height = options.height;
     batch.seed_low = static_cast<uint32_t>(options.seed);
     batch.seed_high = static_cast<uint32_t>(options.seed >> 32);
+    batch.z_order_bits = z_order_bits(options);
     batch.max_bounces = options.max_bounces;
     batch.strategies = options.strategies;
     batch.background_visible = options.background == BackgroundKind::environment;

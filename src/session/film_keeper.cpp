@@ -46,7 +46,7 @@ std::string differences_from(FilmStateHead kept, FilmStateHead wanted) {
     const bool in_passes = kept.target_samples > 0 && wanted.target_samples > 0;
     const bool may_take_more = wanted.part.of == PartOf::rows && !kept.is_adaptive;
     const bool go_on = kept.target_samples == wanted.target_samples ||
-                       (may_take_more && kept.target_samples >= min_samples_of_finest_footprint &&
+                       (may_take_more && kept.target_samples >= min_samples_to_go_on &&
                         wanted.target_samples > kept.target_samples);
     if (in_passes && go_on && kept.is_adaptive == wanted.is_adaptive) {
         for (NamedTexts* const options : {&kept.options, &wanted.options}) {

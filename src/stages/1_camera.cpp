@@ -51,6 +51,12 @@ void make_centre_rays_of(const BatchSettings& batch,
     }
 }
 
+OBSCURA_INLINE PixelSequence<LanesU> sequence_of(const BatchSettings& batch, LanesU x, LanesU y) {
+    if (batch.z_order_bits < 0)
+        return {pixel_key(x, y, batch.seed_low, batch.seed_high), LanesU(0U)};
+    return z_order_sequence(x, y, batch.seed_low, batch.seed_high, batch.z_order_bits);
+}
+
 /// The loop over a batch, for one kind of camera.
 template <typename Maker>
 void make_rays_of(const BatchSettings& batch,
@@ -67,8 +73,8 @@ void make_rays_of(const BatchSettings& batch,
         const LanesI sample = slot - pixel * LanesI(batch.samples);
         const LanesI x = gather<Lanes>(batch.pixel_x, pixel);
         const LanesI y = gather<Lanes>(batch.pixel_y, pixel);
-        const LanesU key = pixel_key(as_uint(x), as_uint(y), batch.seed_low, batch.seed_high);
-        const LanesU index = reverse_bits(as_uint(sample) + LanesU(batch.first_sample));
+        const auto [key, first] = sequence_of(batch, as_uint(x), as_uint(y));
+        const LanesU index = reverse_bits(first + as_uint(sample) + LanesU(batch.first_sample));
         const auto u =
             unit_pair<Lanes>(sobol_pair(key, index, static_cast<uint32_t>(RandomUse::film)));
         Vec2<Lanes> offset{Lanes(0.0f), Lanes(0.0f)};

@@ -179,6 +179,9 @@ struct BatchSettings {
     int samples = 1;  ///< per pixel in this batch; sample index = pixel * samples + i
     uint32_t first_sample = 0;
     uint32_t seed_low = 0, seed_high = 0;
+    /// Pixels share their random numbers by z_order_sequence, each having 2 to the power of this;
+    /// -1: each has a sequence of its own.
+    int z_order_bits = -1;
     const float* filter = nullptr;  ///< inverse CDF, filter_entries + 1 offsets; null: box
     int max_bounces = 8;
     uint32_t medium_stack = 0;  ///< at the camera, see stages/3_media.h

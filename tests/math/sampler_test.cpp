@@ -6,8 +6,10 @@
 
 #include "support/chi_square.h"
 #include "support/lane_arrays.h"
+#include <bit>
 #include <cmath>
 #include <set>
+#include <utility>
 #include <vector>
 
 namespace obscura {
@@ -63,6 +65,48 @@ TEST(Sampler, AlignedRunsOfSamplesAreStratifiedToo) {
             ASSERT_TRUE(is_stratified(key_of(5, 9), pair, first, 6)) << first;
         }
     }
+}
+
+/// Every box of equal size, as flat or tall as they come, holds one of the points of the pixels
+/// [x, x + side) x [y, y + side).
+bool is_stratified_over_pixels(uint32_t x, uint32_t y, uint32_t side, int bits, uint32_t pair) {
+    std::vector<Vec2<uint32_t>> points;
+    for (uint32_t i = 0; i < side * side; ++i) {
+        const auto [key, first] = z_order_sequence(x + i % side, y + i / side, 7U, 0U, bits);
+        for (uint32_t sample = 0; sample < 1U << bits; ++sample)
+            points.push_back(point(key, first + sample, pair));
+    }
+    const int k = std::countr_zero(points.size());
+    for (int a = 0; a <= k; ++a) {
+        std::set<uint32_t> boxes;
+        for (const Vec2<uint32_t>& p : points)
+            boxes.insert(top_bits(p.x, a) << (k - a) | top_bits(p.y, k - a));
+        if (boxes.size() != points.size()) return false;
+    }
+    return true;
+}
+
+TEST(Sampler, PixelsInZOrderAreStratifiedTogether) {
+    for (const int bits : {0, 1, 4}) {
+        for (uint32_t pair = 0; pair < pairs_per_bounce; ++pair) {
+            for (const uint32_t side : {1U, 2U, 4U, 8U}) {
+                EXPECT_TRUE(is_stratified_over_pixels(3 * side, 64 + side, side, bits, pair));
+                EXPECT_TRUE(is_stratified_over_pixels(0U - side, 0U - 3 * side, side, bits, pair))
+                    << "left of the image and above it";
+            }
+        }
+    }
+    EXPECT_TRUE(is_stratified_over_pixels(64, 128, z_order_side, 0, 1));
+}
+
+TEST(Sampler, PixelsInZOrderShareNoNumber) {
+    std::set<std::pair<uint32_t, uint32_t>> runs;
+    for (uint32_t i = 0; i < 128 * 128; ++i) {
+        const auto [key, first] = z_order_sequence(i % 128, i / 128, 7U, 0U, 20);
+        EXPECT_EQ(first % (1U << 20), 0U);
+        runs.insert({key, first});
+    }
+    EXPECT_EQ(runs.size(), size_t{128} * 128);
 }
 
 /// p-value of the points of many pixels over 16 x 16 boxes.
