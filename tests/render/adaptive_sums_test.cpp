@@ -3,6 +3,7 @@
 #include "render/adaptive_sums.h"
 
 #include "base/parallel.h"
+#include "render/integrators.h"
 
 #include <gtest/gtest.h>
 
@@ -72,11 +73,13 @@ TEST(Passes, EveryPixelIsThatOfAUniformRenderingWithItsSamples) {
                              "shadow",
                              "cost"});
     options.catcher_ground_m = -0.5f;
+    options.samples_per_pixel = 4 * min_samples_to_go_on;
+    options.adaptive = AdaptiveOptions{.noise_target = 0.01, .min_samples = min_samples_to_go_on};
     const RenderResult adaptive = render_ball(options);
     const FilmLayer& counts = layer(adaptive, "sample_count");
     const int least = adaptive.adaptive->least;
     const int most = adaptive.adaptive->most;
-    EXPECT_EQ(least, 8);
+    EXPECT_EQ(least, min_samples_to_go_on);
     EXPECT_GT(most, least) << "the test is to see several numbers";
     options.adaptive.reset();
     uint64_t compared = 0;
