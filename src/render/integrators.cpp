@@ -46,12 +46,13 @@ float footprint_fraction(int samples) {
     return 1.0f / static_cast<float>(std::min(samples, min_samples_to_go_on));
 }
 
-// What pixels share when each takes few samples shows most; later on, more samples may follow.
-// Where pixels take different numbers of them, their blocks have gaps.
+// Stratifying neighbours together helps most with few samples. From min_samples_to_go_on on, more
+// of them may follow; in adaptive sampling, pixels take different numbers. There the shared
+// sequence would have no room, or gaps.
 int z_order_bits(const RenderOptions& options) {
     const int samples = samples_taken(options);
     if (options.adaptive || samples >= min_samples_to_go_on) return -1;
-    return std::bit_width(static_cast<unsigned>(samples - 1));
+    return static_cast<int>(std::bit_width(static_cast<unsigned>(samples - 1)));
 }
 
 }  // namespace obscura

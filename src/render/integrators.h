@@ -81,7 +81,8 @@ int samples_taken(const RenderOptions& options);
 /// Source  Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., 2023, section 10.1.1
 float footprint_fraction(int samples);
 
-/// BatchSettings::z_order_bits: with few samples of every pixel, neighbours share random numbers.
+/// BatchSettings::z_order_bits: with few samples of every pixel, neighbours share a sequence of
+/// random numbers. -1: each has its own.
 int z_order_bits(const RenderOptions& options);
 
 /// From so many samples on, a sample does not depend on how many follow it: footprint_fraction and

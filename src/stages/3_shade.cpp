@@ -105,7 +105,9 @@ OBSCURA_INLINE SortedCounts sort_paths(const Bounce& bounce,
                                        int count_in,
                                        const ShadeColumns& columns) {
     const LightTreeView& tree = bounce.scene.lights.tree;
-    if (tree.nodes == nullptr || bounce.is_over) return sort_hits_from_misses(count_in, columns);
+    const bool all_by_tree = tree.first_random == 0;  // there are no other lights
+    if (tree.nodes == nullptr || all_by_tree || bounce.is_over)
+        return sort_hits_from_misses(count_in, columns);
     TreeDraws draws;
     for (int i = 0; i < count_in; i += lane_count) {
         const LanesU random = random_pair(load(columns.paths.key + i),

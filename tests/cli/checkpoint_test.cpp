@@ -310,7 +310,7 @@ TEST_F(Checkpoints, ThatAreKeptGoOnToMoreSamples) {
     const Texts last = joined(with_layers("a.exr", "200"), {"--checkpoint"});
     expect_result(render("box.gltf", joined(last, required)), 0, "OK");
     EXPECT_FALSE(exists("a.exr.checkpoint"));
-    // Texture look-ups are wider with fewer samples than 64: they would be others.
+    // With fewer samples than 64, texture look-ups are wider and random numbers others.
     expect_result(render("box.gltf", kept("32")), 0, "OK");
     const ProgramRun few = render("box.gltf", kept("64"));
     expect_result(few, 78, "E-RESUME-MIX");

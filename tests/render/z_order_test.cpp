@@ -75,6 +75,38 @@ TEST(ZOrder, TheMeanStays) {
     EXPECT_NEAR(mean(lit_floor(5, {})) / expected, 1, 1e-3);
 }
 
+/// Part of a picture that has corners of four blocks, and pixels beyond its edges.
+Film part_of_floor(const PixelRect& crop, int tile_size) {
+    RenderOptions options;
+    options.width = 150;
+    options.height = 100;
+    options.samples_per_pixel = 5;
+    options.tile_size = tile_size;
+    options.crop = crop;
+    const Camera camera = look_at({0, 0.9f, 1}, {0, 0, 0}, 0.7f, options.width, options.height);
+    SceneBuilder builder;
+    builder.quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, builder.material({}));
+    LightingOptions light;
+    light.environment = constant_environment(0.5f);
+    return render_scene(builder.take(), light, camera, options).film;
+}
+
+TEST(ZOrder, TilesAndCropsDoNotChangeABit) {
+    const PixelRect all{-5, -3, 160, 106};
+    const Film whole = part_of_floor(all, 16);
+    EXPECT_EQ(whole.pixels, part_of_floor(all, 48).pixels);
+    const PixelRect crop{58, 60, 13, 9};
+    const Film part = part_of_floor(crop, 16);
+    for (int y = 0; y < crop.height; ++y) {
+        for (int x = 0; x < crop.width; ++x) {
+            const size_t in_whole = pixel_index(whole, crop.x + x, crop.y + y);
+            const size_t in_part = pixel_index(part, crop.x + x, crop.y + y);
+            for (size_t c = 0; c < 3; ++c)
+                ASSERT_EQ(whole.pixels[4 * in_whole + c], part.pixels[4 * in_part + c]);
+        }
+    }
+}
+
 TEST(ZOrder, EveryPixelHasRoomForItsSamples) {
     RenderOptions options;
     for (const auto& [samples, bits] :
