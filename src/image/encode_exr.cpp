@@ -1,6 +1,7 @@
 // image/encode_exr.cpp - encodes finished images as OpenEXR.
 // SPDX-License-Identifier: Apache-2.0
 #include "image/encode.h"
+#include "image/exr_chunks.h"
 #include "image/exr_parts.h"
 #include "image/exr_pixels.h"
 #include "image/exr_stream.h"
@@ -54,7 +55,7 @@ uint64_t add_channels(StoredGroup& stored,
     uint64_t clamped = 0;
     if (is_half) {
         stored.halves.resize(count);
-        clamped = store_halves({view.pixels, count}, stored.halves);
+        clamped = store_many_halves({view.pixels, count}, stored.halves);
     }
     const size_t value_bytes = is_half ? sizeof(half) : sizeof(float);
     const void* data = is_half ? static_cast<const void*>(stored.halves.data())
@@ -147,21 +148,29 @@ EncodedFile encode_parts(const ExrContent& content,
                          const std::vector<ExrPart>& parts,
                          const std::string& name) {
     const std::vector<Imf::Header> headers = headers_of(content, parts);
-    const int threads = compression_threads(values_of(content.image));
+    const bool all_zip = std::all_of(headers.begin(), headers.end(), is_zip_lines);
+    const int threads = all_zip ? 0 : compression_threads(values_of(content.image));
     EncodedFile out;
+    for (const ExrPart& part : parts)
+        out.report.lossless_instead |= is_lossless_instead(part, content.options);
     ExrMemoryWriter stream(name.c_str());
+    uint64_t after_headers = 0;
     {
         Imf::MultiPartOutputFile file(
             stream, headers.data(), static_cast<int>(headers.size()), false, threads);
-        for (size_t i = 0; i < parts.size(); ++i) {
+        after_headers = stream.tellp();
+        for (size_t i = 0; i < parts.size() && !all_zip; ++i) {
             const int index = static_cast<int>(i);
             out.report.clamped_values +=
                 headers[i].type() == Imf::TILEDIMAGE
                     ? write_tiles(Imf::TiledOutputPart(file, index), parts[i], content)
                     : write_lines(Imf::OutputPart(file, index), parts[i], content, threads);
-            out.report.lossless_instead |= is_lossless_instead(parts[i], content.options);
         }
     }  // the tables of offsets are written here
+    if (all_zip) {
+        stream.seekp(after_headers);
+        out.report.clamped_values = write_zip_chunks(stream, parts, headers);
+    }
     out.bytes = stream.take();
     return out;
 }

@@ -26,18 +26,23 @@ int compression_threads(size_t values) {
 
 uint64_t store_halves(std::span<const float> values, std::span<half> halves) {
     constexpr float largest = 65504;
+    uint64_t clamped = 0;
+    for (size_t i = 0; i < values.size(); ++i) {
+        const float value = values[i];
+        clamped += std::abs(value) > largest ? 1 : 0;
+        halves[i] = half(std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest));
+    }
+    return clamped;
+}
+
+uint64_t store_many_halves(std::span<const float> values, std::span<half> halves) {
     constexpr size_t grain = 1 << 16;
-    std::atomic<uint64_t> all_clamped = 0;
+    std::atomic<uint64_t> clamped = 0;
     parallel_ranges(values.size(), grain, [&](size_t begin, size_t end) {
-        uint64_t clamped = 0;
-        for (size_t i = begin; i < end; ++i) {
-            const float value = values[i];
-            clamped += std::abs(value) > largest ? 1 : 0;
-            halves[i] = half(std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest));
-        }
-        all_clamped += clamped;
+        const size_t count = end - begin;
+        clamped += store_halves(values.subspan(begin, count), halves.subspan(begin, count));
     });
-    return all_clamped;
+    return clamped;
 }
 
 UnsetArray<float> half_as_large(const PixelView& image, bool averaged) {

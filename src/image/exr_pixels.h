@@ -21,6 +21,9 @@ int compression_threads(size_t values);
 /// Out     how many had to be clamped to +-65504
 uint64_t store_halves(std::span<const float> values, std::span<half> halves);
 
+/// The same on all threads.
+uint64_t store_many_halves(std::span<const float> values, std::span<half> halves);
+
 /// Interleaved pixels in memory.
 struct PixelView {
     const float* pixels;

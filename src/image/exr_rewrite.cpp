@@ -145,7 +145,7 @@ public:
                 std::memcpy(to.data(), plain.data(), to.size());
             } else {
                 UnsetArray<half> halves(plain.size());
-                clamped += store_halves(plain, halves);
+                clamped += store_many_halves(plain, halves);
                 std::memcpy(to.data(), halves.data(), to.size());
             }
         }

@@ -52,6 +52,9 @@ public:
     uint64_t tellp() override { return position_; }
     void seekp(uint64_t position) override { position_ = position; }
 
+    /// Before so many more bytes are written: they need no other memory then.
+    void expect(uint64_t more) { bytes_.reserve(position_ + more); }
+
     std::vector<std::byte> take() { return std::move(bytes_); }
 
 private:

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <numeric>
 
 namespace obscura {
@@ -23,7 +24,8 @@ void clear_tile(const Tile& tile, Film& film) {
         for (int y = tile.y; y < tile.y + tile.height; ++y) {
             float* const begin = pixels.data() + pixel_index(film, tile.x, y) * channels;
             float* const end = begin + static_cast<size_t>(tile.width) * channels;
-            if (std::any_of(begin, end, [](float x) { return x != 0; }))
+            // Zeros with a sign are cleared, too: store_layers writes no zeros.
+            if (std::any_of(begin, end, [](float x) { return std::bit_cast<uint32_t>(x) != 0; }))
                 std::fill(begin, end, 0.0f);
         }
     };

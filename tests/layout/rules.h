@@ -29,7 +29,7 @@ struct Owner {
 };
 
 /// To add a library: one line here, one in third_party/README.md, one in third_party/packages.txt.
-inline constexpr std::array<Owner, 26> owners{
+inline constexpr std::array<Owner, 27> owners{
     {{"tbb/", "base"},
      {"oneapi/", "base"},
      {"tl/", "base"},
@@ -43,6 +43,7 @@ inline constexpr std::array<Owner, 26> owners{
      {"OpenColorIO/", "image"},
      {"webp/", "image"},
      {"zstd", "image"},
+     {"libdeflate", "image"},
      {"nlohmann/", "base gltf"},
      {"tiny_gltf.h", "gltf"},
      {"draco/", "gltf"},

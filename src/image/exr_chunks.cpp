@@ -1,0 +1,274 @@
+// image/exr_chunks.cpp - compresses the scan lines of OpenEXR files: ZIP, on all threads.
+// SPDX-License-Identifier: Apache-2.0
+#include "image/exr_chunks.h"
+
+#include "base/parallel.h"
+#include "base/unset_array.h"
+#include "image/exr_pixels.h"
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfPartType.h>
+
+#include <Imath/ImathBox.h>
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cstring>
+#include <libdeflate.h>
+#include <limits>
+#include <map>
+#include <memory>
+#include <new>
+#include <optional>
+#include <span>
+#include <utility>
+
+namespace obscura {
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "OpenEXR files are little-endian");
+
+/// Interleaved channels in memory, and where each of them begins in a row of the file.
+struct ChunkGroup {
+    const float* pixels = nullptr;  ///< of the part's first row
+    bool is_half = false;
+    std::vector<size_t> offsets = {};  ///< in bytes
+};
+
+/// A part as its chunks have it: in each row all of a channel, then all of the next.
+struct ChunkedPart {
+    size_t width, height;
+    size_t rows;  ///< of a chunk; the last may have fewer
+    int top;
+    size_t row_bytes = 0;
+    std::vector<ChunkGroup> groups = {};
+
+    size_t chunks() const { return (height + rows - 1) / rows; }
+};
+
+/// A part without its groups.
+///
+/// Out     offsets: where each channel begins in a row
+ChunkedPart measured(const Imf::Header& header, std::map<std::string, size_t>& offsets) {
+    const Imath::Box2i& window = header.dataWindow();
+    const Imath::V2i size = window.max - window.min + Imath::V2i(1);
+    const size_t rows = header.compression() == Imf::ZIPS_COMPRESSION ? 1 : 16;
+    ChunkedPart out{static_cast<size_t>(size.x), static_cast<size_t>(size.y), rows, window.min.y};
+    const Imf::ChannelList& channels = header.channels();
+    for (auto one = channels.begin(); one != channels.end(); ++one) {
+        offsets[one.name()] = out.row_bytes;
+        const bool is_half = one.channel().type == Imf::HALF;
+        out.row_bytes += out.width * (is_half ? sizeof(half) : sizeof(float));
+    }
+    return out;
+}
+
+ChunkedPart chunked(const ExrPart& part, const Imf::Header& header) {
+    std::map<std::string, size_t> offsets;
+    ChunkedPart out = measured(header, offsets);
+    const auto first = static_cast<size_t>(part.rows.first);
+    for (const ExrGroup& group : part.groups) {
+        const std::vector<std::string>& names = *group.channels;
+        const Imf::Channel& channel = header.channels()[names.front()];
+        ChunkGroup& to = out.groups.emplace_back();
+        to.pixels = group.pixels->data() + first * out.width * names.size();
+        to.is_half = channel.type == Imf::HALF;
+        for (const std::string& name : names)
+            to.offsets.push_back(offsets.at(name));
+    }
+    return out;
+}
+
+/// What one thread works with.
+struct Scratch {
+    struct Free {
+        void operator()(libdeflate_compressor* one) const { libdeflate_free_compressor(one); }
+    };
+
+    UnsetArray<half> halves = {};
+    UnsetArray<unsigned char> plain = {}, planes = {}, packed = {};
+    std::unique_ptr<libdeflate_compressor, Free> compressor = {};
+};
+
+/// Writes each channel of interleaved pixels for itself.
+template <typename Value>
+void separate(std::span<const Value> pixels,
+              const std::vector<size_t>& offsets,
+              unsigned char* row) {
+    for (size_t c = 0; c < offsets.size(); ++c) {
+        unsigned char* to = row + offsets[c];
+        for (size_t i = c; i < pixels.size(); i += offsets.size(), to += sizeof(Value))
+            std::memcpy(to, &pixels[i], sizeof(Value));
+    }
+}
+
+/// Writes one row as the file has it before it is compressed.
+///
+/// Out     how many values were clamped
+uint64_t write_row(const ChunkedPart& part,
+                   size_t y,
+                   UnsetArray<half>& halves,
+                   unsigned char* row) {
+    uint64_t clamped = 0;
+    for (const ChunkGroup& group : part.groups) {
+        const size_t values = part.width * group.offsets.size();
+        const std::span<const float> floats{group.pixels + y * values, values};
+        if (group.is_half) {
+            halves.resize(values);
+            clamped += store_halves(floats, halves);
+            separate<half>(halves, group.offsets, row);
+        } else {
+            separate(floats, group.offsets, row);
+        }
+    }
+    return clamped;
+}
+
+/// Two halves of a chunk that are easy to compress, in the way of OpenEXR's ZIP: the bytes at even
+/// places and those at odd ones, each as how much it is more than the one before it, plus 128. The
+/// very first stays as it is, and the first odd one comes after the last even one.
+class BytePlanes {
+public:
+    explicit BytePlanes(std::span<unsigned char> out)
+        : first_even_(out.data()), even_(first_even_), odd_(first_even_ + out.size() / 2) {}
+
+    void add(std::span<const unsigned char> row) {
+        const size_t count = row.size() / 2;  // values have two or four bytes
+        even_[0] = difference(row[0], last_even_);
+        odd_[0] = difference(row[1], last_odd_);
+        for (size_t i = 1; i < count; ++i) {
+            even_[i] = difference(row[2 * i], row[2 * i - 2]);
+            odd_[i] = difference(row[2 * i + 1], row[2 * i - 1]);
+        }
+        if (even_ == first_even_) {
+            first_ = row[0];
+            first_odd_ = row[1];
+        }
+        last_even_ = row[2 * count - 2];
+        last_odd_ = row[2 * count - 1];
+        even_ += count;
+        odd_ += count;
+    }
+
+    /// When all rows are added.
+    void finish() {
+        first_even_[0] = first_;
+        *even_ = difference(first_odd_, last_even_);  // where even ones end, odd ones begin
+    }
+
+private:
+    static unsigned char difference(unsigned char value, unsigned char before) {
+        return static_cast<unsigned char>(value - before + 128);
+    }
+
+    unsigned char* first_even_;
+    unsigned char *even_, *odd_;  ///< where the next row's go
+    unsigned char first_ = 0, first_odd_ = 0, last_even_ = 0, last_odd_ = 0;
+};
+
+/// The bytes of a chunk: compressed, or plain where that makes them no smaller. They lie in
+/// `scratch`.
+///
+/// In/Out  clamped: counts values that were clamped
+std::span<const unsigned char> chunk_bytes(const ChunkedPart& part,
+                                           size_t first,
+                                           Scratch& scratch,
+                                           std::atomic<uint64_t>& clamped) {
+    constexpr int level = 3;
+    if (!scratch.compressor) scratch.compressor.reset(libdeflate_alloc_compressor(level));
+    if (!scratch.compressor) throw std::bad_alloc();
+    const size_t end = std::min(first + part.rows, part.height);
+    const size_t size = (end - first) * part.row_bytes;
+    scratch.planes.resize(size);
+    scratch.plain.resize(part.row_bytes);
+    BytePlanes planes(scratch.planes);
+    for (size_t y = first; y < end; ++y) {
+        clamped += write_row(part, y, scratch.halves, scratch.plain.data());
+        planes.add(scratch.plain);
+    }
+    planes.finish();
+    scratch.packed.resize(size);
+    const size_t packed = libdeflate_zlib_compress(  // 0: it does not fit
+        scratch.compressor.get(),
+        scratch.planes.data(),
+        size,
+        scratch.packed.data(),
+        size);
+    if (packed > 0 && packed < size) return std::span{scratch.packed}.first(packed);
+    scratch.plain.resize(size);
+    for (size_t y = first; y < end; ++y)
+        write_row(part, y, scratch.halves, &scratch.plain[(y - first) * part.row_bytes]);
+    return scratch.plain;
+}
+
+void append(int32_t number, std::vector<char>& out) {
+    const auto bytes = std::bit_cast<std::array<char, sizeof number>>(number);
+    out.insert(out.end(), bytes.begin(), bytes.end());
+}
+
+using Chunk = std::vector<char>;
+
+/// Appends a part's chunks as they lie in the file.
+///
+/// In      number: of the part, in a file of several
+void append_chunks(const ChunkedPart& part,
+                   std::optional<int32_t> number,
+                   std::vector<Chunk>& chunks,
+                   std::atomic<uint64_t>& clamped) {
+    const size_t before = chunks.size();
+    chunks.resize(before + part.chunks());
+    std::vector<Scratch> scratches(max_thread_index());
+    parallel_for(part.chunks(), [&](size_t i) {
+        const size_t first = i * part.rows;
+        const std::span<const unsigned char> data =
+            chunk_bytes(part, first, scratches[thread_index()], clamped);
+        Chunk& chunk = chunks[before + i];
+        chunk.reserve(3 * sizeof(int32_t) + data.size());
+        if (number) append(*number, chunk);
+        append(part.top + static_cast<int32_t>(first), chunk);
+        append(static_cast<int32_t>(data.size()), chunk);
+        chunk.insert(chunk.end(), data.begin(), data.end());
+    });
+}
+
+}  // namespace
+
+bool is_zip_lines(const Imf::Header& header) {
+    const Imf::Compression codec = header.compression();
+    std::map<std::string, size_t> offsets;
+    const ChunkedPart part = measured(header, offsets);
+    return header.type() == Imf::SCANLINEIMAGE && header.lineOrder() == Imf::INCREASING_Y &&
+           (codec == Imf::ZIP_COMPRESSION || codec == Imf::ZIPS_COMPRESSION) &&
+           part.rows * part.row_bytes < std::numeric_limits<int32_t>::max();
+}
+
+uint64_t write_zip_chunks(ExrMemoryWriter& out,
+                          const std::vector<ExrPart>& parts,
+                          const std::vector<Imf::Header>& headers) {
+    std::atomic<uint64_t> clamped = 0;
+    std::vector<Chunk> chunks;
+    for (size_t i = 0; i < parts.size(); ++i) {
+        std::optional<int32_t> number;
+        if (parts.size() > 1) number = static_cast<int32_t>(i);
+        append_chunks(chunked(parts[i], headers[i]), number, chunks, clamped);
+    }
+    uint64_t bytes = 0;
+    for (const Chunk& chunk : chunks)
+        bytes += chunk.size();
+    const uint64_t end_of_tables = out.tellp();
+    out.expect(bytes);
+    std::vector<uint64_t> offsets;
+    for (Chunk& chunk : chunks) {
+        offsets.push_back(out.tellp());
+        out.write(chunk.data(), static_cast<int>(chunk.size()));
+        chunk = {};  // so that the file is not in memory twice
+    }
+    const std::span<const uint64_t> table = offsets;
+    out.seekp(end_of_tables - table.size_bytes());
+    out.write(reinterpret_cast<const char*>(table.data()), static_cast<int>(table.size_bytes()));
+    return clamped;
+}
+
+}  // namespace obscura
