@@ -70,7 +70,7 @@ keep() { cp a.exr "$1.exr" && cp a.png "$1.png"; }
 # Which calls there are, and how many before the program looks at the scene: those are the loader's.
 calls=(openat read pread64 write pwrite64 writev lseek close fstat newfstatat rename renameat
     renameat2 unlink unlinkat fsync fdatasync ftruncate fallocate mkdir access readlink getdents64
-    mmap munmap)  # brk returns no errors but the old address, which strace cannot make it do
+    mmap)  # brk returns no errors but the old address, which strace cannot make it do
 known="$(IFS=,; printf '%s' "${calls[*]/#/?}")"  # ?: those that this machine does not have
 strace -f -o calls.log -e "trace=$known" "${new[@]}"
 begin="$(grep -n -m 1 -F "$scene" calls.log | cut -d : -f 1)"
