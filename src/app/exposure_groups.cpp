@@ -71,10 +71,11 @@ std::vector<double> meter(const SceneRun& run, KeptForLater& kept) {
     Log unheard;  // the rendering will say the same
     // Nothing can be lost: signals and the time limit end the program at once.
     Watch watch(request.scene.string(), unheard, {request.long_run.time_limit_s, {}, {}});
-    Result<void> done = use_memory_limit(request.max_memory, memory_bound());
+    const ThreadLimit threads(request.threads);
+    Result<void> done = start_threads_ahead();
+    if (done) done = use_memory_limit(request.max_memory, memory_bound());
     if (done) done = read_named_files(request, unheard);
     if (!done) return {};
-    const ThreadLimit threads(request.threads);
     Job job{.log = unheard,
             .whole = request,
             .request = request,

@@ -4,6 +4,7 @@
 
 #include "app/numbers.h"
 #include "base/memory_budget.h"
+#include "base/parallel.h"
 #include "base/setting_names.h"
 
 #include <cstdlib>
@@ -88,16 +89,17 @@ Result<void> use_memory_limit(const std::optional<MemorySize>& asked, const Memo
     return {};
 }
 
-Result<void> check_address_space(uint64_t left) {
-    constexpr uint64_t min_left = uint64_t{160} << 20;
-    if (left >= min_left) return {};
-    return fail(ExitCode::out_of_memory,
-                "E-MEM",
-                "the limit on the address space (ulimit -v)",
-                fmt::format("it leaves {} beside the program and its libraries; {} are the least "
-                            "with which rendering can begin",
-                            memory_text(left),
-                            memory_text(min_left)));
+Result<void> start_threads_ahead() {
+    static bool started = false;
+    const uint64_t left = address_space_left();
+    if (started || left == UINT64_MAX) return {};
+    // Beside the stacks, what any scene needs.
+    constexpr uint64_t mebibyte = uint64_t{1} << 20;
+    const uint64_t needed = 160 * mebibyte + max_thread_index() * 8 * mebibyte;
+    if (auto fit = check_address_space(left, needed, "rendering"); !fit) return fit;
+    start_threads();
+    started = true;
+    return {};
 }
 
 Result<void> complete_texture_limit(RenderRequest& request) {

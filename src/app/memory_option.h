@@ -23,12 +23,12 @@ Result<MemorySize> parse_memory_size(const std::string& text, const std::string&
 /// Errors  33 E-MEM the program itself does not fit
 Result<void> use_memory_limit(const std::optional<MemorySize>& asked, const MemoryBound& bound);
 
-/// Refuses to begin where threads could not even have their stacks: libraries that start them end
-/// the process without a word.
+/// Starts the threads of the calling thread's ThreadLimit where the address space is limited
+/// (ulimit -v), from the second call on nothing: one that has no addresses for its stack later on
+/// would end the process without a word.
 ///
-/// In      left: of address_space_left
-/// Errors  33 E-MEM
-Result<void> check_address_space(uint64_t left);
+/// Errors  33 E-MEM they have none
+Result<void> start_threads_ahead();
 
 /// Sets LoadOptions::texture_limit by --texture-memory and --texture-cache. Touches no file.
 ///

@@ -17,6 +17,7 @@
 #include "app/render_options.h"
 #include "app/serve_options.h"
 #include "app/signals.h"
+#include "base/memory_limit.h"
 #include "bench/machine.h"
 #include "image/oiio.h"
 #include "image/process_settings.h"
@@ -126,6 +127,7 @@ int run_program(int argc, char** argv) {
     const AtTheEnd waits_for_libraries;
     ignore_broken_pipes();
     own_process_settings();
+    spare_addresses();
     Arguments arguments;
     const Program program = describe(arguments);
     const std::vector<const char*> words = full_words(argc, argv, arguments);

@@ -147,7 +147,8 @@ Result<void> execute(
     const SceneRun& run, Watch& watch, KeptForLater& kept, Log& log, size_t& skipped) {
     const RenderRequest& request = run.request;
     const Stopwatch total;
-    if (auto begins = check_address_space(address_space_left()); !begins) return begins;
+    const ThreadLimit threads(request.threads);
+    if (auto begun = start_threads_ahead(); !begun) return begun;
     if (auto set = use_memory_limit(request.max_memory, memory_bound()); !set) return set;
     if (request.lists.lists_only) return list_images_of(run, watch, kept, log);
     if (auto writable = check_outputs(request); !writable) return writable;
@@ -160,7 +161,6 @@ Result<void> execute(
     warn_of_lost_alpha(request, log);
     Result<std::optional<DisplayTransform>> display = make_display(request, log);
     if (!display) return fail(display.error());
-    const ThreadLimit threads(request.threads);
     Job job{.log = log,
             .whole = request,
             .request = request,

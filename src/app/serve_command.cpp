@@ -46,6 +46,7 @@ int serve(const Result<ServeRequest>& request, Log& log) {
         return report_failure(set.error(), log);
     if (common->gives_way) give_way_to_others();
     const ThreadLimit threads(common->threads);
+    if (auto begun = start_threads_ahead(); !begun) return report_failure(begun.error(), log);
     const StopOnSignal signals;
     Result<std::unique_ptr<serve::Server>> server = serve::Server::listen(request->server);
     if (!server) return report_failure(server.error(), log);

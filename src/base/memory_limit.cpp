@@ -3,15 +3,19 @@
 #include "base/memory_limit.h"
 
 #include "base/control_groups.h"
+#include "base/memory_budget.h"
 
 #include <algorithm>
 #include <fstream>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 namespace obscura {
 
 namespace {
+
+constexpr const char* limit_of_addresses = "the limit on the address space (ulimit -v)";
 
 using Path = std::filesystem::path;
 
@@ -50,7 +54,7 @@ MemoryBound memory_bound(const Path& root) {
         consider_file(group / "memory.max", bound);
         consider_file(group / "memory.limit_in_bytes", bound);
     });
-    lower(bound, address_space_limit(), "the limit on the address space (ulimit -v)");
+    lower(bound, address_space_limit(), limit_of_addresses);
     return bound;
 }
 
@@ -60,6 +64,19 @@ uint64_t address_space_left() {
     if (limit == UINT64_MAX || !(std::ifstream("/proc/self/statm") >> pages)) return UINT64_MAX;
     const uint64_t taken = pages * static_cast<uint64_t>(sysconf(_SC_PAGESIZE));
     return limit - std::min(limit, taken);
+}
+
+void spare_addresses() {
+    if (address_space_limit() != UINT64_MAX) mallopt(M_ARENA_MAX, 1);
+}
+
+Result<void> check_address_space(uint64_t left, uint64_t needed, const std::string& purpose) {
+    if (left >= needed) return {};
+    return fail(ExitCode::out_of_memory,
+                "E-MEM",
+                limit_of_addresses,
+                "it leaves " + memory_text(left) + " beside what the program has taken; " +
+                    purpose + " needs " + memory_text(needed));
 }
 
 }  // namespace obscura

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "base/error.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -33,5 +35,18 @@ MemoryBound memory_bound(const std::filesystem::path& root = "/");
 ///
 /// Source  proc(5), statm
 uint64_t address_space_left();
+
+/// Lets all threads share one arena of malloc where the address space is limited: each takes 64 MiB
+/// of addresses for one of its own, otherwise. Only for programs that own their process.
+///
+/// Source  mallopt(3), M_ARENA_MAX
+void spare_addresses();
+
+/// Refuses what would find too few addresses: libraries that start threads end the process without
+/// a word where these can have no stacks.
+///
+/// In      left: of address_space_left; purpose: "rendering"
+/// Errors  33 E-MEM
+Result<void> check_address_space(uint64_t left, uint64_t needed, const std::string& purpose);
 
 }  // namespace obscura

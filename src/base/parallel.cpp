@@ -11,8 +11,11 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <optional>
+#include <thread>
 
 #if defined(__x86_64__)
 #include <immintrin.h>
@@ -65,6 +68,18 @@ ThreadLimit::ThreadLimit(int threads)
 
 ThreadLimit::~ThreadLimit() {
     delete static_cast<tbb::global_control*>(control_);
+}
+
+void start_threads() {
+    const size_t all = max_thread_index();
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+    std::atomic<size_t> begun = 0;
+    // Each thread waits for the others in its only round.
+    parallel_for(all, [&](size_t) {
+        ++begun;
+        while (begun < all && std::chrono::steady_clock::now() < end)
+            std::this_thread::yield();
+    });
 }
 
 void run_in_arena(const std::function<void()>& body) {

@@ -41,6 +41,10 @@ private:
     ThreadArena arena_;
 };
 
+/// Starts the threads that loops of the calling thread run on, which start when they are needed,
+/// otherwise.
+void start_threads();
+
 /// Calls `body` in the arena of the calling thread, for libraries that have loops of their own.
 void run_in_arena(const std::function<void()>& body);
 

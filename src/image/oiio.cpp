@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/oiio.h"
 
+#include "base/memory_limit.h"
 #include "image/process_settings.h"
 
 #include <dlfcn.h>
@@ -17,6 +18,10 @@ namespace obscura {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Addresses that the libraries take when they are opened, with the stacks of threads that some of
+/// them start. They end the process, or wait for good, where such a thread has no stack.
+constexpr uint64_t addresses_of_libraries = uint64_t{480} << 20;
 
 tl::unexpected<Error> cannot_open(const std::string& why) {
     return fail(ExitCode::unsupported,
@@ -51,6 +56,11 @@ std::vector<fs::path> candidates() {
 }
 
 Result<const OiioModule*> open_module() {
+    const Result<void> fits =
+        check_address_space(address_space_left(),
+                            addresses_of_libraries,
+                            "OpenImageIO, for PNG, JPEG, TIFF, AVIF and Radiance HDR");
+    if (!fits) return fail(fits.error());
     std::string why = "it is not there";
     for (const fs::path& file : candidates()) {
         std::error_code error;
@@ -88,6 +98,8 @@ const Result<const OiioModule*>& oiio_module() {
 }
 
 void open_oiio_ahead() {
+    // Where addresses are limited, nobody else may take them between the check and the opening.
+    if (address_space_left() != UINT64_MAX) return;
     try {
         static std::once_flag begun;
         std::call_once(begun, [] { opening_thread() = std::jthread([] { (void)oiio_module(); }); });

@@ -12,10 +12,12 @@ namespace obscura {
 /// brings some 260 libraries. Thread-safe; all callers wait for the first.
 ///
 /// Out     what stays open until the process ends
-/// Errors  69 E-OIIO the module is not there or cannot be opened; the same each time
+/// Errors  69 E-OIIO the module is not there or cannot be opened; 33 E-MEM the limit on the address
+///         space leaves too little; the same each time
 const Result<const OiioModule*>& oiio_module();
 
-/// Begins to open the module beside what else there is to do; does nothing from the second call on.
+/// Begins to open the module beside what else there is to do; does nothing from the second call on,
+/// or where the address space is limited.
 void open_oiio_ahead();
 
 /// Waits until what open_oiio_ahead has begun is done. A program calls it in the end, before it

@@ -64,14 +64,5 @@ TEST(MemoryOption, TheDefaultIsFourFifths) {
     remove_memory_limit();
 }
 
-TEST(MemoryOption, AnAddressSpaceWithoutRoomForThreadsIsRefused) {
-    EXPECT_TRUE(check_address_space(UINT64_MAX));
-    EXPECT_TRUE(check_address_space(uint64_t{1} << 30));
-    const Result<void> refused = check_address_space(uint64_t{20} << 20);
-    ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ExitCode::out_of_memory);
-    EXPECT_EQ(refused.error().message.find("it leaves 20 MiB beside the program"), 0U);
-}
-
 }  // namespace
 }  // namespace obscura::app

@@ -43,6 +43,16 @@ TEST(MemoryLimit, AddressesThatAreTakenAreNotLeft) {
     }
 }
 
+TEST(MemoryLimit, TooFewAddressesAreRefused) {
+    EXPECT_TRUE(check_address_space(UINT64_MAX, uint64_t{160} << 20, "rendering"));
+    EXPECT_TRUE(check_address_space(uint64_t{160} << 20, uint64_t{160} << 20, "rendering"));
+    const Result<void> refused =
+        check_address_space((uint64_t{160} << 20) - 1, uint64_t{160} << 20, "rendering");
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ExitCode::out_of_memory);
+    EXPECT_NE(refused.error().message.find("rendering needs 160 MiB"), std::string::npos);
+}
+
 TEST(MemoryLimit, TheLeastOfMachineAndGroupsCounts) {
     const LimitedMachine machine;
     machine.write("proc/meminfo", "MemTotal:       1024 kB\nMemFree:  12 kB\n");

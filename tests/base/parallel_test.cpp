@@ -6,6 +6,8 @@
 #include <tbb/global_control.h>
 
 #include <atomic>
+#include <filesystem>
+#include <iterator>
 #include <thread>
 
 namespace obscura {
@@ -52,6 +54,13 @@ TEST(ThreadLimit, AllowsTheProcessMoreThreadsThanCores) {
     const ThreadLimit limit(64);
     EXPECT_EQ(allowed(), 64U);
     EXPECT_EQ(max_thread_index(), 64U);
+}
+
+TEST(ThreadLimit, ItsThreadsAreStartedAhead) {
+    const ThreadLimit limit(9);
+    start_threads();
+    const std::filesystem::directory_iterator tasks("/proc/self/task");
+    EXPECT_GE(std::distance(begin(tasks), end(tasks)), 9);
 }
 
 }  // namespace

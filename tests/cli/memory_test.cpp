@@ -4,6 +4,7 @@
 
 #include "cli/cli.h"
 #include <fstream>
+#include <sys/resource.h>
 
 namespace obscura {
 namespace {
@@ -16,6 +17,14 @@ protected:
     void write_sparse(const std::string& name, uint64_t bytes) const {
         folder_.write(name, "");
         std::filesystem::resize_file(folder_ / name, bytes);
+    }
+    ProgramRun run_with_addresses(uint64_t mebibytes, std::vector<std::string> arguments) const {
+        ProgramSetup program = setup(std::move(arguments), folder_);
+        program.before_start = [bytes = mebibytes << 20] {
+            const rlimit limit = {bytes, bytes};
+            setrlimit(RLIMIT_AS, &limit);
+        };
+        return run_program_with(program);
     }
 };
 
@@ -65,6 +74,26 @@ TEST_F(MaxMemory, ACheckpointStays) {
     EXPECT_THAT(got.err, HasSubstr("a.exr.checkpoint"));
     EXPECT_TRUE(std::filesystem::exists(folder_ / "a.exr.checkpoint"));
 }
+
+#if !defined(__SANITIZE_ADDRESS__)
+/// Libraries of OpenImageIO start threads, and end the process or wait for good without a stack.
+TEST_F(MaxMemory, FewAddressesEndWith33) {
+    size_t refused = 0;
+    bool rendered = false;
+    for (uint64_t mebibytes = 300; mebibytes <= 1500 && !rendered; mebibytes += 40) {
+        SCOPED_TRACE(mebibytes);
+        if (run_with_addresses(mebibytes, {"--version"}).code != 0) continue;
+        const ProgramRun got =
+            run_with_addresses(mebibytes, small_render("box.gltf", {"-o", "a.png"}));
+        rendered = got.code == 0;
+        if (!rendered) expect_result(got, 33, "E-MEM");
+        if (!rendered) ++refused;
+        EXPECT_EQ(std::filesystem::exists(folder_ / "a.png"), rendered);
+    }
+    EXPECT_TRUE(rendered);
+    EXPECT_GT(refused, 2U);
+}
+#endif
 
 }  // namespace
 }  // namespace obscura
