@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/exr_chunks.h"
 
+#include "base/page_map.h"
 #include "base/parallel.h"
 #include "base/unset_array.h"
 #include "image/exr_pixels.h"
@@ -33,6 +34,7 @@ static_assert(std::endian::native == std::endian::little, "OpenEXR files are lit
 /// Interleaved channels in memory, and where each of them begins in a row of the file.
 struct ChunkGroup {
     const float* pixels = nullptr;  ///< of the part's first row
+    bool may_have_unused_pages = false;
     bool is_half = false;
     std::vector<size_t> offsets = {};  ///< in bytes
 };
@@ -75,6 +77,7 @@ ChunkedPart chunked(const ExrPart& part, const Imf::Header& header) {
         ChunkGroup& to = out.groups.emplace_back();
         to.pixels = group.pixels->data() + first * out.width * names.size();
         to.is_half = channel.type == Imf::HALF;
+        to.may_have_unused_pages = PageMap::can_look_at(*group.pixels);
         for (const std::string& name : names)
             to.offsets.push_back(offsets.at(name));
     }
@@ -87,6 +90,8 @@ struct Scratch {
         void operator()(libdeflate_compressor* one) const { libdeflate_free_compressor(one); }
     };
 
+    std::vector<UsedPages> used_pages = {};  ///< of each group, in the rows of a chunk
+    UnsetArray<float> floats = {};
     UnsetArray<half> halves = {};
     UnsetArray<unsigned char> plain = {}, planes = {}, packed = {};
     std::unique_ptr<libdeflate_compressor, Free> compressor = {};
@@ -104,21 +109,39 @@ void separate(std::span<const Value> pixels,
     }
 }
 
+/// Finds the pages of a chunk's rows that hold values; the others are not read.
+void find_used_pages(const ChunkedPart& part,
+                     const PageMap& map,
+                     size_t first,
+                     size_t end,
+                     std::vector<UsedPages>& out) {
+    out.clear();
+    for (const ChunkGroup& group : part.groups) {
+        const size_t values = part.width * group.offsets.size();
+        out.emplace_back();
+        if (group.may_have_unused_pages)
+            out.back() = map.look_at({group.pixels + first * values, (end - first) * values});
+    }
+}
+
 /// Writes one row as the file has it before it is compressed.
 ///
 /// Out     how many values were clamped
-uint64_t write_row(const ChunkedPart& part,
-                   size_t y,
-                   UnsetArray<half>& halves,
-                   unsigned char* row) {
+uint64_t write_row(const ChunkedPart& part, size_t y, Scratch& scratch, unsigned char* row) {
     uint64_t clamped = 0;
-    for (const ChunkGroup& group : part.groups) {
+    for (size_t i = 0; i < part.groups.size(); ++i) {
+        const ChunkGroup& group = part.groups[i];
         const size_t values = part.width * group.offsets.size();
-        const std::span<const float> floats{group.pixels + y * values, values};
+        std::span<const float> floats{group.pixels + y * values, values};
+        if (!scratch.used_pages[i].all()) {
+            scratch.floats.resize(values);
+            scratch.used_pages[i].copy(floats, scratch.floats.data());
+            floats = scratch.floats;
+        }
         if (group.is_half) {
-            halves.resize(values);
-            clamped += store_halves(floats, halves);
-            separate<half>(halves, group.offsets, row);
+            scratch.halves.resize(values);
+            clamped += store_halves(floats, scratch.halves);
+            separate<half>(scratch.halves, group.offsets, row);
         } else {
             separate(floats, group.offsets, row);
         }
@@ -173,6 +196,7 @@ private:
 ///
 /// In/Out  clamped: counts values that were clamped
 std::span<const unsigned char> chunk_bytes(const ChunkedPart& part,
+                                           const PageMap& map,
                                            size_t first,
                                            Scratch& scratch,
                                            std::atomic<uint64_t>& clamped) {
@@ -183,9 +207,10 @@ std::span<const unsigned char> chunk_bytes(const ChunkedPart& part,
     const size_t size = (end - first) * part.row_bytes;
     scratch.planes.resize(size);
     scratch.plain.resize(part.row_bytes);
+    find_used_pages(part, map, first, end, scratch.used_pages);
     BytePlanes planes(scratch.planes);
     for (size_t y = first; y < end; ++y) {
-        clamped += write_row(part, y, scratch.halves, scratch.plain.data());
+        clamped += write_row(part, y, scratch, scratch.plain.data());
         planes.add(scratch.plain);
     }
     planes.finish();
@@ -199,7 +224,7 @@ std::span<const unsigned char> chunk_bytes(const ChunkedPart& part,
     if (packed > 0 && packed < size) return std::span{scratch.packed}.first(packed);
     scratch.plain.resize(size);
     for (size_t y = first; y < end; ++y)
-        write_row(part, y, scratch.halves, &scratch.plain[(y - first) * part.row_bytes]);
+        write_row(part, y, scratch, &scratch.plain[(y - first) * part.row_bytes]);
     return scratch.plain;
 }
 
@@ -220,10 +245,11 @@ void append_chunks(const ChunkedPart& part,
     const size_t before = chunks.size();
     chunks.resize(before + part.chunks());
     std::vector<Scratch> scratches(max_thread_index());
+    const PageMap map;
     parallel_for(part.chunks(), [&](size_t i) {
         const size_t first = i * part.rows;
         const std::span<const unsigned char> data =
-            chunk_bytes(part, first, scratches[thread_index()], clamped);
+            chunk_bytes(part, map, first, scratches[thread_index()], clamped);
         Chunk& chunk = chunks[before + i];
         chunk.reserve(3 * sizeof(int32_t) + data.size());
         if (number) append(*number, chunk);

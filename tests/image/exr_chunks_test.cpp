@@ -1,10 +1,12 @@
 // tests/image/exr_chunks_test.cpp - scan lines with ZIP, read back by OpenEXR.
 // SPDX-License-Identifier: Apache-2.0
+#include "base/page_map.h"
 #include "image/exr_reading.h"
 #include "image/test_images.h"
 #include "image/write.h"
 
 #include "support/random.h"
+#include <algorithm>
 #include <bit>
 #include <filesystem>
 
@@ -69,6 +71,37 @@ TEST_F(ExrChunks, PackedPixelsTakeLessThanTheirBytes) {
     const uint64_t plain = bytes_with(image, ExrCompression::none);
     EXPECT_LT(bytes_with(image, ExrCompression::zip), plain / 10);
     EXPECT_LT(bytes_with(image, ExrCompression::zips), plain / 10);
+}
+
+/// Zeros with some values here and there, over many pages.
+UnsetArray<float> sparse_values(size_t count) {
+    UnsetArray<float> values = zero_array<float>(count);
+    for (size_t i = 12345; i < count; i = i * 5 / 4)
+        std::fill_n(values.begin() + static_cast<ptrdiff_t>(i), 700, static_cast<float>(i));
+    return values;
+}
+
+TEST_F(ExrChunks, PagesThatNobodyHasWrittenStaySo) {
+    constexpr int width = 1000;
+    constexpr int height = 410;
+    constexpr size_t pixels = 1000 * 410;
+    OutputImage image{width, height, {"Z"}, UnsetArray<float>(pixels, 2.0f)};
+    const std::vector<std::string> names = {"far.R", "far.G", "far.B"};
+    image.layers.push_back(
+        {"far", names, LayerKind::data, sparse_values(names.size() * pixels), "", "mean"});
+    image.layers.push_back({"none",
+                            {"none.R", "none.G", "none.B"},
+                            LayerKind::color,
+                            zero_array<float>(names.size() * pixels),
+                            "",
+                            "mean"});
+    Imf::MultiPartInputFile file = write(image, {});
+    const PageMap map;
+    const bool is_told = !map.look_at(zero_array<float>(pixels * 3)).all();
+    for (const ImageLayer& layer : image.layers)
+        EXPECT_EQ(map.look_at(layer.pixels).all(), !is_told) << layer.name;
+    for (const ImageLayer& layer : image.layers)
+        expect_exact(channels_of(file, 0), layer.channels, layer.pixels);
 }
 
 }  // namespace
