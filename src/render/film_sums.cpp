@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <numeric>
 
 namespace obscura {
@@ -18,20 +17,13 @@ int64_t pixels_in(const Tile& tile) {
     return int64_t{tile.width} * tile.height;
 }
 
-/// Begins the pixels of a tile with black, but writes no zeros over zeros, which take no memory.
-void clear_tile(const Tile& tile, Film& film) {
-    const auto clear = [&](UnsetArray<float>& pixels, size_t channels) {
-        for (int y = tile.y; y < tile.y + tile.height; ++y) {
-            float* const begin = pixels.data() + pixel_index(film, tile.x, y) * channels;
-            float* const end = begin + static_cast<size_t>(tile.width) * channels;
-            // Zeros with a sign are cleared, too: store_layers writes no zeros.
-            if (std::any_of(begin, end, [](float x) { return std::bit_cast<uint32_t>(x) != 0; }))
-                std::fill(begin, end, 0.0f);
-        }
-    };
-    clear(film.pixels, film.channels.size());
-    for (FilmLayer& layer : film.layers)
-        clear(layer.pixels, layer.layer.channels.size());
+void clear_beauty(const Tile& tile, Film& film) {
+    const size_t channels = film.channels.size();
+    for (int y = tile.y; y < tile.y + tile.height; ++y) {
+        std::fill_n(film.pixels.data() + pixel_index(film, tile.x, y) * channels,
+                    static_cast<size_t>(tile.width) * channels,
+                    0.0f);
+    }
 }
 
 int fewest(const TileSums& sums) {
@@ -101,8 +93,7 @@ void FilmSums::store_tile(const LayerPlan& plan,
                           TilePattern& pattern,
                           Film& film) {
     const std::lock_guard lock(tile.using_it);
-    clear_tile(tile.tile, film);
-    if (tile.samples == 0) return;
+    if (tile.samples == 0) return clear_beauty(tile.tile, film);
     store_beauty(tile.sums, pattern, film);
     store_layers(plan, tile.sums, pattern, film);
 }

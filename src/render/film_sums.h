@@ -56,6 +56,8 @@ public:
 
     /// Writes the means of all pixels into a film of which they are a part; pixels of tiles without
     /// samples become 0.
+    ///
+    /// In/Out  film: its layers are still arrays of zeros
     void store(const LayerPlan& plan, Film& film) const;
     /// The same into a new film, which has the size and layers of another one.
     Film film(const LayerPlan& plan, const Film& like) const;
