@@ -318,17 +318,17 @@ TEST_F(Checkpoints, ThatAreKeptGoOnToMoreSamples) {
 }
 
 TEST_F(Checkpoints, OfAdaptiveSamplingGoOnToTheSameBits) {
-    const auto adaptive = [](const std::string& output, const std::string& most = "2048") {
+    const auto adaptive = [](const std::string& output, const std::string& most = "16384") {
         const Texts size = {"--size", "160x120", "--threads", "1", "--spp", most};
         return joined(size,
-                      {"--noise-target", "0.003", "--aov", "sample_count,normal", "-o", output});
+                      {"--noise-target", "0.001", "--aov", "sample_count,normal", "-o", output});
     };
     const Texts kept = joined(adaptive("a.exr"), {"--checkpoint"});
     leave_checkpoint(kept);
     const ProgramRun others =
-        render("box.gltf", joined(adaptive("a.exr", "4096"), {"--checkpoint"}));
+        render("box.gltf", joined(adaptive("a.exr", "8192"), {"--checkpoint"}));
     expect_result(others, 78, "E-RESUME-MIX");
-    EXPECT_THAT(others.err, HasSubstr("--spp: 2048 and 4096"));
+    EXPECT_THAT(others.err, HasSubstr("--spp: 16384 and 8192"));
     const Texts required = {"--resume", "require"};
     expect_result(render("box.gltf", joined(kept, required)), 0, "OK");
     expect_result(render("box.gltf", adaptive("b.exr")), 0, "OK");
