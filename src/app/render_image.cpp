@@ -150,20 +150,32 @@ Watch::Tasks tasks_of(const Making& making, bool& has_failed) {
 Result<RenderedFilm> render_film(Making& making) {
     Job& job = making.job;
     FilmKeeper* const keeper = making.keeper;
+    bool has_failed = false;
+    const auto begin_rendering = [&] {
+        job.watch.begin_rendering(keeper != nullptr ? tasks_of(making, has_failed)
+                                                    : Watch::Tasks());
+    };
     FilmShare share;
     if (is_part_of_image(job.request)) share.part = job.request.part;
     if (keeper != nullptr) {
         if (!share.part) share.part = FilmPart{};
-        share.fill = [&](Film& film) { return fill(making, film); };
-        share.begin_passes = [&](const PassFilm& film) { return keeper->begin_passes(film); };
+        const auto begin = [&](const auto& take_checkpoint) {
+            job.watch.begin_reading();
+            auto taken = take_checkpoint();
+            begin_rendering();
+            return taken;
+        };
+        share.fill = [&, begin](Film& film) { return begin([&] { return fill(making, film); }); };
+        share.begin_passes = [&, begin](const PassFilm& film) {
+            return begin([&] { return keeper->begin_passes(film); });
+        };
         const bool writes_sums = is_part_of_samples(job.request);
         share.wants_film = [=] { return !writes_sums && received_stop_signal() == 0; };
         share.leave = [&](const Film& /*film*/) { keeper->leave(); };
         share.keeps_unfinished = true;
     }
     if (share.part) making.hooks.share = &share;
-    bool has_failed = false;
-    job.watch.begin_rendering(keeper != nullptr ? tasks_of(making, has_failed) : Watch::Tasks());
+    begin_rendering();
     Result<RenderedFilm> film = job.renderer->render_film(job.request, making.camera, making.hooks);
     if (film && keeper != nullptr) {
         const RenderResult& result = film->result;

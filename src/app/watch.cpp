@@ -54,6 +54,11 @@ Watch::~Watch() {
     thread_.join();
 }
 
+void Watch::begin_reading() {
+    const std::lock_guard lock(mutex_);
+    phase_ = Phase::reading;
+}
+
 void Watch::begin_rendering(Tasks tasks) {
     const std::lock_guard lock(mutex_);
     tasks_ = std::move(tasks);
@@ -118,7 +123,9 @@ void Watch::run() {
 void Watch::look_after() {
     const bool is_signalled = received_stop_signal() != 0;
     const bool is_late = times_.time_limit_s && seconds() >= *times_.time_limit_s;
-    if (phase_ == Phase::preparing || phase_ == Phase::finishing) {
+    const bool may_end_now = phase_ == Phase::preparing || phase_ == Phase::reading ||
+                             phase_ == Phase::finishing;
+    if (may_end_now) {
         const bool ends = is_signalled || (is_late && phase_ == Phase::preparing);
         if (ends && writing_beside_ == 0) end_now(!is_signalled);
         return;

@@ -41,8 +41,8 @@ struct WatchTimes {
 double first_checkpoint_s(double interval_s);
 
 /// While it lives, signals and the time limit stop the command in an orderly way. Where nothing can
-/// be lost, in loading, building, denoising, they end it at once, with its result line; while
-/// rendering and writing they set a flag.
+/// be lost, in loading, building, reading a checkpoint, denoising, they end it at once, with its
+/// result line; while rendering and writing they set a flag.
 class Watch {
 public:
     /// In      where: the scene, for messages
@@ -56,6 +56,8 @@ public:
         std::function<void()> save, snapshot;
     };
     void begin_rendering(Tasks tasks);
+    /// Before it: a checkpoint is read. The time limit waits, as there will be a picture.
+    void begin_reading();
     /// Waits until no task is running; from now on none will. False: a signal came, and the caller
     /// is to end the command.
     [[nodiscard]] bool begin_finishing();
@@ -81,7 +83,7 @@ public:
     bool is_time_up() const;
 
 private:
-    enum class Phase { preparing, rendering, finishing, writing, ending };
+    enum class Phase { preparing, reading, rendering, finishing, writing, ending };
 
     void run();
     void look_after();

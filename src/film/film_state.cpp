@@ -13,7 +13,7 @@ namespace obscura {
 
 namespace {
 
-constexpr std::string_view magic = "OBSFILM4";
+constexpr std::string_view magic = "OBSFILM5";
 
 /// Calls `use(first float, count)` for each row of the areas, image by image.
 template <typename AnyFilm, typename Use>

@@ -111,6 +111,14 @@ public:
     }
     /// What put_doubles put of as many elements.
     void take_doubles(std::vector<double>& out);
+    /// A reader of the bytes that were put as an array.
+    StateReader piece() {
+        const uint64_t size = number();
+        good_ = good_ && size <= rest_.size();
+        StateReader out(rest_.first(good_ ? size : 0));
+        rest_ = rest_.subspan(good_ ? size : 0);
+        return out;
+    }
     /// An array of any number of elements.
     template <PlainBytes T>
     void take_new_array(std::vector<T>& out) {

@@ -150,7 +150,7 @@ void FilmSums::put(StateWriter& out) const {
         std::vector<StateWriter> pieces(std::min(at_once, tiles_.size() - first));
         parallel_for(pieces.size(), [&](size_t i) { put_tile(first + i, pieces[i]); });
         for (const StateWriter& piece : pieces)
-            out.put(piece.kept().data(), piece.kept().size());
+            out.put_array(piece.kept());
     }
 }
 
@@ -170,19 +170,31 @@ void FilmSums::take_tile(const TileWork& work, StateReader& in, SumsTile& tile) 
     std::fill(tile.sums.samples.begin(), tile.sums.samples.end(), tile.samples);
 }
 
-bool FilmSums::take(const TileWork& work, StateReader& in) {
+bool FilmSums::take_pieces(StateReader& in, const TakePiece& take) {
     if (in.number() != tiles_.size()) return false;
-    for (size_t i = 0; i < tiles_.size(); ++i) {
+    std::vector<StateReader> pieces;
+    for (size_t i = 0; i < tiles_.size(); ++i)
+        pieces.push_back(in.piece());
+    std::atomic<bool> all_fit = in.good();
+    parallel_for(pieces.size(), [&](size_t i) {
+        if (!all_fit.load(std::memory_order_relaxed)) return;
+        if (!take(i, pieces[i]) || !pieces[i].good() || !pieces[i].at_end()) all_fit = false;
+    });
+    return all_fit;
+}
+
+bool FilmSums::take(const TileWork& work, StateReader& in) {
+    return take_pieces(in, [&](size_t i, StateReader& piece) {
         SumsTile& tile = tiles_[i];
         const Tile wanted = tile.tile;
-        take_tile(work, in, tile);
+        take_tile(work, piece, tile);
         if (!(tile.tile == wanted) || tile.samples < 0 || tile.samples > target()) return false;
-        if (tile.samples == 0) continue;
-        if (!take_more(i, in)) return false;
+        if (tile.samples == 0) return true;
+        if (!take_more(i, piece)) return false;
         const std::vector<int>& samples = tile.sums.samples;
         count_taken(std::accumulate(samples.begin(), samples.end(), int64_t{0}));
-    }
-    return in.good();
+        return true;
+    });
 }
 
 bool FilmSums::append(const TileWork& /*work*/,

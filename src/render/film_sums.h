@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <deque>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -102,6 +103,10 @@ protected:
     /// Reads what `put` put of a tile, without put_more. The samples may be too many, and are
     /// negative where it cannot be read.
     static void take_tile(const TileWork& work, StateReader& in, SumsTile& tile);
+    /// Calls `take` with the number of each tile and what `put` put of it, on all threads. False:
+    /// it was so for a tile, a piece was not read to its end, or the tiles are others.
+    using TakePiece = std::function<bool(size_t tile, StateReader& piece)>;
+    bool take_pieces(StateReader& in, const TakePiece& take);
     void count_taken(int64_t samples) { samples_ += samples; }
 
 private:

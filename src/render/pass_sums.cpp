@@ -117,11 +117,8 @@ bool PassSums::append_tile(const TileWork& work,
 }
 
 bool PassSums::append(const TileWork& work, const SampleRange& samples, StateReader& in) {
-    if (in.number() != tiles().size()) return false;
-    for (size_t i = 0; i < tiles().size(); ++i) {
-        if (!append_tile(work, in, samples, i)) return false;
-    }
-    return true;
+    return take_pieces(
+        in, [&](size_t i, StateReader& piece) { return append_tile(work, piece, samples, i); });
 }
 
 }  // namespace obscura

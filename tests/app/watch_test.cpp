@@ -1,10 +1,11 @@
-// tests/app/watch_test.cpp - when checkpoints and snapshots are due.
+// tests/app/watch_test.cpp - when checkpoints are due, and what ends a command at once.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/watch.h"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <thread>
 
@@ -45,6 +46,19 @@ TEST(Watch, EndsNothingAtOnceWhileFilesAreWrittenBeside) {
         std::this_thread::sleep_for(std::chrono::minutes(1));
     };
     EXPECT_EXIT(write_beside(), testing::ExitedWithCode(75), "written\n(.|\n)*E-TIME-LIMIT");
+}
+
+TEST(Watch, ASignalEndsTheReadingOfACheckpointAtOnceTheTimeLimitDoesNot) {
+    const auto read = [] {
+        Log log;
+        Watch watch("scene", log, {0.001, {}, {}});
+        watch.begin_reading();
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        std::fputs("reading\n", stderr);
+        std::raise(SIGUSR1);
+        std::this_thread::sleep_for(std::chrono::minutes(1));
+    };
+    EXPECT_EXIT(read(), testing::ExitedWithCode(75), "reading\n(.|\n)*E-STOPPED");
 }
 
 }  // namespace
