@@ -4,9 +4,10 @@ add_library(obscura_options INTERFACE)
 
 target_compile_options(obscura_options INTERFACE
   -Wall -Wextra
-  # Where files are joined (OBSCURA_UNITY), one may call a variable as another its constant. The
-  # preset clang joins none, and so warns of real shadows.
+  # Where files are joined (OBSCURA_UNITY), one may call a variable as another its constant: only
+  # what shadows another variable of a function is an error there. Clang cannot tell them apart.
   $<$<NOT:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>>:-Wshadow>
+  $<$<AND:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,$<CXX_COMPILER_ID:GNU>>:-Wshadow=local>
   -Wconversion
   -fno-math-errno -fno-trapping-math  # sqrt becomes an instruction; NaN and infinity still work
   -ffp-contract=fast                  # a*b+c may become one fused instruction

@@ -1,8 +1,7 @@
 # Headers of libraries that many files include, parsed once (OBSCURA_PCH).
 # SPDX-License-Identifier: Apache-2.0
 # None of the project's own headers is among them, so a change recompiles what it did before. Files
-# still include all that they use: the preset clang builds without precompiled headers and shows
-# what is missing.
+# still include all that they use: tests/layout knows where the standard library's names come from.
 option(OBSCURA_PCH "Precompile the headers of libraries" ON)
 option(OBSCURA_UNITY "Compile many source files of a target at once" ON)
 

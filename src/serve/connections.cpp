@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 #include <netinet/in.h>
+#include <string>
 #include <sys/socket.h>
 #include <system_error>
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "layout/rules.h"
+#include "layout/standard_names.h"
 #include "layout/table_words.h"
 #include <algorithm>
 #include <filesystem>
@@ -75,6 +76,19 @@ std::vector<SourceFile> read_outside_src() {
 
 TEST(Layout, RoomsIncludeOnlyRoomsAboveAndOwnedLibraries) {
     expect_no_problems(read_sources(source_dir / "src"), check_includes);
+}
+
+TEST(Layout, FilesIncludeTheStandardHeadersThatTheyUse) {
+    const std::vector<SourceFile> files = read_sources(source_dir / "src");
+    ASSERT_FALSE(files.empty());
+    std::map<std::string, std::vector<Include>> includes;
+    for (const SourceFile& file : files)
+        includes[file.path] = find_includes(file.text);
+    for (const SourceFile& file : files) {
+        const std::set<std::string> headers = library_headers_of(file.path, includes);
+        for (const std::string& problem : check_standard_names(file.path, file.text, headers))
+            ADD_FAILURE() << problem;
+    }
 }
 
 /// The rooms that src/CMakeLists.txt links to each room: "obscura_room(light ROOMS base math)" and

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "layout/standard_names.h"
 #include <gmock/gmock.h>
 #include <sstream>
 #include <string>
@@ -14,6 +15,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAre;
 
 /// `count` lines of statements.
 std::string statements(size_t count) {
@@ -193,6 +195,24 @@ TEST(LayoutSizes, UnbalancedBracesAreReported) {
     EXPECT_THAT(check_sizes("a.cpp", "void f() {\n"), ElementsAre(HasSubstr("do not balance")));
     EXPECT_THAT(check_sizes("a.cpp", "}\n"), ElementsAre(HasSubstr("do not balance")));
     EXPECT_THAT(check_sizes("a.cpp", "namespace a {\n"), ElementsAre(HasSubstr("do not balance")));
+}
+
+TEST(LayoutStandardNames, NeedTheirHeaderFromAnywhere) {
+    const std::map<std::string, std::vector<Include>> includes = {
+        {"a.h", find_includes("#include <vector>\n#include \"b.h\"\n")},
+        {"b.h", find_includes("#include <map>\n#include \"a.h\"\n")},
+        {"c.cpp", find_includes("#include \"a.h\"\n")},
+        {"d.cpp", {}}};
+    const std::string text =
+        "std::vector<int> a;  // std::optional\nstd::map<int, my_std::mutex> b;\nstd::vector<int> "
+        "c;\n";
+    const auto check = [&](const std::string& file) {
+        return check_standard_names(file, text, library_headers_of(file, includes));
+    };
+    EXPECT_THAT(check("c.cpp"), IsEmpty());
+    EXPECT_THAT(check("d.cpp"),
+                UnorderedElementsAre("d.cpp:1: std::vector needs #include <vector>",
+                                     "d.cpp:2: std::map needs #include <map>"));
 }
 
 TEST(LayoutFunctions, AreFoundByName) {

@@ -161,7 +161,7 @@ TEST_P(LayersOverCatchers, LightGroupsAddUp) {
 INSTANTIATE_TEST_SUITE_P(CatcherLayers,
                          LayersOverCatchers,
                          testing::ValuesIn(catcher_cases()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 /// All that a catcher adds over nothing are its reflections, which are gloss.
 TEST(CatcherLayers, ReflectionsAreGlossAndShadowsAreNoLight) {

@@ -216,7 +216,7 @@ TEST_P(EverySurface, BeautyKeepsItsBits) {
 INSTANTIATE_TEST_SUITE_P(LightLayers,
                          EverySurface,
                          testing::ValuesIn(surface_cases()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 TEST(LightLayers, AddUpInAndAroundScatteringMedia) {
     const auto expect_parts = [](float ior, bool inside) {

@@ -9,7 +9,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace alike_textures_truth {
 
 constexpr int image_side = 16;
 
@@ -103,5 +103,5 @@ TEST(AlikeTextures, SameLayoutAndCoordinatesAreMarked) {
     }
 }
 
-}  // namespace
+}  // namespace alike_textures_truth
 }  // namespace obscura::test

@@ -8,7 +8,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace alpha_emitters_truth {
 
 constexpr int alpha_image_size = 16;
 
@@ -187,5 +187,5 @@ TEST(AlphaEmitters, ShapesAgreeForAllStrategies) {
     }
 }
 
-}  // namespace
+}  // namespace alpha_emitters_truth
 }  // namespace obscura::test

@@ -8,7 +8,7 @@
 #include "support/shape_scenes.h"
 
 namespace obscura::test {
-namespace {
+namespace aovs_truth {
 
 constexpr int width = 64;
 constexpr int height = 48;
@@ -184,5 +184,5 @@ TEST(Aovs, HeatIsTheNumberOfTests) {
     }
 }
 
-}  // namespace
+}  // namespace aovs_truth
 }  // namespace obscura::test

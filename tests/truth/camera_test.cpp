@@ -9,7 +9,7 @@
 #include "support/scene_builder.h"
 
 namespace obscura::test {
-namespace {
+namespace camera_truth {
 
 constexpr int image_size = 64;
 
@@ -297,5 +297,5 @@ TEST(Cameras, TilesDoNotChangeTheImage) {
     EXPECT_EQ(whole, shot(64));
 }
 
-}  // namespace
+}  // namespace camera_truth
 }  // namespace obscura::test

@@ -5,7 +5,7 @@
 #include "support/thin_wall_scenes.h"
 
 namespace obscura::test {
-namespace {
+namespace coated_emitters_truth {
 
 /// KHR_materials_clearcoat, Emission.
 double passes(double coat, double cosine) {
@@ -78,5 +78,5 @@ TEST(CoatedEmitters, LightSamplingAndBsdfSamplingAgree) {
     EXPECT_NEAR(share[2], share[0], 2e-3);
 }
 
-}  // namespace
+}  // namespace coated_emitters_truth
 }  // namespace obscura::test

@@ -8,7 +8,7 @@
 #include <string>
 
 namespace obscura::test {
-namespace {
+namespace cutaway_truth {
 
 constexpr int size = 24;
 
@@ -298,5 +298,5 @@ TEST(Cutaway, ShadowRaysGoOnThroughPanesAboveTheRoof) {
     }
 }
 
-}  // namespace
+}  // namespace cutaway_truth
 }  // namespace obscura::test

@@ -5,7 +5,7 @@
 #include "truth/dielectric_scene.h"
 
 namespace obscura::test {
-namespace {
+namespace dielectrics_truth {
 
 /// The radiance of a slab at normal incidence with a white sky on both sides: reflections inside it
 /// add up, and absorption acts on each passage.
@@ -135,5 +135,5 @@ TEST(Dielectrics, ReflectionsOffDispersiveDielectricsAreWhite) {
     EXPECT_NEAR(seen.x, square(0.6 / 2.6), 0.003);
 }
 
-}  // namespace
+}  // namespace dielectrics_truth
 }  // namespace obscura::test

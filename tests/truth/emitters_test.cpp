@@ -6,7 +6,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace emitters_truth {
 
 constexpr int image_size = 32;
 
@@ -116,5 +116,5 @@ TEST(Emitters, ASurfaceThatGlowsInNameOnlyLeavesTheStudioOn) {
     EXPECT_LT(radiance(1.0f), 0.01) << "a far lamp";
 }
 
-}  // namespace
+}  // namespace emitters_truth
 }  // namespace obscura::test

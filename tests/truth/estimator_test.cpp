@@ -9,7 +9,7 @@
 #include <cstring>
 
 namespace obscura::test {
-namespace {
+namespace estimator_truth {
 
 /// A floor, a glossy and a rough sphere, an emissive quad and a veil, under a sky with a bright
 /// spot.
@@ -175,5 +175,5 @@ TEST(InstructionSets, AgreeWithBaselineToRounding) {
     }
 }
 
-}  // namespace
+}  // namespace estimator_truth
 }  // namespace obscura::test

@@ -7,7 +7,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace footprint_truth {
 
 constexpr int image_side = 64;  ///< texels; squares of 8: from level 4 on all is grey
 constexpr int film_side = 32;
@@ -140,5 +140,5 @@ TEST(Footprint, ALineOnePixelWideIsSharperTheMoreSamplesThereAre) {
     }
 }
 
-}  // namespace
+}  // namespace footprint_truth
 }  // namespace obscura::test

@@ -6,7 +6,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace known_radiance_truth {
 
 constexpr int image_size = 32;
 #ifdef OBSCURA_DEBUG
@@ -297,5 +297,5 @@ TEST(Environment, FollowsTheDocumentedOrientation) {
     }
 }
 
-}  // namespace
+}  // namespace known_radiance_truth
 }  // namespace obscura::test

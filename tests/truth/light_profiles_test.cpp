@@ -9,7 +9,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace light_profiles_truth {
 
 constexpr int side = 24;
 constexpr double height = 2.0;
@@ -117,5 +117,5 @@ TEST(LightProfiles, PowerDecidesHowOftenALampIsChosen) {
     EXPECT_NEAR(table.select_pdf[1], lumens / (lumens + 4 * pi_d * 50), 1e-6);
 }
 
-}  // namespace
+}  // namespace light_profiles_truth
 }  // namespace obscura::test

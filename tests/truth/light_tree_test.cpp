@@ -10,7 +10,7 @@
 #include <cstring>
 
 namespace obscura::test {
-namespace {
+namespace light_tree_truth {
 
 Material matt() {
     Material m;
@@ -207,5 +207,5 @@ TEST(LightTreeTruth, ThreadsAndTilesDoNotChangeABit) {
     EXPECT_EQ(std::memcmp(one.data(), other.data(), one.size() * sizeof(float)), 0);
 }
 
-}  // namespace
+}  // namespace light_tree_truth
 }  // namespace obscura::test

@@ -8,7 +8,7 @@
 #include <functional>
 
 namespace obscura::test {
-namespace {
+namespace media_lights_truth {
 
 /// Single scattering albedo with which light that scatters twice does not count.
 constexpr float faint = 1e-3f;
@@ -278,5 +278,5 @@ TEST(MediaLights, InTheMediumAroundTheEyeLampsAreSampledWhateverItsIndex) {
     EXPECT_NEAR(other.value, air.value, 4 * std::hypot(air.error, other.error) + 0.03 * air.value);
 }
 
-}  // namespace
+}  // namespace media_lights_truth
 }  // namespace obscura::test

@@ -11,7 +11,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace motion_truth {
 
 constexpr int width = 64;
 constexpr int height = 8;
@@ -343,5 +343,5 @@ TEST(Motion, MovingEmittersAreSampledWhereTheyAre) {
     }
 }
 
-}  // namespace
+}  // namespace motion_truth
 }  // namespace obscura::test

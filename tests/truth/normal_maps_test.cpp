@@ -9,7 +9,7 @@
 #include <array>
 
 namespace obscura::test {
-namespace {
+namespace normal_maps_truth {
 
 constexpr int map_side = 128;  ///< texels
 constexpr float half_side_m = 0.01f;
@@ -147,5 +147,5 @@ TEST(NormalMaps, OfCoatsToo) {
         EXPECT_NEAR(seen(pixels), near, 0.02 * near) << map_side / pixels << " texels a pixel";
 }
 
-}  // namespace
+}  // namespace normal_maps_truth
 }  // namespace obscura::test

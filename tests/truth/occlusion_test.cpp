@@ -7,7 +7,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace occlusion_truth {
 
 constexpr int image_size = 16;
 constexpr uint32_t texel_code = 51;  ///< a fifth
@@ -123,5 +123,5 @@ TEST(Occlusion, IsThatOfTheSurfaceThatTheLightComesTo) {
     EXPECT_NEAR(both / plain, occlusion, tolerance) << "all light comes to one of them first";
 }
 
-}  // namespace
+}  // namespace occlusion_truth
 }  // namespace obscura::test

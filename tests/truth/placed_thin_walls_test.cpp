@@ -5,7 +5,7 @@
 #include "support/thin_wall_scenes.h"
 
 namespace obscura::test {
-namespace {
+namespace placed_thin_walls_truth {
 
 /// A level pane at a height of 2, under which the floor is lit by `light`.
 ThinWallScene under_pane(const PunctualLight& light) {
@@ -105,5 +105,5 @@ TEST(PlacedThinWalls, MeasuredLampsShineThroughThem) {
     EXPECT_NEAR(lit(true) / open, pane_lets_pass(0.8), 1e-5);
 }
 
-}  // namespace
+}  // namespace placed_thin_walls_truth
 }  // namespace obscura::test

@@ -6,7 +6,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace points_lines_normals_truth {
 
 constexpr int side = 48;
 constexpr float brightness = 10;
@@ -190,5 +190,5 @@ TEST(PointsLinesNormals, TurnWithTheirInstance) {
     EXPECT_EQ(a.pixels[2], 1);
 }
 
-}  // namespace
+}  // namespace points_lines_normals_truth
 }  // namespace obscura::test

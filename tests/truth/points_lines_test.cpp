@@ -10,7 +10,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace points_lines_truth {
 
 constexpr int side = 96;
 
@@ -247,5 +247,5 @@ TEST(PointsLines, AllInstructionSetsAgree) {
     }
 }
 
-}  // namespace
+}  // namespace points_lines_truth
 }  // namespace obscura::test

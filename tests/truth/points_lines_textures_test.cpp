@@ -8,7 +8,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace points_lines_textures_truth {
 
 constexpr int side = 96;
 
@@ -125,5 +125,5 @@ TEST(PointsLinesTextures, TheirCoordinatesAreAnAov) {
     EXPECT_EQ(red_at(film, 0, 3), 0) << "without coordinates";
 }
 
-}  // namespace
+}  // namespace points_lines_textures_truth
 }  // namespace obscura::test

@@ -5,7 +5,7 @@
 #include "truth/dielectric_scene.h"
 
 namespace obscura::test {
-namespace {
+namespace raycast_layers_truth {
 
 /// A floor of 8 m, the fronts above, of one material.
 Scene layered_floor(float color, const MaterialLayers& layers) {
@@ -137,5 +137,5 @@ TEST(RaycastLayers, NoPixelHasAWavelengthOfItsOwn) {
     }
 }
 
-}  // namespace
+}  // namespace raycast_layers_truth
 }  // namespace obscura::test

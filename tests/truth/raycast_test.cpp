@@ -9,7 +9,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace raycast_truth {
 
 constexpr int side = 48;
 
@@ -223,5 +223,5 @@ TEST(Raycast, NoSceneIsBlack) {
     EXPECT_NEAR(film_mean(head).value, facing * pi_d, 1e-4);
 }
 
-}  // namespace
+}  // namespace raycast_truth
 }  // namespace obscura::test

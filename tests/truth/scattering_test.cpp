@@ -8,7 +8,7 @@
 #include "truth/dielectric_scene.h"
 
 namespace obscura::test {
-namespace {
+namespace scattering_truth {
 
 /// A medium without refraction, so that a random walk begins and ends where its surface is.
 MaterialLayers cloud(const Vec3f& extinction, const Vec3f& albedo, float anisotropy) {
@@ -132,5 +132,5 @@ TEST(Scattering, DiffuseSolidsLoseAndGainNothing) {
     }
 }
 
-}  // namespace
+}  // namespace scattering_truth
 }  // namespace obscura::test

@@ -6,7 +6,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace scene_size_truth {
 
 /// A smooth ball on a floor under a white sky, everything `size` times as large.
 Mean seen(float size) {
@@ -36,5 +36,5 @@ TEST(SceneSize, ChangesNothing) {
         EXPECT_NEAR(seen(size).value, ordinary, 2e-3 * ordinary) << size;
 }
 
-}  // namespace
+}  // namespace scene_size_truth
 }  // namespace obscura::test

@@ -6,7 +6,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace shapes_truth {
 
 RenderOptions image(int samples, int strategies = 3) {
     RenderOptions options;
@@ -242,5 +242,5 @@ TEST(ShapeShadows, RaysFromAShapeNeverMeetItsOwnSurface) {
     }
 }
 
-}  // namespace
+}  // namespace shapes_truth
 }  // namespace obscura::test

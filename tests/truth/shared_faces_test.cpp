@@ -7,7 +7,7 @@
 #include <cstring>
 
 namespace obscura::test {
-namespace {
+namespace shared_faces_truth {
 
 /// One plane layer of a stack, at normal incidence.
 struct Layer {
@@ -346,5 +346,5 @@ TEST(SharedFaces, BitsDoNotDependOnTiles) {
     }
 }
 
-}  // namespace
+}  // namespace shared_faces_truth
 }  // namespace obscura::test

@@ -11,7 +11,7 @@
 #include <cstring>
 
 namespace obscura::test {
-namespace {
+namespace splats_truth {
 
 constexpr int side = 48;
 
@@ -194,5 +194,5 @@ TEST(Splats, ThreadsAndTilesDoNotChangeABit) {
     }
 }
 
-}  // namespace
+}  // namespace splats_truth
 }  // namespace obscura::test

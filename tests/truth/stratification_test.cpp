@@ -5,7 +5,7 @@
 #include "support/scene_builder.h"
 
 namespace obscura::test {
-namespace {
+namespace stratification_truth {
 
 /// A grey floor under lamps of two triangles each, where nothing hides them.
 Scene lit_floor(int lamps) {
@@ -62,5 +62,5 @@ TEST(Stratification, SixteenTimesTheSamplesGiveFarLessThanASixteenthOfTheVarianc
     }
 }
 
-}  // namespace
+}  // namespace stratification_truth
 }  // namespace obscura::test

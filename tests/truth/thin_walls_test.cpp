@@ -9,7 +9,7 @@
 #include <cstring>
 
 namespace obscura::test {
-namespace {
+namespace thin_walls_truth {
 
 #ifdef OBSCURA_DEBUG
 constexpr int many_samples = 64;
@@ -182,5 +182,5 @@ TEST(ThinWalls, ThreadsAndTilesDoNotChangeABit) {
     }
 }
 
-}  // namespace
+}  // namespace thin_walls_truth
 }  // namespace obscura::test

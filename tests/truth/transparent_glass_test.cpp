@@ -9,7 +9,7 @@
 #include <optional>
 
 namespace obscura::test {
-namespace {
+namespace transparent_glass_truth {
 
 constexpr int side = 32;
 
@@ -329,5 +329,5 @@ TEST(TransparentGlass, TilesAndCropsChangeNoBit) {
     }
 }
 
-}  // namespace
+}  // namespace transparent_glass_truth
 }  // namespace obscura::test

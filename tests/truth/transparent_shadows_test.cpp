@@ -6,7 +6,7 @@
 #include "support/thin_wall_scenes.h"
 
 namespace obscura::test {
-namespace {
+namespace transparent_shadows_truth {
 
 /// A lamp that is seen from the origin at an angle of cosine 0.8, above everything.
 PunctualLight high_lamp() {
@@ -185,5 +185,5 @@ TEST(TransparentShadows, AmbientOcclusionCountsPanesAsWalls) {
     EXPECT_LT(lit_by(slanting_sun(), scene, {.integrator = Integrator::ao}), 0.01);
 }
 
-}  // namespace
+}  // namespace transparent_shadows_truth
 }  // namespace obscura::test

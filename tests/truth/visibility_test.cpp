@@ -5,7 +5,7 @@
 #include "support/thin_wall_scenes.h"
 
 namespace obscura::test {
-namespace {
+namespace visibility_truth {
 
 constexpr int size = 32;
 
@@ -282,5 +282,5 @@ TEST(NoShadow, TheFloorIsLitAsIfTheBallWereAway) {
     }
 }
 
-}  // namespace
+}  // namespace visibility_truth
 }  // namespace obscura::test

@@ -8,7 +8,7 @@
 #include "truth/reference.h"
 
 namespace obscura::test {
-namespace {
+namespace wireframe_truth {
 
 constexpr int width = 96;
 constexpr int height = 72;
@@ -123,5 +123,5 @@ TEST(Wireframe, SilhouettesAreSmoothAndTilesDoNotShow) {
     EXPECT_GT(between, 100) << "alpha is the share of the pixel that the mesh covers";
 }
 
-}  // namespace
+}  // namespace wireframe_truth
 }  // namespace obscura::test

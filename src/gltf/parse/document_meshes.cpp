@@ -5,6 +5,8 @@
 #include "gltf/parse/document_splats.h"
 #include "gltf/parse/variants.h"
 
+#include <map>
+
 namespace obscura::gltf {
 
 namespace {
