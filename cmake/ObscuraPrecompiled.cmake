@@ -1,7 +1,8 @@
 # Headers of libraries that many files include, parsed once (OBSCURA_PCH).
 # SPDX-License-Identifier: Apache-2.0
 # None of the project's own headers is among them, so a change recompiles what it did before. Files
-# still include all that they use: tests/layout knows where the standard library's names come from.
+# still include all that they use: tests/layout knows where the standard library's most common names
+# come from, and the preset coverage compiles each file by itself.
 option(OBSCURA_PCH "Precompile the headers of libraries" ON)
 option(OBSCURA_UNITY "Compile many source files of a target at once" ON)
 

@@ -3,6 +3,7 @@
 #include "app/bench_command.h"
 
 #include "app/bench_standard.h"
+#include "app/memory_option.h"
 #include "app/outcome.h"
 #include "app/signals.h"
 #include "app/skipped_scenes.h"
@@ -206,6 +207,7 @@ Result<void> execute(const BenchRequest& request, Log& log) {
     if (!old) return fail(old.error());
     if (request.standard) return run_standard(request, *old, log);
     const ThreadLimit threads(request.threads.front());
+    if (auto begun = start_threads_ahead(); !begun) return begun;
     bench::BenchReport report;
     report.machine = bench::describe_machine();
     for (const std::string& doubt : bench::doubts_about(report.machine, request.threads))

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/bench_standard.h"
 
+#include "app/memory_option.h"
 #include "app/outcome.h"
 #include "app/signals.h"
 #include "base/atomic_file.h"
@@ -36,6 +37,7 @@ Result<void> check_old(const BenchRequest& request, const bench::OldReport& old)
 Result<void> run_standard(const BenchRequest& request, const bench::OldReport& old, Log& log) {
     if (auto same = check_old(request, old); !same) return same;
     const ThreadLimit threads(request.threads.front());
+    if (auto begun = start_threads_ahead(); !begun) return begun;
     for (const std::string& doubt :
          bench::doubts_about(bench::describe_machine(), {threads.threads()}))
         log.warn("bench", doubt);

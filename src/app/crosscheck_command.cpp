@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/crosscheck_command.h"
 
+#include "app/memory_option.h"
 #include "app/outcome.h"
 #include "app/skipped_scenes.h"
 #include "base/atomic_file.h"
@@ -80,6 +81,7 @@ Result<void> deliver(const CrosscheckRequest& request,
 Result<void> execute(const CrosscheckRequest& request, Log& log) {
     if (auto sound = check_files(request); !sound) return sound;
     const ThreadLimit threads(request.scenes.front().threads);
+    if (auto begun = start_threads_ahead(); !begun) return begun;
     std::vector<crosscheck::CheckedScene> checked;
     SkippedScenes skipped(request.scenes.size(), log);
     for (const RenderRequest& scene : request.scenes) {

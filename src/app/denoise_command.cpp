@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/denoise_command.h"
 
+#include "app/memory_option.h"
 #include "app/outcome.h"
 #include "base/atomic_file.h"
 #include "base/file_bytes.h"
@@ -51,6 +52,7 @@ Result<void> write_displays(RenderRequest request, const DenoisedFile& denoised,
 
 Result<void> execute(const DenoiseRequest& request, Log& log) {
     const ThreadLimit threads(request.render.threads);
+    if (auto begun = start_threads_ahead(); !begun) return begun;
     if (auto there = check_writers(request.render); !there) return there;
     const Result<ExrDocument> document = open(request.file);
     if (!document) return fail(document.error());

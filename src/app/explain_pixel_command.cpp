@@ -3,6 +3,7 @@
 #include "app/explain_pixel_command.h"
 
 #include "app/explain_pixel_options.h"
+#include "app/memory_option.h"
 #include "app/numbers.h"
 #include "app/outcome.h"
 #include "base/atomic_file.h"
@@ -110,6 +111,7 @@ Result<PixelReport> explain(const ExplainRequest& request, Log& log) {
 
 Result<void> execute(const ExplainRequest& request, Log& log) {
     const ThreadLimit threads(request.render.threads);
+    if (auto begun = start_threads_ahead(); !begun) return begun;
     const Result<PixelReport> report = explain(request, log);
     if (!report) return fail(report.error());
     const Result<void> printed =

@@ -123,8 +123,8 @@ void Watch::run() {
 void Watch::look_after() {
     const bool is_signalled = received_stop_signal() != 0;
     const bool is_late = times_.time_limit_s && seconds() >= *times_.time_limit_s;
-    const bool may_end_now = phase_ == Phase::preparing || phase_ == Phase::reading ||
-                             phase_ == Phase::finishing;
+    const bool may_end_now =
+        phase_ == Phase::preparing || phase_ == Phase::reading || phase_ == Phase::finishing;
     if (may_end_now) {
         const bool ends = is_signalled || (is_late && phase_ == Phase::preparing);
         if (ends && writing_beside_ == 0) end_now(!is_signalled);

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <memory>
 #include <openssl/evp.h>
+#include <string_view>
 #include <vector>
 
 namespace obscura {

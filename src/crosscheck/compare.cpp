@@ -192,19 +192,26 @@ bool is_at_an_edge_of(const Question& q, const Item& item) {
     return false;
 }
 
-/// Occlusion does not say what was hit: the best explanation by any item beside the ray.
+/// The same question in the rounding of an item that the ray passes.
+Question question_at(const Question& q, const Item& item) {
+    const double rounding = q.scene.rounding_m(q.ray, item, std::max(passing(q, item), 0.0));
+    return {q.scene, q.ray, std::max(q.unit_m, rounding)};
+}
+
+/// Occlusion does not say what was hit: the best explanation by any item beside the ray, else by a
+/// triangle seen edge-on, which may be passed by as much as a leaf of Embree's tree is large.
 Verdict excuse_occlusion(const Question& q) {
     Verdict best = Verdict::false_hit;
     q.scene.near_items(q.ray, beside_ulps * q.unit_m, [&](const Item& item) {
-        if (best == Verdict::agree) return;
-        const double t = passing(q, item);
-        const double rounding = q.scene.rounding_m(q.ray, item, std::max(t, 0.0));
-        const Question there{q.scene, q.ray, std::max(q.unit_m, rounding)};
-        if (is_at_an_edge_of(there, item)) {
+        if (best != Verdict::agree && is_at_an_edge_of(question_at(q, item), item))
             best = Verdict::agree;
-        } else if (is_edge_on(there, item)) {
+    });
+    const TrueBox bounds = q.scene.bounds();
+    const double anywhere = 2 * length(bounds.high - bounds.low);
+    if (best == Verdict::agree) return best;
+    q.scene.near_items(q.ray, anywhere, [&](const Item& item) {
+        if (best != Verdict::edge_on && is_edge_on(question_at(q, item), item))
             best = Verdict::edge_on;
-        }
     });
     return best;
 }

@@ -166,7 +166,7 @@ EncodedFile encode_parts(const ExrContent& content,
                     ? write_tiles(Imf::TiledOutputPart(file, index), parts[i], content)
                     : write_lines(Imf::OutputPart(file, index), parts[i], content, threads);
         }
-    }  // the tables of offsets are written here
+    }  // writes the tables of offsets, but of parts that nobody has begun leaves their room
     if (all_zip) {
         stream.seekp(after_headers);
         out.report.clamped_values = write_zip_chunks(stream, parts, headers);

@@ -235,6 +235,9 @@ void append(int32_t number, std::vector<char>& out) {
 
 using Chunk = std::vector<char>;
 
+/// Its part's number, its first row and the size of its data.
+constexpr size_t max_chunk_header = 3 * sizeof(int32_t);
+
 /// Appends a part's chunks as they lie in the file.
 ///
 /// In      number: of the part, in a file of several
@@ -251,7 +254,7 @@ void append_chunks(const ChunkedPart& part,
         const std::span<const unsigned char> data =
             chunk_bytes(part, map, first, scratches[thread_index()], clamped);
         Chunk& chunk = chunks[before + i];
-        chunk.reserve(3 * sizeof(int32_t) + data.size());
+        chunk.reserve(max_chunk_header + data.size());
         if (number) append(*number, chunk);
         append(part.top + static_cast<int32_t>(first), chunk);
         append(static_cast<int32_t>(data.size()), chunk);
@@ -267,7 +270,7 @@ bool is_zip_lines(const Imf::Header& header) {
     const ChunkedPart part = measured(header, offsets);
     return header.type() == Imf::SCANLINEIMAGE && header.lineOrder() == Imf::INCREASING_Y &&
            (codec == Imf::ZIP_COMPRESSION || codec == Imf::ZIPS_COMPRESSION) &&
-           part.rows * part.row_bytes < std::numeric_limits<int32_t>::max();
+           part.rows * part.row_bytes < std::numeric_limits<int32_t>::max() - max_chunk_header;
 }
 
 uint64_t write_zip_chunks(ExrMemoryWriter& out,
@@ -289,7 +292,7 @@ uint64_t write_zip_chunks(ExrMemoryWriter& out,
     for (Chunk& chunk : chunks) {
         offsets.push_back(out.tellp());
         out.write(chunk.data(), static_cast<int>(chunk.size()));
-        chunk = {};  // so that the file is not in memory twice
+        chunk = Chunk();  // so that the file is not in memory twice; = {} would keep it
     }
     const std::span<const uint64_t> table = offsets;
     out.seekp(end_of_tables - table.size_bytes());

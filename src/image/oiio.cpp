@@ -5,10 +5,12 @@
 #include "base/memory_limit.h"
 #include "image/process_settings.h"
 
+#include <algorithm>
 #include <dlfcn.h>
 #include <filesystem>
 #include <mutex>
 #include <string_view>
+#include <sys/resource.h>
 #include <system_error>
 #include <thread>
 #include <vector>
@@ -21,7 +23,16 @@ namespace fs = std::filesystem;
 
 /// Addresses that the libraries take when they are opened, with the stacks of threads that some of
 /// them start. They end the process, or wait for good, where such a thread has no stack.
-constexpr uint64_t addresses_of_libraries = uint64_t{480} << 20;
+uint64_t addresses_of_libraries() {
+    constexpr uint64_t mebibyte = uint64_t{1} << 20;
+    constexpr uint64_t threads = 4;
+    constexpr uint64_t usual_stack = 8 * mebibyte;
+    rlimit stack = {};
+    const bool is_known = ::getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur != RLIM_INFINITY;
+    const uint64_t more =
+        is_known ? std::max<uint64_t>(stack.rlim_cur, usual_stack) - usual_stack : 0;
+    return 480 * mebibyte + threads * std::min(more, UINT64_MAX / (2 * threads));
+}
 
 tl::unexpected<Error> cannot_open(const std::string& why) {
     return fail(ExitCode::unsupported,
@@ -58,7 +69,7 @@ std::vector<fs::path> candidates() {
 Result<const OiioModule*> open_module() {
     const Result<void> fits =
         check_address_space(address_space_left(),
-                            addresses_of_libraries,
+                            addresses_of_libraries(),
                             "OpenImageIO, for PNG, JPEG, TIFF, AVIF and Radiance HDR");
     if (!fits) return fail(fits.error());
     std::string why = "it is not there";
@@ -98,7 +109,7 @@ const Result<const OiioModule*>& oiio_module() {
 }
 
 void open_oiio_ahead() {
-    // Where addresses are limited, nobody else may take them between the check and the opening.
+    // Where addresses are limited, others that start as well might take them after the check.
     if (address_space_left() != UINT64_MAX) return;
     try {
         static std::once_flag begun;

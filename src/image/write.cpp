@@ -206,7 +206,9 @@ Result<void> check_encoding(const OutputTarget& target,
                               " pixels are too many for " + format.name + ", whose sides have " +
                               std::to_string(format.max_side) + " at most; write .png or .exr");
     }
-    if (target.format == OutputFormat::avif && !can_write_avif()) {
+    if (target.format != OutputFormat::avif) return {};
+    if (auto there = check_writer(target.format); !there) return there;
+    if (!can_write_avif()) {
         return bad_format(target.name,
                           "the OpenImageIO of this build writes no AVIF; write .webp or .png");
     }

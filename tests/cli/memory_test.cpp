@@ -95,6 +95,7 @@ TEST_F(MaxMemory, FewAddressesEndWith33) {
         EXPECT_TRUE(rendered) << output;
         EXPECT_GT(refused, 2U) << output;
     }
+    expect_result(run_with_addresses(400, small_render("box.gltf", {"-o", "a.avif"})), 33, "E-MEM");
 }
 #endif
 

@@ -164,6 +164,10 @@ TEST_F(CompareAnswers, InATrianglesPlaneNothingTiesAHitToTheTriangle) {
     const auto beside = [&](double z) { return TrueRay{{-3, 5, z}, {1, 0.05, 0}}; };
     EXPECT_EQ(verdict(beside(height), {3, lower}), Verdict::edge_on);
     EXPECT_EQ(verdict(beside(400 * height), {3, lower}), Verdict::false_hit);
+    Answer any;  // of that triangle or the other one
+    any.any = true;
+    EXPECT_EQ(verdict(beside(height), any), Verdict::edge_on);
+    EXPECT_EQ(verdict(beside(400 * height), any), Verdict::false_hit);
     // Across the plane the third side decides: it has passed the corner by a fifth of the edge.
     const TrueRay across{{1.4, -1, 4}, {0, 0, -1}};
     EXPECT_EQ(verdict(across, {4, lower}), Verdict::false_hit);

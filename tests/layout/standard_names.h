@@ -18,9 +18,9 @@ struct StandardNames {
     std::string_view names;  ///< behind std::, separated by spaces
 };
 
-/// Those that precompiled headers and joined files would hide. Of <utility>, <cstddef> and other
-/// headers that come with nearly each of these nothing is asked.
-inline constexpr std::array<StandardNames, 22> standard_names{
+/// What precompiled headers and joined files would hide most often. Of <utility>, <cstddef> and
+/// other headers that come with nearly each of these nothing is asked.
+inline constexpr std::array<StandardNames, 28> standard_names{
     {{"algorithm",
       "all_of any_of clamp copy copy_n count_if fill fill_n find find_if lower_bound max "
       "max_element min min_element none_of remove_if reverse sort transform upper_bound"},
@@ -30,11 +30,13 @@ inline constexpr std::array<StandardNames, 22> standard_names{
      {"charconv", "from_chars to_chars"},
      {"chrono", "chrono"},
      {"cmath",
-      "abs ceil cos exp2 floor fmod hypot isfinite isnan log2 lround pow round sin sqrt tan"},
+      "abs acos asin atan atan2 ceil cos cosh exp exp2 floor fmod hypot isfinite isnan log log10 "
+      "log2 lround pow round sin sinh sqrt tan"},
      {"condition_variable", "condition_variable"},
      {"cstdio", "FILE fclose fflush fopen fprintf fputs printf"},
      {"cstring", "memcmp memcpy memmove memset strlen"},
      {"filesystem", "filesystem"},
+     {"fstream", "ifstream ofstream"},
      {"functional", "function"},
      {"limits", "numeric_limits"},
      {"map", "map multimap"},
@@ -43,8 +45,13 @@ inline constexpr std::array<StandardNames, 22> standard_names{
      {"numeric", "accumulate iota"},
      {"optional", "nullopt optional"},
      {"set", "multiset set"},
+     {"span", "span"},
+     {"sstream", "istringstream ostringstream stringstream"},
      {"string", "string to_string"},
+     {"string_view", "string_view"},
+     {"thread", "jthread thread this_thread"},
      {"unordered_map", "unordered_map"},
+     {"variant", "get_if holds_alternative variant visit"},
      {"vector", "vector"}}};
 
 /// "std::" and the name, for each in the text; with the line of the first.

@@ -285,6 +285,23 @@ TEST_F(PassesOfAFilm, FinishedTilesAreShownAsTheyAre) {
     EXPECT_EQ(shown.pixels, result.film.pixels);
 }
 
+/// What FilmSums::put put, tile by tile; and back.
+std::vector<Bytes> pieces_of(const std::string& text) {
+    StateReader in(std::as_bytes(std::span(text)));
+    std::vector<Bytes> pieces(in.number());
+    for (Bytes& piece : pieces)
+        in.take_new_array(piece);
+    return pieces;
+}
+
+std::string text_of(const std::vector<Bytes>& pieces) {
+    StateWriter out;
+    out.put_number(pieces.size());
+    for (const Bytes& piece : pieces)
+        out.put_array(piece);
+    return {reinterpret_cast<const char*>(out.kept().data()), out.kept().size()};
+}
+
 TEST_F(PassesOfAFilm, DoNotTakeWhatIsNotTheirs) {
     render_passes_of(options(16), nothing);
     const std::string kept = bytes();
@@ -306,6 +323,13 @@ TEST_F(PassesOfAFilm, DoNotTakeWhatIsNotTheirs) {
     RenderOptions larger = options(16);
     larger.width = 72;
     EXPECT_TRUE(is_refused(larger, kept));
+    std::vector<Bytes> pieces = pieces_of(kept);
+    EXPECT_FALSE(is_refused(options(16), text_of(pieces)));
+    pieces[1].push_back(std::byte{0});
+    EXPECT_TRUE(is_refused(options(16), text_of(pieces))) << "a tile has more bytes";
+    pieces[1].pop_back();
+    std::swap(pieces[0], pieces[1]);
+    EXPECT_TRUE(is_refused(options(16), text_of(pieces))) << "tiles in each other's places";
     for (size_t size = 0; size < kept.size(); size += 100'003)
         EXPECT_TRUE(is_refused(options(16), kept.substr(0, size))) << size;
     RenderOptions adaptive = options(64);
