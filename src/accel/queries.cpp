@@ -47,6 +47,12 @@ void forget_unseen_backs(const HitColumns& hits, std::vector<PassedBack>& backs)
     });
 }
 
+/// Whether Embree is told that rays are coherent. With instances its coherent AVX-512 kernel (3.13)
+/// may hang in occlusion, and may pass what packets of rays apart from each other meet before them.
+bool asks_coherent(const Accel::Impl& impl, Coherence coherence) {
+    return coherence == Coherence::coherent && !impl.has_instances;
+}
+
 /// The result of loading 16 rays.
 struct Loaded {
     int refused = 0;
@@ -100,7 +106,7 @@ int Accel::intersect(const RayColumns& rays,
     QueryContext context;
     // Packets of 16 for bounces too: where rays diverge Embree continues ray by ray, still faster
     // than with calls of one ray each (obscura bench shows both).
-    Query query(context, coherence == Coherence::coherent);
+    Query query(context, asks_coherent(*impl_, coherence));
     NearestHits nearest;
     const float scene_size = largest_coordinate(impl_->scene->bounds);
     context.nearest = &nearest;
@@ -157,10 +163,8 @@ int Accel::occluded(const RayColumns& rays,
                     uint8_t* occluded,
                     Coherence coherence,
                     const ShadowQuery& asked) const {
-    // With instances, the coherent AVX-512 kernel of Embree 3.13 may hang.
-    const bool coherent = coherence == Coherence::coherent && !impl_->has_instances;
     QueryContext context;
-    Query query(context, coherent);
+    Query query(context, asks_coherent(*impl_, coherence));
     context.keys = rays.key;
     context.fixed_threshold = rays.key == nullptr;
     context.segment = asked.segment;

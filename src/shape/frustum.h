@@ -37,7 +37,15 @@ OBSCURA_INLINE Span<F> span_in_cone(const NearRay<F>& ray, const ConeSide<F>& si
     const F b = o.x * d.x + o.z * d.z - growth * radius;
     const F distance = sqrt(o.x * o.x + o.z * o.z);
     const F c = (distance - radius) * (distance + radius);
-    const Quadratic<F> q = solve_quadratic(a, b, c);
+    // b^2 - a c is |radius d - growth o|^2 - (o x d)^2, both in x and z: near the axis a difference
+    // of small numbers, where b^2 and a c are large ones. Half of the digits of the apex depend on
+    // it.
+    const F across = abs(difference_of_products(o.x, d.z, o.z, d.x));
+    const F along_x = difference_of_products(radius, d.x, growth, o.x);
+    const F along_z = difference_of_products(radius, d.z, growth, o.z);
+    const F along = sqrt(along_x * along_x + along_z * along_z);
+    const F discriminant = (along - across) * (along + across) - (a - a_exact) * c;
+    const Quadratic<F> q = solve_quadratic(a, b, c, discriminant);
     const auto flat = a > F(0.0f);  // the line crosses one half; a steep line is in both, once each
     const auto wanted = flat & q.real & (radius - growth * b / a >= F(0.0f));
     const auto grows = growth > F(0.0f);

@@ -107,11 +107,15 @@ struct Quadratic {
 
 /// Neither root suffers from cancellation. Missing roots are infinite or NaN and fail any limits:
 /// one root if a = 0, both if b = 0 too (a line along a ruling).
-/// Source  Kahan (as difference_of_products); Haines et al., "Precision Improvements for Ray/Sphere
-///         Intersection", Ray Tracing Gems, 2019, ch. 7
+///
+/// In      discriminant: b^2 - a c, where it is known better than the rounded a, b and c tell
+/// Source  Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
+///         2019, ch. 7
 template <typename F>
-OBSCURA_INLINE Quadratic<F> solve_quadratic(const F& a, const F& b, const F& c) {
-    const F discriminant = difference_of_products(b, b, a, c);
+OBSCURA_INLINE Quadratic<F> solve_quadratic(const F& a,
+                                            const F& b,
+                                            const F& c,
+                                            const F& discriminant) {
     const F root = sqrt(max(discriminant, F(0.0f)));
     const F q = select(b < F(0.0f), root - b, F(-(b + root)));
     const F second = q / a;
@@ -119,6 +123,12 @@ OBSCURA_INLINE Quadratic<F> solve_quadratic(const F& a, const F& b, const F& c) 
     const auto ordered = first < second;
     return {{select(ordered, first, second), select(ordered, second, first)},
             discriminant >= F(0.0f)};
+}
+
+/// Source  Kahan (as difference_of_products)
+template <typename F>
+OBSCURA_INLINE Quadratic<F> solve_quadratic(const F& a, const F& b, const F& c) {
+    return solve_quadratic(a, b, c, difference_of_products(b, b, a, c));
 }
 
 /// The part of a line between two parallel planes: |origin + t * direction| <= half along one axis.

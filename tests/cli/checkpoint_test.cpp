@@ -362,7 +362,11 @@ TEST_F(Checkpoints, OfAnIntegratorWithoutSamplesHoldTiles) {
 
 TEST_F(Checkpoints, SnapshotsAreMarked) {
     ProgramSetup stopped = program(joined(with_layers("a.exr", "8192"), {"--snapshot", "0.1"}));
-    send_at(stopped, SIGTERM, "Progress: [1-9]");
+    stopped.on_output = [&](const std::string& out, pid_t process) {
+        if (exists("a.exr") && exists("mask.png") &&
+            std::regex_search(out, std::regex("Progress: [1-9]")))
+            kill(process, SIGTERM);
+    };
     EXPECT_EQ(run_program_with(stopped).signal, SIGTERM);
     const std::optional<ReadImage> image = read_image_file(folder_ / "a.exr");
     ASSERT_TRUE(image);

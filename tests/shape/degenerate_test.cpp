@@ -234,5 +234,22 @@ TEST(Degenerate, AConeAlongItsRulings) {
     EXPECT_GT(misses, 100);
 }
 
+/// Along its axis, or very nearly so.
+TEST(Degenerate, AConeAtItsApex) {
+    const ShapeRecord cone = shape_record(ShapeKind::frustum, 0.475F, 0.42F, 0);
+    Pcg32 random(47);
+    for (int i = 0; i < 3000; ++i) {
+        const float far_from_axis = i % 3 == 0 ? 0 : std::exp2(-30 * random.next_float());
+        const Vec3f origin{0.1F * far_from_axis, 0.9F + random.next_float(), 0};
+        const Vec3f direction{i % 3 == 2 ? 1e-3F * in_box(random) : 0, -1, 0};
+        const Met met = meet(cone, {origin, direction});
+        ASSERT_TRUE(met.exact.hit[0]);
+        ASSERT_TRUE(met.single.hit[0]);
+        ASSERT_TRUE(all(met.lanes.hit[0]));
+        ASSERT_NEAR(met.single.t[0], met.exact.t[0], 1e-6) << origin.x;
+        ASSERT_NEAR(lane(met.lanes.t[0], 0), met.exact.t[0], 1e-6) << origin.x;
+    }
+}
+
 }  // namespace
 }  // namespace obscura
