@@ -149,9 +149,9 @@ bool is_met_nearby(const Question& q, const Answer& answer) {
     return met;
 }
 
-/// True when rounding alone decides on which side of two or three edges' infinite lines the ray
-/// passes a triangle, and it is outside of no other edge.
-bool is_edge_on(const Question& q, const Item& item) {
+/// True when rounding alone decides on which side of so many edges' infinite lines, or more, the
+/// ray passes a triangle, and it is outside of no other edge.
+bool is_chance(const Question& q, const Item& item, int edges) {
     if (!q.scene.is_triangle(item)) return false;
     const SideTest test = side_test(q.scene, q.ray, item, edge_ulps * q.unit_m);
     const double facing = test.facing();
@@ -162,7 +162,11 @@ bool is_edge_on(const Question& q, const Item& item) {
         within = within && (test.side(k) * facing >= 0 || is_chance);
         undecided += is_chance ? 1 : 0;
     }
-    return within && undecided >= 2;
+    return within && undecided >= edges;
+}
+
+bool is_edge_on(const Question& q, const Item& item) {
+    return is_chance(q, item, 2);
 }
 
 /// Half the extent of an item around its centre.
@@ -268,10 +272,11 @@ Verdict excuse(const Question& q, const Answer& answer) {
 }
 
 /// Verdict on another item at the same depth: equal_depth when it is there within rounding, too;
-/// else the name is wrong.
+/// else the name is wrong. The line of an edge that the ray passes at a slant may be farther than
+/// 4 ulp: one chance is enough, as the depth ties the hit to its place.
 Verdict judge_other_item(const Question& q, const Answer& got) {
     const bool good = is_met_nearby(q, got) || is_at_its_edge(q, got) || is_at_seam(q, got) ||
-                      is_edge_on(q, got.item) || is_along(q, got);
+                      is_chance(q, got.item, 1) || is_along(q, got);
     return good ? Verdict::equal_depth : Verdict::item;
 }
 
