@@ -272,46 +272,6 @@ TEST(ShapeScenes, RaysEndBeforeInfinitePlanes) {
     }
 }
 
-/// Embree's coherent kernels lose hits of rays apart from each other where there are instances.
-TEST(ShapeScenes, CoherenceChangesNoHitBesideInstances) {
-    Scene scene = empty_scene({});
-    add_shape(scene, make_shape(ShapeKind::sphere, 1), 0);
-    add_shape(scene, make_shape(ShapeKind::box, 0.4F, 1.5F, 0.4F), 0);
-    Affined turned = scaling(1, 1, 1, {0, 0, -3});
-    turned.m[1][1] = turned.m[2][2] = 0;
-    turned.m[1][2] = -1;
-    turned.m[2][1] = 1;
-    add_shape(scene, make_shape(ShapeKind::plane, unbounded, unbounded), 0, turned);
-    add_shape(scene, make_shape(ShapeKind::sphere, 0.5F), 0, scaling(1, 1, 1, {2, 0, 0}));
-    const BuiltScene built = build(std::move(scene));
-    Pcg32 random(3);
-    const auto place = [&] {
-        const float x = 8 * random.next_float() - 4;
-        const float y = 8 * random.next_float() - 4;
-        return Vec3f{x, y, 8 * random.next_float() - 4};
-    };
-    RayList rays;
-    for (int i = 0; i < 200'000 / thorough; ++i) {
-        const Vec3f origin = place();
-        const Vec3f target = 0.3F * place();
-        const Vec3f level{
-            target.x - origin.x, i % 4 == 0 ? 0.0F : target.y - origin.y, target.z - origin.z};
-        rays.add(origin, normalize(level));
-    }
-    rays.intersect(built.accel, Coherence::incoherent);
-    const RayList apart = rays;
-    rays.intersect(built.accel, Coherence::coherent);
-    int others = 0;
-    for (int i = 0; i < rays.count(); ++i) {
-        const auto at = static_cast<size_t>(i);
-        const bool is_hit = rays.hit(i) == apart.hit(i);
-        // Kernels of other widths round otherwise.
-        const bool same = is_hit && (!rays.hit(i) || std::abs(rays.t[at] - apart.t[at]) < 1e-4F);
-        others += same ? 0 : 1;
-    }
-    EXPECT_LE(others, rays.count() / 20'000) << "silhouettes alone";
-}
-
 TEST(ShapeScenes, BacksOfSingleSidedShapesAreHiddenFromTheCamera) {
     Scene scene = empty_scene({});
     add_shape(scene, make_shape(ShapeKind::sphere, 1), 0);
