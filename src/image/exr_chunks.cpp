@@ -16,11 +16,10 @@
 #include <atomic>
 #include <bit>
 #include <cstring>
-#include <libdeflate.h>
+#include <isa-l/igzip_lib.h>
 #include <limits>
 #include <map>
 #include <memory>
-#include <new>
 #include <optional>
 #include <span>
 #include <utility>
@@ -86,16 +85,36 @@ ChunkedPart chunked(const ExrPart& part, const Imf::Header& header) {
 
 /// What one thread works with.
 struct Scratch {
-    struct Free {
-        void operator()(libdeflate_compressor* one) const { libdeflate_free_compressor(one); }
-    };
-
     std::vector<UsedPages> used_pages = {};  ///< of each group, in the rows of a chunk
     UnsetArray<float> floats = {};
     UnsetArray<half> halves = {};
-    UnsetArray<unsigned char> plain = {}, planes = {}, packed = {};
-    std::unique_ptr<libdeflate_compressor, Free> compressor = {};
+    UnsetArray<unsigned char> plain = {}, planes = {}, packed = {}, matches = {};
+    std::unique_ptr<isal_zstream> stream = {};
 };
+
+/// Compresses the planes of a chunk in the format of zlib. Most channels of most layers are nearly
+/// constant; level 1 passes over what repeats itself without looking for better matches in it.
+///
+/// Out     empty: they would be no smaller
+std::span<const unsigned char> pack(Scratch& scratch) {
+    if (!scratch.stream) scratch.stream = std::make_unique<isal_zstream>();
+    scratch.matches.resize(ISAL_DEF_LVL1_DEFAULT);
+    scratch.packed.resize(scratch.planes.size());
+    const auto size = static_cast<uint32_t>(scratch.planes.size());  // is_zip_lines: it fits
+    isal_zstream& stream = *scratch.stream;
+    isal_deflate_stateless_init(&stream);
+    stream.gzip_flag = IGZIP_ZLIB;
+    stream.level = 1;
+    stream.level_buf = scratch.matches.data();
+    stream.level_buf_size = ISAL_DEF_LVL1_DEFAULT;
+    stream.end_of_stream = 1;
+    stream.next_in = scratch.planes.data();
+    stream.avail_in = size;
+    stream.next_out = scratch.packed.data();
+    stream.avail_out = size;
+    if (isal_deflate_stateless(&stream) != COMP_OK || stream.total_out >= size) return {};
+    return std::span{scratch.packed}.first(stream.total_out);
+}
 
 /// Writes each channel of interleaved pixels for itself.
 template <typename Value>
@@ -200,9 +219,6 @@ std::span<const unsigned char> chunk_bytes(const ChunkedPart& part,
                                            size_t first,
                                            Scratch& scratch,
                                            std::atomic<uint64_t>& clamped) {
-    constexpr int level = 3;
-    if (!scratch.compressor) scratch.compressor.reset(libdeflate_alloc_compressor(level));
-    if (!scratch.compressor) throw std::bad_alloc();
     const size_t end = std::min(first + part.rows, part.height);
     const size_t size = (end - first) * part.row_bytes;
     scratch.planes.resize(size);
@@ -214,14 +230,7 @@ std::span<const unsigned char> chunk_bytes(const ChunkedPart& part,
         planes.add(scratch.plain);
     }
     planes.finish();
-    scratch.packed.resize(size);
-    const size_t packed = libdeflate_zlib_compress(  // 0: it does not fit
-        scratch.compressor.get(),
-        scratch.planes.data(),
-        size,
-        scratch.packed.data(),
-        size);
-    if (packed > 0 && packed < size) return std::span{scratch.packed}.first(packed);
+    if (const auto packed = pack(scratch); !packed.empty()) return packed;
     scratch.plain.resize(size);
     for (size_t y = first; y < end; ++y)
         write_row(part, y, scratch, &scratch.plain[(y - first) * part.row_bytes]);

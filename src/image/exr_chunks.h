@@ -17,7 +17,7 @@ bool is_zip_lines(const Imf::Header& header);
 
 /// Writes what follows the headers of a file: the parts' pixels, in chunks, and where in the file
 /// these are. OpenEXR's own functions would write the same pixels, but pack them on one thread and
-/// compress them with zlib, which takes longer than libdeflate for larger files.
+/// compress them with zlib, which takes several times as long.
 ///
 /// In      out: a file whose headers are written and whose tables of offsets, which end here, are
 ///         still empty; headers: those of the parts, for each of which is_zip_lines is true

@@ -43,7 +43,7 @@ inline constexpr std::array<Owner, 27> owners{
      {"OpenColorIO/", "image"},
      {"webp/", "image"},
      {"zstd", "image"},
-     {"libdeflate", "image"},
+     {"isa-l/", "image"},
      {"nlohmann/", "base gltf"},
      {"tiny_gltf.h", "gltf"},
      {"draco/", "gltf"},
