@@ -24,11 +24,22 @@ bool is_used(uint64_t entry) {
 
 }  // namespace
 
+size_t UsedPages::page_of(const float* value) const {
+    return (reinterpret_cast<uintptr_t>(value) - begin_) / page_bytes();
+}
+
+bool UsedPages::has_all_of(std::span<const float> part) const {
+    if (all() || part.empty()) return true;
+    const auto first = unused_.begin() + static_cast<ptrdiff_t>(page_of(&part.front()));
+    const auto last = unused_.begin() + static_cast<ptrdiff_t>(page_of(&part.back()));
+    return std::find(first, last + 1, true) == last + 1;
+}
+
 void UsedPages::copy(std::span<const float> from, float* to) const {
     while (!from.empty()) {
-        const uintptr_t offset = reinterpret_cast<uintptr_t>(from.data()) - begin_;
-        const uintptr_t page = offset / page_bytes();
-        const size_t to_next = ((page + 1) * page_bytes() - offset) / sizeof(float);
+        const size_t page = page_of(from.data());
+        const uintptr_t end = begin_ + (page + 1) * page_bytes();
+        const size_t to_next = (end - reinterpret_cast<uintptr_t>(from.data())) / sizeof(float);
         const size_t count = all() ? from.size() : std::min(from.size(), to_next);
         if (all() || !unused_[page]) {
             std::memcpy(to, from.data(), count * sizeof(float));

@@ -16,6 +16,8 @@ namespace obscura {
 class UsedPages {
 public:
     bool all() const { return unused_.empty(); }
+    /// In      part: of what was looked at
+    bool has_all_of(std::span<const float> part) const;
 
     /// Copies values, but does not read unused pages.
     ///
@@ -25,6 +27,8 @@ public:
 
 private:
     friend class PageMap;
+
+    size_t page_of(const float* value) const;
 
     uintptr_t begin_ = 0;            ///< the first page's address
     std::vector<bool> unused_ = {};  ///< by page; empty: none

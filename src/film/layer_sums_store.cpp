@@ -24,12 +24,19 @@ float ratio(double arrived, double unoccluded) {
 ///         value: writes all channels of a pixel of the tile
 template <typename Value>
 void write_pixels(std::span<const size_t> at, FilmLayer& layer, const Value& value) {
-    std::vector<float> pixel(layer.layer.channels.size());
+    const size_t channels = layer.layer.channels.size();
+    std::vector<float> values(at.size() * channels);
+    const auto pixel = [&](size_t p) { return std::span(values).subspan(p * channels, channels); };
     const auto is_zero = [](float x) { return std::bit_cast<uint32_t>(x) == 0; };
-    for (size_t p = 0; p < at.size(); ++p) {
-        value(p, std::span<float>(pixel));
-        if (std::all_of(pixel.begin(), pixel.end(), is_zero)) continue;
-        std::copy(pixel.begin(), pixel.end(), layer.pixels.data() + at[p] * pixel.size());
+    const auto is_empty = [&](size_t p) { return std::ranges::all_of(pixel(p), is_zero); };
+    for (size_t p = 0; p < at.size(); ++p)
+        value(p, pixel(p));
+    for (size_t p = 0, end = 0; p < at.size(); p = end) {
+        end = p + 1;
+        if (is_empty(p)) continue;
+        while (end < at.size() && at[end] == at[end - 1] + 1 && !is_empty(end))
+            ++end;
+        std::copy_n(&values[p * channels], (end - p) * channels, &layer.pixels[at[p] * channels]);
     }
 }
 

@@ -152,7 +152,7 @@ uint64_t write_row(const ChunkedPart& part, size_t y, Scratch& scratch, unsigned
         const ChunkGroup& group = part.groups[i];
         const size_t values = part.width * group.offsets.size();
         std::span<const float> floats{group.pixels + y * values, values};
-        if (!scratch.used_pages[i].all()) {
+        if (!scratch.used_pages[i].has_all_of(floats)) {
             scratch.floats.resize(values);
             scratch.used_pages[i].copy(floats, scratch.floats.data());
             floats = scratch.floats;

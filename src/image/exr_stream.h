@@ -44,10 +44,13 @@ public:
     explicit ExrMemoryWriter(const char* name) : Imf::OStream(name) {}
 
     void write(const char in[], int count) override {
-        const auto size = static_cast<uint64_t>(std::max(count, 0));
-        if (position_ + size > bytes_.size()) bytes_.resize(position_ + size);
-        std::memcpy(bytes_.data() + position_, in, size);
-        position_ += size;
+        const std::span from{reinterpret_cast<const std::byte*>(in),
+                             static_cast<size_t>(std::max(count, 0))};
+        if (position_ > bytes_.size()) bytes_.resize(position_);
+        const size_t over = std::min<size_t>(from.size(), bytes_.size() - position_);
+        std::copy_n(from.begin(), over, bytes_.data() + position_);
+        bytes_.insert(bytes_.end(), from.begin() + static_cast<ptrdiff_t>(over), from.end());
+        position_ += from.size();
     }
     uint64_t tellp() override { return position_; }
     void seekp(uint64_t position) override { position_ = position; }

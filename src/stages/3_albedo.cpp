@@ -40,12 +40,14 @@ void add_layers(const AlbedoQuery& query, const BsdfParams<Lanes>& base, HitAlbe
     const HitGeometry& g = interaction.g;
     const Mask layered = g.material.integer<&Material::layers>() >= LanesI(0);
     if (none(layered)) return;
-    const Mask front = interaction.cos_front >= Lanes(0.0f);
-    const TangentLanes tangents = read_tangents(scene, hit, g, layered);
-    const Vec3<Lanes> normal =
-        select(dot(g.normal, interaction.ng) < Lanes(0.0f), -g.normal, g.normal);
-    LayerContext context{
-        tangents, frame_around(normal), normal, interaction.ng, normal, front, layered};
+    // An albedo has no direction: the surface lies as its own coordinates do.
+    const Lanes zero(0.0f);
+    const Lanes one(1.0f);
+    const Vec3<Lanes> x{one, zero, zero}, y{zero, one, zero}, z{zero, zero, one};
+    const LanesI tangent_base = g.primitive.integer<&Primitive::tangent_base>();
+    const TangentLanes tangents{layered & (tangent_base != LanesI(no_attribute)), x, y};
+    const Mask front = interaction.cos_front >= zero;
+    LayerContext context{tangents, {x, y, z}, z, z, z, front, layered};
     LayeredPoint point;
     read_layers({scene, g, interaction.filter, path, hit.shared}, base, context, point);
     InsideLanes inside{splat3(Lanes(1.0f)), Mask(false)};
