@@ -81,7 +81,12 @@ public:
     Result<void> set(const std::string& pointer, const std::vector<double>& value);
     /// The materials of a variant; empty: the file's own. Errors: E-VARIANT-UNKNOWN.
     Result<void> set_variant(const std::string& name);
-    /// Undoes what set() did; the next image reads the file again.
+    /// Gives all that a node draws another material of the file for the images that follow,
+    /// whatever the variant. Other nodes that draw the same mesh keep theirs.
+    ///
+    /// node: index in nodes(); material: in AssetInfo::materials. Errors: E-SET-UNKNOWN.
+    Result<void> assign_material(std::size_t node, std::size_t material);
+    /// Undoes what set() and assign_material() did; the next image reads the file again.
     void reset();
 
     struct Impl;

@@ -83,6 +83,14 @@ void bind_changes(py::class_<AssetState, AssetPointer>& asset) {
             py::arg("name"),
             "Shows the materials of a variant; None: the file's own. Nothing is read again.")
         .def(
+            "_assign_material",
+            [](AssetState& state, std::size_t node, std::size_t material) {
+                change_asset(state,
+                             [&](Asset& own) { return own.assign_material(node, material); });
+            },
+            py::arg("node"),
+            py::arg("material"))
+        .def(
             "reset",
             [](AssetState& state) {
                 change_asset(state, [](Asset& own) -> Result<void> {

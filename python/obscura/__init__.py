@@ -20,6 +20,7 @@ from collections.abc import Mapping as _Mapping
 
 from ._cameras import from_colmap as _from_colmap
 from ._cameras import from_opencv as _from_opencv
+from ._changes import assign_material as _assign_material
 from ._changes import hide as _hide
 from ._changes import move as _move
 from ._changes import set_material as _set_material
@@ -67,6 +68,7 @@ Asset.move = _move
 Asset.hide = _hide
 Asset.show = _show
 Asset.set_material = _set_material
+Asset.assign_material = _assign_material
 View.from_opencv = staticmethod(_from_opencv)
 View.from_colmap = staticmethod(_from_colmap)
 _Mapping.register(Image)

@@ -314,6 +314,7 @@ class Asset(_Facts):
         emissive: _Numbers = ...,
         alpha_cutoff: float = ...,
     ) -> None: ...
+    def assign_material(self, node: str | int, material: str | int) -> None: ...
 
 class Message:
     @property

@@ -102,3 +102,17 @@ def set_material(self, material, **values):
         if name == "base_color" and len(value) == 3:
             value = [*value, 1]
         self.set(f"{place}/{_MATERIAL[name]}", value)
+
+
+def assign_material(self, node, material):
+    """Gives all that a node draws another material of the file, for the images that follow.
+
+    node: its path, as in `nodes`, or its number there; material: its name, as in `materials`, or its
+    number there. Other nodes that draw the same mesh keep theirs. A variant does not change it.
+
+    Raises obscura.Error 'E-SET-UNKNOWN' where the node draws nothing.
+    """
+    self._assign_material(
+        _number("node", [one.path for one in self.nodes], node),
+        _number("material", self.materials, material),
+    )

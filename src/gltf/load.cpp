@@ -4,6 +4,7 @@
 
 #include "base/setting_names.h"
 #include "gltf/asset_files.h"
+#include "gltf/assign_material.h"
 #include "gltf/chosen_parts.h"
 #include "gltf/decode/meshopt.h"
 #include "gltf/geometry/instancing.h"
@@ -457,6 +458,16 @@ Result<void> PosedAsset::set_value(const std::string& pointer, const std::vector
     impl_->animator.set(*wanted, document);
     if (impl_->animator.mark(document)) impl_->geometry = {};
     return {};
+}
+
+Result<void> PosedAsset::assign_material(size_t node, size_t material) {
+    Document& document = impl_->asset.document;
+    const size_t meshes = document.meshes.size();
+    auto assigned = gltf::assign_material(node, material, document);
+    if (!assigned) return assigned;
+    if (document.meshes.size() != meshes) impl_->geometry = {};
+    impl_->shows_several = true;
+    return choose_variant(impl_->options.variant);  // materials may be hidden by their names
 }
 
 const AssetInfo& PosedAsset::info() const {

@@ -147,6 +147,12 @@ public:
     /// Errors  64 E-SET-UNKNOWN, E-SET-VALUE
     Result<void> set_value(const std::string& pointer, const std::vector<double>& value);
 
+    /// Gives a node a material in all scenes that follow, whatever the variant.
+    ///
+    /// In      node, material: their numbers in the file
+    /// Errors  64 E-SET-UNKNOWN
+    Result<void> assign_material(size_t node, size_t material);
+
     /// What all its scenes have in common.
     const AssetInfo& info() const;
 

@@ -79,6 +79,13 @@ public:
         return asset_->set_value(pointer, value);
     }
 
+    /// Gives a node a material from the next pose on; see PosedAsset.
+    ///
+    /// Errors  64 E-SET-UNKNOWN
+    Result<void> assign_material(size_t node, size_t material) {
+        return asset_->assign_material(node, material);
+    }
+
     /// Poses the scene at a time; this replaces the previous pose.
     ///
     /// Errors  those of load_gltf

@@ -219,6 +219,10 @@ Result<void> Asset::set_variant(const std::string& name) {
     return change([&] { return impl_->asset.set_variant(name, impl_->log); });
 }
 
+Result<void> Asset::assign_material(std::size_t node, std::size_t material) {
+    return change([&] { return impl_->asset.assign_material(node, material, impl_->log); });
+}
+
 void Asset::reset() {
     impl_->asset.reset();
 }

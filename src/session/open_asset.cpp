@@ -47,6 +47,9 @@ Result<void> OpenAsset::read(const ReadFor& wanted, Log& log) {
     for (const auto& [pointer, value] : values_) {
         if (auto done = renderer_->set_value(pointer, value); !done) return done;
     }
+    for (const auto& [node, material] : assigned_) {
+        if (auto done = renderer_->assign_material(node, material); !done) return done;
+    }
     return {};
 }
 
@@ -135,8 +138,17 @@ Result<void> OpenAsset::set_value(const std::string& pointer,
     return {};
 }
 
+Result<void> OpenAsset::assign_material(size_t node, size_t material, Log& log) {
+    if (auto done = read(read_for_, log); !done) return done;
+    if (auto assigned = renderer_->assign_material(node, material); !assigned) return assigned;
+    assigned_[node] = material;
+    is_changed_ = true;
+    return {};
+}
+
 void OpenAsset::reset() {
     values_.clear();
+    assigned_.clear();
     renderer_.reset();
 }
 

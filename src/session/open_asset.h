@@ -6,6 +6,7 @@
 
 #include <array>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -53,7 +54,11 @@ public:
     ///
     /// Errors  64 E-SET-UNKNOWN, E-SET-VALUE; those of AssetRenderer::open
     Result<void> set_value(const std::string& pointer, const std::vector<double>& value, Log& log);
-    /// Forgets what was set.
+    /// Gives a node a material from the next image on; see PosedAsset::assign_material.
+    ///
+    /// Errors  64 E-SET-UNKNOWN; those of AssetRenderer::open
+    Result<void> assign_material(size_t node, size_t material, Log& log);
+    /// Forgets what was set and assigned.
     void reset();
 
     /// After open() or prepare() without error.
@@ -89,7 +94,8 @@ private:
     bool is_posed_ = false;  ///< as stored, not yet prepared
     /// What was set, in that order: to be set again where the file is read again.
     std::vector<std::pair<std::string, std::vector<double>>> values_;
-    bool is_changed_ = false;  ///< a value was set or a variant chosen since the latest pose
+    std::map<size_t, size_t> assigned_;  ///< materials by node, likewise
+    bool is_changed_ = false;  ///< by a value, a material or a variant since the latest pose
     bool has_plan_ = false;    ///< of all variants: any may be chosen
     std::optional<PreparedFor> prepared_for_;
 };

@@ -79,6 +79,27 @@ class Changes(support.Case):
         asset.show(asset.nodes[number - 1].path)
         np.testing.assert_array_equal(self.ids(asset)[0], before)
 
+    def test_a_node_gets_another_material(self):
+        file = self.folder / "variants.gltf"
+        support.write_triangle(file)
+        asset = self.session.open(file)
+        view = {"eye": (0, 0, 3), "target": (0, 0, 0)}
+
+        def middle():
+            return self.ids(asset, **view)[2][12, 20, :3]
+
+        red = middle()
+        asset.assign_material("/lamp/shade", "blue")
+        blue = middle()
+        self.assertGreater(blue[2], 10 * blue[0])
+        self.assertGreater(red[0], red[2])
+        asset.assign_material(1, 0)
+        np.testing.assert_array_equal(middle(), red)
+        with self.assertRaisesRegex(obscura.Error, "draws nothing"):
+            asset.assign_material("/lamp", "blue")
+        with self.assertRaisesRegex(ValueError, "green"):
+            asset.assign_material("/lamp/shade", "green")
+
     def test_materials_and_variants_change(self):
         file = self.folder / "variants.gltf"
         support.write_triangle(file)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <obscura/obscura.h>
 #include <set>
+#include <utility>
 
 namespace obscura {
 namespace {
@@ -41,7 +42,7 @@ protected:
         view.target = {2, 0, 0};
         Sampling sampling;
         sampling.samples_per_pixel = 2;
-        sampling.aov = {"id_node", "depth"};
+        sampling.aov = {"id_node", "depth", "id_material"};
         Result<Image> image = session_.render(asset, view, {}, sampling);
         EXPECT_TRUE(image) << image.error().text;
         return image ? std::move(*image) : Image{};
@@ -172,8 +173,46 @@ TEST_F(Changes, ValuesStayWhenTheFileIsReadAgain) {
     expect_same(render(asset), once);
 }
 
+TEST_F(Changes, ANodeHasAnotherMaterialThanItsMesh) {
+    SmallScene scene = two_boxes(R"("translation": [3, 0, 0])");
+    scene.material += R"(}, {"name": "red", "pbrMetallicRoughness": {"metallicFactor": 0,
+"baseColorFactor": [1, 0, 0, 1]})";
+    const std::string file = write("near.gltf", scene);
+    const auto materials_of = [&](const Asset& asset) {
+        const Image image = render(asset);
+        std::set<std::pair<float, float>> out;  // node and material
+        for (size_t i = 0; i < image.layers[0].pixels.size(); ++i)
+            out.insert({image.layers[0].pixels[i], image.layers[2].pixels[i]});
+        return out;
+    };
+    using Pairs = std::set<std::pair<float, float>>;
+    Asset asset = open(file);
+    const Image before = render(asset);
+    EXPECT_EQ(materials_of(asset), (Pairs{{0, 0}, {1, 1}, {2, 1}}));
+    ASSERT_TRUE(asset.assign_material(1, 1));
+    EXPECT_EQ(materials_of(asset), (Pairs{{0, 0}, {1, 1}, {2, 2}}));
+    const Image once = render(asset);
+    ASSERT_TRUE(asset.set_variant(""));
+    Sampling uv;
+    uv.samples_per_pixel = 1;
+    uv.aov = {"uv"};  // reads the file for it
+    ASSERT_TRUE(session_.render(asset, {}, {}, uv));
+    expect_same(render(asset), once);
+    ASSERT_TRUE(asset.assign_material(0, 1));
+    ASSERT_TRUE(asset.assign_material(1, 0));
+    EXPECT_EQ(materials_of(asset), (Pairs{{0, 0}, {1, 2}, {2, 1}}));
+    asset.reset();
+    expect_same(render(asset), before);
+}
+
 TEST_F(Changes, MistakesAreNamed) {
     Asset asset = open(far_);
+    for (const Result<void>& assigned : {asset.assign_material(7, 0),     // no such node
+                                         asset.assign_material(1, 1),     // no such material
+                                         asset.assign_material(2, 0)}) {  // a lamp
+        ASSERT_FALSE(assigned);
+        EXPECT_EQ(assigned.error().id, "E-SET-UNKNOWN");
+    }
     const auto id = [&](const std::string& pointer, const std::vector<double>& value) {
         const Result<void> done = asset.set(pointer, value);
         return done ? "" : done.error().id;

@@ -151,8 +151,9 @@ struct GltfVariantMaterial {
 /// The attributes' numbers are those of accessors.
 struct GltfPrimitive : GltfAttributes {
     int indices = -1;
-    int material = -1;      ///< in the chosen variant
-    int own_material = -1;  ///< where no mapping names the variant
+    int material = -1;           ///< in the chosen variant
+    int own_material = -1;       ///< where no mapping names the variant
+    int assigned_material = -1;  ///< by assign_material, in every variant; -1: none
     int mode = 4;
     int own_mode = 4;                ///< while it is not hidden
     bool is_splats = false;          ///< KHR_gaussian_splatting, not compressed

@@ -14,6 +14,7 @@ constexpr const char* variants_name = "KHR_materials_variants";
 
 /// The material of a primitive in one variant; its own where no mapping names the variant.
 int material_in(const GltfPrimitive& primitive, int variant) {
+    if (primitive.assigned_material >= 0) return primitive.assigned_material;
     for (const GltfVariantMaterial& mapping : primitive.variants) {
         const std::vector<int>& in = mapping.variants;
         if (std::find(in.begin(), in.end(), variant) != in.end()) return mapping.material;
