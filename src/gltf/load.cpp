@@ -317,17 +317,6 @@ void PosedAsset::Impl::add_frames(const std::vector<ScenePose>& frames,
     out.frame_motion = std::make_shared<const FrameMotion>(std::move(motion));
 }
 
-/// leave_out_nodes, for the motion from frame to frame, too.
-void leave_out(const Document& document, Scene& scene, Log& log) {
-    if (scene.frame_motion == nullptr) return leave_out_nodes(document, scene, log);
-    const std::vector<Instance> before = scene.instances;
-    leave_out_nodes(document, scene, log);
-    if (scene.instances.size() == before.size()) return;
-    FrameMotion motion = *scene.frame_motion;
-    leave_out_frames(before, scene.instances, motion);
-    scene.frame_motion = std::make_shared<const FrameMotion>(std::move(motion));
-}
-
 Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene& out, Log& log) {
     Document& document = asset.document;
     if (options.from_rec709 && !out.splats.empty()) {
@@ -338,7 +327,7 @@ Result<void> PosedAsset::Impl::finish(MaterialTable& materials, bool last, Scene
                     "them in lin_rec709");
     }
     if (last) release_geometry(document, buffers);
-    leave_out(document, out, log);
+    leave_out_nodes(document, out, log);
     if (!out.bounds.empty()) set_default_points_lines_radii(out);
     const auto decode_start = std::chrono::steady_clock::now();
     const std::filesystem::path folder = file.parent_path();

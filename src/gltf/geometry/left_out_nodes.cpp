@@ -5,7 +5,13 @@
 #include "gltf/parse/list_text.h"
 #include "gltf/parse/node_graph.h"
 #include "scene/coincident_instances.h"
+#include "scene/frame_motion.h"
 #include "scene/ray_reach.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace obscura::gltf {
 
@@ -25,9 +31,7 @@ std::string node_names(const Document& document,
     return names.text();
 }
 
-}  // namespace
-
-void leave_out_nodes(const Document& document, Scene& scene, Log& log) {
+void leave_out_of_scene(const Document& document, Scene& scene, Log& log) {
     const UnreachedInstances unreached = leave_out_unreached(scene);
     if (!unreached.left_out.empty()) {
         log.warn(document.file,
@@ -48,6 +52,18 @@ void leave_out_nodes(const Document& document, Scene& scene, Log& log) {
                      " copies of meshes that lie exactly on others are not drawn; nodes: " +
                      node_names(document, scene, copies));
     }
+}
+
+}  // namespace
+
+void leave_out_nodes(const Document& document, Scene& scene, Log& log) {
+    if (scene.frame_motion == nullptr) return leave_out_of_scene(document, scene, log);
+    const std::vector<Instance> before = scene.instances;
+    leave_out_of_scene(document, scene, log);
+    if (scene.instances.size() == before.size()) return;
+    FrameMotion motion = *scene.frame_motion;
+    leave_out_frames(before, scene.instances, motion);
+    scene.frame_motion = std::make_shared<const FrameMotion>(std::move(motion));
 }
 
 }  // namespace obscura::gltf
