@@ -225,13 +225,13 @@ bool is_layer_name(std::string_view name) {
 }
 
 Layer light_layer(const std::string& name,
-                  LightPathExpression expression,
+                  const LightPathExpression& expression,
                   std::optional<size_t> group) {
     return {name,
             channels_of(name, "RGB"),
             LayerKind::color,
             "mean",
-            LightLayer{std::move(expression), group}};
+            LightLayer{expression, group, expression.text}};
 }
 
 Result<Layer> light_layer_of(const std::string& text) {
@@ -247,7 +247,7 @@ Result<Layer> light_layer_of(const std::string& text) {
     Result<LightPathExpression> expression =
         parse_light_path_expression(std::string_view(text).substr(equals + 1));
     if (!expression) return fail(expression.error());
-    return light_layer(name, std::move(*expression));
+    return light_layer(name, *expression);
 }
 
 bool has_light_layers(std::span<const Layer> layers) {

@@ -28,6 +28,7 @@ struct ShadowRatio {};
 struct LightLayer {
     LightPathExpression expression;
     std::optional<size_t> group = {};  ///< light group that it is limited to, by index
+    std::string shown = {};  ///< the expression for headers: with the group as the light's label
 };
 /// The node, as id_node numbers it, that most samples of a pixel meet; 0: most meet nothing. Of
 /// equal counts the smaller number goes first, and any node before nothing.
@@ -97,7 +98,7 @@ Result<std::vector<Layer>> layers_of(std::span<const std::string> names, int cry
 
 /// A layer of the light that an expression accepts.
 Layer light_layer(const std::string& name,
-                  LightPathExpression expression,
+                  const LightPathExpression& expression,
                   std::optional<size_t> group = {});
 
 /// Whether a name may stand in channels: letters, digits, - and _. A dot would begin another layer.

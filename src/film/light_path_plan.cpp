@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/light_path_plan.h"
 
+#include "base/text.h"
 #include "film/light_components.h"
 #include "film/path_automaton.h"
 #include "surface/lobe_shares.h"
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -51,14 +53,59 @@ EventAlphabet alphabet_of(const LightGroups& groups) {
     return out;
 }
 
+/// The labels that events have.
+std::string labels_in(const EventAlphabet& alphabet) {
+    std::set<std::string> labels;
+    for (const ScatterEvent& event : alphabet.scatterings)
+        labels.emplace(event.lobe);
+    for (const LightEvent& light : alphabet.lights)
+        labels.insert(light.group);
+    labels.erase("");
+    std::string out;
+    for (const std::string& label : labels)
+        out += (out.empty() ? "" : ", ") + label;
+    return out;
+}
+
+/// 64 E-LPE for a label that no event has: it is mistyped, or of a group that is not asked for.
+Result<void> check_labels(const LightPathExpression& expression, const EventAlphabet& alphabet) {
+    const auto is_known = [&](const std::string& glob) {
+        const EventSet labelled{{{"RTVLOB", "DGS-", {{glob}, false}}}};
+        const auto fits = [&](const auto& event) { return matches(labelled, event); };
+        return std::any_of(alphabet.scatterings.begin(), alphabet.scatterings.end(), fits) ||
+               std::any_of(alphabet.lights.begin(), alphabet.lights.end(), fits);
+    };
+    for (const PathNode& node : expression.nodes) {
+        for (const EventPattern& pattern : node.events.members) {
+            const std::vector<std::string>& globs = pattern.labels.globs;
+            const auto unknown = std::find_if_not(globs.begin(), globs.end(), is_known);
+            if (unknown == globs.end()) continue;
+            return fail(ExitCode::usage,
+                        "E-LPE",
+                        expression.text.substr(0, max_shown_expression),
+                        "column " + std::to_string(node.column) + ": no lobe or light group fits " +
+                            in_quotes(*unknown) + "; there are " + labels_in(alphabet));
+        }
+    }
+    return {};
+}
+
+/// A component's expression, whose last event is a light, limited to a light group.
+std::string labelled(const std::string& expression, const std::string& group) {
+    const size_t light = expression.back() == ']' ? expression.rfind('[') : expression.size() - 1;
+    return expression.substr(0, light) + "<" + expression.substr(light) + "'" + group + "'>";
+}
+
 }  // namespace
 
 std::vector<Layer> light_group_layers(std::span<const std::string> names, bool components) {
     std::vector<Layer> out;
     for (size_t group = 0; group < names.size(); ++group) {
         const auto add = [&](const std::string& name, const char* expression) {
-            out.push_back(light_layer(
-                name + "_" + names[group], parse_light_path_expression(expression).value(), group));
+            Layer layer = light_layer(
+                name + "_" + names[group], parse_light_path_expression(expression).value(), group);
+            std::get<LightLayer>(layer.source).shown = labelled(expression, names[group]);
+            out.push_back(std::move(layer));
         };
         add("light", all_light);
         if (!components) continue;
@@ -73,8 +120,11 @@ Result<LightPathPlan> LightPathPlan::make(std::span<const Layer> layers,
                                           const LightGroups& groups,
                                           std::vector<uint16_t> class_of_light) {
     const LightShares light = shares_in(layers);
-    const Result<PathAutomaton> automaton =
-        PathAutomaton::compile(light.expressions, alphabet_of(groups));
+    const EventAlphabet alphabet = alphabet_of(groups);
+    for (const LightPathExpression& expression : light.expressions) {
+        if (auto known = check_labels(expression, alphabet); !known) return fail(known.error());
+    }
+    const Result<PathAutomaton> automaton = PathAutomaton::compile(light.expressions, alphabet);
     if (!automaton) return fail(automaton.error());
     if (automaton->state_count() > max_path_states) {
         return fail(ExitCode::usage,

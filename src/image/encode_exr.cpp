@@ -6,6 +6,7 @@
 #include "image/exr_pixels.h"
 #include "image/exr_stream.h"
 
+#include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
@@ -45,17 +46,18 @@ PixelView rows_of(const ExrGroup& group, int first, int count, int width) {
 ///
 /// Out     how many values were clamped
 uint64_t add_channels(StoredGroup& stored,
-                      const ExrOptions& options,
+                      const Imf::Header& header,
                       const Imath::Box2i& window,
                       Imf::FrameBuffer& buffer) {
     const PixelView& view = stored.floats;
     const auto width = static_cast<size_t>(view.width);
     const size_t count = width * static_cast<size_t>(view.height) * view.channels;
-    const bool is_half = depth_of(stored.group, options) == ExrDepth::half;
+    const std::string& first = stored.group.channels->front();
+    const bool is_half = header.channels().findChannel(first)->type == Imf::HALF;
     uint64_t clamped = 0;
     if (is_half) {
         stored.halves.resize(count);
-        clamped = store_many_halves({view.pixels, count}, stored.halves);
+        clamped = store_many_halves({view.pixels, count}, largest_half(header), stored.halves);
     }
     const size_t value_bytes = is_half ? sizeof(half) : sizeof(float);
     const void* data = is_half ? static_cast<const void*>(stored.halves.data())
@@ -116,7 +118,7 @@ uint64_t write_lines(Imf::OutputPart out,
         for (StoredGroup& stored : groups) {
             stored.floats =
                 rows_of(stored.group, part.rows.first + first, count, content.image.width);
-            clamped += add_channels(stored, content.options, window, buffer);
+            clamped += add_channels(stored, out.header(), window, buffer);
         }
         out.setFrameBuffer(buffer);
         out.writePixels(count);
@@ -135,7 +137,7 @@ uint64_t write_tiles(Imf::TiledOutputPart out, const ExrPart& part, const ExrCon
         for (StoredGroup& group : groups) {
             if (level > 0) shrink(group);
             const uint64_t here =
-                add_channels(group, content.options, out.dataWindowForLevel(level), buffer);
+                add_channels(group, out.header(), out.dataWindowForLevel(level), buffer);
             if (level == 0) clamped += here;
         }
         out.setFrameBuffer(buffer);
@@ -151,8 +153,12 @@ EncodedFile encode_parts(const ExrContent& content,
     const bool all_zip = std::all_of(headers.begin(), headers.end(), is_zip_lines);
     const int threads = all_zip ? 0 : compression_threads(values_of(content.image));
     EncodedFile out;
-    for (const ExrPart& part : parts)
+    for (const ExrPart& part : parts) {
         out.report.lossless_instead |= is_lossless_instead(part, content.options);
+        out.report.half_instead |= is_half_instead(part, content.options);
+    }
+    for (const Imf::Header& header : headers)
+        out.report.largest_half = std::min(out.report.largest_half, largest_half(header));
     ExrMemoryWriter stream(name.c_str());
     uint64_t after_headers = 0;
     {

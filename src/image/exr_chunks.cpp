@@ -30,6 +30,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "OpenEXR files are little-endian");
 
+constexpr float largest_zip_half = 65504;
+
 /// Interleaved channels in memory, and where each of them begins in a row of the file.
 struct ChunkGroup {
     const float* pixels = nullptr;  ///< of the part's first row
@@ -159,7 +161,7 @@ uint64_t write_row(const ChunkedPart& part, size_t y, Scratch& scratch, unsigned
         }
         if (group.is_half) {
             scratch.halves.resize(values);
-            clamped += store_halves(floats, scratch.halves);
+            clamped += store_halves(floats, largest_zip_half, scratch.halves);
             separate<half>(scratch.halves, group.offsets, row);
         } else {
             separate(floats, group.offsets, row);

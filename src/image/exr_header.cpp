@@ -143,8 +143,8 @@ void insert_storage(Imf::Header& header, const ExrPart& part, const ExrOptions& 
             Imf::TileDescription(size, size, options.mipmap ? Imf::MIPMAP_LEVELS : Imf::ONE_LEVEL));
     }
     for (const ExrGroup& group : part.groups) {
-        const Imf::Channel channel(depth_of(group, options) == ExrDepth::half ? Imf::HALF
-                                                                              : Imf::FLOAT);
+        const Imf::Channel channel(depth_of(group, part, options) == ExrDepth::half ? Imf::HALF
+                                                                                    : Imf::FLOAT);
         for (const std::string& name : *group.channels)
             header.channels().insert(name, channel);
     }

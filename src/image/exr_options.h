@@ -16,7 +16,8 @@ enum class ExrLayout { single, multipart, separate };
 enum class ExrCompression { none, rle, zips, zip, piz, pxr24, b44, b44a, dwaa, dwab };
 
 struct ExrOptions {
-    ExrDepth depth = ExrDepth::half;  ///< of colour; data and ids are always 32-bit floats
+    /// Of colour; data and ids are always 32-bit floats. dwaa and dwab keep halves.
+    ExrDepth depth = ExrDepth::half;
     ExrLayout layout = ExrLayout::single;
     /// Of colour. Data and ids are never lossy: a part of data has ZIP in place of a lossy codec. A
     /// single part has one codec for all; where that rounds 32-bit floats (pxr24, dwaa, dwab) and
@@ -31,7 +32,9 @@ struct ExrOptions {
 
 /// What a file could not keep.
 struct WriteReport {
-    uint64_t clamped_values = 0;    ///< beyond +-65504 in a half channel
+    uint64_t clamped_values = 0;    ///< beyond +-largest_half in a half channel
+    float largest_half = 65504;     ///< less with DWA
+    bool half_instead = false;      ///< of 32 bits; see ExrOptions
     bool lossless_instead = false;  ///< ZIP in place of the codec for colour; see ExrOptions
 };
 

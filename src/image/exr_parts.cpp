@@ -13,11 +13,14 @@ bool is_lossy(ExrCompression codec) {
     return codec >= ExrCompression::pxr24;
 }
 
+bool is_dwa(ExrCompression codec) {
+    return codec == ExrCompression::dwaa || codec == ExrCompression::dwab;
+}
+
 /// PXR24 keeps 24 bits of a float. DWA keeps 16 of every channel whose name ends in R, G, B, Y, RY
 /// or BY, and how much of the others is the library's choice. B44 leaves floats as they are.
 bool rounds_floats(ExrCompression codec) {
-    return codec == ExrCompression::pxr24 || codec == ExrCompression::dwaa ||
-           codec == ExrCompression::dwab;
+    return codec == ExrCompression::pxr24 || is_dwa(codec);
 }
 
 bool has_kind(const std::vector<ExrGroup>& groups, bool color) {
@@ -113,8 +116,9 @@ ExrPart part_of_layer(const ExrContent& content, const ImageLayer& layer) {
     return make_part(layer.name, {group_of(layer)}, content.options, all_rows(content.image));
 }
 
-ExrDepth depth_of(const ExrGroup& group, const ExrOptions& options) {
-    return group.kind == LayerKind::color ? options.depth : ExrDepth::float32;
+ExrDepth depth_of(const ExrGroup& group, const ExrPart& part, const ExrOptions& options) {
+    if (group.kind != LayerKind::color) return ExrDepth::float32;
+    return is_dwa(part.compression) ? ExrDepth::half : options.depth;
 }
 
 bool is_averaged(const ExrGroup& group) {
@@ -125,6 +129,11 @@ bool is_averaged(const ExrGroup& group) {
 
 bool is_lossless_instead(const ExrPart& part, const ExrOptions& options) {
     return has_kind(part.groups, true) && part.compression != options.compression;
+}
+
+bool is_half_instead(const ExrPart& part, const ExrOptions& options) {
+    return options.depth == ExrDepth::float32 && is_dwa(part.compression) &&
+           has_kind(part.groups, true);
 }
 
 Result<void> check_layers(const ExrContent& content, const std::string& where) {

@@ -55,14 +55,18 @@ std::vector<ExrPart> parts_of_image(const ExrContent& content);
 /// The only part of a layer's own file.
 ExrPart part_of_layer(const ExrContent& content, const ImageLayer& layer);
 
-/// Half or float, by the kind of the channels and the depth of colour.
-ExrDepth depth_of(const ExrGroup& group, const ExrOptions& options);
+/// Half or float, by the kind of the channels and the depth of colour. DWA keeps no more than
+/// halves.
+ExrDepth depth_of(const ExrGroup& group, const ExrPart& part, const ExrOptions& options);
 
 /// True when smaller copies have means, false when they have the upper left one of 2x2 pixels.
 bool is_averaged(const ExrGroup& group);
 
 /// True when the codec for colour would have rounded data in the same part.
 bool is_lossless_instead(const ExrPart& part, const ExrOptions& options);
+
+/// True when colours are to be floats, and the codec keeps halves.
+bool is_half_instead(const ExrPart& part, const ExrOptions& options);
 
 /// Sets an attribute; an empty text is left out.
 void insert_attribute(Imf::Header& header, const ImageAttribute& attribute);

@@ -107,9 +107,9 @@ std::vector<PlannedPart> plan_parts(const Imf::MultiPartInputFile& in,
 /// Channels of some rows in memory, of the types that the file has.
 class NativeRows {
 public:
-    NativeRows(const Imf::ChannelList& channels, const Imath::Box2i& window)
-        : channels_(channels), window_(window) {
-        for (auto one = channels.begin(); one != channels.end(); ++one) {
+    NativeRows(const Imf::Header& header, const Imath::Box2i& window)
+        : channels_(header.channels()), window_(window), largest_(largest_half(header)) {
+        for (auto one = channels_.begin(); one != channels_.end(); ++one) {
             const size_t size = value_bytes(one.channel().type);
             UnsetArray<char>& values = values_[one.name()];
             values.resize(size * width() * height());
@@ -145,7 +145,7 @@ public:
                 std::memcpy(to.data(), plain.data(), to.size());
             } else {
                 UnsetArray<half> halves(plain.size());
-                clamped += store_many_halves(plain, halves);
+                clamped += store_many_halves(plain, largest_, halves);
                 std::memcpy(to.data(), halves.data(), to.size());
             }
         }
@@ -167,6 +167,7 @@ private:
 
     const Imf::ChannelList& channels_;
     Imath::Box2i window_;
+    float largest_;
     std::map<std::string, UnsetArray<char>> values_;
     Imf::FrameBuffer frame_;
 };
@@ -192,7 +193,7 @@ uint64_t rewrite_lines(const Files& files, int index, const PlannedPart& part) {
         Imath::Box2i window = whole;
         window.min.y = whole.min.y + first;
         window.max.y = std::min(window.min.y + step - 1, whole.max.y);
-        NativeRows rows(part.header.channels(), window);
+        NativeRows rows(part.header, window);
         if (!part.is_new) {
             in.setFrameBuffer(rows.frame_of(in.header().channels()));
             in.readPixels(window.min.y, window.max.y);
@@ -235,7 +236,7 @@ uint64_t rewrite_tiles(const Files& files, int index, const PlannedPart& part) {
     }
     uint64_t clamped = 0;
     for (int level = 0; level < out.numLevels(); ++level) {
-        NativeRows rows(part.header.channels(), out.dataWindowForLevel(level));
+        NativeRows rows(part.header, out.dataWindowForLevel(level));
         const int last_x = out.numXTiles(level) - 1;
         const int last_y = out.numYTiles(level) - 1;
         if (!part.is_new) {
@@ -294,6 +295,8 @@ Result<EncodedFile> ExrDocument::with_changes(std::span<const ExrChange> changes
             headers.push_back(part.header);
             file.report.lossless_instead |=
                 part.header.compression() != in.header(part.from).compression();
+            file.report.largest_half =
+                std::min(file.report.largest_half, largest_half(part.header));
         }
         ExrMemoryWriter writer(where_.c_str());
         {

@@ -176,6 +176,8 @@ Result<WriteReport> write_image_file(const FileToWrite& file,
         if (!encoded) return fail(encoded.error());
         all.clamped_values += encoded->report.clamped_values;
         all.lossless_instead |= encoded->report.lossless_instead;
+        all.half_instead |= encoded->report.half_instead;
+        all.largest_half = std::min(all.largest_half, encoded->report.largest_half);
         return file.write(to, encoded->bytes);
     };
     if (target->format == OutputFormat::exr && exr.layout == ExrLayout::separate) {

@@ -44,7 +44,7 @@ ImageLayer image_layer(FilmLayer&& from, const std::string& manifest) {
     out.kind = from.layer.kind;
     out.pixels = std::move(from.pixels);
     if (const auto* share = std::get_if<LightLayer>(&from.layer.source))
-        out.expression = share->expression.text;
+        out.expression = share->shown;
     out.reduction = std::move(from.layer.reduction);
     return out;
 }

@@ -251,10 +251,19 @@ void warn_of(const WriteReport& report, const std::string& file, Log& log) {
     if (report.clamped_values > 0) {
         log.warn(
             file,
-            fmt::format("{} values beyond 65504, the largest of 16 bits, are clamped; {} keeps "
-                        "them",
+            fmt::format("{} values beyond {:.0f}, the largest of 16 bits{}, are clamped; {} keeps "
+                        "them{}",
                         report.clamped_values,
-                        setting("float")));
+                        report.largest_half,
+                        report.largest_half < 65504 ? " that the codec keeps finite" : "",
+                        setting("float"),
+                        report.largest_half < 65504 ? " with another codec" : ""));
+    }
+    if (report.half_instead) {
+        log.warn(file,
+                 fmt::format("its colours have 16 bits in spite of {}: dwaa and dwab keep no more; "
+                             "choose another codec",
+                             setting("float")));
     }
     if (report.lossless_instead) {
         log.warn(file,

@@ -431,6 +431,29 @@ TEST_F(ExrLayers, ClampedValuesAreCountedInHalvesOnly) {
     }
 }
 
+TEST_F(ExrLayers, DwaWritesHalvesThatStayFinite) {
+    constexpr size_t side = 64;
+    OutputImage image{side, side, {"R", "G", "B"}, UnsetArray<float>(3 * side * side)};
+    Pcg32 random(7);
+    for (float& value : image.pixels)  // black and white spread the error farthest
+        value = random.next_float() < 0.5f ? 0.0f : 1e6f;
+    for (const float level : {0.0f, 45.0f, 300.0f, 1000.0f}) {
+        for (const ExrDepth depth : {ExrDepth::half, ExrDepth::float32}) {
+            const WriteReport report = write(
+                image, {.depth = depth, .compression = ExrCompression::dwaa, .dwa_level = level});
+            EXPECT_EQ(report.half_instead, depth == ExrDepth::float32);
+            EXPECT_GT(report.clamped_values, side * side);
+            Imf::MultiPartInputFile file = open();
+            EXPECT_EQ(file.header(0).channels()["R"].type, Imf::HALF);
+            float most = 0;
+            for (const auto& [name, values] : channels_of(file))
+                most = std::max(most, *std::max_element(values.begin(), values.end()));
+            EXPECT_LE(most, 65504) << level;
+            EXPECT_GT(most, 0.9f * report.largest_half) << level;
+        }
+    }
+}
+
 TEST_F(ExrLayers, AnyNumberOfThreadsWritesTheSameBytes) {
     const OutputImage image = layered(700, 300);
     for (const ExrLayout layout : {ExrLayout::single, ExrLayout::multipart}) {
