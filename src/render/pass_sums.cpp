@@ -17,10 +17,13 @@ constexpr int sum_block_size = sum_block_samples;
 
 std::vector<int> pass_ends(int samples_per_pixel) {
     constexpr int step = 16;
+    constexpr int largest_early = 4 * step;  // what next_samples takes at once
     std::vector<int> out;
     for (int end = 1; end < samples_per_pixel;) {
         out.push_back(end);
-        const int more = end < step ? 3 * end : std::max(end / (step * step) * step, step);
+        const int more = end < step
+                             ? 3 * end
+                             : std::max(end / (step * step) * step, std::min(end, largest_early));
         if (more > samples_per_pixel - end) break;
         end += more;
     }

@@ -73,9 +73,9 @@ Result<std::optional<BuiltInEnvironment>> parse_built_in_environment(const std::
     if (text == "neutral") return Found(BuiltInEnvironment{Kind::neutral});
     if (text == "white") return Found(BuiltInEnvironment{Kind::white});
     constexpr std::string_view sky = "sky:";
-    if (!text.starts_with(sky) && text != "sky") return Found();
+    if (!text.starts_with(sky)) return Found();
     const Result<BuiltInEnvironment> found =
-        parse_sky(text, text == "sky" ? "" : std::string_view(text).substr(sky.size()));
+        parse_sky(text, std::string_view(text).substr(sky.size()));
     if (!found) return fail(found.error());
     return Found(*found);
 }

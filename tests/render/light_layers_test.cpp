@@ -398,7 +398,7 @@ TEST(LightPathExpressions, AreLayersOfTheirOwn) {
     add("everything=C.*[LOB]");
     add("gloss_of_key=C<R[GS]>+<L'key'>");
     add("key=C.*<L'key'>");
-    add("none=C<RD'nothing'>.*[LOB]");
+    add("none=C<TD'coat'>.*[LOB]");
     add("second=C<RD>D[LOB]");
     RenderOptions options = light_options(layers);
     options.light_groups = three_groups();
