@@ -7,8 +7,8 @@
 namespace obscura {
 
 /// The numbers of samples that pixels have after each pass, ascending: 1, 4, 16, 32, 64, then 64
-/// more each time, from 1280 on a sixteenth more, in steps of 16; at last all of them. The first pass is
-/// short, so that all of the film is there soon; later ones fill batches.
+/// more each time, from 1280 on a sixteenth more, in steps of 16; at last all of them. The first
+/// pass is short, so that all of the film is there soon; later ones fill batches.
 std::vector<int> pass_ends(int samples_per_pixel);
 
 /// The sums of a film all of whose pixels take the same samples.
