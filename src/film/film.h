@@ -14,7 +14,7 @@
 
 namespace obscura {
 
-/// A layer with its pixels: float32, interleaved, as many as the film has.
+/// A layer with its pixels: float32, as many as the film has, in planes (image/channel_planes.h).
 struct FilmLayer {
     Layer layer;
     UnsetArray<float> pixels;

@@ -3,6 +3,7 @@
 #include "film/film_state.h"
 
 #include "base/memory_budget.h"
+#include "image/channel_planes.h"
 
 #include <algorithm>
 #include <cstring>
@@ -13,17 +14,20 @@ namespace obscura {
 
 namespace {
 
-constexpr std::string_view magic = "OBSFILM5";
+constexpr std::string_view magic = "OBSFILM6";
 
 /// Calls `use(first float, count)` for each row of the areas, image by image.
 template <typename AnyFilm, typename Use>
 void for_rows(AnyFilm& film, std::span<const FilmArea> areas, const Use& use) {
     const auto rows = [&](auto& pixels, size_t channels, const FilmArea& area) {
-        for (int y = area.y; y < area.y + area.height; ++y) {
-            const size_t first = static_cast<size_t>(y) * static_cast<size_t>(film.width) +
-                                 static_cast<size_t>(area.x);
-            use(pixels.data() + first * channels, static_cast<size_t>(area.width) * channels);
-        }
+        for_planes(channels, pixels.size() / channels, [&](const ChannelPlane& plane) {
+            for (int y = area.y; y < area.y + area.height; ++y) {
+                const size_t first = static_cast<size_t>(y) * static_cast<size_t>(film.width) +
+                                     static_cast<size_t>(area.x);
+                use(pixels.data() + plane.first_value + first * plane.channels,
+                    static_cast<size_t>(area.width) * plane.channels);
+            }
+        });
     };
     for (const FilmArea& area : areas) {
         rows(film.pixels, film.channels.size(), area);
@@ -258,21 +262,10 @@ Film copy_areas(const Film& film, std::span<const FilmArea> areas) {
     out.pixels = zero_array<float>(film.pixels.size());
     for (const FilmLayer& layer : film.layers)
         out.layers.push_back({layer.layer, zero_array<float>(layer.pixels.size()), layer.names});
-    const auto copy = [&](const UnsetArray<float>& from, UnsetArray<float>& pixels, size_t size) {
-        for (const FilmArea& area : areas) {
-            for (int y = area.y; y < area.y + area.height; ++y) {
-                const size_t first =
-                    size * (static_cast<size_t>(y) * static_cast<size_t>(film.width) +
-                            static_cast<size_t>(area.x));
-                std::copy_n(from.data() + first,
-                            size * static_cast<size_t>(area.width),
-                            pixels.data() + first);
-            }
-        }
-    };
-    copy(film.pixels, out.pixels, film.channels.size());
-    for (size_t i = 0; i < film.layers.size(); ++i)
-        copy(film.layers[i].pixels, out.layers[i].pixels, film.layers[i].layer.channels.size());
+    std::vector<const float*> from;
+    for_rows(film, areas, [&](const float* row, size_t /*count*/) { from.push_back(row); });
+    auto next = from.begin();
+    for_rows(out, areas, [&](float* row, size_t count) { std::copy_n(*next++, count, row); });
     return out;
 }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/layer_sums.h"
 
+#include "image/channel_planes.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -26,18 +28,18 @@ template <typename Value>
 void write_pixels(std::span<const size_t> at, FilmLayer& layer, const Value& value) {
     const size_t channels = layer.layer.channels.size();
     std::vector<float> values(at.size() * channels);
-    const auto pixel = [&](size_t p) { return std::span(values).subspan(p * channels, channels); };
-    const auto is_zero = [](float x) { return std::bit_cast<uint32_t>(x) == 0; };
-    const auto is_empty = [&](size_t p) { return std::ranges::all_of(pixel(p), is_zero); };
     for (size_t p = 0; p < at.size(); ++p)
-        value(p, pixel(p));
-    for (size_t p = 0, end = 0; p < at.size(); p = end) {
-        end = p + 1;
-        if (is_empty(p)) continue;
-        while (end < at.size() && at[end] == at[end - 1] + 1 && !is_empty(end))
-            ++end;
-        std::copy_n(&values[p * channels], (end - p) * channels, &layer.pixels[at[p] * channels]);
-    }
+        value(p, std::span(values).subspan(p * channels, channels));
+    for_planes(channels, layer.pixels.size() / channels, [&](const ChannelPlane& plane) {
+        const auto is_zero = [](float x) { return std::bit_cast<uint32_t>(x) == 0; };
+        const auto pixel = [&](size_t p) {
+            return std::span(values).subspan(p * channels + plane.first_channel, plane.channels);
+        };
+        for (size_t p = 0; p < at.size(); ++p) {
+            if (std::ranges::all_of(pixel(p), is_zero)) continue;
+            std::ranges::copy(pixel(p), &layer.pixels[plane.first_value + at[p] * plane.channels]);
+        }
+    });
 }
 
 }  // namespace

@@ -138,6 +138,7 @@ Result<LightPathPlan> LightPathPlan::make(std::span<const Layer> layers,
     out.group_count_ = static_cast<uint32_t>(groups.names.size());
     out.environment_group_ = groups.environment;
     out.class_of_light_ = std::move(class_of_light);
+    out.find_class_runs();
     out.layer_count_ = static_cast<int>(light.shares.size());
     out.shadow_ = std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
         return std::holds_alternative<ShadowRatio>(layer.source);
@@ -164,6 +165,18 @@ Result<LightPathPlan> LightPathPlan::make(std::span<const Layer> layers,
     out.number_sums();
     out.group_emitters(scene, groups);
     return out;
+}
+
+void LightPathPlan::find_class_runs() {
+    class_runs_.push_back({0, 0});
+    for (size_t light = 0; light < class_of_light_.size(); ++light) {
+        const LightClassRun run{static_cast<int32_t>(light), class_of_light_[light]};
+        if (light == 0) {
+            class_runs_.front() = run;
+        } else if (run.light_class != class_runs_.back().light_class) {
+            class_runs_.push_back(run);
+        }
+    }
 }
 
 void LightPathPlan::find_common_states() {
@@ -248,6 +261,8 @@ LightPathTable LightPathPlan::table() const {
             .class_count = light_kinds * group_count_,
             .environment_group = environment_group_,
             .class_of_light = class_of_light_.data(),
+            .class_runs = class_runs_.data(),
+            .class_run_count = static_cast<int>(class_runs_.size()),
             .group_of_primitive = group_of_primitive_.data(),
             .group_of_instance = group_of_instance_.data(),
             .shadow = shadow_};

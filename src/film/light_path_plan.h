@@ -33,6 +33,7 @@ public:
 
 private:
     void group_emitters(const Scene& scene, const LightGroups& groups);
+    void find_class_runs();
     void find_common_states();
     void number_sums();
 
@@ -45,6 +46,7 @@ private:
     Sums sums_for(const Counts& counts) const;
 
     std::vector<uint16_t> next_, common_next_, layers_, class_of_light_;
+    std::vector<LightClassRun> class_runs_;
     Sums settled_sums_, resting_sums_;
     std::vector<uint16_t> group_of_primitive_, group_of_instance_;
     std::vector<uint8_t> settled_;

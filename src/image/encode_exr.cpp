@@ -27,25 +27,27 @@ size_t values_of(const OutputImage& image) {
     return values;
 }
 
-/// The values of a group at one level of a mipmap.
-struct StoredGroup {
+/// The values of a group's plane at one level of a mipmap.
+struct StoredPlane {
     const ExrGroup& group;
+    ChannelPlane plane;
     PixelView floats;
     UnsetArray<float> level = {};  ///< what `floats` looks at, below the first level
     UnsetArray<half> halves = {};  ///< reused from rows to rows
 };
 
-/// Rows of a group in memory.
-PixelView rows_of(const ExrGroup& group, int first, int count, int width) {
-    const size_t channels = group.channels->size();
-    const size_t before = static_cast<size_t>(first) * static_cast<size_t>(width) * channels;
-    return {group.pixels->data() + before, width, count, channels};
+/// Rows of a plane in memory.
+PixelView rows_of(const StoredPlane& stored, int first, int count, int width) {
+    const ChannelPlane& plane = stored.plane;
+    const size_t before = static_cast<size_t>(first) * static_cast<size_t>(width) * plane.channels;
+    return {
+        stored.group.pixels->data() + plane.first_value + before, width, count, plane.channels};
 }
 
-/// Adds a group's channels to what OpenEXR writes, as halves if they are stored so.
+/// Adds a plane's channels to what OpenEXR writes, as halves if they are stored so.
 ///
 /// Out     how many values were clamped
-uint64_t add_channels(StoredGroup& stored,
+uint64_t add_channels(StoredPlane& stored,
                       const Imf::Header& header,
                       const Imath::Box2i& window,
                       Imf::FrameBuffer& buffer) {
@@ -66,7 +68,7 @@ uint64_t add_channels(StoredGroup& stored,
     char* base = const_cast<char*>(static_cast<const char*>(data));
     const size_t pixel_bytes = value_bytes * view.channels;
     for (size_t i = 0; i < view.channels; ++i) {
-        buffer.insert((*stored.group.channels)[i],
+        buffer.insert((*stored.group.channels)[stored.plane.first_channel + i],
                       Imf::Slice::Make(is_half ? Imf::HALF : Imf::FLOAT,
                                        base + i * value_bytes,
                                        window,
@@ -76,7 +78,7 @@ uint64_t add_channels(StoredGroup& stored,
     return clamped;
 }
 
-void shrink(StoredGroup& stored) {
+void shrink(StoredPlane& stored) {
     UnsetArray<float> smaller = half_as_large(stored.floats, is_averaged(stored.group));
     stored.level = std::move(smaller);
     stored.floats = {stored.level.data(),
@@ -85,11 +87,15 @@ void shrink(StoredGroup& stored) {
                      stored.floats.channels};
 }
 
-std::vector<StoredGroup> stored_groups(const ExrPart& part, const OutputImage& image) {
-    std::vector<StoredGroup> groups;
-    for (const ExrGroup& group : part.groups)
-        groups.push_back({group, rows_of(group, part.rows.first, part.rows.count, image.width)});
-    return groups;
+std::vector<StoredPlane> stored_planes(const ExrPart& part, const OutputImage& image) {
+    std::vector<StoredPlane> out;
+    for (const ExrGroup& group : part.groups) {
+        for_planes(group, [&](const ChannelPlane& plane) {
+            StoredPlane& stored = out.emplace_back(StoredPlane{group, plane, {}});
+            stored.floats = rows_of(stored, part.rows.first, part.rows.count, image.width);
+        });
+    }
+    return out;
 }
 
 /// Rows that are made halves at once: a few blocks of the codec for each thread. More would only
@@ -106,7 +112,7 @@ uint64_t write_lines(Imf::OutputPart out,
                      const ExrPart& part,
                      const ExrContent& content,
                      int threads) {
-    std::vector<StoredGroup> groups = stored_groups(part, content.image);
+    std::vector<StoredPlane> planes = stored_planes(part, content.image);
     uint64_t clamped = 0;
     const int step = rows_at_once(part.compression, threads);
     for (int first = 0; first < part.rows.count; first += step) {
@@ -115,9 +121,8 @@ uint64_t write_lines(Imf::OutputPart out,
         window.min.y += first;
         window.max.y = window.min.y + count - 1;
         Imf::FrameBuffer buffer;
-        for (StoredGroup& stored : groups) {
-            stored.floats =
-                rows_of(stored.group, part.rows.first + first, count, content.image.width);
+        for (StoredPlane& stored : planes) {
+            stored.floats = rows_of(stored, part.rows.first + first, count, content.image.width);
             clamped += add_channels(stored, out.header(), window, buffer);
         }
         out.setFrameBuffer(buffer);
@@ -130,14 +135,14 @@ uint64_t write_lines(Imf::OutputPart out,
 ///
 /// Out     how many values of the first level were clamped
 uint64_t write_tiles(Imf::TiledOutputPart out, const ExrPart& part, const ExrContent& content) {
-    std::vector<StoredGroup> groups = stored_groups(part, content.image);
+    std::vector<StoredPlane> planes = stored_planes(part, content.image);
     uint64_t clamped = 0;
     for (int level = 0; level < out.numLevels(); ++level) {
         Imf::FrameBuffer buffer;
-        for (StoredGroup& group : groups) {
-            if (level > 0) shrink(group);
+        for (StoredPlane& stored : planes) {
+            if (level > 0) shrink(stored);
             const uint64_t here =
-                add_channels(group, out.header(), out.dataWindowForLevel(level), buffer);
+                add_channels(stored, out.header(), out.dataWindowForLevel(level), buffer);
             if (level == 0) clamped += here;
         }
         out.setFrameBuffer(buffer);

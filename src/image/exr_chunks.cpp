@@ -75,12 +75,15 @@ ChunkedPart chunked(const ExrPart& part, const Imf::Header& header) {
     for (const ExrGroup& group : part.groups) {
         const std::vector<std::string>& names = *group.channels;
         const Imf::Channel& channel = header.channels()[names.front()];
-        ChunkGroup& to = out.groups.emplace_back();
-        to.pixels = group.pixels->data() + first * out.width * names.size();
-        to.is_half = channel.type == Imf::HALF;
-        to.may_have_unused_pages = PageMap::can_look_at(*group.pixels);
-        for (const std::string& name : names)
-            to.offsets.push_back(offsets.at(name));
+        for_planes(group, [&](const ChannelPlane& plane) {
+            ChunkGroup& to = out.groups.emplace_back();
+            to.pixels =
+                group.pixels->data() + plane.first_value + first * out.width * plane.channels;
+            to.is_half = channel.type == Imf::HALF;
+            to.may_have_unused_pages = PageMap::can_look_at(*group.pixels);
+            for (size_t c = 0; c < plane.channels; ++c)
+                to.offsets.push_back(offsets.at(names[plane.first_channel + c]));
+        });
     }
     return out;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "image/channel_planes.h"
 #include "image/exr_options.h"
 #include "image/image_metadata.h"
 #include "image/layers.h"
@@ -14,13 +15,21 @@
 
 namespace obscura {
 
-/// Channels that lie side by side in memory: the beauty's or a layer's.
+/// The channels of the beauty or of a layer.
 struct ExrGroup {
     const std::vector<std::string>* channels;
     const UnsetArray<float>* pixels;
     LayerKind kind;
     const ImageLayer* layer;  ///< null: the beauty
 };
+
+/// Calls use(plane) for each plane of a group. The beauty's channels all lie side by side.
+template <typename Use>
+void for_planes(const ExrGroup& group, const Use& use) {
+    const size_t channels = group.channels->size();
+    if (group.layer == nullptr) return use(ChannelPlane{0, channels, 0});
+    for_planes(channels, group.pixels->size() / channels, use);
+}
 
 /// The rows of an image that a part has: all, or those of one of its views.
 struct ExrRows {

@@ -18,7 +18,7 @@ struct ImageLayer {
     std::string name;                   ///< unique; it becomes the name of a part or file
     std::vector<std::string> channels;  ///< full names, as in the file: "albedo.R", "Z"
     LayerKind kind = LayerKind::data;
-    UnsetArray<float> pixels;     ///< as many as the beauty has, channels interleaved
+    UnsetArray<float> pixels;     ///< as many as the beauty has, see image/channel_planes.h
     std::string expression = {};  ///< what it shows, for the header; may be empty
     /// How samples became a pixel, for the header: "mean" or empty; anything else is no mean.
     std::string reduction = {};

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "film/cryptomatte.h"
 #include "film/cryptomatte_names.h"
+#include "image/channel_planes.h"
 #include "render/integrators.h"
 #include "session/denoising.h"
 #include "session/film_keeper.h"
@@ -264,18 +265,20 @@ Result<DisplayedImage> Viewer::matte_now(const std::string& node) {
     if (known == layer.names.end())
         return fail(ExitCode::usage, "E-NODE-UNKNOWN", node, "no surface of that node is there");
     const float id = cryptomatte_id(cryptomatte_hash(node));
-    DisplayedImage out{image->image.width, image->image.height, 1, {}};
     const size_t channels = layer.channels.size();
-    out.codes.resize(layer.pixels.size() / channels);
-    for (size_t i = 0; i < out.codes.size(); ++i) {
-        const float* const ranks = layer.pixels.data() + i * channels;
-        float covered = 0;
-        for (size_t rank = 0; rank < channels; rank += 2) {
-            const bool is_it = std::bit_cast<uint32_t>(ranks[rank]) == std::bit_cast<uint32_t>(id);
-            if (is_it) covered += ranks[rank + 1];
+    std::vector<float> covered(layer.pixels.size() / channels);
+    for_planes(channels, covered.size(), [&](const ChannelPlane& plane) {
+        const float* ranks = layer.pixels.data() + plane.first_value;
+        for (float& sum : covered) {
+            for (size_t rank = 0; rank < plane.channels; rank += 2, ranks += 2) {
+                if (std::bit_cast<uint32_t>(ranks[0]) == std::bit_cast<uint32_t>(id))
+                    sum += ranks[1];
+            }
         }
-        out.codes[i] = static_cast<uint8_t>(std::lround(255 * std::clamp(covered, 0.0f, 1.0f)));
-    }
+    });
+    DisplayedImage out{image->image.width, image->image.height, 1, {}};
+    for (const float part : covered)
+        out.codes.push_back(static_cast<uint8_t>(std::lround(255 * std::clamp(part, 0.0f, 1.0f))));
     return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "film/cryptomatte.h"
+#include "image/channel_planes.h"
 
 #include <algorithm>
 
@@ -47,7 +48,8 @@ v0::Layer library_layer(const ImageLayer& from) {
     out.kind = static_cast<v0::LayerKind>(from.kind);
     out.reduction = from.reduction;
     out.expression = from.expression;
-    out.pixels.assign(from.pixels.begin(), from.pixels.end());
+    out.pixels.resize(from.pixels.size());
+    interleave_planes(from.pixels, from.channels.size(), out.pixels.data());
     for (const std::string& name : from.names)
         out.names.push_back({name, cryptomatte_id(cryptomatte_hash(name))});
     out.attributes = from.metadata;
@@ -61,7 +63,8 @@ ImageLayer layer_to_write(const v0::Layer& from) {
     out.kind = static_cast<LayerKind>(from.kind);
     out.reduction = from.reduction;
     out.expression = from.expression;
-    out.pixels.assign(from.pixels.begin(), from.pixels.end());
+    out.pixels.resize(from.pixels.size());
+    separate_planes(from.pixels, from.channels.size(), out.pixels.data());
     out.metadata = from.attributes;
     return out;
 }

@@ -4,6 +4,9 @@
 
 #include "stages/light_paths.h"
 
+#include <algorithm>
+#include <span>
+
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
@@ -125,6 +128,40 @@ OBSCURA_INLINE void add_color_lanes(
     add_to_slots(lanes, slot, {{red, add.x}, {green, add.y}, {green + padded_slots, add.z}});
 }
 
+/// Colours to be set in the lanes' samples, of several numbers at once.
+class NewColors {
+public:
+    /// Adds to what a number's colour will be, which is 0 at first.
+    OBSCURA_INLINE void add(uint16_t number, const Vec3<Lanes>& color) {
+        const uint16_t* const found = std::find(numbers_, numbers_ + count_, number);
+        ColorLanes& to = colors_[found - numbers_];
+        if (found != numbers_ + count_)
+            return store_color(Vec3<Lanes>{load(to.r), load(to.g), load(to.b)} + color, to);
+        numbers_[count_++] = number;
+        store_color(color, to);
+    }
+
+    OBSCURA_INLINE void set(const ColorColumns& columns, Mask lanes, LanesU slot) const {
+        float* red[max_count];
+        for (int k = 0; k < count_; ++k)
+            red[k] = use_color(columns, numbers_[k]);
+        alignas(64) uint32_t slots[lane_count];
+        store(slots, slot);
+        for (uint32_t bits = mask_bits(lanes); bits != 0; bits &= bits - 1) {
+            const int lane = __builtin_ctz(bits);
+            for (int k = 0; k < count_; ++k)
+                set_color(red[k] + slots[lane], colors_[k].at(lane));
+        }
+    }
+
+private:
+    static constexpr int max_count = 2 * Lobes::count + 1;
+
+    int count_ = 0;
+    uint16_t numbers_[max_count];
+    ColorLanes colors_[max_count];
+};
+
 /// The paths that are settled after a move, and those that the next scattering settles.
 struct MovedLanes {
     Mask settled;
@@ -132,11 +169,12 @@ struct MovedLanes {
 };
 
 /// The same from the first state, for all lanes at once.
+///
+/// Out  to: colours by state
 MovedLanes leave_start(const LightPathTable& table,
                        const StoredShares& shares,
                        Mask lanes,
-                       const ColorColumns& to,
-                       LanesU slot) {
+                       NewColors& to) {
     MovedLanes out{lanes, lanes};
     for (int k = 0; k < Lobes::count; ++k) {
         if (none(shares.exists[k] & lanes)) continue;
@@ -149,7 +187,8 @@ MovedLanes leave_start(const LightPathTable& table,
             if (table.settled[next] == 0) out.settled = out.settled & (!moved);
             if (table.common_next[next] == no_common_state)
                 out.settle_next = out.settle_next & (!moved);
-            add_color_lanes(to, next, moved, slot, {load(share.r), load(share.g), load(share.b)});
+            const Vec3<Lanes> color{load(share.r), load(share.g), load(share.b)};
+            to.add(next, select(moved, color, splat3(Lanes(0.0f))));
         }
     }
     return out;
@@ -184,10 +223,15 @@ OBSCURA_INLINE void set_words(uint32_t* column, Mask lanes, LanesU slot, uint32_
     store_by_slot(column, lanes, slot, LanesU(word));
 }
 
-/// Settles the lanes if each state of their paths leads to a settled one, whatever the lobe; the
-/// weights stay where they are, see finish. Returns the lanes that may still move: all whose next
-/// step is not known, if one of them must.
-Mask settle_lanes(const LightPathColumns& columns, const Progress& progress, LanesU slot) {
+/// Gives the lanes this word if each state of their paths leads to a settled one, whatever the
+/// lobe; the weights stay where they are, see finish. Returns the lanes that may still move: all
+/// whose next step is not known, if one of them must.
+///
+/// In   word: path_settled, or path_settles_next
+Mask settle_lanes(const LightPathColumns& columns,
+                  const Progress& progress,
+                  LanesU slot,
+                  uint32_t word) {
     const Mask unknown = progress.moves & (!progress.settle_next);
     const ColorColumns& weights = columns.weights;
     bool all_settle = true;
@@ -197,20 +241,19 @@ Mask settle_lanes(const LightPathColumns& columns, const Progress& progress, Lan
         const Vec3<Lanes> weight = color_lanes(weights, state, unknown, slot);
         all_settle = none(max_component(weight) != Lanes(0.0f));
     }
-    set_words(
-        columns.progress, all_settle ? progress.moves : progress.settle_next, slot, path_settled);
+    set_words(columns.progress, all_settle ? progress.moves : progress.settle_next, slot, word);
     return all_settle ? Mask(false) : unknown;
 }
 
 /// The same of one path. False: it has not settled.
 bool settle_path(const LightPathColumns& columns,
-                 const StateWeight* from,
-                 int count,
-                 uint32_t slot) {
-    for (int k = 0; k < count; ++k) {
-        if (columns.table->common_next[from[k].state] == no_common_state) return false;
+                 std::span<const StateWeight> from,
+                 uint32_t slot,
+                 uint32_t word) {
+    for (const StateWeight& part : from) {
+        if (columns.table->common_next[part.state] == no_common_state) return false;
     }
-    columns.progress[slot] = path_settled;
+    columns.progress[slot] = word;
     return true;
 }
 
@@ -356,13 +399,23 @@ void add_shadow_layers(const LightPathColumns& columns,
 }
 
 void note_shadow_class(const LightPathColumns& columns, Mask lanes, LanesU slot, LanesI light) {
+    const LightPathTable& table = *columns.table;
+    if (table.class_run_count <= max_class_runs) {
+        LanesU classes(table.class_runs[0].light_class);
+        for (int k = 1; k < table.class_run_count; ++k) {
+            const LightClassRun& run = table.class_runs[k];
+            classes = select(light >= LanesI(run.first_light), LanesU(run.light_class), classes);
+        }
+        store_by_slot(columns.shadow_class, lanes, slot, classes);
+        return;
+    }
     alignas(64) uint32_t slots[lane_count];
     alignas(64) int32_t lights[lane_count];
     store(slots, slot);
     store(lights, light);
     for (uint32_t bits = mask_bits(lanes); bits != 0; bits &= bits - 1) {
         const int lane = __builtin_ctz(bits);
-        columns.shadow_class[slots[lane]] = columns.table->class_of_light[lights[lane]];
+        columns.shadow_class[slots[lane]] = table.class_of_light[lights[lane]];
     }
 }
 
@@ -378,14 +431,16 @@ void scatter_shadow(const LightPathColumns& columns,
     StoredShares shares;
     if (columns.all_at_start) {
         find_shares(lanes, scattering, shares);
-        leave_start(table, shares, progress.moves, columns.shadow_weights, slot);
+        NewColors weights;
+        leave_start(table, shares, progress.moves, weights);
+        weights.set(columns.shadow_weights, progress.moves, slot);
         set_words(columns.shadow_split, progress.moves, slot, 1);
         return;
     }
-    // Whatever lobe a path takes next, its shadow ray has the same weights.
-    const bool settles = !columns.goes_straight;
-    Mask moving = progress.moves;
-    if (settles) moving = settle_lanes(columns, progress, slot);
+    // Whatever lobe a path takes next, its shadow ray has the same weights; a path that passes the
+    // surface straight on does not settle, and split_straight_shadows comes to its shadow ray.
+    const uint32_t word = columns.goes_straight ? path_settles_next : path_settled;
+    const Mask moving = settle_lanes(columns, progress, slot, word);
     if (none(moving)) return;
     alignas(64) uint32_t slots[lane_count];
     store(slots, slot);
@@ -395,7 +450,7 @@ void scatter_shadow(const LightPathColumns& columns,
         const int lane = __builtin_ctz(bits);
         const uint32_t at = slots[lane];
         const int count = states_of(columns.weights, at, from);
-        if (settles && settle_path(columns, from, count, at)) continue;
+        if (settle_path(columns, {from, static_cast<size_t>(count)}, at, word)) continue;
         if (!found) find_shares(lanes, scattering, shares);
         found = true;
         columns.shadow_split[at] = 1;
@@ -419,14 +474,15 @@ void scatter_path(const LightPathColumns& columns,
     StoredShares shares;
     if (columns.all_at_start) {
         find_shares(lanes, scattering, shares);
-        const Vec3<Lanes> none_left = splat3(Lanes(-1.0f));  // their weight in the first state is 1
-        add_color_lanes(columns.weights, 0, progress.moves, slot, none_left);
-        const MovedLanes moved = leave_start(table, shares, progress.moves, columns.weights, slot);
+        NewColors weights;
+        weights.add(0, splat3(Lanes(0.0f)));
+        const MovedLanes moved = leave_start(table, shares, progress.moves, weights);
+        weights.set(columns.weights, progress.moves, slot);
         set_words(columns.progress, moved.settle_next, slot, path_settles_next);
         set_words(columns.progress, moved.settled, slot, path_settled);
         return;
     }
-    const Mask moving = settle_lanes(columns, progress, slot);
+    const Mask moving = settle_lanes(columns, progress, slot, path_settled);
     if (none(moving)) return;
     alignas(64) uint32_t slots[lane_count];
     store(slots, slot);
@@ -436,7 +492,7 @@ void scatter_path(const LightPathColumns& columns,
         const int lane = __builtin_ctz(bits);
         const uint32_t at = slots[lane];
         const int count = states_of(columns.weights, at, from);
-        if (settle_path(columns, from, count, at)) continue;
+        if (settle_path(columns, {from, static_cast<size_t>(count)}, at, path_settled)) continue;
         if (!found) find_shares(lanes, scattering, shares);
         found = true;
         bool settled = true;

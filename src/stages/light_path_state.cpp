@@ -188,6 +188,17 @@ void LightPathState::split_shadow(uint32_t slot) {
     }
 }
 
+void LightPathState::split_straight_shadow(uint32_t slot) {
+    if (columns_.progress[slot] != path_settles_next || columns_.shadow_split[slot] != 0) return;
+    columns_.shadow_split[slot] = 1;
+    for (int k = 0; k < *columns_.weights.used_count; ++k) {
+        const uint16_t state = columns_.weights.used[k];
+        const Vec3f part = color_at(columns_.weights.memory + color_words * state, slot);
+        if (max_component(part) <= 0) continue;
+        add_color(columns_.shadow_weights, columns_.table->common_next[state], slot, part);
+    }
+}
+
 void LightPathState::add_unshadowed(uint32_t slot, const Vec3f& radiance) {
     add_color(shadow_columns_, unshadowed_number, slot, radiance);
 }

@@ -48,6 +48,10 @@ public:
     /// Gives a shadow ray the weights of its path, which has moved already.
     void split_shadow(uint32_t slot);
 
+    /// The same where scattering settles the path, but it passed the surface straight on: what its
+    /// shadow ray brings counts as scattered.
+    void split_straight_shadow(uint32_t slot);
+
     /// Notes the light of a first hit's shadow ray, as if nothing were in its way.
     void add_unshadowed(uint32_t slot, const Vec3f& radiance);
     /// Notes the part of it that arrives, which add_shadow_light does by itself.

@@ -38,6 +38,15 @@ inline constexpr uint32_t light_kinds = 3;
 /// States of an automaton at most.
 inline constexpr int max_path_states = 1024;
 
+/// Lights of one class, from an index of light sampling to the next run.
+struct LightClassRun {
+    int32_t first_light;
+    uint16_t light_class;
+};
+
+/// So few runs are looked through; the class of a light among many is a cache miss.
+inline constexpr int max_class_runs = 8;
+
 /// The automaton and the layers of all batches, read by number.
 struct LightPathTable {
     const uint16_t* next = nullptr;    ///< state by state * scatter_event_count + event
@@ -61,8 +70,10 @@ struct LightPathTable {
     uint32_t group_count = 1;  ///< of lights; the last group is that of all the others
     uint32_t class_count = light_kinds;
     uint32_t environment_group = 0;
-    /// Light class by index of light sampling.
+    /// Light class by index of light sampling; the same in runs, at least one.
     const uint16_t* class_of_light = nullptr;
+    const LightClassRun* class_runs = nullptr;
+    int class_run_count = 0;
     /// Groups of emitting surfaces: the lesser one of primitive and instance counts.
     const uint16_t* group_of_primitive = nullptr;
     const uint16_t* group_of_instance = nullptr;
@@ -131,11 +142,15 @@ OBSCURA_INLINE void add_color(const ColorColumns& columns,
     red[size_t{2} * padded_slots] += color.z;
 }
 
+/// In   red: of a number and a slot
+OBSCURA_INLINE void set_color(float* red, const Vec3<float>& color) {
+    red[0] = color.x;
+    red[padded_slots] = color.y;
+    red[size_t{2} * padded_slots] = color.z;
+}
+
 OBSCURA_INLINE void clear_color(const ColorColumns& columns, uint16_t number, uint32_t slot) {
-    float* const red = columns.memory + size_t{3} * padded_slots * number + slot;
-    red[0] = 0;
-    red[padded_slots] = 0;
-    red[size_t{2} * padded_slots] = 0;
+    set_color(columns.memory + size_t{3} * padded_slots * number + slot, {0, 0, 0});
 }
 
 /// Class of the light that a surface emits.

@@ -272,7 +272,10 @@ void follow_paths(
             const SumOfTime time(c.seconds.shade);
             out = in.stages->shade(in.scene, in.batch, bounce, count, shade_columns(in, work));
         }
-        if (out.shadow > 0) trace_shadows(in, out.shadow, bounce, work, c);
+        if (out.shadow > 0) {
+            split_straight_shadows(in, out.next, work);
+            trace_shadows(in, out.shadow, bounce, work, c);
+        }
         move_straight_paths(in, out.next, work);
         std::swap(work.paths[0], work.paths[1]);
         count = out.next;

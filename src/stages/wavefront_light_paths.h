@@ -33,6 +33,12 @@ void move_crossing_shadows(const WavefrontInput& in, int count, Workspace& work)
 /// Moves the paths that have begun a random walk in a medium.
 void move_random_walks(const WavefrontInput& in, int count, Workspace& work);
 
+/// Gives the shadow rays of a bounce weights of their own where their paths go straight through a
+/// thin wall; before they are traced.
+///
+/// In      work.paths[1]: as move_straight_paths
+void split_straight_shadows(const WavefrontInput& in, int count, Workspace& work);
+
 /// Moves the paths that have just gone straight through a thin wall, of those that go on.
 ///
 /// In      work.paths[1]: `count` paths

@@ -21,6 +21,9 @@ Film numbered_film(float first) {
     film.layers.push_back({layers_of(std::vector<std::string>{"normal"}, 6)->front(), {}, {}});
     film.layers.back().pixels.resize(3 * 5 * 3);
     std::iota(film.layers.back().pixels.begin(), film.layers.back().pixels.end(), first + 1000);
+    film.layers.push_back({layers_of(std::vector<std::string>{"crypto_object"}, 6)->front(), {}, {}});
+    film.layers.back().pixels.resize(3 * 5 * 12);
+    std::iota(film.layers.back().pixels.begin(), film.layers.back().pixels.end(), first + 2000);
     return film;
 }
 
@@ -95,7 +98,8 @@ TEST_F(FilmState, ComesBackFromItsParts) {
     }
     const Film whole = numbered_film(1);
     EXPECT_EQ(floats_of(film.pixels), floats_of(whole.pixels));
-    EXPECT_EQ(floats_of(film.layers[0].pixels), floats_of(whole.layers[0].pixels));
+    for (size_t k = 0; k < 2; ++k)
+        EXPECT_EQ(floats_of(film.layers[k].pixels), floats_of(whole.layers[k].pixels));
 }
 
 TEST_F(FilmState, RefusesCutsAndFlippedBytes) {
@@ -136,8 +140,12 @@ TEST_F(FilmState, HoldsAreas) {
     EXPECT_FALSE(is_whole(*read));
     const Film expected = filled(head.areas[0]);
     EXPECT_EQ(floats_of(film.pixels), floats_of(expected.pixels));
-    EXPECT_EQ(floats_of(film.layers[0].pixels), floats_of(expected.layers[0].pixels));
+    for (size_t k = 0; k < 2; ++k)
+        EXPECT_EQ(floats_of(film.layers[k].pixels), floats_of(expected.layers[k].pixels));
     EXPECT_EQ(film.pixels[4 * 7 + 1], 30);  // row 2, column 1: behind 28 numbers and one channel
+    // Channel 5, in the second plane of four: behind the first one's 60 numbers.
+    EXPECT_EQ(film.layers[1].pixels[60 + 4 * 7 + 1], 2090);
+    EXPECT_EQ(film.layers[1].pixels[60 + 4 * 6 + 1], 0) << "column 0 is not of the area";
     EXPECT_EQ(film.pixels[4 * 6 + 1], 0);
 }
 

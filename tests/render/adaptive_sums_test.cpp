@@ -3,6 +3,7 @@
 #include "render/adaptive_sums.h"
 
 #include "base/parallel.h"
+#include "image/channel_planes.h"
 #include "render/integrators.h"
 
 #include <gtest/gtest.h>
@@ -53,6 +54,17 @@ const FilmLayer& layer(const RenderResult& result, std::string_view name) {
     throw std::runtime_error("no layer " + std::string(name));
 }
 
+/// Where a channel of a pixel lies in a layer's memory.
+size_t index_of(const FilmLayer& layer, size_t pixel, size_t channel) {
+    const size_t channels = layer.layer.channels.size();
+    size_t found = 0;
+    for_planes(channels, layer.pixels.size() / channels, [&](const ChannelPlane& plane) {
+        if (channel < plane.first_channel) return;
+        found = plane.first_value + pixel * plane.channels + channel - plane.first_channel;
+    });
+    return found;
+}
+
 double mean_color(const Film& film) {
     double sum = 0;
     for (size_t i = 0; i < film.pixels.size(); i += 4) {
@@ -95,9 +107,8 @@ TEST(Passes, EveryPixelIsThatOfAUniformRenderingWithItsSamples) {
                 const FilmLayer& own = adaptive.film.layers[k];
                 const size_t channels = own.layer.channels.size();
                 for (size_t c = 0; c < channels; ++c) {
-                    ASSERT_EQ(own.pixels[i * channels + c],
-                              uniform.film.layers[k].pixels[i * channels + c])
-                        << own.layer.name;
+                    const size_t at = index_of(own, i, c);
+                    ASSERT_EQ(own.pixels[at], uniform.film.layers[k].pixels[at]) << own.layer.name;
                 }
             }
         }

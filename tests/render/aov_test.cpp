@@ -1,6 +1,7 @@
 // tests/render/aov_test.cpp - layers beside the beauty, against what the scene says by hand.
 // SPDX-License-Identifier: Apache-2.0
 #include "film/cryptomatte.h"
+#include "image/channel_planes.h"
 #include "film/layers.h"
 
 #include <gtest/gtest.h>
@@ -150,11 +151,15 @@ TEST_F(Layers, DependOnNeitherTilesNorCrops) {
     for (size_t k = 0; k < whole.film.layers.size(); ++k) {
         const FilmLayer& of_whole = whole.film.layers[k];
         const FilmLayer& of_part = result.film.layers[k];
-        const size_t row = 21 * of_part.layer.channels.size();
+        const size_t channels = of_part.layer.channels.size();
+        UnsetArray<float> whole_pixels(of_whole.pixels.size());
+        UnsetArray<float> part_pixels(of_part.pixels.size());
+        interleave_planes(of_whole.pixels, channels, whole_pixels.data());
+        interleave_planes(of_part.pixels, channels, part_pixels.data());
+        const size_t row = 21 * channels;
         for (size_t y = 0; y < 17; ++y) {
-            const float* from =
-                of_whole.pixels.data() + ((y + 6) * width + 10) * of_part.layer.channels.size();
-            ASSERT_EQ(std::memcmp(of_part.pixels.data() + y * row, from, row * 4), 0)
+            const float* from = whole_pixels.data() + ((y + 6) * width + 10) * channels;
+            ASSERT_EQ(std::memcmp(part_pixels.data() + y * row, from, row * 4), 0)
                 << of_part.layer.name << " row " << y;
         }
     }
@@ -198,11 +203,13 @@ double matte(const FilmLayer& layer, size_t pixel, const std::string& name) {
     const float id = cryptomatte_id(cryptomatte_hash(name));
     const size_t channels = layer.layer.channels.size();
     double sum = 0;
-    for (size_t c = 0; c < channels; c += 2) {
-        const float* rank = layer.pixels.data() + pixel * channels + c;
-        if (std::bit_cast<uint32_t>(rank[0]) == std::bit_cast<uint32_t>(id))
-            sum += static_cast<double>(rank[1]);
-    }
+    for_planes(channels, layer.pixels.size() / channels, [&](const ChannelPlane& plane) {
+        const float* ranks = layer.pixels.data() + plane.first_value + pixel * plane.channels;
+        for (size_t c = 0; c < plane.channels; c += 2) {
+            if (std::bit_cast<uint32_t>(ranks[c]) == std::bit_cast<uint32_t>(id))
+                sum += static_cast<double>(ranks[c + 1]);
+        }
+    });
     return sum;
 }
 

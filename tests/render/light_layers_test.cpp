@@ -415,6 +415,27 @@ TEST(LightPathExpressions, AreLayersOfTheirOwn) {
     EXPECT_EQ(light_layer_of("a=C.*").error().id, "E-LPE");
 }
 
+/// Light that a pane sends back does not become light from behind it when the path that met it goes
+/// straight on.
+TEST(LightPathExpressions, WhatAPaneReflectsDidNotComeThroughIt) {
+    std::vector<Layer> layers;
+    for (const char* text : {"turned=C.[^<TS'straight'>LOB].*[LOB]",
+                             "passed=C.<TS'straight'>.*[LOB]",
+                             "direct=C.[LOB]"})
+        layers.push_back(light_layer_of(text).value());
+    ThinWallScene scene;
+    scene.light(lamp_at({0, 0.25f, 0}));
+    scene.pane(0.5f, scene.add(glass_material(), glass_layers(0.5f)));  // half of it is diffuse
+    const RenderResult result =
+        render_scene(scene.take(),
+                     {},
+                     look_at({0, 0.4f, 0.8f}, {0, 0, 0}, 0.5f, room_side, room_side),
+                     light_options(layers));
+    expect_sum(result, is_any);
+    EXPECT_GT(mean_of(result, "turned"), 0.1 * mean_of(result, "direct"));
+    EXPECT_EQ(mean_of(result, "passed"), 0) << "above the pane it is dark";
+}
+
 TEST(LightLayers, DoNotDependOnTilesAndCrops) {
     RenderOptions options = light_options(components(), 40);
     const RenderResult whole = render_groups({1, 1, 1, 1}, options);
