@@ -10,6 +10,7 @@
 #include "film/light_path_plan.h"
 #include "session/denoising.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <set>
 #include <sstream>
@@ -158,6 +159,12 @@ Result<void> read_light_groups(const LayerArguments& arguments, RenderRequest& r
     for (const std::string& text : arguments.light_group) {
         Result<LightGroupPattern> group = parse_light_group(text);
         if (!group) return fail(group.error());
+        const auto is_same = [&](const auto& other) { return other.name == group->name; };
+        if (std::any_of(groups.groups.begin(), groups.groups.end(), is_same)) {
+            return conflict("--light-group",
+                            "two groups are called " + in_quotes(group->name) +
+                                "; one takes several patterns, NAME=PATTERN,PATTERN");
+        }
         groups.groups.push_back(std::move(*group));
     }
     if (groups.each && request.exr.layout == ExrLayout::separate) {

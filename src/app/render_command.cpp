@@ -11,6 +11,7 @@
 #include "app/progress.h"
 #include "app/render_job.h"
 #include "app/signals.h"
+#include "app/unused_options.h"
 #include "base/atomic_file.h"
 #include "base/memory_budget.h"
 #include "base/parallel.h"
@@ -394,6 +395,7 @@ int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     for (RenderArguments& one : *all) {
         Result<RenderRequest> request = make_render_request(one);
         if (!request) return report_failure(request.error(), log);
+        if (runs.empty()) warn_of_unused_options(one, *request, log);
         runs.push_back({std::move(*request), options_for_merge(one), parts});
     }
     const std::string where = runs.size() == 1 ? runs.front().request.scene.string()

@@ -145,11 +145,9 @@ Result<bool> parse_off(const std::string& /*text*/, const std::string& /*option*
 
 /// A file, or the name of an environment, whose angles are checked here.
 Result<void> read_environment_choice(const OptionInfo& info, const std::string& text, R& request) {
-    const Result<std::string> name = parse_name(text, info.name);
-    if (!name) return fail(name.error());
-    const auto built_in = parse_built_in_environment(text);
-    if (!built_in) return fail(built_in.error());
-    request.environment = *name;
+    if (auto name = parse_name(text, info.name); !name) return fail(name.error());
+    if (auto known = parse_built_in_environment(text); !known) return fail(known.error());
+    request.environment = text;
     return {};
 }
 
@@ -162,7 +160,9 @@ Result<void> read_environment_rotation(const OptionInfo& info, const std::string
     if (text == word) return {};
     const size_t sign = text.starts_with("camera+") ? word.size() + 1 : word.size();
     const std::string degrees = r.environment_follows_camera ? text.substr(sign) : text;
-    return read_number<&R::environment_rotation_deg>(info, degrees, r);
+    Result<void> read = read_number<&R::environment_rotation_deg>(info, degrees, r);
+    if (!read) read.error().message += ", camera, or camera with a number and its sign behind it";
+    return read;
 }
 
 /// A number, "auto", or "auto:" with a group's name behind it.

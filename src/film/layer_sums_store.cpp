@@ -1,7 +1,6 @@
 // film/layer_sums_store.cpp - the sums of layers become the film's pixels.
 // SPDX-License-Identifier: Apache-2.0
 #include "film/layer_sums.h"
-
 #include "image/channel_planes.h"
 
 #include <algorithm>

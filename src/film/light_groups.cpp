@@ -58,6 +58,29 @@ NamedLights names_in(const Scene& scene) {
     return out;
 }
 
+/// Names by which lights can be chosen, for messages.
+Names names_of_lights(const Scene& scene) {
+    Names out = scene.info.light_names;
+    const auto emits = [&](int32_t material) {
+        const float* const emission = scene.materials[static_cast<size_t>(material)].emission;
+        return std::any_of(emission, emission + 3, [](float x) { return x > 0; });
+    };
+    for (size_t i = 0; i < std::min(scene.material_names.size(), scene.materials.size()); ++i) {
+        if (emits(static_cast<int32_t>(i))) out.push_back(scene.material_names[i]);
+    }
+    const auto add_node = [&](int32_t node) {
+        if (node >= 0) out.push_back(scene.info.node_names[static_cast<size_t>(node)]);
+    };
+    for (const int32_t node : scene.info.light_nodes)
+        add_node(node);
+    for (const Primitive& primitive : scene.primitives) {
+        if (emits(primitive.material)) add_node(primitive.node);
+    }
+    std::erase(out, "");
+    out.emplace_back(environment_name);
+    return out;
+}
+
 bool fits_one(const std::string& pattern, const Names& names) {
     return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
         return fits_pattern(pattern, name);
@@ -121,15 +144,11 @@ Result<LightGroups> groups_by_pattern(const Scene& scene, const LightGroupOption
                 out.environment = std::min(out.environment, group);
             }
             if (found) continue;
-            Names known = scene.info.light_names;
-            known.insert(known.end(), scene.material_names.begin(), scene.material_names.end());
-            known.insert(known.end(), scene.info.node_names.begin(), scene.info.node_names.end());
-            known.emplace_back(environment_name);
             return fail(ExitCode::usage,
                         "E-LIGHT-GROUP-UNKNOWN",
                         out.names[group],
                         "no light, node or material fits " + in_quotes(pattern) +
-                            names_instead(pattern, known, "lights"));
+                            names_instead(pattern, names_of_lights(scene), "lights"));
         }
     }
     return out;

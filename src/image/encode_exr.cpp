@@ -40,8 +40,7 @@ struct StoredPlane {
 PixelView rows_of(const StoredPlane& stored, int first, int count, int width) {
     const ChannelPlane& plane = stored.plane;
     const size_t before = static_cast<size_t>(first) * static_cast<size_t>(width) * plane.channels;
-    return {
-        stored.group.pixels->data() + plane.first_value + before, width, count, plane.channels};
+    return {stored.group.pixels->data() + plane.first_value + before, width, count, plane.channels};
 }
 
 /// Adds a plane's channels to what OpenEXR writes, as halves if they are stored so.

@@ -43,6 +43,7 @@ std::string lower(std::string text) {
 tl::unexpected<Error> bad_configuration(const char* id,
                                         const std::string& where,
                                         std::string message) {
+    std::replace(message.begin(), message.end(), '\n', ' ');  // of the parser of YAML
     return fail(ExitCode::configuration, id, where, std::move(message));
 }
 

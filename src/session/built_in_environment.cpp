@@ -9,6 +9,7 @@
 #include "math/vec.h"
 #include "math/warp.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <string_view>
@@ -73,9 +74,9 @@ Result<std::optional<BuiltInEnvironment>> parse_built_in_environment(const std::
     if (text == "neutral") return Found(BuiltInEnvironment{Kind::neutral});
     if (text == "white") return Found(BuiltInEnvironment{Kind::white});
     constexpr std::string_view sky = "sky:";
-    if (!text.starts_with(sky)) return Found();
+    if (text != "sky" && !text.starts_with(sky)) return Found();
     const Result<BuiltInEnvironment> found =
-        parse_sky(text, std::string_view(text).substr(sky.size()));
+        parse_sky(text, std::string_view(text).substr(std::min(text.size(), sky.size())));
     if (!found) return fail(found.error());
     return Found(*found);
 }

@@ -19,7 +19,7 @@ struct BuiltInEnvironment {
 };
 
 /// "studio", "neutral", "white" or "sky:ELEVATION,AZIMUTH"; nothing where the text is a file's
-/// name.
+/// name. A file that is called like one of them is ./sky.
 ///
 /// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE the angles of a sky
 Result<std::optional<BuiltInEnvironment>> parse_built_in_environment(const std::string& text);

@@ -87,8 +87,7 @@ void split_straight_shadows(const WavefrontInput& in, int count, Workspace& work
     if (in.light_paths == nullptr || !in.scene.thin_walls) return;
     for (int i = 0; i < count; ++i) {
         const uint32_t slot = work.paths[1].slot[i];
-        if (work.distance_since_scattering[slot] > 0)
-            work.light_paths.split_straight_shadow(slot);
+        if (work.distance_since_scattering[slot] > 0) work.light_paths.split_straight_shadow(slot);
     }
 }
 

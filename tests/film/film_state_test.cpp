@@ -21,7 +21,8 @@ Film numbered_film(float first) {
     film.layers.push_back({layers_of(std::vector<std::string>{"normal"}, 6)->front(), {}, {}});
     film.layers.back().pixels.resize(3 * 5 * 3);
     std::iota(film.layers.back().pixels.begin(), film.layers.back().pixels.end(), first + 1000);
-    film.layers.push_back({layers_of(std::vector<std::string>{"crypto_object"}, 6)->front(), {}, {}});
+    film.layers.push_back(
+        {layers_of(std::vector<std::string>{"crypto_object"}, 6)->front(), {}, {}});
     film.layers.back().pixels.resize(3 * 5 * 12);
     std::iota(film.layers.back().pixels.begin(), film.layers.back().pixels.end(), first + 2000);
     return film;

@@ -1,7 +1,6 @@
 // tests/image/exr_layers_test.cpp - EXR files of many layers, codecs, tiles and levels, read back.
 // SPDX-License-Identifier: Apache-2.0
 #include "base/parallel.h"
-#include "image/channel_planes.h"
 #include "image/exr_reading.h"
 #include "image/test_images.h"
 #include "image/write.h"
@@ -385,36 +384,6 @@ TEST_F(ExrLayers, TilesHoldTheSamePixels) {
         expect_exact(channels_of(file), image.channels, image.pixels);
         const auto [name, part] = place_of(3, layout);
         expect_exact(channels_of(file, part), image.layers[3].channels, image.layers[3].pixels);
-    }
-}
-
-/// A layer of more than four channels lies in planes in memory, and in files like any other.
-TEST_F(ExrLayers, WideLayersLieInPlanes) {
-    constexpr size_t channels = 10;
-    constexpr size_t count = 21 * 35;
-    OutputImage image{21, 35, {"Y"}, noise(count, 1)};
-    ImageLayer& wide = image.layers.emplace_back(ImageLayer{"wide", {}, LayerKind::id, {}});
-    const UnsetArray<float> values = noise(channels * count, 2);  // pixel by pixel
-    for (size_t c = 0; c < channels; ++c)
-        wide.channels.push_back("wide." + std::to_string(c));
-    wide.pixels.resize(values.size());
-    separate_planes(values, channels, wide.pixels.data());
-    EXPECT_EQ(wide.pixels[1], values[1]);
-    EXPECT_EQ(wide.pixels[4 * count + 4], values[channels + 4]) << "channel 4 of the second pixel";
-    EXPECT_EQ(wide.pixels[8 * count + 2], values[channels + 8]) << "the last plane has two";
-    UnsetArray<float> back(values.size());
-    interleave_planes(wide.pixels, channels, back.data());
-    EXPECT_EQ(back, values);
-    for (const ExrCompression codec : {ExrCompression::zip, ExrCompression::piz}) {
-        for (const int tile_size : {0, 16}) {
-            for (const ExrLayout layout : all_layouts) {
-                write(image, {.layout = layout, .compression = codec, .tile_size = tile_size});
-                const bool is_apart = layout == ExrLayout::separate;
-                Imf::MultiPartInputFile file = open(is_apart ? "out.wide.exr" : "out.exr");
-                const int part = layout == ExrLayout::multipart ? 1 : 0;
-                expect_exact(channels_of(file, part), wide.channels, values);
-            }
-        }
     }
 }
 

@@ -1,8 +1,8 @@
 // tests/render/aov_test.cpp - layers beside the beauty, against what the scene says by hand.
 // SPDX-License-Identifier: Apache-2.0
 #include "film/cryptomatte.h"
-#include "image/channel_planes.h"
 #include "film/layers.h"
+#include "image/channel_planes.h"
 
 #include <gtest/gtest.h>
 

@@ -426,11 +426,8 @@ TEST(LightPathExpressions, WhatAPaneReflectsDidNotComeThroughIt) {
     ThinWallScene scene;
     scene.light(lamp_at({0, 0.25f, 0}));
     scene.pane(0.5f, scene.add(glass_material(), glass_layers(0.5f)));  // half of it is diffuse
-    const RenderResult result =
-        render_scene(scene.take(),
-                     {},
-                     look_at({0, 0.4f, 0.8f}, {0, 0, 0}, 0.5f, room_side, room_side),
-                     light_options(layers));
+    const Camera camera = look_at({0, 0.4f, 0.8f}, {0, 0, 0}, 0.5f, room_side, room_side);
+    const RenderResult result = render_scene(scene.take(), {}, camera, light_options(layers));
     expect_sum(result, is_any);
     EXPECT_GT(mean_of(result, "turned"), 0.1 * mean_of(result, "direct"));
     EXPECT_EQ(mean_of(result, "passed"), 0) << "above the pane it is dark";

@@ -14,7 +14,7 @@ TEST(BuiltInEnvironment, NamesAreNotFiles) {
     EXPECT_EQ(parse_built_in_environment("studio").value()->kind, Kind::studio);
     EXPECT_EQ(parse_built_in_environment("neutral").value()->kind, Kind::neutral);
     EXPECT_EQ(parse_built_in_environment("white").value()->kind, Kind::white);
-    for (const char* file : {"./studio", "studio.hdr", "Studio", "", "sky", "sky.exr"})
+    for (const char* file : {"./studio", "studio.hdr", "Studio", "", "./sky", "sky.exr"})
         EXPECT_FALSE(parse_built_in_environment(file).value()) << file;
     const BuiltInEnvironment sky = *parse_built_in_environment("sky:12.5,-30").value();
     EXPECT_EQ(sky.kind, Kind::sky);
@@ -23,7 +23,8 @@ TEST(BuiltInEnvironment, NamesAreNotFiles) {
 }
 
 TEST(BuiltInEnvironment, TheAnglesOfASkyAreChecked) {
-    for (const char* text : {"sky:", "sky:10", "sky:10,", "sky:a,b", "sky:1,2,3", "sky:nan,0x"})
+    for (const char* text :
+         {"sky", "sky:", "sky:10", "sky:10,", "sky:a,b", "sky:1,2,3", "sky:nan,0x"})
         EXPECT_EQ(parse_built_in_environment(text).error().id, "E-USAGE-NUMBER") << text;
     for (const char* text : {"sky:-1,0", "sky:91,0", "sky:10,1e9", "sky:nan,0"})
         EXPECT_EQ(parse_built_in_environment(text).error().id, "E-USAGE-RANGE") << text;
