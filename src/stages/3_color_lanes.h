@@ -1,5 +1,5 @@
 // stages/3_color_lanes.h - colours by number and sample index, of many lanes at once.
-// once. SPDX-License-Identifier: Apache-2.0
+// SPDX-License-Identifier: Apache-2.0
 #pragma once
 
 #include "stages/column_lanes.h"
