@@ -161,9 +161,11 @@ Result<void> read_light_groups(const LayerArguments& arguments, RenderRequest& r
         if (!group) return fail(group.error());
         const auto is_same = [&](const auto& other) { return other.name == group->name; };
         if (std::any_of(groups.groups.begin(), groups.groups.end(), is_same)) {
-            return conflict("--light-group",
-                            "two groups are called " + in_quotes(group->name) +
-                                "; one takes several patterns, NAME=PATTERN,PATTERN");
+            return fail(ExitCode::usage,
+                        "E-LIGHT-GROUP",
+                        "--light-group",
+                        "two groups are called " + in_quotes(group->name) +
+                            "; one takes several patterns, NAME=PATTERN,PATTERN");
         }
         groups.groups.push_back(std::move(*group));
     }

@@ -312,7 +312,7 @@ private:
                 SettingNames::options);
         size_t there = 0;
         Result<void> done = shorten_time_limit(request, total_.seconds());
-        if (done) done = render_scene(runs_[i], kept_, runs_.size() == 1 ? log_ : own, there);
+        if (done) done = render_scene(runs_[i], kept_, own, there);
         drop_unneeded(kept_, std::span(runs_).subspan(i + 1));
         skipped_ += there;
         if (done) return;
@@ -395,7 +395,8 @@ int run_render(const RenderArguments& arguments, const ImageParts* parts) {
     for (RenderArguments& one : *all) {
         Result<RenderRequest> request = make_render_request(one);
         if (!request) return report_failure(request.error(), log);
-        if (runs.empty()) warn_of_unused_options(one, *request, log);
+        // Merging repeats the options of the parts, which may have had other outputs.
+        if (runs.empty() && parts == nullptr) warn_of_unused_options(one, *request, log);
         runs.push_back({std::move(*request), options_for_merge(one), parts});
     }
     const std::string where = runs.size() == 1 ? runs.front().request.scene.string()

@@ -171,6 +171,7 @@ Result<RenderedFilm> render_film(Making& making) {
         };
         const bool writes_sums = is_part_of_samples(job.request);
         share.wants_film = [=] { return !writes_sums && received_stop_signal() == 0; };
+        share.shows_early = shows_early(job.request);
         share.leave = [&](const Film& /*film*/) { keeper->leave(); };
         share.keeps_unfinished = true;
     }

@@ -139,10 +139,7 @@ Result<void> check_manifest(const RenderRequest& request) {
     if (!request.crypto_manifest) return {};
     const std::string option = "--crypto-manifest";
     const std::vector<Layer>& layers = request.options.layers;
-    const bool has_ids = std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
-        return std::holds_alternative<CryptomatteNames>(layer.source);
-    });
-    if (!has_ids) {
+    if (std::none_of(layers.begin(), layers.end(), is_cryptomatte)) {
         return conflict(option, "it is for Cryptomatte; add a layer such as --aov crypto_object");
     }
     if (request.standard_output == OutputFormat::exr) {

@@ -3,29 +3,8 @@
 #include "app/unused_options.h"
 
 #include <algorithm>
-#include <variant>
 
 namespace obscura::app {
-
-namespace {
-
-std::vector<OutputFormat> formats_of(const RenderRequest& request) {
-    std::vector<OutputFormat> out;
-    for (const std::filesystem::path& file : request.outputs) {
-        if (const auto format = output_format_of(file)) out.push_back(*format);
-    }
-    if (request.standard_output) out.push_back(*request.standard_output);
-    return out;
-}
-
-bool has_cryptomatte(const RenderRequest& request) {
-    const std::vector<Layer>& layers = request.options.layers;
-    return std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
-        return std::holds_alternative<CryptomatteNames>(layer.source);
-    });
-}
-
-}  // namespace
 
 void warn_of_unused_options(const RenderArguments& arguments,
                             const RenderRequest& request,
@@ -38,6 +17,9 @@ void warn_of_unused_options(const RenderArguments& arguments,
     const bool has_exr = has([](OutputFormat format) { return format == OutputFormat::exr; });
     const bool has_display = has([](OutputFormat format) { return format != OutputFormat::exr; });
     const bool has_lossy = has([](OutputFormat format) { return entry_of(format).quality > 0; });
+    const bool has_depths = has([](OutputFormat format) {
+        return format != OutputFormat::exr && entry_of(format).max_bits > 8;
+    });
     const auto tell = [&](bool given, bool used, const char* option, const char* uses) {
         if (given && !used) log.warn(option, std::string("it changes nothing here: it is ") + uses);
     };
@@ -47,16 +29,18 @@ void warn_of_unused_options(const RenderArguments& arguments,
     tell(arguments.exr_tiles.has_value(), has_exr, "--exr-tiles", for_exr);
     tell(arguments.exr_mipmap, has_exr, "--exr-mipmap", for_exr);
     tell(arguments.float32, has_exr, "--float", for_exr);
-    const char* const for_displays = "for images for displays, such as PNG; EXRs are linear";
-    tell(arguments.bits.has_value(), has_display, "--bits", for_displays);
+    const char* const for_displays = "for images for displays, such as PNG; EXRs are scene-linear";
+    const bool uses_view = has_display || request.options.adaptive.has_value();
+    tell(arguments.view.has_value(), uses_view, "--view", for_displays);
+    tell(arguments.display.has_value(), uses_view, "--display", for_displays);
     tell(arguments.no_dither, has_display, "--no-dither", for_displays);
-    tell(arguments.page.has_value(),
-         has_display,
-         "--page",
-         "behind images for displays, such as PNG; EXRs are transparent instead");
+    // Without --background, it makes that transparent.
+    tell(arguments.page && arguments.background, has_display, "--page", for_displays);
+    tell(arguments.bits.has_value(), has_depths, "--bits", "for PNG and TIFF");
     tell(arguments.quality.has_value(), has_lossy, "--quality", "for JPEG, WebP and AVIF");
+    const std::vector<Layer>& layers = request.options.layers;
     tell(arguments.crypto_levels.has_value(),
-         has_cryptomatte(request),
+         std::any_of(layers.begin(), layers.end(), is_cryptomatte),
          "--crypto-levels",
          "for Cryptomatte; add a layer such as --aov crypto_object");
 }

@@ -30,6 +30,16 @@ bool is_near(const std::string& wanted, const std::string& name) {
     return edit_distance(wanted, name) <= (wanted.size() < short_name ? 1U : 2U);
 }
 
+/// Each name of the first ones once.
+std::vector<std::string> different(const std::vector<std::string>& names, size_t count) {
+    std::set<std::string_view> seen;
+    std::vector<std::string> out;
+    for (size_t i = 0; i < std::min(names.size(), count); ++i) {
+        if (seen.insert(names[i]).second) out.push_back(names[i]);
+    }
+    return out;
+}
+
 std::string listed(const std::vector<std::string>& names) {
     std::string out;
     for (size_t i = 0; i < std::min(names.size(), max_listed); ++i)
@@ -81,22 +91,22 @@ size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
+std::string near_names(std::string_view wanted, const std::vector<std::string>& names) {
+    constexpr size_t max_compared = 10000;  // comparing takes the product of the lengths
+    std::vector<std::string> near;
+    for (const std::string& name : different(names, max_compared)) {
+        if (is_near(lower_case(wanted), lower_case(name))) near.push_back(name);
+    }
+    return near.empty() ? "" : " (did you mean " + listed(near) + "?)";
+}
+
 std::string names_instead(std::string_view wanted,
                           const std::vector<std::string>& names,
                           std::string_view things) {
-    constexpr size_t max_compared = 10000;  // comparing takes the product of the lengths
-    std::set<std::string_view> seen;
-    std::vector<std::string> different;
-    std::vector<std::string> near;
-    for (size_t i = 0; i < std::min(names.size(), max_compared); ++i) {
-        const std::string& name = names[i];
-        if (!seen.insert(name).second) continue;
-        different.push_back(name);
-        if (is_near(lower_case(wanted), lower_case(name))) near.push_back(name);
-    }
-    if (!near.empty()) return " (did you mean " + listed(near) + "?)";
-    if (different.empty()) return "; there are no " + std::string(things);
-    return "; the " + std::string(things) + " are " + listed(different);
+    if (const std::string near = near_names(wanted, names); !near.empty()) return near;
+    const std::vector<std::string> all = different(names, names.size());
+    if (all.empty()) return "; there are no " + std::string(things);
+    return "; the " + std::string(things) + " are " + listed(all);
 }
 
 }  // namespace obscura

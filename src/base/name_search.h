@@ -25,4 +25,7 @@ std::string names_instead(std::string_view wanted,
                           const std::vector<std::string>& names,
                           std::string_view things);
 
+/// The names near to a mistyped one, as above; empty: there are none.
+std::string near_names(std::string_view wanted, const std::vector<std::string>& names);
+
 }  // namespace obscura

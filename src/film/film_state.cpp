@@ -19,20 +19,22 @@ constexpr std::string_view magic = "OBSFILM6";
 /// Calls `use(first float, count)` for each row of the areas, image by image.
 template <typename AnyFilm, typename Use>
 void for_rows(AnyFilm& film, std::span<const FilmArea> areas, const Use& use) {
-    const auto rows = [&](auto& pixels, size_t channels, const FilmArea& area) {
-        for_planes(channels, pixels.size() / channels, [&](const ChannelPlane& plane) {
-            for (int y = area.y; y < area.y + area.height; ++y) {
-                const size_t first = static_cast<size_t>(y) * static_cast<size_t>(film.width) +
-                                     static_cast<size_t>(area.x);
-                use(pixels.data() + plane.first_value + first * plane.channels,
-                    static_cast<size_t>(area.width) * plane.channels);
-            }
-        });
+    const auto rows = [&](auto& pixels, const ChannelPlane& plane, const FilmArea& area) {
+        for (int y = area.y; y < area.y + area.height; ++y) {
+            const size_t first = static_cast<size_t>(y) * static_cast<size_t>(film.width) +
+                                 static_cast<size_t>(area.x);
+            use(pixels.data() + plane.first_value + first * plane.channels,
+                static_cast<size_t>(area.width) * plane.channels);
+        }
     };
     for (const FilmArea& area : areas) {
-        rows(film.pixels, film.channels.size(), area);
-        for (auto& layer : film.layers)
-            rows(layer.pixels, layer.layer.channels.size(), area);
+        rows(film.pixels, ChannelPlane{0, film.channels.size(), 0}, area);
+        for (auto& layer : film.layers) {
+            const size_t channels = layer.layer.channels.size();
+            for_planes(channels, layer.pixels.size() / channels, [&](const ChannelPlane& plane) {
+                rows(layer.pixels, plane, area);
+            });
+        }
     }
 }
 

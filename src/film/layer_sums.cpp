@@ -137,9 +137,7 @@ void LayerPlan::add_layer(const Layer& layer) {
 
 size_t sum_bytes(const Layer& layer, bool catches) {
     constexpr size_t sum = sizeof(double) + 4 * sizeof(float);
-    const bool counts_ids =
-        std::holds_alternative<CryptomatteNames>(layer.source) || is_majority(layer);
-    if (counts_ids) return sizeof(CryptomattePixel);
+    if (is_cryptomatte(layer) || is_majority(layer)) return sizeof(CryptomattePixel);
     if (std::holds_alternative<SampleStatistic>(layer.source)) return 5 * sizeof(double);
     if (std::holds_alternative<ShadowRatio>(layer.source)) return 2 * light_channels * sum;
     if (std::holds_alternative<LightLayer>(layer.source))

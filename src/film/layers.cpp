@@ -139,6 +139,10 @@ Layer layer_named(const std::string& name, int crypto_levels) {
 
 }  // namespace
 
+bool is_cryptomatte(const Layer& layer) {
+    return std::holds_alternative<CryptomatteNames>(layer.source);
+}
+
 bool is_reduced(const Layer& layer, Reduction reduction) {
     const Aov* aov = std::get_if<Aov>(&layer.source);
     return aov != nullptr && entry_of(*aov).reduction == reduction;

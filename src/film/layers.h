@@ -72,6 +72,8 @@ struct Layer {
 /// Whether a layer is an AOV whose samples become a pixel in this way.
 bool is_reduced(const Layer& layer, Reduction reduction);
 
+bool is_cryptomatte(const Layer& layer);
+
 /// A line of `--list-aovs`.
 struct LayerDescription {
     std::string name, channels, reduction, help;

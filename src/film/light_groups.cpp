@@ -58,27 +58,27 @@ NamedLights names_in(const Scene& scene) {
     return out;
 }
 
-/// Names by which lights can be chosen, for messages.
-Names names_of_lights(const Scene& scene) {
-    Names out = scene.info.light_names;
-    const auto emits = [&](int32_t material) {
-        const float* const emission = scene.materials[static_cast<size_t>(material)].emission;
-        return std::any_of(emission, emission + 3, [](float x) { return x > 0; });
-    };
+bool emits(const Material& material) {
+    return std::any_of(std::begin(material.emission),
+                       std::end(material.emission),
+                       [](float channel) { return channel > 0; });
+}
+
+/// For a message about a pattern that fits nothing: a name near to it, else those of lights.
+std::string names_of_lights(const Scene& scene, const std::string& pattern) {
+    Names all = scene.info.light_names;
+    all.insert(all.end(), scene.material_names.begin(), scene.material_names.end());
+    all.insert(all.end(), scene.info.node_names.begin(), scene.info.node_names.end());
+    if (std::string near = near_names(pattern, all); !near.empty()) return near;
+    Names lights = scene.info.light_names;
     for (size_t i = 0; i < std::min(scene.material_names.size(), scene.materials.size()); ++i) {
-        if (emits(static_cast<int32_t>(i))) out.push_back(scene.material_names[i]);
+        const Material& material = scene.materials[i];
+        if (emits(material) || (material.flags & material_unlit) != 0)
+            lights.push_back(scene.material_names[i]);
     }
-    const auto add_node = [&](int32_t node) {
-        if (node >= 0) out.push_back(scene.info.node_names[static_cast<size_t>(node)]);
-    };
-    for (const int32_t node : scene.info.light_nodes)
-        add_node(node);
-    for (const Primitive& primitive : scene.primitives) {
-        if (emits(primitive.material)) add_node(primitive.node);
-    }
-    std::erase(out, "");
-    out.emplace_back(environment_name);
-    return out;
+    std::erase(lights, "");
+    lights.emplace_back(environment_name);
+    return names_instead(pattern, lights, "lights");
 }
 
 bool fits_one(const std::string& pattern, const Names& names) {
@@ -148,7 +148,7 @@ Result<LightGroups> groups_by_pattern(const Scene& scene, const LightGroupOption
                         "E-LIGHT-GROUP-UNKNOWN",
                         out.names[group],
                         "no light, node or material fits " + in_quotes(pattern) +
-                            names_instead(pattern, names_of_lights(scene), "lights"));
+                            names_of_lights(scene, pattern));
         }
     }
     return out;
@@ -173,11 +173,6 @@ Result<LightGroups> groups_of_each(const Scene& scene) {
         const bool named = i < names.size() && !names[i].empty();
         out.names.push_back(unique_name(named ? names[i] : kind + std::to_string(i), taken));
         return static_cast<uint16_t>(out.names.size() - 1);
-    };
-    const auto emits = [](const Material& material) {
-        return std::any_of(std::begin(material.emission),
-                           std::end(material.emission),
-                           [](float channel) { return channel > 0; });
     };
     const auto glowing =
         static_cast<size_t>(std::count_if(scene.materials.begin(), scene.materials.end(), emits));

@@ -27,7 +27,8 @@ struct ImageLayer {
     std::vector<std::string> names = {};  ///< of Cryptomatte: what its ids stand for
 };
 
-/// A finished image: interleaved float32, rows from the top, scene-linear (ImageMetadata::space).
+/// A finished image: float32, rows from the top, scene-linear (ImageMetadata::space). Channels of
+/// the beauty are interleaved, those of layers in planes.
 struct OutputImage {
     int width = 0;
     int height = 0;

@@ -15,15 +15,13 @@ constexpr int sum_block_size = sum_block_samples;
 
 }  // namespace
 
-std::vector<int> pass_ends(int samples_per_pixel) {
-    constexpr int step = 16;
-    constexpr int largest_early = 4 * step;  // what next_samples takes at once
+std::vector<int> pass_ends(int samples_per_pixel, bool shows_early) {
+    constexpr int step = sum_block_size;
+    constexpr int usual = 4 * step;  // what next_samples takes at once
     std::vector<int> out;
-    for (int end = 1; end < samples_per_pixel;) {
+    for (int end = shows_early ? 1 : usual; end < samples_per_pixel;) {
         out.push_back(end);
-        const int more = end < step
-                             ? 3 * end
-                             : std::max(end / (step * step) * step, std::min(end, largest_early));
+        const int more = end < usual ? 3 * end : std::max(end / (step * step) * step, usual);
         if (more > samples_per_pixel - end) break;
         end += more;
     }
@@ -31,8 +29,15 @@ std::vector<int> pass_ends(int samples_per_pixel) {
     return out;
 }
 
-PassSums::PassSums(const std::vector<Tile>& tiles, const SampleRange& samples, bool keeps_blocks)
-    : FilmSums(tiles), share_(samples), keeps_blocks_(keeps_blocks), blocks_(tiles.size()) {}
+PassSums::PassSums(const std::vector<Tile>& tiles,
+                   const SampleRange& samples,
+                   bool keeps_blocks,
+                   bool shows_early)
+    : FilmSums(tiles),
+      share_(samples),
+      keeps_blocks_(keeps_blocks),
+      ends_(pass_ends(samples.count, shows_early)),
+      blocks_(tiles.size()) {}
 
 double PassSums::fraction() const {
     return share_.count == 0 ? 1 : mean_samples() / share_.count;
@@ -40,15 +45,14 @@ double PassSums::fraction() const {
 
 void PassSums::sample(const FilmWork& work) {
     const std::atomic<bool>& stop = work.tile_work.stop;
-    const std::vector<int> ends = pass_ends(share_.count);
     const size_t count = tiles().size();
     // Threads take tile after tile of pass after pass, and need not wait for each other between
     // passes. Who comes to a tile first does for it all that is due.
     std::atomic<size_t> next = 0;
-    parallel_for(ends.size() * count, [&](size_t /*turn*/) {
+    parallel_for(ends_.size() * count, [&](size_t /*turn*/) {
         if (stop.load(std::memory_order_relaxed)) return;
         const size_t turn = next++;
-        sample_tile(work, ends[turn / count], turn % count);
+        sample_tile(work, ends_[turn / count], turn % count);
         if (!work.progress || stop.load(std::memory_order_relaxed)) return;
         const size_t i = turn % count;
         const Tile& area = tiles()[i].tile;

@@ -6,10 +6,11 @@
 
 namespace obscura {
 
-/// The numbers of samples that pixels have after each pass, ascending: 1, 4, 16, 32, 64, then 64
-/// more each time, from 1280 on a sixteenth more, in steps of 16; at last all of them. The first
-/// pass is short, so that all of the film is there soon; later ones fill batches.
-std::vector<int> pass_ends(int samples_per_pixel);
+/// The numbers of samples that pixels have after each pass, ascending: 64, then 64 more each time,
+/// from 1280 on a sixteenth more, in steps of 16; at last all of them.
+///
+/// In      shows_early: the first ones are 1, 4, 16 and 64, so that all of the film is there soon
+std::vector<int> pass_ends(int samples_per_pixel, bool shows_early);
 
 /// The sums of a film all of whose pixels take the same samples.
 class PassSums final : public FilmSums {
@@ -17,7 +18,11 @@ public:
     /// In      samples: those of every pixel that are to be taken
     ///         keeps_blocks: the sums of each block of samples are kept apart, for `append`;
     ///         `store` and `film` cannot be used
-    PassSums(const std::vector<Tile>& tiles, const SampleRange& samples, bool keeps_blocks);
+    ///         shows_early: as of pass_ends
+    PassSums(const std::vector<Tile>& tiles,
+             const SampleRange& samples,
+             bool keeps_blocks,
+             bool shows_early);
 
     int target() const override { return share_.count; }
     /// Of the samples.
@@ -34,6 +39,7 @@ private:
 
     const SampleRange share_;
     const bool keeps_blocks_;
+    const std::vector<int> ends_;  ///< of its passes
     /// With keeps_blocks_: of each tile the finished blocks, of end_block; the tile's sums are
     /// those of the block in progress.
     std::vector<Bytes> blocks_;

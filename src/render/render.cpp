@@ -172,8 +172,7 @@ void use_supplies(const Supplies& supplies, WavefrontInput& in) {
 /// True when a layer counts the samples of ids.
 bool counts_ids(const std::vector<Layer>& layers) {
     return std::any_of(layers.begin(), layers.end(), [](const Layer& layer) {
-        return std::holds_alternative<CryptomatteNames>(layer.source) ||
-               std::holds_alternative<MajorityNode>(layer.source);
+        return is_cryptomatte(layer) || std::holds_alternative<MajorityNode>(layer.source);
     });
 }
 
@@ -346,7 +345,8 @@ Result<void> render_in_passes(const FilmWork& work) {
     const FilmPart part = options.share->part.value_or(FilmPart{});
     const auto sums = std::make_shared<PassSums>(tiles_of(options, pass_tile_side),
                                                  samples_of_part(samples_taken(options), part),
-                                                 part.of == PartOf::samples);
+                                                 part.of == PartOf::samples,
+                                                 options.share->shows_early);
     const Result<bool> done = run_passes(work, sums);
     if (!done) return fail(done.error());
     return {};

@@ -93,6 +93,8 @@ struct FilmShare {
     /// In its place where samples are taken: then they are taken in passes over the film, which
     /// others may look at between them; see render/film_sums.h. A part of samples needs it.
     std::function<Result<void>(const PassFilm&)> begin_passes = {};
+    /// With passes: somebody may look at the film soon, so that the first of them are short.
+    bool shows_early = false;
     /// Asked when passes have ended: false, and the film stays unset, as nobody looks at it. An
     /// empty one: true.
     std::function<bool()> wants_film = {};

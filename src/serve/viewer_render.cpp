@@ -106,6 +106,7 @@ Result<void> Viewer::render_whole(Shown&& begun) {
     share.part = FilmPart{};
     share.fill = [&](Film& film) { return keeper.fill(film); };
     share.begin_passes = [&](const PassFilm& film) { return keeper.begin_passes(film); };
+    share.shows_early = true;
     share.wants_film = [&] { return !stop_; };
     share.leave = [&](const Film& /*film*/) { keeper.leave(); };
     const RenderHooks hooks{[&](const FinishedTile& tile) { keeper.add(tile); }, &stop_, &share};

@@ -13,10 +13,6 @@ namespace obscura {
 
 namespace {
 
-bool is_cryptomatte(const FilmLayer& layer) {
-    return std::holds_alternative<CryptomatteNames>(layer.layer.source);
-}
-
 /// Adds the names that stand for something.
 void add_names(const FilmLayer& from, std::vector<std::string>& to) {
     std::copy_if(
@@ -34,7 +30,7 @@ std::vector<CryptomatteAttribute> attributes_of(const std::string& layer,
 
 ImageLayer image_layer(FilmLayer&& from, const std::string& manifest) {
     ImageLayer out;
-    if (is_cryptomatte(from)) {
+    if (is_cryptomatte(from.layer)) {
         add_names(from, out.names);
         for (CryptomatteAttribute& attribute : attributes_of(from.layer.name, out.names, manifest))
             out.metadata.emplace_back(std::move(attribute.name), std::move(attribute.text));
@@ -61,7 +57,7 @@ std::vector<ImageLayer> image_layers(std::vector<FilmLayer> layers, const std::s
 std::string cryptomatte_document(std::span<const FilmLayer> layers) {
     std::vector<std::string> names;
     for (const FilmLayer& layer : layers) {
-        if (is_cryptomatte(layer)) add_names(layer, names);
+        if (is_cryptomatte(layer.layer)) add_names(layer, names);
     }
     return cryptomatte_manifest_document(names);
 }

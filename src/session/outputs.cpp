@@ -147,12 +147,8 @@ void add_bias(const RenderOptions& options, std::vector<ImageAttribute>& extra) 
 
 /// The formats of all files that hold images; a part of an image has a form of its own.
 std::vector<OutputFormat> written_formats(const RenderRequest& request) {
-    std::vector<OutputFormat> formats;
-    if (is_part_of_image(request)) return formats;
-    for (const std::filesystem::path& output : request.outputs) {
-        if (const auto format = output_format_of(output)) formats.push_back(*format);
-    }
-    if (request.standard_output) formats.push_back(*request.standard_output);
+    if (is_part_of_image(request)) return {};
+    std::vector<OutputFormat> formats = formats_of(request);
     if (request.segmentation) formats.push_back(OutputFormat::png);
     return formats;
 }

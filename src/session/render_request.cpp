@@ -14,15 +14,27 @@
 
 namespace obscura {
 
-bool is_followed(const RenderRequest& request) {
+bool shows_early(const RenderRequest& request) {
     const LongRun& run = request.long_run;
-    return run.has_checkpoint || run.time_limit_s || run.snapshot_interval_s ||
-           request.display_server || is_part_of_samples(request);
+    return run.time_limit_s || run.snapshot_interval_s || request.display_server;
+}
+
+bool is_followed(const RenderRequest& request) {
+    return request.long_run.has_checkpoint || shows_early(request) || is_part_of_samples(request);
 }
 
 bool takes_passes(const RenderRequest& request) {
     const bool adds_parts = request.part_by == PartBy::samples;
     return (is_followed(request) || adds_parts) && !is_aov(request.options.integrator);
+}
+
+std::vector<OutputFormat> formats_of(const RenderRequest& request) {
+    std::vector<OutputFormat> out;
+    for (const std::filesystem::path& file : request.outputs) {
+        if (const auto format = output_format_of(file)) out.push_back(*format);
+    }
+    if (request.standard_output) out.push_back(*request.standard_output);
+    return out;
 }
 
 std::vector<std::filesystem::path> image_files(const RenderRequest& request,

@@ -108,6 +108,12 @@ struct RenderRequest {
 /// part of its samples, whose sums are its result.
 bool is_followed(const RenderRequest& request);
 
+/// The formats of the image's outputs.
+std::vector<OutputFormat> formats_of(const RenderRequest& request);
+
+/// Whether somebody may look at the image, or it may have to do, long before it is finished.
+bool shows_early(const RenderRequest& request);
+
 /// Whether the image is rendered in passes, whose sums are kept; see render/film_sums.h.
 bool takes_passes(const RenderRequest& request);
 

@@ -368,8 +368,8 @@ void scatter_shadow(const LightPathColumns& columns,
         set_words(columns.shadow_split, progress.moves, slot, 1);
         return;
     }
-    // Whatever lobe a path takes next, its shadow ray has the same weights; a path that passes the
-    // surface straight on does not settle, and split_straight_shadows comes to its shadow ray.
+    // Whatever lobe a path takes next, its shadow ray has the same weights. A path that passes the
+    // surface straight on does not settle; its shadow ray gets weights in split_straight_shadows.
     const uint32_t word = columns.goes_straight ? path_settles_next : path_settled;
     const Mask moving = settle_lanes(columns, progress, slot, word);
     if (none(moving)) return;

@@ -38,7 +38,9 @@ struct Scattering {
 };
 
 /// Weights of the shadow rays of a group, and the light classes that they belong to. Must come
-/// before scatter_path of the same group.
+/// before scatter_path of the same group. Where all lobes settle a path, its shadow ray has no
+/// weights of its own, and columns.progress says so; with columns.goes_straight the caller gives
+/// it some before it is traced, if the path passes the surface (LightPathState).
 ///
 /// In   light: index by light sampling
 void scatter_shadow(const LightPathColumns& columns,

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "stages/3_thin_walls.h"
 
+#include <cfloat>
+
 namespace obscura {
 inline namespace OBSCURA_ISA {
 
@@ -43,7 +45,7 @@ PassedThinWalls pass_thin_walls(const ShadeColumns& columns,
     store_by_slot(columns.distance_since_scattering,
                   hit.scatters,
                   path.slot,
-                  select(straight, path_length, zero));
+                  select(straight, max(path_length, Lanes(FLT_MIN)), zero));
     return out;
 }
 

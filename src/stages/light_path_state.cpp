@@ -178,25 +178,26 @@ void LightPathState::move_shadow(uint32_t slot, size_t event) {
     move(columns_.shadow_weights, slot, event);
 }
 
-void LightPathState::split_shadow(uint32_t slot) {
-    if (columns_.progress[slot] == path_settled) return;
-    columns_.shadow_split[slot] = 1;
-    for (int k = 0; k < *columns_.weights.used_count; ++k) {
-        const uint16_t state = columns_.weights.used[k];
-        const Vec3f part = color_at(columns_.weights.memory + color_words * state, slot);
-        if (max_component(part) > 0) add_color(columns_.shadow_weights, state, slot, part);
-    }
-}
-
-void LightPathState::split_straight_shadow(uint32_t slot) {
-    if (columns_.progress[slot] != path_settles_next || columns_.shadow_split[slot] != 0) return;
+/// In      state_after: of the shadow ray, by the path's
+template <typename StateAfter>
+void LightPathState::split_shadow(uint32_t slot, const StateAfter& state_after) {
     columns_.shadow_split[slot] = 1;
     for (int k = 0; k < *columns_.weights.used_count; ++k) {
         const uint16_t state = columns_.weights.used[k];
         const Vec3f part = color_at(columns_.weights.memory + color_words * state, slot);
         if (max_component(part) <= 0) continue;
-        add_color(columns_.shadow_weights, columns_.table->common_next[state], slot, part);
+        add_color(columns_.shadow_weights, state_after(state), slot, part);
     }
+}
+
+void LightPathState::split_moved_shadow(uint32_t slot) {
+    if (columns_.progress[slot] == path_settled) return;
+    split_shadow(slot, [](uint16_t state) { return state; });
+}
+
+void LightPathState::split_straight_shadow(uint32_t slot) {
+    if (columns_.progress[slot] != path_settles_next || columns_.shadow_split[slot] != 0) return;
+    split_shadow(slot, [&](uint16_t state) { return columns_.table->common_next[state]; });
 }
 
 void LightPathState::add_unshadowed(uint32_t slot, const Vec3f& radiance) {

@@ -46,7 +46,7 @@ public:
     void move_shadow(uint32_t slot, size_t event);
 
     /// Gives a shadow ray the weights of its path, which has moved already.
-    void split_shadow(uint32_t slot);
+    void split_moved_shadow(uint32_t slot);
 
     /// The same where scattering settles the path, but it passed the surface straight on: what its
     /// shadow ray brings counts as scattered.
@@ -111,6 +111,8 @@ private:
     };
     std::array<RestingLight, 3> resting_light();
 
+    template <typename StateAfter>
+    void split_shadow(uint32_t slot, const StateAfter& state_after);
     void forget_shadows();
     void share_out(const RestingLight& light);
     void share_out(const RestingLight& light, uint32_t slot);

@@ -21,6 +21,16 @@ constexpr size_t gloss_event() {
 }
 static_assert(scatter_events[gloss_event()].mode == 'G');
 
+/// Calls use(slot) for the paths that have just gone straight through a thin wall.
+template <typename Use>
+void for_straight_paths(const WavefrontInput& in, int count, Workspace& work, const Use& use) {
+    if (in.light_paths == nullptr || !in.scene.thin_walls) return;
+    for (int i = 0; i < count; ++i) {
+        const uint32_t slot = work.paths[1].slot[i];
+        if (work.distance_since_scattering[slot] > 0) use(slot);
+    }
+}
+
 }  // namespace
 
 void begin_light_paths(const WavefrontInput& in, int count, Workspace& work) {
@@ -49,7 +59,7 @@ void begin_walk_shadow_light(const WavefrontInput& in, int count, Workspace& wor
     if (in.light_paths == nullptr) return;
     work.light_paths.begin_flight();
     for (int i = 0; i < count; ++i)
-        work.light_paths.split_shadow(work.shadows.slot[i]);
+        work.light_paths.split_moved_shadow(work.shadows.slot[i]);
 }
 
 void add_shadow_light_paths(const WavefrontInput& in, int count, Workspace& work) {
@@ -84,20 +94,13 @@ void move_random_walks(const WavefrontInput& in, int count, Workspace& work) {
 }
 
 void split_straight_shadows(const WavefrontInput& in, int count, Workspace& work) {
-    if (in.light_paths == nullptr || !in.scene.thin_walls) return;
-    for (int i = 0; i < count; ++i) {
-        const uint32_t slot = work.paths[1].slot[i];
-        if (work.distance_since_scattering[slot] > 0) work.light_paths.split_straight_shadow(slot);
-    }
+    for_straight_paths(
+        in, count, work, [&](uint32_t slot) { work.light_paths.split_straight_shadow(slot); });
 }
 
 void move_straight_paths(const WavefrontInput& in, int count, Workspace& work) {
-    if (in.light_paths == nullptr || !in.scene.thin_walls) return;
-    for (int i = 0; i < count; ++i) {
-        const uint32_t slot = work.paths[1].slot[i];
-        if (work.distance_since_scattering[slot] > 0)
-            work.light_paths.move_path(slot, straight_event);
-    }
+    for_straight_paths(
+        in, count, work, [&](uint32_t slot) { work.light_paths.move_path(slot, straight_event); });
 }
 
 }  // namespace obscura

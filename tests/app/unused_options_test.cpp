@@ -41,7 +41,16 @@ TEST(UnusedOptions, AreThoseOfOtherOutputs) {
     arguments.crypto_levels = "4";
     EXPECT_THAT(warnings_of(arguments),
                 ElementsAre(StartsWith("--no-dither: "),
+                            StartsWith("--quality: "),
+                            StartsWith("--crypto-levels: ")));
+    arguments.background = "env";
+    arguments.view = "Raw";
+    arguments.bits = "8";
+    EXPECT_THAT(warnings_of(arguments),
+                ElementsAre(StartsWith("--view: "),
+                            StartsWith("--no-dither: "),
                             StartsWith("--page: "),
+                            StartsWith("--bits: "),
                             StartsWith("--quality: "),
                             StartsWith("--crypto-levels: ")));
     arguments = all_options();

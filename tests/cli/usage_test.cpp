@@ -120,7 +120,7 @@ const std::vector<Wrong> mistakes = {
     {{"render", "box.gltf", "--env", "sky"}, "E-USAGE-NUMBER", "sky:ELEVATION,AZIMUTH"},
     {{"render", "box.gltf", "--env-rotation", "cam"}, "E-USAGE-NUMBER", "camera"},
     {{"render", "box.gltf", "--light-group", "a=x", "--light-group", "a=y"},
-     "E-USAGE-CONFLICT",
+     "E-LIGHT-GROUP",
      "two groups are called 'a'"},
     {{"render", "box.gltf", "--env", ""}, "E-USAGE-CONFLICT", "empty"},
     {{"render", "box.gltf", "--scene", ""}, "E-USAGE-CONFLICT", "empty"},

@@ -74,6 +74,7 @@ protected:
         FilmShare share{part};
         share.wants_film = [=] { return part.of == PartOf::rows; };
         share.keeps_unfinished = true;
+        share.shows_early = shows_early_;
         share.begin_passes = [&](const PassFilm& film) -> Result<void> {
             sums_ = film.sums;
             begin(film);
@@ -107,27 +108,39 @@ protected:
 
     const PreparedScene scene_ = ball();
     std::shared_ptr<FilmSums> sums_;
+    bool shows_early_ = true;
 };
 
 TEST(PassEnds, AreShortAtFirstAndEndWithAllSamples) {
-    EXPECT_EQ(pass_ends(1), (std::vector<int>{1}));
-    EXPECT_EQ(pass_ends(3), (std::vector<int>{1, 3}));
-    EXPECT_EQ(pass_ends(4), (std::vector<int>{1, 4}));
-    EXPECT_EQ(pass_ends(50), (std::vector<int>{1, 4, 16, 32, 50}));
-    const std::vector<int> many = pass_ends(1'000'000);
+    EXPECT_EQ(pass_ends(1, true), (std::vector<int>{1}));
+    EXPECT_EQ(pass_ends(3, true), (std::vector<int>{1, 3}));
+    EXPECT_EQ(pass_ends(4, true), (std::vector<int>{1, 4}));
+    EXPECT_EQ(pass_ends(50, true), (std::vector<int>{1, 4, 16, 50}));
+    EXPECT_EQ(pass_ends(200, true), (std::vector<int>{1, 4, 16, 64, 128, 192, 200}));
+    const std::vector<int> many = pass_ends(1'000'000, true);
     EXPECT_LT(many.size(), 250u);
     EXPECT_EQ(many.back(), 1'000'000);
     for (size_t i = 3; i + 1 < many.size(); ++i) {
         EXPECT_EQ(many[i] % 16, 0);
-        EXPECT_LE(many[i + 1] - many[i], std::max(std::min(64, many[i]), many[i] / 16));
+        EXPECT_LE(many[i + 1] - many[i], std::max(64, many[i] / 16));
     }
-    EXPECT_EQ(pass_ends(INT32_MAX).back(), INT32_MAX);
+    EXPECT_EQ(pass_ends(INT32_MAX, true).back(), INT32_MAX);
+}
+
+TEST(PassEnds, AreFewerWhereNobodyLooksEarly) {
+    EXPECT_EQ(pass_ends(1, false), (std::vector<int>{1}));
+    EXPECT_EQ(pass_ends(50, false), (std::vector<int>{50}));
+    EXPECT_EQ(pass_ends(200, false), (std::vector<int>{64, 128, 192, 200}));
+    const std::vector<int> early = pass_ends(1'000'000, true);
+    const std::vector<int> late = pass_ends(1'000'000, false);
+    EXPECT_TRUE(std::equal(early.begin() + 3, early.end(), late.begin(), late.end()));
 }
 
 TEST_F(PassesOfAFilm, HaveTheBitsOfOnePass) {
     for (const int samples : {1, 37, 100}) {
         const RenderResult at_once = render_with(options(samples));
         for (const int threads : {1, 4}) {
+            shows_early_ = threads == 1;
             const ThreadLimit limit(threads);
             const RenderResult passes = render_passes_of(options(samples), nothing);
             expect_same(at_once.film, passes.film);
@@ -262,6 +275,7 @@ TEST_F(PassesOfAFilm, FinishedTilesAreShownAsTheyAre) {
     asked.crop = PixelRect{5, 3, 60, 40};
     FilmShare share{FilmPart{}};
     share.begin_passes = [](const PassFilm& /*film*/) { return Result<void>(); };
+    share.shows_early = true;
     asked.share = &share;
     const ThreadLimit limit(1);
     Film shown{
@@ -276,7 +290,7 @@ TEST_F(PassesOfAFilm, FinishedTilesAreShownAsTheyAre) {
                         4 * film.width,
                         shown.pixels.data() + 4 * pixel_index(shown, tile.area.x, y));
         ++calls;
-        EXPECT_EQ(samples, pass_ends(20)[static_cast<size_t>((calls - 1) / 4)]);
+        EXPECT_EQ(samples, pass_ends(20, true)[static_cast<size_t>((calls - 1) / 4)]);
     };
     const std::atomic<bool> stop = false;
     const Camera camera = look_at({0, 1.5f, 5}, {0, 0.9f, 0}, 0.8f, 71, 45);
