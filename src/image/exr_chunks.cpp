@@ -97,8 +97,8 @@ struct Scratch {
     std::unique_ptr<isal_zstream> stream = {};
 };
 
-/// A stream that compresses in the format of zlib. Most channels of most layers are nearly constant;
-/// level 1 passes over what repeats itself without looking for better matches in it.
+/// A stream that compresses in the format of zlib. Most channels of most layers are nearly
+/// constant; level 1 passes over what repeats itself without looking for better matches in it.
 void begin_stream(Scratch& scratch, std::span<unsigned char> out) {
     if (!scratch.stream) scratch.stream = std::make_unique<isal_zstream>();
     scratch.matches.resize(ISAL_DEF_LVL1_DEFAULT);
