@@ -30,7 +30,7 @@ def read_settings():
     parser = argparse.ArgumentParser()
     for name in ("env", "view", "json", "obscura", "work"):
         parser.add_argument("--" + name)
-    for name in ("spp", "depth", "repeat", "reference-samples"):
+    for name in ("spp", "depth", "repeat", "error-seeds", "reference-samples"):
         parser.add_argument("--" + name, type=int)
     for name in ("size", "error-size"):
         parser.add_argument("--" + name, type=size)
@@ -103,9 +103,9 @@ def measure_times(settings, renderers, name):
 
 
 def measure_errors(settings, renderers, name):
-    """Mean error of each renderer against its own reference, over as many seeds as repetitions, and
-    the mean radiance of the references. `trimmed` leaves out the worst thousandth of the pixels:
-    where it is much smaller, a few fireflies make up the error."""
+    """Mean error of each renderer against its own reference, over the seeds, and the mean radiance
+    of the references. `trimmed` leaves out the worst thousandth of the pixels: where it is much
+    smaller, a few fireflies make up the error."""
     errors = {}
     for key, renderer in renderers.items():
 
@@ -117,7 +117,7 @@ def measure_errors(settings, renderers, name):
         # A seed of its own: the picture must not be the beginning of its reference.
         reference = picture(settings.reference_samples, 1000, "reference")
         plain, trimmed = [], []
-        for seed in range(settings.repeat):
+        for seed in range(settings.error_seeds):
             found = numpy.sort(relative_errors(picture(settings.spp, seed, "error"), reference))
             plain.append(float(found.mean()))
             trimmed.append(float(found[: len(found) - (len(found) + 999) // 1000].mean()))

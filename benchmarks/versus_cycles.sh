@@ -19,6 +19,8 @@ takes to the same error. docs/performance.md says what the columns mean.
   --depth N              most bounces (8)
   --repeat N             pairs of renderings; medians count (3)
   --error-size WxH       picture whose error is measured (192x108)
+  --error-seeds N        pictures whose errors are averaged (as many as --repeat); dozens of them
+                         where rare samples decide, such as the sun in small mirrors
   --reference-samples N  samples per pixel of the references (16384); 0 leaves the error out
   --json FILE            write all figures
   --keep DIR             keep the pictures and Blender's log there
@@ -38,7 +40,7 @@ refuse() {
 here="$(cd -- "$(dirname -- "${BASH_SOURCE[0]}")" && pwd)"
 declare -A option=(
     [env]="$here/../assets/environments/sky.hdr" [view]=both [size]=1280x720 [spp]=64 [depth]=8
-    [repeat]=3 [error-size]=192x108 [reference-samples]=16384 [json]='' [keep]=''
+    [repeat]=3 [error-size]=192x108 [error-seeds]=0 [reference-samples]=16384 [json]='' [keep]=''
     [obscura]="$here/../build/release/bin/obscura" [blender]=blender
 )
 camera=()
@@ -77,7 +79,10 @@ done
 for name in spp depth repeat; do
     [[ "${option[$name]}" =~ ^[1-9][0-9]*$ ]] || refuse "--$name is a number from 1"
 done
-[[ "${option[reference-samples]}" =~ ^[0-9]+$ ]] || refuse "--reference-samples is a number"
+for name in error-seeds reference-samples; do
+    [[ "${option[$name]}" =~ ^[0-9]+$ ]] || refuse "--$name is a number"
+done
+((option[error-seeds] > 0)) || option[error-seeds]="${option[repeat]}"
 [[ "${option[view]}" =~ ^(whole|close|both)$ ]] || refuse "--view is whole, close or both"
 for file in "${option[env]}" "${scenes[@]}"; do
     [[ -r "$file" ]] || refuse "$file cannot be read"
