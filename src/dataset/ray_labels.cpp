@@ -15,10 +15,16 @@ namespace obscura::dataset {
 
 namespace {
 
+/// The surface that a ray goes on behind, and how far behind it began, in units of rounding.
+struct Passed {
+    std::array<int32_t, 3> surface = {-1, -1, -1};  ///< instance, primitive, triangle
+    float gap = 1;
+};
+
 /// Rays of one row of the frame, and their hits, with the padding that Accel asks for.
 class RowRays {
 public:
-    explicit RowRays(size_t count) : pixel_(count) {
+    explicit RowRays(size_t count) : pixel_(count), passed_(count) {
         for (auto& column : number_)
             column.resize((count + 15) / 16 * 16);
         for (auto& column : index_)
@@ -33,12 +39,22 @@ public:
     float hit_distance(int i) const { return number(7, i); }
     int32_t hit_instance(int i) const { return index_[0][static_cast<size_t>(i)]; }
     int32_t hit_primitive(int i) const { return index_[1][static_cast<size_t>(i)]; }
+    std::array<int32_t, 3> hit_surface(int i) const {
+        const auto at = static_cast<size_t>(i);
+        return {index_[0][at], index_[1][at], index_[2][at]};
+    }
+    const Passed& passed(int i) const { return passed_[static_cast<size_t>(i)]; }
 
     void clear() { count_ = 0; }
     /// May overwrite a ray that was read before: rays are only left out.
-    void add(uint32_t pixel, const Vec3f& origin, const Vec3f& direction, float end) {
+    void add(uint32_t pixel,
+             const Vec3f& origin,
+             const Vec3f& direction,
+             float end,
+             const Passed& passed) {
         const auto i = static_cast<size_t>(count_++);
         pixel_[i] = pixel;
+        passed_[i] = passed;
         const std::array<float, 7> values = {
             origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, end};
         for (size_t c = 0; c < values.size(); ++c)
@@ -75,6 +91,7 @@ private:
     }
 
     std::vector<uint32_t> pixel_;
+    std::vector<Passed> passed_;
     std::array<std::vector<float>, 10> number_;
     std::array<std::vector<int32_t>, 3> index_;
     int count_ = 0;
@@ -157,7 +174,7 @@ private:
                 const float length = length_of(camera_, made);
                 if (!(length > 0)) continue;
                 const auto pixel = static_cast<uint32_t>(row * frame.width + column);
-                rays.add(pixel, made.ray.origin, made.ray.direction, length);
+                rays.add(pixel, made.ray.origin, made.ray.direction, length, {});
             }
         });
     }
@@ -169,8 +186,7 @@ private:
 
     /// Notes the hits, and lets the rays that have hit something go on behind it.
     void pass(bool is_first, RowRays& rays, std::vector<NodePixel>& found) const {
-        // The rounding of a hit's place: a surface that is met again changes nothing.
-        constexpr float gap = 2.4e-7f;
+        constexpr float rounding = 2.4e-7f;  // of a hit's place
         const int count = rays.count();
         rays.clear();
         for (int i = 0; i < count; ++i) {
@@ -187,9 +203,12 @@ private:
                 if (node >= 0) out_.material[index] = material_of(scene_, rays, i);
                 out_.depth_m[index] = depth_of(origin + direction * t);
             }
-            const float step = t + gap * (length(origin) + t);
+            // A ray that grazes a surface meets it again until it begins far enough behind it.
+            Passed passed{rays.hit_surface(i)};
+            if (passed.surface == rays.passed(i).surface) passed.gap = 4 * rays.passed(i).gap;
+            const float step = t + passed.gap * rounding * (length(origin) + t);
             if (step < rays.end(i))
-                rays.add(pixel, origin + direction * step, direction, rays.end(i) - step);
+                rays.add(pixel, origin + direction * step, direction, rays.end(i) - step, passed);
         }
     }
 

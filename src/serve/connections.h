@@ -8,9 +8,9 @@
 #include <deque>
 #include <functional>
 #include <httplib.h>
-#include <map>
+#include <list>
 #include <mutex>
-#include <set>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -23,6 +23,21 @@ void note_request();
 /// Whether the client whose request this thread answers has gone; any thread may ask until the
 /// answer is sent.
 std::function<bool()> client_is_gone();
+
+/// A connection, as long as its descriptor is that client's; none: it is not known.
+struct Socket {
+    int descriptor = -1;
+    int port = -1;            ///< of this process
+    std::string client = {};  ///< address and port
+
+    bool operator==(const Socket&) const = default;
+};
+
+/// One that a thread answers.
+struct OpenConnection {
+    Socket socket = {};
+    std::atomic<std::chrono::steady_clock::rep> latest_request = 0;
+};
 
 /// Answers each connection in a thread of its own, up to a number. Where all are taken, the one
 /// that has asked for nothing longest is closed, once that is long enough: clients that send a byte
@@ -45,11 +60,9 @@ public:
     void shutdown() override;
 
 private:
-    using Clock = std::chrono::steady_clock;
-
-    /// A connection, by its descriptor; -1: it was not found.
-    struct Connection {
-        int socket = -1;
+    /// A connection that is to be answered.
+    struct Waiting {
+        Socket socket;
         std::function<void()> task;
     };
 
@@ -63,8 +76,8 @@ private:
     const std::chrono::milliseconds patience_;
     std::mutex mutex_;  ///< of what follows
     std::condition_variable changed_;
-    std::deque<Connection> waiting_;
-    std::map<int, std::atomic<Clock::rep>> open_;  ///< when each last had a request
+    std::deque<Waiting> waiting_;
+    std::list<OpenConnection> open_;
     std::vector<std::thread> threads_;
     size_t idle_ = 0;
     bool ends_ = false;

@@ -151,6 +151,29 @@ TEST_F(TwoSquares, FarFromTheOriginLayersStayApart) {
                 4.0 * size);
 }
 
+TEST_F(TwoSquares, RaysThatGrazeAFaceGetBehindIt) {
+    test::SceneBuilder builder;
+    const int32_t material = builder.material({});
+    const Vec3f corner{30, 20, -30};
+    builder.quad(corner + Vec3f{0, 0.3f, 20}, {20, 0, 0}, {0, 0, -20}, material);
+    builder.quad(corner + Vec3f{-50, 0, 40}, {120, 0, 0}, {0, 0, -200}, material);
+    Scene scene = builder.take();
+    scene.node_places.resize(2);
+    Log log(Verbosity::quiet);
+    prepared_.emplace(PreparedScene::create(std::move(scene), {}, Isa::automatic, log).value());
+    const Vec3f eye = corner + Vec3f{10, 1.0f, 21};
+    const Camera camera = test::look_at(eye, eye + Vec3f{0, -0.05f, -1}, 0.3f, size, size);
+    const RayLabels rays = trace_labels(*prepared_, camera, options_);
+    ASSERT_EQ(rays.silhouettes.size(), 2U);
+    size_t crossing = 0;
+    for (const uint32_t pixel : rays.silhouettes[0].pixels) {
+        const auto& below = rays.silhouettes[1].pixels;
+        crossing += std::binary_search(below.begin(), below.end(), pixel) ? 1U : 0U;
+    }
+    EXPECT_GT(rays.silhouettes[0].pixels.size(), 1000U);
+    EXPECT_EQ(crossing, rays.silhouettes[0].pixels.size());
+}
+
 TEST_F(TwoSquares, BackFacesAreNotThere) {
     Camera behind = test::look_at({0, 0, -10}, {0, 0, 0}, 0.4f, size, size);
     EXPECT_TRUE(trace_labels(*prepared_, behind, options_).silhouettes.empty());

@@ -34,18 +34,23 @@ private:
     bool is_connected_ = false;
 };
 
-/// A server with two threads, which is patient for so long.
+/// A server with so many threads, which is patient for so long.
 class SmallServer {
 public:
-    explicit SmallServer(std::chrono::milliseconds patience) {
+    explicit SmallServer(std::chrono::milliseconds patience, size_t threads = 2) {
         server_.new_task_queue = [=, this] {
-            return new ConnectionThreads(port_, 2, is_ending_, patience);
+            return new ConnectionThreads(port_, threads, is_ending_, patience);
         };
         server_.set_read_timeout(60);
         server_.Get("/", [](const httplib::Request& request, httplib::Response& response) {
             note_request();
             response.set_content("here", "text/plain");
             response.set_header("Port", std::to_string(request.remote_port));
+        });
+        server_.Get("/gone", [](const httplib::Request&, httplib::Response& response) {
+            const auto is_gone = client_is_gone();
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            response.set_content(is_gone() ? "gone" : "here", "text/plain");
         });
         port_ = server_.bind_to_any_port("127.0.0.1");
         thread_ = std::thread([this] { server_.listen_after_bind(); });
@@ -113,6 +118,28 @@ TEST(Connections, NoneIsClosedBeforeItsTime) {
     ASSERT_TRUE(a.is_connected() && b.is_connected());
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     EXPECT_EQ(port_of(first), port);
+}
+
+TEST(Connections, AreNotTakenForOthersThatCloseMeanwhile) {
+    SmallServer server(std::chrono::hours(1), 8);
+    std::atomic<bool> is_over = false;
+    std::vector<std::thread> passers_by;
+    for (int i = 0; i < 4; ++i) {
+        passers_by.emplace_back([&] {
+            while (!is_over)
+                httplib::Client("127.0.0.1", server.port()).Get("/");
+        });
+    }
+    int here = 0;
+    constexpr int requests = 200;
+    for (int i = 0; i < requests; ++i) {
+        const auto answer = httplib::Client("127.0.0.1", server.port()).Get("/gone");
+        here += answer && answer->body == "here" ? 1 : 0;
+    }
+    is_over = true;
+    for (std::thread& thread : passers_by)
+        thread.join();
+    EXPECT_EQ(here, requests);
 }
 
 TEST(Connections, TheEndDoesNotWaitForThem) {
