@@ -9,6 +9,7 @@
 #include "app/part_options.h"
 #include "app/render_command.h"
 #include "app/render_options.h"
+#include "session/image_names.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -104,13 +105,18 @@ Result<void> check_own_files(const BatchJob& job,
     return check_not_read(written, read);
 }
 
-/// Those of the manifest and the contact sheet; where that fails, writing will say why.
-void make_folders(const BatchJob& job) {
-    for (const auto* file : {&job.manifest, &job.contact_sheet}) {
+/// The folders of files that the job names; where that fails, writing will say why.
+void make_folders(const BatchJob& job, const std::vector<SceneRun>& runs) {
+    const auto make = [](const std::filesystem::path& file) {
         std::error_code ignored;
-        if (*file)
-            std::filesystem::create_directories(std::filesystem::path(**file).parent_path(),
-                                                ignored);
+        std::filesystem::create_directories(file.parent_path(), ignored);
+    };
+    if (job.manifest) make(*job.manifest);
+    if (job.contact_sheet) make(*job.contact_sheet);
+    for (const SceneRun& run : runs) {
+        for (const std::filesystem::path& output : run.request.outputs) {
+            if (!has_fields(output)) make(output);  // else it is made when its name is known
+        }
     }
 }
 
@@ -134,7 +140,7 @@ int run_batch(const BatchArguments& arguments) {
         log.info("this part of the job has no pictures");
         return report_success(arguments.job_file, log);
     }
-    if (!arguments.dry_run) make_folders(*job);
+    if (!arguments.dry_run) make_folders(*job, *runs);
     return run_scenes(*runs, arguments.job_file, log, [&]() -> Result<void> {
         if (!job->contact_sheet || arguments.dry_run) return {};
         return write_contact_sheet(*job->manifest, *job->contact_sheet);

@@ -13,15 +13,21 @@ namespace obscura {
 
 namespace {
 
-/// The nodes from a root down to `node`.
-std::vector<size_t> chain_to(const AssetInfo& info, size_t node) {
-    std::vector<size_t> chain;
-    for (auto at = static_cast<int32_t>(node); at >= 0;
-         at = info.node_parents[static_cast<size_t>(at)]) {
-        chain.push_back(static_cast<size_t>(at));
+/// Calls `use(node)` once for each node, for its ancestors before.
+template <typename Use>
+void visit_from_roots(const AssetInfo& info, const Use& use) {
+    std::vector<char> is_known(info.node_parents.size(), 0);
+    std::vector<size_t> climbed;
+    for (size_t node = 0; node < info.node_parents.size(); ++node) {
+        for (auto at = static_cast<int32_t>(node);
+             at >= 0 && is_known[static_cast<size_t>(at)] == 0;
+             at = info.node_parents[static_cast<size_t>(at)]) {
+            is_known[static_cast<size_t>(at)] = 1;
+            climbed.push_back(static_cast<size_t>(at));
+        }
+        for (; !climbed.empty(); climbed.pop_back())
+            use(climbed.back());
     }
-    std::reverse(chain.begin(), chain.end());
-    return chain;
 }
 
 /// The path, with a number if it is taken already: siblings may have one name.
@@ -46,15 +52,16 @@ std::vector<uint32_t> hashes_of(const std::vector<std::string>& names) {
 }  // namespace
 
 std::vector<std::string> node_paths(const AssetInfo& info) {
-    std::vector<std::string> paths(info.node_names.size());
+    // Those of a chain of nodes have a length by the square of its own.
+    constexpr size_t longest = 1000;
+    std::vector<std::string> paths(info.node_parents.size());
     std::map<std::string, int> taken;
-    for (size_t node = 0; node < paths.size(); ++node) {
-        std::string path;
-        for (const size_t at : chain_to(info, node)) {
-            if (paths[at].empty()) paths[at] = unlike_all(path + "/" + info.node_names[at], taken);
-            path = paths[at];
-        }
-    }
+    visit_from_roots(info, [&](size_t node) {
+        const int32_t parent = info.node_parents[node];
+        std::string path = parent < 0 ? "" : paths[static_cast<size_t>(parent)];
+        if (path.size() + 1 + info.node_names[node].size() > longest) path = "/...";
+        paths[node] = unlike_all(path + "/" + info.node_names[node], taken);
+    });
     return paths;
 }
 
@@ -62,8 +69,11 @@ CryptomatteTables cryptomatte_tables(const Scene& scene) {
     const AssetInfo& info = scene.info;
     CryptomatteTables out;
     out.objects = node_paths(info);
-    for (size_t node = 0; node < out.objects.size(); ++node)
-        out.assets.push_back(out.objects[chain_to(info, node).front()]);
+    out.assets.resize(out.objects.size());
+    visit_from_roots(info, [&](size_t node) {
+        const int32_t parent = info.node_parents[node];
+        out.assets[node] = parent < 0 ? out.objects[node] : out.assets[static_cast<size_t>(parent)];
+    });
     // Number 0 is what belongs to no node.
     out.objects.insert(out.objects.begin(), "");
     out.assets.insert(out.assets.begin(), "");

@@ -11,7 +11,8 @@
 namespace obscura {
 
 /// The path of every glTF node, from its root: "/lamp/shade". No two are alike: of siblings of one
-/// name the second is "/lamp (2)".
+/// name the second is "/lamp (2)". Where one would be longer than 1000 bytes, "/..." stands for all
+/// ancestors.
 std::vector<std::string> node_paths(const AssetInfo& info);
 
 /// The name that every number of an id AOV (index plus 1) stands for in a Cryptomatte layer.

@@ -81,6 +81,12 @@ Sender sender_of(const httplib::Request& request) {
             request.has_param("token") ? request.get_param_value("token") : ""};
 }
 
+/// The library cuts answers, errors too, without asking whether they have such bytes, and leaves
+/// their status. Who asks for a range may be given all (RFC 9110, 14.2).
+void ignore_range(const httplib::Request& request) {
+    const_cast<httplib::Ranges&>(request.ranges).clear();
+}
+
 /// For answers that the library makes itself.
 Error error_of_status(int status) {
     constexpr int not_found = 404, too_large = 413;
@@ -245,6 +251,7 @@ void Routes::refuse_the_rest() {
     server_.Patch(".*", with_body(nothing, send));
     server_.set_pre_routing_handler([](const httplib::Request& request,
                                        httplib::Response& response) {
+        ignore_range(request);
         constexpr std::array<std::string_view, 6> known = {
             "GET", "HEAD", "POST", "PUT", "PATCH", "DELETE"};
         const bool is_known = std::find(known.begin(), known.end(), request.method) != known.end();

@@ -150,6 +150,17 @@ TEST_F(Batch, PartsShareTheirManifest) {
     EXPECT_EQ(lines("out.jsonl").size(), 2U) << "it begins anew";
 }
 
+TEST_F(Batch, FoldersOfItsFilesAreMade) {
+    json job = small_job();
+    job["assets"] = {"in/box.gltf"};
+    job["looks"] = {"a"};
+    job["outputs"] = {"pictures/box/a.png"};
+    job["manifest"] = "notes/out.jsonl";
+    expect_result(batch(job), 0, "OK");
+    EXPECT_TRUE(fs::exists(folder_ / "pictures/box/a.png"));
+    EXPECT_TRUE(fs::exists(folder_ / "notes/out.jsonl"));
+}
+
 TEST_F(Batch, FilesAreOfOneRendering) {
     json job = small_job();
     job["assets"] = {"in/box.gltf"};

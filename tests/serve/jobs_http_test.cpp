@@ -216,6 +216,20 @@ TEST_F(JobsHttp, WhatMayNotBeIsRefusedWithItsPlace) {
     EXPECT_EQ(get("/api/jobs").at("jobs").size(), 0U);
 }
 
+TEST_F(JobsHttp, WhoAsksForARangeIsGivenAll) {
+    const auto all = http_->Get("/page.js");
+    ASSERT_TRUE(all);
+    for (const char* range : {"bytes=0-10", "bytes=99999999-", "bytes=-5"}) {
+        const auto asked = http_->Get("/page.js", {{"Range", range}});
+        ASSERT_TRUE(asked) << range;
+        EXPECT_EQ(asked->status, 200);
+        EXPECT_EQ(asked->body, all->body);
+        const auto nothing = http_->Get("/nothing", {{"Range", range}});
+        ASSERT_TRUE(nothing) << range;
+        EXPECT_FALSE(json::parse(nothing->body, nullptr, false).is_discarded()) << nothing->body;
+    }
+}
+
 TEST_F(JobsHttp, ACancelledJobEndsAndTheServerGoesOn) {
     json job = long_job();
     const std::string id = submit(job).at("job");

@@ -402,6 +402,11 @@ class PageTest(unittest.TestCase):
         self.wait_for(lambda: " --time 1." in self.command(), "a second has passed")
         self.find("#play").click()
         self.wait_till_done()
+        paused = self.command()
+        self.find("#play").click()
+        self.wait_for(lambda: self.command() != paused, "it goes on from there")
+        self.find("#play").click()
+        self.wait_till_done()
 
     def test_a_png_is_saved(self):
         self.open_page()

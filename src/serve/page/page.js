@@ -79,9 +79,12 @@ function askToken(error = "") {
   if (!byId("token-dialog").open) byId("token-dialog").showModal();
 }
 
+/** False: no other picture than the one that is there, or on its way, is wished for. */
 function wish() {
   showValues(sharp);
-  if (view?.put(optionsOf({view, camera, sharp}))) showState("rendering");
+  const isNew = Boolean(view?.put(optionsOf({view, camera, sharp})));
+  if (isNew) showState("rendering");
+  return isNew;
 }
 
 // ---- The camera ----
@@ -225,7 +228,7 @@ function play(isOn) {
 
 function step() {
   controls.time.value = (performance.now() - playStart) / 1000 % controls.time.max;
-  wish();
+  if (!wish()) setTimeout(advance, 20);  // no picture comes that would go on
 }
 
 /** At rest time means nothing: whoever moves it wants to see the first animation. */
