@@ -44,12 +44,11 @@ class Renderer:
         self.view = obscura.View(width=settings.size[0], height=settings.size[1])
         self.look = obscura.Look(environment=settings.env)
         self.seeds = settings.seeds
-        self.reference = None
         samples = settings.reference_samples
         self.reference = self.render(obscura.Sampling(samples_per_pixel=samples, seed=1000))[0]
 
     def render(self, sampling):
-        """The colours, and the seconds of all cores."""
+        """The colours, the seconds of all cores, and the mean of samples if there is that layer."""
         begun = time.process_time()
         image = self.session.render(self.asset, self.view, self.look, sampling)
         seconds = time.process_time() - begun
