@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-# benchmarks/adaptive.py - the time that adaptive sampling takes to an error, and that of even samples.
+# benchmarks/adaptive.py - the time of adaptive sampling to an error, and that of even samples.
 # SPDX-License-Identifier: Apache-2.0
-"""Renders each SCENE with `noise_target`, measures the error against a reference, and finds how many
-samples of every pixel have the same error, between or beyond two numbers of them. Prints what both
-take and the ratio. Times are those of all cores, so that what else a machine does hardly counts.
+"""Renders each SCENE with `noise_target`, measures the error against a reference, and finds how
+many samples of every pixel have the same error, between or beyond two numbers of them. Prints what
+both take and the ratio. Times are those of all cores, so that what else a machine does hardly counts.
 Needs the Python package: PYTHONPATH=build/release/python."""
 
 import argparse
