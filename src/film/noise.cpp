@@ -13,92 +13,119 @@ namespace obscura {
 namespace {
 
 constexpr size_t noise_colors = 3;
-constexpr int window_reach = noise_window / 2;
 
-/// A pixel's mean and squared difference between its parts, the latter as variance of one sample.
-struct PixelNoise {
-    std::array<float, noise_colors> mean = {};
-    std::array<float, noise_colors> variance = {};
+/// Sums over pixels of their means and of the squared differences between their parts, the latter
+/// as variances of one sample.
+struct NoiseSum {
+    int count = 0;
+    std::array<double, noise_colors> mean = {};
+    std::array<double, noise_colors> variance = {};
 };
 
-PixelNoise noise_of(const SampledImage& image, size_t pixel) {
-    const double n = image.samples[pixel];
-    const double before = image.samples_before[pixel];
-    // The difference of the mean of n samples and that of the first m of them has the variance of a
-    // sample times 1/m - 1/n.
-    const double scale = n * before / (n - before);
-    PixelNoise out;
-    for (size_t c = 0; c < std::min(image.channels, noise_colors); ++c) {
-        out.mean[c] = image.pixels[pixel * image.channels + c];
-        const double change = static_cast<double>(out.mean[c]) -
-                              static_cast<double>(image.before[pixel * image.channels + c]);
-        out.variance[c] = static_cast<float>(change * change * scale);
+/// What the squared difference of the two parts of a group's pixels is multiplied with: that of the
+/// mean of n samples and of the first m of them has the variance of a sample times 1/m - 1/n.
+std::vector<double> variance_scales(const SampledImage& image, const PixelGroups& groups) {
+    std::vector<double> out(groups.count(), 0.0);
+    for (size_t i = 0; i < out.size(); ++i) {
+        const double n = image.samples[i];
+        const double m = image.samples_before[i];
+        if (n > m) out[i] = n * m / (n - m);
     }
     return out;
 }
 
-/// The window's rows and columns that lie in the image.
-struct WindowRange {
-    int begin, end;
-};
-
-WindowRange around(int center, int size) {
-    return {std::max(center - window_reach, 0), std::min(center + window_reach + 1, size)};
+/// Adds a pixel to the sum of its colour.
+void add_pixel(const SampledImage& image, size_t pixel, double scale, NoiseSum& sum) {
+    const float* const after = image.pixels.data() + pixel * image.channels;
+    const float* const before = image.before.data() + pixel * image.channels;
+    ++sum.count;
+    for (size_t c = 0; c < noise_colors; ++c) {
+        const size_t channel = std::min(c, image.channels - 1);  // one is grey
+        const auto mean = static_cast<double>(after[channel]);
+        const double change = mean - static_cast<double>(before[channel]);
+        sum.mean[c] += mean;
+        sum.variance[c] += change * change * scale;
+    }
 }
 
-/// The relative deviation of a pixel by its neighbours.
-float deviation(std::span<const PixelNoise> noise, const SampledImage& image, int x, int y) {
-    const WindowRange rows = around(y, image.height);
-    const WindowRange columns = around(x, image.width);
-    const int count = (rows.end - rows.begin) * (columns.end - columns.begin);
-    std::array<double, noise_colors> mean = {};
-    std::array<double, noise_colors> variance = {};
-    for (int row = rows.begin; row < rows.end; ++row) {
-        for (int column = columns.begin; column < columns.end; ++column) {
-            const auto at = static_cast<size_t>(row) * static_cast<size_t>(image.width) +
-                            static_cast<size_t>(column);
-            const bool own = row == y && column == x && count > 1;
-            for (size_t c = 0; c < noise_colors; ++c) {
-                mean[c] += static_cast<double>(noise[at].mean[c]);
-                if (!own) variance[c] += static_cast<double>(noise[at].variance[c]);
-            }
+/// The relative deviation that a sum stands for.
+float deviation_of(const NoiseSum& sum, double white) {
+    if (sum.count == 0) return 0;
+    const double darkest = darkest_error_white * white;
+    double out = 0;
+    for (size_t c = 0; c < noise_colors; ++c) {
+        const double color = static_cast<double>(sum.mean[c]) / sum.count;
+        out +=
+            static_cast<double>(sum.variance[c]) / sum.count / (color * color + darkest * darkest);
+    }
+    return static_cast<float>(std::sqrt(out / noise_colors));
+}
+
+/// The deviations of the two groups of a block.
+std::array<float, 2> block_deviations(const SampledImage& image,
+                                      const PixelGroups& groups,
+                                      std::span<const double> scales,
+                                      size_t column,
+                                      size_t row) {
+    constexpr int side = PixelGroups::block_side;
+    const int x = static_cast<int>(column) * side;
+    const int y = static_cast<int>(row) * side;
+    std::array<NoiseSum, 2> sums;
+    for (int v = std::max(y - noise_margin, 0); v < std::min(y + side + noise_margin, image.height);
+         ++v) {
+        for (int u = std::max(x - noise_margin, 0);
+             u < std::min(x + side + noise_margin, image.width);
+             ++u) {
+            const auto color = static_cast<size_t>(u + v) % 2;
+            const auto pixel =
+                static_cast<size_t>(v) * static_cast<size_t>(image.width) + static_cast<size_t>(u);
+            add_pixel(image, pixel, scales[groups.of(u, v)], sums[color]);
         }
     }
-    const double darkest = darkest_error_white * image.white;
-    double sum = 0;
-    for (size_t c = 0; c < noise_colors; ++c) {
-        const double color = mean[c] / count;
-        sum += variance[c] / std::max(count - 1, 1) / (color * color + darkest * darkest);
-    }
-    return static_cast<float>(std::sqrt(sum / noise_colors));
+    // A pixel without neighbours is judged by itself.
+    if (sums[1].count == 0) sums[1] = sums[0];
+    return {deviation_of(sums[1], image.white), deviation_of(sums[0], image.white)};
 }
 
 }  // namespace
 
+std::vector<int> PixelGroups::sizes() const {
+    std::vector<int> out(count(), 0);
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x)
+            ++out[of(x, y)];
+    }
+    return out;
+}
+
 std::vector<float> sample_deviations(const SampledImage& image) {
-    std::vector<PixelNoise> noise(image.samples.size());
-    constexpr size_t grain = 4096;
-    parallel_ranges(noise.size(), grain, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i)
-            noise[i] = noise_of(image, i);
-    });
-    std::vector<float> out(noise.size());
-    parallel_for(static_cast<size_t>(image.height), [&](size_t y) {
-        for (int x = 0; x < image.width; ++x) {
-            out[y * static_cast<size_t>(image.width) + static_cast<size_t>(x)] =
-                deviation(noise, image, x, static_cast<int>(y));
+    const PixelGroups groups{image.width, image.height};
+    const size_t across = PixelGroups::blocks_in(image.width);
+    const std::vector<double> scales = variance_scales(image, groups);
+    std::vector<float> out(groups.count());
+    parallel_for(PixelGroups::blocks_in(image.height), [&](size_t row) {
+        for (size_t column = 0; column < across; ++column) {
+            const std::array<float, 2> deviations =
+                block_deviations(image, groups, scales, column, row);
+            std::copy_n(deviations.data(), 2, out.data() + 2 * (row * across + column));
         }
     });
     return out;
 }
 
-double image_noise(std::span<const float> deviations, std::span<const int> samples) {
+double image_noise(std::span<const float> deviations,
+                   std::span<const int> samples,
+                   const PixelGroups& groups) {
+    const std::vector<int> sizes = groups.sizes();
     double sum = 0;
-    for (size_t i = 0; i < deviations.size(); ++i) {
+    double pixels = 0;
+    for (size_t i = 0; i < sizes.size(); ++i) {
+        if (sizes[i] == 0) continue;
         const auto deviation = static_cast<double>(deviations[i]);
-        sum += deviation * deviation / samples[i];
+        sum += sizes[i] * deviation * deviation / samples[i];
+        pixels += sizes[i];
     }
-    return std::sqrt(sum / static_cast<double>(std::max<size_t>(deviations.size(), 1)));
+    return std::sqrt(sum / std::max(pixels, 1.0));
 }
 
 }  // namespace obscura

@@ -3,17 +3,17 @@
 #include "render/adaptive_sums.h"
 
 #include "base/parallel.h"
-#include "film/noise.h"
 #include "render/sample_plan.h"
 
 #include <algorithm>
+#include <map>
 
 namespace obscura {
 
 namespace {
 
-/// The first passes, to the least number of samples, take all pixels.
-constexpr int passes_of_all = 2;
+/// What a camera ray costs beside one that goes on from a surface: its neighbours go the same way.
+constexpr double camera_ray_cost = 0.3;
 
 /// How many samples of some pixels are taken at once: enough to fill batches where few pixels are
 /// left, and few enough that nobody waits long for the tile. Whole multiples of 16, so that the
@@ -41,27 +41,51 @@ AdaptiveSums::AdaptiveSums(const std::vector<Tile>& tiles,
       adaptive_(*options.adaptive),
       max_samples_(options.samples_per_pixel),
       levels_(sample_levels(adaptive_.min_samples, max_samples_)),
-      shape_(shape_of(film)) {
-    const size_t pixels = film.pixels.size() / film.channels.size();
-    started_.assign(pixels, 0);
-    goals_.assign(pixels, levels_.front());
-    before_.assign(film.pixels.size(), 0.0f);
-    samples_before_.assign(pixels, 0);
+      shape_(shape_of(film)),
+      groups_{film.width, film.height},
+      sizes_(groups_.sizes()),
+      samples_(groups_.count(), 0),
+      goals_(groups_.count(), levels_[1]),
+      samples_before_(groups_.count(), 0),
+      before_(film.pixels.size(), 0.0f) {
+    static_assert(pass_tile_side % PixelGroups::block_side == 0);
 }
 
 double AdaptiveSums::fraction() const {
     if (is_over_) return 1;
     const double part = static_cast<double>(tiles_done_) / static_cast<double>(tiles().size());
-    return std::min((passes_ + part) / static_cast<double>(levels_.size()), 1.0);
+    return std::min((passes_ + part) / static_cast<double>(levels_.size() - 1), 1.0);
 }
 
-/// The film's index of each pixel of a tile, in the order of its pattern.
-std::vector<size_t> AdaptiveSums::film_indices(const Tile& tile, TilePattern& latest) const {
+/// Where the pixels of a tile lie, in the order of its pattern.
+std::vector<AdaptiveSums::PixelPlace> AdaptiveSums::places(const Tile& tile,
+                                                           TilePattern& latest) const {
     const TilePattern& pattern = pattern_of(tile, latest);
-    std::vector<size_t> at;
-    for (size_t i = 0; i < pattern.all.size(); ++i)
-        at.push_back(pixel_index(shape_, tile.x + pattern.dx[i], tile.y + pattern.dy[i]));
-    return at;
+    const int x_0 = shape_.part_of ? shape_.part_of->x : 0;
+    const int y_0 = shape_.part_of ? shape_.part_of->y : 0;
+    std::vector<PixelPlace> out;
+    out.reserve(pattern.all.size());
+    for (size_t i = 0; i < pattern.all.size(); ++i) {
+        const int x = tile.x + pattern.dx[i];
+        const int y = tile.y + pattern.dy[i];
+        out.push_back({pixel_index(shape_, x, y), groups_.of(x - x_0, y - y_0)});
+    }
+    return out;
+}
+
+/// The groups of a tile's pixels.
+std::vector<size_t> AdaptiveSums::groups_in(const Tile& tile) const {
+    constexpr int side = PixelGroups::block_side;
+    const int x_0 = tile.x - (shape_.part_of ? shape_.part_of->x : 0);
+    const int y_0 = tile.y - (shape_.part_of ? shape_.part_of->y : 0);
+    std::vector<size_t> out;
+    for (int y = y_0; y < y_0 + tile.height; y += side) {
+        for (int x = x_0; x < x_0 + tile.width; x += side) {
+            const size_t first = groups_.of(x, y);
+            out.insert(out.end(), {first, first + 1});
+        }
+    }
+    return out;
 }
 
 void AdaptiveSums::sample(const FilmWork& work) {
@@ -94,48 +118,61 @@ void AdaptiveSums::run_pass(const FilmWork& work) {
 
 void AdaptiveSums::sample_tile(const FilmWork& work, SumsTile& tile) {
     ThreadState& state = thread_state(work);
-    const std::vector<size_t> at = film_indices(tile.tile, state.pattern);
     bool has_sampled = false;
     while (!work.tile_work.stop.load(std::memory_order_relaxed)) {
         const std::lock_guard lock(tile.using_it);
-        if (!take_next_samples(work, at, tile)) {
+        if (!take_next_samples(work, tile)) {
             if (has_sampled) store_beauty(tile.sums, state.pattern, work.film);
             return;
         }
         has_sampled = true;
+        if (tile.samples > levels_.front()) continue;
+        // The first of the two parts that the least number has.
+        store_beauty(tile.sums, state.pattern, work.film);
+        note_pixels(work.film, tile.tile, state.pattern);
     }
 }
 
 /// Takes samples of the pixels with fewest of those that are short of their goals. False: there are
 /// none.
-bool AdaptiveSums::take_next_samples(const FilmWork& work,
-                                     const std::vector<size_t>& at,
-                                     SumsTile& tile) {
-    const auto samples_of = [&](size_t i) { return tile.samples > 0 ? tile.sums.samples[i] : 0; };
+bool AdaptiveSums::take_next_samples(const FilmWork& work, SumsTile& tile) {
+    const std::vector<size_t> groups = groups_in(tile.tile);
     int first = max_samples_;
-    for (size_t i = 0; i < at.size(); ++i) {
-        if (samples_of(i) < goals_[at[i]]) first = std::min(first, samples_of(i));
+    for (const size_t group : groups) {
+        if (samples_[group] < goals_[group]) first = std::min(first, samples_[group]);
+    }
+    const auto is_next = [&](size_t group) {
+        return samples_[group] == first && goals_[group] > first;
+    };
+    int goal = first < levels_.front() ? levels_.front() : max_samples_;
+    for (const size_t group : groups) {
+        if (is_next(group)) goal = std::min(goal, goals_[group]);
     }
     std::vector<uint32_t> pixels;
-    int goal = first;
-    for (size_t i = 0; i < at.size(); ++i) {
-        if (samples_of(i) != first || goals_[at[i]] <= first) continue;
-        pixels.push_back(static_cast<uint32_t>(i));
-        goal = goals_[at[i]];  // which follows from the samples
-        if (started_[at[i]] == first) note_pixel(work.film, at[i]);
+    const std::vector<PixelPlace> all = places(tile.tile, thread_state(work).pattern);
+    for (size_t i = 0; i < all.size(); ++i) {
+        if (is_next(all[i].group)) pixels.push_back(static_cast<uint32_t>(i));
     }
     if (pixels.empty()) return false;
     const int count = std::min(goal - first, samples_at_once(pixels.size()));
     take_samples(work, pixels, {static_cast<uint32_t>(first), count}, tile);
+    for (const size_t group : groups) {
+        if (is_next(group)) samples_[group] += count;
+    }
     return true;
 }
 
-/// Notes a pixel of the film as it is before its samples of a pass.
-void AdaptiveSums::note_pixel(const Film& film, size_t at) {
-    samples_before_[at] = started_[at];
-    if (started_[at] == 0) return;
+/// Notes the pixels of a tile that go on as they are in the film.
+void AdaptiveSums::note_pixels(const Film& film, const Tile& tile, TilePattern& latest) {
+    const std::vector<size_t> groups = groups_in(tile);
+    const auto goes_on = [&](size_t group) { return goals_[group] > samples_[group]; };
+    if (std::none_of(groups.begin(), groups.end(), goes_on)) return;
     const size_t channels = film.channels.size();
-    std::copy_n(film.pixels.data() + at * channels, channels, before_.data() + at * channels);
+    for (const auto& [at, group] : places(tile, latest)) {
+        if (!goes_on(group)) continue;
+        samples_before_[group] = samples_[group];
+        std::copy_n(film.pixels.data() + at * channels, channels, before_.data() + at * channels);
+    }
 }
 
 void AdaptiveSums::store_all(const FilmWork& work) const {
@@ -145,28 +182,30 @@ void AdaptiveSums::store_all(const FilmWork& work) const {
     });
 }
 
-/// The samples of all pixels, by the film's index.
-std::vector<int> AdaptiveSums::samples_of_film() const {
-    std::vector<int> out(started_.size(), 0);
-    TilePattern pattern;
+/// The mean number of rays that a sample takes, of each group: that of its tile, as rays are
+/// counted there.
+std::vector<float> AdaptiveSums::costs_of_groups() const {
+    std::vector<float> out(groups_.count(), 1.0f);
     for (const SumsTile& tile : tiles()) {
-        if (tile.samples == 0) continue;
-        const std::vector<size_t> at = film_indices(tile.tile, pattern);
-        for (size_t i = 0; i < at.size(); ++i)
-            out[at[i]] = tile.sums.samples[i];
+        const RenderCounters& rays = tile.counters;
+        if (rays.paths == 0) continue;
+        const double cost = camera_ray_cost * static_cast<double>(rays.camera_rays) +
+                            static_cast<double>(rays.bounce_rays) +
+                            static_cast<double>(rays.shadow_rays);
+        for (const size_t group : groups_in(tile.tile))
+            out[group] = static_cast<float>(cost / static_cast<double>(rays.paths));
     }
     return out;
 }
 
 /// The noise of the film as it is.
-std::vector<float> AdaptiveSums::deviations_of(const Film& film,
-                                               std::span<const int> samples) const {
+std::vector<float> AdaptiveSums::deviations_of(const Film& film) const {
     return sample_deviations({.width = film.width,
                               .height = film.height,
                               .channels = film.channels.size(),
                               .pixels = std::span(film.pixels.data(), film.pixels.size()),
                               .before = before_,
-                              .samples = samples,
+                              .samples = samples_,
                               .samples_before = samples_before_,
                               .white = adaptive_.white});
 }
@@ -175,44 +214,41 @@ std::vector<float> AdaptiveSums::deviations_of(const Film& film,
 bool AdaptiveSums::begin_next_pass(const FilmWork& work) {
     const std::lock_guard lock(planning_);
     ++passes_;
-    started_ = samples_of_film();
-    std::vector<uint8_t> wanted(started_.size(), 1);
-    if (passes_ >= passes_of_all) {
-        const std::vector<float> deviations = deviations_of(work.film, started_);
-        wanted = pixels_in_need(deviations, started_, {adaptive_.noise_target, max_samples_});
-    }
-    bool any = false;
-    for (size_t i = 0; i < wanted.size(); ++i) {
-        goals_[i] = started_[i];
-        if (wanted[i] == 0) continue;
-        goals_[i] = *std::upper_bound(levels_.begin(), levels_.end(), started_[i]);
-        any = true;
-    }
-    return any;
+    deviations_ = deviations_of(work.film);
+    const std::vector<float> costs = costs_of_groups();
+    goals_ = next_samples({deviations_, samples_, costs, sizes_}, adaptive_.noise_target, levels_);
+    parallel_for(tiles().size(), [&](size_t i) {
+        note_pixels(work.film, tiles()[i].tile, thread_state(work).pattern);
+    });
+    return goals_ != samples_;
 }
 
-SamplesTaken AdaptiveSums::taken(const Film& film) const {
-    const std::vector<int> samples = samples_of_film();
+SamplesTaken AdaptiveSums::taken() const {
     SamplesTaken out;
     out.passes = passes_;
-    out.pixels = samples.size();
-    const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
-    out.least = *least;
-    out.most = *most;
-    for (const int count : samples)
-        out.total += static_cast<uint64_t>(count);
-    if (passes_ >= passes_of_all) out.noise = image_noise(deviations_of(film, samples), samples);
+    out.least = max_samples_;
+    for (size_t i = 0; i < sizes_.size(); ++i) {
+        if (sizes_[i] == 0) continue;
+        out.least = std::min(out.least, samples_[i]);
+        out.most = std::max(out.most, samples_[i]);
+        out.pixels += static_cast<size_t>(sizes_[i]);
+        out.total += static_cast<uint64_t>(samples_[i]) * static_cast<uint64_t>(sizes_[i]);
+    }
+    if (passes_ > 0) out.noise = image_noise(deviations_, samples_, groups_);
     return out;
 }
 
 void AdaptiveSums::put(StateWriter& out) const {
     const std::lock_guard lock(planning_);
     out.put_number(static_cast<uint64_t>(passes_));
+    out.put_array(deviations_);
     FilmSums::put(out);
 }
 
 bool AdaptiveSums::take(const TileWork& work, StateReader& in) {
     passes_ = in.integer();
+    deviations_.resize(passes_ > 0 ? groups_.count() : 0);
+    in.take_array(deviations_);
     return FilmSums::take(work, in);
 }
 
@@ -222,9 +258,8 @@ void AdaptiveSums::put_more(size_t tile, StateWriter& out) const {
     const size_t channels = shape_.channels.size();
     std::vector<PixelPlan> plans;
     std::vector<float> before;
-    for (const size_t at : film_indices(sums.tile, pattern)) {
-        plans.push_back(
-            {sums.sums.samples[plans.size()], started_[at], goals_[at], samples_before_[at]});
+    for (const auto& [at, group] : places(sums.tile, pattern)) {
+        plans.push_back({samples_[group], goals_[group], samples_before_[group]});
         const auto pixel = before_.begin() + static_cast<ptrdiff_t>(at * channels);
         before.insert(before.end(), pixel, pixel + static_cast<ptrdiff_t>(channels));
     }
@@ -236,22 +271,24 @@ bool AdaptiveSums::take_more(size_t tile, StateReader& in) {
     TilePattern pattern;
     SumsTile& sums = tiles()[tile];
     const size_t channels = shape_.channels.size();
-    const std::vector<size_t> at = film_indices(sums.tile, pattern);
-    std::vector<PixelPlan> plans(at.size());
-    std::vector<float> before(at.size() * channels);
+    const std::vector<PixelPlace> pixels = places(sums.tile, pattern);
+    std::vector<PixelPlan> plans(pixels.size());
+    std::vector<float> before(pixels.size() * channels);
     in.take_array(plans);
     in.take_array(before);
-    for (size_t i = 0; i < at.size(); ++i) {
+    std::map<size_t, PixelPlan> of_group;
+    for (size_t i = 0; i < pixels.size(); ++i) {
+        const auto& [at, group] = pixels[i];
         const PixelPlan& plan = plans[i];
-        const bool is_in_order = plan.samples_before >= 0 && plan.samples_before <= plan.started &&
-                                 plan.started <= plan.samples && plan.samples <= plan.goal &&
-                                 plan.goal <= max_samples_;
-        if (!in.good() || !is_in_order) return false;
+        const bool is_in_order = plan.samples_before >= 0 && plan.samples_before <= plan.samples &&
+                                 plan.samples <= plan.goal && plan.goal <= max_samples_;
+        const bool is_as_its_group = of_group.try_emplace(group, plan).first->second == plan;
+        if (!in.good() || !is_in_order || !is_as_its_group) return false;
         sums.sums.samples[i] = plan.samples;
-        started_[at[i]] = plan.started;
-        goals_[at[i]] = plan.goal;
-        samples_before_[at[i]] = plan.samples_before;
-        std::copy_n(before.data() + i * channels, channels, before_.data() + at[i] * channels);
+        samples_[group] = plan.samples;
+        goals_[group] = plan.goal;
+        samples_before_[group] = plan.samples_before;
+        std::copy_n(before.data() + i * channels, channels, before_.data() + at * channels);
     }
     return true;
 }

@@ -2,16 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "film/noise.h"
 #include "render/film_sums.h"
 
 #include <optional>
 
 namespace obscura {
 
-/// The sums of a film that is rendered with RenderOptions::adaptive. The first two passes take the
-/// least number of samples of every pixel, each later one those of the pixels in need, by the noise
-/// of the film that the passes before it left. Threads wait for each other between two passes: then
-/// the film is whole.
+/// The sums of a film that is rendered with RenderOptions::adaptive. The first pass takes the least
+/// number of samples of every pixel, each later one those of the pixels in need, by the noise of
+/// the film that the passes before it left. Pixels go on in groups of neighbours, since their rays
+/// are soonest traced together. Threads wait for each other between two passes: then the film is
+/// whole.
 class AdaptiveSums final : public FilmSums {
 public:
     /// In      film: the one that is rendered
@@ -25,24 +27,29 @@ public:
     bool take(const TileWork& work, StateReader& in) override;
 
     /// What was done. To be asked when `sample` has ended.
-    ///
-    /// In      film: with the beauty of these sums
-    SamplesTaken taken(const Film& film) const;
+    SamplesTaken taken() const;
 
 private:
     /// What a file holds of a pixel beside its sums: the members below.
     struct PixelPlan {
-        int samples, started, goal, samples_before;
+        int samples, goal, samples_before;
+        bool operator==(const PixelPlan&) const = default;
     };
 
-    std::vector<size_t> film_indices(const Tile& tile, TilePattern& latest) const;
+    /// A pixel's place in the film, and its group.
+    struct PixelPlace {
+        size_t at, group;
+    };
+
+    std::vector<PixelPlace> places(const Tile& tile, TilePattern& latest) const;
+    std::vector<size_t> groups_in(const Tile& tile) const;
     void run_pass(const FilmWork& work);
     void sample_tile(const FilmWork& work, SumsTile& tile);
-    bool take_next_samples(const FilmWork& work, const std::vector<size_t>& at, SumsTile& tile);
-    void note_pixel(const Film& film, size_t at);
+    bool take_next_samples(const FilmWork& work, SumsTile& tile);
+    void note_pixels(const Film& film, const Tile& tile, TilePattern& latest);
     void store_all(const FilmWork& work) const;
-    std::vector<int> samples_of_film() const;
-    std::vector<float> deviations_of(const Film& film, std::span<const int> samples) const;
+    std::vector<float> costs_of_groups() const;
+    std::vector<float> deviations_of(const Film& film) const;
     bool begin_next_pass(const FilmWork& work);
     void put_more(size_t tile, StateWriter& out) const override;
     bool take_more(size_t tile, StateReader& in) override;
@@ -57,11 +64,15 @@ private:
     std::atomic<int> passes_ = 0;         ///< that have ended
     std::atomic<size_t> tiles_done_ = 0;  ///< of the pass in progress
     std::atomic<bool> is_over_ = false;   ///< no pixel needs more
-    // By the film's index of a pixel. Those of a tile belong to its lock.
-    std::vector<int> started_;         ///< samples when the pass in progress began
-    std::vector<int> goals_;           ///< samples at its end
-    std::vector<int> samples_before_;  ///< before the pixel's latest pass; 0 in its first
-    std::vector<float> before_;        ///< the pixel then
+    // By the number of a group of pixels. Those of a tile, which has whole groups, belong to its
+    // lock; so do its pixels of the last.
+    const PixelGroups groups_;
+    const std::vector<int> sizes_;     ///< pixels
+    std::vector<int> samples_;         ///< of each pixel
+    std::vector<int> goals_;           ///< at the end of the pass in progress
+    std::vector<int> samples_before_;  ///< when they were noted the last time
+    std::vector<float> deviations_;    ///< after the latest pass that has ended
+    std::vector<float> before_;        ///< the film's pixels then
 };
 
 }  // namespace obscura

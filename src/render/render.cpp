@@ -357,7 +357,7 @@ Result<void> render_adaptively(const FilmWork& work, RenderResult& result) {
         tiles_of(work.options, pass_tile_side), work.options, work.film);
     const Result<bool> done = run_passes(work, sums);
     if (!done) return fail(done.error());
-    if (*done) result.adaptive = sums->taken(work.film);
+    if (*done) result.adaptive = sums->taken();
     return {};
 }
 

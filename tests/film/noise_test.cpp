@@ -5,19 +5,21 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <gmock/gmock.h>
 #include <random>
 
 namespace obscura {
 namespace {
 
-/// A grey image of which every pixel has the same numbers of samples.
+/// A grey image whose pixels all have the same numbers of samples.
 struct GreyImage {
     GreyImage(int edge, float value, int count, int count_before)
         : side(edge),
           pixels(static_cast<size_t>(edge) * static_cast<size_t>(edge) * 4, value),
           before(pixels),
-          samples(pixels.size() / 4, count),
-          samples_before(pixels.size() / 4, count_before) {}
+          groups{edge, edge},
+          samples(groups.count(), count),
+          samples_before(groups.count(), count_before) {}
 
     SampledImage view(double white = 1) const {
         return {side, side, 4, pixels, before, samples, samples_before, white};
@@ -28,6 +30,7 @@ struct GreyImage {
 
     int side;
     std::vector<float> pixels, before;
+    PixelGroups groups;
     std::vector<int> samples, samples_before;
 };
 
@@ -40,7 +43,8 @@ TEST(Noise, ADifferenceBetweenPartsIsTheDeviationOfASample) {
     const std::vector<float> deviations = sample_deviations(image.view());
     for (const float deviation : deviations)
         EXPECT_NEAR(deviation, expected, 1e-5);
-    EXPECT_NEAR(image_noise(deviations, image.samples), expected / std::sqrt(48.0), 1e-6);
+    EXPECT_NEAR(
+        image_noise(deviations, image.samples, image.groups), expected / std::sqrt(48.0), 1e-6);
 }
 
 TEST(Noise, IsRelativeToWhatIsDisplayedAsWhite) {
@@ -58,20 +62,40 @@ TEST(Noise, APixelWithoutNeighboursIsJudgedByItself) {
     EXPECT_GT(sample_deviations(image.view())[0], 0.1f);
 }
 
-TEST(Noise, APixelIsJudgedByItsNeighboursAlone) {
-    GreyImage image(21, 0.0f, 32, 16);
-    const size_t center = 10 * 21 + 10;
-    image.set(image.pixels, center, 5.0f);
+TEST(Noise, GroupsAreTheColoursOfAChessboardInEachBlock) {
+    const PixelGroups groups{17, 9};
+    EXPECT_EQ(groups.count(), 2U * 3 * 2);
+    EXPECT_EQ(groups.of(0, 0), groups.of(7, 7));
+    EXPECT_EQ(groups.of(0, 0) + 1, groups.of(1, 0));
+    EXPECT_EQ(groups.of(8, 0), 2U);
+    EXPECT_EQ(groups.of(16, 8), 10U);
+    EXPECT_THAT(groups.sizes(), testing::ElementsAre(32, 32, 32, 32, 4, 4, 4, 4, 4, 4, 1, 0));
+}
+
+TEST(Noise, APixelIsJudgedByThoseOfTheOtherColourInItsBlockAndNearIt) {
+    GreyImage image(40, 0.0f, 32, 16);
+    constexpr int x_0 = 17;  // in the third block of 8, one pixel from its left edge
+    constexpr int y_0 = 20;
+    image.set(image.pixels, 40 * y_0 + x_0, 5.0f);
     const std::vector<float> deviations = sample_deviations(image.view());
-    EXPECT_EQ(deviations[center], 0.0f);
-    constexpr int reach = noise_window / 2;
-    for (int y = 0; y < 21; ++y) {
-        for (int x = 0; x < 21; ++x) {
-            const bool near = std::abs(x - 10) <= reach && std::abs(y - 10) <= reach;
-            const size_t at = static_cast<size_t>(21 * y + x);
-            EXPECT_EQ(deviations[at] > 0, near && at != center) << x << ' ' << y;
+    for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 40; ++x) {
+            const bool is_near = x / 8 == 2 && y / 8 == 2;
+            const bool is_left = x / 8 == 1 && y / 8 == 2;  // 17 lies in the margin around
+            const bool is_other = (x + y) % 2 != (x_0 + y_0) % 2;
+            EXPECT_EQ(deviations[image.groups.of(x, y)] > 0, (is_near || is_left) && is_other)
+                << x << ' ' << y;
         }
     }
+}
+
+TEST(Noise, AGroupCountsByItsPixels) {
+    // Of 9 x 8 pixels 32 each are in the groups of the first block, 4 each in those of the second.
+    const PixelGroups groups{9, 8};
+    const std::vector<float> deviations = {1, 1, 2, 2};
+    const std::vector<int> samples = {16, 16, 64, 16};
+    const double mean = (64 * 1.0 / 16 + 4 * 4.0 / 64 + 4 * 4.0 / 16) / 72;
+    EXPECT_NEAR(image_noise(deviations, samples, groups), std::sqrt(mean), 1e-9);
 }
 
 TEST(Noise, RandomSamplesShowTheirDeviation) {
@@ -80,7 +104,7 @@ TEST(Noise, RandomSamplesShowTheirDeviation) {
     GreyImage image(64, 0, 32, 16);
     std::mt19937 random(1);
     std::normal_distribution<double> normal(mean, deviation);
-    for (size_t pixel = 0; pixel < image.samples.size(); ++pixel) {
+    for (size_t pixel = 0; pixel < image.pixels.size() / 4; ++pixel) {
         for (size_t c = 0; c < 3; ++c) {
             double sum = 0;
             for (int i = 0; i < 32; ++i) {
@@ -92,7 +116,8 @@ TEST(Noise, RandomSamplesShowTheirDeviation) {
     }
     const std::vector<float> deviations = sample_deviations(image.view());
     const double expected = deviation / std::sqrt(mean * mean + 0.1 * 0.1);
-    EXPECT_NEAR(image_noise(deviations, image.samples), expected / std::sqrt(32.0), 0.002);
+    EXPECT_NEAR(
+        image_noise(deviations, image.samples, image.groups), expected / std::sqrt(32.0), 0.002);
     for (const float one : deviations)
         EXPECT_NEAR(one, expected, 0.4 * expected);
 }

@@ -202,7 +202,7 @@ TEST_F(PassesOfAFilm, GoOnToTheSameBitsWhereTheyDecideOverSamples) {
         const ThreadLimit two(2);
         const RenderResult stopped = render_passes_of(asked, nothing, stop_at);
         EXPECT_TRUE(stopped.is_stopped);
-        EXPECT_EQ(stopped.adaptive->noise.has_value(), stop_at > 0.2) << "after two passes";
+        EXPECT_EQ(stopped.adaptive->noise.has_value(), stop_at > 0.2) << "after a pass";
         EXPECT_LT(sums_->fraction(), 1);
         EXPECT_EQ(sums_->samples(), static_cast<int64_t>(stopped.adaptive->total));
         const std::string kept = bytes();

@@ -274,7 +274,7 @@ TEST(Library, ANoiseTargetIsReachedWithinItsNumbersOfSamples) {
     ASSERT_TRUE(asset);
     Sampling sampling = few_samples();
     sampling.samples_per_pixel = 32;
-    sampling.noise_target = 0.1;
+    sampling.noise_target = 0.25;
     sampling.spp_min = 4;
     sampling.aov = {"sample_count"};
     const Image image = image_of(session.render(*asset, small_view(), {}, sampling));
@@ -282,7 +282,7 @@ TEST(Library, ANoiseTargetIsReachedWithinItsNumbersOfSamples) {
     EXPECT_EQ(*std::min_element(counts.begin(), counts.end()), 4);
     EXPECT_GT(*std::max_element(counts.begin(), counts.end()), 4);
     EXPECT_LE(*std::max_element(counts.begin(), counts.end()), 32);
-    EXPECT_THAT(image.attributes, Contains(Pair("obscura:noiseTarget", "0.1")));
+    EXPECT_THAT(image.attributes, Contains(Pair("obscura:noiseTarget", "0.25")));
     EXPECT_THAT(image.attributes, Contains(Pair("obscura:samplesMin", "4")));
     sampling.spp_min = 33;
     const Result<Image> refused = session.render(*asset, small_view(), {}, sampling);
