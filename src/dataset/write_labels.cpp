@@ -4,9 +4,11 @@
 
 #include "base/atomic_file.h"
 #include "base/json/json.h"
+#include "base/json/json_file.h"
 #include "base/parallel.h"
 #include "base/setting_names.h"
 #include "film/cryptomatte_names.h"
+#include "image/fingerprint.h"
 #include "image/write.h"
 #include "scene/node_primitives.h"
 #include "session/framing.h"
@@ -300,13 +302,11 @@ Result<void> LabelWriter::write(const LabelledImage& image, Log& log) {
 
 bool LabelWriter::has_written(const fs::path& image) const {
     const std::string name = image.stem().string();
-    const auto is_there = [&](const fs::path& file) {
-        std::error_code error;
-        return fs::file_size(options_.folder / file, error) > 0 && !error;
+    const auto has_image = [&](const char* folder) {
+        return read_fingerprint(options_.folder / folder / (name + ".png")).has_value();
     };
-    return is_there(fs::path(labels_folder) / (name + ".json")) &&
-           is_there(fs::path(depth_folder) / (name + ".png")) &&
-           is_there(fs::path(segmentation_folder) / (name + ".png"));
+    return is_whole_json(options_.folder / labels_folder / (name + ".json")) &&
+           has_image(depth_folder) && has_image(segmentation_folder);
 }
 
 }  // namespace obscura::dataset

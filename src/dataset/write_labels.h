@@ -42,7 +42,7 @@ public:
     ///         E-STOPPED
     Result<void> write(const LabelledImage& image, Log& log);
 
-    /// Whether the files of an image are there, by the name of its colours.
+    /// Whether the files of an image are there and whole, by the name of its colours.
     bool has_written(const std::filesystem::path& image) const;
 
 private:

@@ -47,7 +47,7 @@ struct ExactImage {
 
 /// Encodes numbers: as PNG, which has 8 and 16 bits, or as TIFF, which has floats too.
 ///
-/// Errors  69 E-OIIO; 70 E-OUT-ENCODE with the library's message
+/// Errors  69 E-OIIO, for TIFF; 70 E-OUT-ENCODE with the library's message
 Result<std::vector<std::byte>> encode_exact(const OutputTarget& target, const ExactImage& image);
 
 /// Interleaved codes of an image: grey, RGB, or RGB and straight alpha.
@@ -55,6 +55,24 @@ struct CodedImage {
     int width = 0, height = 0, channels = 0;
     const uint8_t* codes = nullptr;
 };
+
+/// An image to encode as PNG, and what is said about it.
+struct PngImage {
+    int width = 0, height = 0, channels = 0;
+    int bits = 8;                 ///< or 16
+    const void* codes = nullptr;  ///< interleaved; alpha is straight
+    std::optional<ColorCodePoints> code_points = {};
+    std::vector<std::pair<std::string, std::string>> texts = {};
+};
+
+/// Encodes as PNG through libpng, with a chunk sRGB for colours of that encoding, cICP for those of
+/// another, neither for none.
+///
+/// Errors  70 E-OUT-ENCODE with the library's message
+Result<std::vector<std::byte>> encode_png(const PngImage& image, const std::string& where);
+
+/// The fingerprint in a PNG's texts; "": it has none. Nothing: it is no PNG, or it is cut off.
+std::optional<std::string> fingerprint_of_png(const std::vector<std::byte>& file);
 
 /// Encodes as WebP through libwebp: with loss below quality 100, without at 100.
 ///

@@ -5,7 +5,6 @@
 #include "image/fingerprint.h"
 #include "image/icc_profile.h"
 #include "image/oiio.h"
-#include "image/png_chunks.h"
 
 #include <algorithm>
 
@@ -26,7 +25,7 @@ struct Encodable {
     bool is_srgb() const { return code_points == srgb_code_points; }
 };
 
-/// What a header says, by OpenImageIO's names.
+/// What a header says: the texts of a PNG, or attributes by OpenImageIO's names.
 std::vector<std::pair<std::string, std::string>> attributes_of(const Encodable& image) {
     std::vector<std::pair<std::string, std::string>> out;
     const auto add = [&](const char* name, const std::string& text) {
@@ -40,7 +39,6 @@ std::vector<std::pair<std::string, std::string>> attributes_of(const Encodable& 
     const std::string name(fingerprint_name);
     if (format == OutputFormat::png) {
         add(name.c_str(), fingerprint);
-        add("compression", "zip:4");
     } else if (!fingerprint.empty()) {
         add("ImageDescription", name + "=" + fingerprint);
     }
@@ -55,14 +53,13 @@ std::vector<std::pair<std::string, std::string>> attributes_of(const Encodable& 
     return out;
 }
 
-/// PNG, JPEG and TIFF.
+/// JPEG and TIFF.
 Result<std::vector<std::byte>> encode_with_oiio(const Encodable& image) {
     const Result<const OiioModule*>& oiio = oiio_module();
     if (!oiio) return fail(oiio.error());
     const OutputFormat format = image.target.format;
-    const bool has_profile = format != OutputFormat::png && image.is_srgb();  // a PNG has a chunk
     const std::vector<std::byte> profile =
-        has_profile ? srgb_icc_profile() : std::vector<std::byte>();
+        image.is_srgb() ? srgb_icc_profile() : std::vector<std::byte>();
     const OiioImage whole{.width = image.width,
                           .height = image.height,
                           .channels = image.channels,
@@ -76,8 +73,20 @@ Result<std::vector<std::byte>> encode_with_oiio(const Encodable& image) {
         return fail(
             ExitCode::internal, "E-OUT-ENCODE", image.target.name, "encoding failed: " + failure);
     }
-    if (format == OutputFormat::png) return with_color_chunk(encoded, image.code_points);
     return encoded;
+}
+
+/// PNG, which has 16 bits, JPEG and TIFF.
+Result<std::vector<std::byte>> encode_with_texts(const Encodable& image) {
+    if (image.target.format != OutputFormat::png) return encode_with_oiio(image);
+    return encode_png({.width = image.width,
+                       .height = image.height,
+                       .channels = image.channels,
+                       .bits = image.bits,
+                       .codes = image.codes,
+                       .code_points = image.code_points,
+                       .texts = attributes_of(image)},
+                      image.target.name);
 }
 
 /// Grey as RGB, which all that libwebp and libheif take has.
@@ -115,14 +124,15 @@ Result<std::vector<std::byte>> encode_for_display(const OutputTarget& target,
         const std::vector<uint16_t> codes = display_codes<uint16_t>(image, format.has_alpha, how);
         encodable.channels = static_cast<int>(codes.size() / pixels);
         encodable.codes = codes.data();
-        return encode_with_oiio(encodable);
+        return encode_with_texts(encodable);
     }
     std::vector<uint8_t> codes = display_codes<uint8_t>(image, format.has_alpha, how);
-    const bool by_oiio = is_written_by_oiio(target.format) && target.format != OutputFormat::avif;
-    if (!by_oiio && codes.size() == pixels) codes = spread_grey(codes);
+    const bool has_texts =
+        target.format != OutputFormat::avif && target.format != OutputFormat::webp;
+    if (!has_texts && codes.size() == pixels) codes = spread_grey(codes);
     encodable.channels = static_cast<int>(codes.size() / pixels);
     encodable.codes = codes.data();
-    if (by_oiio) return encode_with_oiio(encodable);
+    if (has_texts) return encode_with_texts(encodable);
     const CodedImage coded{image.width, image.height, encodable.channels, codes.data()};
     if (target.format == OutputFormat::avif) {
         return encode_avif(coded, encodable.quality, target.name);

@@ -19,7 +19,7 @@ inline constexpr std::string_view fingerprint_name = "obscura:fingerprint";
 std::string fingerprint_of(const ImageMetadata& metadata);
 
 /// The fingerprint that a file's header holds; "": the header has none. Nothing: there is no such
-/// file, or its header cannot be read.
+/// file, it cannot be read, or its end has been cut off.
 std::optional<std::string> read_fingerprint(const std::filesystem::path& file);
 
 }  // namespace obscura

@@ -38,8 +38,8 @@ tl::unexpected<Error> cannot_open(const std::string& why) {
     return fail(ExitCode::unsupported,
                 "E-OIIO",
                 OBSCURA_OIIO_MODULE,
-                "the module with OpenImageIO, which PNG, JPEG, TIFF, AVIF and Radiance HDR need, "
-                "cannot be opened: " +
+                "the module with OpenImageIO, which textures in PNG and JPEG, Radiance HDR and "
+                "writing JPEG, TIFF and AVIF need, cannot be opened: " +
                     why + "; install it beside the program, and the package of OpenImageIO");
 }
 
@@ -70,7 +70,8 @@ Result<const OiioModule*> open_module() {
     const Result<void> fits =
         check_address_space(address_space_left(),
                             addresses_of_libraries(),
-                            "OpenImageIO, for PNG, JPEG, TIFF, AVIF and Radiance HDR");
+                            "OpenImageIO, for textures in PNG and JPEG, Radiance HDR, "
+                            "and writing JPEG, TIFF and AVIF");
     if (!fits) return fail(fits.error());
     std::string why = "it is not there";
     for (const fs::path& file : candidates()) {
@@ -123,7 +124,8 @@ void wait_for_oiio() {
 }
 
 bool is_written_by_oiio(OutputFormat format) {
-    return format != OutputFormat::exr && format != OutputFormat::webp;
+    return format != OutputFormat::exr && format != OutputFormat::png &&
+           format != OutputFormat::webp;
 }
 
 }  // namespace obscura

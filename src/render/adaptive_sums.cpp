@@ -13,7 +13,7 @@ namespace obscura {
 namespace {
 
 /// What a camera ray costs beside one that goes on from a surface: its neighbours go the same way.
-constexpr double camera_ray_cost = 0.3;
+constexpr double camera_ray_cost = 0.1;
 
 /// How many samples of some pixels are taken at once: enough to fill batches where few pixels are
 /// left, and few enough that nobody waits long for the tile. Whole multiples of 16, so that the

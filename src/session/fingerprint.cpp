@@ -3,6 +3,7 @@
 #include "session/fingerprint.h"
 
 #include "base/checksum.h"
+#include "base/json/json_file.h"
 #include "base/setting_names.h"
 #include "image/fingerprint.h"
 #include "session/image_parts.h"
@@ -83,7 +84,7 @@ ExistingImage find_existing(const RenderRequest& request,
                             const ListedImage& image,
                             const std::string& fingerprint) {
     std::vector<fs::path> images = image_files(request, image);
-    std::vector<fs::path> others;  // texts
+    std::vector<fs::path> others;  // JSON
     if (image.segmentation) {
         const auto [png, json] = segmentation_files(*image.segmentation);
         images.push_back(png);
@@ -96,8 +97,8 @@ ExistingImage find_existing(const RenderRequest& request,
         if (out.differs.empty()) out.differs = fault_of(file, fingerprint);
     }
     for (const fs::path& file : others) {
-        if (out.differs.empty() && !file_is_there(file))
-            out.differs = file.string() + " is missing";
+        if (!out.differs.empty() || is_whole_json(file)) continue;
+        out.differs = file.string() + (file_is_there(file) ? " cannot be read" : " is missing");
     }
     out.is_finished = out.differs.empty();
     return out;

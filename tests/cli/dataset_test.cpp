@@ -222,11 +222,18 @@ TEST_F(DatasetCommand, WhatIsMissingIsMadeAgain) {
     expect_result(dataset(options), 0, "OK");
     const auto whole = files("d");
     for (const char* file : {"labels/000001.json", "depth/000002.png", "segmentation/000003.png"}) {
-        fs::remove(folder_ / "d/000000" / file);
-        const ProgramRun again = dataset(joined(options, {"--skip-existing"}));
-        EXPECT_THAT(again.err, HasSubstr("its labels are not there"));
-        EXPECT_THAT(again.err, HasSubstr("skipped=3"));
-        EXPECT_TRUE(files("d") == whole) << file;
+        for (const bool cut : {false, true}) {
+            const fs::path path = folder_ / "d/000000" / file;
+            if (cut) {
+                fs::resize_file(path, fs::file_size(path) / 2);
+            } else {
+                fs::remove(path);
+            }
+            const ProgramRun again = dataset(joined(options, {"--skip-existing"}));
+            EXPECT_THAT(again.err, HasSubstr("its labels are not there"));
+            EXPECT_THAT(again.err, HasSubstr("skipped=3"));
+            EXPECT_TRUE(files("d") == whole) << file;
+        }
     }
     // Another step of the depths is another image.
     const ProgramRun other = dataset(joined(options, {"--skip-existing", "--depth-unit", "1"}));

@@ -35,17 +35,26 @@ protected:
 TEST_F(ImageLibrary, WhatNeedsNoneRunsWithoutIt) {
     EXPECT_EQ(run_copy({"--version"}).code, 0);
     expect_result(run_copy({"info", showcase(), "--json"}), 0, "OK");
-    const Texts outputs = {"--env", "studio", "-o", "a.exr", "-o", "a.webp"};
+    const Texts outputs = {"--env",
+                           "studio",
+                           "-o",
+                           "a.exr",
+                           "-o",
+                           "a.webp",
+                           "-o",
+                           "a.png",
+                           "--segmentation",
+                           "ids.png"};
     expect_result(run_copy(small_render("box.gltf", outputs)), 0, "OK");
-    const Texts again = {"--env", "studio", "-o", "a.exr", "--skip-existing"};
-    for (int i = 0; i < 2; ++i)
-        expect_result(run_copy(small_render("box.gltf", again)), 0, "OK");
+    for (const char* output : {"b.exr", "b.png"}) {
+        const Texts again = {"--env", "studio", "-o", output, "--skip-existing"};
+        for (int i = 0; i < 2; ++i)
+            expect_result(run_copy(small_render("box.gltf", again)), 0, "OK");
+    }
 }
 
 TEST_F(ImageLibrary, WhatNeedsItSaysSoBeforeTheWork) {
-    for (const Texts& more : {Texts{"-o", "a.png"},
-                              Texts{"-o", "a.exr", "-o", "a.tif"},
-                              Texts{"-o", "a.exr", "--segmentation", "ids.png"}}) {
+    for (const Texts& more : {Texts{"-o", "a.jpg"}, Texts{"-o", "a.exr", "-o", "a.tif"}}) {
         const ProgramRun got = run_copy(small_render("box.gltf", more));
         expect_result(got, 69, "E-OIIO");
         EXPECT_THAT(got.err, HasSubstr("libobscura_oiio.so"));
@@ -56,11 +65,11 @@ TEST_F(ImageLibrary, WhatNeedsItSaysSoBeforeTheWork) {
 
 TEST_F(ImageLibrary, AModuleThatDoesNotFitIsNotUsed) {
     std::ofstream(module_place()) << "no library";
-    expect_result(run_copy(small_render("box.gltf", {"-o", "a.png"})), 69, "E-OIIO");
+    expect_result(run_copy(small_render("box.gltf", {"-o", "a.jpg"})), 69, "E-OIIO");
     fs::copy_file(OBSCURA_BINARY_DIR "/foreign_plugins/foreign.imageio.so",
                   module_place(),
                   fs::copy_options::overwrite_existing);
-    const ProgramRun got = run_copy(small_render("box.gltf", {"-o", "a.png"}));
+    const ProgramRun got = run_copy(small_render("box.gltf", {"-o", "a.jpg"}));
     expect_result(got, 69, "E-OIIO");
     EXPECT_THAT(got.err, HasSubstr("is not of version"));
 }

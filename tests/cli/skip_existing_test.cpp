@@ -104,14 +104,21 @@ TEST_F(SkipExisting, OneImageInEveryFileThatItHas) {
                            "mask.png"};
     expect_result(render("quad.gltf", outputs), 0, "OK");
     const Texts again = joined(outputs, {"--skip-existing"});
+    EXPECT_EQ(result_of(render("quad.gltf", again))->skipped, 1);
     for (const char* name :
-         {"", "a.exr", "a.png", "a.jpg", "a.tif", "a.normal.exr", "mask.png", "mask.json"}) {
-        const std::string before = *name ? text(name) : "";
-        if (*name) std::filesystem::remove(folder_ / name);
-        const ProgramRun got = render("quad.gltf", again);
-        expect_result(got, 0, "OK");
-        EXPECT_EQ(result_of(got)->skipped, *name ? 0 : 1) << name;
-        EXPECT_TRUE(*name == 0 || text(name) == before) << name;
+         {"a.exr", "a.png", "a.jpg", "a.tif", "a.normal.exr", "mask.png", "mask.json"}) {
+        const std::string before = text(name);
+        for (const bool cut : {false, true}) {
+            if (cut) {
+                std::filesystem::resize_file(folder_ / name, before.size() - 2);
+            } else {
+                std::filesystem::remove(folder_ / name);
+            }
+            const ProgramRun got = render("quad.gltf", again);
+            expect_result(got, 0, "OK");
+            EXPECT_EQ(result_of(got)->skipped, 0) << name << ' ' << cut;
+            EXPECT_EQ(text(name), before) << name;
+        }
     }
     expect_no_locks();
 }

@@ -3,7 +3,6 @@
 #include "image/encode.h"
 #include "image/icc_profile.h"
 #include "image/output_tags.h"
-#include "image/png_chunks.h"
 #include "image/test_images.h"
 
 #include <cmath>
@@ -271,14 +270,15 @@ TEST_F(EncodeDisplay, JpegTiffAndWebpHaveTheProfileOfSrgb) {
 }
 
 TEST_F(EncodeDisplay, AnotherDisplaysCodePointsStandInAPng) {
-    const ByteVector png = png_pattern(4, 4, 3);
-    const auto same = png_chunks(with_color_chunk(png, std::nullopt));
-    EXPECT_THAT(types_of(same), Not(Contains("oFFs")));
-    const auto wide = png_chunks(with_color_chunk(png, ColorCodePoints{12, 13}));
+    const std::vector<uint8_t> codes(4 * 4 * 3, 99);
+    PngImage image{.width = 4, .height = 4, .channels = 3, .codes = codes.data()};
+    const auto same = png_chunks(encode_png(image, "").value());
+    image.code_points = ColorCodePoints{12, 13};
+    const auto wide = png_chunks(encode_png(image, "").value());
     EXPECT_EQ(data_of(wide, "cICP"),
               (ByteVector{std::byte{12}, std::byte{13}, std::byte{0}, std::byte{1}}));
     EXPECT_THAT(types_of(wide), Not(Contains("sRGB")));
-    EXPECT_EQ(data_of(wide, "IDAT"), data_of(png_chunks(png), "IDAT"));
+    EXPECT_EQ(data_of(wide, "IDAT"), data_of(same, "IDAT"));
 }
 
 TEST_F(EncodeDisplay, TiffAlphaIsCalledStraight) {

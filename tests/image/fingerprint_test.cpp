@@ -28,6 +28,26 @@ TEST(Fingerprint, IsReadFromEveryFormatThatHoldsTexts) {
     }
 }
 
+TEST(Fingerprint, IsNotReadFromFilesWhoseEndIsCutOff) {
+    const TempFolder folder;
+    ImageMetadata marked;
+    marked.extra.push_back({std::string(fingerprint_name), "0123456789abcdef"});
+    OutputImage image{64, 48, {"R", "G", "B"}, {}};
+    for (size_t i = 0; i < size_t{64} * 48 * 3; ++i)
+        image.pixels.push_back(static_cast<float>(i * 7919 % 1000) / 1000);
+    for (const OutputFormatEntry& format : output_formats) {
+        if (!format.has_texts) continue;
+        const auto file = folder / (std::string("a") + format.endings[0]);
+        ASSERT_TRUE(write_image_file(file, image, marked, {}, {}));
+        ASSERT_TRUE(read_fingerprint(file)) << file;
+        const uintmax_t size = std::filesystem::file_size(file);
+        for (const uintmax_t left : {size - 1, size - 100, size / 2, uintmax_t{20}}) {
+            std::filesystem::resize_file(file, left);
+            EXPECT_FALSE(read_fingerprint(file)) << file << ' ' << left << " of " << size;
+        }
+    }
+}
+
 TEST(Fingerprint, IsNotInFilesThatCannotBeRead) {
     const TempFolder folder;
     for (const char* name : {"a.exr", "a.png", "a.jpg", "a.tif", "a.webp"}) {

@@ -42,6 +42,7 @@ inline constexpr std::array<Owner, 27> owners{
      {"Imath/", "image"},
      {"OpenColorIO/", "image"},
      {"webp/", "image"},
+     {"png.h", "image"},
      {"zstd", "image"},
      {"isa-l/", "image"},
      {"nlohmann/", "base gltf"},

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "image/channel_planes.h"
 #include "render/integrators.h"
+#include "render/sample_plan.h"
 
 #include <gtest/gtest.h>
 
@@ -95,7 +96,7 @@ TEST(Passes, EveryPixelIsThatOfAUniformRenderingWithItsSamples) {
     EXPECT_GT(most, least) << "the test is to see several numbers";
     options.adaptive.reset();
     uint64_t compared = 0;
-    for (const int samples : {least, 2 * least, 3 * least, 4 * least}) {
+    for (const int samples : sample_levels(least, 4 * least)) {
         options.samples_per_pixel = samples;
         const RenderResult uniform = render_ball(options);
         for (size_t i = 0; i < counts.pixels.size(); ++i) {

@@ -24,6 +24,12 @@ Result<nlohmann::json> read_json_file(const std::filesystem::path& file,
     return parse_json_text(text, file.string(), log);
 }
 
+bool is_whole_json(const std::filesystem::path& file) {
+    const FileBytes read = read_file_bytes(file, {});
+    const auto* const text = reinterpret_cast<const char*>(read.bytes.data());
+    return read.fault == FileFault::none && nlohmann::json::accept(text, text + read.bytes.size());
+}
+
 void check_known_keys(const JsonReader& reader,
                       std::span<const std::string_view> known,
                       const char* id) {

@@ -23,6 +23,9 @@ Result<nlohmann::json> read_json_file(const std::filesystem::path& file,
                                       Error missing,
                                       Log& log);
 
+/// Whether a file is there and is JSON to its end: one that was cut off is not.
+bool is_whole_json(const std::filesystem::path& file);
+
 /// Records a fault for a member that there is not, with those that there are.
 void check_known_keys(const JsonReader& reader,
                       std::span<const std::string_view> known,
