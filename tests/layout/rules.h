@@ -29,7 +29,7 @@ struct Owner {
 };
 
 /// To add a library: one line here, one in third_party/README.md, one in third_party/packages.txt.
-inline constexpr std::array<Owner, 27> owners{
+inline constexpr std::array<Owner, 28> owners{
     {{"tbb/", "base"},
      {"oneapi/", "base"},
      {"tl/", "base"},
