@@ -10,9 +10,11 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <algorithm>
+#include <fmt/ranges.h>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <string_view>
 
 namespace obscura::app {
 
@@ -72,6 +74,18 @@ std::string option_of(const CLI::ParseError& error) {
     return counts ? text.substr(0, text.find_first_of(": ")) : "";
 }
 
+/// The commands but `render`, with commas and an "or" between them.
+std::string names_of_others(const Program& program) {
+    std::vector<std::string> names;
+    for (const Command& command : program.commands) {
+        if (!command.hidden && command.name != std::string_view("render"))
+            names.push_back(fmt::format("`{}`", command.name));
+    }
+    const std::string last = names.back();
+    names.pop_back();
+    return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
 /// Rewords a parser's complaint about the command line.
 tl::unexpected<Error> worded(const CLI::App& app,
                              const Program& program,
@@ -81,13 +95,9 @@ tl::unexpected<Error> worded(const CLI::App& app,
         const std::vector<std::string> extras = app.remaining();
         const std::string got =
             extras.empty() ? "no command was given" : in_quotes(extras.front()) + " is no command";
-        return usage(
-            "command-line",
-            got +
-                "; expected `obscura render SCENE`, `obscura batch JOB`, `obscura merge PART...`, "
-                "`obscura denoise "
-                "IN.exr`, `obscura info SCENE`, `obscura bench`, `obscura crosscheck` or `obscura "
-                "explain-pixel SCENE X,Y`, see `obscura --help`");
+        return usage("command-line",
+                     got + "; expected `obscura render SCENE`, a scene alone (.gltf or .glb), or " +
+                         names_of_others(program) + "; see `obscura --help`");
     }
     const std::string name = chosen.front()->get_name();
     const std::string hint = "; `obscura " + name + " --help` lists what is accepted";

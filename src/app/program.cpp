@@ -26,6 +26,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace obscura::app {
@@ -95,7 +96,10 @@ Program describe(Arguments& arguments) {
 
 /// The words after the program's name, with short forms written out: a scene alone is rendered to
 /// a picture to look at, and `help COMMAND` is `COMMAND --help`.
-std::vector<const char*> full_words(int argc, char** argv, Arguments& arguments) {
+std::vector<const char*> full_words(int argc,
+                                    char** argv,
+                                    const Program& program,
+                                    Arguments& arguments) {
     std::vector<const char*> words(argv, argv + argc);
     if (argc < 2) return words;
     const std::string first = argv[1];
@@ -105,7 +109,12 @@ std::vector<const char*> full_words(int argc, char** argv, Arguments& arguments)
     });
     if (first == "help") {
         words.erase(words.begin() + 1);
-        words.push_back("--help");
+        const auto is_asked_about = [&](const Command& command) {
+            return command.name == std::string_view(words[1]);
+        };
+        if (argc == 2 ||
+            std::any_of(program.commands.begin(), program.commands.end(), is_asked_about))
+            words.push_back("--help");
     } else if (!first.starts_with('-') && (ending == ".glb" || ending == ".gltf")) {
         words.insert(words.begin() + 1, "render");
         arguments.render.default_ending = ".png";
@@ -130,7 +139,7 @@ int run_program(int argc, char** argv) {
     spare_addresses();
     Arguments arguments;
     const Program program = describe(arguments);
-    const std::vector<const char*> words = full_words(argc, argv, arguments);
+    const std::vector<const char*> words = full_words(argc, argv, program, arguments);
     const Result<CommandLine> line =
         parse_command_line(program, static_cast<int>(words.size()), words.data());
     if (!line) return report_failure(line.error(), TerminalLog());

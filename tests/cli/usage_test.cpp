@@ -81,6 +81,8 @@ struct Wrong {
 const std::vector<Wrong> mistakes = {
     {{}, "E-USAGE", "obscura render SCENE"},
     {{"paint", "x.gltf"}, "E-USAGE", "'paint' is no command"},
+    {{"help", "paint"}, "E-USAGE", "'paint' is no command"},
+    {{"x.obj"}, "E-USAGE", "a scene alone (.gltf or .glb), or `batch`, `dataset`"},
     {{"render"}, "E-USAGE", "SCENE is required"},
     {{"info"}, "E-USAGE", "SCENE is required"},
     {{"render", "box.gltf", "--sp", "3"}, "E-USAGE", "did you mean --spp?"},
