@@ -57,6 +57,13 @@ def _parts(matrix):
     return matrix[:3, 3], np.linalg.eigh(k)[1][:, 3], scale
 
 
+def _check_range(name, value):
+    """Refuses values of materials that glTF does not allow."""
+    numbers = np.asarray(value, dtype=np.float64)
+    if not ((numbers >= 0) & (numbers <= 1)).all():
+        raise ValueError(f"{name}: expected numbers from 0 to 1, not {value}")
+
+
 def move(self, node, *, matrix=None, translation=None, rotation=None, scale=None):
     """Places a node in its parent, for the images that follow.
 
@@ -70,6 +77,8 @@ def move(self, node, *, matrix=None, translation=None, rotation=None, scale=None
         if any(part is not None for part in (translation, rotation, scale)):
             raise TypeError("matrix: it is given in place of translation, rotation and scale")
         translation, rotation, scale = _parts(matrix)
+    if all(part is None for part in (translation, rotation, scale)):
+        raise TypeError("move: expected a matrix, or any of translation, rotation and scale")
     place = _node(self, node)
     parts = {"translation": translation, "rotation": rotation, "scale": scale}
     for name, value in parts.items():
@@ -91,13 +100,17 @@ def set_material(self, material, **values):
     """Changes a material, for the images that follow.
 
     material: its name, as in `materials`, or its number there; values: base_color (r, g, b) or
-    (r, g, b, a), linear; metallic, roughness, alpha_cutoff, from 0 to 1; emissive (r, g, b).
+    (r, g, b, a), linear; metallic, roughness, alpha_cutoff; emissive (r, g, b); all from 0 to 1.
     Textures are multiplied by them, as in the file. All else of a material by set().
+
+    Raises ValueError where a value is out of range: then nothing is changed.
     """
     place = f"/materials/{_number('material', self.materials, material)}"
     unknown = values.keys() - _MATERIAL.keys()
     if unknown:
         raise TypeError(f"{sorted(unknown)[0]}: expected any of {', '.join(_MATERIAL)}")
+    for name, value in values.items():
+        _check_range(name, value)
     for name, value in values.items():
         if name == "base_color" and len(value) == 3:
             value = [*value, 1]

@@ -146,6 +146,12 @@ class Changes(support.Case):
             asset.move(0, matrix=[[1, 1, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
         with self.assertRaisesRegex(TypeError, "shine"):
             asset.set_material(0, shine=1)
+        wrong = {"roughness": 2, "base_color": (0, -1, 0), "emissive": (0, 0, float("nan"))}
+        for name, value in wrong.items():
+            with self.assertRaisesRegex(ValueError, name):
+                asset.set_material(0, **{name: value})
+        with self.assertRaisesRegex(TypeError, "expected a matrix"):
+            asset.move(0)
         with self.assertRaises(TypeError):
             asset.set("/nodes/0/translation", "up")
         with self.assertRaises(TypeError):
