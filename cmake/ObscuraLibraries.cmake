@@ -46,7 +46,7 @@ if(NOT TARGET OpenColorIO::OpenColorIO)
 endif()
 
 pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp libwebpdemux libwebpmux)
-pkg_check_modules(PNG REQUIRED IMPORTED_TARGET libpng)
+find_package(PNG REQUIRED)
 pkg_check_modules(ZSTD REQUIRED IMPORTED_TARGET libzstd)
 pkg_check_modules(ISAL REQUIRED IMPORTED_TARGET libisal)
 # The server. Its headers must be read with the definitions that the library was built with.
