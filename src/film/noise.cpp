@@ -54,9 +54,8 @@ float deviation_of(const NoiseSum& sum, double white) {
     const double darkest = darkest_error_white * white;
     double out = 0;
     for (size_t c = 0; c < noise_colors; ++c) {
-        const double color = static_cast<double>(sum.mean[c]) / sum.count;
-        out +=
-            static_cast<double>(sum.variance[c]) / sum.count / (color * color + darkest * darkest);
+        const double color = sum.mean[c] / sum.count;
+        out += sum.variance[c] / sum.count / (color * color + darkest * darkest);
     }
     return static_cast<float>(std::sqrt(out / noise_colors));
 }
