@@ -64,15 +64,17 @@ void read_options(const JsonReader& reader, const json& tree, JobRun& run) {
     });
 }
 
-/// The files that a pattern fits, in the order of their names.
+/// The files that a pattern fits, in the order of their names; no folders.
 std::vector<std::string> files_of(const std::string& pattern) {
     std::vector<std::string> out;
     std::error_code error;
     if (std::filesystem::exists(pattern, error)) return {pattern};  // whatever signs it has
     glob_t found = {};
     if (::glob(pattern.c_str(), 0, nullptr, &found) == 0) {
-        for (size_t i = 0; i < found.gl_pathc; ++i)
-            out.emplace_back(found.gl_pathv[i]);
+        for (size_t i = 0; i < found.gl_pathc; ++i) {
+            const char* const name = found.gl_pathv[i];
+            if (!std::filesystem::is_directory(name, error)) out.emplace_back(name);
+        }
     }
     ::globfree(&found);
     return out;
@@ -103,7 +105,12 @@ public:
         return std::move(job_);
     }
 
-    const std::string& missing() const { return missing_; }
+    /// The first pattern that fits no file; empty: there is none.
+    struct Missing {
+        std::string pattern;
+        std::string place;  ///< a JSON pointer
+    };
+    const Missing& missing() const { return missing_; }
 
 private:
     /// Calls read(reader, tree) for each element of an array: an object, or a string, which stands
@@ -136,7 +143,7 @@ private:
         reader.require("files");
         const std::string pattern = reader.text("files");
         const std::vector<std::string> files = files_of(pattern);
-        if (files.empty() && missing_.empty()) missing_ = pattern;
+        if (files.empty() && missing_.pattern.empty()) missing_ = {pattern, reader.pointer()};
         for (const std::string& file : files) {
             JobRun run{common_, job_.assets++};
             run.arguments.scene_file = file;
@@ -198,7 +205,7 @@ private:
     const json& tree_;
     const RenderArguments& common_;
     BatchJob job_;
-    std::string missing_;
+    Missing missing_;
 };
 
 }  // namespace
@@ -212,11 +219,11 @@ Result<BatchJob> read_batch_job(const std::string& file, const RenderArguments& 
     JobReading reading(*tree, common, fault);
     BatchJob job = reading.read();
     if (fault.error) return fail(std::move(*fault.error));
-    if (!reading.missing().empty()) {
+    if (const auto& [pattern, place] = reading.missing(); !pattern.empty()) {
         return fail(ExitCode::missing_scene,
                     "E-JOB-ASSETS",
-                    file,
-                    in_quotes(reading.missing()) + " fits no file");
+                    file + "#" + place,
+                    in_quotes(pattern) + " fits no file");
     }
     for (JobRun& run : job.runs) {
         for (auto& [option, place] : run.places)

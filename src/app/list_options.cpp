@@ -135,7 +135,8 @@ Result<void> check_scenes(const std::vector<SceneRun>& runs) {
             if (seen.insert(name_by_pattern(pattern, fields)).second) continue;
             return conflict(pattern.string(),
                             "a file's name must tell scenes and looks apart; expected {asset} in "
-                            "it, such as out/{asset}.png, and {look} where a job has several");
+                            "it, such as out/{asset}.png, and {look} where a job has several, "
+                            "each with a name of its own");
         }
     }
     return {};

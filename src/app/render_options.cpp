@@ -167,12 +167,12 @@ Result<void> read_environment_rotation(const OptionInfo& info, const std::string
 
 /// A number, "auto", or "auto:" with a group's name behind it.
 Result<void> read_exposure(const OptionInfo& info, const std::string& text, R& r) {
-    constexpr std::string_view named = "auto:";
-    const bool has_name = text.starts_with(named) && text.size() > named.size();
-    if (text != "auto" && !has_name)
-        return read_number<&R::display, &D::exposure_ev>(info, text, r);
-    r.exposure_group = has_name ? text.substr(named.size()) : "";
-    return {};
+    const bool has_name = text.starts_with("auto:") && text.size() > 5;
+    if (text == "auto" || has_name) r.exposure_group = has_name ? text.substr(5) : "";
+    if (r.exposure_group) return {};
+    Result<void> read = read_number<&R::display, &D::exposure_ev>(info, text, r);
+    if (!read) read.error().message += ", auto, or auto: with a group's name behind it";
+    return read;
 }
 
 constexpr OptionReader<R> exposure = {.read = read_exposure,

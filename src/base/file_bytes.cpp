@@ -3,6 +3,7 @@
 #include "base/file_bytes.h"
 
 #include "base/descriptor.h"
+#include "base/text.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -45,7 +46,11 @@ FileBytes failed_from_errno(int code) {
 
 FileBytes read_file_bytes(const std::filesystem::path& path, const ReadLimits& limits) {
     const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
-    if (!file.is_open()) return failed_from_errno(errno);
+    if (!file.is_open()) {
+        FileBytes failure = failed_from_errno(errno);
+        if (is_web_address(path.string())) failure.reason = not_fetched;
+        return failure;
+    }
     struct stat status = {};
     if (::fstat(file.number(), &status) != 0) return failed_from_errno(errno);
     if (!S_ISREG(status.st_mode)) {

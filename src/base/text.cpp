@@ -12,6 +12,10 @@ bool is_index(std::string_view text) {
            std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
+bool is_web_address(std::string_view name) {
+    return name.substr(0, 4) == "http" && name.find(":/") != std::string_view::npos;
+}
+
 std::string in_quotes(std::string_view text) {
     return std::string("'").append(text).append("'");
 }

@@ -331,6 +331,8 @@ Result<void> write_all(const Dataset& dataset, Log& log) {
 }  // namespace
 
 Result<void> write_formats(const Dataset& dataset, Log& log) {
+    std::error_code ignored;
+    if (!std::filesystem::exists(dataset.root, ignored)) return {};  // no image was begun
     try {
         return write_all(dataset, log);
     } catch (const json::exception& error) {

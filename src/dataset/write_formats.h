@@ -17,7 +17,8 @@ namespace obscura::dataset {
 /// - COCO: coco_annotations.json with the visible masks of all scenes' images;
 /// - NeRF: transforms.json in each scene's folder.
 ///
-/// Images that failed, or that other parts have not made yet, are left out.
+/// Images that failed, or that other parts have not made yet, are left out; nothing is written
+/// where there is no folder, since no image was begun.
 ///
 /// Source  BOP: github.com/thodan/bop_toolkit, docs/bop_datasets_format.md; COCO:
 ///         cocodataset.org, "Data format"; NeRF: github.com/NVlabs/instant-ngp,

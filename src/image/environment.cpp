@@ -1,6 +1,6 @@
 // image/environment.cpp - reads an environment map from disk as finite linear RGB.
 // SPDX-License-Identifier: Apache-2.0
-#include "base/descriptor.h"
+#include "base/file_bytes.h"
 #include "base/memory_budget.h"
 #include "image/corrupt.h"
 #include "image/decode.h"
@@ -11,18 +11,12 @@
 #include "image/oiio.h"
 
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fcntl.h>
 #include <memory>
 #include <new>
 #include <string_view>
-#include <sys/stat.h>
-#include <system_error>
-#include <unistd.h>
-#include <vector>
 
 namespace obscura {
 
@@ -30,30 +24,13 @@ namespace {
 
 using ByteSpan = std::span<const std::byte>;
 
-tl::unexpected<Error> missing(const std::string& where, const std::string& why) {
-    return fail(ExitCode::bad_resource, "E-ENV-MISSING", where, why);
-}
-
-/// The whole file. A pipe or a device is refused without waiting for it.
-Result<std::vector<std::byte>> read_regular_file(const std::filesystem::path& file) {
-    const std::string where = file.string();
-    const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-    struct stat status = {};
-    if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0) {
-        return missing(where, "cannot be opened: " + std::generic_category().message(errno));
-    }
-    if (!S_ISREG(status.st_mode)) return missing(where, "this is not a regular file");
-    std::vector<std::byte> bytes(static_cast<size_t>(status.st_size));
-    for (size_t done = 0; done < bytes.size();) {
-        const ssize_t count = ::read(descriptor.number(), bytes.data() + done, bytes.size() - done);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) {
-            return missing(where, "cannot be read: " + std::generic_category().message(errno));
-        }
-        if (count == 0) return corrupt_environment(where, "became shorter while it was being read");
-        done += static_cast<size_t>(count);
-    }
-    return bytes;
+Result<Bytes> read_file(const std::filesystem::path& file) {
+    FileBytes read = read_file_bytes(file, {});
+    if (read.fault == FileFault::none) return std::move(read.bytes);
+    return fail(ExitCode::bad_resource,
+                "E-ENV-MISSING",
+                file.string(),
+                "the environment cannot be read: " + read.reason);
 }
 
 bool is_radiance_hdr(ByteSpan bytes) {
@@ -177,7 +154,7 @@ Result<void> check_environment_size(int64_t width, int64_t height, const std::st
 Result<ImageRgb32f> read_environment(const std::filesystem::path& file, Log& log) {
     const std::string where = file.string();
     try {
-        const Result<std::vector<std::byte>> bytes = read_regular_file(file);
+        const Result<Bytes> bytes = read_file(file);
         if (!bytes) return fail(bytes.error());
         Result<ImageRgb32f> image = is_exr(*bytes)            ? read_exr(*bytes, where, log)
                                     : is_radiance_hdr(*bytes) ? read_hdr(*bytes, where)

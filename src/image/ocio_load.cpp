@@ -3,6 +3,7 @@
 #include "image/ocio_load.h"
 
 #include "base/setting_names.h"
+#include "base/text.h"
 #include "image/ocio_config.h"
 
 #include <algorithm>
@@ -24,7 +25,8 @@ std::string why_unreadable(const std::string& file) {
     if (file.rfind("ocio://", 0) == 0) return {};  // a config inside the library, from 2.2 on
     std::error_code error;
     const auto status = std::filesystem::status(file, error);
-    if (!std::filesystem::exists(status)) return "there is no such file";
+    if (!std::filesystem::exists(status))
+        return is_web_address(file) ? not_fetched : "there is no such file";
     if (!std::filesystem::is_regular_file(status)) return "this is not a regular file";
     const auto size = std::filesystem::file_size(file, error);
     if (!error && size > largest_config_bytes) return "larger than 64 MB";

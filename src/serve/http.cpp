@@ -150,7 +150,8 @@ void Body::drain() {
 }
 
 Result<nlohmann::json> Body::json() {
-    if (!request_.get_header_value("Content-Type").starts_with("application/json")) {
+    const std::string type = request_.get_header_value("Content-Type");
+    if (type.substr(0, type.find_first_of("; \t")) != "application/json") {
         return fail(ExitCode::refused,
                     "E-SERVE-TYPE",
                     "Content-Type",

@@ -29,13 +29,16 @@ constexpr std::array<LayerTitle, 9> layer_titles = {{{"path", "Beauty"},
                                                      {"uv", "Texture coordinates"},
                                                      {"heat", "Cost of rays"}}};
 
-/// An error of a file by the name that the client knows it by.
-Error with_name(Error error, const std::filesystem::path& file, const std::string& name) {
+/// A text about a file with the name that the client knows it by.
+void replace_path(std::string& text, const std::filesystem::path& file, const std::string& name) {
     const std::string path = file.string();
-    for (std::string* text : {&error.where, &error.message}) {
-        for (size_t at = 0; (at = text->find(path, at)) != std::string::npos; at += name.size())
-            text->replace(at, path.size(), name);
-    }
+    for (size_t at = 0; (at = text.find(path, at)) != std::string::npos; at += name.size())
+        text.replace(at, path.size(), name);
+}
+
+Error with_name(Error error, const std::filesystem::path& file, const std::string& name) {
+    replace_path(error.where, file, name);
+    replace_path(error.message, file, name);
     for (Error& other : error.also)
         other = with_name(std::move(other), file, name);
     return error;
@@ -115,7 +118,10 @@ Result<Json> Service::open_view(const std::string& file) {
     Json out;
     std::string id;
     const std::shared_ptr<Viewer> viewer = open.viewer;
-    out["asset"] = asset_answer(viewer->scene(), viewer->warnings());
+    std::vector<std::string> warnings = viewer->warnings();
+    for (std::string& warning : warnings)
+        replace_path(warning, *scene, file);
+    out["asset"] = asset_answer(viewer->scene(), warnings);
     out["camera"] = camera_answer(*camera);
     // What is closed to make room goes when nobody holds the lock.
     const std::shared_ptr<Viewer> closed = add(std::move(open), id);

@@ -33,6 +33,16 @@ TEST(FileBytes, ReadsWholeFilesAndBeginnings) {
     EXPECT_EQ(read_file_bytes(folder.write("empty", ""), {}).fault, FileFault::none);
 }
 
+TEST(FileBytes, AddressesOnTheWebAreToldFromNames) {
+    for (const char* name : {"https://a.example/a.glb", "http:/a.example/a.hdr"}) {
+        const FileBytes read = read_file_bytes(name, {});
+        EXPECT_EQ(read.fault, FileFault::missing) << name;
+        EXPECT_NE(read.reason.find("network"), std::string::npos) << name << ": " << read.reason;
+    }
+    const FileBytes read = read_file_bytes("https.glb", {});
+    EXPECT_EQ(read.reason.find("network"), std::string::npos) << read.reason;
+}
+
 TEST(FileBytes, LargeFilesAreRefusedUnread) {
     const TempFolder folder;
     const FileBytes read = read_file_bytes(folder.write("a.bin", "abcdef"), {5, UINT64_MAX});

@@ -333,7 +333,8 @@ TEST_F(Batch, MistakesHaveTheirPlace) {
     refused(R"({"asset": []})", 65, "E-JOB-KEY", "job.json#/asset");
     refused(R"({"assets": null})", 65, "E-DOC-MISSING", "assets");
     refused(R"({"assets": []})", 65, "E-JOB-VALUE", "job.json#/assets");
-    refused(R"({"assets": ["none/*.glb"]})", 66, "E-JOB-ASSETS", "none/*.glb");
+    refused(
+        R"({"assets": ["none/*.glb"]})", 66, "E-JOB-ASSETS", "job.json#/assets/0: 'none/*.glb'");
     refused(R"({"options": {"sp": 3}})", 65, "E-JOB-KEY", "job.json#/options/sp");
     refused(R"({"options": {"output": "a.png"}})", 65, "E-JOB-KEY", "job.json#/options/output");
     refused(R"({"options": {"spp": {}}})", 65, "E-JOB-VALUE", "job.json#/options/spp");

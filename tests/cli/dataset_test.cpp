@@ -11,6 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 using Texts = std::vector<std::string>;
 using Rows = std::vector<std::vector<double>>;
 
@@ -211,7 +212,9 @@ TEST_F(DatasetCommand, MistakesAreRefused) {
     EXPECT_FALSE(fs::exists(folder_ / "d"));
     folder_.write("file", "");
     expect_result(dataset({"-o", "file"}), 73, "E-OUT-CREATE");
-    expect_result(dataset({"-o", "d"}, {"none.gltf"}), 66, "E-SCENE-MISSING");
+    const ProgramRun no_scene = dataset({"-o", "d"}, {"none.gltf"});
+    expect_result(no_scene, 66, "E-SCENE-MISSING");
+    EXPECT_THAT(no_scene.err, Not(HasSubstr("E-OUT-CREATE"))) << "of no folder that was asked for";
     const ProgramRun dry = dataset({"-o", "dry", "--dry-run"});
     EXPECT_EQ(split_lines(dry.out).size(), 4U);
     EXPECT_FALSE(fs::exists(folder_ / "dry"));

@@ -210,7 +210,8 @@ TEST_F(JobsHttp, WhatMayNotBeIsRefusedWithItsPlace) {
     EXPECT_EQ(fault_of(with("comment", std::string(5U << 20U, 'x')), 413), "E-SERVE-SIZE body");
     EXPECT_EQ(fault_of(json::array(), 422), "E-JSON-ROOT body");
     read(http_->Post("/api/jobs", "{", json_type), 422);
-    read(http_->Post("/api/jobs", plain.dump(), "text/plain"), 403);
+    for (const char* type : {"text/plain", "application/jsonx"})
+        read(http_->Post("/api/jobs", plain.dump(), type), 403);
     httplib::Client stranger("127.0.0.1", port_);
     read(stranger.Post("/api/jobs", plain.dump(), json_type), 401);
     EXPECT_EQ(get("/api/jobs").at("jobs").size(), 0U);

@@ -80,6 +80,17 @@ colorspaces:
     EXPECT_EQ(none.error().id, "E-OCIO-FILE");
 }
 
+TEST_F(ServiceTest, WarningsNameFilesAsTheClientDoes) {
+    folder_.write("marked.gltf", "\xEF\xBB\xBF" + gltf_text(lit_quad_scene()));
+    Service service(options());
+    const Result<Json> view = service.open_view("marked.gltf");
+    ASSERT_TRUE(view) << view.error().message;
+    const auto warnings = view->at("asset").at("warnings").get<std::vector<std::string>>();
+    ASSERT_FALSE(warnings.empty());
+    EXPECT_THAT(warnings[0], testing::StartsWith("marked.gltf: "));
+    EXPECT_THAT(view->dump(), Not(HasSubstr(folder_.path().string())));
+}
+
 /// The error of a view's next image, as its client is told it.
 Error error_of(Service& service, const std::string& view) {
     const auto viewer = service.viewer(view);

@@ -136,10 +136,8 @@ Result<nlohmann::json> parse_json_text(std::string_view text, const std::string&
     }
     if (!complete && tree.error_position) return syntax_error(text, tree, where);
     if (!complete || !tree.root.is_object()) {
-        return fail(ExitCode::bad_data,
-                    "E-JSON-ROOT",
-                    where,
-                    "the JSON text is not an object; a glTF asset is one");
+        return fail(
+            ExitCode::bad_data, "E-JSON-ROOT", where, "the JSON text is not an object, {...}");
     }
     for (const std::string& key : tree.repeated_keys) {
         log.warn(where, "the key \"" + key + "\" occurs twice in one object; the last one counts");

@@ -29,13 +29,10 @@ Result<Bytes> read_asset_file(const std::filesystem::path& file, MemoryCharge& c
     if (read.fault == FileFault::too_large) {
         return fail(ExitCode::bad_data, "E-GLB-SIZE", file.string(), "the file has " + read.reason);
     }
-    const bool is_url = file.string().find(":/") != std::string::npos;
     return fail(ExitCode::missing_scene,
                 "E-SCENE-MISSING",
                 file.string(),
-                is_url ? "nothing is fetched from the network; save the scene as a file first"
-                       : "the scene cannot be read: " + read.reason +
-                             "; accepted are .gltf and .glb files");
+                "the scene cannot be read: " + read.reason + "; accepted are .gltf and .glb files");
 }
 
 /// About what JSON text takes as a tree, with the strings that are copied from it. A value is 16
