@@ -62,11 +62,12 @@ void shine(const PunctualLight& light, const Vec3d& from, LightContribution& out
         factor *= window;
     }
     if (static_cast<PunctualType>(light.type) == PunctualType::spot) {
-        const double cosine = -dot(wide(light.direction), out.direction);
-        const double cone = std::clamp(
-            cosine * static_cast<double>(light.spot_scale) + static_cast<double>(light.spot_offset),
-            0.0,
-            1.0);
+        const Vec3d chord = wide(light.direction) + out.direction;
+        const double cone =
+            std::clamp(static_cast<double>(light.spot_on_axis) -
+                           static_cast<double>(light.spot_scale) * dot(chord, chord) / 2,
+                       0.0,
+                       1.0);
         out.terms.emplace_back("k, of the cone", cone * cone);
         out.formula = light.range > 0.0f ? "E = w k I / d^2" : "E = k I / d^2";
         factor *= cone * cone;

@@ -15,10 +15,13 @@ struct PunctualLight {
     float direction[3] = {0, 0, -1};  ///< unit, the way the light shines; a profile's polar axis
     /// colour * intensity: candela (point, spot) or lux (directional); factors of a profile
     float intensity[3] = {1, 1, 1};
-    float range = 0;        ///< metres; 0 is unlimited
-    float spot_scale = 0;   ///< lightAngleScale of the extension's formula
-    float spot_offset = 1;  ///< lightAngleOffset; scale 0, offset 1 is no cone
-    int32_t profile = -1;   ///< of a point: a LightProfile that holds the candela; -1: none
+    float range = 0;  ///< metres; 0 is unlimited
+    /// A spot's cone by h = 1 - cosine of the angle to its axis, which keeps narrow cones' digits:
+    /// clamp(spot_on_axis - spot_scale * h, 0, 1). It is the extension's formula with
+    /// lightAngleScale, and lightAngleOffset + lightAngleScale. 0 and 1 are no cone.
+    float spot_scale = 0;
+    float spot_on_axis = 1;
+    int32_t profile = -1;  ///< of a point: a LightProfile that holds the candela; -1: none
     float zero_axis[3] = {1, 0, 0};  ///< of the profile, unit, at right angles to direction
 };
 

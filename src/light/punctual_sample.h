@@ -28,7 +28,7 @@ struct PunctualValues {
     Vec3<F> position, shines;
     Vec3<F> zero_axis;  ///< read where there are profiles
     Vec3<F> intensity;
-    F range, spot_scale, spot_offset;
+    F range, spot_scale, spot_on_axis;
 };
 
 /// In      index must be in range for idle lanes too; has_profiles: some light may have one
@@ -50,7 +50,7 @@ OBSCURA_INLINE PunctualValues<F> read_punctual(const PunctualLight* lights,
     out.intensity = read3(offsetof(PunctualLight, intensity));
     out.range = read(offsetof(PunctualLight, range));
     out.spot_scale = read(offsetof(PunctualLight, spot_scale));
-    out.spot_offset = read(offsetof(PunctualLight, spot_offset));
+    out.spot_on_axis = read(offsetof(PunctualLight, spot_on_axis));
     out.profile = IntOf<F>(-1);
     out.zero_axis = splat3(F(0.0f));
     if (has_profiles) {
@@ -78,7 +78,7 @@ OBSCURA_INLINE PunctualValues<F> blend(const PunctualValues<F>& a,
     out.intensity = mix(a.intensity, b.intensity);
     out.range = mix(a.range, b.range);
     out.spot_scale = mix(a.spot_scale, b.spot_scale);
-    out.spot_offset = mix(a.spot_offset, b.spot_offset);
+    out.spot_on_axis = mix(a.spot_on_axis, b.spot_on_axis);
     return out;
 }
 
@@ -104,8 +104,9 @@ OBSCURA_INLINE PunctualSample<F> sample_punctual(const PunctualValues<F>& light,
     const F reach = distance / max(light.range, F(1e-18f));
     const F window = clamp(F(1.0f) - square(square(reach)), F(0.0f), F(1.0f));
     const F limited = select(light.range > F(0.0f), window, F(1.0f));
-    const F cone =
-        clamp(-dot(light.shines, towards) * light.spot_scale + light.spot_offset, F(0.0f), F(1.0f));
+    const Vec3<F> chord = light.shines + towards;  // for unit vectors |chord|^2 = 2 (1 - cosine)
+    const F beside_axis = F(0.5f) * dot(chord, chord);
+    const F cone = clamp(light.spot_on_axis - light.spot_scale * beside_axis, F(0.0f), F(1.0f));
     F angular = select(spot, cone * cone, F(1.0f));
     if (profiles.records != nullptr) {
         const MaskOf<F> measured = light.profile >= IntOf<F>(0);

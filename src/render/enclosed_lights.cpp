@@ -65,12 +65,11 @@ void add_directions(const PunctualLight& light, Rays& rays) {
     const Vec3f axis{light.direction[0], light.direction[1], light.direction[2]};
     const Frame<float> frame = frame_around(axis);
     const bool cone = light.type == static_cast<int32_t>(PunctualType::spot);
-    // KHR_lights_punctual: the cone ends where scale * cosine + offset is 0.
-    const float lowest =
-        cone && light.spot_scale > 0 ? std::max(-light.spot_offset / light.spot_scale, -1.0f) : -1;
+    const float height =  // of the cone's cap on the unit sphere
+        cone && light.spot_scale > 0 ? std::min(light.spot_on_axis / light.spot_scale, 2.0f) : 2;
     for (int i = 0; i < directions; ++i) {
         const float fraction = (static_cast<float>(i) + 0.5f) / static_cast<float>(directions);
-        const float z = 1 - fraction * (1 - lowest);
+        const float z = 1 - fraction * height;
         const float r = std::sqrt(std::max(0.0f, 1 - z * z));
         const float phi = static_cast<float>(i) * 2.3999632f;
         rays.add(place,

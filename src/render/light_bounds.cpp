@@ -47,8 +47,7 @@ std::optional<BoundedLight> bounded(const PunctualLight& light, double power) {
     const bool spot = light.type == static_cast<int32_t>(PunctualType::spot);
     if (!spot || light.profile >= 0 || !(light.spot_scale > 0)) return out;
     set_normal(vector_of(light.direction), false, out.bounds);
-    // KHR_lights_punctual: the cone ends where scale * cosine + offset is 0.
-    out.bounds.cos_emission = std::clamp(-light.spot_offset / light.spot_scale, -1.0f, 1.0f);
+    out.bounds.cos_emission = std::clamp(1 - light.spot_on_axis / light.spot_scale, -1.0f, 1.0f);
     return out;
 }
 

@@ -391,7 +391,7 @@ TEST(AnimationPointer, AnInnerConeComesBackWhenTheOuterOneGrows) {
     ASSERT_TRUE(open.scene) << open.text();
     EXPECT_EQ(open.scene->lights.at(0).spot_scale, still.scene->lights.at(0).spot_scale);
     const Loaded narrow = load_lit(builder.finished(), 0.0);
-    EXPECT_EQ(narrow.scene->lights.at(0).spot_scale, 1000.0F) << "a sharp edge";
+    EXPECT_FLOAT_EQ(narrow.scene->lights.at(0).spot_on_axis, 1000.0F) << "a sharp edge";
 }
 
 /// An asset that is posed at several times, in any order.

@@ -41,7 +41,7 @@ TEST(Lights, PointInTheWorld) {
     EXPECT_THAT(light.intensity, ElementsAre(40, 20, 10));
     EXPECT_EQ(light.range, 7);  // scale does not change it
     EXPECT_EQ(light.spot_scale, 0);
-    EXPECT_EQ(light.spot_offset, 1);
+    EXPECT_EQ(light.spot_on_axis, 1);
 }
 
 TEST(Lights, DirectionalShinesAlongMinusZ) {
@@ -56,15 +56,32 @@ TEST(Lights, DirectionalShinesAlongMinusZ) {
     EXPECT_EQ(light.range, 0);
 }
 
+/// The extension's attenuation before it is clamped, linear in the cosine.
+double cone_of(const PunctualLight& light, double angle_rad) {
+    return light.spot_on_axis - light.spot_scale * (1 - std::cos(angle_rad));
+}
+
 /// The extension's attenuation: 1 at the inner cone, 0 at the outer one.
 TEST(Lights, SpotConesGoFromOneToZero) {
     const PunctualLight light =
         light_of({{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.6}}}});
-    EXPECT_NEAR(std::cos(0.2) * light.spot_scale + light.spot_offset, 1, 1e-5);
-    EXPECT_NEAR(std::cos(0.6) * light.spot_scale + light.spot_offset, 0, 1e-5);
+    EXPECT_NEAR(cone_of(light, 0.2), 1, 1e-5);
+    EXPECT_NEAR(cone_of(light, 0.6), 0, 1e-5);
     const PunctualLight plain = light_of({{"type", "spot"}, {"spot", json::object()}});
-    EXPECT_NEAR(1.0 * plain.spot_scale + plain.spot_offset, 1, 1e-5);
-    EXPECT_NEAR(std::sqrt(0.5) * plain.spot_scale + plain.spot_offset, 0, 1e-5);
+    EXPECT_NEAR(cone_of(plain, 0), 1, 1e-5);
+    EXPECT_NEAR(cone_of(plain, std::acos(std::sqrt(0.5))), 0, 1e-5);
+    for (const double outer : {0.03, 0.005, 0.0005}) {  // a laser pointer's is the last
+        const PunctualLight narrow =
+            light_of({{"type", "spot"}, {"spot", {{"outerConeAngle", outer}}}});
+        EXPECT_NEAR(cone_of(narrow, 0), 1, 1e-5) << outer;
+        EXPECT_NEAR(cone_of(narrow, outer / 2), 0.75, 1e-4) << outer;
+        EXPECT_NEAR(cone_of(narrow, outer), 0, 1e-5) << outer;
+        const PunctualLight rim =
+            light_of({{"type", "spot"},
+                      {"spot", {{"innerConeAngle", outer * 0.9}, {"outerConeAngle", outer}}}});
+        EXPECT_NEAR(cone_of(rim, outer * 0.9), 1, 1e-5) << outer;
+        EXPECT_NEAR(cone_of(rim, outer), 0, 1e-5) << outer;
+    }
 }
 
 TEST(Lights, OddConesStayFinite) {  // F9
@@ -74,7 +91,8 @@ TEST(Lights, OddConesStayFinite) {  // F9
             json::object());
         ASSERT_TRUE(loaded.scene) << loaded.text();
         EXPECT_TRUE(loaded.warns("innerConeAngle"));
-        EXPECT_FLOAT_EQ(loaded.scene->lights[0].spot_scale, 1000);
+        EXPECT_GT(cone_of(loaded.scene->lights[0], 0.6 * 0.999), 1);
+        EXPECT_NEAR(cone_of(loaded.scene->lights[0], 0.6), 0, 1e-4);
     }
     const PunctualLight bright = light_of({{"type", "point"}, {"intensity", 1e300}});
     EXPECT_THAT(bright.intensity, ElementsAre(1e20f, 1e20f, 1e20f));

@@ -25,9 +25,9 @@ PunctualLight spot_light(double inner_rad, double outer_rad) {
     light.type = static_cast<int32_t>(PunctualType::spot);
     light.direction[1] = -1;
     light.direction[2] = 0;
-    const double scale = 1 / std::max(0.001, std::cos(inner_rad) - std::cos(outer_rad));
+    const double scale = 1 / (std::cos(inner_rad) - std::cos(outer_rad));
     light.spot_scale = static_cast<float>(scale);
-    light.spot_offset = static_cast<float>(-std::cos(outer_rad) * scale);
+    light.spot_on_axis = static_cast<float>((1 - std::cos(outer_rad)) * scale);
     return light;
 }
 
@@ -67,6 +67,19 @@ TEST(PunctualSample, SpotFallsOffBetweenItsAngles) {
     EXPECT_NEAR(share(0.4), t * t, 1e-6);
     EXPECT_EQ(share(0.61), 0);
     EXPECT_EQ(at<double>(light, {0, 6, 0}).irradiance.x, 0);  // behind it
+}
+
+TEST(PunctualSample, NarrowSpotsKeepTheirDigitsInFloat) {
+    for (const double outer : {0.03, 0.003, 0.0005}) {
+        const PunctualLight light = spot_light(0, outer);
+        const auto share = [&](double angle) {
+            const auto s = at<float>(light, {static_cast<float>(3 * std::tan(angle)), 0, 0});
+            return s.irradiance.x * s.distance * s.distance / 18;
+        };
+        EXPECT_NEAR(share(0), 1, 1e-5) << outer;
+        EXPECT_NEAR(share(outer / 2), 0.75 * 0.75, 1e-3) << outer;
+        EXPECT_NEAR(share(outer * 1.001), 0, 1e-5) << outer;
+    }
 }
 
 TEST(PunctualSample, DirectionalIsTheSameEverywhere) {

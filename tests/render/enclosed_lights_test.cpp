@@ -60,7 +60,7 @@ PunctualLight spot_down(float outer_rad) {
     light.direction[1] = -1;
     light.direction[2] = 0;
     light.spot_scale = 1.0f / (1.0f - std::cos(outer_rad));
-    light.spot_offset = -std::cos(outer_rad) * light.spot_scale;
+    light.spot_on_axis = 1;
     return light;
 }
 

@@ -33,7 +33,7 @@ PunctualLight random_bulb(Pcg32& random, size_t number) {
     light.type = static_cast<int32_t>(PunctualType::spot);
     const float outer = std::cos(0.1f + 1.2f * random.next_float());
     light.spot_scale = 1 / (1 - outer) + 1;
-    light.spot_offset = -outer * light.spot_scale;
+    light.spot_on_axis = (1 - outer) * light.spot_scale;
     return light;
 }
 
@@ -182,7 +182,7 @@ TEST(LightBounds, LightsThatMoveMayBeChosenAllTheirWay) {
         PunctualLight moved = random_bulb(random, 0);
         moved.type = light.type;
         moved.spot_scale = light.spot_scale;
-        moved.spot_offset = light.spot_offset;
+        moved.spot_on_axis = light.spot_on_axis;
         scene.motion.lights.push_back(moved);
     }
     const LightTable table = make_light_table(scene, nullptr);

@@ -168,7 +168,7 @@ Scene lit_room(const SurfaceCase& one) {
     spot.direction[1] = -0.8f;
     spot.direction[2] = -0.4f;
     spot.spot_scale = 4;
-    spot.spot_offset = -2;
+    spot.spot_on_axis = 2;
     room.light(spot);
     return room.take();
 }

@@ -68,14 +68,20 @@ Result<SceneCamera> place_camera(const Document& document, const PlacedNode& pla
     return out;
 }
 
+/// 1 - cosine, to the last digits of small angles, too.
+double versine(double angle_rad) {
+    const double half = std::sin(angle_rad / 2);
+    return 2 * half * half;
+}
+
 /// KHR_lights_punctual, "Inner and Outer Cone Angles": attenuation is linear in the cosine. An
-/// inner angle that is not the smaller one gives a sharp edge.
+/// inner angle that is not the smaller one gives an edge of a thousandth of the cone.
 void set_cone(const GltfLight& light, PunctualLight& out) {
-    const double outer = std::cos(light.outer_cone_rad);
-    const double inner = std::cos(std::min(light.inner_cone_rad, light.outer_cone_rad));
-    const double scale = 1.0 / std::max(0.001, inner - outer);
-    out.spot_scale = static_cast<float>(scale);
-    out.spot_offset = static_cast<float>(-outer * scale);
+    const double outer = versine(light.outer_cone_rad);
+    const double inner = versine(std::min(light.inner_cone_rad, light.outer_cone_rad));
+    const double width = std::max({outer - inner, 0.001 * outer, 1e-30});
+    out.spot_scale = static_cast<float>(1 / width);
+    out.spot_on_axis = static_cast<float>(outer / width);
 }
 
 /// Nothing when the node's transform leaves the light no position or direction.
