@@ -240,9 +240,10 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     RenderRequest request = job.request;
     const bool is_unfinished = film.result.is_stopped;
     const bool has_faults = too_many_nonfinite(film.result.counters);
+    const bool lacks_halves = is_unfinished && !has_halves(*making.keeper, request.options);
     if (is_unfinished) {
         film.result.film = making.keeper->finished_of(std::move(film.result.film));
-        if (request.denoise && !has_halves(*making.keeper, request.options)) {
+        if (request.denoise && lacks_halves) {
             making.log.warn(request.scene.string(),
                             "not denoised: there are too few samples to tell their noise");
             leave_undenoised(request, film.result.film);
@@ -256,6 +257,7 @@ Result<void> write_image(const Making& making, RenderedFilm&& film) {
     const double exposure_ev = request.display.exposure_ev + camera_ev;
     if (is_unfinished) {
         mark_unfinished(*making.keeper, finished);
+        if (lacks_halves) finished.metadata.extra.push_back(unequal_halves());
     } else if (!has_faults) {
         mark_finished(job, finished);
     }

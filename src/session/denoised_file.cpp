@@ -48,6 +48,12 @@ Result<RenderOptions> sampling_of(const ExrLayers& layers, const std::string& wh
     const int* const least = layers.attribute<int>("obscura:samplesMin");
     const int* const most = layers.attribute<int>("obscura:samplesMax");
     if (least != nullptr && most != nullptr) out.adaptive.emplace();
+    if (!text_of(layers, unequal_halves().name).empty()) {
+        return bad_file("E-DENOISE-HALVES",
+                        where,
+                        "its rendering was stopped when there were too few samples to tell their "
+                        "noise; render longer, or carry on from a checkpoint");
+    }
     const bool is_even = !out.adaptive || (*least % 2 == 0 && *most % 2 == 0);
     if (is_even && *samples >= 2) return out;
     return bad_file(

@@ -199,6 +199,10 @@ std::string denoise_light(const HalvesOfSamples& halves, Film& film) {
         "halves{}; outliers in {:.3g} % of the pixels", guides, 100 * report.outlier_share);
 }
 
+ImageAttribute unequal_halves() {
+    return {"obscura:halves", std::string("unequal")};
+}
+
 void remove_denoising_layers(const RenderOptions& asked, Film& film) {
     std::erase_if(film.layers, [&](const FilmLayer& one) {
         return has_same(denoising_layers(), one.layer) && !has_same(asked.layers, one.layer);

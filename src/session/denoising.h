@@ -3,6 +3,7 @@
 #pragma once
 
 #include "film/film.h"
+#include "image/image_metadata.h"
 #include "render/render.h"
 
 #include <string>
@@ -14,6 +15,9 @@ namespace obscura {
 /// In      asked_by: the option, for messages
 /// Errors  64 E-USAGE-CONFLICT: the integrator makes no noise of light, or one sample has no halves
 Result<void> check_denoising(const RenderOptions& options, const std::string& asked_by);
+
+/// Marks an image whose rendering was stopped before both halves had as many samples.
+ImageAttribute unequal_halves();
 
 /// Adds the layers that denoising needs and that are not asked for anyway.
 void add_denoising_layers(RenderOptions& options);

@@ -217,6 +217,11 @@ TEST_F(DenoiseCommand, RefusesWhatItCannotDenoise) {
         0,
         "OK");
     refused("odd.exr", 65, "E-DENOISE-HALVES");
+    // No multiple of 16: when the limit comes, the halves have not as many samples.
+    expect_result(shot({"--denoising-data", "--spp", "1000001", "--time-limit", "1"}, "some.exr"),
+                  75,
+                  "E-TIME-LIMIT");
+    refused("some.exr", 65, "E-DENOISE-HALVES");
     expect_result(shot({"--denoising-data"}, "a.exr"), 0, "OK");
     const std::string whole = bytes_of("a.exr");
     write("short.exr", whole.substr(0, whole.size() / 2));
