@@ -431,9 +431,9 @@ Result<void> PosedAsset::plan_variants(const std::vector<std::string>& names, bo
 }
 
 Result<void> PosedAsset::choose_variant(const std::string& name) {
+    if (auto chosen = gltf::choose_variant(name, impl_->asset.document); !chosen) return chosen;
     impl_->options.variant = name;
     impl_->info.variant = name;
-    if (auto chosen = gltf::choose_variant(name, impl_->asset.document); !chosen) return chosen;
     const Result<std::vector<char>> hidden =
         hide_parts(impl_->options.hidden, impl_->asset.document);
     if (!hidden) return fail(hidden.error());

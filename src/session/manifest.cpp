@@ -86,11 +86,29 @@ Manifest::~Manifest() {
 }
 
 Result<Manifest> Manifest::open(const std::filesystem::path& file, bool anew) {
+    std::error_code ignored;
+    std::filesystem::create_directories(file.parent_path(), ignored);
+    const auto status = std::filesystem::status(file, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        return fail(ExitCode::cannot_create,
+                    "E-OUT-CREATE",
+                    file.string(),
+                    "it is not a regular file, to which several commands may add lines");
+    }
     constexpr int mode = 0666;
-    const int flags = O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC | (anew ? O_TRUNC : 0);
+    const int flags = O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | (anew ? O_TRUNC : 0);
     const int descriptor = ::open(file.c_str(), flags, mode);
     if (descriptor < 0) return cannot_write(file);
-    return Manifest(file, descriptor);
+    Manifest manifest(file, descriptor);
+    // Behind a line that was cut off, a new one begins.
+    char last = '\n';
+    const off_t size = ::lseek(descriptor, 0, SEEK_END);
+    const bool is_cut_off =
+        size > 0 && ::pread(descriptor, &last, 1, size - 1) == 1 && last != '\n';
+    if (is_cut_off) {
+        if (auto ended = manifest.add(""); !ended) return fail(ended.error());
+    }
+    return manifest;
 }
 
 Result<void> Manifest::add(const std::string& line) {

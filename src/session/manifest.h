@@ -33,9 +33,11 @@ std::string manifest_line(const RenderRequest& request, const ImageOutcome& outc
 /// The file of --manifest: lines are there as soon as they are added.
 class Manifest {
 public:
+    /// Makes its folder.
+    ///
     /// In      anew: what is there is dropped; else lines are added to it, also while other
     ///         processes add theirs
-    /// Errors  74 E-OUT-WRITE
+    /// Errors  74 E-OUT-WRITE; 73 E-OUT-CREATE not a regular file
     static Result<Manifest> open(const std::filesystem::path& file, bool anew);
 
     /// Errors  74 E-OUT-WRITE

@@ -121,7 +121,10 @@ Result<void> OpenAsset::set_variant(const std::string& name, Log& log) {
         if (auto planned = renderer_->plan_variants(all, true); !planned) return planned;
         has_plan_ = true;
     }
-    if (auto chosen = renderer_->choose_variant(name); !chosen) return chosen;
+    if (auto chosen = renderer_->choose_variant(name); !chosen) {
+        (void)renderer_->choose_variant(load_.variant);  // parts to hide may be of the other one
+        return chosen;
+    }
     load_.variant = name;
     is_changed_ = true;
     return {};

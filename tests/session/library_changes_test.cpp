@@ -226,6 +226,8 @@ TEST_F(Changes, MistakesAreNamed) {
     const Result<void> variant = asset.set_variant("red");
     ASSERT_FALSE(variant);
     EXPECT_EQ(variant.error().id, "E-VARIANT-UNKNOWN");
+    const Result<void> same_material = asset.assign_material(1, 0);
+    EXPECT_TRUE(same_material) << same_material.error().text;
     expect_same(render(asset), render(open(far_)));
 }
 
