@@ -85,7 +85,8 @@ constexpr Entry entries[] = {
      text_at<&A::sample>, choice_at<spaces, &R::sampling, &S::space>},
     {{.name = "--fill", .argument = "LOW,HIGH",
       .help = "Around an asset: the share of the image that the asset's sphere takes, at random "
-              "between these", .range = {0.01, 1}, .accepted = "two numbers such as 0.5,0.9",
+              "between these", .range = {0.01, 1},
+      .accepted = "two numbers from 0.01 to 1, such as 0.5,0.9",
       .fallback = "0.5,0.9"},
      text_at<&A::fill>, numbers_at<2, &R::sampling, &S::fill>},
     {{.name = "--vary", .argument = "NAME[,NAME]",

@@ -88,6 +88,19 @@ bool tells_images_apart(const std::filesystem::path& pattern, bool has_numbers) 
     return has_numbers && frame_file(pattern, 0).has_value();
 }
 
+/// A word too many on the command line is a scene that there is not.
+Result<void> check_scene_files(const std::vector<SceneRun>& runs) {
+    for (const SceneRun& run : runs) {
+        std::error_code error;
+        if (std::filesystem::exists(run.request.scene, error)) continue;
+        return fail(ExitCode::missing_scene,
+                    "E-SCENE-MISSING",
+                    run.request.scene.string(),
+                    "there is no such scene; accepted are .gltf and .glb files");
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<std::vector<RenderArguments>> arguments_of_scenes(const RenderArguments& arguments) {
@@ -133,6 +146,7 @@ Result<void> check_scenes(const std::vector<SceneRun>& runs) {
         const NameFields fields{request.lists.asset, "", "", 1, request.lists.look};
         for (const std::filesystem::path& pattern : patterns_of(request)) {
             if (seen.insert(name_by_pattern(pattern, fields)).second) continue;
+            if (auto there = check_scene_files(runs); !there) return there;
             return conflict(pattern.string(),
                             "a file's name must tell scenes and looks apart; expected {asset} in "
                             "it, such as out/{asset}.png, and {look} where a job has several, "

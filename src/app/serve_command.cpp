@@ -39,6 +39,7 @@ void open_in_browser(const std::string& url) {
 
 int serve(const Result<ServeRequest>& request, Log& log) {
     if (!request) return report_failure(request.error(), log);
+    give_back_freed_memory();
     const Result<RenderRequest> common =
         request->server.service.options.request("none", serve::Options::object());
     if (!common) return report_failure(common.error(), log);

@@ -38,6 +38,13 @@ void warn_of_unused_options(const RenderArguments& arguments,
     tell(arguments.page && arguments.background, has_display, "--page", for_displays);
     tell(arguments.bits.has_value(), has_depths, "--bits", "for PNG and TIFF");
     tell(arguments.quality.has_value(), has_lossy, "--quality", "for JPEG, WebP and AVIF");
+    const Integrator integrator = request.options.integrator;
+    const bool is_noisy = integrator == Integrator::path || integrator == Integrator::direct;
+    const char* const for_noise = "for the integrators path and direct";
+    tell(arguments.clamp_direct.has_value(), is_noisy, "--clamp-direct", for_noise);
+    tell(arguments.clamp_indirect.has_value(), is_noisy, "--clamp-indirect", for_noise);
+    tell(arguments.caustics.has_value(), is_noisy, "--caustics", for_noise);
+    tell(arguments.regularize, is_noisy, "--regularize", for_noise);
     const std::vector<Layer>& layers = request.options.layers;
     tell(arguments.crypto_levels.has_value(),
          std::any_of(layers.begin(), layers.end(), is_cryptomatte),

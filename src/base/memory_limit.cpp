@@ -70,6 +70,14 @@ void spare_addresses() {
     if (address_space_limit() != UINT64_MAX) mallopt(M_ARENA_MAX, 1);
 }
 
+void give_back_freed_memory() {
+    constexpr int kept = 1 << 20;
+    constexpr int arenas = 4;
+    mallopt(M_MMAP_THRESHOLD, kept);
+    mallopt(M_TRIM_THRESHOLD, kept);
+    if (address_space_limit() == UINT64_MAX) mallopt(M_ARENA_MAX, arenas);
+}
+
 Result<void> check_address_space(uint64_t left, uint64_t needed, const std::string& purpose) {
     if (left >= needed) return {};
     return fail(ExitCode::out_of_memory,

@@ -42,6 +42,12 @@ uint64_t address_space_left();
 /// Source  mallopt(3), M_ARENA_MAX
 void spare_addresses();
 
+/// Lets freed memory go back to the system, also the blocks of some megabytes that malloc otherwise
+/// learns to keep, up to 64 MiB in the arena of each thread. For programs that run for days.
+///
+/// Source  mallopt(3), "dynamic mmap threshold"
+void give_back_freed_memory();
+
 /// Refuses what would find too few addresses: libraries that start threads end the process without
 /// a word where these can have no stacks.
 ///
