@@ -4,7 +4,6 @@
 
 #include "denoise/features.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace obscura {
@@ -95,23 +94,17 @@ void filter_images_tile(const FilterGuides& guides,
     });
 }
 
-float brightness(const Rgb& from, int x, int y) {
-    return (from[0].row(y)[x] + from[1].row(y)[x] + from[2].row(y)[x]) * (1.0f / 3.0f);
-}
-
-/// Makes errors at bright and dark pixels comparable: 1 / the squared brightness. Where the filter
-/// has made a dark pixel bright, twice the brighter noisy half counts, down to a part of the
-/// filter's: noise alone can make both halves dark.
-Plane error_scale(const FilterGuides& guides, const FilteredHalves& from) {
-    constexpr float min_share = 0.1f;
+/// Makes errors at bright and dark pixels comparable: 1 / the squared brightness.
+Plane error_scale(const FilteredHalves& from) {
     const Plane& size = from.weight;
     return make_plane(size.width(), size.height(), size.border(), [&](int x, int y) {
-        const float filtered =
-            0.5f * (brightness(from.halves[0], x, y) + brightness(from.halves[1], x, y));
-        const float noisy =
-            2.0f * std::max(brightness(guides.halves[0], x, y), brightness(guides.halves[1], x, y));
-        const float scale = std::min(filtered, std::max(noisy, min_share * filtered));
-        return 1.0f / (scale * scale + 1e-4f);
+        float sum = 0;
+        for (const Rgb& half : from.halves) {
+            for (const Plane& channel : half)
+                sum += channel.row(y)[x];
+        }
+        sum *= 1.0f / 6.0f;
+        return 1.0f / (sum * sum + 1e-4f);
     });
 }
 
@@ -152,7 +145,7 @@ Candidates filter_halves(const FilterGuides& guides) {
 }
 
 Mix mix_candidates(const FilterGuides& guides, const Candidates& candidates) {
-    const Plane scale = error_scale(guides, candidates[detail]);
+    const Plane scale = error_scale(candidates[detail]);
     const int width = scale.width();
     const int height = scale.height();
     std::array<Plane, candidate_count> errors;
