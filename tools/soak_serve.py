@@ -236,7 +236,7 @@ class Client:
         with socket.create_connection(("127.0.0.1", self.port), 10) as connection:
             connection.sendall((f"GET {path} HTTP/1.1\r\nHost: localhost\r\nAuthorization: Bearer "
                                 f"{self.token}\r\nLast-Event-ID: 1\r\n\r\n").encode())
-            connection.settimeout(5)
+            connection.settimeout(self.patience_s)
             try:
                 first = connection.recv(4096)
             except OSError:
