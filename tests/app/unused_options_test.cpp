@@ -65,6 +65,24 @@ TEST(UnusedOptions, AreThoseOfOtherOutputs) {
                             StartsWith("--quality: ")));
 }
 
+TEST(UnusedOptions, ThoseAgainstFirefliesAreForLightThatChanceFinds) {
+    RenderArguments arguments;
+    arguments.outputs = {"a.exr"};
+    arguments.clamp_direct = "4";
+    arguments.clamp_indirect = "4";
+    arguments.caustics = "off";
+    arguments.regularize = true;
+    EXPECT_THAT(warnings_of(arguments), IsEmpty());
+    arguments.integrator = "direct";
+    EXPECT_THAT(warnings_of(arguments), IsEmpty());
+    arguments.integrator = "ao";
+    EXPECT_THAT(warnings_of(arguments),
+                ElementsAre(StartsWith("--clamp-direct: "),
+                            StartsWith("--clamp-indirect: "),
+                            StartsWith("--caustics: "),
+                            StartsWith("--regularize: ")));
+}
+
 TEST(UnusedOptions, AreNoneWhereOneOutputNeedsThem) {
     RenderArguments arguments = all_options();
     arguments.outputs = {"a.exr", "a.jpg"};
