@@ -67,6 +67,7 @@ CONF
 
 sinfo_says() { sinfo --noheader --format %t | grep -q "^$1"; }
 has_ended() { ! squeue --noheader --jobs "$1" 2>/dev/null | grep -q .; }
+runs_or_has_ended() { is_running "$1" || has_ended "$1"; }
 is_running() { squeue --noheader --states RUNNING --jobs "$1" 2>/dev/null | grep -q .; }
 
 # wait_for WHAT COMMAND... - until the command succeeds, for two minutes at most.
@@ -96,11 +97,16 @@ mv shot.exr by_slurm.exr
 expect_whole 3 'sbatch --array, a task requeued'
 cmp by_slurm.exr whole.exr || stop 'sbatch: the merge under Slurm wrote other bits'
 
-# A task that is killed leaves no file, so that a merge refuses, and is run again.
-job="$(sbatch --parsable --array=1-2 "$scripts/render.sbatch" "${picture[@]}" --quiet -o shot.exr)"
-wait_for 'task 1' is_running "${job}_1"
-scancel "${job}_1"
-wait_for 'the rest' has_ended "$job"
+# A task that is killed leaves no file, so that a merge refuses, and is run again. One that had ended
+# before the signal came shows nothing: then another is killed.
+for _ in 1 2 3 4 5; do
+    job="$(sbatch --parsable --array=1-2 "$scripts/render.sbatch" "${picture[@]}" --quiet -o shot.exr)"
+    wait_for 'task 1' runs_or_has_ended "${job}_1"
+    scancel "${job}_1"
+    wait_for 'the rest' has_ended "$job"
+    [[ -f shot.exr.1-of-2.film ]] || break
+    rm -f shot.exr.*.film
+done
 if obscura merge shot.exr.*-of-2.film --quiet 2>refused.log; then
     stop 'scancel: a merge without part 1 passed'
 fi
