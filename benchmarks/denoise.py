@@ -3,9 +3,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Renders each SCENE with 16 and with 64 samples and denoises the files, by `obscura denoise`. Prints
 the error before over the error after for both, and that of 64 samples before over that of 16 after;
-in brackets without the worst thousandth of the pixels. The error is relMSE against a reference. Files
-in --work are kept, and used again where they are there: another filter takes no new rendering. Needs
-OpenImageIO's Python package (Debian: python3-openimageio)."""
+in brackets without the worst thousandth of the pixels. The error is relMSE against a reference. With
+--frame N, of animated scenes: the error of frame N at 16 samples before over after, denoised alone and
+with the frames beside it. Files in --work are kept, and used again where they are there: another filter
+takes no new rendering. Needs OpenImageIO's Python package (Debian: python3-openimageio)."""
 
 import argparse
 import os
@@ -24,6 +25,7 @@ def read_settings(arguments):
     parser.add_argument("--size", default="320x180", metavar="WxH")
     parser.add_argument("--seeds", type=int, default=2, help="pictures of each kind; means count")
     parser.add_argument("--reference-samples", type=int, default=2048)
+    parser.add_argument("--frame", type=int, metavar="N", help="of sequences, with N-1 and N+1")
     parser.add_argument("--env", default=os.path.join(HERE, "../assets/environments/sky.hdr"))
     parser.add_argument("--obscura", default=os.path.join(HERE, "../build/release/bin/obscura"))
     parser.add_argument("--work", required=True, metavar="FOLDER")
@@ -60,10 +62,10 @@ class Renderer:
             subprocess.run(command + list(options), check=True)
         return file
 
-    def denoise(self, file):
-        out = file[: -len("exr")] + "denoised.exr"  # OpenImageIO keeps what it has read by name
+    def denoise(self, file, *options, end="denoised"):
+        out = file[: -len("exr")] + end + ".exr"  # OpenImageIO keeps what it has read by name
         command = [self.settings.obscura, "denoise", file, "-o", out, "--quiet"]
-        subprocess.run(command, check=True)
+        subprocess.run(command + list(options), check=True)
         return out
 
     def mean_errors(self, samples, reference):
@@ -77,9 +79,41 @@ class Renderer:
         return sum(before) / len(before), sum(after) / len(after)
 
 
+    def sequence_errors(self, frame, reference):
+        """Of a frame: before, denoised alone, and denoised with the frames beside it."""
+        errors_of = []
+        for seed in range(1, self.settings.seeds + 1):
+            name = "16.%d" % (1000 * seed) + ".%d"
+            for number in (frame - 1, frame, frame + 1):
+                options = ["--seed", str(1000 * seed + number), "--time", str(number / 24)]
+                options += ["--spp", "16", "--denoising-data", "--aov", "motion"]
+                self.render(name % number, *options)
+            noisy = "%s.%s.exr" % (self.start, name)
+            alone = self.denoise(noisy % frame)
+            errors_of.append([errors(noisy % frame, reference), errors(alone, reference)])
+            pattern = noisy.replace("%d", "{frame}")
+            beside = self.denoise(pattern, "--frames", str(frame), end="beside")
+            errors_of[-1].append(errors(beside.replace("{frame}", str(frame)), reference))
+        return numpy.mean(errors_of, axis=0)
+
+
+def compare_frames(settings):
+    print("%-28s%16s%16s" % ("", "alone", "frames beside"))
+    for scene in settings.scenes:
+        renderer = Renderer(settings, scene)
+        options = ["--spp", str(settings.reference_samples), "--time", str(settings.frame / 24)]
+        file = renderer.render("frame_reference", *options, "--seed", "99", "--float")
+        before, alone, beside = renderer.sequence_errors(settings.frame, colors(file))
+        numbers = tuple(before / alone) + tuple(before / beside)
+        print("%-28s" % os.path.basename(renderer.start) + "%8.2f (%5.2f)%8.2f (%5.2f)" % numbers)
+
+
 def main(arguments):
     settings = read_settings(arguments)
     os.makedirs(settings.work, exist_ok=True)
+    if settings.frame is not None:
+        compare_frames(settings)
+        return
     rows = []
     print("%-28s%16s%16s%16s" % ("", "16 samples", "64 samples", "64 over 16"))
     for scene in settings.scenes:

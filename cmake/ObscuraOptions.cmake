@@ -10,7 +10,8 @@ target_compile_options(obscura_options INTERFACE
   $<$<AND:$<BOOL:$<TARGET_PROPERTY:UNITY_BUILD>>,$<CXX_COMPILER_ID:GNU>>:-Wshadow=local>
   -Wconversion
   -fno-math-errno -fno-trapping-math  # sqrt becomes an instruction; NaN and infinity still work
-  -ffp-contract=fast                  # a*b+c may become one fused instruction
+  # a*b+c may become one fused instruction, but in targets that set OBSCURA_UNFUSED
+  -ffp-contract=$<IF:$<BOOL:$<TARGET_PROPERTY:OBSCURA_UNFUSED>>,off,fast>
 )
 if(OBSCURA_WERROR)
   target_compile_options(obscura_options INTERFACE -Werror)

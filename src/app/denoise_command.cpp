@@ -8,9 +8,13 @@
 #include "base/file_bytes.h"
 #include "base/parallel.h"
 #include "session/denoised_file.h"
+#include "session/image_names.h"
 #include "session/outputs.h"
+#include "session/repeated_log.h"
 
 #include <atomic>
+#include <cstdlib>
+#include <map>
 
 namespace obscura::app {
 
@@ -50,21 +54,91 @@ Result<void> write_displays(RenderRequest request, const DenoisedFile& denoised,
     return write_outputs(request, finished, *display, std::atomic<bool>(false), log);
 }
 
+/// Writes what became of one file.
+Result<void> write_denoised(const DenoiseRequest& request, const DenoisedFile& denoised, Log& log) {
+    if (auto done = write_displays(request.render, denoised, log); !done) return done;
+    for (const std::filesystem::path& file : request.exrs) {
+        if (auto done = write_file_atomically(file, denoised.exr.bytes); !done) return done;
+        warn_of(denoised.exr.report, file.string(), log);
+    }
+    log.info("denoised: " + denoised.done);
+    return {};
+}
+
+/// The request for one frame of a sequence.
+DenoiseRequest request_of_frame(const DenoiseRequest& sequence, int frame) {
+    DenoiseRequest out = sequence;
+    out.file = numbered_file(sequence.file, frame);
+    out.render.scene = out.file;
+    out.render.frames.reset();
+    for (std::filesystem::path& file : out.exrs)
+        file = numbered_file(file, frame);
+    for (std::filesystem::path& file : out.render.outputs)
+        file = numbered_file(file, frame);
+    return out;
+}
+
+/// The files of a sequence that are open.
+class OpenFrames {
+public:
+    explicit OpenFrames(const std::filesystem::path& pattern) : pattern_(pattern) {}
+
+    /// Closes all frames that are further than one away.
+    void stay_near(int frame) {
+        std::erase_if(documents_, [&](const auto& one) { return std::abs(one.first - frame) > 1; });
+    }
+
+    Result<const ExrDocument*> at(int frame) {
+        const auto found = documents_.find(frame);
+        if (found != documents_.end()) return &found->second;
+        Result<ExrDocument> opened = open(numbered_file(pattern_, frame));
+        if (!opened) return fail(opened.error());
+        return &documents_.emplace(frame, std::move(*opened)).first->second;
+    }
+
+    /// Null where there is no such file.
+    Result<const ExrDocument*> find(int frame) {
+        std::error_code error;
+        const bool is_there = frame >= 0 && exists(numbered_file(pattern_, frame), error);
+        return is_there ? at(frame) : Result<const ExrDocument*>(nullptr);
+    }
+
+private:
+    std::filesystem::path pattern_;
+    std::map<int, ExrDocument> documents_;
+};
+
+/// Every frame with the help of those beside it.
+Result<void> denoise_sequence(const DenoiseRequest& request, Log& log) {
+    OpenFrames frames(request.file);
+    RepeatedLog once(log, SettingNames::options);
+    for (const int number : request.render.frames->numbers) {
+        frames.stay_near(number);
+        const Result<const ExrDocument*> document = frames.at(number);
+        if (!document) return fail(document.error());
+        const Result<const ExrDocument*> before = frames.find(number - 1);
+        if (!before) return fail(before.error());
+        const Result<const ExrDocument*> after = frames.find(number + 1);
+        if (!after) return fail(after.error());
+        const Result<DenoisedFile> denoised =
+            denoise_document(**document, {*before, *after}, request.keep_noisy, once.begin());
+        if (!denoised) return fail(denoised.error());
+        if (auto done = write_denoised(request_of_frame(request, number), *denoised, log); !done)
+            return done;
+    }
+    return {};
+}
+
 Result<void> execute(const DenoiseRequest& request, Log& log) {
     const ThreadLimit threads(request.render.threads);
     if (auto begun = start_threads_ahead(); !begun) return begun;
     if (auto there = check_writers(request.render); !there) return there;
+    if (request.render.frames) return denoise_sequence(request, log);
     const Result<ExrDocument> document = open(request.file);
     if (!document) return fail(document.error());
-    const Result<DenoisedFile> denoised = denoise_document(*document, request.keep_noisy, log);
+    const Result<DenoisedFile> denoised = denoise_document(*document, {}, request.keep_noisy, log);
     if (!denoised) return fail(denoised.error());
-    if (auto done = write_displays(request.render, *denoised, log); !done) return done;
-    for (const std::filesystem::path& file : request.exrs) {
-        if (auto done = write_file_atomically(file, denoised->exr.bytes); !done) return done;
-        warn_of(denoised->exr.report, file.string(), log);
-    }
-    log.info("denoised: " + denoised->done);
-    return {};
+    return write_denoised(request, *denoised, log);
 }
 
 }  // namespace

@@ -22,7 +22,9 @@ Examples:
   obscura render room.glb --spp 16 --denoising-data -o room.exr
   obscura denoise room.exr -o clean.exr -o clean.png
   obscura denoise room.exr -o room.exr --keep-noisy
-      in place, whole or not at all)";
+      in place, whole or not at all
+  obscura denoise shot.####.exr --frames 1-48 -o clean.####.exr
+      each frame with the help of those beside it, by the layer motion)";
 
 // clang-format off
 constexpr Entry entries[] = {
@@ -46,6 +48,11 @@ Command denoise_command(DenoiseArguments& arguments) {
     Command command{"denoise", "Take the noise out of an EXR that render wrote", notes};
     command.options = bind_all(std::span<const OptionGroup<A, R>>(groups), arguments);
     RenderArguments& render = arguments.render;
+    BoundOption& frames = add_render_option(command, render, "--frames", "Sequence");
+    frames.info.help =
+        "Denoise a sequence, such as 1-48: the ### in all names become each frame's "
+        "number. Frames beside a frame help where IN.exr has the layer motion";
+    frames.info.excludes = {};
     constexpr const char* display = "Display (all but EXR)";
     add_render_group(command, render, display);
     BoundOption& space = add_render_option(command, render, "--color-space", display);

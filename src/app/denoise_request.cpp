@@ -4,6 +4,8 @@
 
 #include "app/denoise_options.h"
 #include "app/distinct_files.h"
+#include "app/frames.h"
+#include "session/image_names.h"
 
 #include <algorithm>
 
@@ -35,6 +37,28 @@ Result<void> choose_outputs(const DenoiseArguments& arguments, DenoiseRequest& r
     return {};
 }
 
+/// A sequence's names must tell its frames apart, and no frame may be replaced while its neighbours
+/// need it.
+Result<void> check_sequence(const DenoiseRequest& request) {
+    if (!request.render.frames) return {};
+    std::vector<std::filesystem::path> patterns = request.render.outputs;
+    patterns.insert(patterns.end(), request.exrs.begin(), request.exrs.end());
+    patterns.push_back(request.file);
+    if (auto named = check_frame_patterns(patterns); !named) return named;
+    for (const std::filesystem::path& exr : request.exrs) {
+        for (const int number : request.render.frames->numbers) {
+            if (!same_file(numbered_file(exr, number), numbered_file(request.file, number)))
+                continue;
+            return fail(ExitCode::usage,
+                        "E-USAGE-SAMEFILE",
+                        exr.string(),
+                        "with --frames no file may be replaced, for frames beside it are filtered "
+                        "with it; give outputs other names");
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<DenoiseRequest> make_denoise_request(const DenoiseArguments& arguments) {
@@ -57,6 +81,7 @@ Result<DenoiseRequest> make_denoise_request(const DenoiseArguments& arguments) {
     request.keep_noisy = arguments.keep_noisy;
     request.render = std::move(*display);
     if (auto chosen = choose_outputs(arguments, request); !chosen) return fail(chosen.error());
+    if (auto fit = check_sequence(request); !fit) return fail(fit.error());
     return request;
 }
 

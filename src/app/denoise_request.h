@@ -19,14 +19,15 @@ struct DenoiseArguments {
 };
 
 struct DenoiseRequest {
-    std::filesystem::path file;
-    std::vector<std::filesystem::path> exrs;  ///< may be `file` itself
+    std::filesystem::path file;               ///< with render.frames a pattern, as outputs are
+    std::vector<std::filesystem::path> exrs;  ///< may be `file` itself; of a sequence it may not
     bool keep_noisy = false;
-    RenderRequest render;  ///< the outputs of other formats, their display, threads
+    RenderRequest render;  ///< the outputs of other formats, their display, frames, threads
 };
 
-/// Errors  64 E-USAGE-CONFLICT no output; E-USAGE-SAMEFILE two of one name; E-USAGE-CHOICE an
-///         exposure to be metered; E-OUT-FORMAT; those of make_render_request
+/// Errors  64 E-USAGE-CONFLICT no output, or a name of a sequence without a place for numbers;
+///         E-USAGE-SAMEFILE two of one name; E-USAGE-CHOICE an exposure to be metered;
+///         E-OUT-FORMAT; those of make_render_request
 Result<DenoiseRequest> make_denoise_request(const DenoiseArguments& arguments);
 
 }  // namespace obscura::app

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "app/frames.h"
 
+#include "app/command_line.h"
 #include "app/numbers.h"
+#include "session/image_names.h"
 
 #include <vector>
 
@@ -81,6 +83,16 @@ Result<FrameList> parse_frames(std::string_view text, std::string_view option) {
         if (comma == std::string_view::npos) return out;
         rest.remove_prefix(comma + 1);
     }
+}
+
+Result<void> check_frame_patterns(const std::vector<std::filesystem::path>& patterns) {
+    for (const std::filesystem::path& pattern : patterns) {
+        if (frame_file(pattern, 0) || has_field(pattern, "frame")) continue;
+        return conflict(pattern.string(),
+                        "with --frames a file's name must say where the frame's number goes; "
+                        "expected one run of #, such as shot.####.exr, or {frame:04}");
+    }
+    return {};
 }
 
 }  // namespace obscura::app

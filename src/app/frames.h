@@ -5,8 +5,10 @@
 #include "base/error.h"
 #include "session/frames.h"
 
+#include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace obscura::app {
 
@@ -24,5 +26,10 @@ Result<ShutterFractions> parse_shutter_interval(const std::string& text);
 /// Errors  64 E-USAGE-NUMBER, E-USAGE-RANGE: numbers from 0 to 999999, the second not below the
 ///         first, steps from 1
 Result<FrameList> parse_frames(std::string_view text, std::string_view option);
+
+/// The names of a sequence's files must say where the frame's number goes.
+///
+/// Errors  64 E-USAGE-CONFLICT
+Result<void> check_frame_patterns(const std::vector<std::filesystem::path>& patterns);
 
 }  // namespace obscura::app

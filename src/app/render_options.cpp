@@ -5,7 +5,6 @@
 #include "app/compression.h"
 #include "app/delivery_options.h"
 #include "app/display_connection.h"
-#include "app/frames.h"
 #include "app/layer_options.h"
 #include "app/lens_options.h"
 #include "app/list_options.h"
@@ -16,6 +15,7 @@
 #include "app/part_options.h"
 #include "app/product_options.h"
 #include "app/render_command.h"
+#include "app/time_options.h"
 #include "camera/names.h"
 #include "render/integrators.h"
 #include "session/built_in_environment.h"
@@ -241,25 +241,6 @@ constexpr Entry image[] = {
     {{.name = "--line-width", .argument = "LENGTH", .help = "Diameter of glTF's lines, likewise"},
      text_at<&A::line_width>, points_lines_size_at<&R::points_lines, &PointsLinesSizes::lines>}};
 
-constexpr Entry time[] = {
-    {{.name = "--time", .argument = "SECONDS",
-      .help = "Show the scene as its animations have it then; before their beginning and after "
-              "their end they stand still",
-      .range = {-1e6, 1e6}, .fallback = "as stored"},
-     text_at<&A::time>, number_at<&R::load, &L::time_s>},
-    {{.name = "--animation", .argument = "NAME|INDEX",
-      .help = "Which animation plays: a name or an index, all, or none",
-      .fallback = "the first with --time or --frames, else none"},
-     text_at<&A::animation>, name_at<&R::load, &L::animation>},
-    {{.name = "--frames", .argument = "FIRST-LAST[xSTEP][,...]",
-      .help = "Render a sequence, such as 1-48 or 1-10x2,15; the ### in the names of outputs "
-              "become each frame's number. Frame n is at n / fps seconds",
-      .excludes = {"--time"}},
-     text_at<&A::frames>, parsed_at<parse_frames, &R::frames>},
-    {{.name = "--fps", .argument = "X",
-      .help = "Frames per second of --frames, --shutter and --aov motion", .range = {1e-3, 1e5}},
-     text_at<&A::fps>, number_at<&R::fps>}};
-
 constexpr Entry sampling[] = {
     {{.name = "--spp", .argument = "N|auto",
       .help = "Samples per pixel; with --noise-target the most. auto: as many as that asks for",
@@ -440,7 +421,7 @@ const std::vector<RenderOptionGroup>& render_option_groups() {
                                                  layer_group(),
                                                  denoising_group(),
                                                  segmentation_group(),
-                                                 {"Time", time},
+                                                 time_group(),
                                                  list_group(),
                                                  {"Sampling", sampling},
                                                  adaptive_group(),

@@ -58,13 +58,7 @@ Result<void> complete_time(const RenderArguments& arguments, RenderRequest& requ
     request.frames->fps = request.fps;
     std::vector<std::filesystem::path> patterns = request.outputs;
     if (request.segmentation) patterns.push_back(*request.segmentation);
-    for (const std::filesystem::path& output : patterns) {
-        if (frame_file(output, 0) || has_field(output, "frame")) continue;
-        return conflict(output.string(),
-                        "with --frames a file's name must say where the frame's number goes; "
-                        "expected one run of #, such as shot.####.exr, or {frame:04}");
-    }
-    return {};
+    return check_frame_patterns(patterns);
 }
 
 std::filesystem::path output_of(const RenderArguments& arguments, const std::string& ending) {

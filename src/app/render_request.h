@@ -46,6 +46,7 @@ struct RenderArguments {
     std::optional<std::string> format, bits, quality, page;
     bool no_dither = false;
     bool regularize = false;
+    bool animate_seed = false;
     std::optional<std::string> animation, time, frames, fps;
     std::string default_ending = ".exr";  ///< of the output, where none is given
     bool float32 = false;

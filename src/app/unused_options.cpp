@@ -45,6 +45,8 @@ void warn_of_unused_options(const RenderArguments& arguments,
     tell(arguments.clamp_indirect.has_value(), is_noisy, "--clamp-indirect", for_noise);
     tell(arguments.caustics.has_value(), is_noisy, "--caustics", for_noise);
     tell(arguments.regularize, is_noisy, "--regularize", for_noise);
+    const bool takes_samples = is_noisy || integrator == Integrator::ao;
+    tell(arguments.animate_seed, takes_samples, "--animate-seed", "for integrators with noise");
     const std::vector<Layer>& layers = request.options.layers;
     tell(arguments.crypto_levels.has_value(),
          std::any_of(layers.begin(), layers.end(), is_cryptomatte),

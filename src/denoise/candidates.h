@@ -1,8 +1,8 @@
-// denoise/candidates.h - filtered images, and which of them is best at each pixel.
+// denoise/candidates.h - filtered images, to be mixed.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "denoise/weights.h"
+#include "denoise/frame.h"
 
 #include <span>
 
@@ -11,23 +11,20 @@ namespace obscura {
 /// Both halves, filtered with the same weights.
 struct FilteredHalves {
     Rgb halves[2];
-    Plane weight;  ///< sum of the weights
+    Plane brightness_root;  ///< a mean that a few bright neighbours hardly change
+    Plane weight;           ///< sum of the weights
 };
 
 using Candidates = std::array<FilteredHalves, candidate_count>;
 
-Candidates filter_halves(const FilterGuides& guides);
+/// In      frames: the image that is filtered, then neighbours whose pixels count, too
+Candidates filter_halves(std::span<const Frame> frames);
 
 /// Shares of the filters and of the noisy image in a pixel; they add up to 1.
 struct Mix {
     std::array<Plane, candidate_count> filtered;
     Plane noisy;
 };
-
-/// Estimates each filter's error at each pixel, and mixes them by it. The squared bias is the mean
-/// of the product of what the filter changes in either half, whose noise is independent; the
-/// variance is what the two filtered halves differ by. An unfiltered pixel has variance alone.
-Mix mix_candidates(const FilterGuides& guides, const Candidates& candidates);
 
 /// The mixed image of both halves.
 ///
@@ -37,10 +34,9 @@ Rgb mixed_halves(const FilterGuides& guides,
                  const Mix& mix,
                  float first_share);
 
-/// Filters further images, three planes each, with the same weights.
-std::vector<Rgb> filter_images(const FilterGuides& guides,
+/// Filters the layers of the frames with the same weights.
+std::vector<Rgb> filter_layers(std::span<const Frame> frames,
                                const Candidates& candidates,
-                               const Mix& mix,
-                               std::span<const Rgb> images);
+                               const Mix& mix);
 
 }  // namespace obscura

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <span>
+#include <vector>
 
 namespace obscura {
 
@@ -18,13 +19,21 @@ struct DenoiseInput {
     std::span<const float> depth;    ///< metres, one channel; 0: nothing
     std::span<const float> opacity;  ///< one channel: the share of samples that hit something
     std::span<const float> alpha;    ///< one channel; empty: 1 everywhere
-    float first_share = 0.5f;        ///< of the samples that are in the first half
+    std::span<const float> motion;  ///< four channels as of Aov::motion, where there are neighbours
+    float first_share = 0.5f;       ///< of the samples that are in the first half
 };
 
 /// An image of light that is filtered in place: its first three channels.
 struct LightImage {
     std::span<float> pixels;
     size_t channels = 3;
+};
+
+/// Another image of the same size: one frame before or after.
+struct NeighborFrame {
+    bool is_after = false;
+    DenoiseInput input;
+    std::vector<LightImage> layers;  ///< shares of its light, as of the image that is filtered
 };
 
 struct DenoiseReport {
@@ -37,9 +46,12 @@ struct DenoiseReport {
 /// changed, and pixels without alpha never are. Any number of threads gives the same bits.
 ///
 /// In      images: the mean of both halves, then shares of it
+///         neighbors: whose pixels count, too, where they show what the image shows
 /// Source  Rousselle, Manzi, Zwicker, "Robust Denoising using Feature and Color Information", 2013;
 ///         Bitterli et al., "Nonlinearly Weighted First-order Regression for Denoising Monte Carlo
 ///         Renderings", 2016 (features cleaned first, candidates chosen by their estimated errors)
-DenoiseReport denoise(const DenoiseInput& input, std::span<const LightImage> images);
+DenoiseReport denoise(const DenoiseInput& input,
+                      std::span<const LightImage> images,
+                      std::span<const NeighborFrame> neighbors = {});
 
 }  // namespace obscura

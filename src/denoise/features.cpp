@@ -14,33 +14,28 @@ constexpr int feature_radius = 3;
 /// Filters both halves in one tile.
 void clean_tile(const Rgb* halves, const Plane& variance, const WeightTile& tile, Rgb* out) {
     constexpr int side = WeightTile::side;
-    PatchDistances distances(halves, variance, tile);
-    std::vector<float> weights(side), sums(size_t{7} * side * side);
+    const NoisyHalves noisy{halves, variance};
+    PatchDistances distances(noisy, noisy, tile);
+    constexpr size_t area = size_t{side} * side;
+    std::vector<float> weights(area), sums(7 * area);
     for (int dy = -feature_radius; dy <= feature_radius; ++dy) {
         for (int dx = -feature_radius; dx <= feature_radius; ++dx) {
             distances.compute(dx, dy);
-            for (int row = 0; row < tile.height; ++row) {
-                float* const weight = sums.data() + row * side;
-                for (int i = 0; i < tile.width; ++i) {
-                    weights[static_cast<size_t>(i)] = falloff(distances.row(row)[i]);
-                    weight[i] += weights[static_cast<size_t>(i)];
-                }
-                for (size_t k = 0; k < 6; ++k) {
-                    const Plane& from = halves[k / 3][k % 3];
-                    const float* const in = from.row(tile.y + row + dy) + tile.x + dx;
-                    float* const sum =
-                        sums.data() + ((k + 1) * side + static_cast<size_t>(row)) * side;
-                    for (int i = 0; i < tile.width; ++i)
-                        sum[i] += weights[static_cast<size_t>(i)] * in[i];
-                }
+            distances.weigh(weights);
+            add_weights(tile, weights.data(), sums.data());
+            for (size_t k = 0; k < 6; ++k) {
+                const Plane& from = halves[k / 3][k % 3];
+                add_weighted(tile,
+                             weights.data(),
+                             rows_of(from, tile.x + dx, tile.y + dy),
+                             {sums.data() + (k + 1) * area, side});
             }
         }
     }
     for (size_t k = 0; k < 6; ++k) {
         for (int row = 0; row < tile.height; ++row) {
             const float* const weight = sums.data() + row * side;
-            const float* const sum =
-                sums.data() + ((k + 1) * side + static_cast<size_t>(row)) * side;
+            const float* const sum = weight + (k + 1) * area;
             float* const to = out[k / 3][k % 3].row(tile.y + row) + tile.x;
             for (int i = 0; i < tile.width; ++i)
                 to[i] = sum[i] / weight[i];

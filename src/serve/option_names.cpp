@@ -23,7 +23,7 @@ constexpr std::array view_option_names = std::to_array<std::string_view>({
 
 constexpr std::array job_option_names = std::to_array<std::string_view>({
     // lists of pictures
-    "turntable", "cameras", "variants", "frames", "fps",
+    "turntable", "cameras", "variants", "frames", "fps", "animate-seed",
     // layers
     "aov", "lpe", "light-group", "light-groups", "light-groups-components", "exr-layout",
     "crypto-levels", "keep-noisy", "denoising-data",

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <utility>
 
 namespace obscura {
@@ -126,6 +127,101 @@ Result<Film> read_light(const ExrLayers& layers, std::vector<ExrPlace>& places) 
     return film;
 }
 
+/// Adds `motion`, by which frames beside are compared.
+///
+/// Returns whether the file has it
+Result<bool> read_motion(const ExrLayers& layers, Film& film) {
+    Layer motion = layers_of(std::vector<std::string>{"motion"}, 0).value().front();
+    const std::optional<ExrPlace> place = layers.place_of(motion.channels);
+    if (!place) return false;
+    Result<UnsetArray<float>> pixels = layers.read(*place);
+    if (!pixels) return fail(pixels.error());
+    film.layers.push_back({std::move(motion), std::move(*pixels)});
+    return true;
+}
+
+/// A frame beside a film that has `motion`.
+///
+/// Errors  65 E-DENOISE-SOURCE, E-DENOISE-LAYER: it is of another size, or lacks a layer that the
+///         film has; those of sampling_of and read_guides
+Result<FilmBeside> read_beside(const ExrDocument& document, const Film& film, Log& log) {
+    const std::string& where = document.where();
+    const Result<ExrLayers> layers = ExrLayers::find(document);
+    if (!layers) return fail(layers.error());
+    const Result<RenderOptions> sampling = sampling_of(*layers, where);
+    if (!sampling) return fail(sampling.error());
+    std::vector<ExrPlace> places;
+    Result<Film> read = read_light(*layers, places);
+    if (!read) return fail(read.error());
+    if (read->width != film.width || read->height != film.height) {
+        return bad_file("E-DENOISE-SOURCE",
+                        where,
+                        fmt::format("expected an image of {}x{} pixels, as the frame beside it; "
+                                    "this one has {}x{}",
+                                    film.width,
+                                    film.height,
+                                    read->width,
+                                    read->height));
+    }
+    FilmBeside out;
+    out.film = std::move(*read);
+    out.samples = halves_of(*sampling);
+    if (auto guides = read_guides(*layers, where, out.samples, out.film, log); !guides)
+        return fail(guides.error());
+    if (auto motion = read_motion(*layers, out.film); !motion) return fail(motion.error());
+    const auto names = [](const Film& of) {
+        std::string all;
+        for (const FilmLayer& one : of.layers)
+            all += (all.empty() ? "" : ", ") + one.layer.name;
+        return all;
+    };
+    if (names(out.film) == names(film)) return out;
+    return bad_file("E-DENOISE-LAYER",
+                    where,
+                    "expected the layers of the frame beside it, of which count " + names(film) +
+                        "; this one has " + names(out.film));
+}
+
+/// Where nothing moves, frames of the same random numbers have the same noise.
+void warn_of_equal_noise(const ExrLayers& layers, const ExrDocument& beside, Log& log) {
+    const auto seed_of = [](const ExrLayers& of) {
+        const int* const seed = of.attribute<int>("obscura:seed");
+        return seed != nullptr ? std::to_string(*seed) : text_of(of, "obscura:seed");
+    };
+    const Result<ExrLayers> others = ExrLayers::find(beside);
+    if (!others || seed_of(layers) != seed_of(*others)) return;
+    log.warn(setting("frames"),
+             "the frames have the same random numbers, and so the same noise where nothing moves; "
+             "render with --animate-seed");
+}
+
+/// Frames beside a film, if it has the layer `motion`, which is added.
+Result<std::vector<FilmBeside>> read_frames_beside(const ExrLayers& layers,
+                                                   const DocumentsBeside& beside,
+                                                   Film& film,
+                                                   Log& log) {
+    std::vector<FilmBeside> out;
+    if (beside.before == nullptr && beside.after == nullptr) return out;
+    const Result<bool> has_motion = read_motion(layers, film);
+    if (!has_motion) return fail(has_motion.error());
+    if (!*has_motion) {
+        log.warn(
+            setting("frames"),
+            "without the layer motion frames beside a frame tell nothing; render's --aov motion "
+            "stores it");
+        return out;
+    }
+    for (const ExrDocument* document : {beside.before, beside.after}) {
+        if (document == nullptr) continue;
+        Result<FilmBeside> one = read_beside(*document, film, log);
+        if (!one) return fail(one.error());
+        one->is_after = document == beside.after;
+        out.push_back(std::move(*one));
+        warn_of_equal_noise(layers, *document, log);
+    }
+    return out;
+}
+
 void add_changes(std::vector<ExrChange> more, std::vector<ExrChange>& changes) {
     std::move(more.begin(), more.end(), std::back_inserter(changes));
 }
@@ -153,7 +249,10 @@ void describe(const ExrLayers& layers, Film&& film, DenoisedFile& out) {
 
 }  // namespace
 
-Result<DenoisedFile> denoise_document(const ExrDocument& document, bool keep_noisy, Log& log) {
+Result<DenoisedFile> denoise_document(const ExrDocument& document,
+                                      const DocumentsBeside& beside,
+                                      bool keep_noisy,
+                                      Log& log) {
     const std::string& where = document.where();
     const Result<ExrLayers> layers = ExrLayers::find(document);
     if (!layers) return fail(layers.error());
@@ -174,12 +273,14 @@ Result<DenoisedFile> denoise_document(const ExrDocument& document, bool keep_noi
     if (auto read = read_guides(*layers, where, samples, *film, log); !read) {
         return fail(read.error());
     }
+    Result<std::vector<FilmBeside>> films = read_frames_beside(*layers, beside, *film, log);
+    if (!films) return fail(films.error());
     if (keep_noisy) {
         const size_t pixels = film->pixels.size() / film->channels.size();
         film->layers.push_back({noisy, UnsetArray<float>(3 * pixels)});
     }
     DenoisedFile out;
-    out.done = denoise_light(samples, *film);
+    out.done = denoise_light(samples, *film, *films);
     std::vector<ExrChange> changes = layers->changes_of(layers->beauty(), film->pixels);
     for (size_t i = 0; i < places.size(); ++i)
         add_changes(layers->changes_of(places[i], film->layers[i].pixels), changes);

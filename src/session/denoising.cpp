@@ -63,6 +63,58 @@ std::vector<float> alpha_of(const Film& film) {
     return alpha;
 }
 
+/// What a film tells the filter; looks at the film's layers.
+class FilmGuides {
+public:
+    FilmGuides(const HalvesOfSamples& samples, const Film& film)
+        : nothing_(3 * static_cast<size_t>(film.width) * static_cast<size_t>(film.height)),
+          alpha_(alpha_of(film)) {
+        input_.width = film.width;
+        input_.height = film.height;
+        input_.color = both_halves(film, {});
+        input_.albedo = input_.normal = {nothing_, nothing_};
+        input_.depth = input_.opacity = std::span(nothing_).first(nothing_.size() / 3);
+        input_.alpha = alpha_;
+        input_.motion = layer_pixels(film, Aov::motion);
+        input_.first_share = samples.first_share;
+        const auto opacity = layer_pixels(film, Aov::opacity);
+        if (const Halves albedo = both_halves(film, Aov::albedo);
+            is_whole(albedo) && !opacity.empty()) {
+            input_.albedo = albedo;
+            input_.opacity = opacity;
+            names_ += " albedo";
+        }
+        if (const Halves normal = both_halves(film, Aov::normal); is_whole(normal)) {
+            input_.normal = normal;
+            names_ += " normal";
+        }
+        if (const auto depth = layer_pixels(film, Aov::depth); !depth.empty()) {
+            input_.depth = depth;
+            names_ += " depth";
+        }
+    }
+
+    FilmGuides(FilmGuides&&) =
+        default;  // spans of vectors that move stay; of copies they would not
+
+    const DenoiseInput& input() const { return input_; }
+    const std::string& names() const { return names_; }
+
+private:
+    std::vector<float> nothing_, alpha_;
+    DenoiseInput input_;
+    std::string names_;
+};
+
+std::vector<LightImage> images_of_light(Film& film) {
+    std::vector<LightImage> out;
+    for (FilmLayer& one : film.layers) {
+        if (std::holds_alternative<LightLayer>(one.layer.source))
+            out.push_back({one.pixels, one.layer.channels.size()});
+    }
+    return out;
+}
+
 /// By how much a beauty may differ from the mean of its halves because numbers were rounded.
 struct Rounding {
     float relative, absolute;
@@ -157,46 +209,27 @@ HalvesOfSamples halves_of(const RenderOptions& options) {
     return out;
 }
 
-std::string denoise_light(const HalvesOfSamples& halves, Film& film) {
+std::string denoise_light(const HalvesOfSamples& samples,
+                          Film& film,
+                          std::span<FilmBeside> beside) {
     keep_noisy(film);
-    const size_t pixels = static_cast<size_t>(film.width) * static_cast<size_t>(film.height);
-    const std::vector<float> nothing(3 * pixels);
-    const std::vector<float> alpha = alpha_of(film);
-    std::string guides;
-    DenoiseInput input;
-    input.width = film.width;
-    input.height = film.height;
-    input.color = both_halves(film, {});
-    input.albedo = input.normal = {nothing, nothing};
-    input.depth = input.opacity = std::span(nothing).first(pixels);
-    input.alpha = alpha;
-    input.first_share = halves.first_share;
-    const auto opacity = layer_pixels(film, Aov::opacity);
-    if (const Halves albedo = both_halves(film, Aov::albedo);
-        is_whole(albedo) && !opacity.empty()) {
-        input.albedo = albedo;
-        input.opacity = opacity;
-        guides += " albedo";
+    const FilmGuides guides(samples, film);
+    std::string used = "halves" + guides.names();
+    std::vector<FilmGuides> guides_beside;
+    std::vector<NeighborFrame> neighbors;
+    for (FilmBeside& one : beside) {
+        guides_beside.emplace_back(one.samples, one.film);
+        neighbors.push_back(
+            {one.is_after, guides_beside.back().input(), images_of_light(one.film)});
+        used += one.is_after ? ", frame after" : ", frame before";
     }
-    if (const Halves normal = both_halves(film, Aov::normal); is_whole(normal)) {
-        input.normal = normal;
-        guides += " normal";
-    }
-    if (const auto depth = layer_pixels(film, Aov::depth); !depth.empty()) {
-        input.depth = depth;
-        guides += " depth";
-    }
-    std::vector<LightImage> images = {{film.pixels, film.channels.size()}};
-    for (FilmLayer& one : film.layers) {
-        if (std::holds_alternative<LightLayer>(one.layer.source))
-            images.push_back({one.pixels, one.layer.channels.size()});
-    }
-    const std::vector<float> rest = beside_samples(film, input.color, halves);
+    std::vector<LightImage> images = images_of_light(film);
+    images.insert(images.begin(), {film.pixels, film.channels.size()});
+    const std::vector<float> rest = beside_samples(film, guides.input().color, samples);
     add_to_colors(rest, -1, film);
-    const DenoiseReport report = denoise(input, images);
+    const DenoiseReport report = denoise(guides.input(), images, neighbors);
     add_to_colors(rest, 1, film);
-    return fmt::format(
-        "halves{}; outliers in {:.3g} % of the pixels", guides, 100 * report.outlier_share);
+    return fmt::format("{}; outliers in {:.3g} % of the pixels", used, 100 * report.outlier_share);
 }
 
 ImageAttribute unequal_halves() {

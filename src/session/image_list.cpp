@@ -270,6 +270,7 @@ RenderRequest request_of(const RenderRequest& whole, const View& view, const Lis
     out.outputs = image.outputs;
     out.segmentation = image.segmentation;
     out.frame = image.number;
+    if (whole.animates_seed) out.options.seed += static_cast<uint64_t>(image.number.value_or(0));
     out.long_run.checkpoint = image.checkpoint;
     out.camera = view.camera;
     out.camera.framed_nodes = whole.camera.framed_nodes;  // they are found when the asset is there

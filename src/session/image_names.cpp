@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "session/image_names.h"
 
+#include "session/frames.h"
+
 #include <array>
 #include <charconv>
 #include <optional>
@@ -99,6 +101,12 @@ std::filesystem::path name_by_pattern(const std::filesystem::path& pattern,
         [&](std::string_view text) { out += text; },
         [&](const Field& field) { out += value_of(field, fields); });
     return out;
+}
+
+std::filesystem::path numbered_file(const std::filesystem::path& pattern, int frame) {
+    NameFields fields;
+    fields.frame = frame;
+    return name_by_pattern(frame_file(pattern, frame).value_or(pattern), fields);
 }
 
 std::string name_part(std::string_view text) {

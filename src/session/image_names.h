@@ -27,6 +27,9 @@ bool has_fields(const std::filesystem::path& pattern);
 std::filesystem::path name_by_pattern(const std::filesystem::path& pattern,
                                       const NameFields& fields);
 
+/// The file of a frame: the number in place of # or {frame}, as by frame_file and name_by_pattern.
+std::filesystem::path numbered_file(const std::filesystem::path& pattern, int frame);
+
 /// A text as a part of a file's name: what file systems or shells take for something else (slashes,
 /// control characters, " * : < > ? | { }) becomes _, and so does a dot in front.
 std::string name_part(std::string_view text);

@@ -60,6 +60,7 @@ struct RenderRequest {
     gltf::LoadOptions load;  ///< --scene, --variant, --animation, --time, --lenient, --occlusion
     /// Then the outputs and `segmentation` are patterns; see frame_file.
     std::optional<FrameList> frames;
+    bool animates_seed = false;               ///< --animate-seed: the frame's number is added to it
     ListRequest lists;                        ///< --views, --cameras, --variants, --turntable
     std::optional<int> frame;                 ///< of a sequence or turntable, the one rendered
     std::optional<ShutterFractions> shutter;  ///< --shutter OPEN,CLOSE
