@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 namespace obscura {
 namespace {
 
@@ -82,6 +84,35 @@ TEST(Denoise, AHighlightInBothHalvesStays) {
     Wall wall;
     wall.light([](int x, int y) { return x == 48 && y == 40 ? 100.0f : 2.0f; }, 0.1f);
     EXPECT_GT(wall.denoised()[3 * (40 * width + 48)], 70);
+}
+
+/// By chance alone the nearest pixels tell that filters do harm, in one place or another.
+TEST(Denoise, NoPatchesOfNoiseStay) {
+    Wall wall;
+    wall.light(even, 1);
+    const std::vector<float> out = wall.denoised();
+    std::vector<float> errors;
+    for (size_t i = 0; i < pixels; ++i)
+        errors.push_back(std::abs(out[3 * i] - 2));
+    std::sort(errors.begin(), errors.end());
+    EXPECT_LT(errors[pixels / 2], 0.1f);
+    EXPECT_LT(errors[pixels * 999 / 1000], 1.8f) << "of noise of 1.4";
+}
+
+/// What a filter does to dark pixels counts by their own brightness, not by what it spreads there.
+TEST(Denoise, DarkPixelsAmongGlintsStayDark) {
+    const auto glints = [](int x, int y) { return (x + 3 * y) % 11 == 0 ? 20.0f : 0.02f; };
+    Wall wall;
+    wall.light(glints, 0.5f);
+    const auto error_of_dark = [&](const std::vector<float>& image) {
+        double sum = 0;
+        for (size_t i = 0; i < pixels; ++i) {
+            const float value = glints(static_cast<int>(i % width), static_cast<int>(i / width));
+            if (value < 1) sum += std::pow(static_cast<double>(image[3 * i] - value), 2);
+        }
+        return sum;
+    };
+    EXPECT_LT(error_of_dark(wall.denoised()), 2.2 * error_of_dark(wall.mean()));
 }
 
 /// Layers that add up to the beauty still do, whatever the noise and the outliers in them.

@@ -291,6 +291,11 @@ TEST(Library, ANoiseTargetIsReachedWithinItsNumbersOfSamples) {
     EXPECT_EQ(refused.error().place, "spp_min");
     sampling.noise_target = 2;
     EXPECT_EQ(session.render(*asset, small_view(), {}, sampling).error().id, "E-USAGE-RANGE");
+    sampling.noise_target.reset();
+    sampling.spp_min = 4;
+    const Result<Image> no_target = session.render(*asset, small_view(), {}, sampling);
+    ASSERT_FALSE(no_target) << "spp_min has no use";
+    EXPECT_EQ(no_target.error().place, "spp_min");
 }
 
 TEST(Library, ACancelledImageIsAnErrorAndTheAssetGoesOn) {
