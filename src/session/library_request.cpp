@@ -235,9 +235,10 @@ void read_sampling(const v0::Sampling& sampling, RenderOptions& out, Checks& che
     checks.real("samples-per-pixel", sampling.samples_per_pixel, 1, 1 << 20);
     checks.real("noise-target", sampling.noise_target, 1e-4, 1);
     checks.real("spp-min", sampling.spp_min, 2, 1 << 20);
-    checks.conflict(sampling.spp_min && !sampling.noise_target,
-                    "spp-min",
-                    "it is the least of what " + setting("noise-target") + " takes; give that, too");
+    checks.conflict(
+        sampling.spp_min && !sampling.noise_target,
+        "spp-min",
+        "it is the least of what " + setting("noise-target") + " takes; give that, too");
     checks.real("max-bounces", sampling.max_bounces, 0, 1000);
     checks.real("ao-distance", sampling.ao_distance_m, 1e-9, 1e12);
     checks.real("wire-width", sampling.wire_width_px, 0.01, 1000);
