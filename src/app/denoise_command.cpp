@@ -10,11 +10,14 @@
 #include "session/denoised_file.h"
 #include "session/image_names.h"
 #include "session/outputs.h"
-#include "session/repeated_log.h"
 
 #include <atomic>
 #include <cstdlib>
+#include <fmt/format.h>
 #include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace obscura::app {
 
@@ -61,7 +64,6 @@ Result<void> write_denoised(const DenoiseRequest& request, const DenoisedFile& d
         if (auto done = write_file_atomically(file, denoised.exr.bytes); !done) return done;
         warn_of(denoised.exr.report, file.string(), log);
     }
-    log.info("denoised: " + denoised.done);
     return {};
 }
 
@@ -108,11 +110,54 @@ private:
     std::map<int, ExrDocument> documents_;
 };
 
+/// What would end a sequence in its middle, as far as it can be known before.
+Result<void> check_files(const DenoiseRequest& request) {
+    std::error_code error;
+    for (const int number : request.render.frames->numbers) {
+        const DenoiseRequest frame = request_of_frame(request, number);
+        if (!exists(frame.file, error)) {
+            return fail(ExitCode::missing_scene,
+                        "E-EXR-MISSING",
+                        frame.file.string(),
+                        fmt::format("there is no frame {}; nothing was written", number));
+        }
+        std::vector<std::filesystem::path> outputs = frame.render.outputs;
+        outputs.insert(outputs.end(), frame.exrs.begin(), frame.exrs.end());
+        for (const std::filesystem::path& file : outputs) {
+            if (auto writable = check_file_can_be_written(file); !writable) return writable;
+        }
+    }
+    return {};
+}
+
+/// Tells a sequence's warnings once, whichever frame's file they come from.
+class TextsOnce {
+public:
+    explicit TextsOnce(Log& log)
+        : own_(
+              log.verbosity(),
+              [this, &log](const LogMessage& message) {
+                  const bool is_new = told_.emplace(message.text).second;
+                  if (message.is_warning && is_new) log.warn(message.where, message.text);
+              },
+              SettingNames::options) {}
+
+    Log& log() { return own_; }
+
+private:
+    std::set<std::string> told_;
+    Log own_;
+};
+
 /// Every frame with the help of those beside it.
 Result<void> denoise_sequence(const DenoiseRequest& request, Log& log) {
+    if (auto fit = check_files(request); !fit) return fit;
     OpenFrames frames(request.file);
-    RepeatedLog once(log, SettingNames::options);
-    for (const int number : request.render.frames->numbers) {
+    TextsOnce once(log);
+    const std::vector<int>& numbers = request.render.frames->numbers;
+    bool has_neighbor = false;
+    for (size_t i = 0; i < numbers.size(); ++i) {
+        const int number = numbers[i];
         frames.stay_near(number);
         const Result<const ExrDocument*> document = frames.at(number);
         if (!document) return fail(document.error());
@@ -120,12 +165,16 @@ Result<void> denoise_sequence(const DenoiseRequest& request, Log& log) {
         if (!before) return fail(before.error());
         const Result<const ExrDocument*> after = frames.find(number + 1);
         if (!after) return fail(after.error());
+        has_neighbor |= *before != nullptr || *after != nullptr;
         const Result<DenoisedFile> denoised =
-            denoise_document(**document, {*before, *after}, request.keep_noisy, once.begin());
+            denoise_document(**document, {*before, *after}, request.keep_noisy, once.log());
         if (!denoised) return fail(denoised.error());
-        if (auto done = write_denoised(request_of_frame(request, number), *denoised, log); !done)
-            return done;
+        const DenoiseRequest frame = request_of_frame(request, number);
+        if (auto done = write_denoised(frame, *denoised, once.log()); !done) return done;
+        log.info(fmt::format(
+            "frame {} is written, {} of {}: {}", number, i + 1, numbers.size(), denoised->done));
     }
+    if (!has_neighbor) log.warn("--frames", "no frame had one beside it; each was denoised alone");
     return {};
 }
 
@@ -138,7 +187,9 @@ Result<void> execute(const DenoiseRequest& request, Log& log) {
     if (!document) return fail(document.error());
     const Result<DenoisedFile> denoised = denoise_document(*document, {}, request.keep_noisy, log);
     if (!denoised) return fail(denoised.error());
-    return write_denoised(request, *denoised, log);
+    if (auto done = write_denoised(request, *denoised, log); !done) return done;
+    log.info("denoised: " + denoised->done);
+    return {};
 }
 
 }  // namespace

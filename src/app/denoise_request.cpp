@@ -8,6 +8,7 @@
 #include "session/image_names.h"
 
 #include <algorithm>
+#include <set>
 
 namespace obscura::app {
 
@@ -37,23 +38,47 @@ Result<void> choose_outputs(const DenoiseArguments& arguments, DenoiseRequest& r
     return {};
 }
 
+/// Fields of names that only a scene has a text for.
+Result<void> check_fields(const std::filesystem::path& pattern) {
+    for (const char* field : {"asset", "look", "variant", "view"}) {
+        if (!has_field(pattern, field)) continue;
+        return conflict(pattern.string(),
+                        "{" + std::string(field) +
+                            "} stands for nothing here; accepted are one run " +
+                            "of # and {frame:04}, for the frame's number");
+    }
+    return {};
+}
+
 /// A sequence's names must tell its frames apart, and no frame may be replaced while its neighbours
 /// need it.
 Result<void> check_sequence(const DenoiseRequest& request) {
     if (!request.render.frames) return {};
-    std::vector<std::filesystem::path> patterns = request.render.outputs;
-    patterns.insert(patterns.end(), request.exrs.begin(), request.exrs.end());
+    std::vector<std::filesystem::path> outputs = request.render.outputs;
+    outputs.insert(outputs.end(), request.exrs.begin(), request.exrs.end());
+    std::vector<std::filesystem::path> patterns = outputs;
     patterns.push_back(request.file);
     if (auto named = check_frame_patterns(patterns); !named) return named;
-    for (const std::filesystem::path& exr : request.exrs) {
-        for (const int number : request.render.frames->numbers) {
-            if (!same_file(numbered_file(exr, number), numbered_file(request.file, number)))
-                continue;
-            return fail(ExitCode::usage,
-                        "E-USAGE-SAMEFILE",
-                        exr.string(),
-                        "with --frames no file may be replaced, for frames beside it are filtered "
-                        "with it; give outputs other names");
+    for (const std::filesystem::path& pattern : patterns) {
+        if (auto known = check_fields(pattern); !known) return known;
+    }
+    const auto file_of = [](const std::filesystem::path& pattern, int frame) {
+        return std::filesystem::absolute(numbered_file(pattern, frame)).lexically_normal();
+    };
+    std::set<std::filesystem::path> taken;
+    for (const int number : request.render.frames->numbers) {
+        for (const int read : {number - 1, number, number + 1})
+            taken.insert(file_of(request.file, read));
+    }
+    for (const int number : request.render.frames->numbers) {
+        for (const std::filesystem::path& output : outputs) {
+            if (taken.insert(file_of(output, number)).second) continue;
+            return fail(
+                ExitCode::usage,
+                "E-USAGE-SAMEFILE",
+                numbered_file(output, number).string(),
+                "with --frames this file is written twice, or read: frames beside a frame are "
+                "filtered with it; give outputs other names");
         }
     }
     return {};

@@ -1,4 +1,4 @@
-// app/frames.cpp - the options that ask for a sequence and for an open shutter.
+// app/frames.cpp - texts of sequences: their frames, names of their files, the open shutter.
 // SPDX-License-Identifier: Apache-2.0
 #include "app/frames.h"
 

@@ -1,4 +1,4 @@
-// app/frames.h - the options that ask for a sequence and for an open shutter.
+// app/frames.h - texts of sequences: their frames, names of their files, the open shutter.
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 

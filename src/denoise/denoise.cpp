@@ -6,7 +6,7 @@
 #include "denoise/frame.h"
 #include "denoise/give_back.h"
 #include "denoise/mix.h"
-#include "denoise/neighbor_frame.h"
+#include "denoise/reprojection.h"
 
 #include <cmath>
 #include <optional>
@@ -68,7 +68,7 @@ DenoiseReport denoise(const DenoiseInput& input,
     const PlaneSize size{input.width, input.height};
     std::vector<Frame> frames = {make_frame(input, images.subspan(1))};
     for (const NeighborFrame& neighbor : neighbors)
-        frames.push_back(neighbor_seen_from(input, neighbor));
+        frames.push_back(reproject(input, neighbor));
     const FilterGuides& guides = frames[0].guides;
     const Rgb& reflected = frames[0].reflected;
     const Candidates candidates = filter_halves(frames);

@@ -5,6 +5,7 @@
 #include "denoise/features.h"
 #include "denoise/outliers.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace obscura {
@@ -48,6 +49,16 @@ Rgb scaled(const Rgb& from, float factor, const PlaneSize& size) {
     return out;
 }
 
+/// Whether squares of a pixel's colours may be no numbers any more: it stays as it is.
+bool is_beyond_squares(const Halves& color, size_t pixel) {
+    constexpr float largest = 1e15f;
+    const auto is_large = [&](float value) { return !(std::abs(value) <= largest); };
+    return std::any_of(color.begin(), color.end(), [&](std::span<const float> half) {
+        const auto values = half.subspan(3 * pixel, 3);
+        return std::any_of(values.begin(), values.end(), is_large);
+    });
+}
+
 /// Adds the features; returns by what colours are divided.
 Rgb add_features(const DenoiseInput& input, const PlaneSize& size, FilterGuides& guides) {
     const Rgb albedo_halves[2] = {size.rgb(input.albedo[0], 3), size.rgb(input.albedo[1], 3)};
@@ -64,8 +75,10 @@ Rgb add_features(const DenoiseInput& input, const PlaneSize& size, FilterGuides&
     guides.share = Plane(size.width, size.height, plane_border);
     for_rows(size.height, [&](int y) {
         for (int x = 0; x < size.width; ++x) {
-            const float alpha = input.alpha.empty() ? 1.0f : input.alpha[size.index(x, y)];
-            guides.share.row(y)[x] = std::clamp(alpha, 0.0f, 1.0f);
+            const size_t pixel = size.index(x, y);
+            const float alpha = input.alpha.empty() ? 1.0f : input.alpha[pixel];
+            const bool is_usable = !is_beyond_squares(input.color, pixel);
+            guides.share.row(y)[x] = is_usable ? std::clamp(alpha, 0.0f, 1.0f) : 0.0f;
         }
     });
     Rgb out;

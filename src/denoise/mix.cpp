@@ -85,7 +85,8 @@ void filter_by_features(const FilterGuides& guides,
     }
     for (int row = 0; row < tile.height; ++row) {
         for (int i = 0; i < tile.width; ++i) {
-            const float all = total[static_cast<size_t>(row * WeightTile::side + i)];
+            const float all =
+                total[static_cast<size_t>(row) * WeightTile::side + static_cast<size_t>(i)];
             for (Plane& sum : sums) {
                 float& value = sum.row(tile.y + row)[tile.x + i];
                 value = all > 0 ? value / all : 0.0f;
@@ -95,7 +96,7 @@ void filter_by_features(const FilterGuides& guides,
 }
 
 /// Means over pixels of the same features, which are many: what they tell is less noisy.
-Errors errors_of_alike(const FilterGuides& guides, const Errors& errors) {
+Errors feature_weighted_errors(const FilterGuides& guides, const Errors& errors) {
     const Plane& size = guides.variance;
     Errors blurred;
     for (size_t k = 0; k < errors.size(); ++k)
@@ -117,7 +118,7 @@ Errors errors_of_alike(const FilterGuides& guides, const Errors& errors) {
 Mix mix_candidates(const FilterGuides& guides, const Candidates& candidates) {
     const Errors single = errors_of_pixels(guides, candidates);
     const Errors near = near_errors(single);
-    const Errors alike = errors_of_alike(guides, single);
+    const Errors alike = feature_weighted_errors(guides, single);
     const Plane& size = guides.variance;
     Mix mix;
     mix.noisy = Plane(size.width(), size.height(), size.border());

@@ -16,6 +16,7 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
 #include <utility>
@@ -56,6 +57,10 @@ ExrPartInfo info_of(const Imf::Header& header) {
         add_if<int>(one.attribute(), one.name(), out);
         add_if<float>(one.attribute(), one.name(), out);
         add_if<double>(one.attribute(), one.name(), out);
+    }
+    if (Imf::hasWorldToCamera(header)) {
+        const Imath::M44f& matrix = Imf::worldToCamera(header);
+        out.world_to_camera.assign(&matrix[0][0], &matrix[0][0] + 16);
     }
     return out;
 }

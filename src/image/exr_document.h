@@ -30,6 +30,7 @@ struct ExrPartInfo {
     ImagePart place;                                   ///< of its data window in the display window
     std::vector<ExrChannel> channels;                  ///< but those of whole numbers
     std::map<std::string, AttributeValue> attributes;  ///< of those types; others are kept as well
+    std::vector<float> world_to_camera;                ///< rows; empty: the header has none
 };
 
 /// New values for channels of a part, interleaved.

@@ -115,7 +115,7 @@ Result<Film> read_light(const ExrLayers& layers, std::vector<ExrPlace>& places) 
     Result<UnsetArray<float>> beauty = layers.read(layers.beauty());
     if (!beauty) return fail(beauty.error());
     film.pixels = std::move(*beauty);
-    for (const std::string& name : layers.layers_of_light()) {
+    for (const auto& [name, expression] : layers.layers_of_light()) {
         Layer layer = light_layer(name, {});
         const std::optional<ExrPlace> place = layers.place_of(layer.channels);
         if (!place) continue;
@@ -127,7 +127,7 @@ Result<Film> read_light(const ExrLayers& layers, std::vector<ExrPlace>& places) 
     return film;
 }
 
-/// Adds `motion`, by which frames beside are compared.
+/// Adds `motion`, by which neighbouring frames are compared.
 ///
 /// Returns whether the file has it
 Result<bool> read_motion(const ExrLayers& layers, Film& film) {
@@ -140,35 +140,57 @@ Result<bool> read_motion(const ExrLayers& layers, Film& film) {
     return true;
 }
 
+/// What frames must have in common that are filtered with each other.
+std::vector<std::pair<std::string, std::string>> shared_facts(const ExrLayers& layers) {
+    const ImagePart place = layers.place();
+    std::vector<std::pair<std::string, std::string>> out = {
+        {"its size", fmt::format("{}x{}", layers.width(), layers.height())},
+        {"its place", fmt::format("{},{} of {}x{}", place.x, place.y, place.width, place.height)},
+        {"obscura:integrator", text_of(layers, "obscura:integrator")},
+        {"colorInteropID", text_of(layers, "colorInteropID")}};
+    std::string names;
+    for (const auto& [name, expression] : layers.layers_of_light()) {
+        names += (names.empty() ? "" : ", ") + name;
+        out.emplace_back("the light path expression of " + name, expression);
+    }
+    out.insert(out.begin() + 2, {"its layers of the light", names});
+    return out;
+}
+
+/// Errors  65 E-DENOISE-SOURCE
+Result<void> check_neighbor(const ExrLayers& layers,
+                            const ExrLayers& neighbor,
+                            const std::string& where) {
+    const auto wanted = shared_facts(layers);
+    const auto found = shared_facts(neighbor);
+    const auto [one, other] =
+        std::mismatch(wanted.begin(), wanted.end(), found.begin(), found.end());
+    if (one == wanted.end()) return {};
+    return bad_file("E-DENOISE-SOURCE",
+                    where,
+                    "it does not go with the frame beside it: " + one->first + " is " +
+                        in_quotes(other->second) + "; expected " + in_quotes(one->second));
+}
+
 /// A frame beside a film that has `motion`.
 ///
-/// Errors  65 E-DENOISE-SOURCE, E-DENOISE-LAYER: it is of another size, or lacks a layer that the
-///         film has; those of sampling_of and read_guides
-Result<FilmBeside> read_beside(const ExrDocument& document, const Film& film, Log& log) {
-    const std::string& where = document.where();
-    const Result<ExrLayers> layers = ExrLayers::find(document);
-    if (!layers) return fail(layers.error());
-    const Result<RenderOptions> sampling = sampling_of(*layers, where);
+/// Errors  65 E-DENOISE-LAYER: it lacks a layer that the film has; those of sampling_of and
+///         read_guides
+Result<NeighborFilm> read_neighbor(const ExrLayers& layers,
+                                   const std::string& where,
+                                   const Film& film,
+                                   Log& log) {
+    const Result<RenderOptions> sampling = sampling_of(layers, where);
     if (!sampling) return fail(sampling.error());
     std::vector<ExrPlace> places;
-    Result<Film> read = read_light(*layers, places);
+    Result<Film> read = read_light(layers, places);
     if (!read) return fail(read.error());
-    if (read->width != film.width || read->height != film.height) {
-        return bad_file("E-DENOISE-SOURCE",
-                        where,
-                        fmt::format("expected an image of {}x{} pixels, as the frame beside it; "
-                                    "this one has {}x{}",
-                                    film.width,
-                                    film.height,
-                                    read->width,
-                                    read->height));
-    }
-    FilmBeside out;
+    NeighborFilm out;
     out.film = std::move(*read);
     out.samples = halves_of(*sampling);
-    if (auto guides = read_guides(*layers, where, out.samples, out.film, log); !guides)
+    if (auto guides = read_guides(layers, where, out.samples, out.film, log); !guides)
         return fail(guides.error());
-    if (auto motion = read_motion(*layers, out.film); !motion) return fail(motion.error());
+    if (auto motion = read_motion(layers, out.film); !motion) return fail(motion.error());
     const auto names = [](const Film& of) {
         std::string all;
         for (const FilmLayer& one : of.layers)
@@ -183,25 +205,30 @@ Result<FilmBeside> read_beside(const ExrDocument& document, const Film& film, Lo
 }
 
 /// Where nothing moves, frames of the same random numbers have the same noise.
-void warn_of_equal_noise(const ExrLayers& layers, const ExrDocument& beside, Log& log) {
+void warn_of_equal_noise(const ExrLayers& layers, const ExrLayers& neighbor, Log& log) {
     const auto seed_of = [](const ExrLayers& of) {
         const int* const seed = of.attribute<int>("obscura:seed");
         return seed != nullptr ? std::to_string(*seed) : text_of(of, "obscura:seed");
     };
-    const Result<ExrLayers> others = ExrLayers::find(beside);
-    if (!others || seed_of(layers) != seed_of(*others)) return;
+    if (seed_of(layers) != seed_of(neighbor)) return;
     log.warn(setting("frames"),
              "the frames have the same random numbers, and so the same noise where nothing moves; "
              "render with --animate-seed");
 }
 
-/// Frames beside a film, if it has the layer `motion`, which is added.
-Result<std::vector<FilmBeside>> read_frames_beside(const ExrLayers& layers,
-                                                   const DocumentsBeside& beside,
-                                                   Film& film,
-                                                   Log& log) {
-    std::vector<FilmBeside> out;
-    if (beside.before == nullptr && beside.after == nullptr) return out;
+/// Whether the camera has moved without `motion` telling of it: it knows of cameras of the file.
+bool has_untold_move(const ExrLayers& layers, const ExrLayers& neighbor) {
+    const bool is_of_file = text_of(layers, "obscura:camera").ends_with(" of the file");
+    return !is_of_file && layers.world_to_camera() != neighbor.world_to_camera();
+}
+
+/// Neighbouring frames of a film, if it has the layer `motion`, which is added.
+Result<std::vector<NeighborFilm>> read_neighbors(const ExrLayers& layers,
+                                                 const NeighborDocuments& neighbors,
+                                                 Film& film,
+                                                 Log& log) {
+    std::vector<NeighborFilm> out;
+    if (neighbors.before == nullptr && neighbors.after == nullptr) return out;
     const Result<bool> has_motion = read_motion(layers, film);
     if (!has_motion) return fail(has_motion.error());
     if (!*has_motion) {
@@ -211,13 +238,23 @@ Result<std::vector<FilmBeside>> read_frames_beside(const ExrLayers& layers,
             "stores it");
         return out;
     }
-    for (const ExrDocument* document : {beside.before, beside.after}) {
+    for (const ExrDocument* document : {neighbors.before, neighbors.after}) {
         if (document == nullptr) continue;
-        Result<FilmBeside> one = read_beside(*document, film, log);
+        const Result<ExrLayers> found = ExrLayers::find(*document);
+        if (!found) return fail(found.error());
+        if (auto fits = check_neighbor(layers, *found, document->where()); !fits)
+            return fail(fits.error());
+        if (has_untold_move(layers, *found)) {
+            log.warn(setting("frames"),
+                     "the camera differs from frame to frame, and is none of the scene's file, of "
+                     "which alone the layer motion tells; frames beside a frame are not used");
+            continue;
+        }
+        Result<NeighborFilm> one = read_neighbor(*found, document->where(), film, log);
         if (!one) return fail(one.error());
-        one->is_after = document == beside.after;
+        one->is_after = document == neighbors.after;
         out.push_back(std::move(*one));
-        warn_of_equal_noise(layers, *document, log);
+        warn_of_equal_noise(layers, *found, log);
     }
     return out;
 }
@@ -250,7 +287,7 @@ void describe(const ExrLayers& layers, Film&& film, DenoisedFile& out) {
 }  // namespace
 
 Result<DenoisedFile> denoise_document(const ExrDocument& document,
-                                      const DocumentsBeside& beside,
+                                      const NeighborDocuments& neighbors,
                                       bool keep_noisy,
                                       Log& log) {
     const std::string& where = document.where();
@@ -273,7 +310,7 @@ Result<DenoisedFile> denoise_document(const ExrDocument& document,
     if (auto read = read_guides(*layers, where, samples, *film, log); !read) {
         return fail(read.error());
     }
-    Result<std::vector<FilmBeside>> films = read_frames_beside(*layers, beside, *film, log);
+    Result<std::vector<NeighborFilm>> films = read_neighbors(*layers, neighbors, *film, log);
     if (!films) return fail(films.error());
     if (keep_noisy) {
         const size_t pixels = film->pixels.size() / film->channels.size();

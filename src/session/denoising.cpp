@@ -211,16 +211,16 @@ HalvesOfSamples halves_of(const RenderOptions& options) {
 
 std::string denoise_light(const HalvesOfSamples& samples,
                           Film& film,
-                          std::span<FilmBeside> beside) {
+                          std::span<NeighborFilm> neighbor_films) {
     keep_noisy(film);
     const FilmGuides guides(samples, film);
     std::string used = "halves" + guides.names();
-    std::vector<FilmGuides> guides_beside;
+    std::vector<FilmGuides> neighbor_guides;
     std::vector<NeighborFrame> neighbors;
-    for (FilmBeside& one : beside) {
-        guides_beside.emplace_back(one.samples, one.film);
+    for (NeighborFilm& one : neighbor_films) {
+        neighbor_guides.emplace_back(one.samples, one.film);
         neighbors.push_back(
-            {one.is_after, guides_beside.back().input(), images_of_light(one.film)});
+            {one.is_after, neighbor_guides.back().input(), images_of_light(one.film)});
         used += one.is_after ? ", frame after" : ", frame before";
     }
     std::vector<LightImage> images = images_of_light(film);

@@ -40,7 +40,7 @@ struct HalvesOfSamples {
 HalvesOfSamples halves_of(const RenderOptions& options);
 
 /// One frame before or after a film that is denoised: of its size, with its layers and `motion`.
-struct FilmBeside {
+struct NeighborFilm {
     bool is_after = false;
     HalvesOfSamples samples;
     Film film;
@@ -49,13 +49,13 @@ struct FilmBeside {
 /// Denoises the beauty and the layers of the light, and keeps the noisy beauty in the layer `noisy`
 /// if there is one.
 ///
-/// In      film: with the colours of both halves; with films beside, `motion`. It does without
+/// In      film: with the colours of both halves; with neighbours, `motion`. It does without
 ///         guides that are not there; of albedo, normal and depth, and with them opacity, for which
 ///         albedo has no use
 /// Returns the EXR attribute obscura:denoise
 std::string denoise_light(const HalvesOfSamples& samples,
                           Film& film,
-                          std::span<FilmBeside> beside = {});
+                          std::span<NeighborFilm> neighbors = {});
 
 /// Takes away the layers that add_denoising_layers added to those that were asked for.
 void remove_denoising_layers(const RenderOptions& asked, Film& film);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <map>
 #include <string_view>
 
 namespace obscura {
@@ -111,12 +110,14 @@ std::optional<ExrPlace> ExrLayers::place_of(std::span<const std::string> channel
     return out;
 }
 
-std::vector<std::string> ExrLayers::layers_of_light() const {
-    std::vector<std::string> out;
+std::map<std::string, std::string> ExrLayers::layers_of_light() const {
+    std::map<std::string, std::string> out;
     for (const ExrPartInfo& part : document_->parts()) {
         if (part.view != first().view) continue;
         for (const auto& [name, value] : part.attributes) {
-            if (auto layer = layer_of_expression(part, name)) out.push_back(std::move(*layer));
+            const auto layer = layer_of_expression(part, name);
+            const auto* const expression = std::get_if<std::string>(&value);
+            if (layer && expression != nullptr) out.emplace(*layer, *expression);
         }
     }
     return out;

@@ -4,6 +4,7 @@
 
 #include "image/exr_document.h"
 
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,8 +42,11 @@ public:
     /// None unless every view has all the channels.
     std::optional<ExrPlace> place_of(std::span<const std::string> channels) const;
 
-    /// The names of the layers of the light: those whose header has a light path expression.
-    std::vector<std::string> layers_of_light() const;
+    /// The layers of the light: their names, and the light path expressions that the header has.
+    std::map<std::string, std::string> layers_of_light() const;
+
+    /// Rows of the matrix; empty: the header has none.
+    const std::vector<float>& world_to_camera() const { return first().world_to_camera; }
 
     /// Errors  those of ExrDocument::values; 65 E-EXR-CORRUPT a value is not finite
     Result<UnsetArray<float>> read(const ExrPlace& place) const;

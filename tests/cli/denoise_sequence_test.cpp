@@ -17,7 +17,9 @@ protected:
         folder_.write("slide.gltf", sliding_box());
     }
     ProgramRun shot(const std::vector<std::string>& more) const {
-        std::vector<std::string> all = {"--size", "64x48", "--spp", "8"};
+        std::vector<std::string> all = {"--spp", "8"};
+        if (std::find(more.begin(), more.end(), "--size") == more.end())
+            all.insert(all.end(), {"--size", "64x48"});
         all.insert(all.end(), more.begin(), more.end());
         return render("slide.gltf", all);
     }
@@ -66,6 +68,11 @@ TEST_F(DenoiseSequence, SaysWhatHelpsLess) {
     EXPECT_THAT(got.err, HasSubstr("warnings=1"));
     expect_result(denoise({"n.0021.exr", "-o", "alone.exr"}), 0, "OK");
     EXPECT_EQ(bytes("c.0021.exr"), bytes("alone.exr"));
+    const ProgramRun apart = denoise({"n.####.exr", "--frames", "20-22", "-o", "c.####.exr"});
+    EXPECT_THAT(apart.err, HasSubstr("frame 22 is written, 3 of 3"));
+    std::filesystem::copy(folder_ / "n.0021.exr", folder_ / "m.0021.exr");
+    got = denoise({"m.####.exr", "--frames", "21", "-o", "c.####.exr"});
+    EXPECT_THAT(got.err, HasSubstr("--frames: no frame had one beside it"));
     render_noisy({"--aov", "motion"});
     got = denoise({"n.####.exr", "--frames", "21", "-o", "c.####.exr"});
     expect_result(got, 0, "OK");
@@ -86,9 +93,15 @@ TEST_F(DenoiseSequence, RefusesFramesThatDoNotFit) {
         expect_result(shot(all), 0, "OK");
     };
     replace_last({"--aov", "motion", "--denoising-data", "--crop", "0,0,32,48"});
-    refused("E-DENOISE-SOURCE", "expected an image of 64x48 pixels");
+    refused("E-DENOISE-SOURCE", "its size is '32x48'; expected '64x48'");
+    replace_last({"--aov", "motion", "--denoising-data", "--crop", "0,0,64,48", "--size", "64x50"});
+    refused("E-DENOISE-SOURCE", "its place is '0,0 of 64x50'; expected '0,0 of 64x48'");
+    replace_last({"--aov", "motion", "--denoising-data", "--integrator", "direct"});
+    refused("E-DENOISE-SOURCE", "obscura:integrator is 'direct'; expected 'path'");
+    replace_last({"--aov", "motion", "--denoising-data", "--color-space", "acescg"});
+    refused("E-DENOISE-SOURCE", "colorInteropID is 'lin_ap1_scene'");
     replace_last({"--aov", "motion,diffuse_direct", "--denoising-data"});
-    refused("E-DENOISE-LAYER", "diffuse_direct");
+    refused("E-DENOISE-SOURCE", "its layers of the light is 'diffuse_direct'");
     replace_last({"--denoising-data"});
     refused("E-DENOISE-LAYER", "motion");
     replace_last({"--aov", "motion"});
@@ -107,10 +120,29 @@ TEST_F(DenoiseSequence, NeedsNamesForEveryFrame) {
     refused({"n.####.exr", "-o", "c.exr"}, "E-USAGE-CONFLICT");
     refused({"n.####.exr", "-o", "c.png"}, "E-USAGE-CONFLICT");
     refused({"n.0021.exr", "-o", "c.####.exr"}, "E-USAGE-CONFLICT");
+    refused({"n.####.exr", "-o", "{asset}.####.exr"}, "E-USAGE-CONFLICT");
+    refused({"n.####.exr", "-o", "c.####.exr", "-o", "c.{frame:04}.exr"}, "E-USAGE-SAMEFILE");
+    refused({"n.####.exr", "-o", "c.####.png", "-o", "c.{frame:04}.png"}, "E-USAGE-SAMEFILE");
     EXPECT_EQ(bytes("n.0021.exr"), before);
-    const ProgramRun missing = denoise({"n.####.exr", "--frames", "23", "-o", "c.####.exr"});
+    const ProgramRun missing = denoise({"n.####.exr", "--frames", "22,23", "-o", "c.####.exr"});
     expect_result(missing, 66, "E-EXR-MISSING");
     EXPECT_THAT(missing.err, HasSubstr("n.0023.exr"));
+    std::filesystem::create_directory(folder_ / "c.0022.exr");
+    const auto folder = denoise({"n.####.exr", "--frames", "21,22", "-o", "c.####.exr"});
+    expect_result(folder, 73, "E-OUT-CREATE");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "c.0021.exr")) << "known before the first frame";
+}
+
+/// A turntable's camera is none of the file: motion does not tell of it.
+TEST_F(DenoiseSequence, AFrameIsLeftAloneWhoseCameraMovesUntold) {
+    expect_result(
+        shot({"--turntable", "12", "--aov", "motion", "--denoising-data", "-o", "t.##.exr"}),
+        0,
+        "OK");
+    const ProgramRun got = denoise({"t.##.exr", "--frames", "2", "-o", "c.##.exr"});
+    expect_result(got, 0, "OK");
+    EXPECT_THAT(got.err, HasSubstr("--frames: the camera differs from frame to frame"));
+    EXPECT_THAT(done("c.02.exr"), Not(HasSubstr("frame before")));
 }
 
 /// A frame has the random numbers of its own number behind --seed.

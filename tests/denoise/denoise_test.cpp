@@ -156,6 +156,23 @@ TEST(Denoise, PixelsWithoutAlphaAreLeftAloneAndTellNothing) {
     EXPECT_LT(error, 0.08 * 0.08) << "of a variance of 0.42 * 0.42";
 }
 
+/// They are above what 32 bits hold the square of.
+TEST(Denoise, ValuesBeyondAllSquaresStayAndHarmNobody) {
+    Wall wall;
+    wall.light([](int x, int y) { return x / 8 == 5 && y / 8 == 4 ? 1e30f : 2.0f; }, 0.3f);
+    const std::vector<float> noisy = wall.mean();
+    const std::vector<float> out = wall.denoised();
+    double error = 0;
+    for (size_t i = 0; i < pixels; ++i) {
+        if (noisy[3 * i] > 1e10f) {
+            ASSERT_EQ(out[3 * i], noisy[3 * i]) << i;
+        } else {
+            error += std::pow(static_cast<double>(out[3 * i]) - 2, 2) / pixels;
+        }
+    }
+    EXPECT_LT(error, 0.08 * 0.08);
+}
+
 /// Premultiplied: a pixel that is half covered keeps half of the light.
 TEST(Denoise, HalfCoveredPixelsKeepTheirShare) {
     const auto truth = [](int x, int /*y*/) { return x == 48 ? 1.0f : 2.0f; };

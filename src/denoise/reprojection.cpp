@@ -1,9 +1,11 @@
-// denoise/neighbor_frame.cpp - a neighbouring frame, moved to where this one shows its surfaces.
+// denoise/reprojection.cpp - a neighbouring frame, moved to where this one shows its surfaces.
 // SPDX-License-Identifier: Apache-2.0
-#include "denoise/neighbor_frame.h"
+#include "denoise/reprojection.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace obscura {
 
@@ -14,9 +16,9 @@ struct PixelPlace {
 };
 
 /// Where the neighbour shows the surfaces of this image.
-class Correspondence {
+class Reprojection {
 public:
-    Correspondence(const DenoiseInput& input, const NeighborFrame& neighbor)
+    Reprojection(const DenoiseInput& input, const NeighborFrame& neighbor)
         : size_{input.width, input.height}, neighbor_(neighbor), input_(input) {}
 
     /// Nothing: it does not.
@@ -27,7 +29,8 @@ public:
         const float at_y = static_cast<float>(y) + there.y;
         if (!(at_x > -0.5f && at_x < static_cast<float>(size_.width) - 0.5f)) return {};
         if (!(at_y > -0.5f && at_y < static_cast<float>(size_.height) - 0.5f)) return {};
-        const PixelPlace place{static_cast<int>(at_x + 0.5f), static_cast<int>(at_y + 0.5f)};
+        const PixelPlace place{std::min(static_cast<int>(at_x + 0.5f), size_.width - 1),
+                               std::min(static_cast<int>(at_y + 0.5f), size_.height - 1)};
         const Vector back = motion(neighbor_.input, place.x, place.y, !neighbor_.is_after);
         if (std::hypot(there.x + back.x, there.y + back.y) > astray) return {};
         return place;
@@ -50,13 +53,13 @@ private:
 
 }  // namespace
 
-Frame neighbor_seen_from(const DenoiseInput& input, const NeighborFrame& neighbor) {
+Frame reproject(const DenoiseInput& input, const NeighborFrame& neighbor) {
     const PlaneSize size{input.width, input.height};
-    const Correspondence correspondence(input, neighbor);
+    const Reprojection reprojection(input, neighbor);
     std::vector<std::optional<PixelPlace>> places(size.index(0, size.height));
     for_rows(size.height, [&](int y) {
         for (int x = 0; x < size.width; ++x)
-            places[size.index(x, y)] = correspondence.place_of(x, y);
+            places[size.index(x, y)] = reprojection.place_of(x, y);
     });
     const auto move = [&](Plane& plane) {
         plane = size.plane([&](int x, int y) {
@@ -77,9 +80,16 @@ Frame neighbor_seen_from(const DenoiseInput& input, const NeighborFrame& neighbo
     move(guides.feature_variance);
     move(guides.variance);
     move(guides.brightness_root);
-    move(guides.share);
     for (Rgb& layer : out.layers)
         move_all(layer);
+    Plane share(size.width, size.height, plane_border);  // beyond the image nothing counts
+    for_rows(size.height, [&](int y) {
+        for (int x = 0; x < size.width; ++x) {
+            const std::optional<PixelPlace>& place = places[size.index(x, y)];
+            if (place) share.row(y)[x] = guides.share.row(place->y)[place->x];
+        }
+    });
+    guides.share = std::move(share);
     guides.nearness = guides.slope_x = guides.slope_y = {};
     return out;
 }

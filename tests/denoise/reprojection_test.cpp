@@ -1,6 +1,6 @@
-// tests/denoise/neighbor_frame_test.cpp - frames beside a frame help where they show the same.
+// tests/denoise/reprojection_test.cpp - frames beside a frame help where they show the same.
 // SPDX-License-Identifier: Apache-2.0
-#include "denoise/neighbor_frame.h"
+#include "denoise/reprojection.h"
 
 #include "denoise/wall.h"
 
@@ -66,12 +66,14 @@ struct ThreeFrames {
     }
 };
 
-TEST(NeighborFrame, TakesItsPixelsFromWhereTheSameSurfaceIsSeen) {
+TEST(Reprojection, TakesItsPixelsFromWhereTheSameSurfaceIsSeen) {
     const MovingWall now(0);
     MovingWall after(1);
     after.wall.light([](int x, int y) { return static_cast<float>(100 * y + x + 1); }, 0);
-    const Frame seen = neighbor_seen_from(now.input(), {true, after.input(), {}});
+    const Frame seen = reproject(now.input(), {true, after.input(), {}});
     const Frame itself = make_frame(after.input(), {});
+    EXPECT_EQ(seen.guides.share.row(0)[-1], 0) << "beyond the image nothing counts";
+    EXPECT_EQ(seen.guides.share.row(-1)[0], 0);
     for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
             const bool is_inside = x + step < width;
@@ -83,14 +85,14 @@ TEST(NeighborFrame, TakesItsPixelsFromWhereTheSameSurfaceIsSeen) {
     }
 }
 
-TEST(NeighborFrame, TakesNoiseOutThatOneFrameCannot) {
+TEST(Reprojection, TakesNoiseOutThatOneFrameCannot) {
     const ThreeFrames three;
     EXPECT_LT(error(three.denoised()), 0.5 * error(three.frames[0].wall.denoised()));
     EXPECT_NEAR(total_light(three.denoised()) / total_light(three.frames[0].wall.mean()), 1, 1e-5);
 }
 
 /// Something else is in front there: motion does not lead back.
-TEST(NeighborFrame, WhatIsOutOfSightCountsForNothing) {
+TEST(Reprojection, WhatIsOutOfSightCountsForNothing) {
     ThreeFrames three;
     for (size_t i = 0; i < pixels; ++i) {
         three.frames[1].motion[4 * i + 2] = step + 2;
@@ -100,7 +102,7 @@ TEST(NeighborFrame, WhatIsOutOfSightCountsForNothing) {
 }
 
 /// Light that changes from frame to frame is not smeared over time.
-TEST(NeighborFrame, WhatLooksOtherwiseThereCountsForLittle) {
+TEST(Reprojection, WhatLooksOtherwiseThereCountsForLittle) {
     ThreeFrames three;
     for (size_t k : {1U, 2U}) {
         three.frames[k].wall.light([](int x, int y) { return 5 * pattern(x, y); }, 0.15f, 3);
@@ -108,7 +110,7 @@ TEST(NeighborFrame, WhatLooksOtherwiseThereCountsForLittle) {
     EXPECT_LT(error(three.denoised()), 1.3 * error(three.frames[0].wall.denoised()));
 }
 
-TEST(NeighborFrame, LayersStillAddUp) {
+TEST(Reprojection, LayersStillAddUp) {
     ThreeFrames three;
     std::array<std::vector<float>, 3> beauties, ones, others;
     for (size_t k = 0; k < 3; ++k) {
