@@ -3,6 +3,7 @@
 #include "session/denoised_file.h"
 
 #include "base/setting_names.h"
+#include "base/text.h"
 #include "session/denoising.h"
 #include "session/exr_layers.h"
 
