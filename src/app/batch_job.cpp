@@ -10,6 +10,7 @@
 #include "base/json/json_file.h"
 #include "base/setting_names.h"
 #include "image/output_format.h"
+#include "image/write.h"
 #include "session/image_names.h"
 
 #include <algorithm>
@@ -176,7 +177,7 @@ private:
         if (!tree_.contains("outputs")) return;
         reader.require("file");
         const std::string file = reader.text("file");
-        run.places["--output"] = together.places["--output"] = reader.pointer();
+        run.places[file] = together.places[file] = reader.pointer();
         if (!tree.contains("options")) {
             together.arguments.outputs.push_back(file);
             return;
@@ -233,12 +234,21 @@ Result<BatchJob> read_batch_job(const std::string& file, const RenderArguments& 
 }
 
 Result<RenderRequest> request_of_run(const JobRun& run) {
+    const auto placed = [&](Error error) {
+        const auto place = run.places.find(spell_settings(error.where, SettingNames::options));
+        if (place == run.places.end()) return error;
+        const bool is_output = !place->first.starts_with("--");
+        if (is_output) error.message = place->first + ": " + error.message;
+        error.where = place->second;
+        return error;
+    };
+    for (const std::string& output : run.arguments.outputs) {
+        const Result<OutputTarget> target = output_target(output);
+        if (!target) return fail(placed(target.error()));
+    }
     Result<RenderRequest> request = make_render_request(run.arguments);
-    if (request) return request;
-    Error error = request.error();
-    const auto place = run.places.find(spell_settings(error.where, SettingNames::options));
-    if (place != run.places.end()) error.where = place->second;
-    return fail(std::move(error));
+    if (!request) return fail(placed(request.error()));
+    return request;
 }
 
 }  // namespace obscura::app

@@ -15,7 +15,7 @@ namespace obscura::app {
 struct JobRun {
     RenderArguments arguments;
     size_t asset = 0;  ///< number in the job
-    /// Where the job says so, by the option's long name: "job.json#/looks/0/options/spp".
+    /// Where the job says so, by the option's long name or the output's: "job.json#/outputs/0".
     std::map<std::string, std::string> places = {};
 };
 

@@ -19,15 +19,6 @@ tl::unexpected<Error> bad_format(const std::string& where, std::string message) 
     return fail(ExitCode::usage, "E-OUT-FORMAT", where, std::move(message));
 }
 
-Result<OutputTarget> target_of(const std::filesystem::path& file) {
-    if (const auto format = output_format_of(file)) return OutputTarget{*format, file.string()};
-    const std::string extension = file.extension().string();
-    return bad_format(file.string(),
-                      (extension.empty() ? "the name has no extension"
-                                         : "'" + extension + "' is not a format that is written") +
-                          "; accepted are " + output_endings());
-}
-
 /// True when there are as many values as the size and the channels ask for.
 bool has_all_values(const OutputImage& image) {
     if (!(image.width > 0 && image.height > 0)) return false;
@@ -165,7 +156,7 @@ Result<WriteReport> write_image_file(const FileToWrite& file,
                                      const ImageMetadata& metadata,
                                      const ExrOptions& exr,
                                      const DisplayEncoding& encoding) {
-    const Result<OutputTarget> target = target_of(file.path);
+    const Result<OutputTarget> target = output_target(file.path);
     if (!target) return fail(target.error());
     const FileContent content{image, metadata, exr, encoding};
     if (auto checked = check_content(*target, content); !checked) return fail(checked.error());
@@ -224,8 +215,17 @@ Result<void> check_writer(OutputFormat format) {
     return {};
 }
 
+Result<OutputTarget> output_target(const std::filesystem::path& file) {
+    if (const auto format = output_format_of(file)) return OutputTarget{*format, file.string()};
+    const std::string extension = file.extension().string();
+    return bad_format(file.string(),
+                      (extension.empty() ? "the name has no extension"
+                                         : "'" + extension + "' is not a format that is written") +
+                          "; accepted are " + output_endings());
+}
+
 Result<OutputTarget> check_output(const std::filesystem::path& file) {
-    Result<OutputTarget> target = target_of(file);
+    Result<OutputTarget> target = output_target(file);
     if (!target) return target;
     if (auto writable = check_file_can_be_written(file); !writable) return fail(writable.error());
     return target;

@@ -100,6 +100,11 @@ Result<void> check_encoding(const OutputTarget& target,
                             int width,
                             int height);
 
+/// What a file's name asks for.
+///
+/// Errors  64 E-OUT-FORMAT another ending
+Result<OutputTarget> output_target(const std::filesystem::path& file);
+
 /// Checks before any work that `file` can be created: known extension, folder there and writable
 /// (by creating and removing a temporary file), not a folder or device itself.
 ///

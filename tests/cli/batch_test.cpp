@@ -349,6 +349,14 @@ TEST_F(Batch, MistakesHaveTheirPlace) {
             "E-JOB-KEY",
             "job.json#/outputs/0/size");
     refused(R"({"outputs": [{"options": {}}]})", 65, "E-DOC-MISSING", "job.json#/outputs/0");
+    refused(R"({"outputs": ["out/a.png", "out/b.xyz"]})",
+            64,
+            "E-OUT-FORMAT",
+            "job.json#/outputs/1: out/b.xyz: '.xyz' is not a format");
+    refused(R"({"outputs": [{"file": "out/a.png"}], "options": {"frames": "1-3"}})",
+            64,
+            "E-USAGE-CONFLICT",
+            "job.json#/outputs/0: out/a.png: with --frames a file's name must");
     refused(R"({"contact_sheet": "a.png"})", 65, "E-JOB-VALUE", "job.json#/contact_sheet");
     refused(R"({"contact_sheet": "out.jsonl"})", 65, "E-JOB-VALUE", "job.json#/contact_sheet");
     expect_result(run({"batch", "none.json"}), 67, "E-JOB-MISSING");
