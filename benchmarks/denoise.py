@@ -79,31 +79,41 @@ class Renderer:
         return sum(before) / len(before), sum(after) / len(after)
 
 
-    def sequence_errors(self, frame, reference):
+    def render_frames(self, end, frames, *options):
+        """A sequence from these frames on: it keeps the view of the first. Returns the pattern."""
+        pattern = "%s.%s.{frame}.exr" % (self.start, end)
+        if not all(os.path.exists(pattern.replace("{frame}", str(frame))) for frame in frames):
+            numbers = ",".join(str(frame) for frame in frames)
+            command = [self.settings.obscura, "render", self.scene, "--quiet", "-o", pattern]
+            command += ["--size", self.settings.size, "--env", self.settings.env]
+            subprocess.run(command + ["--frames", numbers] + list(options), check=True)
+        return pattern
+
+    def sequence_errors(self):
         """Of a frame: before, denoised alone, and denoised with the frames beside it."""
-        errors_of = []
+        frame = self.settings.frame
+        numbered = lambda pattern: pattern.replace("{frame}", str(frame))
+        options = ["--spp", str(self.settings.reference_samples), "--seed", "99", "--float"]
+        pattern = self.render_frames("frame_reference", (frame - 1, frame), *options)
+        reference = colors(numbered(pattern))
+        found = []
         for seed in range(1, self.settings.seeds + 1):
-            name = "16.%d" % (1000 * seed) + ".%d"
-            for number in (frame - 1, frame, frame + 1):
-                options = ["--seed", str(1000 * seed + number), "--time", str(number / 24)]
-                options += ["--spp", "16", "--denoising-data", "--aov", "motion"]
-                self.render(name % number, *options)
-            noisy = "%s.%s.exr" % (self.start, name)
-            alone = self.denoise(noisy % frame)
-            errors_of.append([errors(noisy % frame, reference), errors(alone, reference)])
-            pattern = noisy.replace("%d", "{frame}")
+            options = ["--spp", "16", "--seed", str(1000 * seed), "--animate-seed"]
+            options += ["--denoising-data", "--aov", "motion"]
+            frames = (frame - 1, frame, frame + 1)
+            pattern = self.render_frames("frames_%d" % seed, frames, *options)
             beside = self.denoise(pattern, "--frames", str(frame), end="beside")
-            errors_of[-1].append(errors(beside.replace("{frame}", str(frame)), reference))
-        return numpy.mean(errors_of, axis=0)
+            alone = self.denoise(numbered(pattern))
+            files = (numbered(pattern), alone, numbered(beside))
+            found.append([errors(file, reference) for file in files])
+        return numpy.mean(found, axis=0)
 
 
 def compare_frames(settings):
     print("%-28s%16s%16s" % ("", "alone", "frames beside"))
     for scene in settings.scenes:
         renderer = Renderer(settings, scene)
-        options = ["--spp", str(settings.reference_samples), "--time", str(settings.frame / 24)]
-        file = renderer.render("frame_reference", *options, "--seed", "99", "--float")
-        before, alone, beside = renderer.sequence_errors(settings.frame, colors(file))
+        before, alone, beside = renderer.sequence_errors()
         numbers = tuple(before / alone) + tuple(before / beside)
         print("%-28s" % os.path.basename(renderer.start) + "%8.2f (%5.2f)%8.2f (%5.2f)" % numbers)
 
