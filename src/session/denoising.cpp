@@ -94,8 +94,8 @@ public:
         }
     }
 
-    FilmGuides(FilmGuides&&) =
-        default;  // spans of vectors that move stay; of copies they would not
+    // Spans of vectors that move stay; those of copies would not.
+    FilmGuides(FilmGuides&&) = default;
 
     const DenoiseInput& input() const { return input_; }
     const std::string& names() const { return names_; }

@@ -83,6 +83,19 @@ TEST(UnusedOptions, ThoseAgainstFirefliesAreForLightThatChanceFinds) {
                             StartsWith("--regularize: ")));
 }
 
+TEST(UnusedOptions, AreSeedsOfFramesWithoutNoise) {
+    RenderArguments arguments;
+    arguments.outputs = {"a.####.exr"};
+    arguments.frames = "1-2";
+    arguments.animate_seed = true;
+    for (const char* noisy : {"path", "ao"}) {
+        arguments.integrator = noisy;
+        EXPECT_THAT(warnings_of(arguments), IsEmpty()) << noisy;
+    }
+    arguments.integrator = "raycast";
+    EXPECT_THAT(warnings_of(arguments), ElementsAre(StartsWith("--animate-seed: ")));
+}
+
 TEST(UnusedOptions, AreNoneWhereOneOutputNeedsThem) {
     RenderArguments arguments = all_options();
     arguments.outputs = {"a.exr", "a.jpg"};
