@@ -9,9 +9,11 @@ Axes: glTF is +Y up, Blender +Z up, so (x, y, z) becomes (x, -z, y). With that, 
 mapping of equirectangular environments is that of docs/conventions.md, without a rotation.
 """
 
+import json
 import math
 import os
 import re
+import struct
 
 import bpy
 import mathutils
@@ -28,7 +30,8 @@ def from_gltf(v):
 class CyclesScene:
     def __init__(self, scene_file, environment_file, depth):
         bpy.ops.wm.read_factory_settings(use_empty=True)
-        bpy.ops.import_scene.gltf(filepath=os.path.abspath(scene_file))
+        import_gltf(scene_file)
+        add_scattering(read_gltf(scene_file))
         self.scene = bpy.context.scene
         self._set_up_renderer(depth)
         self._set_up_environment(environment_file)
@@ -51,7 +54,7 @@ class CyclesScene:
         cycles.use_denoising = False
         cycles.pixel_filter_type = "BOX"
         cycles.max_bounces = cycles.diffuse_bounces = cycles.glossy_bounces = depth
-        cycles.transmission_bounces = depth
+        cycles.transmission_bounces = cycles.volume_bounces = depth
         cycles.transparent_max_bounces = 1024  # Obscura passes through any number of clear texels
         cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0
         cycles.blur_glossy = 0
@@ -92,6 +95,81 @@ class CyclesScene:
         self.scene.render.filepath = os.path.abspath(exr_file)
         bpy.ops.render.render(write_still=True)
         return render_seconds(exr_file)
+
+
+def import_gltf(file):
+    """A candela becomes a watt per steradian, as in Obscura; the importer divides by 683 unless told."""
+    options = bpy.ops.import_scene.gltf.get_rna_type().properties.keys()
+    modes = ("convert_lighting_mode", "export_import_convert_lighting_mode")  # since 3.6
+    unit = {mode: "COMPAT" for mode in modes if mode in options}
+    bpy.ops.import_scene.gltf(filepath=os.path.abspath(file), **unit)
+
+
+def read_gltf(file):
+    """The JSON of a .gltf or .glb file."""
+    with open(file, "rb") as stream:
+        data = stream.read()
+    if data[:4] == b"glTF":
+        (length,) = struct.unpack_from("<I", data, 12)
+        data = data[20 : 20 + length]
+    return json.loads(data)
+
+
+def single_scatter_albedo(color):
+    """Of a medium that looks like `color` when light scatters often (Kulla and Conty, 2017), as
+    KHR_materials_volume_scatter says."""
+    s = 4.09712 + 4.20863 * color - math.sqrt(9.59217 + 41.6808 * color + 17.7126 * color**2)
+    return 1 - s * s
+
+
+def add_scattering(gltf):
+    """KHR_materials_volume_scatter, which Blender's importer does not know: what diffuse
+    transmission lets in walks at random under the surface, and bodies whose boundary does not
+    refract become media without a surface."""
+    for description in gltf.get("materials", []):
+        extensions = description.get("extensions", {})
+        scatter = extensions.get("KHR_materials_volume_scatter")
+        material = bpy.data.materials.get(description.get("name", ""))
+        if scatter is None or material is None:
+            continue
+        volume = extensions["KHR_materials_volume"]
+        distance = volume.get("attenuationDistance", math.inf)
+        extinction = [-math.log(max(c, 1e-6)) / distance for c in volume["attenuationColor"]]
+        if "KHR_materials_diffuse_transmission" in extensions:
+            add_subsurface(material, scatter, extinction)
+        elif extensions.get("KHR_materials_ior", {}).get("ior", 1.5) == 1:
+            add_medium(material, scatter, extinction)
+
+
+def add_subsurface(material, scatter, extinction):
+    inputs = material.node_tree.nodes["Principled BSDF"].inputs
+    color = "Subsurface Color" if "Subsurface Color" in inputs else "Base Color"  # since 4.0
+    inputs[color].default_value = [*scatter["multiscatterColor"], 1]
+    inputs["Subsurface" if "Subsurface" in inputs else "Subsurface Weight"].default_value = 1
+    inputs["Subsurface Radius"].default_value = [1 / e for e in extinction]
+    inputs["Subsurface Anisotropy"].default_value = scatter.get("scatterAnisotropy", 0)
+
+
+def add_medium(material, scatter, extinction):
+    albedo = [single_scatter_albedo(c) for c in scatter["multiscatterColor"]]
+    scattering = [a * e for a, e in zip(albedo, extinction)]
+    absorption = [e - s for e, s in zip(extinction, scattering)]
+    tree = material.node_tree
+    tree.nodes.clear()
+    output = tree.nodes.new("ShaderNodeOutputMaterial")
+    both = tree.nodes.new("ShaderNodeAddShader")
+    scatters = tree.nodes.new("ShaderNodeVolumeScatter")
+    absorbs = tree.nodes.new("ShaderNodeVolumeAbsorption")
+    for i, (node, coefficients) in enumerate(((scatters, scattering), (absorbs, absorption))):
+        density = max(max(coefficients), 1e-6)
+        color = [c / density for c in coefficients]
+        if node == absorbs:  # it absorbs what its colour is not
+            color = [1 - c for c in color]
+        node.inputs["Density"].default_value = density
+        node.inputs["Color"].default_value = [*color, 1]
+        tree.links.new(node.outputs[0], both.inputs[i])
+    scatters.inputs["Anisotropy"].default_value = scatter.get("scatterAnisotropy", 0)
+    tree.links.new(both.outputs[0], output.inputs["Volume"])
 
 
 def render_seconds(exr_file):

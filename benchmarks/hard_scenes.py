@@ -42,6 +42,22 @@ class Scene:
         light = self.gltf.light(type='point', name=name, color=[1, 1, 1], intensity=candela)
         self.gltf.node(name=name, translation=where, extensions=light)
 
+    def sun(self, direction, lux):
+        light = self.gltf.light(type='directional', name='Sun', color=[1, 1, 1], intensity=lux)
+        self.gltf.node(name='Sun', rotation=look_at((0, 0, 0), direction), extensions=light)
+
+    def scattering(self, name, color, distance, roughness):
+        """A medium that scatters; its light falls by a half in `distance` metres."""
+        material = self.gltf.material(name, roughness=roughness)
+        self.gltf.json['materials'][material]['extensions'] = {
+            'KHR_materials_volume': {'thicknessFactor': 1.0, 'attenuationColor': [0.5, 0.5, 0.5],
+                                     'attenuationDistance': distance},
+            'KHR_materials_volume_scatter': {'multiscatterColor': color,
+                                             'scatterAnisotropy': 0.3}}
+        for extension in ('volume', 'volume_scatter'):
+            self.gltf.use('KHR_materials_' + extension)
+        return material
+
     def glass(self, name, ior=1.5):
         material = self.gltf.material(name, roughness=0.0)
         self.gltf.json['materials'][material]['extensions'] = {
@@ -63,13 +79,12 @@ def cloud():
     """A medium that scatters, index of refraction 1, under a lamp and the sky."""
     scene = Scene((0, 1.2, 4.5), (0, 0.9, 0))
     scene.floor()
-    material = scene.glass('Cloud', ior=1.0)
-    extensions = scene.gltf.json['materials'][material]['extensions']
-    extensions['KHR_materials_volume'].update(attenuationColor=[0.5, 0.5, 0.5],
-                                              attenuationDistance=0.4)
-    extensions['KHR_materials_volume_scatter'] = {'multiscatterColor': [0.95, 0.95, 0.95],
-                                                  'scatterAnisotropy': 0.3}
-    scene.gltf.use('KHR_materials_volume_scatter')
+    material = scene.scattering('Cloud', [0.95, 0.95, 0.95], 0.4, roughness=0.0)
+    scene.gltf.json['materials'][material]['extensions'].update({
+        'KHR_materials_transmission': {'transmissionFactor': 1.0},
+        'KHR_materials_ior': {'ior': 1.0}})
+    for extension in ('transmission', 'ior'):
+        scene.gltf.use('KHR_materials_' + extension)
     scene.add('Cloud', shapes.sphere(0.8, 64, 32), material, translation=(0, 1, 0))
     lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(20, 18, 15),
                                double_sided=True)
@@ -195,29 +210,99 @@ def room():
     return scene
 
 
+def room_sun():
+    """The same room, with the sun in the window."""
+    scene = room()
+    scene.sun((0.8, -0.6, -0.1), 20.0)
+    return scene
+
+
+def wax():
+    """A ball of dense wax, lit by a lamp: light walks about under its matt surface."""
+    scene = Scene((0, 1.4, 4.0), (0, 0.7, 0))
+    scene.floor()
+    material = scene.scattering('Wax', [0.9, 0.75, 0.5], 0.05, roughness=0.5)
+    extensions = scene.gltf.json['materials'][material]['extensions']
+    extensions['KHR_materials_diffuse_transmission'] = {'diffuseTransmissionFactor': 1.0}
+    scene.gltf.use('KHR_materials_diffuse_transmission')
+    scene.add('Wax', shapes.sphere(0.6, 96, 48), material, translation=(0, 0.6, 0))
+    lamp = scene.gltf.material('Lamp', color=(0, 0, 0), emission=(20, 18, 15),
+                               double_sided=True)
+    scene.add('Lamp', downward((1.4, 2.6, -0.4), 0.3), lamp)
+    return scene
+
+
+def metal(name, color, roughness):
+    """Balls and a ring of metal on a floor that their light falls on; the sky has the sun."""
+    def make():
+        scene = Scene((0, 1.5, 4.2), (0, 0.6, 0))
+        scene.floor()
+        material = scene.gltf.material(name, color=color, metallic=1.0, roughness=roughness)
+        for k in range(5):
+            where = (1.3 * math.cos(1.26 * k + 0.4), 0.4, 1.3 * math.sin(1.26 * k + 0.4))
+            scene.add('Ball %d' % k, shapes.sphere(0.4, 64, 32), material, translation=where)
+        scene.add('Ring', shapes.torus(0.5, 0.15, 96, 32), material, translation=(0, 0.65, 0))
+        return scene
+    make.__doc__ = metal.__doc__
+    return make
+
+
+def glass_sun():
+    """A ball and a block of clear glass under sun and sky."""
+    scene = Scene((0, 1.4, 4.0), (0, 0.5, 0))
+    scene.floor()
+    glass = scene.glass('Glass')
+    scene.add('Ball', shapes.sphere(0.5, 96, 48), glass, translation=(-0.6, 0.5, 0))
+    scene.add('Block', shapes.rounded_box((0.4, 0.5, 0.3), 0.08, 4), glass,
+              translation=(0.7, 0.5, 0.1))
+    scene.sun((-0.5, -0.8, -0.4), 3.0)
+    return scene
+
+
 def foliage():
     """Leaves under the sky: many small double-sided surfaces."""
+    return bush(4000, (0.05, 0.03), color=(0.15, 0.4, 0.08), roughness=0.6)
+
+
+def leaves():
+    """Leaves cut out by their alpha, which let light through, under sun and sky."""
+    scene = bush(600, (0.09, 0.18), ('leaf.png', textures.leaf()), roughness=0.6,
+                 alpha_mode='MASK', alpha_cutoff=0.5)
+    scene.gltf.json['materials'][-1]['extensions'] = {'KHR_materials_diffuse_transmission': {
+        'diffuseTransmissionFactor': 0.4, 'diffuseTransmissionColorFactor': [0.3, 0.5, 0.1]}}
+    scene.gltf.use('KHR_materials_diffuse_transmission')
+    scene.sun((-0.5, -0.8, -0.4), 3.0)
+    return scene
+
+
+def bush(count, half, texture=None, **material):
+    """So many rectangles of half sizes `half`, turned at random, in a heap on a floor; the texture
+    is a file name and its bytes."""
     scene = Scene((0, 1.6, 4.2), (0, 1.0, 0))
     scene.floor()
-    leaves = shapes.Mesh()
+    if texture:
+        material['color_texture'] = scene.gltf.texture(*texture, clamp=True)
+    heap = shapes.Mesh()
     numbers = random.Random(2)
-    for _ in range(4000):
+    x, y = half
+    for _ in range(count):
         angle, height = numbers.uniform(0, 2 * math.pi), numbers.uniform(0.3, 1.9)
         radius = numbers.uniform(0.1, 0.9) * (1.2 - abs(height - 1.1))
         turn = [numbers.gauss(0, 1) for _ in range(4)]
-        size = math.sqrt(sum(x * x for x in turn))
-        leaf = shapes.quad((-0.05, -0.03, 0), (0.05, -0.03, 0), (0.05, 0.03, 0), (-0.05, 0.03, 0))
-        leaves.append(leaf.moved((radius * math.cos(angle), height, radius * math.sin(angle)),
-                                 tuple(x / size for x in turn)))
-    scene.add('Leaves', leaves, scene.gltf.material('Leaves', color=(0.15, 0.4, 0.08),
-                                                    roughness=0.6, double_sided=True))
+        size = math.sqrt(sum(t * t for t in turn))
+        leaf = shapes.quad((-x, -y, 0), (x, -y, 0), (x, y, 0), (-x, y, 0))
+        heap.append(leaf.moved((radius * math.cos(angle), height, radius * math.sin(angle)),
+                               tuple(t / size for t in turn)))
+    scene.add('Leaves', heap, scene.gltf.material('Leaves', double_sided=True, **material))
     return scene
 
 
 SCENES = {'cloud': cloud, 'mask_emitter': mask_emitter, 'soft_floor': soft_floor,
           'glass_ball': glass_ball, 'points': lamps('points'), 'quads': lamps('quads'),
           'spheres': lamps('spheres'), 'lit_rooms': lit_rooms, 'glow': glow,
-          'room': room, 'foliage': foliage}
+          'room': room, 'room_sun': room_sun, 'foliage': foliage, 'leaves': leaves, 'wax': wax,
+          'gold': metal('Gold', (1.0, 0.77, 0.34), 0.3),
+          'mirrors': metal('Mirrors', (0.9, 0.9, 0.9), 0.0), 'glass_sun': glass_sun}
 
 
 def main():

@@ -140,6 +140,10 @@ int run_batch(const BatchArguments& arguments) {
         log.info("this part of the job has no pictures");
         return report_success(arguments.job_file, log);
     }
+    std::vector<const RenderRequest*> requests;
+    for (const SceneRun& run : *runs)
+        requests.push_back(&run.request);
+    warn_of_unused_options(*job, requests, log);
     if (!arguments.dry_run) make_folders(*job, *runs);
     return run_scenes(*runs, arguments.job_file, log, [&]() -> Result<void> {
         if (!job->contact_sheet || arguments.dry_run) return {};

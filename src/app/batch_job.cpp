@@ -7,6 +7,7 @@
 #include "app/json_options.h"
 #include "app/numbers.h"
 #include "app/render_options.h"
+#include "app/unused_options.h"
 #include "base/json/json_file.h"
 #include "base/setting_names.h"
 #include "image/output_format.h"
@@ -17,6 +18,8 @@
 #include <array>
 #include <filesystem>
 #include <glob.h>
+#include <map>
+#include <set>
 #include <string_view>
 
 namespace obscura::app {
@@ -231,6 +234,29 @@ Result<BatchJob> read_batch_job(const std::string& file, const RenderArguments& 
             place = file + "#" + place;
     }
     return job;
+}
+
+void warn_of_unused_options(const BatchJob& job,
+                            const std::vector<const RenderRequest*>& requests,
+                            Log& log) {
+    // What is common to several outputs may be for one of them alone.
+    std::map<std::string, UnusedOption> unused;  // by place
+    std::set<std::string> used;
+    for (size_t i = 0; i < job.runs.size(); ++i) {
+        const JobRun& run = job.runs[i];
+        std::map<std::string, UnusedOption> here;
+        for (UnusedOption& option : unused_options(run.arguments, *requests[i])) {
+            const auto place = run.places.find(option.name);
+            if (place != run.places.end()) here.emplace(place->second, std::move(option));
+        }
+        for (const auto& [option, place] : run.places) {
+            if (here.count(place) == 0) used.insert(place);
+        }
+        unused.merge(here);
+    }
+    for (const auto& [place, option] : unused) {
+        if (used.count(place) == 0) log.warn(place, option.why);
+    }
 }
 
 Result<RenderRequest> request_of_run(const JobRun& run) {

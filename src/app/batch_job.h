@@ -32,6 +32,13 @@ struct BatchJob {
 ///         or an option that there is not; E-JOB-VALUE; 66 E-JOB-ASSETS a pattern fits no file
 Result<BatchJob> read_batch_job(const std::string& file, const RenderArguments& common, Log& log);
 
+/// Warns of options that no rendering of the job uses, by their places in it.
+///
+/// In      requests: of the runs
+void warn_of_unused_options(const BatchJob& job,
+                            const std::vector<const RenderRequest*>& requests,
+                            Log& log);
+
 /// The request of a run; an error has the place in the job of the option that it names.
 ///
 /// Errors  those of make_render_request

@@ -396,7 +396,8 @@ int run_render(const RenderArguments& arguments, const ImageParts* parts) {
         Result<RenderRequest> request = make_render_request(one);
         if (!request) return report_failure(request.error(), log);
         // Merging repeats the options of the parts, which may have had other outputs.
-        if (runs.empty() && parts == nullptr) warn_of_unused_options(one, *request, log);
+        if (runs.empty() && parts == nullptr)
+            warn_of_unused_options(unused_options(one, *request), log);
         runs.push_back({std::move(*request), options_for_merge(one), parts});
     }
     const std::string where = runs.size() == 1 ? runs.front().request.scene.string()

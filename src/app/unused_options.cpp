@@ -6,11 +6,11 @@
 
 namespace obscura::app {
 
-void warn_of_unused_options(const RenderArguments& arguments,
-                            const RenderRequest& request,
-                            Log& log) {
+std::vector<UnusedOption> unused_options(const RenderArguments& arguments,
+                                         const RenderRequest& request) {
+    std::vector<UnusedOption> unused;
     const std::vector<OutputFormat> formats = formats_of(request);
-    if (formats.empty()) return;
+    if (formats.empty()) return unused;
     const auto has = [&](const auto& fits) {
         return std::any_of(formats.begin(), formats.end(), fits);
     };
@@ -21,7 +21,8 @@ void warn_of_unused_options(const RenderArguments& arguments,
         return format != OutputFormat::exr && entry_of(format).max_bits > 8;
     });
     const auto tell = [&](bool given, bool used, const char* option, const char* uses) {
-        if (given && !used) log.warn(option, std::string("it changes nothing here: it is ") + uses);
+        if (given && !used)
+            unused.push_back({option, std::string("it changes nothing here: it is ") + uses});
     };
     const char* const for_exr = "for EXR files";
     tell(arguments.exr_layout.has_value(), has_exr, "--exr-layout", for_exr);
@@ -52,6 +53,12 @@ void warn_of_unused_options(const RenderArguments& arguments,
          std::any_of(layers.begin(), layers.end(), is_cryptomatte),
          "--crypto-levels",
          "for Cryptomatte; add a layer such as --aov crypto_object");
+    return unused;
+}
+
+void warn_of_unused_options(const std::vector<UnusedOption>& unused, Log& log) {
+    for (const UnusedOption& option : unused)
+        log.warn(option.name, option.why);
 }
 
 }  // namespace obscura::app

@@ -50,7 +50,8 @@ int http_status_of(const Error& error) {
     if (error.id == "E-SERVE-SIZE") return too_large;
     if (error.id == "E-SERVE-BUSY") return unavailable;
     if (error.id.starts_with("E-SERVE-UNKNOWN")) return not_found;
-    for (const char* id : {"E-SERVE-HOST", "E-SERVE-ORIGIN", "E-SERVE-TYPE"}) {
+    for (const char* id :
+         {"E-SERVE-HOST", "E-SERVE-ORIGIN", "E-SERVE-TYPE", "E-URI-REFUSED", "E-JOB-PATH"}) {
         if (error.id == id) return forbidden;
     }
     if (error.id == "E-SERVE-BODY" || error.id == "E-SERVE-REQUEST") return bad_request;

@@ -16,7 +16,7 @@ std::vector<std::string> warnings_of(RenderArguments arguments) {
     const Result<RenderRequest> request = make_render_request(arguments);
     EXPECT_TRUE(request) << request.error().message;
     Log log;
-    if (request) warn_of_unused_options(arguments, *request, log);
+    if (request) warn_of_unused_options(unused_options(arguments, *request), log);
     return log.warnings();
 }
 

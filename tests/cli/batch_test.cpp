@@ -118,6 +118,20 @@ TEST_F(Batch, FinishedImagesAreLeft) {
     EXPECT_THAT(page, HasSubstr("<h2>in/quad.gltf</h2>"));
 }
 
+TEST_F(Batch, OptionsThatNoRenderingUsesAreToldOf) {
+    json job = small_job();
+    job["options"]["quality"] = 80;  // for JPEG alone
+    job["options"]["compression"] = "zip";
+    job["looks"][0]["options"]["integrator"] = "normal";
+    job["looks"][0]["options"]["regularize"] = true;
+    job["looks"][1]["options"]["regularize"] = true;
+    const ProgramRun got = batch(job, {"--dry-run"});
+    expect_result(got, 0, "OK");
+    EXPECT_EQ(result_of(got)->warnings, 2);
+    EXPECT_THAT(got.err, HasSubstr("WARN job.json#/options/quality: it changes nothing here"));
+    EXPECT_THAT(got.err, HasSubstr("WARN job.json#/looks/0/options/regularize: it changes"));
+}
+
 TEST_F(Batch, WhatOthersHoldIsLeftToThem) {
     json job = small_job();
     job["looks"] = {"a"};

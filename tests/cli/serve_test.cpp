@@ -172,7 +172,7 @@ TEST_F(Serve, UploadsAreOpenedByTheirNames) {
         const size_t uri = thief.find("data:");
         thief.replace(uri, thief.find('"', uri) - uri, "/etc/passwd");
         const json stolen = client.upload("thief.gltf", thief);
-        EXPECT_EQ(error_id(client.post("/api/views", {{"file", stolen.at("file")}}, 422)),
+        EXPECT_EQ(error_id(client.post("/api/views", {{"file", stolen.at("file")}}, 403)),
                   "E-URI-REFUSED");
         for (const size_t bytes : {1100000U, 3000000U}) {
             EXPECT_EQ(error_id(client.upload("large.glb", std::string(bytes, 'x'), 413)),
@@ -238,7 +238,7 @@ TEST_F(Serve, EveryErrorIsAnswered) {
             return error_id(client.post(path, body, status));
         };
         EXPECT_EQ(id("/api/views", {{"file", "none.glb"}}, 404), "E-SCENE-MISSING");
-        EXPECT_EQ(id("/api/views", {{"file", "../quad.gltf"}}, 422), "E-URI-REFUSED");
+        EXPECT_EQ(id("/api/views", {{"file", "../quad.gltf"}}, 403), "E-URI-REFUSED");
         EXPECT_EQ(id("/api/views", {{"file", 7}}, 400), "E-SERVE-BODY");
         EXPECT_EQ(id("/api/nothing", {}, 404), "E-SERVE-UNKNOWN");
         EXPECT_EQ(error_id(client.get("/nothing", 404)), "E-SERVE-UNKNOWN");
@@ -255,7 +255,7 @@ TEST_F(Serve, EveryErrorIsAnswered) {
         EXPECT_EQ(error_id(client.get("/api/views/" + view + "/image", 400)), "E-VIEW-EMPTY");
         EXPECT_EQ(wish({{"ocio", "/etc/passwd"}}, 400), "E-USAGE");
         EXPECT_EQ(wish({{"output", "/tmp/x.png"}}, 400), "E-USAGE");
-        EXPECT_EQ(wish({{"env", "/etc/passwd"}}, 422), "E-URI-REFUSED");
+        EXPECT_EQ(wish({{"env", "/etc/passwd"}}, 403), "E-URI-REFUSED");
         EXPECT_EQ(wish({{"spp", "many"}}, 400), "E-USAGE-NUMBER");
         EXPECT_EQ(wish({{"spp", {{"a", 1}}}}, 400), "E-USAGE-CHOICE");
         EXPECT_EQ(wish({{"exposure", "auto"}}, 400), "E-USAGE-CHOICE");

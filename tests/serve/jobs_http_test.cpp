@@ -204,9 +204,9 @@ TEST_F(JobsHttp, WhatMayNotBeIsRefusedWithItsPlace) {
               "E-JOB-KEY /looks/0/options/ocio");
     EXPECT_EQ(fault_of(with("options", {{"variants", "x"}}), 400),
               "E-VARIANT-UNKNOWN /options/variants");
-    EXPECT_EQ(fault_of({{"assets", {"../root/box.gltf"}}}, 422), "E-URI-REFUSED /assets/0/files");
+    EXPECT_EQ(fault_of({{"assets", {"../root/box.gltf"}}}, 403), "E-URI-REFUSED /assets/0/files");
     EXPECT_EQ(fault_of({{"assets", {"box.gltf", "c*"}}}, 404), "E-JOB-ASSETS /assets/1/files");
-    EXPECT_EQ(fault_of(with("outputs", {"/tmp/a.png"}), 422), "E-JOB-PATH /outputs/0");
+    EXPECT_EQ(fault_of(with("outputs", {"/tmp/a.png"}), 403), "E-JOB-PATH /outputs/0");
     EXPECT_EQ(fault_of(with("comment", std::string(5U << 20U, 'x')), 413), "E-SERVE-SIZE body");
     EXPECT_EQ(fault_of(json::array(), 422), "E-JSON-ROOT body");
     read(http_->Post("/api/jobs", "{", json_type), 422);
